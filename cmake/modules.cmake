@@ -1,0 +1,40 @@
+# pprt_flags: what every target of this project is compiled with.
+add_library(pprt_flags INTERFACE)
+target_include_directories(pprt_flags INTERFACE ${PROJECT_SOURCE_DIR}/src)
+target_compile_options(pprt_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+                                            -Wcast-align -Woverloaded-virtual
+                                            # Results must not depend on whether the compiler fuses a*b+c.
+                                            -ffp-contract=off)
+if(PPRT_WERROR)
+  target_compile_options(pprt_flags INTERFACE -Werror)
+endif()
+if(PPRT_NATIVE)
+  target_compile_options(pprt_flags INTERFACE -march=native)
+endif()
+if(PPRT_SANITIZE)
+  target_compile_options(pprt_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
+                                              -fno-omit-frame-pointer)
+  target_link_options(pprt_flags INTERFACE -fsanitize=address,undefined)
+endif()
+if(PPRT_TIDY)
+  find_program(PPRT_CLANG_TIDY clang-tidy REQUIRED)
+  set(CMAKE_CXX_CLANG_TIDY ${PPRT_CLANG_TIDY} --quiet)
+endif()
+
+# pprt_module(NAME SOURCES a.cpp ... USES other modules and public libraries ... HIDES private libraries ...)
+function(pprt_module name)
+  cmake_parse_arguments(M "" "" "SOURCES;USES;HIDES" ${ARGN})
+  add_library(pprt_${name} STATIC ${M_SOURCES})
+  target_link_libraries(pprt_${name} PUBLIC pprt_flags ${M_USES} PRIVATE ${M_HIDES})
+endfunction()
+
+# pprt_unit_test(NAME SOURCES a.cpp ... USES modules ... LABELS labels ...): a Catch2 program, one CTest entry a case.
+function(pprt_unit_test name)
+  cmake_parse_arguments(T "" "" "SOURCES;USES;LABELS" ${ARGN})
+  if(NOT T_LABELS)
+    set(T_LABELS unit)
+  endif()
+  add_executable(test_${name} ${T_SOURCES})
+  target_link_libraries(test_${name} PRIVATE ${T_USES} pprt_flags Catch2::Catch2WithMain)
+  catch_discover_tests(test_${name} TEST_PREFIX "${name}: " PROPERTIES LABELS "${T_LABELS}" TIMEOUT 300)
+endfunction()

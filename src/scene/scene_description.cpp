@@ -1,0 +1,103 @@
+#include "scene/scene_description.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace pprt {
+namespace {
+
+constexpr MaterialIndex kEmpty = ~MaterialIndex{0};
+
+std::size_t hash(const Material& m) {
+  const double values[] = {m.color.x,  m.color.y, m.color.z,       m.diffuse,
+                           m.specular, m.shine,   m.transmittance, m.refractive_index};
+  std::uint64_t h = 0x9e3779b97f4a7c15u;
+  for (double v : values) {
+    v += 0.0;  // -0 compares equal to 0 and must hash alike
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &v, sizeof bits);
+    h = (h ^ bits) * 0xff51afd7ed558ccdu;
+    h ^= h >> 32;
+  }
+  return static_cast<std::size_t>(h);
+}
+
+// Half extent of a disc of radius r with unit normal n along axis i: r * sqrt(1 - n_i^2).
+Vec3d disc_half_extent(const Vec3d& unit_normal, double radius) {
+  Vec3d half;
+  for (int i = 0; i < 3; ++i) {
+    half[i] = std::abs(radius) * std::sqrt(std::max(0.0, 1 - unit_normal[i] * unit_normal[i]));
+  }
+  return half;
+}
+
+void extend_by_disc(Box3d& box, const Vec3d& center, const Vec3d& half) {
+  box.extendBy(center - half);
+  box.extendBy(center + half);
+}
+
+}  // namespace
+
+void add_sphere(SceneDescription& scene, const Sphere& sphere) {
+  scene.order.push_back({PrimitiveKind::kSphere, static_cast<std::uint32_t>(scene.spheres.size())});
+  scene.spheres.push_back(sphere);
+}
+
+void add_cone(SceneDescription& scene, const Cone& cone) {
+  scene.order.push_back({PrimitiveKind::kCone, static_cast<std::uint32_t>(scene.cones.size())});
+  scene.cones.push_back(cone);
+}
+
+void add_polygon(SceneDescription& scene, std::span<const Vec3d> vertices, MaterialIndex material,
+                 SourceLocation location) {
+  scene.order.push_back({PrimitiveKind::kPolygon, static_cast<std::uint32_t>(scene.polygons.size())});
+  scene.polygons.push_back({static_cast<std::uint32_t>(scene.polygon_vertices.size()),
+                            static_cast<std::uint32_t>(vertices.size()), material, location});
+  scene.polygon_vertices.insert(scene.polygon_vertices.end(), vertices.begin(), vertices.end());
+}
+
+void add_patch(SceneDescription& scene, std::span<const PatchVertex> vertices, MaterialIndex material,
+               SourceLocation location) {
+  scene.order.push_back({PrimitiveKind::kPatch, static_cast<std::uint32_t>(scene.patches.size())});
+  scene.patches.push_back({static_cast<std::uint32_t>(scene.patch_vertices.size()),
+                           static_cast<std::uint32_t>(vertices.size()), material, location});
+  scene.patch_vertices.insert(scene.patch_vertices.end(), vertices.begin(), vertices.end());
+}
+
+MaterialIndex MaterialTable::intern(std::vector<Material>& materials, const Material& material) {
+  if (2 * (used_ + 1) > slots_.size()) {
+    slots_.assign(std::max<std::size_t>(16, 2 * slots_.size()), kEmpty);
+    for (MaterialIndex i = 0; i < materials.size(); ++i) {
+      std::size_t slot = hash(materials[i]) & (slots_.size() - 1);
+      while (slots_[slot] != kEmpty) slot = (slot + 1) & (slots_.size() - 1);
+      slots_[slot] = i;
+    }
+    used_ = materials.size();
+  }
+  std::size_t slot = hash(material) & (slots_.size() - 1);
+  for (; slots_[slot] != kEmpty; slot = (slot + 1) & (slots_.size() - 1)) {
+    if (materials[slots_[slot]] == material) return slots_[slot];
+  }
+  slots_[slot] = static_cast<MaterialIndex>(materials.size());
+  materials.push_back(material);
+  ++used_;
+  return slots_[slot];
+}
+
+Box3d bounds(const SceneDescription& scene) {
+  Box3d box;
+  for (const Sphere& s : scene.spheres) {
+    extend_by_disc(box, s.center, Vec3d(std::abs(s.radius)));
+  }
+  for (const Cone& c : scene.cones) {
+    const Vec3d axis = (c.apex - c.base).normalized();
+    extend_by_disc(box, c.base, disc_half_extent(axis, c.base_radius));
+    extend_by_disc(box, c.apex, disc_half_extent(axis, c.apex_radius));
+  }
+  for (const Vec3d& v : scene.polygon_vertices) box.extendBy(v);
+  for (const PatchVertex& v : scene.patch_vertices) box.extendBy(v.position);
+  return box;
+}
+
+}  // namespace pprt
