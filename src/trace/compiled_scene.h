@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/camera.h"
+#include "base/ray_counts.h"
 #include "base/ray_sample.h"
 #include "base/vector.h"
 #include "scene/scene_description.h"
@@ -21,18 +22,6 @@ struct CompileOptions {
   // Counting as Haines' tables do: every hit on T > 0 spawns a reflection ray even where Ks = 0, and rays are
   // followed to the full depth whatever their weight.
   bool count_as_published = false;
-};
-
-// Rays by kind since a Tracer was made.
-struct RayCounts {
-  std::uint64_t primary = 0;
-  std::uint64_t eye_hits = 0;  // primary rays that hit something
-  std::uint64_t shadow = 0;
-  std::uint64_t reflection = 0;
-  std::uint64_t refraction = 0;                 // really refracted
-  std::uint64_t total_internal_reflection = 0;  // refraction asked for, none possible
-
-  std::uint64_t traced() const { return primary + shadow + reflection + refraction; }
 };
 
 // Immutable once compiled; any number of Tracers may read it. Coordinates inside are recentred and rescaled,
