@@ -1,0 +1,27 @@
+#include "app/command_line.h"
+
+#include <iostream>
+
+#include "app/version.h"
+#include "base/diagnostics.h"
+
+namespace pprt {
+
+void add_common_flags(CLI::App& app) {
+  app.set_help_flag("-h,--help", "Print this help and exit");
+  app.set_version_flag("--version", app.get_name() + " " + kVersion, "Print the version and exit");
+}
+
+bool parse_command_line(CLI::App& app, int argc, const char* const* argv) {
+  try {
+    app.parse(argc, argv);
+    return true;
+  } catch (const CLI::Success& request) {
+    app.exit(request, std::cout, std::cout);
+    return false;
+  } catch (const CLI::ParseError& e) {
+    throw UsageError(e.what());
+  }
+}
+
+}  // namespace pprt

@@ -1,0 +1,8 @@
+// The version every program reports.
+#pragma once
+
+namespace pprt {
+
+inline constexpr const char* kVersion = PPRT_VERSION;  // defined by src/app/CMakeLists.txt
+
+}  // namespace pprt

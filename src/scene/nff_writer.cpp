@@ -1,0 +1,168 @@
+#include "scene/nff_writer.h"
+
+#include <array>
+#include <charconv>
+#include <concepts>
+#include <cstring>
+#include <optional>
+#include <ostream>
+#include <string_view>
+
+namespace pprt {
+namespace {
+
+// Text on its way to a stream through a buffer of its own: formatting through the stream would cost ten times
+// as much.
+class NffOutput {
+ public:
+  NffOutput(std::ostream& out, NumberFormat format) : out_(out), format_(format) {}
+
+  // One line: the keyword, the values with a blank before each, the line's end.
+  template <typename... Values>
+  void line(std::string_view keyword, const Values&... values) {
+    text(keyword);
+    (value(values), ...);
+    text("\n");
+  }
+
+  // The same for a line without a keyword.
+  void vertex_line(const Vec3d& position) {
+    number(position.x);
+    for (int i = 1; i < 3; ++i) value(position[i]);
+    text("\n");
+  }
+  void vertex_line(const PatchVertex& vertex) {
+    number(vertex.position.x);
+    for (int i = 1; i < 3; ++i) value(vertex.position[i]);
+    value(vertex.normal);
+    text("\n");
+  }
+
+  // To be called at the end.
+  void flush() {
+    out_.write(buffer_.data(), static_cast<std::streamsize>(used_));
+    used_ = 0;
+  }
+
+ private:
+  // The longest text written in one go: "-2.2250738585072014e-308" has 24 bytes, the longest keyword 10.
+  static constexpr std::size_t kLongestText = 32;
+
+  void value(double v) {
+    text(" ");
+    number(v);
+  }
+  void value(const Vec3d& v) {
+    for (int i = 0; i < 3; ++i) value(v[i]);
+  }
+  void value(const Rgb& c) {
+    for (int i = 0; i < 3; ++i) value(c[i]);
+  }
+  template <std::integral Integer>
+  void value(Integer v) {
+    text(" ");
+    room();
+    used_ = std::to_chars(end(), limit(), v).ptr - buffer_.data();
+  }
+
+  void number(double v) {
+    room();
+    const std::to_chars_result result = format_ == NumberFormat::kShortest
+                                            ? std::to_chars(end(), limit(), v)
+                                            : std::to_chars(end(), limit(), v, std::chars_format::general, 6);
+    used_ = result.ptr - buffer_.data();
+  }
+
+  void text(std::string_view s) {
+    room();
+    std::memcpy(end(), s.data(), s.size());
+    used_ += s.size();
+  }
+
+  char* end() { return buffer_.data() + used_; }
+  char* limit() { return buffer_.data() + buffer_.size(); }
+  void room() {
+    if (buffer_.size() - used_ < kLongestText) flush();
+  }
+
+  std::ostream& out_;
+  NumberFormat format_;
+  std::array<char, 1 << 16> buffer_;
+  std::size_t used_ = 0;
+};
+
+void write_view(const View& view, NffOutput& out) {
+  out.line("v");
+  out.line("from", view.from);
+  out.line("at", view.at);
+  out.line("up", view.up);
+  out.line("angle", view.angle_degrees);
+  out.line("hither", view.hither);
+  out.line("resolution", view.width, view.height);
+}
+
+void write_material(const Material& m, NffOutput& out) {
+  out.line("f", m.color, m.diffuse, m.specular, m.shine, m.transmittance, m.refractive_index);
+}
+
+MaterialIndex material_of(const SceneDescription& scene, PrimitiveRef ref) {
+  switch (ref.kind) {
+    case PrimitiveKind::kSphere:
+      return scene.spheres[ref.index].material;
+    case PrimitiveKind::kCone:
+      return scene.cones[ref.index].material;
+    case PrimitiveKind::kPolygon:
+      return scene.polygons[ref.index].material;
+    case PrimitiveKind::kPatch:
+      break;
+  }
+  return scene.patches[ref.index].material;
+}
+
+template <typename Vertices>
+void write_vertices(std::string_view keyword, const Vertices& vertices, NffOutput& out) {
+  out.line(keyword, vertices.size());
+  for (const auto& vertex : vertices) out.vertex_line(vertex);
+}
+
+void write_primitive(const SceneDescription& scene, PrimitiveRef ref, NffOutput& out) {
+  switch (ref.kind) {
+    case PrimitiveKind::kSphere: {
+      const Sphere& s = scene.spheres[ref.index];
+      return out.line("s", s.center, s.radius);
+    }
+    case PrimitiveKind::kCone: {
+      const Cone& c = scene.cones[ref.index];
+      return out.line("c", c.base, c.base_radius, c.apex, c.apex_radius);
+    }
+    case PrimitiveKind::kPolygon:
+      return write_vertices("p", scene.vertices(scene.polygons[ref.index]), out);
+    case PrimitiveKind::kPatch:
+      return write_vertices("pp", scene.vertices(scene.patches[ref.index]), out);
+  }
+}
+
+}  // namespace
+
+void write_nff(const SceneDescription& scene, std::ostream& stream, NumberFormat format) {
+  NffOutput out(stream, format);
+  if (scene.background) out.line("b", *scene.background);
+  if (scene.view) write_view(*scene.view, out);
+  for (const Light& light : scene.lights) {
+    if (light.color) {
+      out.line("l", light.position, *light.color);
+    } else {
+      out.line("l", light.position);
+    }
+  }
+  std::optional<MaterialIndex> current;
+  for (const PrimitiveRef ref : scene.order) {
+    const MaterialIndex material = material_of(scene, ref);
+    if (current != material) write_material(scene.materials[material], out);
+    current = material;
+    write_primitive(scene, ref, out);
+  }
+  out.flush();
+}
+
+}  // namespace pprt

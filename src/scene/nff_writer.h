@@ -1,0 +1,21 @@
+// Writing a scene as NFF, in the layout of Haines' Standard Procedural Databases.
+#pragma once
+
+#include <iosfwd>
+
+#include "scene/scene_description.h"
+
+namespace pprt {
+
+enum class NumberFormat {
+  kShortest,   // the fewest digits that read back as the same double
+  kSixDigits,  // printf's %g, as the SPD programs write
+};
+
+// Writes background, view, lights, then the objects in file order, each preceded by its material where that
+// differs from the object's before. What the scene does not give is not written, nor are unused materials.
+// All numbers must be finite. A failing stream is left failed, as by operator<<.
+void write_nff(const SceneDescription& scene, std::ostream& out,
+               NumberFormat format = NumberFormat::kShortest);
+
+}  // namespace pprt
