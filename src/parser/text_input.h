@@ -1,0 +1,79 @@
+// What the parsers share below their grammars: whole texts, places in them, numbers.
+#pragma once
+
+#include <charconv>
+#include <cstddef>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+#include "base/source_location.h"
+
+namespace pprt {
+
+// The whole file as bytes; "-" is standard input. Throws InputError: "cannot read 'x': No such file or
+// directory", or when there are more than `max_bytes`.
+std::string read_text(const std::string& path, std::size_t max_bytes);
+
+// A token as it is quoted in a message: control bytes replaced, long ones cut.
+std::string quoted(std::string_view token);
+
+// Line and column of places in a text. Made for places asked for in rising order: each then costs only the
+// bytes since the place before, and a whole pass is linear. A place before the last one's line is found
+// again from the start of the text. CR, LF and CR LF each end a line.
+class LineCursor {
+ public:
+  explicit LineCursor(std::string_view text)
+      : text_(text), line_begin_(text.data()), has_cr_(text.find('\r') != std::string_view::npos) {}
+
+  SourceLocation at(const char* place) {
+    if (place < line_begin_) {
+      line_begin_ = text_.data();
+      line_ = 1;
+    }
+    while (const char* next = next_line(place)) {
+      line_begin_ = next;
+      ++line_;
+    }
+    return {line_, static_cast<std::uint32_t>(place - line_begin_) + 1};
+  }
+
+ private:
+  // Where the line after line_begin_ begins, when that is not behind `place`.
+  const char* next_line(const char* place) const {
+    if (!has_cr_) {
+      const auto length = static_cast<std::size_t>(place - line_begin_);
+      const void* lf = length > 0 ? std::memchr(line_begin_, '\n', length) : nullptr;
+      return lf ? static_cast<const char*>(lf) + 1 : nullptr;
+    }
+    for (const char* p = line_begin_; p < place; ++p) {
+      if (*p == '\n') return p + 1;
+      if (*p != '\r') continue;
+      const bool pair = p + 1 < text_.data() + text_.size() && p[1] == '\n';
+      return p + (pair ? 2 : 1) <= place ? p + (pair ? 2 : 1) : nullptr;
+    }
+    return nullptr;
+  }
+
+  std::string_view text_;
+  const char* line_begin_;
+  std::uint32_t line_ = 1;
+  bool has_cr_;
+};
+
+// Numbers beyond this are refused, so that products of three of them stay finite.
+constexpr double kLargestNumber = 1e100;
+
+// Reads a decimal number at `begin`, whatever the locale: digits with an optional sign (+ too), point
+// (".5", "5.") and exponent; no "nan", "inf" or hexadecimal. One too small for a double is 0.
+// Returns its end, or nullptr when there is no number or one beyond kLargestNumber.
+inline const char* scan_number(const char* begin, const char* end, double& value) {
+  const char* p = begin;
+  if (p != end && (*p == '+' || *p == '-')) ++p;
+  if (p == end || !((*p >= '0' && *p <= '9') || *p == '.')) return nullptr;
+  const auto [stop, problem] = std::from_chars(*begin == '+' ? p : begin, end, value);
+  if (problem != std::errc{}) return nullptr;
+  return value <= kLargestNumber && value >= -kLargestNumber ? stop : nullptr;
+}
+
+}  // namespace pprt
