@@ -1,0 +1,99 @@
+#include "pipeline/casting.h"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+
+#include "pipeline/sample_mesh_impl.h"
+
+namespace pprt {
+namespace {
+
+enum class Fate : std::uint8_t { kForeign, kOutOfView, kTooOld, kHidden, kSurvives };
+
+struct Flight {
+  Vec2d point{0, 0};    // in the next image
+  double distance = 0;  // from the next eye; infinite for the background
+  Fate fate = Fate::kForeign;
+  bool projected = false;
+};
+
+Flight fly(const Sample& sample, const SampleMesh& mesh, const Camera& next, int next_frame,
+           const CastSettings& settings) {
+  Flight flight;
+  const Vec3d hit(sample.ray.hit);
+  const Vec3d from_eye = sample.ray.at_infinity ? hit : hit - next.eye;
+  flight.distance = sample.ray.at_infinity ? std::numeric_limits<double>::infinity() : from_eye.length();
+  const std::optional<Vec2d> point = project(next, from_eye);
+  if (point) {
+    flight.point = *point;
+    flight.projected = true;
+  }
+  if (!mesh.region().owns_point(sample.x, sample.y)) return flight;
+  const bool in_view =
+      point && point->x >= 0 && point->x <= next.width && point->y >= 0 && point->y <= next.height;
+  const int max_age = sample.ray.eye_dependent ? settings.max_age_eye_dependent : settings.max_age;
+  if (!in_view) {
+    flight.fate = Fate::kOutOfView;
+  } else if (next_frame - sample.frame > max_age) {
+    flight.fate = Fate::kTooOld;
+  } else {
+    flight.fate = Fate::kSurvives;
+  }
+  return flight;
+}
+
+// A triangle of the old triangulation that turned over holds a hidden sample: the one farthest from the eye,
+// and any other at nearly its distance (paper s. 4.2). "Nearly": within one part in a hundred.
+void hide_behind_turned_triangles(const SampleMesh& mesh, std::vector<Flight>& flights) {
+  constexpr double kNearly = 0.99;
+  const auto& delaunay = mesh.impl().delaunay();
+  for (auto face = delaunay.finite_faces_begin(); face != delaunay.finite_faces_end(); ++face) {
+    const std::array<Flight*, 3> corner = {&flights[face->vertex(0)->info()],
+                                           &flights[face->vertex(1)->info()],
+                                           &flights[face->vertex(2)->info()]};
+    if (!corner[0]->projected || !corner[1]->projected || !corner[2]->projected) continue;
+    const Vec2d ab = corner[1]->point - corner[0]->point, ac = corner[2]->point - corner[0]->point;
+    // CGAL's corners are counter-clockwise, so a triangle that keeps its sense has a positive cross product.
+    if (ab.x * ac.y - ab.y * ac.x > 0) continue;
+    const double farthest = std::max({corner[0]->distance, corner[1]->distance, corner[2]->distance});
+    for (Flight* flight : corner) {
+      if (flight->distance >= kNearly * farthest && flight->fate == Fate::kSurvives)
+        flight->fate = Fate::kHidden;
+    }
+  }
+}
+
+}  // namespace
+
+CastResult cast_samples(const SampleMesh& mesh, const Camera& next, int next_frame,
+                        const CastSettings& settings, const Visibility& visible) {
+  const std::span<const Sample> samples = mesh.samples();
+  std::vector<Flight> flights;
+  flights.reserve(samples.size());
+  for (const Sample& sample : samples) flights.push_back(fly(sample, mesh, next, next_frame, settings));
+  if (settings.method == CastMethod::kPaper && mesh.impl().delaunay().dimension() == 2) {
+    hide_behind_turned_triangles(mesh, flights);
+  }
+
+  CastResult result;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    Flight& flight = flights[i];
+    if (flight.fate == Fate::kSurvives && settings.method == CastMethod::kVerified &&
+        !visible(samples[i].ray.hit, samples[i].ray.at_infinity)) {
+      flight.fate = Fate::kHidden;
+    }
+    result.out_of_view += flight.fate == Fate::kOutOfView;
+    result.too_old += flight.fate == Fate::kTooOld;
+    result.hidden += flight.fate == Fate::kHidden;
+    if (flight.fate != Fate::kSurvives) continue;
+    Sample& survivor = result.survivors.emplace_back(samples[i]);
+    survivor.x = flight.point.x;
+    survivor.y = flight.point.y;
+  }
+  return result;
+}
+
+}  // namespace pprt

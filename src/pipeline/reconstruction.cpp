@@ -1,0 +1,130 @@
+#include "pipeline/reconstruction.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "pipeline/sample_mesh_impl.h"
+
+namespace pprt {
+namespace {
+
+struct Corner {
+  double x, y;
+  Color color;
+};
+
+// Where an edge crosses a row of pixel centres. The ends are taken in one fixed order, so that the two
+// triangles at an edge compute the same number to the last bit and every centre falls to exactly one of them.
+double crossing(const Corner& a, const Corner& b, double y) {
+  const bool ordered = a.y < b.y || (a.y == b.y && a.x < b.x);
+  const Corner& low = ordered ? a : b;
+  const Corner& high = ordered ? b : a;
+  return low.x + (y - low.y) * ((high.x - low.x) / (high.y - low.y));
+}
+
+// The first pixel whose centre is at or beyond a coordinate.
+int first_center(double coordinate) {
+  return static_cast<int>(std::ceil(coordinate - 0.5));
+}
+
+// Linear over one triangle: colour = c0 + a (c1 - c0) + b (c2 - c0) with barycentric a, b held to [0, 1], so
+// that a constant stays exactly constant and rounding in slivers never leaves the corners' range by more than
+// itself.
+class LinearPatch {
+ public:
+  LinearPatch(const Corner& c0, const Corner& c1, const Corner& c2)
+      : origin_(c0), to_1_(c1.color - c0.color), to_2_(c2.color - c0.color) {
+    const double x1 = c1.x - c0.x, y1 = c1.y - c0.y, x2 = c2.x - c0.x, y2 = c2.y - c0.y;
+    const double cross = x1 * y2 - y1 * x2;
+    const double scale = cross != 0 ? 1 / cross : 0;
+    ax_ = y2 * scale, ay_ = -x2 * scale;
+    bx_ = -y1 * scale, by_ = x1 * scale;
+  }
+
+  void fill(int x0, int x1, double y, Color* row) const {
+    const double dy = y - origin_.y;
+    for (int x = x0; x < x1; ++x) {
+      const double dx = x + 0.5 - origin_.x;
+      const auto a = std::clamp(static_cast<float>(ax_ * dx + ay_ * dy), 0.0f, 1.0f);
+      const auto b = std::clamp(static_cast<float>(bx_ * dx + by_ * dy), 0.0f, 1.0f);
+      row[x] = origin_.color + to_1_ * a + to_2_ * b;
+    }
+  }
+
+ private:
+  Corner origin_;
+  Color to_1_, to_2_;
+  double ax_, ay_, bx_, by_;
+};
+
+// Fills the pixel centres of one triangle: rows [top, bottom), in each row centres in [left, right).
+void fill_triangle(const std::array<Corner, 3>& corner, RegionPixels& pixels) {
+  const PixelRect& bounds = pixels.bounds;
+  const auto [min_y, max_y] = std::minmax({corner[0].y, corner[1].y, corner[2].y});
+  const int top = std::max(first_center(min_y), bounds.y0);
+  const int bottom = std::min(first_center(max_y), bounds.y1);
+  if (top >= bottom) return;
+  const auto [min_x, max_x] = std::minmax({corner[0].x, corner[1].x, corner[2].x});
+  if (std::max(first_center(min_x), bounds.x0) >= std::min(first_center(max_x), bounds.x1)) return;
+
+  const LinearPatch patch(corner[0], corner[1], corner[2]);
+  for (int row = top; row < bottom; ++row) {
+    const double y = row + 0.5;
+    // Exactly two of the three edges cross the row: those whose ends lie on different sides of it.
+    std::array<double, 2> ends{};
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < 3 && found < 2; ++i) {
+      const Corner& a = corner[i];
+      const Corner& b = corner[(i + 1) % 3];
+      if ((a.y <= y) != (b.y <= y)) ends[found++] = crossing(a, b, y);
+    }
+    if (found < 2) continue;
+    const int left = std::max(first_center(std::min(ends[0], ends[1])), bounds.x0);
+    const int right = std::min(first_center(std::max(ends[0], ends[1])), bounds.x1);
+    Color* first =
+        pixels.colors.data() + static_cast<std::ptrdiff_t>(row - bounds.y0) * bounds.width() - bounds.x0;
+    patch.fill(left, right, y, first);
+  }
+}
+
+// The average rule: where more than one sample falls in a pixel, their mean replaces the interpolation.
+void average_crowded_pixels(const SampleMesh& mesh, RegionPixels& pixels, ReconstructionBuffers& buffers) {
+  const PixelRect& bounds = pixels.bounds;
+  buffers.sums.assign(pixels.colors.size(), Color(0, 0, 0));
+  buffers.counts.assign(pixels.colors.size(), 0);
+  const TileGrid& grid = mesh.region().grid();
+  for (const Sample& sample : mesh.samples()) {
+    const int x = std::min(static_cast<int>(sample.x), grid.width - 1);
+    const int y = std::min(static_cast<int>(sample.y), grid.height - 1);
+    if (x < bounds.x0 || x >= bounds.x1 || y < bounds.y0 || y >= bounds.y1) continue;
+    const std::size_t i = static_cast<std::size_t>(y - bounds.y0) * static_cast<std::size_t>(bounds.width()) +
+                          static_cast<std::size_t>(x - bounds.x0);
+    buffers.sums[i] += sample.ray.color;
+    ++buffers.counts[i];
+  }
+  for (std::size_t i = 0; i < pixels.colors.size(); ++i) {
+    if (buffers.counts[i] > 1) pixels.colors[i] = buffers.sums[i] / static_cast<float>(buffers.counts[i]);
+  }
+}
+
+}  // namespace
+
+void reconstruct(const SampleMesh& mesh, RegionPixels& pixels, ReconstructionBuffers& buffers) {
+  pixels.bounds = mesh.region().bounds();
+  pixels.colors.assign(pixels.bounds.area(), Color(0, 0, 0));
+  const auto& delaunay = mesh.impl().delaunay();
+  const std::span<const Sample> samples = mesh.samples();
+  for (auto face = delaunay.finite_faces_begin(); face != delaunay.finite_faces_end(); ++face) {
+    std::array<Corner, 3> corner;
+    for (int i = 0; i < 3; ++i) {
+      const Sample& sample = samples[face->vertex(i)->info()];
+      corner[static_cast<std::size_t>(i)] = {sample.x, sample.y, sample.ray.color};
+    }
+    fill_triangle(corner, pixels);
+  }
+  average_crowded_pixels(mesh, pixels, buffers);
+}
+
+}  // namespace pprt

@@ -1,0 +1,36 @@
+// From scattered samples to pixels: piecewise-linear over the triangulation (paper s. 2.2).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "base/vector.h"
+#include "pipeline/sample_mesh.h"
+
+namespace pprt {
+
+// The pixels of a region: those of its bounds, row by row from the top; pixels of foreign tiles hold no
+// meaning.
+struct RegionPixels {
+  PixelRect bounds;
+  std::vector<Color> colors;
+
+  const Color& at(int x, int y) const {
+    return colors[static_cast<std::size_t>(y - bounds.y0) * static_cast<std::size_t>(bounds.width()) +
+                  static_cast<std::size_t>(x - bounds.x0)];
+  }
+};
+
+// Storage that lives from frame to frame.
+struct ReconstructionBuffers {
+  std::vector<Color> sums;  // of the samples in each pixel of the bounds
+  std::vector<std::uint32_t> counts;
+};
+
+// Every pixel of the mesh's region: the barycentric mean of the triangle that holds its centre or, when more
+// than one sample falls in the pixel, their average. Each centre belongs to exactly one triangle, also on
+// shared edges.
+void reconstruct(const SampleMesh& mesh, RegionPixels& pixels, ReconstructionBuffers& buffers);
+
+}  // namespace pprt

@@ -1,0 +1,59 @@
+// How much a Delaunay triangle wants to be refined (paper s. 3.6, after Eldar et al.).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/vector.h"
+
+namespace pprt {
+
+struct Circle {
+  Vec2d center{0, 0};
+  double radius = 0;
+};
+
+struct TriangleShape {
+  Circle circumcircle;
+  double longest_edge = 0;  // pixels
+};
+
+// Twice the area below which a triangle counts as having it, in square pixels: keeps the circumcircle of
+// collinear corners finite. Corners lie within 2^15 pixels and are rounded to 2^-38 of one, so twice the area
+// of a proper triangle is above 1e-6 unless its corners touch within rounding.
+inline constexpr double kSmallestDoubleArea = 1e-9;
+
+inline TriangleShape triangle_shape(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
+  const Vec2d ab = b - a, ac = c - a, bc = c - b;
+  const double cross = std::max(ab.x * ac.y - ab.y * ac.x, kSmallestDoubleArea);
+  const double ab2 = ab.dot(ab), ac2 = ac.dot(ac), bc2 = bc.dot(bc);
+  const double half = 0.5 / cross;
+  const Vec2d to_center((ac.y * ab2 - ab.y * ac2) * half, (ab.x * ac2 - ac.x * ab2) * half);
+  return {{a + to_center, std::sqrt(to_center.dot(to_center))}, std::sqrt(std::max({ab2, ac2, bc2}))};
+}
+
+// Mean over the channels of the variance of three intensities on the display scale [0, 1].
+inline double display_variance(const std::array<const Color*, 3>& corners) {
+  double sum = 0;
+  for (int channel = 0; channel < 3; ++channel) {
+    const double p = std::clamp((*corners[0])[channel], 0.0f, 1.0f);
+    const double q = std::clamp((*corners[1])[channel], 0.0f, 1.0f);
+    const double r = std::clamp((*corners[2])[channel], 0.0f, 1.0f);
+    const double mean = (p + q + r) / 3;
+    sum += (p - mean) * (p - mean) + (q - mean) * (q - mean) + (r - mean) * (r - mean);
+  }
+  return sum / 9;
+}
+
+// Weight(t) = Rad^2 log(1.01 + 500 Var), with two safeguards. Rad is at most the longest edge: a sliver on
+// the hull has a circumradius of any size. A triangle whose circle is smaller than a pixel keeps only its
+// variance as a reason (Painter and Sloan 1989): the constant 1.01 becomes 1, and a flat one has weight 0.
+inline double refinement_weight(const TriangleShape& shape, double variance) {
+  constexpr double kPixelRadiusSquared = 0.31830988618379067;  // 1 / pi: a circle of one square pixel
+  const double radius = std::min(shape.circumcircle.radius, shape.longest_edge);
+  const double offset = radius * radius < kPixelRadiusSquared ? 1.0 : 1.01;
+  return radius * radius * std::log(offset + 500 * variance);
+}
+
+}  // namespace pprt

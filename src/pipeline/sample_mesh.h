@@ -1,0 +1,82 @@
+// The samples of one frame, their Delaunay triangulation, and the queue of triangles to refine (paper
+// s. 2.1).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "pipeline/refinement_weight.h"
+#include "pipeline/region.h"
+#include "pipeline/sample.h"
+
+namespace pprt {
+
+// A Delaunay triangle that an insertion made. Corners index SampleMesh::samples().
+struct NewTriangle {
+  Circle circumcircle;
+  std::array<std::uint32_t, 3> corners;
+};
+
+// Per tile, over the triangles whose refinement point lies in it (paper s. 4.4: LastTotalWeight,
+// LastTotalNum).
+struct TileWeights {
+  double total_weight = 0;
+  std::int64_t triangles = 0;
+};
+
+// Invariants: the triangulation is Delaunay over all samples; every finite triangle with positive weight
+// whose refinement point lies in the region is in the queue exactly once, unless next_point() took it and
+// nothing was inserted there since. Samples outside the image are refused.
+class SampleMesh {
+ public:
+  class Impl;
+
+  explicit SampleMesh(const Region& region);
+  SampleMesh(SampleMesh&&) noexcept;
+  SampleMesh& operator=(SampleMesh&&) noexcept;
+  ~SampleMesh();
+
+  // Forgets all samples.
+  void clear();
+
+  // Moves the border of what is refined here; keeps all samples. O(triangles).
+  void set_region(const Region& region);
+  const Region& region() const;
+
+  // Adds a sample. False, and nothing changes, when its point already holds one or lies outside the image.
+  // Expected O(1) near the samples inserted last or near the point next_point() gave.
+  bool insert(const Sample& sample);
+
+  // Where the next sample is wanted most: the circumcentre of the heaviest triangle of the region or, when
+  // that lies outside the image, the point where the way to it leaves the image. Empty when nothing is worth
+  // refining. The caller inserts a sample there before it asks again.
+  std::optional<Vec2d> next_point();
+
+  std::span<const Sample> samples() const;
+
+  // The triangles that the last successful insert made; valid until the next one.
+  std::span<const NewTriangle> created() const;
+
+  // One entry per tile of the grid.
+  std::span<const TileWeights> tile_weights() const;
+
+  // Quality of the region, Q_k: mean weight of its triangles (paper s. 3.6); smaller is better. 0 without
+  // any.
+  double refinement() const;
+
+  const Impl& impl() const { return *impl_; }
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+// Every finite triangle, corners counter-clockwise in the sense of x, y (clockwise on the screen, whose y grows
+// downwards), as indices into mesh.samples().
+std::vector<std::array<std::uint32_t, 3>> triangles(const SampleMesh& mesh);
+
+}  // namespace pprt

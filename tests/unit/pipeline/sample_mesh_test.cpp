@@ -1,0 +1,208 @@
+#include "pipeline/sample_mesh.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+#include <set>
+
+#include "pipeline/bucket_queue.h"
+#include "synthetic_image.h"
+
+namespace pprt {
+namespace {
+
+double orientation(const Sample& a, const Sample& b, const Sample& c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+// Largest excess, in pixels, by which any sample lies inside any triangle's circumcircle: brute force.
+double deepest_intrusion(const SampleMesh& mesh) {
+  double deepest = -1e9;
+  for (const auto& t : triangles(mesh)) {
+    const Sample &a = mesh.samples()[t[0]], &b = mesh.samples()[t[1]], &c = mesh.samples()[t[2]];
+    const Circle circle = triangle_shape({a.x, a.y}, {b.x, b.y}, {c.x, c.y}).circumcircle;
+    for (const Sample& s : mesh.samples()) {
+      deepest = std::max(deepest, circle.radius - std::hypot(s.x - circle.center.x, s.y - circle.center.y));
+    }
+  }
+  return deepest;
+}
+
+double total_area(const SampleMesh& mesh) {
+  double area = 0;
+  for (const auto& t : triangles(mesh)) {
+    area += 0.5 * orientation(mesh.samples()[t[0]], mesh.samples()[t[1]], mesh.samples()[t[2]]);
+  }
+  return area;
+}
+
+const TileGrid kGrid{128, 96, 16};
+
+}  // namespace
+
+TEST_CASE("the mesh stays Delaunay and covers the image exactly") {
+  const SampleMesh mesh = refine(Region::whole(kGrid), disc(kGrid), 600);
+  REQUIRE(mesh.samples().size() > 600);
+  CHECK(deepest_intrusion(mesh) < 1e-6);
+  CHECK(total_area(mesh) == Approx(128.0 * 96.0).epsilon(1e-12));
+  for (const auto& t : triangles(mesh)) {
+    CHECK(orientation(mesh.samples()[t[0]], mesh.samples()[t[1]], mesh.samples()[t[2]]) > 0);
+  }
+}
+
+TEST_CASE("samples gather at an edge of the picture") {
+  const SampleMesh mesh = refine(Region::whole(kGrid), disc(kGrid), 1500);
+  int near_edge = 0, in_flat = 0;
+  for (const Sample& s : mesh.samples()) {
+    const double r = std::hypot(s.x - 64, s.y - 48);
+    near_edge += std::abs(r - 38.4) < 2;
+    in_flat += r < 34 || r > 43;
+  }
+  const double edge_area = 2 * 3.14159 * 38.4 * 4, flat_area = 128 * 96 - 2 * 3.14159 * 38.4 * 9;
+  CHECK(near_edge / edge_area > 5 * in_flat / flat_area);
+}
+
+TEST_CASE("a flat picture is refined evenly, borders like the inside") {
+  const auto flat = [](double, double) { return Color(0.5f, 0.5f, 0.5f); };
+  const SampleMesh mesh = refine(Region::whole(kGrid), flat, 3000);
+  double border = 0, inside = 0;
+  for (const Sample& s : mesh.samples()) {
+    const double d = std::min({s.x, s.y, 128 - s.x, 96 - s.y});
+    border += d == 0 ? 0.5 : d < 4;  // half the cell of a sample on the border lies outside
+    inside += d >= 4;
+  }
+  const double border_area = 128 * 96 - 120 * 88, inside_area = 120 * 88;
+  CHECK(border / border_area == Approx(inside / inside_area).epsilon(0.2));
+}
+
+TEST_CASE("border samples lie exactly on the border") {
+  const SampleMesh mesh = refine(Region::whole(kGrid), disc(kGrid), 2000);
+  int on_border = 0;
+  for (const Sample& s : mesh.samples()) {
+    CHECK((s.x >= 0 && s.x <= 128 && s.y >= 0 && s.y <= 96));
+    const bool close = s.x < 1e-9 || s.y < 1e-9 || s.x > 128 - 1e-9 || s.y > 96 - 1e-9;
+    const bool exact = s.x == 0 || s.y == 0 || s.x == 128 || s.y == 96;
+    CHECK(close == exact);
+    on_border += exact;
+  }
+  CHECK(on_border > 30);
+}
+
+TEST_CASE("only the region's own points are wanted") {
+  std::vector<std::uint8_t> owned(static_cast<std::size_t>(kGrid.tile_count()), 0);
+  for (int tile = 0; tile < kGrid.tile_count(); ++tile) owned[static_cast<std::size_t>(tile)] = tile % 8 < 4;
+  const Region left(kGrid, owned);
+  SampleMesh mesh = refine(left, disc(kGrid), 0);
+  for (int i = 0; i < 400; ++i) {
+    const auto point = mesh.next_point();
+    REQUIRE(point);
+    CHECK(left.owns_point(point->x, point->y));
+    mesh.insert(sample_of(disc(kGrid), point->x, point->y));
+  }
+}
+
+TEST_CASE("running statistics equal a fresh count") {
+  SampleMesh mesh = refine(Region::whole(kGrid), disc(kGrid), 2000);
+  const std::vector<TileWeights> running(mesh.tile_weights().begin(), mesh.tile_weights().end());
+  const double quality = mesh.refinement();
+  mesh.set_region(Region::whole(kGrid));  // scans every triangle anew
+  std::int64_t all = 0;
+  for (std::size_t i = 0; i < running.size(); ++i) {
+    CHECK(running[i].triangles == mesh.tile_weights()[i].triangles);
+    CHECK(running[i].total_weight == Approx(mesh.tile_weights()[i].total_weight).epsilon(1e-6).margin(1e-6));
+    all += running[i].triangles;
+  }
+  CHECK(static_cast<std::size_t>(all) == triangles(mesh).size());
+  CHECK(quality == Approx(mesh.refinement()).epsilon(1e-6));
+}
+
+TEST_CASE("refinement falls as samples come") {
+  const SampleMesh few = refine(Region::whole(kGrid), disc(kGrid), 200);
+  const SampleMesh many = refine(Region::whole(kGrid), disc(kGrid), 2000);
+  CHECK(many.refinement() < 0.25 * few.refinement());
+}
+
+TEST_CASE("a taken point and one outside the image are refused") {
+  SampleMesh mesh = refine(Region::whole(kGrid), disc(kGrid), 10);
+  const std::size_t before = mesh.samples().size();
+  const Sample first = mesh.samples()[5];
+  CHECK_FALSE(mesh.insert(first));
+  CHECK_FALSE(mesh.insert(sample_of(disc(kGrid), -1e-12, 5)));
+  CHECK_FALSE(mesh.insert(sample_of(disc(kGrid), 5, 96.001)));
+  CHECK_FALSE(mesh.insert(sample_of(disc(kGrid), std::nan(""), 5)));
+  CHECK(mesh.samples().size() == before);
+}
+
+TEST_CASE("the created triangles are those around the new sample") {
+  SampleMesh mesh = refine(Region::whole(kGrid), disc(kGrid), 300);
+  const auto point = mesh.next_point();
+  REQUIRE(point);
+  REQUIRE(mesh.insert(sample_of(disc(kGrid), point->x, point->y)));
+  const auto newest = static_cast<std::uint32_t>(mesh.samples().size() - 1);
+  CHECK(mesh.created().size() >= 3);
+  for (const NewTriangle& t : mesh.created()) {
+    CHECK(std::find(t.corners.begin(), t.corners.end(), newest) != t.corners.end());
+  }
+}
+
+TEST_CASE("collinear and cocircular samples do no harm") {
+  SampleMesh mesh(Region::whole(kGrid));
+  for (int x = 0; x <= 128; x += 8) mesh.insert(sample_of(disc(kGrid), x, 48));  // a line: no triangle yet
+  CHECK_FALSE(mesh.next_point());
+  for (int y = 0; y <= 96; y += 8) {
+    for (int x = 0; x <= 128; x += 8) mesh.insert(sample_of(disc(kGrid), x, y));
+  }
+  CHECK(mesh.samples().size() == 17u * 13u);
+  CHECK(total_area(mesh) == Approx(128.0 * 96.0).epsilon(1e-12));
+  for (int i = 0; i < 500; ++i) {
+    const auto point = mesh.next_point();
+    REQUIRE(point);
+    REQUIRE(mesh.insert(sample_of(disc(kGrid), point->x, point->y)));
+  }
+  CHECK(deepest_intrusion(mesh) < 1e-6);
+}
+
+TEST_CASE("a sliver on the hull has a bounded weight") {
+  const TriangleShape sliver = triangle_shape({0, 0}, {100, 0}, {50, 1e-9});
+  CHECK(refinement_weight(sliver, 0.1) < 100.0 * 100.0 * std::log(1.01 + 50) + 1);
+  CHECK(std::isfinite(refinement_weight(triangle_shape({0, 0}, {1, 1}, {2, 2}), 0.1)));
+}
+
+TEST_CASE("weight follows the paper's formula above a pixel and variance alone below") {
+  const TriangleShape right_angle = triangle_shape({0, 0}, {6, 0}, {0, 8});  // radius 5
+  CHECK(refinement_weight(right_angle, 0.02) == Approx(25 * std::log(1.01 + 10)));
+  const TriangleShape tiny = triangle_shape({0, 0}, {0.3, 0}, {0, 0.4});
+  CHECK(refinement_weight(tiny, 0) == 0);
+  CHECK(refinement_weight(tiny, 0.02) == Approx(0.0625 * std::log(1 + 10)));
+}
+
+TEST_CASE("display variance clamps and averages channels") {
+  const Color black(0, 0, 0), bright(9, 1, 0);
+  CHECK(display_variance({&black, &black, &black}) == 0);
+  // Red and green: (0, 0, 1) has variance 2/9; blue has none.
+  CHECK(display_variance({&black, &black, &bright}) == Approx(2 * (2.0 / 9) / 3));
+}
+
+TEST_CASE("the bucket queue pops within a sixteenth of the heaviest") {
+  std::mt19937 random(7);
+  std::lognormal_distribution<float> weights(0, 4);
+  BucketQueue<float> queue;
+  std::multiset<float> oracle;
+  for (int round = 0; round < 20000; ++round) {
+    if (oracle.empty() || random() % 3 != 0) {
+      const float w = weights(random);
+      queue.push(w, w);
+      oracle.insert(w);
+    } else {
+      const auto popped = queue.pop();
+      REQUIRE(popped);
+      CHECK(*popped * 1.0626f >= *oracle.rbegin());
+      oracle.erase(oracle.find(*popped));
+    }
+  }
+  queue.clear();
+  CHECK_FALSE(queue.pop());
+}
+
+}  // namespace pprt
