@@ -4,10 +4,13 @@
 #include <cctype>
 #include <filesystem>
 #include <iostream>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
 
-#include "app/output_file.h"
 #include "app/scene_source.h"
 #include "base/diagnostics.h"
+#include "image/whole_file.h"
 #include "scene/nff_writer.h"
 #include "spd/spd.h"
 
@@ -32,13 +35,22 @@ void check_formats(const ConvertOptions& options) {
   }
 }
 
+void write_to_standard_output(const SceneDescription& scene) {
+  write_nff(scene, std::cout);
+  std::cout.flush();
+  if (!std::cout) throw std::runtime_error("cannot write to standard output");
+}
+
 }  // namespace
 
 void convert(const ConvertOptions& options) {
   check_formats(options);
   const ParsedScene parsed = load_scene(options.input, {.strict = options.strict});
   std::cerr << parsed.warnings;
-  write_output(options.output, [&](std::ostream& out) { write_nff(parsed.scene, out); });
+  if (options.output == "-") return write_to_standard_output(parsed.scene);
+  std::ostringstream text;
+  write_nff(parsed.scene, text);
+  write_whole_file(options.output, std::move(text).str());
 }
 
 }  // namespace pprt
