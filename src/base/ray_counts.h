@@ -13,8 +13,9 @@ struct RayCounts {
   std::uint64_t reflection = 0;
   std::uint64_t refraction = 0;                 // really refracted
   std::uint64_t total_internal_reflection = 0;  // refraction asked for, none possible
+  std::uint64_t visibility = 0;                 // whether a former hit point is still seen
 
-  std::uint64_t traced() const { return primary + shadow + reflection + refraction; }
+  std::uint64_t traced() const { return primary + shadow + reflection + refraction + visibility; }
 };
 
 }  // namespace pprt

@@ -11,7 +11,7 @@
 namespace pprt {
 
 enum class Effect : std::uint8_t {
-  kShadows = 1 << 0,        // some light: diffuse shading and shadow rays
+  kShadows = 1 << 0,        // some light: shadow rays (without them lights shine through)
   kHighlights = 1 << 1,     // some material with Ks > 0 and a finite highlight, and a light
   kReflection = 1 << 2,     // some Ks > 0
   kRefraction = 1 << 3,     // some T > 0

@@ -1,0 +1,82 @@
+#include <fmt/format.h>
+
+#include "trace/scene_impl.h"
+
+namespace pprt {
+namespace {
+
+std::string counted(std::size_t n, const char* singular, const char* plural) {
+  return fmt::format("{} {}", n, n == 1 ? singular : plural);
+}
+
+std::string primitives(const CompiledScene::Impl& scene) {
+  const Inventory& held = scene.inventory;
+  std::string text;
+  const auto add = [&](std::size_t n, const char* singular, const char* plural) {
+    if (n == 0) return;
+    if (!text.empty()) text += ", ";
+    text += counted(n, singular, plural);
+  };
+  add(held.spheres, "sphere", "spheres");
+  add(held.cones, "cone or cylinder", "cones and cylinders");
+  add(held.polygons, "polygon", "polygons");
+  add(held.patches, "patch", "patches");
+  if (scene.figures.triangles > 0)
+    text += fmt::format(" ({})", counted(scene.figures.triangles, "triangle", "triangles"));
+  if (scene.figures.degenerate > 0)
+    text += fmt::format("; {} without extent left out", scene.figures.degenerate);
+  return text;
+}
+
+// Why the scene calls for an effect, or does not.
+std::string reason(Effect effect, const Inventory& held) {
+  const auto materials = [](std::size_t n, const char* with) {
+    return n == 0 ? fmt::format("no material {}", with)
+                  : fmt::format("{} {}", counted(n, "material", "materials"), with);
+  };
+  switch (effect) {
+    case Effect::kShadows:
+      return held.lights == 0 ? "no light" : counted(held.lights, "light", "lights");
+    case Effect::kHighlights:
+      return held.lights == 0 ? "no light"
+                              : materials(held.highlighting, "with Ks > 0 and a finite highlight");
+    case Effect::kReflection:
+      return materials(held.reflecting, "with Ks > 0");
+    case Effect::kRefraction:
+      return materials(held.transmitting, "with T > 0");
+    case Effect::kSmoothNormals:
+      return held.patches == 0 ? "no patch" : counted(held.patches, "patch", "patches");
+  }
+  return {};
+}
+
+std::string effect_line(Effect effect, const CompiledScene::Impl& scene) {
+  const bool chosen = scene.effects.has(effect);
+  std::string why = reason(effect, scene.inventory);
+  if (!chosen && effects_called_for(scene.inventory).has(effect)) {
+    const bool allowed = !scene.options.effects || scene.options.effects->has(effect);
+    why += allowed ? ", but the depth ends with the eye ray" : ", but ruled out by the effects asked for";
+  }
+  return fmt::format("  {:<15} {:<3}  {}\n", name(effect), chosen ? "yes" : "no", why);
+}
+
+}  // namespace
+
+std::string census_text(const CompiledScene::Impl& scene) {
+  std::string text;
+  text += fmt::format("scene       {}\n", scene.name);
+  text += fmt::format("primitives  {}\n", primitives(scene));
+  text += fmt::format("materials   {} in use\n", scene.inventory.materials);
+  text += fmt::format("lights      {}\n", scene.inventory.lights);
+  text += "effects\n";
+  for (Effect effect : every_effect()) text += effect_line(effect, scene);
+  text += fmt::format("kernel      {} (one of {}){}\n", to_string(scene.effects), EffectSet::all().bits() + 1,
+                      scene.options.count_as_published ? ", counting as published" : "");
+  text += fmt::format("depth       {}\n", scene.options.max_depth);
+  text += fmt::format("hierarchy   built in {:.1f} ms; {:.2f} MB, primitives {:.2f} MB\n",
+                      1e3 * scene.figures.seconds, 1e-6 * static_cast<double>(scene.figures.hierarchy_bytes),
+                      1e-6 * static_cast<double>(scene.figures.primitive_bytes));
+  return text;
+}
+
+}  // namespace pprt

@@ -1,0 +1,268 @@
+#include "trace/compiled_scene.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "base/diagnostics.h"
+#include "trace/numerics.h"
+#include "trace/scene_impl.h"
+
+namespace pprt {
+namespace {
+
+// SPD's own reader gives every material this ambient reflectance; NFF has no word for it.
+constexpr double kAmbientReflectance = 0.1;
+
+// Haines' recommendation for each light and for the ambient light: sqrt(n) / (2 n) with n lights.
+double light_weight(std::size_t lights) {
+  return 0.5 / std::sqrt(static_cast<double>(std::max<std::size_t>(lights, 1)));
+}
+
+Color to_color(const Rgb& rgb) {
+  return Color(rgb);
+}
+
+bool finite(const Vec3d& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+ShadingMaterial shading_material(const Material& m, double ambient_weight) {
+  ShadingMaterial result;
+  result.ambient = to_color(m.color * (kAmbientReflectance * ambient_weight));
+  result.diffuse = to_color(m.color * m.diffuse);
+  result.specular = static_cast<float>(m.specular);
+  result.shine = has_highlight(m) ? static_cast<float>(m.shine) : 0;
+  result.transmittance = static_cast<float>(m.transmittance);
+  result.refractive_index = m.refractive_index > 0 ? m.refractive_index : 1;
+  result.lit = result.diffuse != Color(0, 0, 0) || result.shine > 0;
+  return result;
+}
+
+// Takes the description apart into parts: primitives of one kind of which the same sides are seen.
+class PartsBuilder {
+ public:
+  PartsBuilder(const SceneDescription& scene, CompiledScene::Impl& impl) : scene_(scene), impl_(impl) {}
+
+  void run() {
+    for (const Sphere& s : scene_.spheres) add(s);
+    for (const Cone& c : scene_.cones) add(c);
+    for (const Polygon& p : scene_.polygons) add(p);
+    for (const Patch& p : scene_.patches) add(p);
+  }
+
+ private:
+  Sides sides(MaterialIndex material, bool inside_only) const {
+    if (inside_only) return Sides::kBack;
+    const bool opaque = !(scene_.materials[material].transmittance > 0);
+    return impl_.options.cull && opaque ? Sides::kFront : Sides::kBoth;
+  }
+
+  // Primitives come sorted by kind, and a kind has at most three parts: the search is short.
+  template <class Shape>
+  std::pair<ScenePart&, Shape&> part(PrimitiveKind kind, Sides sides) {
+    for (ScenePart& p : impl_.parts) {
+      if (p.kind == kind && p.sides == sides) return {p, std::get<Shape>(p.shape)};
+    }
+    impl_.parts.push_back({kind, sides, Shape(), {}});
+    return {impl_.parts.back(), std::get<Shape>(impl_.parts.back().shape)};
+  }
+
+  void add(const Sphere& s) {
+    if (s.radius == 0) return drop();
+    auto [to, shape] =
+        part<std::vector<SphereRecord>>(PrimitiveKind::kSphere, sides(s.material, s.radius < 0));
+    shape.push_back({impl_.normalisation.point(s.center), impl_.normalisation.length(std::abs(s.radius))});
+    to.materials.push_back(s.material);
+  }
+
+  void add(const Cone& c) {
+    const double base_radius = impl_.normalisation.length(std::abs(c.base_radius));
+    const double apex_radius = impl_.normalisation.length(std::abs(c.apex_radius));
+    const Vec3d axis = (c.apex - c.base) * impl_.normalisation.scale;
+    if (axis.dot(axis) == 0 || (base_radius == 0 && apex_radius == 0)) return drop();
+    const bool inside_only = c.base_radius < 0 || c.apex_radius < 0;
+    auto [to, shape] = part<std::vector<ConeRecord>>(PrimitiveKind::kCone, sides(c.material, inside_only));
+    shape.push_back({impl_.normalisation.point(c.base), axis, base_radius, apex_radius - base_radius});
+    to.materials.push_back(c.material);
+  }
+
+  void add(const Polygon& p) {
+    positions_.clear();
+    for (const Vec3d& v : scene_.vertices(p)) positions_.push_back(impl_.normalisation.point(v));
+    auto [to, mesh] = part<Mesh>(PrimitiveKind::kPolygon, sides(p.material, false));
+    finish(to, mesh.add(positions_, {}), p.material);
+  }
+
+  void add(const Patch& p) {
+    positions_.clear();
+    normals_.clear();
+    for (const PatchVertex& v : scene_.vertices(p)) {
+      positions_.push_back(impl_.normalisation.point(v.position));
+      normals_.emplace_back(v.normal.normalized());  // zero stays zero
+    }
+    auto [to, mesh] = part<Mesh>(PrimitiveKind::kPatch, sides(p.material, false));
+    finish(to, mesh.add(positions_, normals_), p.material);
+  }
+
+  void finish(ScenePart& to, std::size_t triangles, MaterialIndex material) {
+    if (triangles == 0) return drop();
+    to.materials.insert(to.materials.end(), triangles, material);
+    impl_.figures.triangles += triangles;
+  }
+
+  void drop() { ++impl_.figures.degenerate; }
+
+  const SceneDescription& scene_;
+  CompiledScene::Impl& impl_;
+  std::vector<Vec3d> positions_;
+  std::vector<Vec3f> normals_;
+};
+
+template <class T>
+std::size_t bytes(const std::vector<T>& v) {
+  return v.size() * sizeof(T);
+}
+
+std::size_t bytes(const ScenePart& part) {
+  std::size_t shape = 0;
+  if (const auto* mesh = std::get_if<Mesh>(&part.shape)) {
+    shape = bytes(mesh->vertices) + bytes(mesh->normals) + bytes(mesh->triangles) + bytes(mesh->facets);
+  } else if (const auto* spheres = std::get_if<std::vector<SphereRecord>>(&part.shape)) {
+    shape = bytes(*spheres);
+  } else {
+    shape = bytes(std::get<std::vector<ConeRecord>>(part.shape));
+  }
+  return shape + bytes(part.materials);
+}
+
+EmbreeGeometry new_geometry(const EmbreeDevice& device, ScenePart& part) {
+  if (auto* mesh = std::get_if<Mesh>(&part.shape)) return new_mesh_geometry(device, *mesh, part.sides);
+  if (auto* spheres = std::get_if<std::vector<SphereRecord>>(&part.shape)) {
+    return new_user_geometry(device, *spheres, part.sides);
+  }
+  return new_user_geometry(device, std::get<std::vector<ConeRecord>>(part.shape), part.sides);
+}
+
+// A part's geometry number is its place in `parts`.
+void build_hierarchy(CompiledScene::Impl& impl) {
+  const auto start = std::chrono::steady_clock::now();
+  std::atomic<std::ptrdiff_t> allocated = 0;
+  impl.device = new_embree_device();
+  rtcSetDeviceMemoryMonitorFunction(
+      impl.device.get(),
+      [](void* total, ssize_t change, bool) {
+        *static_cast<std::atomic<std::ptrdiff_t>*>(total) += change;
+        return true;
+      },
+      &allocated);
+  impl.embree.reset(rtcNewScene(impl.device.get()));
+  rtcSetSceneFlags(impl.embree.get(), RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(impl.embree.get(), RTC_BUILD_QUALITY_HIGH);
+  for (std::size_t i = 0; i < impl.parts.size(); ++i) {
+    const EmbreeGeometry geometry = new_geometry(impl.device, impl.parts[i]);
+    rtcAttachGeometryByID(impl.embree.get(), geometry.get(), static_cast<unsigned>(i));
+    impl.figures.primitive_bytes += bytes(impl.parts[i]);
+  }
+  rtcCommitScene(impl.embree.get());
+  rtcSetDeviceMemoryMonitorFunction(impl.device.get(), nullptr, nullptr);
+  check_embree(impl.device, "building the hierarchy");
+  impl.figures.hierarchy_bytes = static_cast<std::size_t>(std::max<std::ptrdiff_t>(allocated, 0));
+  impl.figures.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+EffectSet chosen_effects(const Inventory& inventory, const CompileOptions& options) {
+  EffectSet effects = effects_called_for(inventory);
+  if (options.effects) effects = effects & *options.effects;
+  if (options.max_depth < 2) {
+    EffectSet without_secondary = effects;
+    without_secondary =
+        without_secondary &
+        EffectSet(~(static_cast<unsigned>(Effect::kReflection) | static_cast<unsigned>(Effect::kRefraction)));
+    return without_secondary;
+  }
+  return effects;
+}
+
+[[noreturn]] void reject(const std::string& name, SourceLocation at, const std::string& problem) {
+  const std::string place =
+      at.line > 0 ? name + ":" + std::to_string(at.line) + ":" + std::to_string(at.column) : name;
+  throw InputError(place + ": error: " + problem);
+}
+
+}  // namespace
+
+CompiledScene::CompiledScene(std::unique_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+CompiledScene::CompiledScene(CompiledScene&&) noexcept = default;
+CompiledScene& CompiledScene::operator=(CompiledScene&&) noexcept = default;
+CompiledScene::~CompiledScene() = default;
+
+EffectSet CompiledScene::effects() const {
+  return impl_->effects;
+}
+
+std::string CompiledScene::census() const {
+  return census_text(*impl_);
+}
+
+Camera CompiledScene::camera(const View& view) const {
+  const auto degenerate = [&](const char* problem) {
+    reject(impl_->name, view.location, std::string("view: ") + problem);
+  };
+  if (!finite(view.from) || !finite(view.at) || !finite(view.up)) degenerate("a coordinate is not finite");
+  if (!(view.angle_degrees > 0 && view.angle_degrees < 180))
+    degenerate("the angle must lie between 0 and 180");
+  if (view.width < 1 || view.height < 1) degenerate("the resolution must be at least 1 x 1");
+  // normalized() scales first: neither huge nor tiny vectors over- or underflow.
+  const Vec3d forward = (view.at - view.from).normalized();
+  if (forward == Vec3d(0, 0, 0)) degenerate("'from' and 'at' are the same point");
+  const Vec3d up_hint = view.up.normalized();
+  const Vec3d right = forward.cross(up_hint);
+  // Less than this, and the roll is made of rounding: the cross product of unit vectors errs by 2^-52.
+  if (!(right.length2() > 0x1p-80)) degenerate("'up' is zero or parallel to the direction of view");
+
+  Camera camera;
+  camera.eye = impl_->normalisation.point(view.from);
+  camera.forward = forward;
+  camera.right = right.normalized();
+  camera.up = camera.right.cross(forward);
+  camera.width = view.width;
+  camera.height = view.height;
+  const double tangent = std::tan(0.5 * view.angle_degrees * (std::numbers::pi / 180));
+  camera.slope_per_pixel = 2 * tangent / std::max(view.height - 1, 1);
+  return camera;
+}
+
+CompiledScene compile(const SceneDescription& scene, const CompileOptions& options) {
+  const Box3d box = bounds(scene);
+  if (scene.primitive_count() == 0 || box.isEmpty()) {
+    reject(scene.name, {}, "the scene has no objects: there is nothing in it to see");
+  }
+  if (!finite(box.min) || !finite(box.max)) reject(scene.name, {}, "a coordinate of the scene is not finite");
+
+  auto impl = std::make_unique<CompiledScene::Impl>();
+  impl->name = scene.name;
+  impl->options = options;
+  impl->inventory = take_inventory(scene);
+  impl->effects = chosen_effects(impl->inventory, options);
+  impl->kernel = kernel_for(impl->effects, options.count_as_published);
+  impl->normalisation = normalising(box);
+  impl->background = to_color(scene.background.value_or(Rgb(0, 0, 0)));
+
+  const double weight = light_weight(scene.lights.size());
+  for (const Material& m : scene.materials) impl->materials.push_back(shading_material(m, weight));
+  for (const Light& l : scene.lights) {
+    impl->lights.push_back(
+        {impl->normalisation.point(l.position), to_color(l.color.value_or(Rgb(1, 1, 1)) * weight)});
+  }
+  PartsBuilder(scene, *impl).run();
+  std::erase_if(impl->parts, [](const ScenePart& part) { return part.materials.empty(); });
+  if (impl->parts.empty()) reject(scene.name, {}, "no object of the scene has any extent");
+  build_hierarchy(*impl);
+  return CompiledScene(std::move(impl));
+}
+
+}  // namespace pprt

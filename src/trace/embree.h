@@ -1,0 +1,46 @@
+// Embree's handles as owners, and its errors as exceptions.
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+
+namespace pprt {
+
+template <auto kRelease>
+struct EmbreeRelease {
+  template <class Handle>
+  void operator()(Handle* handle) const {
+    kRelease(handle);
+  }
+};
+
+template <class Handle, auto kRelease>
+using EmbreeOwner = std::unique_ptr<std::remove_pointer_t<Handle>, EmbreeRelease<kRelease>>;
+
+using EmbreeDevice = EmbreeOwner<RTCDevice, rtcReleaseDevice>;
+using EmbreeScene = EmbreeOwner<RTCScene, rtcReleaseScene>;
+using EmbreeGeometry = EmbreeOwner<RTCGeometry, rtcReleaseGeometry>;
+
+// One thread: a rank is one core's worth of work, and Embree must not start others behind its back.
+inline EmbreeDevice new_embree_device() {
+  EmbreeDevice device(rtcNewDevice("threads=1"));
+  if (!device) {
+    throw std::runtime_error("Embree: no device (error " + std::to_string(rtcGetDeviceError(nullptr)) + ")");
+  }
+  return device;
+}
+
+// Throws what went wrong since the last call, if anything did.
+inline void check_embree(const EmbreeDevice& device, const char* doing) {
+  const RTCError error = rtcGetDeviceError(device.get());
+  if (error == RTC_ERROR_NONE) return;
+  throw std::runtime_error(
+      std::string("Embree: ") + doing + ": " +
+      (error == RTC_ERROR_OUT_OF_MEMORY ? "out of memory" : "error " + std::to_string(error)));
+}
+
+}  // namespace pprt

@@ -1,0 +1,26 @@
+// What a scene holds, counted once: from it follow the effects, and what the census tells of them.
+#pragma once
+
+#include <cstddef>
+
+#include "scene/scene_description.h"
+#include "trace/effects.h"
+
+namespace pprt {
+
+struct Inventory {
+  std::size_t spheres = 0, cones = 0, polygons = 0, patches = 0;
+  std::size_t lights = 0;
+  std::size_t materials = 0;     // that some primitive has
+  std::size_t reflecting = 0;    // materials in use with Ks > 0
+  std::size_t highlighting = 0;  // and with a highlight wide enough to be seen
+  std::size_t transmitting = 0;  // materials in use with T > 0
+};
+
+Inventory take_inventory(const SceneDescription& scene);
+EffectSet effects_called_for(const Inventory& inventory);
+
+// Whether a material's highlight is drawn at all.
+bool has_highlight(const Material& material);
+
+}  // namespace pprt

@@ -1,0 +1,260 @@
+#include "trace/kernel.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "trace/numerics.h"
+#include "trace/scene_impl.h"
+
+namespace pprt {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr unsigned kEffectSets = EffectSet::all().bits() + 1;
+
+void set_ray(RTCRay& ray, const Vec3f& origin, const Vec3f& direction, float length) {
+  ray.org_x = origin.x;
+  ray.org_y = origin.y;
+  ray.org_z = origin.z;
+  ray.tnear = 0;
+  ray.dir_x = direction.x;
+  ray.dir_y = direction.y;
+  ray.dir_z = direction.z;
+  ray.time = 0;
+  ray.tfar = length;
+  ray.mask = ~0u;
+  ray.id = 0;
+  ray.flags = 0;
+}
+
+// Where a ray met the scene, found anew on the primitive in double.
+struct Surface {
+  Vec3d position{0, 0, 0};
+  Vec3d normal{0, 0, 1};   // unit, geometric, against the ray
+  Vec3d shading{0, 0, 1};  // unit, on the same side as `normal`
+  double offset = 0;       // how far off the surface a leaving ray starts
+  bool entering = true;    // the ray came from outside
+  const ShadingMaterial* material = nullptr;
+};
+
+template <bool kSmooth>
+Surface surface_at(const CompiledScene::Impl& scene, const RTCRayHit& found, const Vec3d& direction) {
+  const ScenePart& part = scene.parts[found.hit.geomID];
+  const std::uint32_t primitive = found.hit.primID;
+  const auto near = [&] {
+    const Vec3d origin(found.ray.org_x, found.ray.org_y, found.ray.org_z);
+    return origin + direction * static_cast<double>(found.ray.tfar);
+  };
+
+  Surface surface;
+  surface.offset = kQuadricOffset;
+  SurfacePoint point;
+  const Mesh* mesh = nullptr;
+  if (const auto* spheres = std::get_if<std::vector<SphereRecord>>(&part.shape)) {
+    point = on_surface((*spheres)[primitive], near());
+  } else if (const auto* cones = std::get_if<std::vector<ConeRecord>>(&part.shape)) {
+    point = on_surface((*cones)[primitive], near());
+  } else {
+    mesh = std::get_if<Mesh>(&part.shape);
+    point = on_surface(*mesh, primitive, found.hit.u, found.hit.v);
+    surface.offset = mesh->facets[primitive].offset;
+  }
+  surface.position = point.position;
+  surface.entering = point.normal.dot(direction) < 0;
+  surface.normal = surface.entering ? point.normal : -point.normal;
+  surface.shading = surface.normal;
+  if constexpr (kSmooth) {
+    if (part.kind == PrimitiveKind::kPatch) {
+      const Vec3d normal = shading_normal(*mesh, primitive, found.hit.u, found.hit.v);
+      surface.shading = normal.dot(surface.normal) < 0 ? -normal : normal;
+    }
+  }
+  surface.material = &scene.materials[part.materials[primitive]];
+  return surface;
+}
+
+// Unit direction that does not run below the surface whose unit normal is `above`.
+Vec3d lifted(const Vec3d& direction, const Vec3d& above) {
+  const double cosine = direction.dot(above);
+  if (cosine >= kGrazingCosine) return direction;
+  return unit(direction + above * (kGrazingCosine - cosine));
+}
+
+Vec3d mirrored(const Vec3d& direction, const Vec3d& normal) {
+  return direction - normal * (2 * direction.dot(normal));
+}
+
+// Snell's law for unit vectors, the normal against the direction; false for total internal reflection.
+bool refracted(const Vec3d& direction, const Vec3d& normal, double index_ratio, Vec3d& result) {
+  const double cosine = -direction.dot(normal);
+  const double sine2 = index_ratio * index_ratio * (1 - cosine * cosine);
+  if (sine2 >= 1) return false;
+  result = unit(direction * index_ratio + normal * (index_ratio * cosine - std::sqrt(1 - sine2)));
+  return true;
+}
+
+// The tree of one eye ray. `kEffects` are an EffectSet's bits; what is not among them leaves no code.
+template <unsigned kEffects, bool kPublished>
+class RayTree {
+ public:
+  RayTree(const CompiledScene::Impl& scene, RayCounts& counts) : scene_(scene), counts_(counts) {
+    rtcInitIntersectContext(&context_);
+  }
+
+  void follow_eye_ray(const Vec3f& origin, const Vec3f& direction, RaySample& sample) {
+    ++counts_.primary;
+    RTCRayHit found;
+    if (!intersect(origin, direction, found)) {
+      sample.color = scene_.background;
+      sample.hit = direction;
+      sample.at_infinity = true;
+      return;
+    }
+    ++counts_.eye_hits;
+    const Vec3d d(direction);
+    const Surface surface = surface_at<kSmooth>(scene_, found, d);
+    const ShadingMaterial& material = *surface.material;
+    sample.hit = Vec3f(surface.position);
+    sample.eye_dependent = ((kHighlights || kReflection) && material.specular > 0) ||
+                           (kRefraction && material.transmittance > 0);
+    sample.color = shade(surface, d, 1);
+  }
+
+ private:
+  static constexpr bool has(Effect effect) { return EffectSet(kEffects).has(effect); }
+  static constexpr bool kShadows = has(Effect::kShadows);
+  static constexpr bool kHighlights = has(Effect::kHighlights);
+  static constexpr bool kReflection = has(Effect::kReflection);
+  static constexpr bool kRefraction = has(Effect::kRefraction);
+  static constexpr bool kSmooth = has(Effect::kSmoothNormals);
+
+  bool intersect(const Vec3f& origin, const Vec3f& direction, RTCRayHit& found) {
+    set_ray(found.ray, origin, direction, kInfinity);
+    found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene_.embree.get(), &context_, &found);
+    return found.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+  }
+
+  bool in_shadow(const Vec3f& origin, const Vec3d& direction, double length) {
+    ++counts_.shadow;
+    RTCRay ray;
+    set_ray(ray, origin, Vec3f(direction), static_cast<float>(length));
+    rtcOccluded1(scene_.embree.get(), &context_, &ray);
+    return ray.tfar < 0;
+  }
+
+  Color follow(const Vec3d& origin, const Vec3d& direction, int depth) {
+    const Vec3f d(direction);
+    RTCRayHit found;
+    if (!intersect(Vec3f(origin), d, found)) return scene_.background;
+    const Vec3d exact(d);
+    return shade(surface_at<kSmooth>(scene_, found, exact), exact, depth);
+  }
+
+  Color shade(const Surface& surface, const Vec3d& direction, int depth) {
+    Color color = surface.material->ambient + from_lights(surface, direction);
+    if constexpr (kReflection || kRefraction) {
+      if (depth < scene_.options.max_depth) color += from_secondary_rays(surface, direction, depth + 1);
+    }
+    return color;
+  }
+
+  Color from_lights(const Surface& surface, const Vec3d& direction) {
+    const ShadingMaterial& material = *surface.material;
+    Color color(0, 0, 0);
+    if (!kPublished && !material.lit) return color;
+    const Vec3d position = surface.position + surface.normal * surface.offset;
+    const Vec3f origin(position);
+    for (const ShadingLight& light : scene_.lights) {
+      const Vec3d to_light = light.position - position;
+      const double cosine_length = surface.shading.dot(to_light);
+      if (!(cosine_length > 0)) continue;
+      const double length = std::sqrt(to_light.dot(to_light));
+      const Vec3d unit_to_light = to_light * (1 / length);
+      if constexpr (kShadows) {
+        if (in_shadow(origin, unit_to_light, length)) continue;
+      }
+      color += light.color * material.diffuse * static_cast<float>(cosine_length / length);
+      if constexpr (kHighlights) {
+        if (material.shine > 0) color += light.color * highlight(surface, direction, unit_to_light);
+      }
+    }
+    return color;
+  }
+
+  static float highlight(const Surface& surface, const Vec3d& direction, const Vec3d& unit_to_light) {
+    const double cosine = mirrored(direction, surface.shading).dot(unit_to_light);
+    if (!(cosine > 0)) return 0;
+    return surface.material->specular * std::pow(static_cast<float>(cosine), surface.material->shine);
+  }
+
+  Color from_secondary_rays(const Surface& surface, const Vec3d& direction, int depth) {
+    const ShadingMaterial& material = *surface.material;
+    Color color(0, 0, 0);
+    if constexpr (kReflection || kPublished) {
+      if (material.specular > 0 || (kPublished && material.transmittance > 0)) {
+        ++counts_.reflection;
+        const Vec3d away = lifted(mirrored(direction, surface.shading), surface.normal);
+        color += follow(surface.position + surface.normal * surface.offset, away, depth) * material.specular;
+      }
+    }
+    if constexpr (kRefraction) {
+      if (material.transmittance > 0) color += refraction(surface, direction, depth);
+    }
+    return color;
+  }
+
+  Color refraction(const Surface& surface, const Vec3d& direction, int depth) {
+    const ShadingMaterial& material = *surface.material;
+    const double ratio = surface.entering ? 1 / material.refractive_index : material.refractive_index;
+    Vec3d through;
+    if (!refracted(direction, surface.shading, ratio, through)) {
+      ++counts_.total_internal_reflection;
+      return Color(0, 0, 0);
+    }
+    ++counts_.refraction;
+    through = lifted(through, -surface.normal);
+    return follow(surface.position - surface.normal * surface.offset, through, depth) *
+           material.transmittance;
+  }
+
+  const CompiledScene::Impl& scene_;
+  RayCounts& counts_;
+  RTCIntersectContext context_;
+};
+
+template <unsigned kEffects, bool kPublished>
+void run(const CompiledScene::Impl& scene, const Vec3f& origin, const Vec3f& direction, RaySample& sample,
+         RayCounts& counts) {
+  const std::uint64_t before = counts.traced();
+  RayTree<kEffects, kPublished>(scene, counts).follow_eye_ray(origin, direction, sample);
+  sample.rays = static_cast<std::uint32_t>(counts.traced() - before);
+}
+
+template <bool kPublished, unsigned... kSets>
+constexpr std::array<Kernel, sizeof...(kSets)> table(std::integer_sequence<unsigned, kSets...>) {
+  return {run<kSets, kPublished>...};
+}
+
+}  // namespace
+
+Kernel kernel_for(EffectSet effects, bool published) {
+  static constexpr auto kRendering = table<false>(std::make_integer_sequence<unsigned, kEffectSets>());
+  static constexpr auto kCounting = table<true>(std::make_integer_sequence<unsigned, kEffectSets>());
+  return published ? kCounting[effects.bits()] : kRendering[effects.bits()];
+}
+
+bool occluded(const CompiledScene::Impl& scene, const Vec3f& origin, const Vec3f& direction, float length) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRay ray;
+  set_ray(ray, origin, direction, length);
+  rtcOccluded1(scene.embree.get(), &context, &ray);
+  return ray.tfar < 0;
+}
+
+}  // namespace pprt

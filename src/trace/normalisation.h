@@ -1,0 +1,35 @@
+// The map from scene space to the compiled space.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/vector.h"
+
+namespace pprt {
+
+// Recentres and rescales so that a box fits the unit cube about the origin. The scale is a power of two, so
+// that it rounds nothing; only the recentring can, by half a unit in the last place of a double.
+struct Normalisation {
+  Vec3d center{0, 0, 0};
+  double scale = 1;
+
+  Vec3d point(const Vec3d& p) const { return (p - center) * scale; }
+  double length(double l) const { return l * scale; }
+};
+
+// `box` is finite and not empty. A box of no size keeps the scale 1.
+inline Normalisation normalising(const Box3d& box) {
+  Normalisation result;
+  result.center = box.min * 0.5 + box.max * 0.5;
+  const Vec3d size = box.max - box.min;
+  const double largest = std::max({size.x, size.y, size.z});
+  if (largest > 0) {
+    int exponent = 0;
+    const double mantissa = std::frexp(largest, &exponent);  // largest = mantissa * 2^exponent, [0.5, 1)
+    result.scale = std::ldexp(1.0, mantissa == 0.5 ? 1 - exponent : -exponent);
+  }
+  return result;
+}
+
+}  // namespace pprt

@@ -1,0 +1,136 @@
+// Spheres and open cones (cylinders among them): exact crossings with a line, in double.
+//
+// Both are boundaries of convex bodies, so a line enters a body once and leaves it once; a cone's caps are
+// open, so either crossing may be missing. Directions are of unit length up to rounding to float.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "base/vector.h"
+
+namespace pprt {
+
+struct SphereRecord {
+  Vec3d center{0, 0, 0};
+  double radius = 1;  // > 0
+};
+static_assert(sizeof(SphereRecord) == 32);
+
+// The lateral surface between two discs.
+struct ConeRecord {
+  Vec3d base{0, 0, 0};
+  Vec3d axis{0, 0, 1};       // from base to apex, not zero
+  double base_radius = 1;    // >= 0
+  double radius_change = 0;  // apex radius minus base radius
+};
+static_assert(sizeof(ConeRecord) == 64);
+
+// Ray parameters; NaN where there is no crossing.
+struct Crossings {
+  double front = std::numeric_limits<double>::quiet_NaN();  // into the body: its outside is seen
+  double back = std::numeric_limits<double>::quiet_NaN();   // out of the body: its inside is seen
+};
+
+struct SurfacePoint {
+  Vec3d position{0, 0, 0};
+  Vec3d normal{0, 0, 1};  // unit, outwards
+};
+
+inline Vec3d unit(const Vec3d& v) {
+  return v * (1 / std::sqrt(v.dot(v)));
+}
+
+// The line's origin is first moved to where it passes the centre, so that the discriminant cancels nothing
+// but the radius itself, however far the ray comes from.
+inline Crossings crossings(const SphereRecord& sphere, const Vec3d& origin, const Vec3d& direction) {
+  const Vec3d from_center = origin - sphere.center;
+  const double to_middle = -from_center.dot(direction);
+  const Vec3d middle = from_center + direction * to_middle;
+  const double a = direction.dot(direction);
+  const double b = middle.dot(direction);  // rounding only
+  const double c = middle.dot(middle) - sphere.radius * sphere.radius;
+  const double discriminant = b * b - a * c;
+  if (!(discriminant >= 0)) return {};
+  const double root = std::sqrt(discriminant);
+  const double inverse = 1 / a;
+  return {to_middle + (-b - root) * inverse, to_middle + (-b + root) * inverse};
+}
+
+// With q a point relative to the base, L the axis' length, m = q . axis and r its radii, the surface is
+// L^2 |q x axis|^2 = (r0 L^2 + dr m)^2, free of divisions; the body is where the left side is smaller.
+inline Crossings crossings(const ConeRecord& cone, const Vec3d& origin, const Vec3d& direction) {
+  const Vec3d from_base = origin - cone.base;
+  const double to_middle = -from_base.dot(direction);
+  const Vec3d middle = from_base + direction * to_middle;
+
+  const double length2 = cone.axis.dot(cone.axis);
+  const Vec3d across = direction.cross(cone.axis);
+  const Vec3d aside = middle.cross(cone.axis);
+  const double along = direction.dot(cone.axis);
+  const double height = middle.dot(cone.axis);
+  const double growth = cone.radius_change * along;
+  const double radius = cone.base_radius * length2 + cone.radius_change * height;
+
+  const double a = length2 * across.dot(across) - growth * growth;
+  const double b = length2 * across.dot(aside) - radius * growth;
+  const double c = length2 * aside.dot(aside) - radius * radius;
+  const double discriminant = b * b - a * c;
+  if (!(discriminant >= 0)) return {};
+
+  // The slope of the surface function at its roots is -root and +root: into the body and out of it, whatever
+  // the sign of a. Each is taken in the form that does not cancel.
+  const double root = std::sqrt(discriminant);
+  const double sum = b >= 0 ? -b - root : -b + root;
+  double front = (b >= 0 ? sum / a : c / sum);
+  double back = (b >= 0 ? c / sum : sum / a);
+  const auto within = [&](double t) {
+    const double h = height + t * along;
+    return h >= 0 && h <= length2;
+  };
+  Crossings result;
+  if (within(front)) result.front = to_middle + front;
+  if (within(back)) result.back = to_middle + back;
+  return result;
+}
+
+// The point of the surface next to one that lies on it up to rounding.
+inline SurfacePoint on_surface(const SphereRecord& sphere, const Vec3d& near) {
+  const Vec3d normal = unit(near - sphere.center);
+  return {sphere.center + normal * sphere.radius, normal};
+}
+
+// Moves the point at its height along the axis. At the very tip of a cone the normal is the axis.
+inline SurfacePoint on_surface(const ConeRecord& cone, const Vec3d& near) {
+  const Vec3d from_base = near - cone.base;
+  const double per_length2 = 1 / cone.axis.dot(cone.axis);
+  const double height = std::fmin(1.0, std::fmax(0.0, from_base.dot(cone.axis) * per_length2));
+  const Vec3d on_axis = cone.base + cone.axis * height;
+  const Vec3d aside = near - on_axis;
+  const double distance = std::sqrt(aside.dot(aside));
+  if (distance == 0) return {on_axis, unit(cone.axis)};
+  const Vec3d radial = aside * (1 / distance);
+  const double radius = cone.base_radius + cone.radius_change * height;
+  return {on_axis + radial * radius, unit(radial - cone.axis * (cone.radius_change * per_length2))};
+}
+
+inline Box3d bounds(const SphereRecord& sphere) {
+  const Vec3d half(sphere.radius);
+  return {sphere.center - half, sphere.center + half};
+}
+
+inline Box3d bounds(const ConeRecord& cone) {
+  const Vec3d axis = unit(cone.axis);
+  const auto disc = [](double n) { return std::sqrt(std::fmax(0.0, 1 - n * n)); };
+  const Vec3d half(disc(axis.x), disc(axis.y), disc(axis.z));
+  const Vec3d apex = cone.base + cone.axis;
+  const double apex_radius = cone.base_radius + cone.radius_change;
+  Box3d box;
+  box.extendBy(cone.base - half * cone.base_radius);
+  box.extendBy(cone.base + half * cone.base_radius);
+  box.extendBy(apex - half * apex_radius);
+  box.extendBy(apex + half * apex_radius);
+  return box;
+}
+
+}  // namespace pprt

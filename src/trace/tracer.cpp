@@ -1,0 +1,43 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "trace/compiled_scene.h"
+#include "trace/numerics.h"
+#include "trace/scene_impl.h"
+
+namespace pprt {
+namespace {
+
+// Where a ray from an eye outside the scene may start: on the sphere about the scene, so that a far eye costs
+// no digits when the origin is rounded to float.
+double distance_to_scene(const Vec3d& eye, const Vec3d& direction) {
+  return std::max(0.0, -eye.dot(direction) - kSceneRadius);
+}
+
+}  // namespace
+
+Tracer::Tracer(const CompiledScene& scene, const Camera& camera) : scene_(scene), camera_(camera) {}
+
+RaySample Tracer::trace(double x, double y) {
+  const Vec3d direction = unit(ray_direction(camera_, x, y));
+  const Vec3d origin = camera_.eye + direction * distance_to_scene(camera_.eye, direction);
+  RaySample sample;
+  scene_.impl().kernel(scene_.impl(), Vec3f(origin), Vec3f(direction), sample, counts_);
+  return sample;
+}
+
+bool Tracer::visible(const Vec3f& hit, bool at_infinity) {
+  ++counts_.visibility;
+  const Vec3d to_hit = at_infinity ? Vec3d(hit) : Vec3d(hit) - camera_.eye;
+  const double distance = std::sqrt(to_hit.dot(to_hit));
+  const Vec3d direction = to_hit * (1 / distance);
+  const double start = distance_to_scene(camera_.eye, direction);
+  const double length =
+      at_infinity ? std::numeric_limits<double>::infinity() : distance - start - kVisibilityGap;
+  if (!(length > 0)) return true;
+  const Vec3d origin = camera_.eye + direction * start;
+  return !occluded(scene_.impl(), Vec3f(origin), Vec3f(direction), static_cast<float>(length));
+}
+
+}  // namespace pprt

@@ -1,0 +1,139 @@
+#include "trace/user_geometry.h"
+
+#include <cmath>
+#include <limits>
+
+namespace pprt {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+// The next float beyond a double, so that a box in float encloses one in double.
+float below(double x) {
+  return std::nextafterf(static_cast<float>(x), -kInfinity);
+}
+float above(double x) {
+  return std::nextafterf(static_cast<float>(x), kInfinity);
+}
+
+template <class Record>
+void bound(const RTCBoundsFunctionArguments* args) {
+  const Box3d box = bounds(static_cast<const Record*>(args->geometryUserPtr)[args->primID]);
+  RTCBounds& out = *args->bounds_o;
+  out.lower_x = below(box.min.x);
+  out.lower_y = below(box.min.y);
+  out.lower_z = below(box.min.z);
+  out.upper_x = above(box.max.x);
+  out.upper_y = above(box.max.y);
+  out.upper_z = above(box.max.z);
+}
+
+// The first crossing with a visible face strictly between two ray parameters; NaN when there is none.
+template <Sides kSides>
+double first_within(const Crossings& crossings, double near, double far) {
+  double first = std::numeric_limits<double>::quiet_NaN();
+  if (kSides != Sides::kBack && crossings.front > near && crossings.front < far) {
+    first = far = crossings.front;
+  }
+  if (kSides != Sides::kFront && crossings.back > near && crossings.back < far) first = crossings.back;
+  return first;
+}
+
+// Lane i of a packet of `lanes` rays; a single ray is a packet of one.
+template <class Record, Sides kSides>
+double first_hit(const Record& record, RTCRayN* ray, unsigned lanes, unsigned i) {
+  const Vec3d origin(RTCRayN_org_x(ray, lanes, i), RTCRayN_org_y(ray, lanes, i),
+                     RTCRayN_org_z(ray, lanes, i));
+  const Vec3d direction(RTCRayN_dir_x(ray, lanes, i), RTCRayN_dir_y(ray, lanes, i),
+                        RTCRayN_dir_z(ray, lanes, i));
+  return first_within<kSides>(crossings(record, origin, direction), RTCRayN_tnear(ray, lanes, i),
+                              RTCRayN_tfar(ray, lanes, i));
+}
+
+template <class Record, Sides kSides>
+void intersect_lane(const Record& record, const RTCIntersectFunctionNArguments* args, unsigned lanes,
+                    unsigned i) {
+  RTCRayN* ray = RTCRayHitN_RayN(args->rayhit, lanes);
+  const double t = first_hit<Record, kSides>(record, ray, lanes, i);
+  if (std::isnan(t)) return;
+  RTCHitN* hit = RTCRayHitN_HitN(args->rayhit, lanes);
+  RTCRayN_tfar(ray, lanes, i) = static_cast<float>(t);
+  RTCHitN_primID(hit, lanes, i) = args->primID;
+  RTCHitN_geomID(hit, lanes, i) = args->geomID;
+  RTCHitN_instID(hit, lanes, i, 0) = args->context->instID[0];
+}
+
+template <class Record, Sides kSides>
+void occlude_lane(const Record& record, const RTCOccludedFunctionNArguments* args, unsigned lanes,
+                  unsigned i) {
+  const double t = first_hit<Record, kSides>(record, args->ray, lanes, i);
+  if (!std::isnan(t)) RTCRayN_tfar(args->ray, lanes, i) = -kInfinity;
+}
+
+// The normal is not written: shading finds it from the primitive, in double.
+template <class Record, Sides kSides>
+void intersect(const RTCIntersectFunctionNArguments* args) {
+  const Record& record = static_cast<const Record*>(args->geometryUserPtr)[args->primID];
+  if (args->N == 1) {
+    if (args->valid[0]) intersect_lane<Record, kSides>(record, args, 1, 0);
+    return;
+  }
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (args->valid[i]) intersect_lane<Record, kSides>(record, args, args->N, i);
+  }
+}
+
+template <class Record, Sides kSides>
+void occlude(const RTCOccludedFunctionNArguments* args) {
+  const Record& record = static_cast<const Record*>(args->geometryUserPtr)[args->primID];
+  if (args->N == 1) {
+    if (args->valid[0]) occlude_lane<Record, kSides>(record, args, 1, 0);
+    return;
+  }
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (args->valid[i]) occlude_lane<Record, kSides>(record, args, args->N, i);
+  }
+}
+
+template <class Record, Sides kSides>
+void set_callbacks(RTCGeometry geometry) {
+  rtcSetGeometryIntersectFunction(geometry, intersect<Record, kSides>);
+  rtcSetGeometryOccludedFunction(geometry, occlude<Record, kSides>);
+}
+
+template <class Record>
+EmbreeGeometry new_geometry(const EmbreeDevice& device, const std::vector<Record>& records, Sides sides) {
+  EmbreeGeometry geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
+  rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(records.size()));
+  // Embree hands the pointer back untouched, and the callbacks only read through it.
+  rtcSetGeometryUserData(geometry.get(), const_cast<Record*>(records.data()));
+  rtcSetGeometryBoundsFunction(
+      geometry.get(), [](const RTCBoundsFunctionArguments* args) { bound<Record>(args); }, nullptr);
+  switch (sides) {
+    case Sides::kBoth:
+      set_callbacks<Record, Sides::kBoth>(geometry.get());
+      break;
+    case Sides::kFront:
+      set_callbacks<Record, Sides::kFront>(geometry.get());
+      break;
+    case Sides::kBack:
+      set_callbacks<Record, Sides::kBack>(geometry.get());
+      break;
+  }
+  rtcCommitGeometry(geometry.get());
+  return geometry;
+}
+
+}  // namespace
+
+EmbreeGeometry new_user_geometry(const EmbreeDevice& device, const std::vector<SphereRecord>& records,
+                                 Sides sides) {
+  return new_geometry(device, records, sides);
+}
+
+EmbreeGeometry new_user_geometry(const EmbreeDevice& device, const std::vector<ConeRecord>& records,
+                                 Sides sides) {
+  return new_geometry(device, records, sides);
+}
+
+}  // namespace pprt
