@@ -51,8 +51,8 @@ struct Animation {
 };
 
 // The camera at a frame (1 .. frames, fractions allowed), over `base`, the scene's own view, for what no key
-// says. hither and size are always those of `base`. Exactly a key's camera at a key and where it stands still.
-// How the camera moves between keys: docs/decisions/0002-camera-interpolation.md.
+// says. hither and size are always those of `base`. Exactly a key's camera at a key and where it stands
+// still. How the camera moves between keys: docs/decisions/0002-camera-interpolation.md.
 View view_at(const Animation& animation, double frame, const View& base);
 
 // Whether a cut lies between frame - 1 and frame.
