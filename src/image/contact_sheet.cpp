@@ -1,0 +1,106 @@
+#include "image/contact_sheet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+
+namespace pprt {
+namespace {
+
+// The old pixels that one new pixel covers along one axis, and the share of it that each takes; shares add up
+// to 1.
+struct Span {
+  int first = 0;
+  std::vector<float> shares;
+};
+
+std::vector<Span> covered_spans(int old_size, int new_size) {
+  std::vector<Span> spans(static_cast<std::size_t>(new_size));
+  for (int i = 0; i < new_size; ++i) {
+    // In units of 1 / new_size old pixels, so that all bounds are whole numbers.
+    const std::int64_t begin = std::int64_t{i} * old_size;
+    const std::int64_t end = begin + old_size;
+    Span& span = spans[static_cast<std::size_t>(i)];
+    span.first = static_cast<int>(begin / new_size);
+    for (std::int64_t at = begin; at < end;) {
+      const std::int64_t next = std::min(end, (at / new_size + 1) * new_size);
+      span.shares.push_back(static_cast<float>(next - at) / static_cast<float>(old_size));
+      at = next;
+    }
+  }
+  return spans;
+}
+
+int thumbnail_height(const Image& picture, int width) {
+  const double height = static_cast<double>(picture.height) * width / picture.width;
+  return std::max(1, static_cast<int>(std::lround(height)));
+}
+
+void copy_into(Image& page, const Image& picture, int left, int top) {
+  for (int y = 0; y < picture.height; ++y) {
+    std::copy_n(&picture.at(0, y), picture.width, &page.at(left, top + y));
+  }
+}
+
+void require_usable(std::span<const Image> pictures, const ContactSheetLayout& layout) {
+  if (pictures.empty()) throw std::invalid_argument("a contact sheet needs a picture");
+  if (layout.columns < 1 || layout.gap < 0 || layout.thumbnail_width < 1) {
+    throw std::invalid_argument("a contact sheet needs a column, a width, and no negative gap");
+  }
+  for (const Image& picture : pictures) {
+    if (picture.width < 1 || picture.height < 1) throw std::invalid_argument("a picture is empty");
+  }
+}
+
+}  // namespace
+
+Image resize(const Image& image, int width, int height) {
+  const std::vector<Span> columns = covered_spans(image.width, width);
+  Image narrow(width, image.height);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const Span& span = columns[static_cast<std::size_t>(x)];
+      for (std::size_t i = 0; i < span.shares.size(); ++i) {
+        narrow.at(x, y) += image.at(span.first + static_cast<int>(i), y) * span.shares[i];
+      }
+    }
+  }
+  const std::vector<Span> rows = covered_spans(image.height, height);
+  Image result(width, height);
+  for (int y = 0; y < height; ++y) {
+    const Span& span = rows[static_cast<std::size_t>(y)];
+    for (std::size_t i = 0; i < span.shares.size(); ++i) {
+      for (int x = 0; x < width; ++x) {
+        result.at(x, y) += narrow.at(x, span.first + static_cast<int>(i)) * span.shares[i];
+      }
+    }
+  }
+  return result;
+}
+
+Image contact_sheet(std::span<const Image> pictures, const ContactSheetLayout& layout) {
+  require_usable(pictures, layout);
+  const auto columns = std::min(static_cast<std::size_t>(layout.columns), pictures.size());
+  const std::size_t rows = (pictures.size() + columns - 1) / columns;
+
+  std::vector<int> row_tops(rows + 1, layout.gap);
+  for (std::size_t row = 0; row < rows; ++row) {
+    int height = 0;
+    for (std::size_t i = row * columns; i < std::min((row + 1) * columns, pictures.size()); ++i) {
+      height = std::max(height, thumbnail_height(pictures[i], layout.thumbnail_width));
+    }
+    row_tops[row + 1] = row_tops[row] + height + layout.gap;
+  }
+
+  const int pitch = layout.thumbnail_width + layout.gap;
+  Image page(layout.gap + static_cast<int>(columns) * pitch, row_tops.back());
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    const int height = thumbnail_height(pictures[i], layout.thumbnail_width);
+    copy_into(page, resize(pictures[i], layout.thumbnail_width, height),
+              layout.gap + static_cast<int>(i % columns) * pitch, row_tops[i / columns]);
+  }
+  return page;
+}
+
+}  // namespace pprt

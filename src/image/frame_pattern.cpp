@@ -1,0 +1,97 @@
+#include "image/frame_pattern.h"
+
+#include <fmt/core.h>
+
+#include <stdexcept>
+
+#include "base/diagnostics.h"
+
+namespace pprt {
+namespace {
+
+constexpr std::size_t kMaxDigits = 9;  // more than any int frame number needs
+
+class PatternReader {
+ public:
+  explicit PatternReader(std::string_view text) : text_(text), rest_(text) {}
+
+  FramePattern read() {
+    while (!rest_.empty()) {
+      if (rest_.starts_with("%%")) {
+        rest_.remove_prefix(1);
+        literal();
+      } else if (rest_.front() == '%') {
+        percent_field();
+      } else if (rest_.front() == '#') {
+        hash_field();
+      } else {
+        literal();
+      }
+    }
+    return std::move(pattern_);
+  }
+
+  [[noreturn]] void fail(std::string_view problem) const {
+    throw UsageError(fmt::format("output '{}': {}", text_, problem));
+  }
+
+ private:
+  void literal() {
+    (pattern_.digits ? pattern_.after : pattern_.before) += rest_.front();
+    rest_.remove_prefix(1);
+  }
+
+  // "%d", "%04d"; "%4d" would pad with blanks.
+  void percent_field() {
+    const std::size_t end = rest_.find_first_not_of("0123456789", 1);
+    const std::string_view width = rest_.substr(1, end == rest_.npos ? end : end - 1);
+    const bool plain = width.empty();
+    const bool padded = width.size() == 2 && width[0] == '0' && width[1] != '0';
+    if (end == rest_.npos || rest_[end] != 'd' || !(plain || padded)) {
+      fail("'%' must begin a frame number like %d or %04d, or be doubled: %%");
+    }
+    field(plain ? 1 : static_cast<std::size_t>(width[1] - '0'), end + 1);
+  }
+
+  void hash_field() {
+    const std::size_t end = rest_.find_first_not_of('#');
+    const std::size_t digits = end == rest_.npos ? rest_.size() : end;
+    field(digits, digits);
+  }
+
+  void field(std::size_t digits, std::size_t length) {
+    if (pattern_.digits) fail("only one field (%04d or ####) may stand in it");
+    if (digits > kMaxDigits) fail(fmt::format("a frame number has at most {} digits", kMaxDigits));
+    pattern_.digits = static_cast<int>(digits);
+    rest_.remove_prefix(length);
+  }
+
+  std::string_view text_;
+  std::string_view rest_;
+  FramePattern pattern_;
+};
+
+}  // namespace
+
+FramePattern parse_frame_pattern(std::string_view text, FrameCount count) {
+  PatternReader reader(text);
+  FramePattern pattern = reader.read();
+  const std::filesystem::path name = file_name(pattern, 0);
+  if (name.extension() != ".exr" && name.extension() != ".png")
+    reader.fail("the name must end in .exr or .png");
+  if (count == FrameCount::kMany && !pattern.digits) {
+    const std::filesystem::path path(text);
+    reader.fail(
+        fmt::format("several frames need a field for the frame number, as in '{}'",
+                    (path.parent_path() / path.stem()).string() + "_%04d" + path.extension().string()));
+  }
+  return pattern;
+}
+
+std::filesystem::path file_name(const FramePattern& pattern, int frame) {
+  if (frame < 0) throw std::invalid_argument("a frame number is not negative");
+  if (!pattern.digits) return pattern.before;
+  return fmt::format("{}{:0{}}{}", pattern.before, frame, *pattern.digits, pattern.after);
+}
+
+}  // namespace pprt

@@ -1,0 +1,28 @@
+// Names of numbered pictures: "out/%04d.exr" or "out/####.png".
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace pprt {
+
+// A file name with at most one place for the frame number. "%04d" and "####" are a number of at least four
+// digits, "%d" and "#" of at least one; "%%" is a percent sign.
+struct FramePattern {
+  std::string before;
+  std::optional<int> digits;  // at least; empty: no field, one name for every frame
+  std::string after;
+};
+
+enum class FrameCount { kOne, kMany };
+
+// Reads a pattern that ends in .exr or .png. One frame may do without a field, many may not. Throws
+// UsageError that says what is wrong and what would be right.
+FramePattern parse_frame_pattern(std::string_view text, FrameCount count);
+
+// The name for one frame, whose number is not negative.
+std::filesystem::path file_name(const FramePattern& pattern, int frame);
+
+}  // namespace pprt

@@ -1,0 +1,105 @@
+#include "image/frame_writer.h"
+
+#include <fmt/core.h>
+
+#include <stdexcept>
+#include <utility>
+
+namespace pprt {
+namespace {
+
+std::size_t pixel_bytes(const FrameToWrite& frame) {
+  return frame.image.pixels.size() * sizeof(Color);
+}
+
+}  // namespace
+
+FrameWriter::FrameWriter(std::vector<FramePattern> outputs, FrameWriterOptions options)
+    : outputs_(std::move(outputs)), options_(options), thread_([this] { run(); }) {}
+
+FrameWriter::~FrameWriter() {
+  stop();
+}
+
+void FrameWriter::submit(FrameToWrite frame) {
+  const std::size_t size = pixel_bytes(frame);
+  {
+    std::unique_lock lock(mutex_);
+    if (stopping_) throw std::logic_error("a frame was submitted after the last one");
+    room_.wait(lock, [&] { return bytes_ == 0 || bytes_ + size <= options_.memory_bound; });
+    bytes_ += size;
+    waiting_.push_back(std::move(frame));
+  }
+  work_.notify_one();
+}
+
+std::vector<WrittenFrame> FrameWriter::take_finished() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(finished_, {});
+}
+
+std::optional<std::string> FrameWriter::error() const {
+  const std::lock_guard lock(mutex_);
+  if (!first_error_) return std::nullopt;
+  return first_error_text_;
+}
+
+void FrameWriter::finish() {
+  stop();
+  if (first_error_) std::rethrow_exception(first_error_);
+}
+
+void FrameWriter::stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  work_.notify_one();
+  if (thread_.joinable()) thread_.join();
+}
+
+void FrameWriter::run() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    work_.wait(lock, [&] { return stopping_ || !waiting_.empty(); });
+    if (waiting_.empty()) return;
+    FrameToWrite frame = std::move(waiting_.front());
+    waiting_.pop_front();
+
+    lock.unlock();
+    WrittenFrame written;
+    std::exception_ptr error;
+    std::string error_text;
+    try {
+      written = write(frame);
+    } catch (const std::exception& e) {
+      error = std::current_exception();
+      error_text = e.what();
+    }
+    lock.lock();
+
+    bytes_ -= pixel_bytes(frame);
+    if (!error) {
+      finished_.push_back(std::move(written));
+    } else if (!first_error_) {
+      first_error_ = error;
+      first_error_text_ = std::move(error_text);
+    }
+    room_.notify_one();
+  }
+}
+
+WrittenFrame FrameWriter::write(const FrameToWrite& frame) const {
+  WrittenFrame written{frame.frame, {}};
+  for (const FramePattern& output : outputs_) {
+    std::filesystem::path file = file_name(output, frame.frame);
+    if (!options_.overwrite && std::filesystem::exists(file)) {
+      throw std::runtime_error(fmt::format("cannot write '{}': the file is there already", file.string()));
+    }
+    write_image(file, frame.image, frame.facts);
+    written.files.push_back(std::move(file));
+  }
+  return written;
+}
+
+}  // namespace pprt

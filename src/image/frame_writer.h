@@ -1,0 +1,86 @@
+// Numbered frames are written beside the frame loop, by a thread of their own.
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <exception>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "image/frame_pattern.h"
+#include "image/image.h"
+#include "image/image_io.h"
+
+namespace pprt {
+
+struct FrameToWrite {
+  int frame = 0;
+  Image image;  // has passed the gate: replace_non_finite
+  Facts facts;
+};
+
+struct WrittenFrame {
+  int frame = 0;
+  std::vector<std::filesystem::path> files;  // one per output, in their order
+};
+
+struct FrameWriterOptions {
+  bool overwrite = false;  // false: a file that is there already is an error
+
+  // Bytes of pixels that may wait. A frame loop that is never slower than its writer never meets the bound: a
+  // 256x256 frame takes 0.75 MiB, so that some 340 of them may wait.
+  std::size_t memory_bound = std::size_t{256} << 20;
+};
+
+// Writes frames in the order in which they are submitted. All members may be called from one thread; the
+// writing is done in another, and the first error is kept until it is asked for. A frame that cannot be
+// written does not keep later ones from being tried: its reason may be its own.
+class FrameWriter {
+ public:
+  explicit FrameWriter(std::vector<FramePattern> outputs, FrameWriterOptions options = {});
+  FrameWriter(const FrameWriter&) = delete;
+  FrameWriter& operator=(const FrameWriter&) = delete;
+
+  // Writes what still waits; errors that nobody asked for are lost, so call finish() first.
+  ~FrameWriter();
+
+  // Hands a frame over and returns at once; blocks only while the memory bound would be passed (one frame is
+  // always taken). Throws std::logic_error after finish().
+  void submit(FrameToWrite frame);
+
+  // Frames whose files are all whole under their names, each told once.
+  std::vector<WrittenFrame> take_finished();
+
+  // What the first failed frame failed of, if any did so far.
+  std::optional<std::string> error() const;
+
+  // Waits until nothing waits; then throws the first error, if there was one.
+  void finish();
+
+ private:
+  void run();
+  WrittenFrame write(const FrameToWrite& frame) const;
+  void stop();
+
+  const std::vector<FramePattern> outputs_;
+  const FrameWriterOptions options_;
+
+  mutable std::mutex mutex_;  // guards what follows, but the thread
+  std::condition_variable work_;
+  std::condition_variable room_;
+  std::deque<FrameToWrite> waiting_;
+  std::size_t bytes_ = 0;  // of pixels, waiting and being written
+  bool stopping_ = false;
+  std::vector<WrittenFrame> finished_;
+  std::exception_ptr first_error_;
+  std::string first_error_text_;
+
+  std::thread thread_;  // last: it uses all of the above
+};
+
+}  // namespace pprt

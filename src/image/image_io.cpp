@@ -1,0 +1,64 @@
+#include "image/image_io.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "image/whole_file.h"
+
+namespace pprt {
+namespace {
+
+constexpr std::string_view kExrMagic = "\x76\x2f\x31\x01";
+constexpr std::string_view kPngMagic = "\x89PNG\r\n\x1a\n";
+
+std::string encode(const std::filesystem::path& path, const Image& image, const Facts& facts) {
+  if (path.extension() == ".exr") return encode_exr(image, facts);
+  if (path.extension() == ".png") return encode_png(image, facts);
+  throw std::runtime_error("the name ends neither in .exr nor in .png");
+}
+
+Image decode(std::string_view bytes) {
+  if (bytes.starts_with(kExrMagic)) return decode_exr(bytes);
+  if (bytes.starts_with(kPngMagic)) return decode_png(bytes);
+  throw std::runtime_error(bytes.empty() ? "the file is empty" : "it is neither an OpenEXR nor a PNG file");
+}
+
+}  // namespace
+
+std::size_t replace_non_finite(Image& image) {
+  std::size_t replaced = 0;
+  for (Color& pixel : image.pixels) {
+    bool bad = false;
+    for (int c = 0; c < 3; ++c) {
+      if (std::isfinite(pixel[c])) continue;
+      pixel[c] = 0;
+      bad = true;
+    }
+    replaced += bad;
+  }
+  return replaced;
+}
+
+void write_image(const std::filesystem::path& path, const Image& image, const Facts& facts) {
+  std::string bytes;
+  try {
+    bytes = encode(path, image, facts);
+  } catch (const std::runtime_error& e) {
+    throw std::runtime_error(fmt::format("cannot write '{}': {}", path.string(), e.what()));
+  }
+  write_whole_file(path, bytes);
+}
+
+Image read_image(const std::filesystem::path& path) {
+  const std::string bytes = read_whole_file(path);
+  try {
+    return decode(bytes);
+  } catch (const std::runtime_error& e) {
+    throw std::runtime_error(fmt::format("cannot read '{}': {}", path.string(), e.what()));
+  }
+}
+
+}  // namespace pprt

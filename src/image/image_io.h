@@ -1,0 +1,52 @@
+// Pictures to and from files: OpenEXR and PNG.
+//
+// Equal pictures and facts give equal bytes: no time stamps, nothing of the machine.
+//
+// Values are display values (docs/decisions/0004-display-values.md): an EXR holds them as they are, as half
+// floats; a PNG holds round(255 v), v clamped to [0, 1], and no transfer curve is applied in either
+// direction.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "image/image.h"
+
+namespace pprt {
+
+// Facts that go along in a picture's header, in this order. In an EXR a number becomes an int attribute, a
+// double one when it does not fit 32 bits or is a double; a name that OpenEXR gives a meaning of its own is
+// refused. In a PNG each is a text; names have at most 79 printable ASCII characters.
+using Fact = std::variant<std::string, double, std::int64_t>;
+using Facts = std::vector<std::pair<std::string, Fact>>;
+
+// The gate: sets every channel that is NaN or infinite to 0 and returns how many pixels had one.
+std::size_t replace_non_finite(Image& image);
+
+// The file's bytes. Throw std::runtime_error with the reason when the picture is empty, has a value that is
+// not finite (it should have passed the gate), or a fact has a name that the format refuses. Values beyond
+// the range of half (65504) are clamped to it.
+std::string encode_exr(const Image& image, const Facts& facts = {});
+std::string encode_png(const Image& image, const Facts& facts = {});
+
+// The picture in a file's bytes. Throw std::runtime_error with the reason.
+// EXR: channels R, G, B of any pixel type, or Y alone; the first part of several.
+// PNG: any colour type and depth; what is transparent lets black through.
+Image decode_exr(std::string_view bytes);
+Image decode_png(std::string_view bytes);
+
+// Writes the whole file or nothing (see image/whole_file.h); the format is the extension's, .exr or .png.
+// Throws std::runtime_error "cannot write 'PATH': REASON".
+void write_image(const std::filesystem::path& path, const Image& image, const Facts& facts = {});
+
+// Reads an EXR or a PNG, told apart by their first bytes. Throws std::runtime_error "cannot read 'PATH':
+// REASON".
+Image read_image(const std::filesystem::path& path);
+
+}  // namespace pprt

@@ -1,0 +1,106 @@
+#include "image/whole_file.h"
+
+#include <sys/resource.h>
+
+#include <catch2/catch.hpp>
+#include <csignal>
+
+#include "temporary_directory.h"
+
+namespace fs = std::filesystem;
+using namespace pprt;
+
+namespace {
+
+// No file may grow beyond `bytes` while this lives: a full disk that needs no disk.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &old_);
+    const rlimit limit{bytes, old_.rlim_max};
+    REQUIRE(::setrlimit(RLIMIT_FSIZE, &limit) == 0);
+  }
+  ~FileSizeLimit() {
+    ::setrlimit(RLIMIT_FSIZE, &old_);
+    std::signal(SIGXFSZ, old_handler_);
+  }
+
+ private:
+  void (*old_handler_)(int);
+  rlimit old_{};
+};
+
+}  // namespace
+
+TEST_CASE("bytes come back as they were written, and nothing else is left") {
+  const TemporaryDirectory directory;
+  const std::string bytes("a\0b\nc", 5);
+  write_whole_file(directory.path() / "f", bytes);
+  CHECK(read_whole_file(directory.path() / "f") == bytes);
+  write_whole_file(directory.path() / "f", "");
+  CHECK(read_whole_file(directory.path() / "f").empty());
+  CHECK(directory.entries() == 1);
+}
+
+TEST_CASE("missing directories are made") {
+  const TemporaryDirectory directory;
+  write_whole_file(directory.path() / "a/b/f", "x");
+  CHECK(read_whole_file(directory.path() / "a/b/f") == "x");
+}
+
+TEST_CASE("a name as long as names can be") {
+  const TemporaryDirectory directory;
+  const fs::path path = directory.path() / std::string(255, 'n');
+  write_whole_file(path, "x");
+  CHECK(fs::exists(path));
+}
+
+TEST_CASE("a write that fails half-way leaves the old file and no temporary one") {
+  const TemporaryDirectory directory;
+  const fs::path path = directory.path() / "f.exr";
+  write_whole_file(path, "old");
+  {
+    const FileSizeLimit limit(4096);
+    CHECK_THROWS_WITH(write_whole_file(path, std::string(10000, 'x')),
+                      "cannot write '" + path.string() + "': File too large");
+  }
+  CHECK(read_whole_file(path) == "old");
+  CHECK(directory.entries() == 1);
+}
+
+TEST_CASE("a path under a regular file cannot be written") {
+  const TemporaryDirectory directory;
+  write_whole_file(directory.path() / "f", "x");
+  const fs::path path = directory.path() / "f" / "g";
+  CHECK_THROWS_WITH(write_whole_file(path, "y"), "cannot write '" + path.string() + "': Not a directory");
+}
+
+TEST_CASE("neither a directory nor a device is written over") {
+  const TemporaryDirectory directory;
+  const std::string name = directory.path().string();
+  CHECK_THROWS_WITH(write_whole_file(name, "x"), "cannot write '" + name + "': it is a directory");
+
+  const fs::path link = directory.path() / "full.png";
+  fs::create_symlink("/dev/full", link);
+  CHECK_THROWS_WITH(write_whole_file(link, "x"),
+                    "cannot write '" + link.string() + "': it is not a regular file");
+  CHECK(fs::is_symlink(link));
+  CHECK(directory.entries() == 1);
+}
+
+TEST_CASE("a symbolic link to a file is replaced, not followed") {
+  const TemporaryDirectory directory;
+  write_whole_file(directory.path() / "target", "old");
+  fs::create_symlink("target", directory.path() / "link");
+  write_whole_file(directory.path() / "link", "new");
+  CHECK(read_whole_file(directory.path() / "target") == "old");
+  CHECK(read_whole_file(directory.path() / "link") == "new");
+}
+
+TEST_CASE("what cannot be read is named with the reason") {
+  const TemporaryDirectory directory;
+  const std::string missing = (directory.path() / "missing").string();
+  CHECK_THROWS_WITH(read_whole_file(missing), "cannot read '" + missing + "': No such file or directory");
+  const std::string name = directory.path().string();
+  CHECK_THROWS_WITH(read_whole_file(name), "cannot read '" + name + "': Is a directory");
+}
