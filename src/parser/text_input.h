@@ -64,6 +64,9 @@ class LineCursor {
 // Numbers beyond this are refused, so that products of three of them stay finite.
 constexpr double kLargestNumber = 1e100;
 
+// Whether a number out of a double's range (an unsigned token) is too small for one, not too large.
+bool vanishes(std::string_view number);
+
 // Reads a decimal number at `begin`, whatever the locale: digits with an optional sign (+ too), point
 // (".5", "5.") and exponent; no "nan", "inf" or hexadecimal. One too small for a double is 0.
 // Returns its end, or nullptr when there is no number or one beyond kLargestNumber.
@@ -72,6 +75,10 @@ inline const char* scan_number(const char* begin, const char* end, double& value
   if (p != end && (*p == '+' || *p == '-')) ++p;
   if (p == end || !((*p >= '0' && *p <= '9') || *p == '.')) return nullptr;
   const auto [stop, problem] = std::from_chars(*begin == '+' ? p : begin, end, value);
+  if (problem == std::errc::result_out_of_range && vanishes({p, stop})) {
+    value = 0;
+    return stop;
+  }
   if (problem != std::errc{}) return nullptr;
   return value <= kLargestNumber && value >= -kLargestNumber ? stop : nullptr;
 }

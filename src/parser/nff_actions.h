@@ -1,0 +1,239 @@
+// From NFF's rules to a scene: what each rule does once it has matched.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/diagnostics.h"
+#include "parser/nff_grammar.h"
+#include "parser/nff_messages.h"
+#include "parser/nff_parser.h"
+#include "parser/text_input.h"
+#include "scene/scene_description.h"
+
+namespace pprt::nff {
+
+// A problem after which the entity at hand, or the whole file, cannot be read on.
+struct ParseFailure {
+  const char* place;
+  std::string message;
+  bool fatal = false;
+};
+
+enum class ViewItem : unsigned { kFrom, kAt, kUp, kAngle, kHither, kYon, kResolution };
+
+// The scene as far as it has been read. The rules' actions collect the numbers of an entity here, and at its
+// end turn them into a value of the scene.
+class SceneBuilder {
+ public:
+  SceneBuilder(std::string_view text, std::string_view file_name, const NffOptions& options);
+
+  // For the actions, in the order of the grammar.
+  void number(double value) {
+    if (count_ < numbers_.size()) numbers_[count_] = value;
+    ++count_;
+  }
+  void begin_entity(std::string_view keyword) {
+    entity_ = keyword;
+    count_ = 0;
+    vertex_count_ = 0;
+    ++entities_;
+  }
+  void begin_view(std::string_view keyword);
+  void view_item(ViewItem item, const char* place);
+  void add_view();
+  void color_name(std::string_view name);
+  void set_background();
+  void add_light();
+  void set_material();
+  void add_sphere();
+  void add_cone();
+  void begin_vertices(std::string_view matched);
+  std::size_t expected_vertices() const { return vertex_count_; }
+  void polygon_vertex() {
+    polygon_.emplace_back(numbers_[0], numbers_[1], numbers_[2]);
+    count_ = 0;
+  }
+  void patch_vertex() {
+    patch_.push_back({{numbers_[0], numbers_[1], numbers_[2]}, {numbers_[3], numbers_[4], numbers_[5]}});
+    count_ = 0;
+  }
+  void add_polygon();
+  void add_patch();
+  bool mail_header(std::string_view line);
+  void unknown(std::string_view word);
+  void deviation(Deviation kind, const char* place);
+  void comment(Deviation kind, const char* place);
+
+  // For the driver.
+  void report(const ParseFailure& failure);
+  std::string_view entity() const { return entity_; }
+  std::size_t vertex_at_hand() const;  // from 1; 0 when no vertices are being read
+  SourceLocation locate(const char* place) { return cursor_.at(place); }
+  std::size_t entities() const { return entities_; }
+  const Diagnostics& finish();  // with the warnings
+  SceneDescription& scene() { return scene_; }
+
+ private:
+  struct Occurrence {
+    std::size_t count = 0;
+    SourceLocation first;
+  };
+
+  void error(const char* place, std::string message);
+  void count_error();
+  void deviation_at(Deviation kind, SourceLocation at);
+  void check_view(const View& view, const char* place);
+  Rgb color() const { return {numbers_[0], numbers_[1], numbers_[2]}; }
+  MaterialIndex material();
+  SourceLocation begin_object();
+  template <typename Vertex>
+  bool worth_keeping(const std::vector<Vertex>& vertices, SourceLocation at);
+  std::string quantity(std::size_t count, const char* wanted) const;
+
+  std::string_view text_;
+  const NffOptions& options_;
+  LineCursor cursor_;
+  Diagnostics diagnostics_;
+  SceneDescription scene_;
+  MaterialTable table_;
+
+  // The entity at hand.
+  std::string_view entity_;  // its keyword, in the text
+  std::array<double, 16> numbers_{};
+  std::size_t count_ = 0;  // of numbers read, also those that found no room
+  std::size_t vertex_count_ = 0;
+  std::vector<Vec3d> polygon_;
+  std::vector<PatchVertex> patch_;
+  View view_;
+  unsigned view_items_ = 0;  // a bit for each ViewItem
+
+  std::size_t entities_ = 0;
+  bool has_material_ = false;
+  MaterialIndex material_ = 0;
+  const char* last_comment_ = nullptr;
+  std::array<Occurrence, static_cast<std::size_t>(Deviation::kCount)> deviations_{};
+  std::map<std::string, Occurrence, std::less<>> unknown_;
+};
+
+template <typename Rule>
+struct action : grammar::pegtl::nothing<Rule> {};
+
+template <>
+struct action<grammar::number> : grammar::pegtl::nothing<grammar::number> {
+  static void value(double value, SceneBuilder& builder) { builder.number(value); }
+};
+
+// Actions that pass the matched text on, and actions that only say that a rule has matched.
+template <void (SceneBuilder::*Handle)(std::string_view)>
+struct with_text {
+  template <typename Input>
+  static void apply(const Input& in, SceneBuilder& builder) {
+    (builder.*Handle)({in.begin(), in.size()});
+  }
+};
+template <void (SceneBuilder::*Handle)()>
+struct without_text {
+  static void apply0(SceneBuilder& builder) { (builder.*Handle)(); }
+};
+template <Deviation Kind>
+struct deviating_comment {
+  template <typename Input>
+  static void apply(const Input& in, SceneBuilder& builder) {
+    builder.comment(Kind, in.begin());
+  }
+};
+template <ViewItem Item>
+struct part_of_view {
+  template <typename Input>
+  static void apply(const Input& in, SceneBuilder& builder) {
+    builder.view_item(Item, in.begin());
+  }
+};
+
+template <>
+struct action<grammar::percent_comment> : deviating_comment<Deviation::kPercentComment> {};
+template <>
+struct action<grammar::block_comment> : deviating_comment<Deviation::kBlockComment> {};
+
+template <>
+struct action<grammar::view_keyword> : with_text<&SceneBuilder::begin_view> {};
+template <>
+struct action<grammar::view_from> : part_of_view<ViewItem::kFrom> {};
+template <>
+struct action<grammar::view_at> : part_of_view<ViewItem::kAt> {};
+template <>
+struct action<grammar::view_up> : part_of_view<ViewItem::kUp> {};
+template <>
+struct action<grammar::view_angle> : part_of_view<ViewItem::kAngle> {};
+template <>
+struct action<grammar::view_hither> : part_of_view<ViewItem::kHither> {};
+template <>
+struct action<grammar::view_yon> : part_of_view<ViewItem::kYon> {};
+template <>
+struct action<grammar::view_resolution> : part_of_view<ViewItem::kResolution> {};
+template <>
+struct action<grammar::view> : without_text<&SceneBuilder::add_view> {};
+
+template <>
+struct action<grammar::color_name> : with_text<&SceneBuilder::color_name> {};
+template <>
+struct action<grammar::background_keyword> : with_text<&SceneBuilder::begin_entity> {};
+template <>
+struct action<grammar::background> : without_text<&SceneBuilder::set_background> {};
+template <>
+struct action<grammar::light_keyword> : with_text<&SceneBuilder::begin_entity> {};
+template <>
+struct action<grammar::light> : without_text<&SceneBuilder::add_light> {};
+template <>
+struct action<grammar::fill_keyword> : with_text<&SceneBuilder::begin_entity> {};
+template <>
+struct action<grammar::fill_tail> {
+  template <typename Input>
+  static void apply(const Input& in, SceneBuilder& builder) {
+    const std::string_view tail(in.begin(), in.size());
+    builder.deviation(Deviation::kFillTail, in.begin() + tail.find_first_not_of(" \t\f\v"));
+  }
+};
+template <>
+struct action<grammar::fill> : without_text<&SceneBuilder::set_material> {};
+
+template <>
+struct action<grammar::sphere_keyword> : with_text<&SceneBuilder::begin_entity> {};
+template <>
+struct action<grammar::sphere> : without_text<&SceneBuilder::add_sphere> {};
+template <>
+struct action<grammar::cone_keyword> : with_text<&SceneBuilder::begin_entity> {};
+template <>
+struct action<grammar::cone> : without_text<&SceneBuilder::add_cone> {};
+
+template <>
+struct action<grammar::vertex_count> : with_text<&SceneBuilder::begin_vertices> {};
+template <>
+struct action<grammar::polygon_keyword> : with_text<&SceneBuilder::begin_entity> {};
+template <>
+struct action<grammar::polygon_vertex> : without_text<&SceneBuilder::polygon_vertex> {};
+template <>
+struct action<grammar::polygon> : without_text<&SceneBuilder::add_polygon> {};
+template <>
+struct action<grammar::patch_keyword> : with_text<&SceneBuilder::begin_entity> {};
+template <>
+struct action<grammar::patch_vertex> : without_text<&SceneBuilder::patch_vertex> {};
+template <>
+struct action<grammar::patch> : without_text<&SceneBuilder::add_patch> {};
+
+template <>
+struct action<grammar::mail_header> {
+  template <typename Input>
+  static bool apply(const Input& in, SceneBuilder& builder) {
+    return builder.mail_header({in.begin(), in.size()});
+  }
+};
+template <>
+struct action<grammar::unknown_word> : with_text<&SceneBuilder::unknown> {};
+
+}  // namespace pprt::nff

@@ -1,0 +1,201 @@
+// What NFF's rules say when they fail, and what the lenient reading says when it departs from the format.
+#pragma once
+
+#include "parser/nff_grammar.h"
+
+namespace pprt::nff {
+
+// What a rule that must match expects; nullptr for rules that may fail. The report goes on with the entity
+// and what was found instead: "expected a number for the radius of 's', found 'abc'".
+template <typename Rule>
+inline constexpr const char* expected = nullptr;
+
+template <>
+inline constexpr const char* expected<grammar::view_first_item> =
+    "'from', 'at', 'up', 'angle', 'hither' or 'resolution' after the keyword";
+template <>
+inline constexpr const char* expected<grammar::view_value> = "a number for the view";
+template <>
+inline constexpr const char* expected<grammar::color_value> = "a number or a colour name for the colour";
+template <>
+inline constexpr const char* expected<grammar::color_green> = "a number for green in the colour";
+template <>
+inline constexpr const char* expected<grammar::color_blue> = "a number for blue in the colour";
+template <>
+inline constexpr const char* expected<grammar::light_x> = "a number for x of the position";
+template <>
+inline constexpr const char* expected<grammar::light_y> = "a number for y of the position";
+template <>
+inline constexpr const char* expected<grammar::light_z> = "a number for z of the position";
+template <>
+inline constexpr const char* expected<grammar::sphere_x> = "a number for x of the centre";
+template <>
+inline constexpr const char* expected<grammar::sphere_y> = "a number for y of the centre";
+template <>
+inline constexpr const char* expected<grammar::sphere_z> = "a number for z of the centre";
+template <>
+inline constexpr const char* expected<grammar::sphere_radius> = "a number for the radius";
+template <>
+inline constexpr const char* expected<grammar::base_x> = "a number for x of the base";
+template <>
+inline constexpr const char* expected<grammar::base_y> = "a number for y of the base";
+template <>
+inline constexpr const char* expected<grammar::base_z> = "a number for z of the base";
+template <>
+inline constexpr const char* expected<grammar::base_radius> = "a number for the base radius";
+template <>
+inline constexpr const char* expected<grammar::apex_x> = "a number for x of the apex";
+template <>
+inline constexpr const char* expected<grammar::apex_y> = "a number for y of the apex";
+template <>
+inline constexpr const char* expected<grammar::apex_z> = "a number for z of the apex";
+template <>
+inline constexpr const char* expected<grammar::apex_radius> = "a number for the apex radius";
+template <>
+inline constexpr const char* expected<grammar::vertex_count> = "the number of vertices";
+template <>
+inline constexpr const char* expected<grammar::vertex_x> = "a number for x";
+template <>
+inline constexpr const char* expected<grammar::vertex_y> = "a number for y";
+template <>
+inline constexpr const char* expected<grammar::vertex_z> = "a number for z";
+template <>
+inline constexpr const char* expected<grammar::normal_x> = "a number for x of the normal";
+template <>
+inline constexpr const char* expected<grammar::normal_y> = "a number for y of the normal";
+template <>
+inline constexpr const char* expected<grammar::normal_z> = "a number for z of the normal";
+template <>
+inline constexpr const char* expected<grammar::end_of_entities> = "an entity (v, b, l, f, c, s, p or pp)";
+template <>
+inline constexpr const char* expected<grammar::block_comment_rest> = "'*/' to end this comment";
+
+// Ways in which real files depart from NFF.TXT. Strict reading: each is an error. Lenient reading: a warning,
+// once a kind with its first place and its count, or nothing where the meaning is beyond doubt.
+enum class Deviation {
+  kPercentComment,
+  kBlockComment,
+  kMailHeader,
+  kViewAfterObject,
+  kLightAfterObject,
+  kViewRepeated,
+  kViewItemRepeated,
+  kViewYon,
+  kViewWithoutHither,
+  kViewWithoutResolution,
+  kBackgroundRepeated,
+  kColorName,
+  kLightIntensity,
+  kFillShort,
+  kFillLong,
+  kFillTail,
+  kNoFill,
+  kSphereExtra,
+  kSphereZeroRadius,
+  kConeWithoutLength,
+  kConeWithoutRadius,
+  kConeMixedRadii,
+  kFewVertices,
+  kZeroArea,
+  kGlassIndex,
+  kCount
+};
+
+struct DeviationText {
+  const char* problem;
+  const char* reading;  // what the lenient reading does; nullptr: not worth a warning
+};
+
+constexpr DeviationText text_of(Deviation deviation) {
+  switch (deviation) {
+    case Deviation::kPercentComment:
+      return {"a '%' comment belongs to AFF, not to NFF", nullptr};
+    case Deviation::kBlockComment:
+      return {"a '/* */' comment is not NFF", nullptr};
+    case Deviation::kMailHeader:
+      return {"a mail header is not part of a scene", "skipped"};
+    case Deviation::kViewAfterObject:
+      return {"'v' must come before all objects", nullptr};
+    case Deviation::kLightAfterObject:
+      return {"'l' must come before all objects", nullptr};
+    case Deviation::kViewRepeated:
+      return {"'v' is given again", "the last one counts"};
+    case Deviation::kViewItemRepeated:
+      return {"a part of 'v' is given twice", "the last one counts"};
+    case Deviation::kViewYon:
+      return {"'yon' is not NFF", "ignored"};
+    case Deviation::kViewWithoutHither:
+      return {"'v' lacks 'hither'", nullptr};
+    case Deviation::kViewWithoutResolution:
+      return {"'v' lacks 'resolution'", "512 x 512 is taken"};
+    case Deviation::kBackgroundRepeated:
+      return {"'b' is given again", "the last one counts"};
+    case Deviation::kColorName:
+      return {"a colour name belongs to MTV's dialect, not to NFF", nullptr};
+    case Deviation::kLightIntensity:
+      return {"'l' with 7 numbers is not NFF", "read as x y z intensity r g b"};
+    case Deviation::kFillShort:
+      return {"'f' has fewer than 8 numbers",
+              "those missing are taken from Kd 1, Ks 0, Shine 0, T 0, index 1"};
+    case Deviation::kFillLong:
+      return {"'f' has more than 8 numbers", "those after the 8th are ignored"};
+    case Deviation::kFillTail:
+      return {"'f' takes only numbers", "the rest of the line is ignored"};
+    case Deviation::kNoFill:
+      return {"there is no 'f' before the first object", "white with Kd 1 is taken"};
+    case Deviation::kSphereExtra:
+      return {"'s' has 2 more numbers than x y z radius", "they are ignored"};
+    case Deviation::kSphereZeroRadius:
+      return {"the sphere's radius is 0", "left out"};
+    case Deviation::kConeWithoutLength:
+      return {"the cone's base and apex are the same point", "left out"};
+    case Deviation::kConeWithoutRadius:
+      return {"both radii of the cone are 0", "left out"};
+    case Deviation::kConeMixedRadii:
+      return {"one radius of the cone is negative and the other positive", "left out"};
+    case Deviation::kFewVertices:
+      return {"the polygon has fewer than 3 vertices", "left out"};
+    case Deviation::kZeroArea:
+      return {"the polygon's area is 0", "left out"};
+    case Deviation::kGlassIndex:
+      return {"T is above 0 but the index of refraction is not", "1 is taken"};
+    case Deviation::kCount:
+      break;
+  }
+  return {"", nullptr};
+}
+
+// Words that other formats in NFF's family begin an entity with; nullptr for others.
+constexpr const char* foreign_entity(std::string_view word) {
+  struct Foreign {
+    std::string_view word;
+    const char* meaning;
+  };
+  constexpr Foreign kForeign[] = {
+      {"fm", "AFF's extended material"},
+      {"la", "AFF's animated light"},
+      {"am", "AFF's ambient light"},
+      {"tt", "AFF's textured triangle"},
+      {"ttp", "AFF's textured patch"},
+      {"tpa", "AFF's animated patch"},
+      {"m", "AFF's triangle mesh"},
+      {"i", "AFF's include"},
+      {"d", "AFF's detail level"},
+      {"x", "AFF's animated transformation"},
+      {"xs", "AFF's static transformation"},
+      {"k", "AFF's key frames"},
+      {"tpp", "a textured patch of Assimp's dialect"},
+      {"tess", "the tessellation of Assimp's dialect"},
+      {"shader", "the texture of Assimp's dialect"},
+      {"tet", "a tetrahedron of Assimp's dialect"},
+      {"hex", "a cube of Assimp's dialect"},
+      {"oct", "an octahedron of Assimp's dialect"},
+      {"dod", "a dodecahedron of Assimp's dialect"},
+  };
+  for (const Foreign& foreign : kForeign) {
+    if (foreign.word == word) return foreign.meaning;
+  }
+  return nullptr;
+}
+
+}  // namespace pprt::nff

@@ -1,0 +1,179 @@
+#include "parser/nff_parser.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+#include "base/diagnostics.h"
+#include "parser/nff_actions.h"
+#include "parser/nff_grammar.h"
+#include "parser/nff_messages.h"
+#include "parser/text_input.h"
+
+namespace pprt {
+namespace nff {
+namespace {
+
+namespace pegtl = tao::pegtl;
+using Input = pegtl::memory_input<pegtl::tracking_mode::lazy, pegtl::eol::lf_crlf, const char*>;
+
+// Where the next token begins, and its bytes; empty at the end of the text.
+std::string_view next_token(const Input& in) {
+  Input ahead(in.current(), in.end(), "");
+  pegtl::parse<grammar::gap>(ahead);
+  const char* const begin = ahead.current();
+  pegtl::parse<grammar::token>(ahead);
+  return {begin, static_cast<std::size_t>(ahead.current() - begin)};
+}
+
+// Why a token that looks like a number is none.
+const char* number_problem(std::string_view token) {
+  const std::size_t sign = token.starts_with('-') || token.starts_with('+') ? 1 : 0;
+  std::string word(token.substr(sign));
+  for (char& c : word) c = static_cast<char>(c | 0x20);
+  if (word == "nan" || word == "inf" || word == "infinity") return ", but numbers must be finite";
+  double value = 0;
+  const auto [stop, problem] = std::from_chars(token.data() + sign, token.data() + token.size(), value);
+  if (stop == token.data() + token.size()) return ", which is too large";
+  return "";
+}
+
+// What a rule expected and what stands there instead. The caret goes to the offending token, or behind the
+// last one when the text or its line ends there.
+template <typename Rule>
+[[noreturn]] void fail(const Input& in, SceneBuilder& builder) {
+  std::string message = fmt::format("expected {}", expected<Rule>);
+  if constexpr (std::is_same_v<Rule, grammar::block_comment_rest>) {
+    throw ParseFailure{in.current() - 2, message, true};
+  }
+  if constexpr (!std::is_same_v<Rule, grammar::end_of_entities>) {
+    if (builder.vertex_at_hand() > 0) {
+      message += fmt::format(" of vertex {} of {}", builder.vertex_at_hand(), builder.expected_vertices());
+    }
+    message += fmt::format(" of '{}'", builder.entity());
+  } else if (!builder.entity().empty()) {
+    message += fmt::format(" after '{}'", builder.entity());
+  }
+  const std::string_view token = next_token(in);
+  const char* place = token.data();
+  if (token.empty()) {
+    throw ParseFailure{in.current(), message + ", found the end of the file"};
+  }
+  message += ", found " + quoted(token) + number_problem(token);
+  const SourceLocation before = builder.locate(in.current());
+  const SourceLocation found = builder.locate(place);
+  if (found.line != before.line) {
+    message += fmt::format(" on line {}", found.line);
+    place = in.current();
+  }
+  throw ParseFailure{place, message};
+}
+
+// As PEGTL's must_if, but the place is computed by the builder's cursor rather than from the text's begin.
+template <typename Rule>
+struct control : pegtl::normal<Rule> {
+  template <typename... States>
+  static void failure(const Input& in, SceneBuilder& builder) {
+    if constexpr (expected<Rule> != nullptr) fail<Rule>(in, builder);
+  }
+};
+
+// Reads the entities, taking up again after each problem at the next place that looks like an entity.
+// Returns whether the text was read to its end.
+bool read_entities(Input& in, SceneBuilder& builder) {
+  try {
+    while (!in.empty()) {
+      try {
+        pegtl::parse<grammar::file, action, control>(in, builder);
+      } catch (const ParseFailure& failure) {
+        builder.report(failure);
+        if (failure.fatal) return false;
+        // The place may lie behind the last token: what follows it is not an entity's begin if it is the
+        // token that was found wrong, so an entity that begins there is read.
+        if (failure.place > in.current()) in.bump(static_cast<std::size_t>(failure.place - in.current()));
+        pegtl::parse<grammar::resume>(in);
+      }
+    }
+  } catch (const ParseFailure& failure) {
+    builder.report(failure);
+    return false;
+  }
+  return true;
+}
+
+// What is wrong with a text as a whole; empty when it may be NFF.
+std::string unreadable(std::string_view text) {
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
+    return "the text is in UTF-16; save it as UTF-8 or ASCII";
+  }
+  if (text.find('\0') != std::string_view::npos) return "this is not a text file (it has zero bytes)";
+  if (text.find_first_not_of(" \t\n\r\f\v") == std::string_view::npos) return "the file is empty";
+  return {};
+}
+
+std::string_view without_byte_order_mark(std::string_view text) {
+  return text.substr(text.starts_with("\xef\xbb\xbf") ? 3 : 0);
+}
+
+// Without the ^Z that CP/M and DOS put behind the end of a text.
+std::string_view without_end_mark(std::string_view text) {
+  return text.substr(0, text.find_last_not_of(" \t\n\r\f\v\x1a") + 1);
+}
+
+// The one thing to say of a text without a single entity.
+Diagnostics nothing_found(const Input& whole, SceneBuilder& builder) {
+  const std::string_view token = next_token(whole);
+  Diagnostics diagnostics;
+  if (token.empty()) {
+    diagnostics.error({}, "the file holds only comments");
+  } else {
+    diagnostics.error(
+        builder.locate(token.data()),
+        "this is not an NFF scene: no entity (v, b, l, f, c, s, p or pp) in it; it begins with " +
+            quoted(token));
+  }
+  return diagnostics;
+}
+
+[[noreturn]] void reject(const Diagnostics& diagnostics, std::string_view file_name, std::string_view text) {
+  std::string report = format(diagnostics, file_name, text);
+  report.pop_back();  // the last line's end
+  throw InputError(report);
+}
+
+}  // namespace
+}  // namespace nff
+
+ParsedScene parse_nff(std::string_view text, std::string_view file_name, const NffOptions& options) {
+  // Lines and columns have 32 bits.
+  const std::size_t max_bytes =
+      std::min<std::size_t>(options.max_bytes, std::numeric_limits<std::uint32_t>::max());
+  text = nff::without_byte_order_mark(text);
+  std::string problem = nff::unreadable(text.substr(0, max_bytes));
+  if (text.size() > max_bytes) problem = fmt::format("larger than the limit of {} bytes", max_bytes);
+  if (!problem.empty()) throw InputError(fmt::format("{}: error: {}", file_name, problem));
+
+  const std::string_view scene = nff::without_end_mark(text);
+  nff::SceneBuilder builder(scene, file_name, options);
+  nff::Input in(scene.data(), scene.data() + scene.size(), "");
+  const bool whole = nff::read_entities(in, builder);
+  if (whole && builder.entities() == 0) {
+    in.restart();
+    nff::reject(nff::nothing_found(in, builder), file_name, text);
+  }
+  const Diagnostics& diagnostics = builder.finish();
+  if (diagnostics.has_errors()) nff::reject(diagnostics, file_name, text);
+  return {std::move(builder.scene()), format(diagnostics, file_name, text)};
+}
+
+ParsedScene read_nff(const std::string& path, const NffOptions& options) {
+  const std::string text = read_text(path, options.max_bytes);
+  return parse_nff(text, path == "-" ? "<stdin>" : path, options);
+}
+
+}  // namespace pprt

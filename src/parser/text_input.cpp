@@ -1,0 +1,93 @@
+#include "parser/text_input.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "base/diagnostics.h"
+
+namespace pprt {
+namespace {
+
+constexpr std::size_t kReadAtOnce = std::size_t{1} << 20;  // bytes
+constexpr std::size_t kQuotedLength = 40;                  // bytes of a token shown in a message
+
+[[noreturn]] void throw_unreadable(const std::string& path, const std::string& reason) {
+  throw InputError("cannot read '" + path + "': " + reason);
+}
+
+// An open file, closed at the end of the scope unless it is standard input.
+class InputFile {
+ public:
+  explicit InputFile(const std::string& path)
+      : path_(path), descriptor_(path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+    if (descriptor_ < 0) throw_unreadable(path_, std::strerror(errno));
+  }
+  ~InputFile() {
+    if (descriptor_ != STDIN_FILENO) ::close(descriptor_);
+  }
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+
+  // Bytes read, 0 at the end.
+  std::size_t read(char* into, std::size_t room) const {
+    for (;;) {
+      const ssize_t got = ::read(descriptor_, into, room);
+      if (got >= 0) return static_cast<std::size_t>(got);
+      if (errno != EINTR) throw_unreadable(path_, std::strerror(errno));
+    }
+  }
+
+ private:
+  const std::string& path_;
+  int descriptor_;
+};
+
+}  // namespace
+
+std::string read_text(const std::string& path, std::size_t max_bytes) {
+  const InputFile file(path);
+  std::string text;
+  for (std::size_t size = 0;;) {
+    text.resize(std::max(size + kReadAtOnce, text.size()));
+    const std::size_t got = file.read(text.data() + size, text.size() - size);
+    size += got;
+    if (size > max_bytes)
+      throw_unreadable(path, "larger than the limit of " + std::to_string(max_bytes) + " bytes");
+    if (got == 0) {
+      text.resize(size);
+      return text;
+    }
+    if (size == text.size()) text.resize(2 * size);
+  }
+}
+
+std::string quoted(std::string_view token) {
+  std::string out = "'";
+  for (const char c : token.substr(0, kQuotedLength)) {
+    const auto byte = static_cast<unsigned char>(c);
+    out += byte < 0x20 || byte == 0x7f ? '?' : c;
+  }
+  return out + (token.size() > kQuotedLength ? "...'" : "'");
+}
+
+bool vanishes(std::string_view number) {
+  // The power of ten of the first digit that is not 0, from its place relative to the point and the exponent.
+  const std::size_t exponent_mark = std::min(number.find_first_of("eE"), number.size());
+  const std::string_view digits = number.substr(0, exponent_mark);
+  const std::size_t point = std::min(digits.find('.'), digits.size());
+  const std::size_t first = digits.find_first_of("123456789");
+  if (first == std::string_view::npos) return true;
+  const auto place = static_cast<double>(point) - static_cast<double>(first);
+  const bool negative = exponent_mark + 1 < number.size() && number[exponent_mark + 1] == '-';
+  double exponent = 0;
+  for (const char c : number.substr(exponent_mark)) {
+    if (c >= '0' && c <= '9') exponent = std::min(10 * exponent + (c - '0'), 1e15);
+  }
+  return place + (negative ? -exponent : exponent) < 0;
+}
+
+}  // namespace pprt
