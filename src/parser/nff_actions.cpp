@@ -67,20 +67,17 @@ SceneBuilder::SceneBuilder(std::string_view text, std::string_view file_name, co
 
 // Problems
 
-void SceneBuilder::count_error() {
-  if (diagnostics_.error_count() >= options_.max_errors) {
-    throw ParseFailure{nullptr, "too many errors; reading stopped", true};
-  }
+void SceneBuilder::add_error(SourceLocation at, std::string message) {
+  diagnostics_.error(at, std::move(message));
+  if (diagnostics_.error_count() >= options_.max_errors) throw TooManyErrors{};
 }
 
 void SceneBuilder::error(const char* place, std::string message) {
-  diagnostics_.error(cursor_.at(place), std::move(message));
-  count_error();
+  add_error(cursor_.at(place), std::move(message));
 }
 
 void SceneBuilder::report(const ParseFailure& failure) {
-  diagnostics_.error(failure.place ? cursor_.at(failure.place) : SourceLocation{}, failure.message);
-  if (!failure.fatal) count_error();
+  error(failure.place, failure.message);
 }
 
 void SceneBuilder::deviation(Deviation kind, const char* place) {
@@ -88,10 +85,7 @@ void SceneBuilder::deviation(Deviation kind, const char* place) {
 }
 
 void SceneBuilder::deviation_at(Deviation kind, SourceLocation at) {
-  if (options_.strict) {
-    diagnostics_.error(at, text_of(kind).problem);
-    return count_error();
-  }
+  if (options_.strict) return add_error(at, text_of(kind).problem);
   Occurrence& occurrence = deviations_[static_cast<std::size_t>(kind)];
   if (occurrence.count++ == 0) occurrence.first = at;
 }

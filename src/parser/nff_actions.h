@@ -26,6 +26,9 @@ struct ParseFailure {
 
 enum class ViewItem : unsigned { kFrom, kAt, kUp, kAngle, kHither, kYon, kResolution };
 
+// Thrown when NffOptions::max_errors have been reported.
+struct TooManyErrors {};
+
 // The scene as far as it has been read. The rules' actions collect the numbers of an entity here, and at its
 // end turn them into a value of the scene.
 class SceneBuilder {
@@ -71,6 +74,8 @@ class SceneBuilder {
 
   // For the driver.
   void report(const ParseFailure& failure);
+  void try_at(const char* place) { tried_ = place; }
+  const char* tried() const { return tried_; }  // where the last rule that must match was tried
   std::string_view entity() const { return entity_; }
   std::size_t vertex_at_hand() const;  // from 1; 0 when no vertices are being read
   SourceLocation locate(const char* place) { return cursor_.at(place); }
@@ -85,7 +90,7 @@ class SceneBuilder {
   };
 
   void error(const char* place, std::string message);
-  void count_error();
+  void add_error(SourceLocation at, std::string message);
   void deviation_at(Deviation kind, SourceLocation at);
   void check_view(const View& view, const char* place);
   Rgb color() const { return {numbers_[0], numbers_[1], numbers_[2]}; }
@@ -115,6 +120,7 @@ class SceneBuilder {
   std::size_t entities_ = 0;
   bool has_material_ = false;
   MaterialIndex material_ = 0;
+  const char* tried_ = nullptr;
   const char* last_comment_ = nullptr;
   std::array<Occurrence, static_cast<std::size_t>(Deviation::kCount)> deviations_{};
   std::map<std::string, Occurrence, std::less<>> unknown_;

@@ -12,7 +12,7 @@ inline constexpr const char* expected = nullptr;
 
 template <>
 inline constexpr const char* expected<grammar::view_first_item> =
-    "'from', 'at', 'up', 'angle', 'hither' or 'resolution' after the keyword";
+    "one of from, at, up, angle, hither and resolution";
 template <>
 inline constexpr const char* expected<grammar::view_value> = "a number for the view";
 template <>

@@ -23,8 +23,8 @@ namespace pegtl = tao::pegtl;
 using Input = pegtl::memory_input<pegtl::tracking_mode::lazy, pegtl::eol::lf_crlf, const char*>;
 
 // Where the next token begins, and its bytes; empty at the end of the text.
-std::string_view next_token(const Input& in) {
-  Input ahead(in.current(), in.end(), "");
+std::string_view next_token(const char* begin_of_gap, const char* end) {
+  Input ahead(begin_of_gap, end, "");
   pegtl::parse<grammar::gap>(ahead);
   const char* const begin = ahead.current();
   pegtl::parse<grammar::token>(ahead);
@@ -34,22 +34,23 @@ std::string_view next_token(const Input& in) {
 // Why a token that looks like a number is none.
 const char* number_problem(std::string_view token) {
   const std::size_t sign = token.starts_with('-') || token.starts_with('+') ? 1 : 0;
+  const char* const end = token.data() + token.size();
   std::string word(token.substr(sign));
   for (char& c : word) c = static_cast<char>(c | 0x20);
   if (word == "nan" || word == "inf" || word == "infinity") return ", but numbers must be finite";
   double value = 0;
-  const auto [stop, problem] = std::from_chars(token.data() + sign, token.data() + token.size(), value);
-  if (stop == token.data() + token.size()) return ", which is too large";
-  return "";
+  const bool number_in_form = std::from_chars(token.data() + sign, end, value).ptr == end;
+  return number_in_form && !scan_number(token.data(), end, value) ? ", which is too large" : "";
 }
 
 // What a rule expected and what stands there instead. The caret goes to the offending token, or behind the
-// last one when the text or its line ends there.
+// token before when the text or its line ends there.
 template <typename Rule>
 [[noreturn]] void fail(const Input& in, SceneBuilder& builder) {
+  const char* const tried = builder.tried();  // before the gap
   std::string message = fmt::format("expected {}", expected<Rule>);
   if constexpr (std::is_same_v<Rule, grammar::block_comment_rest>) {
-    throw ParseFailure{in.current() - 2, message, true};
+    throw ParseFailure{tried - 2, message, true};
   }
   if constexpr (!std::is_same_v<Rule, grammar::end_of_entities>) {
     if (builder.vertex_at_hand() > 0) {
@@ -59,25 +60,22 @@ template <typename Rule>
   } else if (!builder.entity().empty()) {
     message += fmt::format(" after '{}'", builder.entity());
   }
-  const std::string_view token = next_token(in);
-  const char* place = token.data();
-  if (token.empty()) {
-    throw ParseFailure{in.current(), message + ", found the end of the file"};
-  }
+  const std::string_view token = next_token(tried, in.end());
+  if (token.empty()) throw ParseFailure{tried, message + ", found the end of the file"};
+
   message += ", found " + quoted(token) + number_problem(token);
-  const SourceLocation before = builder.locate(in.current());
-  const SourceLocation found = builder.locate(place);
-  if (found.line != before.line) {
-    message += fmt::format(" on line {}", found.line);
-    place = in.current();
-  }
-  throw ParseFailure{place, message};
+  const SourceLocation before = builder.locate(tried);
+  const SourceLocation found = builder.locate(token.data());
+  if (found.line == before.line) throw ParseFailure{token.data(), message};
+  throw ParseFailure{tried, message + fmt::format(" on line {}", found.line)};
 }
 
 // As PEGTL's must_if, but the place is computed by the builder's cursor rather than from the text's begin.
 template <typename Rule>
 struct control : pegtl::normal<Rule> {
-  template <typename... States>
+  static void start(const Input& in, SceneBuilder& builder) {
+    if constexpr (expected<Rule> != nullptr) builder.try_at(in.current());
+  }
   static void failure(const Input& in, SceneBuilder& builder) {
     if constexpr (expected<Rule> != nullptr) fail<Rule>(in, builder);
   }
@@ -99,8 +97,7 @@ bool read_entities(Input& in, SceneBuilder& builder) {
         pegtl::parse<grammar::resume>(in);
       }
     }
-  } catch (const ParseFailure& failure) {
-    builder.report(failure);
+  } catch (const TooManyErrors&) {
     return false;
   }
   return true;
@@ -127,7 +124,7 @@ std::string_view without_end_mark(std::string_view text) {
 
 // The one thing to say of a text without a single entity.
 Diagnostics nothing_found(const Input& whole, SceneBuilder& builder) {
-  const std::string_view token = next_token(whole);
+  const std::string_view token = next_token(whole.begin(), whole.end());
   Diagnostics diagnostics;
   if (token.empty()) {
     diagnostics.error({}, "the file holds only comments");
@@ -140,9 +137,13 @@ Diagnostics nothing_found(const Input& whole, SceneBuilder& builder) {
   return diagnostics;
 }
 
-[[noreturn]] void reject(const Diagnostics& diagnostics, std::string_view file_name, std::string_view text) {
+[[noreturn]] void reject(const Diagnostics& diagnostics, std::string_view file_name, std::string_view text,
+                         const NffOptions& options) {
   std::string report = format(diagnostics, file_name, text);
   report.pop_back();  // the last line's end
+  if (diagnostics.error_count() >= options.max_errors) {
+    report += fmt::format("\n{}: reading stopped after {} errors", file_name, diagnostics.error_count());
+  }
   throw InputError(report);
 }
 
@@ -164,10 +165,10 @@ ParsedScene parse_nff(std::string_view text, std::string_view file_name, const N
   const bool whole = nff::read_entities(in, builder);
   if (whole && builder.entities() == 0) {
     in.restart();
-    nff::reject(nff::nothing_found(in, builder), file_name, text);
+    nff::reject(nff::nothing_found(in, builder), file_name, text, options);
   }
   const Diagnostics& diagnostics = builder.finish();
-  if (diagnostics.has_errors()) nff::reject(diagnostics, file_name, text);
+  if (diagnostics.has_errors()) nff::reject(diagnostics, file_name, text, options);
   return {std::move(builder.scene()), format(diagnostics, file_name, text)};
 }
 
