@@ -184,12 +184,9 @@ TEST_CASE("facts stand in the PNG as texts") {
   const std::string file = encode_png(Image(2, 2), {{"pprt.frame", std::int64_t{12}},
                                                     {"pprt.late_ms", 0.1},
                                                     {"pprt.scene", std::string("b\xc3\xa4ume.nff")}});
-  CHECK(file.find(std::string("tEXtpprt.frame\0"
-                              "12",
-                              18)) != file.npos);
-  CHECK(file.find(std::string("tEXtpprt.late_ms\0"
-                              "0.1",
-                              20)) != file.npos);
+  using namespace std::string_literals;
+  CHECK(file.find("tEXtpprt.frame\0"s + "12") != file.npos);
+  CHECK(file.find("tEXtpprt.late_ms\0"s + "0.1") != file.npos);
   CHECK(file.find("iTXtpprt.scene") != file.npos);
   CHECK(file.find("b\xc3\xa4ume.nff") != file.npos);
 }
