@@ -1,6 +1,7 @@
 #include "scene/scene_description.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 
@@ -67,7 +68,8 @@ void add_patch(SceneDescription& scene, std::span<const PatchVertex> vertices, M
 
 MaterialIndex MaterialTable::intern(std::vector<Material>& materials, const Material& material) {
   if (2 * (used_ + 1) > slots_.size()) {
-    slots_.assign(std::max<std::size_t>(16, 2 * slots_.size()), kEmpty);
+    // At most half full, also when the first call finds many materials there already.
+    slots_.assign(std::bit_ceil(std::max<std::size_t>(16, 4 * materials.size())), kEmpty);
     for (MaterialIndex i = 0; i < materials.size(); ++i) {
       std::size_t slot = hash(materials[i]) & (slots_.size() - 1);
       while (slots_[slot] != kEmpty) slot = (slot + 1) & (slots_.size() - 1);

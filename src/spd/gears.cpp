@@ -44,12 +44,9 @@ void gear(SceneBuilder& out, const Vec3d& top_center, double radius, double thic
   out.polygon(outline(top_center + down, radius, first_angle, -1));
 }
 
-// Fractions of whole numbers: bright and different for neighbours.
+// Sevenths that change from neighbour to neighbour, made as bright as they go.
 Fill gear_fill(int x, int y, int z) {
-  const auto channel = [](int steps, double share) {
-    const double value = steps * share / 7;
-    return 0.01 + (value - std::trunc(value));
-  };
+  const auto channel = [](int steps, int sevenths) { return 0.01 + steps * sevenths % 7 / 7.0; };
   Rgb color(channel(3 * x + 2 * y + z + 1, 5), channel(3 * y + 2 * z + x + 1, 3),
             channel(3 * z + 2 * x + y + 1, 2));
   color /= std::max({color.x, color.y, color.z});
