@@ -1,0 +1,21 @@
+// The tracer as the pipeline and the ranks see it: something that can be asked what lies behind an image
+// point.
+#pragma once
+
+#include <functional>
+
+#include "base/camera.h"
+#include "base/ray_counts.h"
+#include "base/ray_sample.h"
+
+namespace pprt {
+
+struct Probe {
+  std::function<void(const Camera&)> look_from;        // the camera of what is asked from now on
+  std::function<RaySample(double x, double y)> trace;  // the eye ray through an image point, pixels
+  std::function<bool(const Vec3f& hit, bool at_infinity)>
+      visible;                        // whether nothing hides a hit point from the eye
+  std::function<RayCounts()> counts;  // since the beginning
+};
+
+}  // namespace pprt

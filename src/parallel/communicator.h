@@ -1,0 +1,57 @@
+// Messages between ranks: all that the parallel logic knows of MPI.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+namespace pprt {
+
+using Bytes = std::vector<std::byte>;
+
+// What a message is; its sender, receiver and reason. docs/protocol.md tells the whole story.
+enum class Tag : int {
+  kClockPing = 1,  // master -> rank, before the sequence: what time is it?
+  kClockPong,      // rank -> master: its time
+  kStart,          // master -> rank: when the sequence begins, in the rank's own time
+  kFrameOrder,     // master -> rank, one frame ahead: the next frame, or the end
+  kBundle,         // rank -> rank, in and after sampling: samples its region needs to know
+  kPixels,         // rank -> master, after reconstruction: pixels and what they cost
+};
+
+struct Message {
+  int from = 0;
+  Tag tag{};
+  Bytes payload;
+};
+
+// A message that cannot be read: a rank of another version, or a broken network.
+class ProtocolError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// One rank's end of the network. Used by one thread. No call waits for another rank but broadcast() and
+// flush().
+class Communicator {
+ public:
+  virtual ~Communicator() = default;
+
+  virtual int rank() const = 0;
+  virtual int size() const = 0;
+
+  // Takes the payload and sends it; a rank may send to itself. Messages between two ranks keep their order.
+  virtual void send(int to, Tag tag, Bytes payload) = 0;
+
+  // The next message that has arrived from anyone.
+  virtual std::optional<Message> receive() = 0;
+
+  // Gives every rank what rank 0 holds in `data`. All ranks call it together.
+  virtual void broadcast(Bytes& data) = 0;
+
+  // Waits until all that was sent has left.
+  virtual void flush() = 0;
+};
+
+}  // namespace pprt

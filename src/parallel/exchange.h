@@ -1,0 +1,60 @@
+// Which samples other ranks need to know: the update rule (paper s. 3.4).
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "parallel/partition.h"
+#include "parallel/rank_set.h"
+#include "pipeline/sample_mesh.h"
+
+namespace pprt {
+
+// Kept in step with one rank's mesh. Invariant to be reached: every triangle whose circumcircle meets the
+// regions of two ranks is in both their triangulations once all messages have arrived.
+class SampleExchange {
+ public:
+  SampleExchange(const Partition& partition, int rank);
+
+  // The mesh starts anew.
+  void clear();
+
+  // Every successful insert is followed by exactly one of these three. `from` is the rank that the sample
+  // came from, or this one.
+  void inserted(const SampleMesh& mesh, int from);  // the update rule
+  void seeded_here(const SampleMesh& mesh);         // an own seed: to every rank whose region it may border,
+                                                    // for there is no triangulation yet to ask
+  void seeded_elsewhere(int from);                  // another rank's seed: told to all by that rank
+
+  // Other ranks whose region lies within reach of the own one's seeds. Symmetric: i is j's peer when j is
+  // i's.
+  const std::vector<int>& seed_peers() const { return seed_peers_; }
+
+  int owner_of(double x, double y) const {
+    return partition_.owner[static_cast<std::size_t>(partition_.grid.tile_at(x, y))];
+  }
+
+  // Samples that `rank` must be told; emptied by the call.
+  std::vector<Sample> take_outbox(int rank);
+
+ private:
+  void note_newest(int from);
+  void tell(const SampleMesh& mesh, std::uint32_t sample, int rank);
+  void touch_ranks(
+      const Circle& circle);  // fills touched_ with other ranks, and whether the own region is met
+  bool far_inside(const Circle& circle) const;
+
+  Partition partition_;
+  int rank_;
+  RankSets known_by_;                        // per sample of the mesh
+  std::vector<std::vector<Sample>> outbox_;  // per rank
+  std::vector<double> inside_by_;  // per tile: distance in pixels that keeps a point of it from other regions
+  std::vector<int> seed_peers_;
+  std::vector<int> touched_;
+  std::vector<std::uint32_t> touch_stamp_;  // per rank, to list each once
+  std::uint32_t stamp_ = 0;
+  bool touches_own_ = false;
+};
+
+}  // namespace pprt

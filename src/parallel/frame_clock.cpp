@@ -1,0 +1,144 @@
+#include "parallel/frame_clock.h"
+
+#include <sched.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+
+namespace pprt {
+namespace {
+
+double thread_cpu_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// The largest of the last few values: what a careful prediction assumes.
+class RecentMaximum {
+ public:
+  void add(double value) { values_[next_++ % values_.size()] = value; }
+  double get() const { return *std::max_element(values_.begin(), values_.end()); }
+
+ private:
+  std::array<double, 8> values_{};
+  std::size_t next_ = 0;
+};
+
+class WallClock final : public FrameClock {
+ public:
+  WallClock(double start_s, bool crowded) : start_s_(start_s), crowded_(crowded) {}
+
+  void begin_frame(const FrameOrder& order) override {
+    frame_began_s_ = monotonic_seconds();
+    // What this rank needs itself, a quarter more for luck; or what the master has seen, which holds the
+    // slowest rank, the network and the assembly as well.
+    const double reserve = std::max(order.reserve_s, 1.25 * after_sampling_s_.get());
+    stop_s_ = order.deadline_s > 0 ? start_s_ + order.deadline_s - reserve : 0;
+  }
+  void spend(Work, std::uint64_t) override {}
+  void begin_packet() override {
+    left_in_packet_ = kSamplesPerPacket;
+    // With more ranks than cores, short turns keep every rank near its deadline.
+    if (crowded_) sched_yield();
+  }
+  bool packet_over() override {
+    if (left_in_packet_-- == 0) return true;
+    return (left_in_packet_ & 7) == 0 && sampling_over();
+  }
+  bool sampling_over() override {
+    if (stop_s_ == 0) return false;
+    const double now = monotonic_seconds();
+    if (now < stop_s_) return false;
+    sampling_ended_s_ = now;
+    return true;
+  }
+  void end_frame() override {
+    if (stop_s_ > 0) after_sampling_s_.add(monotonic_seconds() - sampling_ended_s_);
+  }
+  bool in_lockstep() const override { return false; }
+  double lap_ms() override {
+    const double now = thread_cpu_seconds(), lap = now - last_lap_s_;
+    last_lap_s_ = now;
+    return 1e3 * lap;
+  }
+  double frame_seconds() const override { return monotonic_seconds() - frame_began_s_; }
+  double sequence_seconds() const override { return monotonic_seconds() - start_s_; }
+
+ private:
+  static constexpr int kSamplesPerPacket = 48;
+
+  double start_s_;
+  bool crowded_;
+  double frame_began_s_ = 0;
+  double stop_s_ = 0;  // when sampling must stop; 0: no rate
+  double sampling_ended_s_ = 0;
+  RecentMaximum after_sampling_s_;
+  int left_in_packet_ = 0;
+  double last_lap_s_ = thread_cpu_seconds();
+};
+
+class WorkClock final : public FrameClock {
+ public:
+  WorkClock(const SessionSettings& settings, std::size_t region_pixels)
+      : budget_(settings.frames_per_second > 0 ? settings.budget_units : 0),
+        reconstruction_(price(Work::kPixel) * region_pixels) {}
+
+  void begin_frame(const FrameOrder&) override {
+    // Besides reconstruction, a round's worth is kept for what the last exchange brings.
+    const WorkUnits kept = reconstruction_ + budget_ / kRoundsPerFrame;
+    sampling_ = budget_ > kept ? budget_ - kept : 0;
+    frame_units_ = 0;
+    round_ = 0;
+  }
+  void spend(Work work, std::uint64_t count) override { frame_units_ += price(work) * count; }
+  void begin_packet() override {
+    ++round_;
+    round_end_ = budget_ > 0 ? sampling_ * static_cast<WorkUnits>(round_) / kRoundsPerFrame
+                             : static_cast<WorkUnits>(round_) * kUnitsPerFreeRound;
+  }
+  bool packet_over() override { return frame_units_ >= round_end_; }
+  bool sampling_over() override { return budget_ > 0 && round_ >= kRoundsPerFrame; }
+  void end_frame() override {
+    sequence_units_ += frame_units_;
+    lap_began_ -= static_cast<double>(frame_units_);
+  }
+  bool in_lockstep() const override { return true; }
+  double lap_ms() override {
+    const double lap = static_cast<double>(frame_units_) - lap_began_;
+    lap_began_ = static_cast<double>(frame_units_);
+    return 1e-6 * lap;
+  }
+  double frame_seconds() const override { return static_cast<double>(frame_units_) / kWorkUnitsPerSecond; }
+  double sequence_seconds() const override {
+    return static_cast<double>(sequence_units_ + frame_units_) / kWorkUnitsPerSecond;
+  }
+
+ private:
+  WorkUnits budget_;          // a frame's; 0: no rate
+  WorkUnits reconstruction_;  // what it will cost
+  WorkUnits sampling_ = 0;    // what is left for sampling
+  WorkUnits frame_units_ = 0;
+  WorkUnits sequence_units_ = 0;
+  WorkUnits round_end_ = 0;
+  int round_ = 0;
+  double lap_began_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameClock> make_frame_clock(const SessionSettings& settings, double start_s,
+                                             std::size_t region_pixels, bool crowded) {
+  if (settings.clock == ClockKind::kWork) return std::make_unique<WorkClock>(settings, region_pixels);
+  return std::make_unique<WallClock>(start_s, crowded);
+}
+
+double monotonic_seconds() {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration<double>(now).count();
+}
+
+}  // namespace pprt

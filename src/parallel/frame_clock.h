@@ -1,0 +1,55 @@
+// When a rank samples, exchanges and stops: real time or counted work, behind one interface (paper
+// s. 4.3, 4.6).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "parallel/messages.h"
+#include "parallel/session_settings.h"
+#include "parallel/work_units.h"
+
+namespace pprt {
+
+class FrameClock {
+ public:
+  virtual ~FrameClock() = default;
+
+  // A frame begins; `reserve` is what must follow its sampling: seconds of wall time, or work units.
+  virtual void begin_frame(const FrameOrder& order) = 0;
+
+  // Counts work (a no-op for wall time: it passes by itself).
+  virtual void spend(Work work, std::uint64_t count) = 0;
+
+  // Sampling goes in packets with an exchange of messages after each.
+  virtual void begin_packet() = 0;
+  virtual bool packet_over() = 0;
+
+  // With a rate: whether what must follow needs the rest of the frame's time. Without: never.
+  virtual bool sampling_over() = 0;
+
+  // Tells how long the frame took after sampling, so that the next frames leave enough.
+  virtual void end_frame() = 0;
+
+  // Whether all ranks take the same packets and wait for each other's messages after each.
+  virtual bool in_lockstep() const = 0;
+
+  // Milliseconds of this rank's CPU (work clock: units / 1e6) since the last call.
+  virtual double lap_ms() = 0;
+
+  // Seconds since this frame began (work clock: units / kWorkUnitsPerSecond).
+  virtual double frame_seconds() const = 0;
+
+  // Seconds since the sequence began; work clock: of this rank's virtual time.
+  virtual double sequence_seconds() const = 0;
+};
+
+// `start_s` is the moment the sequence begins in terms of monotonic_seconds(); the work clock ignores it.
+// `region_pixels` is what reconstruction will have to fill.
+std::unique_ptr<FrameClock> make_frame_clock(const SessionSettings& settings, double start_s,
+                                             std::size_t region_pixels, bool crowded);
+
+// Seconds on this host's steady clock.
+double monotonic_seconds();
+
+}  // namespace pprt

@@ -1,0 +1,47 @@
+// A network inside one process: for a run on one rank, and for tests of many.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "parallel/communicator.h"
+
+namespace pprt {
+
+// The mailboxes of all ranks; must outlive their communicators.
+class LocalNetwork {
+ public:
+  explicit LocalNetwork(int size) : boxes_(static_cast<std::size_t>(size)) {}
+
+  int size() const { return static_cast<int>(boxes_.size()); }
+  void deliver(int to, Message message);
+  std::optional<Message> collect(int rank);
+
+ private:
+  struct Box {
+    std::mutex mutex;
+    std::deque<Message> messages;
+  };
+  std::vector<Box> boxes_;
+};
+
+// One rank of a LocalNetwork, driven by a thread of its own.
+class LocalCommunicator final : public Communicator {
+ public:
+  LocalCommunicator(LocalNetwork& network, int rank) : network_(network), rank_(rank) {}
+
+  int rank() const override { return rank_; }
+  int size() const override { return network_.size(); }
+  void send(int to, Tag tag, Bytes payload) override;
+  std::optional<Message> receive() override { return network_.collect(rank_); }
+  void broadcast(Bytes& data) override;
+  void flush() override {}
+
+ private:
+  LocalNetwork& network_;
+  int rank_;
+};
+
+}  // namespace pprt

@@ -1,0 +1,126 @@
+#include "parallel/master.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "parallel/frame_clock.h"
+#include "parallel/work_units.h"
+
+namespace pprt {
+
+Master::Master(Communicator& network, const SessionSettings& settings, const Partition& partition,
+               CameraSource source, FrameSink sink)
+    : network_(network),
+      settings_(settings),
+      partition_(partition),
+      source_(std::move(source)),
+      sink_(std::move(sink)) {}
+
+void Master::begin_sequence(double start_s) {
+  start_s_ = start_s;
+  order_next();
+}
+
+void Master::handle(const Message& message) {
+  const PixelMessage pixels = decode_pixels(message.payload);
+  const auto found = assemblies_.find(pixels.frame_index);
+  if (found == assemblies_.end()) throw ProtocolError("pixels came for a frame that was not ordered");
+  Assembly& assembly = found->second;
+  paste(assembly, message.from, pixels);
+  if (--assembly.missing > 0) return;
+  // Every rank sends its frames in order, so no earlier frame can still be incomplete.
+  deliver(assembly);
+  assemblies_.erase(found);
+}
+
+void Master::order_next() {
+  if (ended_) return;
+  FrameOrder order;
+  const std::optional<FrameRequest> request = source_(next_index_);
+  if (request) {
+    order.index = next_index_++;
+    order.number = request->number;
+    order.cut = request->cut;
+    order.carry = carry_into(*request);
+    order.camera = request->camera;
+    if (settings_.frames_per_second > 0) order.deadline_s = (order.index + 1) / settings_.frames_per_second;
+    order.reserve_s = reserve_s();
+    assemblies_[order.index] = {order, Image(settings_.width, settings_.height),
+                                std::vector<RankReport>(static_cast<std::size_t>(network_.size())),
+                                network_.size()};
+    before_ = request;
+  } else {
+    order.end = ended_ = true;
+  }
+  for (int rank = 0; rank < network_.size(); ++rank) network_.send(rank, Tag::kFrameOrder, encode(order));
+}
+
+Carry Master::carry_into(const FrameRequest& request) const {
+  if (!before_ || request.cut || settings_.cast == CastChoice::kOff) return Carry::kNothing;
+  if (request.camera == before_->camera) return Carry::kAccumulate;
+  switch (settings_.cast) {
+    case CastChoice::kPaper:
+      return Carry::kCastPaper;
+    case CastChoice::kVerified:
+      return Carry::kCastVerified;
+    default:
+      return Carry::kNothing;
+  }
+}
+
+void Master::paste(Assembly& assembly, int from, const PixelMessage& message) const {
+  assembly.ranks[static_cast<std::size_t>(from)] = message.report;
+  std::size_t next = 0;
+  for (const std::int32_t tile : message.tiles) {
+    if (tile < 0 || tile >= partition_.grid.tile_count())
+      throw ProtocolError("pixels of a tile that is none");
+    const PixelRect rect = partition_.grid.pixels(tile);
+    if (message.rgb.size() - next < 3 * rect.area()) throw ProtocolError("pixels are missing in a message");
+    for (int y = rect.y0; y < rect.y1; ++y) {
+      for (int x = rect.x0; x < rect.x1; ++x, next += 3) {
+        assembly.image.at(x, y) = Color(message.rgb[next], message.rgb[next + 1], message.rgb[next + 2]);
+      }
+    }
+  }
+}
+
+void Master::deliver(Assembly& assembly) {
+  FinishedFrame frame;
+  const double period = settings_.frames_per_second > 0 ? 1 / settings_.frames_per_second : 0;
+  if (settings_.clock == ClockKind::kWork) {
+    double slowest = 0;
+    for (const RankReport& r : assembly.ranks) slowest = std::max(slowest, r.finished_s);
+    const double budget_s = static_cast<double>(settings_.budget_units) / kWorkUnitsPerSecond;
+    frame.finished_s = assembly.order.index * period + slowest;
+    frame.late_ms = period > 0 ? 1e3 * (slowest - budget_s) : 0;
+  } else {
+    frame.finished_s = monotonic_seconds() - start_s_;
+    frame.late_ms = period > 0 ? 1e3 * (frame.finished_s - assembly.order.deadline_s) : 0;
+    learn_reserve(assembly, frame.finished_s);
+  }
+  frame.order = assembly.order;
+  frame.image = std::move(assembly.image);
+  frame.ranks = std::move(assembly.ranks);
+  sink_(std::move(frame));
+}
+
+void Master::learn_reserve(const Assembly& assembly, double finished_s) {
+  constexpr std::size_t kRemembered = 12;
+  double first_end = finished_s;
+  for (const RankReport& r : assembly.ranks) first_end = std::min(first_end, r.sampling_ended_s);
+  after_sampling_s_.push_back(finished_s - first_end);
+  if (after_sampling_s_.size() > kRemembered) after_sampling_s_.pop_front();
+}
+
+// What to leave between the end of sampling and the deadline: the worst of the last frames and a fifth more;
+// before any was seen, a third of the period; never more than seven tenths, so that some sampling remains.
+double Master::reserve_s() const {
+  if (settings_.frames_per_second <= 0) return 0;
+  const double period = 1 / settings_.frames_per_second;
+  if (after_sampling_s_.empty()) return period / 3;
+  const double worst = *std::max_element(after_sampling_s_.begin(), after_sampling_s_.end());
+  return std::min(0.7 * period, 1.2 * worst + 0.001);
+}
+
+}  // namespace pprt

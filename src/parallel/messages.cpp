@@ -1,0 +1,113 @@
+#include "parallel/messages.h"
+
+#include "parallel/wire.h"
+
+namespace pprt {
+namespace {
+
+// A sample without padding, as it travels.
+struct WireSample {
+  double x, y;
+  std::uint64_t id;
+  float color[3];
+  float hit[3];
+  std::int32_t frame;
+  std::uint32_t rays;
+  std::uint8_t flags;
+  std::uint8_t unused[7];
+};
+static_assert(sizeof(WireSample) == 64);
+
+constexpr std::uint8_t kAtInfinity = 1, kEyeDependent = 2;
+
+WireSample to_wire(const Sample& s) {
+  const RaySample& r = s.ray;
+  return {
+      s.x,
+      s.y,
+      s.id,
+      {r.color.x, r.color.y, r.color.z},
+      {r.hit.x, r.hit.y, r.hit.z},
+      s.frame,
+      r.rays,
+      static_cast<std::uint8_t>((r.at_infinity ? kAtInfinity : 0) | (r.eye_dependent ? kEyeDependent : 0)),
+      {}};
+}
+
+Sample from_wire(const WireSample& w) {
+  Sample s;
+  s.x = w.x;
+  s.y = w.y;
+  s.id = w.id;
+  s.frame = w.frame;
+  s.ray.color = Color(w.color[0], w.color[1], w.color[2]);
+  s.ray.hit = Vec3f(w.hit[0], w.hit[1], w.hit[2]);
+  s.ray.at_infinity = (w.flags & kAtInfinity) != 0;
+  s.ray.eye_dependent = (w.flags & kEyeDependent) != 0;
+  s.ray.rays = w.rays;
+  return s;
+}
+
+void expect_end(const WireReader& reader) {
+  if (!reader.at_end()) throw ProtocolError("a message holds more than it should");
+}
+
+}  // namespace
+
+Bytes encode(const FrameOrder& order) {
+  WireWriter out;
+  out.put(order.end), out.put(order.index), out.put(order.number), out.put(order.cut), out.put(order.carry);
+  out.put(order.camera), out.put(order.deadline_s), out.put(order.reserve_s);
+  return out.take();
+}
+
+FrameOrder decode_frame_order(std::span<const std::byte> bytes) {
+  WireReader in(bytes);
+  FrameOrder order;
+  in.get(order.end), in.get(order.index), in.get(order.number), in.get(order.cut), in.get(order.carry);
+  in.get(order.camera), in.get(order.deadline_s), in.get(order.reserve_s);
+  expect_end(in);
+  return order;
+}
+
+Bytes encode(const Bundle& bundle) {
+  std::vector<WireSample> samples;
+  samples.reserve(bundle.samples.size());
+  for (const Sample& s : bundle.samples) samples.push_back(to_wire(s));
+  WireWriter out;
+  out.put(bundle.frame_index), out.put(bundle.epoch), out.put(bundle.round), out.put(bundle.done);
+  out.put_all(std::span<const WireSample>(samples));
+  return out.take();
+}
+
+Bundle decode_bundle(std::span<const std::byte> bytes) {
+  WireReader in(bytes);
+  Bundle bundle;
+  std::vector<WireSample> samples;
+  in.get(bundle.frame_index), in.get(bundle.epoch), in.get(bundle.round), in.get(bundle.done);
+  in.get_all(samples);
+  expect_end(in);
+  bundle.samples.reserve(samples.size());
+  for (const WireSample& s : samples) bundle.samples.push_back(from_wire(s));
+  return bundle;
+}
+
+Bytes encode(const PixelMessage& pixels) {
+  WireWriter out;
+  out.put(pixels.frame_index), out.put(pixels.report);
+  out.put_all(std::span<const std::int32_t>(pixels.tiles));
+  out.put_all(std::span<const float>(pixels.rgb));
+  return out.take();
+}
+
+PixelMessage decode_pixels(std::span<const std::byte> bytes) {
+  WireReader in(bytes);
+  PixelMessage pixels;
+  in.get(pixels.frame_index), in.get(pixels.report);
+  in.get_all(pixels.tiles);
+  in.get_all(pixels.rgb);
+  expect_end(in);
+  return pixels;
+}
+
+}  // namespace pprt

@@ -1,0 +1,89 @@
+// The catalogue of messages: plain values and their bytes.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/camera.h"
+#include "base/ray_counts.h"
+#include "base/vector.h"
+#include "parallel/communicator.h"
+#include "pipeline/sample.h"
+
+namespace pprt {
+
+// What a frame takes over from the one before.
+enum class Carry : std::uint8_t {
+  kNothing,      // first frame, a cut, or casting off
+  kAccumulate,   // the camera rests: all samples stay where they are
+  kCastPaper,    // samples cast, hidden ones guessed
+  kCastVerified  // samples cast, hidden ones found by rays
+};
+
+// Master to every rank, one frame ahead.
+struct FrameOrder {
+  bool end = false;         // no further frame; nothing below counts
+  std::int32_t index = 0;   // 0, 1, 2 ... within this run
+  std::int32_t number = 0;  // as the script counts, in file names and time stamps
+  bool cut = false;
+  Carry carry = Carry::kNothing;
+  Camera camera;
+  double deadline_s = 0;  // since the start of the sequence; 0: no rate
+  double reserve_s = 0;   // wall clock: what the master has seen pass between end of sampling and whole frame
+};
+
+// Rank to rank: samples whose triangles touch the receiver's region.
+struct Bundle {
+  std::int32_t frame_index = 0;
+  std::int32_t epoch = 0;  // index of the frame in which the sender's triangulation began
+  std::int32_t round = 0;
+  bool done = false;  // the sender has reached its goal (frames without a rate)
+  std::vector<Sample> samples;
+};
+
+// CPU time by stage, milliseconds (work clock: work units / 1e6).
+struct StageTimes {
+  double sampling = 0;
+  double casting = 0;
+  double reconstruction = 0;
+  double balancing = 0;
+  double idle = 0;  // wall time spent waiting
+};
+
+// What a rank did for one frame.
+struct RankReport {
+  std::uint64_t samples_new = 0;        // traced in this frame
+  std::uint64_t samples_cast = 0;       // of those in the region at its end, carried from frames before
+  std::uint64_t samples_received = 0;   // from other ranks, inserted
+  std::uint64_t samples_known = 0;      // received although already known
+  std::uint64_t samples_in_region = 0;  // at the end
+  std::uint64_t non_finite = 0;         // colours that were no numbers
+  double refinement = 0;                // Q_k
+  std::uint64_t triangles_in_region = 0;
+  RayCounts rays;
+  StageTimes cpu_ms;
+  std::uint64_t bytes_samples = 0;  // sent
+  std::uint64_t bytes_pixels = 0;
+  double finished_s = 0;        // work clock: virtual time used in this frame, seconds
+  double sampling_ended_s = 0;  // wall clock: since the start of the sequence
+};
+
+// Rank to master: the pixels of its tiles, tile after tile, rows from the top.
+struct PixelMessage {
+  std::int32_t frame_index = 0;
+  RankReport report;
+  std::vector<std::int32_t> tiles;
+  std::vector<float> rgb;  // 3 per pixel
+};
+
+Bytes encode(const FrameOrder& order);
+Bytes encode(const Bundle& bundle);
+Bytes encode(const PixelMessage& pixels);
+
+// Throw ProtocolError on bytes that are no such message.
+FrameOrder decode_frame_order(std::span<const std::byte> bytes);
+Bundle decode_bundle(std::span<const std::byte> bytes);
+PixelMessage decode_pixels(std::span<const std::byte> bytes);
+
+}  // namespace pprt

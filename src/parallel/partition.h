@@ -1,0 +1,33 @@
+// Which rank owns which tile: data, not code (paper s. 3.3, 4.4).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "pipeline/region.h"
+#include "pipeline/tile_grid.h"
+
+namespace pprt {
+
+// Invariant: exactly one owner a tile, each in [0, ranks).
+struct Partition {
+  TileGrid grid;
+  int ranks = 1;
+  std::vector<std::int32_t> owner;  // per tile
+};
+
+// Square tiles, about 32 a rank so that balancing has something to move, between 4 and 32 pixels wide.
+TileGrid tile_grid_for(int width, int height, int ranks);
+
+// Greedy recursive bisection (paper s. 4.4): each cut runs across the longer side, at the tile line that best
+// shares `tile_costs` in proportion to the ranks on either side. Regions are rectangles. With fewer tiles
+// than ranks some ranks own none. Costs must not be negative; all zero counts as all equal.
+Partition bisect(const TileGrid& grid, std::span<const double> tile_costs, int ranks);
+
+Region region_of(const Partition& partition, int rank);
+
+// Whether the rank's tiles hang together by their sides (an empty region does).
+bool is_connected(const Partition& partition, int rank);
+
+}  // namespace pprt

@@ -1,0 +1,142 @@
+#include "parallel/session.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "parallel/frame_clock.h"
+#include "parallel/inbox.h"
+#include "parallel/wire.h"
+#include "parallel/work_units.h"
+#include "parallel/worker.h"
+
+namespace pprt {
+namespace {
+
+constexpr int kPings = 8;
+constexpr double kHeadStart = 0.005;  // seconds between the start message and the sequence's start
+
+Message wait_for(Communicator& network, Tag tag) {
+  while (true) {
+    if (std::optional<Message> message = network.receive()) {
+      if (message->tag != tag) throw ProtocolError("a message came out of turn before the sequence");
+      return *message;
+    }
+    rest_briefly();
+  }
+}
+
+double time_in(const Message& message) {
+  double seconds = 0;
+  WireReader(message.payload).get(seconds);
+  return seconds;
+}
+
+void send_time(Communicator& network, int to, Tag tag, double seconds) {
+  WireWriter out;
+  out.put(seconds);
+  network.send(to, tag, out.take());
+}
+
+// How far a rank's steady clock is ahead of ours, from the exchange with the shortest way. Within the
+// uncertainty of half a round trip the clocks count as one: ranks of a host share theirs.
+double clock_offset(Communicator& network, int rank) {
+  double shortest = std::numeric_limits<double>::infinity(), offset = 0;
+  for (int i = 0; i < kPings; ++i) {
+    const double sent = monotonic_seconds();
+    send_time(network, rank, Tag::kClockPing, sent);
+    const double theirs = time_in(wait_for(network, Tag::kClockPong));
+    const double received = monotonic_seconds();
+    if (received - sent >= shortest) continue;
+    shortest = received - sent;
+    offset = theirs - 0.5 * (sent + received);
+  }
+  return std::abs(offset) <= 0.5 * shortest ? 0 : offset;
+}
+
+double start_together(Communicator& network) {
+  std::vector<double> offsets(static_cast<std::size_t>(network.size()), 0);
+  for (int rank = 1; rank < network.size(); ++rank) {
+    offsets[static_cast<std::size_t>(rank)] = clock_offset(network, rank);
+  }
+  const double start = monotonic_seconds() + kHeadStart;
+  for (int rank = 1; rank < network.size(); ++rank) {
+    send_time(network, rank, Tag::kStart, start + offsets[static_cast<std::size_t>(rank)]);
+  }
+  return start;
+}
+
+double await_start(Communicator& network) {
+  for (int i = 0; i < kPings; ++i) {
+    wait_for(network, Tag::kClockPing);
+    send_time(network, 0, Tag::kClockPong, monotonic_seconds());
+  }
+  return time_in(wait_for(network, Tag::kStart));
+}
+
+Partition equal_areas(const SessionSettings& settings, int ranks) {
+  const TileGrid grid = tile_grid_for(settings.width, settings.height, ranks);
+  std::vector<double> areas;
+  for (int tile = 0; tile < grid.tile_count(); ++tile) {
+    areas.push_back(static_cast<double>(grid.pixels(tile).area()));
+  }
+  return bisect(grid, areas, ranks);
+}
+
+Worker make_worker(Communicator& network, Inbox& inbox, const SessionSettings& settings,
+                   const Partition& partition, const Probe& probe, double start_s) {
+  const bool crowded = network.size() > static_cast<int>(std::thread::hardware_concurrency());
+  const std::size_t pixels = region_of(partition, network.rank()).pixel_count();
+  return Worker(network, inbox, settings, partition, probe,
+                make_frame_clock(settings, start_s, pixels, crowded));
+}
+
+std::optional<FrameOrder> await_order(Inbox& inbox, int index) {
+  while (true) {
+    if (const std::optional<FrameOrder> order = inbox.take_order(index)) {
+      if (order->end) return std::nullopt;
+      return order;
+    }
+    if (!inbox.pump()) rest_briefly();
+  }
+}
+
+}  // namespace
+
+void run_as_master(Communicator& network, const SessionSettings& settings, const Probe& probe,
+                   const CameraSource& source, const FrameSink& sink) {
+  const Partition partition = equal_areas(settings, network.size());
+  Master master(network, settings, partition, source, sink);
+  Inbox inbox(network, [&](const Message& message) { master.handle(message); });
+  const double start_s = start_together(network);
+  Worker worker = make_worker(network, inbox, settings, partition, probe, start_s);
+  master.begin_sequence(start_s);
+  for (int index = 0; const std::optional<FrameOrder> order = await_order(inbox, index); ++index) {
+    master.frame_begun();
+    worker.render(*order);
+  }
+  while (!master.idle()) {
+    if (!inbox.pump()) rest_briefly();
+  }
+  network.flush();
+}
+
+void run_as_worker(Communicator& network, const SessionSettings& settings, const Probe& probe) {
+  const Partition partition = equal_areas(settings, network.size());
+  Inbox inbox(network,
+              [](const Message&) { throw ProtocolError("pixels came to a rank that is not the master"); });
+  Worker worker = make_worker(network, inbox, settings, partition, probe, await_start(network));
+  for (int index = 0; const std::optional<FrameOrder> order = await_order(inbox, index); ++index) {
+    worker.render(*order);
+  }
+  network.flush();
+}
+
+std::uint64_t default_budget_units(double frames_per_second) {
+  return static_cast<std::uint64_t>(std::llround(kWorkUnitsPerSecond / frames_per_second));
+}
+
+}  // namespace pprt

@@ -1,0 +1,19 @@
+// One run on all ranks, from the first order to the last frame.
+#pragma once
+
+#include "base/probe.h"
+#include "parallel/communicator.h"
+#include "parallel/master.h"
+#include "parallel/session_settings.h"
+
+namespace pprt {
+
+// Both return when every frame has been delivered to the master's sink. All ranks get equal settings.
+void run_as_master(Communicator& network, const SessionSettings& settings, const Probe& probe,
+                   const CameraSource& source, const FrameSink& sink);
+void run_as_worker(Communicator& network, const SessionSettings& settings, const Probe& probe);
+
+// A frame's budget in work units when the user gives none: what the virtual processor does in one period.
+std::uint64_t default_budget_units(double frames_per_second);
+
+}  // namespace pprt

@@ -1,0 +1,41 @@
+// What one run of all ranks is told before its first frame.
+#pragma once
+
+#include <cstdint>
+
+#include "parallel/communicator.h"
+
+namespace pprt {
+
+enum class ClockKind : std::uint8_t {
+  kWall,  // real time
+  kWork   // counted work: the result depends on scene, script, ranks, budget and seed alone
+};
+
+// How the samples of one frame serve the next while the camera moves; while it rests they accumulate unless
+// kOff.
+enum class CastChoice : std::uint8_t { kOff, kPaper, kVerified, kAuto };
+
+// When a frame without a rate is good enough: at the first of these that is reached; 0 means no such limit.
+struct StopRules {
+  double seconds = 0;         // wall clock: elapsed; work clock: work units / kWorkUnitsPerSecond
+  std::uint64_t samples = 0;  // in the whole image; each rank takes the share of its pixels
+  double quality = 0;         // mean weight of a rank's triangles (refinement), smaller is better
+};
+
+struct SessionSettings {
+  std::int32_t width = 512;
+  std::int32_t height = 512;
+  ClockKind clock = ClockKind::kWall;
+  double frames_per_second = 0;    // 0: no rate, the stop rules end a frame
+  std::uint64_t budget_units = 0;  // work clock, with a rate: per rank and frame
+  StopRules stop;
+  CastChoice cast = CastChoice::kAuto;
+  std::uint64_t seed = 1;
+};
+
+// For the master's broadcast.
+Bytes encode(const SessionSettings& settings);
+SessionSettings decode_settings(const Bytes& bytes);
+
+}  // namespace pprt

@@ -1,0 +1,48 @@
+// The work clock's prices (paper: none; see docs/decisions/0006-work-clock.md).
+#pragma once
+
+#include <cstdint>
+
+namespace pprt {
+
+// One unit is a nanosecond of one core of the machine that the prices were measured on.
+using WorkUnits = std::uint64_t;
+
+enum class Work : std::uint8_t {
+  kRay,             // a ray of any kind, its share of shading included
+  kOwnSample,       // choosing a point, inserting a sample traced here, queueing its triangles
+  kReceivedSample,  // decoding and inserting another rank's sample
+  kSentSample,      // the update rule and encoding, per sample and receiver
+  kPixel,           // reconstruction of one pixel
+  kCastSample       // projecting and testing one sample of the frame before
+};
+
+constexpr WorkUnits price(Work work) {
+  switch (work) {
+    case Work::kRay:
+      return 110;
+    case Work::kOwnSample:
+      return 800;
+    case Work::kReceivedSample:
+      return 600;
+    case Work::kSentSample:
+      return 60;
+    case Work::kPixel:
+      return 30;
+    case Work::kCastSample:
+      return 60;
+  }
+  return 0;
+}
+
+// The virtual processor gets this many units a second: a twentieth of the machine measured, so that 32 of
+// them fit on two cores. --budget overrides what follows from it.
+inline constexpr double kWorkUnitsPerSecond = 5e7;
+
+// The sampling time of a frame with a rate is cut into this many rounds; messages are delivered between them.
+inline constexpr int kRoundsPerFrame = 24;
+
+// A round's length in frames without a rate.
+inline constexpr WorkUnits kUnitsPerFreeRound = 2'000'000;
+
+}  // namespace pprt

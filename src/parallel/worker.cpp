@@ -1,0 +1,321 @@
+#include "parallel/worker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "pipeline/seeds.h"
+
+namespace pprt {
+namespace {
+
+// Beyond so many samples in each pixel of a region the display's steps are far below what they can change.
+constexpr std::uint64_t kSamplesPerPixelAtMost = 64;
+
+// Wall clock: the share of a frame's period that a rank waits for its neighbours' seeds before it goes on
+// without.
+constexpr double kSeedPatience = 0.1;
+
+constexpr int kSeedRound = 0;
+
+bool is_finite(const Color& c) {
+  return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
+}
+
+std::vector<float> flat_rgb(const RegionPixels& pixels, const Region& region) {
+  std::vector<float> rgb;
+  rgb.reserve(3 * region.pixel_count());
+  for (const int tile : region.tiles()) {
+    const PixelRect rect = region.grid().pixels(tile);
+    for (int y = rect.y0; y < rect.y1; ++y) {
+      for (int x = rect.x0; x < rect.x1; ++x) {
+        const Color& c = pixels.at(x, y);
+        rgb.insert(rgb.end(), {c.x, c.y, c.z});
+      }
+    }
+  }
+  return rgb;
+}
+
+RayCounts operator-(const RayCounts& a, const RayCounts& b) {
+  return {a.primary - b.primary,       a.eye_hits - b.eye_hits,
+          a.shadow - b.shadow,         a.reflection - b.reflection,
+          a.refraction - b.refraction, a.total_internal_reflection - b.total_internal_reflection};
+}
+
+}  // namespace
+
+Worker::Worker(Communicator& network, Inbox& inbox, const SessionSettings& settings,
+               const Partition& partition, Probe probe, std::unique_ptr<FrameClock> clock)
+    : network_(network),
+      inbox_(inbox),
+      settings_(settings),
+      probe_(std::move(probe)),
+      clock_(std::move(clock)),
+      mesh_(region_of(partition, network.rank())),
+      exchange_(partition, network.rank()),
+      peer_done_(static_cast<std::size_t>(network.size()), 0) {
+  const std::uint64_t own = mesh_.region().pixel_count();
+  const auto all = static_cast<std::uint64_t>(settings.width) * static_cast<std::uint64_t>(settings.height);
+  sample_share_ = (settings.stop.samples * own + all - 1) / all;
+  sample_limit_ = kSamplesPerPixelAtMost * own;
+}
+
+void Worker::render(const FrameOrder& order) {
+  report_ = {};
+  rays_before_ = probe_.counts();
+  done_ = false;
+  std::fill(peer_done_.begin(), peer_done_.end(), std::uint8_t{0});
+  clock_->begin_frame(order);
+  clock_->lap_ms();
+  prepare(order);
+  sample(order);
+  report_.cpu_ms.sampling += clock_->lap_ms();
+  reconstruct_and_send(order);
+}
+
+// --- Prepare
+// -----------------------------------------------------------------------------------------------------
+
+void Worker::prepare(const FrameOrder& order) {
+  probe_.look_from(order.camera);
+  if (order.carry == Carry::kAccumulate) {
+    report_.samples_cast = in_region_;
+    return;
+  }
+  std::vector<Sample> survivors;
+  if (order.carry != Carry::kNothing) survivors = cast(order);
+  report_.cpu_ms.casting += clock_->lap_ms();
+
+  mesh_.clear();
+  exchange_.clear();
+  epoch_ = order.index;
+  in_region_ = 0;
+  trace_seeds(order);
+  settle(order, std::move(survivors));
+}
+
+std::vector<Sample> Worker::cast(const FrameOrder& order) {
+  CastSettings cast_settings;
+  cast_settings.method = order.carry == Carry::kCastVerified ? CastMethod::kVerified : CastMethod::kPaper;
+  clock_->spend(Work::kCastSample, in_region_);
+  if (cast_settings.method == CastMethod::kVerified) clock_->spend(Work::kRay, in_region_);
+  return cast_samples(mesh_, order.camera, order.number, cast_settings, probe_.visible).survivors;
+}
+
+void Worker::trace_seeds(const FrameOrder& order) {
+  const std::vector<Vec2d> seeds =
+      seed_points(settings_.width, settings_.height, settings_.seed, order.number);
+  constexpr std::size_t kCorners = 4;  // every mesh needs them, so that its hull is the image
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    const bool own = mesh_.region().owns_point(seeds[i].x, seeds[i].y);
+    if (i >= kCorners && !own) continue;
+    insert(trace(order, seeds[i].x, seeds[i].y), {network_.rank(), true});
+  }
+}
+
+// Seeds cross the borders first; then each survivor goes to the rank whose tile it landed in.
+void Worker::settle(const FrameOrder& order, std::vector<Sample> survivors) {
+  std::vector<Sample> own;
+  std::vector<std::vector<Sample>> emigrants(static_cast<std::size_t>(network_.size()));
+  for (Sample& s : survivors) {
+    const int owner = exchange_.owner_of(s.x, s.y);
+    (owner == network_.rank() ? own : emigrants[static_cast<std::size_t>(owner)]).push_back(s);
+  }
+  for (int rank = 0; rank < network_.size(); ++rank) {
+    if (rank == network_.rank()) continue;
+    std::vector<Sample> samples = exchange_.take_outbox(rank);
+    const auto& guests = emigrants[static_cast<std::size_t>(rank)];
+    samples.insert(samples.end(), guests.begin(), guests.end());
+    const bool peer = std::binary_search(exchange_.seed_peers().begin(), exchange_.seed_peers().end(), rank);
+    if (samples.empty() && !peer && !clock_->in_lockstep()) continue;
+    clock_->spend(Work::kSentSample, samples.size());
+    Bytes bytes = encode(Bundle{order.index, epoch_, kSeedRound, false, std::move(samples)});
+    report_.bytes_samples += bytes.size();
+    network_.send(rank, Tag::kBundle, std::move(bytes));
+  }
+  receive_seeds(order);
+  for (const Sample& s : own) {
+    if (insert(s, {network_.rank(), false})) ++report_.samples_cast;
+  }
+}
+
+void Worker::receive_seeds(const FrameOrder& order) {
+  const auto of_this_round = [&](const Inbox::Arrived& a) {
+    return a.bundle.frame_index == order.index && a.bundle.round == kSeedRound;
+  };
+  const std::size_t expected =
+      clock_->in_lockstep() ? static_cast<std::size_t>(network_.size() - 1) : exchange_.seed_peers().size();
+  const double patience =
+      settings_.frames_per_second > 0 ? kSeedPatience / settings_.frames_per_second : kSeedPatience;
+  await([&] {
+    return inbox_.count_bundles(of_this_round) >= expected ||
+           (!clock_->in_lockstep() && clock_->frame_seconds() > patience);
+  });
+  // Survivors from elsewhere, which lie in the own region, are subject to the update rule: after all seeds.
+  const std::vector<Inbox::Arrived> bundles = inbox_.take_bundles(of_this_round);
+  for (const bool seeds : {true, false}) {
+    for (const Inbox::Arrived& arrived : bundles) {
+      for (const Sample& s : arrived.bundle.samples) {
+        if (mesh_.region().owns_point(s.x, s.y) == seeds) continue;
+        const bool inserted = insert(s, {arrived.from, seeds});
+        ++(inserted ? report_.samples_received : report_.samples_known);
+        report_.samples_cast += inserted && !seeds;
+      }
+    }
+  }
+}
+
+// --- Sample
+// ------------------------------------------------------------------------------------------------------
+
+void Worker::sample(const FrameOrder& order) {
+  for (int round = kSeedRound + 1;; ++round) {
+    clock_->begin_packet();
+    bool idle = false, newly_done = false;
+    while (!idle && !clock_->packet_over()) {
+      idle = done_ || !refine_once(order);
+      if (order.deadline_s == 0 && !done_ && (idle || goal_reached())) newly_done = done_ = true;
+    }
+    send_bundles(order, round, newly_done);
+    receive_bundles(order, round);
+    if (clock_->sampling_over() || (order.deadline_s == 0 && all_done())) return;
+    if (idle && !clock_->in_lockstep()) await([this] { return inbox_.pump() || clock_->sampling_over(); });
+  }
+}
+
+// Traces one sample where it is wanted most; false when nothing is.
+bool Worker::refine_once(const FrameOrder& order) {
+  if (in_region_ >= sample_limit_) return false;
+  const std::optional<Vec2d> point = mesh_.next_point();
+  if (!point) return false;
+  insert(trace(order, point->x, point->y), {network_.rank(), false});
+  return true;
+}
+
+bool Worker::goal_reached() const {
+  const StopRules& stop = settings_.stop;
+  return (stop.samples > 0 && in_region_ >= sample_share_) ||
+         (stop.quality > 0 && mesh_.refinement() <= stop.quality) ||
+         (stop.seconds > 0 && clock_->frame_seconds() >= stop.seconds);
+}
+
+bool Worker::all_done() const {
+  const auto others = std::count(peer_done_.begin(), peer_done_.end(), std::uint8_t{1});
+  return done_ && others == network_.size() - 1;
+}
+
+void Worker::send_bundles(const FrameOrder& order, int round, bool to_all) {
+  for (int rank = 0; rank < network_.size(); ++rank) {
+    if (rank == network_.rank()) continue;
+    std::vector<Sample> samples = exchange_.take_outbox(rank);
+    if (samples.empty() && !to_all && !clock_->in_lockstep()) continue;
+    clock_->spend(Work::kSentSample, samples.size());
+    Bytes bytes = encode(Bundle{order.index, epoch_, round, done_, std::move(samples)});
+    report_.bytes_samples += bytes.size();
+    network_.send(rank, Tag::kBundle, std::move(bytes));
+  }
+}
+
+void Worker::receive_bundles(const FrameOrder& order, int round) {
+  if (clock_->in_lockstep()) {
+    const auto of_this_round = [&](const Inbox::Arrived& a) {
+      return a.bundle.frame_index == order.index && a.bundle.round == round;
+    };
+    const auto expected = static_cast<std::size_t>(network_.size() - 1);
+    await([&] { return inbox_.count_bundles(of_this_round) >= expected; });
+    for (const Inbox::Arrived& arrived : inbox_.take_bundles(of_this_round)) take_in(arrived);
+    return;
+  }
+  inbox_.pump();
+  // Those of a later triangulation wait; those of an earlier one are of no more use.
+  const auto due = [&](const Inbox::Arrived& a) {
+    return a.bundle.epoch <= epoch_ && a.bundle.frame_index <= order.index;
+  };
+  for (const Inbox::Arrived& arrived : inbox_.take_bundles(due)) take_in(arrived);
+}
+
+void Worker::take_in(const Inbox::Arrived& arrived) {
+  if (arrived.bundle.done) peer_done_[static_cast<std::size_t>(arrived.from)] = 1;
+  if (arrived.bundle.epoch != epoch_) return;
+  for (const Sample& s : arrived.bundle.samples) {
+    ++(insert(s, {arrived.from, false}) ? report_.samples_received : report_.samples_known);
+  }
+}
+
+// --- Reconstruct and report
+// --------------------------------------------------------------------------------------
+
+void Worker::reconstruct_and_send(const FrameOrder& order) {
+  report_.sampling_ended_s = clock_->sequence_seconds();
+  reconstruct(mesh_, pixels_, buffers_);
+  clock_->spend(Work::kPixel, mesh_.region().pixel_count());
+  report_.cpu_ms.reconstruction = clock_->lap_ms();
+
+  PixelMessage message;
+  message.frame_index = order.index;
+  message.tiles.assign(mesh_.region().tiles().begin(), mesh_.region().tiles().end());
+  message.rgb = flat_rgb(pixels_, mesh_.region());
+  report_.bytes_pixels = message.rgb.size() * sizeof(float) + message.tiles.size() * sizeof(std::int32_t);
+  message.report = finish_report();
+  network_.send(0, Tag::kPixels, encode(message));
+  clock_->end_frame();
+}
+
+RankReport Worker::finish_report() {
+  report_.samples_in_region = in_region_;
+  report_.refinement = mesh_.refinement();
+  for (const int tile : mesh_.region().tiles()) {
+    report_.triangles_in_region +=
+        static_cast<std::uint64_t>(mesh_.tile_weights()[static_cast<std::size_t>(tile)].triangles);
+  }
+  report_.rays = probe_.counts() - rays_before_;
+  report_.finished_s = clock_->frame_seconds();
+  return report_;
+}
+
+// --- Common
+// ------------------------------------------------------------------------------------------------------
+
+// The one gate for colours that are no numbers: counted, and black from here on.
+Sample Worker::trace(const FrameOrder& order, double x, double y) {
+  Sample sample;
+  sample.x = x;
+  sample.y = y;
+  sample.frame = order.number;
+  sample.id = (static_cast<SampleId>(network_.rank()) << 40) | next_id_++;
+  sample.ray = probe_.trace(x, y);
+  if (!is_finite(sample.ray.color)) {
+    ++report_.non_finite;
+    sample.ray.color = Color(0, 0, 0);
+  }
+  ++report_.samples_new;
+  clock_->spend(Work::kRay, sample.ray.rays);
+  return sample;
+}
+
+bool Worker::insert(const Sample& sample, const Insertion& how) {
+  const bool own = how.from == network_.rank();
+  clock_->spend(own ? Work::kOwnSample : Work::kReceivedSample, 1);
+  if (!mesh_.insert(sample)) return false;
+  in_region_ += mesh_.region().owns_point(sample.x, sample.y);
+  if (!how.is_seed) {
+    exchange_.inserted(mesh_, how.from);
+  } else if (own) {
+    exchange_.seeded_here(mesh_);
+  } else {
+    exchange_.seeded_elsewhere(how.from);
+  }
+  return true;
+}
+
+void Worker::await(const std::function<bool()>& arrived) {
+  const double began = monotonic_seconds();
+  inbox_.pump();
+  while (!arrived()) {
+    if (!inbox_.pump()) rest_briefly();
+  }
+  if (!clock_->in_lockstep()) report_.cpu_ms.idle += 1e3 * (monotonic_seconds() - began);
+}
+
+}  // namespace pprt

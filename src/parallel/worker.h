@@ -1,0 +1,83 @@
+// One rank at work: frame after frame on its own region of the image (paper s. 4.6).
+//
+// A frame in four steps:
+//   prepare      take over what the frame before left (nothing, all, or cast samples), trace the seeds
+//   sample       packets of samples, an exchange with other ranks after each, until the clock says enough
+//   reconstruct  the region's pixels, sent to the master without waiting
+//   report       what it took
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "base/probe.h"
+#include "parallel/exchange.h"
+#include "parallel/frame_clock.h"
+#include "parallel/inbox.h"
+#include "parallel/partition.h"
+#include "parallel/session_settings.h"
+#include "pipeline/casting.h"
+#include "pipeline/reconstruction.h"
+#include "pipeline/sample_mesh.h"
+
+namespace pprt {
+
+class Worker {
+ public:
+  Worker(Communicator& network, Inbox& inbox, const SessionSettings& settings, const Partition& partition,
+         Probe probe, std::unique_ptr<FrameClock> clock);
+
+  // Carries out one order and sends its pixels.
+  void render(const FrameOrder& order);
+
+ private:
+  struct Insertion {
+    int from;      // rank
+    bool is_seed;  // not subject to the update rule
+  };
+
+  void prepare(const FrameOrder& order);
+  std::vector<Sample> cast(const FrameOrder& order);
+  void trace_seeds(const FrameOrder& order);
+  void settle(const FrameOrder& order, std::vector<Sample> survivors);
+  void receive_seeds(const FrameOrder& order);
+
+  void sample(const FrameOrder& order);
+  bool refine_once(const FrameOrder& order);
+  bool goal_reached() const;
+  bool all_done() const;
+  void send_bundles(const FrameOrder& order, int round, bool to_all);
+  void receive_bundles(const FrameOrder& order, int round);
+  void take_in(const Inbox::Arrived& arrived);
+
+  void reconstruct_and_send(const FrameOrder& order);
+  RankReport finish_report();
+
+  Sample trace(const FrameOrder& order, double x, double y);
+  bool insert(const Sample& sample, const Insertion& how);
+  void await(const std::function<bool()>& arrived);
+
+  Communicator& network_;
+  Inbox& inbox_;
+  const SessionSettings settings_;
+  Probe probe_;
+  std::unique_ptr<FrameClock> clock_;
+  SampleMesh mesh_;
+  SampleExchange exchange_;
+  RegionPixels pixels_;
+  ReconstructionBuffers buffers_;
+
+  int epoch_ = -1;  // index of the frame in which the triangulation began
+  std::uint64_t next_id_ = 0;
+  std::uint64_t sample_share_ = 0;  // of settings_.stop.samples
+  std::uint64_t sample_limit_ = 0;  // beyond which more samples serve nothing
+  std::uint64_t in_region_ = 0;     // samples of the mesh in the own region
+  bool done_ = false;               // this rank's goal is reached (frames without a rate)
+  std::vector<std::uint8_t> peer_done_;
+  RankReport report_;
+  RayCounts rays_before_;
+};
+
+}  // namespace pprt
