@@ -161,7 +161,7 @@ void build_hierarchy(CompiledScene::Impl& impl) {
       &allocated);
   impl.embree.reset(rtcNewScene(impl.device.get()));
   rtcSetSceneFlags(impl.embree.get(), RTC_SCENE_FLAG_ROBUST);
-  rtcSetSceneBuildQuality(impl.embree.get(), RTC_BUILD_QUALITY_HIGH);
+  rtcSetSceneBuildQuality(impl.embree.get(), RTC_BUILD_QUALITY_MEDIUM);
   for (std::size_t i = 0; i < impl.parts.size(); ++i) {
     const EmbreeGeometry geometry = new_geometry(impl.device, impl.parts[i]);
     rtcAttachGeometryByID(impl.embree.get(), geometry.get(), static_cast<unsigned>(i));
