@@ -5,6 +5,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 #include <ostream>
+#include <stdexcept>
 
 #include "base/diagnostics.h"
 #include "image/image_io.h"
@@ -96,6 +97,7 @@ bool compare(const CompareOptions& options, std::ostream& out, std::ostream& com
   } else {
     print_text(d, options.threshold, out);
   }
+  if (!out.flush()) throw std::runtime_error("cannot write the figures");
   return within;
 }
 

@@ -105,6 +105,14 @@ TEST_CASE("the difference picture is written") {
   CHECK(picture.at(5, 4) == Color(0, 0, 0));
 }
 
+TEST_CASE("figures that cannot be printed are an error") {
+  const Pair pair;
+  std::ostringstream out;
+  std::ostringstream complaints;
+  out.setstate(std::ios::badbit);
+  CHECK_THROWS_WITH(compare(pair.options, out, complaints), "cannot write the figures");
+}
+
 TEST_CASE("what cannot be compared is explained") {
   Pair pair;
   SECTION("sizes") {
