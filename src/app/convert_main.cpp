@@ -8,10 +8,10 @@ int main(int argc, char** argv) {
     pprt::ConvertOptions options;
     app.add_option("IN", options.input, "FILE.nff, - (NFF on standard input) or spd:NAME[:SIZE]")
         ->required()
-        ->type_name("");
+        ->option_text(" ");
     app.add_option("OUT", options.output, "FILE.nff or - (NFF on standard output)")
         ->required()
-        ->type_name("");
+        ->option_text(" ");
     app.add_flag("--strict", options.strict, "Reject what the NFF specification does not allow");
     pprt::add_common_flags(app);
     if (pprt::parse_command_line(app, argc, argv)) pprt::convert(options);
