@@ -13,8 +13,9 @@ struct ParsedAnimation {
   std::string warnings;  // formatted as file:line:column, line, caret; empty when there are none
 };
 
-// Reads a whole script. Throws InputError with every problem of the text: file:line:column, the line, a caret.
-// What can be judged only with the scene's own view at hand is left to check_cameras (scene/animation.h).
+// Reads a whole script. Throws InputError with every problem of the text: file:line:column, the line, a
+// caret. What can be judged only with the scene's own view at hand is left to check_cameras
+// (scene/animation.h).
 ParsedAnimation parse_animation(std::string_view text, std::string_view file_name);
 
 // The same for a file; one that cannot be read or is longer than any script is an InputError as well.

@@ -11,11 +11,13 @@ namespace {
 // Sine of the smallest angle between the view and `up`: with doubles, the horizon is then known to 1e-10.
 constexpr double kLeastUpSine = 1e-6;
 
-CameraKey resolved(CameraKey key, const View& base) {
+// The key with what it leaves to the scene, and without what its spline does not know.
+CameraKey resolved(CameraKey key, const View& base, SplineKind spline = SplineKind::kTcb) {
   if (key.of_scene.from) key.from = base.from;
   if (key.of_scene.at) key.at = base.at;
   if (key.of_scene.up) key.up = base.up;
   if (key.of_scene.angle) key.angle_degrees = base.angle_degrees;
+  if (spline != SplineKind::kTcb) key.tension = key.continuity = key.bias = 0;
   return key;
 }
 
@@ -45,11 +47,13 @@ View view_at(const Animation& animation, double frame, const View& base) {
   // The span's two keys and their neighbours, as far as no cut separates them.
   std::array<CameraKey, 4> window;
   std::size_t count = 0;
-  if (previous != keys.begin() && !previous->cut) window[count++] = resolved(*(previous - 1), base);
+  if (previous != keys.begin() && !previous->cut)
+    window[count++] = resolved(*(previous - 1), base, animation.spline);
   const std::size_t span = count;
-  window[count++] = start;
-  window[count++] = resolved(*next, base);
-  if (next + 1 != keys.end() && !(next + 1)->cut) window[count++] = resolved(*(next + 1), base);
+  window[count++] = resolved(*previous, base, animation.spline);
+  window[count++] = resolved(*next, base, animation.spline);
+  if (next + 1 != keys.end() && !(next + 1)->cut)
+    window[count++] = resolved(*(next + 1), base, animation.spline);
   return view_of(camera_between(std::span(window).first(count), span, frame, animation.spline), base);
 }
 

@@ -31,6 +31,27 @@ double turning(const Animation& animation, double frame, double h = 1e-3) {
          h;
 }
 
+// Keys of a lively but proper walk: all kinds of movement mixed.
+std::vector<CameraKey> random_walk(unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto vector = [&](double size) { return Vec3d(unit(random), unit(random), unit(random)) * size; };
+  std::vector<CameraKey> keys{key_at(0, vector(5), vector(5))};
+  while (keys.size() < 12) {
+    CameraKey key = keys.back();
+    key.frame += 2 + 3 * (unit(random) + 1);
+    const int kind = static_cast<int>(random() % 5);
+    if (kind == 0 || kind > 2) key.from = vector(5);
+    if (kind == 1 || kind > 2) key.at = vector(5);
+    if (kind == 2 || kind == 4) key.up = vector(1);
+    key.angle_degrees = 60 + 50 * unit(random);
+    if (!camera_defect(key.from, key.at, key.up).empty()) continue;
+    const double pitch = std::abs(90 - degrees_between(key.at - key.from, key.up));
+    if (pitch < 75 && (key.at - key.from).length() > 0.5) keys.push_back(key);
+  }
+  return keys;
+}
+
 TEST_CASE("an orbit looks at its target, keeps height and distance, and turns evenly") {
   const Vec3d tree(0.3, -0.2, 1.5);
   const auto on_circle = [&](double degrees) {
@@ -153,6 +174,16 @@ TEST_CASE("with equal direction and distance the eye follows the Kochanek-Bartel
   }
 }
 
+TEST_CASE("catmull_rom is tcb without tension, continuity and bias") {
+  std::vector<CameraKey> keys = random_walk(7);
+  const Animation plain = animation_of(keys, SplineKind::kTcb);
+  for (CameraKey& key : keys) key.tension = key.continuity = key.bias = 0.5;
+  const Animation catmull_rom = animation_of(keys, SplineKind::kCatmullRom);
+  for (double frame = 0; frame < keys.back().frame; frame += 0.5) {
+    CHECK(same_view(at(catmull_rom, frame), at(plain, frame)));
+  }
+}
+
 TEST_CASE("linear moves evenly from key to key") {
   const Animation animation = animation_of(
       {key_at(0, {0, 0, 0}, {1, 0, 0}), key_at(4, {4, 8, 0}, {5, 8, 0}), key_at(6, {4, 8, 2}, {5, 8, 2})},
@@ -183,27 +214,6 @@ TEST_CASE("going round a target and then turning on the spot comes to rest betwe
   CHECK((at(animation, 10.01).from - at(animation, 9.99).from).length() < 1e-3);
   for (double frame = 0; frame < 10; frame += 0.5) CHECK(at(animation, frame).at == Vec3d(0, 0, 0));
   for (double frame = 10; frame < 20; frame += 0.5) CHECK(at(animation, frame).from == Vec3d(0, 5, 0));
-}
-
-// Keys of a lively but proper walk: all kinds of movement mixed.
-std::vector<CameraKey> random_walk(unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> unit(-1, 1);
-  const auto vector = [&](double size) { return Vec3d(unit(random), unit(random), unit(random)) * size; };
-  std::vector<CameraKey> keys{key_at(0, vector(5), vector(5))};
-  while (keys.size() < 12) {
-    CameraKey key = keys.back();
-    key.frame += 2 + 3 * (unit(random) + 1);
-    const int kind = static_cast<int>(random() % 5);
-    if (kind == 0 || kind > 2) key.from = vector(5);
-    if (kind == 1 || kind > 2) key.at = vector(5);
-    if (kind == 2 || kind == 4) key.up = vector(1);
-    key.angle_degrees = 60 + 50 * unit(random);
-    if (!camera_defect(key.from, key.at, key.up).empty()) continue;
-    const double pitch = std::abs(90 - degrees_between(key.at - key.from, key.up));
-    if (pitch < 75 && (key.at - key.from).length() > 0.5) keys.push_back(key);
-  }
-  return keys;
 }
 
 TEST_CASE("any walk is smooth through its keys and a proper camera throughout") {

@@ -1,0 +1,50 @@
+// What the rules of animation scripts say when they fail.
+#pragma once
+
+#include "parser/anim_grammar.h"
+
+namespace pprt::anim {
+
+// What a rule that must match expects; nullptr for rules that may fail. The report goes on with what was
+// found instead: "expected ',', found 'at'".
+template <typename Rule>
+inline constexpr const char* expected = nullptr;
+
+template <>
+inline constexpr const char* expected<grammar::block_comment_rest> = "'*/' at the end of this comment";
+template <>
+inline constexpr const char* expected<grammar::operand> = "a number, a name, a vector or '('";
+template <>
+inline constexpr const char* expected<grammar::comma> = "',' and the next component of the vector";
+template <>
+inline constexpr const char* expected<grammar::close_angle> = "'>' at the end of the vector";
+template <>
+inline constexpr const char* expected<grammar::close_paren> = "')'";
+template <>
+inline constexpr const char* expected<grammar::new_name> = "a name to declare";
+template <>
+inline constexpr const char* expected<grammar::equals> = "'=' after the declared name";
+template <>
+inline constexpr const char* expected<grammar::semicolon> = "';' after the declared value";
+template <>
+inline constexpr const char* expected<grammar::open_key> = "'{' with the camera of the key";
+template <>
+inline constexpr const char* expected<grammar::close_key> = "'}' at the end of the key";
+template <>
+inline constexpr const char* expected<grammar::spline_kind> = "linear, catmull_rom or tcb";
+template <>
+inline constexpr const char* expected<grammar::open_camera> = "'{' after 'camera'";
+template <>
+inline constexpr const char* expected<grammar::close_camera> = "'}' at the end of the camera";
+template <>
+inline constexpr const char* expected<grammar::open_quote> = "the scene's name in quotation marks";
+template <>
+inline constexpr const char* expected<grammar::scene_name> = "the scene's name between the quotation marks";
+template <>
+inline constexpr const char* expected<grammar::close_quote> = "'\"' at the end of the scene's name";
+template <>
+inline constexpr const char* expected<grammar::open_animation> = "'{' after 'animation'";
+template <>
+inline constexpr const char* expected<grammar::close_animation> = "'}' at the end of the animation";
+
+}  // namespace pprt::anim

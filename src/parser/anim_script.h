@@ -1,0 +1,56 @@
+// A script as it was written, every value with its place; and what it means.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "parser/anim_problems.h"
+#include "parser/anim_value.h"
+#include "scene/animation.h"
+
+namespace pprt::anim {
+
+enum Field : std::size_t {
+  kFrom,
+  kAt,
+  kUp,
+  kAngle,
+  kTension,
+  kContinuity,
+  kBias,
+  kEaseIn,
+  kEaseOut,
+  kFieldCount
+};
+
+// The words of the fields, in the order of Field.
+inline constexpr std::array<std::string_view, kFieldCount> kFieldWords = {
+    "from", "at", "up", "angle", "tension", "continuity", "bias", "ease_in", "ease_out"};
+
+// key, hold or cut.
+struct WrittenKey {
+  enum class Kind { kKey, kHold, kCut };
+  Kind kind = Kind::kKey;
+  const char* place = nullptr;  // of the word
+  Value when;
+  bool in_seconds = false;
+  std::array<std::optional<Value>, kFieldCount> fields;
+};
+
+struct WrittenScript {
+  bool has_animation = false;
+  bool has_camera = false;
+  std::optional<std::string> scene;
+  std::optional<Value> frames, fps, resolution;
+  std::optional<SplineKind> spline;
+  std::vector<WrittenKey> keys;
+};
+
+// Checks every value and carries the cameras from key to key. What is wrong is reported, and left out.
+Animation interpret(const WrittenScript& script, std::string_view file_name, Problems& problems);
+
+}  // namespace pprt::anim
