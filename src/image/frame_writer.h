@@ -37,9 +37,9 @@ struct FrameWriterOptions {
   std::size_t memory_bound = std::size_t{256} << 20;
 };
 
-// Writes frames in the order in which they are submitted, in a thread of its own. The first error is kept until
-// it is asked for; a frame that cannot be written does not keep later ones from being tried, as its reason may
-// be its own. submit, take_finished and error may be called from any thread.
+// Writes frames in the order in which they are submitted, in a thread of its own. The first error is kept
+// until it is asked for; a frame that cannot be written does not keep later ones from being tried, as its
+// reason may be its own. submit, take_finished and error may be called from any thread.
 class FrameWriter {
  public:
   explicit FrameWriter(std::vector<FramePattern> outputs, FrameWriterOptions options = {});
