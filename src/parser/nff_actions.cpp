@@ -320,11 +320,10 @@ void SceneBuilder::add_cone() {
   pprt::add_cone(scene_, {base, base_radius, apex, apex_radius, material(), at});
 }
 
-// Nothing is reserved for vertices that the text only promises: they must have room in what is left of it.
+// Nothing is reserved for vertices that the text only promises. Where fewer bytes than vertices are left, the
+// count itself is at fault; where a few are missing, the report on the first missing number says more.
 void SceneBuilder::begin_vertices(std::string_view matched) {
   constexpr std::string_view kPartOfNumber = "0123456789.+-eE";
-  const bool patch = entity_.size() == 2;
-  const std::size_t least_bytes = patch ? 12 : 6;  // " 0 0 0" for each vector
   const double count = numbers_[0];
   const char* const place = matched.data() + (matched.find_last_not_of(kPartOfNumber) + 1);
   const auto left = static_cast<std::size_t>(text_.data() + text_.size() - (matched.data() + matched.size()));
@@ -338,7 +337,7 @@ void SceneBuilder::begin_vertices(std::string_view matched) {
     throw ParseFailure{
         place, fmt::format("'{}' with more than {} vertices", entity_, options_.max_polygon_vertices)};
   }
-  if (count > static_cast<double>(left / least_bytes)) {
+  if (count > static_cast<double>(left)) {
     throw ParseFailure{place, fmt::format("'{}' with {} vertices, but only {} bytes of the file are left",
                                           entity_, count, left)};
   }

@@ -131,10 +131,6 @@ TEST_CASE("files that are no scenes say what they are") {
 
 TEST_CASE("an open comment ends the reading") {
   CHECK(report("s 0 0 0 1\n/* s 0 0 0\ns 0 0 0\n") ==
-        "t.nff:1:1: warning: there is no 'f' before the first object: "
-        "white with Kd 1 is taken\n"
-        "    s 0 0 0 1\n"
-        "    ^\n"
         "t.nff:2:1: error: expected '*/' to end this comment\n"
         "    /* s 0 0 0\n"
         "    ^");

@@ -122,7 +122,7 @@ TEST_CASE("places are right in rising, falling and mixed order, whatever ends th
 TEST_CASE("a quoted token is short and harmless to a terminal") {
   CHECK(quoted("abc") == "'abc'");
   CHECK(quoted("a\x1b[2J\x7f") == "'a?[2J?'");
-  CHECK(quoted(std::string(41, 'x')) == "'" + std::string(40, 'x') + "...'");
+  CHECK(quoted(std::string_view(std::string(41, 'x'))) == "'" + std::string(40, 'x') + "...'");
 }
 
 TEST_CASE("a file is read whole and byte by byte") {
