@@ -133,6 +133,7 @@ Value negated(const Value& a) {
 
 Value call_function(std::string_view name, std::span<const Value> arguments, const char* place,
                     Problems& problems) {
+  if (name == "pi") return problem(place, "'pi' is a number, not a function", problems);
   if (!is_function(name)) {
     return problem(place,
                    fmt::format("unknown function {}{}", quoted(name), did_you_mean(name, built_in_names())),

@@ -1,0 +1,14 @@
+#include "parser/anim_grammar.h"
+
+#include <catch2/catch.hpp>
+#include <tao/pegtl/contrib/analyze.hpp>
+
+namespace pprt {
+namespace {
+
+TEST_CASE("the grammar has no loop that consumes nothing and no left recursion") {
+  CHECK(tao::pegtl::analyze<anim::grammar::script>() == 0);
+}
+
+}  // namespace
+}  // namespace pprt
