@@ -15,6 +15,11 @@ constexpr double kHalfPi = kPi / 2;
 // expressions such as R*cos(120)), not movement.
 constexpr double kNoMovement = 1e-12;
 
+// Bound of the logarithms: lengths from 1e-130 to 1e130; angles 1e-11 degrees short of 0 and 180.
+// Only splines through absurd keys swing so far.
+constexpr double kMostDistance = 300;
+constexpr double kMostZoom = 30;
+
 double radians(double degrees) {
   return degrees * (kPi / 180);
 }
@@ -302,7 +307,8 @@ CameraKey camera_between(std::span<const CameraKey> keys, std::size_t span, doub
     now.*c = pose.value.*c + hermite(leg.change.*c, start.channels.out.*c, end.channels.in.*c, leg.frames, s);
   }
   const Horizon horizon = rotated(pose.horizon, leg.axis, now.lean - pose.value.lean);
-  const Vec3d line = direction(horizon, now.heading, now.pitch) * std::exp(now.distance);
+  const Vec3d line = direction(horizon, now.heading, now.pitch) *
+                     std::exp(std::clamp(now.distance, -kMostDistance, kMostDistance));
 
   const Vec3d pivot_change = leg.eye + leg.line * leg.pivot;
   const Vec3d even_rate = pivot_change / leg.frames;
@@ -315,7 +321,7 @@ CameraKey camera_between(std::span<const CameraKey> keys, std::size_t span, doub
   camera.from = pivot - line * leg.pivot;
   camera.at = pivot + line * (1 - leg.pivot);
   camera.up = horizon.up;
-  camera.angle_degrees = 2 * std::atan(std::exp(now.zoom)) * (180 / kPi);
+  camera.angle_degrees = 2 * std::atan(std::exp(std::clamp(now.zoom, -kMostZoom, kMostZoom))) * (180 / kPi);
   return camera;
 }
 

@@ -271,6 +271,23 @@ TEST_CASE("a pitch that swings towards the pole never reaches it") {
   }
 }
 
+TEST_CASE("keys of absurd size still make a camera between them") {
+  std::vector<CameraKey> keys{key_at(0, {1e99, 0, 0}, {0, 0, 1e98}, {0, 0, 1}, 1e-9),
+                              key_at(1, {1e-99, 0, 0}, {0, 1e-99, 0}, {0, 0, 1}, 1e-9),
+                              key_at(100, {1e99, 0, 0}, {0, 1, 0}, {0, 0, 1}, 179.9999999),
+                              key_at(101, {3, 0, 0}, {0, 1e-9, 0}, {0, 0, 1}, 1e-9)};
+  for (CameraKey& key : keys) key.tension = -1;
+  const Animation animation = animation_of(keys);
+  for (double frame = 0; frame <= 101; frame += 0.25) {
+    const View view = at(animation, frame);
+    CAPTURE(frame);
+    CHECK(std::isfinite(view.from.length()));
+    CHECK(std::isfinite(view.at.length()));
+    CHECK(view.angle_degrees > 0);
+    CHECK(view.angle_degrees < 180);
+  }
+}
+
 TEST_CASE("a script far from the origin keeps its target") {
   const Vec3d far(1e7, -2e7, 3e6);
   const Animation animation =
