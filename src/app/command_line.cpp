@@ -1,5 +1,6 @@
 #include "app/command_line.h"
 
+#include <algorithm>
 #include <iostream>
 
 #include "app/version.h"
@@ -13,8 +14,13 @@ void add_common_flags(CLI::App& app) {
 }
 
 bool parse_command_line(CLI::App& app, int argc, const char* const* argv) {
+  return parse_command_line(app, std::vector<std::string>(argv + 1, argv + argc));
+}
+
+bool parse_command_line(CLI::App& app, std::vector<std::string> words) {
+  std::reverse(words.begin(), words.end());  // the order that CLI11 wants
   try {
-    app.parse(argc, argv);
+    app.parse(words);
     return true;
   } catch (const CLI::Success& request) {
     app.exit(request, std::cout, std::cout);

@@ -1,0 +1,103 @@
+#include "app/frame_recorder.h"
+
+#include <filesystem>
+#include <future>
+#include <utility>
+
+#include "base/diagnostics.h"
+#include "image/metrics.h"
+
+namespace pprt {
+namespace {
+
+std::string names_of(const RenderOptions& options) {
+  std::string names;
+  for (const std::string& output : options.outputs) names += (names.empty() ? "" : " and ") + output;
+  return names.empty() ? kDefaultOutput : names;
+}
+
+// The record's entries as a header's: nested ones become "rays.primary" and the like.
+void append_facts(Facts& facts, const std::string& prefix, const Json& record) {
+  for (const auto& [key, value] : record.items()) {
+    const std::string name = prefix + "." + key;
+    if (value.is_object()) {
+      append_facts(facts, name, value);
+    } else if (value.is_string()) {
+      facts.emplace_back(name, value.get<std::string>());
+    } else if (value.is_number_float()) {
+      facts.emplace_back(name, value.get<double>());
+    } else if (value.is_boolean()) {
+      facts.emplace_back(name, std::int64_t{value.get<bool>()});
+    } else {
+      facts.emplace_back(name, value.get<std::int64_t>());
+    }
+  }
+}
+
+Facts header_facts(Json record) {
+  record.erase("record");
+  Facts facts;
+  append_facts(facts, "pprt", record);
+  return facts;
+}
+
+}  // namespace
+
+void require_new_files(const RenderOptions& options, const RenderPlan& plan) {
+  if (options.overwrite || options.resume) return;
+  for (const PlannedFrame& frame : plan.frames) {
+    for (const FramePattern& output : plan.outputs) {
+      const std::filesystem::path file = file_name(output, frame.number);
+      if (!std::filesystem::exists(file)) continue;
+      throw UsageError(file.string() +
+                       " is there already; --overwrite replaces it, --resume goes on after it");
+    }
+  }
+}
+
+FrameRecorder::FrameRecorder(const RenderOptions& options, const RenderPlan& plan, const std::string& key,
+                             const Json& run)
+    : has_rate_(plan.settings.frames_per_second > 0),
+      where_(names_of(options)),
+      manifest_(manifest_path(plan.outputs.front()), key, options.resume),
+      writer_(plan.outputs, {.overwrite = true}),
+      ledger_(options.stats),
+      progress_(progress_kind(options.progress), static_cast<int>(plan.frames.size()),
+                plan.settings.frames_per_second, options.progress == "none") {
+  if (!options.reference.empty()) reference_ = parse_frame_pattern(options.reference, FrameCount::kOne);
+  ledger_.write(run);
+}
+
+void FrameRecorder::record(FinishedFrame&& frame) {
+  totals_.add(frame);
+  Json record = frame_record(frame);
+  Facts facts = header_facts(record);
+  if (ledger_.enabled()) ledger_.write_frame(std::move(record), measure_error(frame));
+  progress_.frame_done(frame, totals_);
+  writer_.submit({frame.order.number, std::move(frame.image), std::move(facts)});
+  manifest_.add(writer_.take_finished());
+}
+
+std::optional<std::future<double>> FrameRecorder::measure_error(const FinishedFrame& frame) const {
+  if (!reference_) return std::nullopt;
+  return std::async(std::launch::async,
+                    [image = frame.image, path = file_name(*reference_, frame.order.number)] {
+                      return difference(image, read_image(path), 0).rmse;
+                    });
+}
+
+void FrameRecorder::finish(bool stopped) {
+  try {
+    writer_.finish();
+    manifest_.add(writer_.take_finished());
+    ledger_.finish();
+    ledger_.write(totals_.summary(has_rate_));
+  } catch (...) {
+    manifest_.add(writer_.take_finished());
+    progress_.finish("failed", totals_, where_);
+    throw;
+  }
+  progress_.finish(stopped ? "stopped" : "done", totals_, where_);
+}
+
+}  // namespace pprt

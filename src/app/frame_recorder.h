@@ -1,0 +1,52 @@
+// Where finished frames go: files, manifest, ledger, progress. All but the bookkeeping happens beside the
+// frame loop.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/ledger.h"
+#include "app/manifest.h"
+#include "app/progress.h"
+#include "app/render_plan.h"
+#include "image/frame_writer.h"
+
+namespace pprt {
+
+class FrameRecorder {
+ public:
+  // `key` stands for scene and options in the manifest; `run` is the ledger's first record.
+  FrameRecorder(const RenderOptions& options, const RenderPlan& plan, const std::string& key,
+                const Json& run);
+
+  // Frames that an earlier run has finished (--resume).
+  const std::set<int>& finished_before() const { return manifest_.finished(); }
+
+  void record(FinishedFrame&& frame);
+
+  // Whether going on serves nothing: a frame could not be written.
+  bool failed() const { return writer_.error().has_value(); }
+
+  void status() const { progress_.status(totals_); }
+  const RunTotals& totals() const { return totals_; }
+
+  // Waits for the last file, writes the summary; throws what kept a frame from being written.
+  void finish(bool stopped);
+
+ private:
+  std::optional<std::future<double>> measure_error(const FinishedFrame& frame) const;
+
+  bool has_rate_;
+  std::string where_;
+  std::optional<FramePattern> reference_;
+  Manifest manifest_;
+  FrameWriter writer_;
+  Ledger ledger_;
+  Progress progress_;
+  RunTotals totals_;
+};
+
+// Throws UsageError when an output is there already and may not be replaced.
+void require_new_files(const RenderOptions& options, const RenderPlan& plan);
+
+}  // namespace pprt

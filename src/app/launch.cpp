@@ -1,0 +1,87 @@
+#include "app/launch.h"
+
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+namespace pprt {
+namespace {
+
+volatile std::sig_atomic_t mpirun_pid = 0;
+volatile std::sig_atomic_t stopped_by = 0;
+
+// A first SIGINT or SIGTERM asks rank 0 to finish its frame; a second one ends mpirun.
+void pass_on(int signal) {
+  if (mpirun_pid == 0) return;
+  if (signal == SIGUSR1) {
+    kill(mpirun_pid, SIGUSR1);
+  } else {
+    kill(mpirun_pid, stopped_by == 0 ? SIGUSR2 : signal);
+    stopped_by = signal;
+  }
+}
+
+void pass_signals_on() {
+  struct sigaction action {};
+  action.sa_handler = pass_on;
+  action.sa_flags = SA_RESTART;
+  for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) sigaction(signal, &action, nullptr);
+}
+
+std::vector<std::string> mpirun_command(int ranks, const std::string& hostfile, char** argv) {
+  std::vector<std::string> command = {"mpirun", "--quiet", "-np", std::to_string(ranks)};
+  if (!hostfile.empty()) command.insert(command.end(), {"--hostfile", hostfile});
+  // More ranks than cores is a normal case here: idle ranks sleep, and none may be tied to a core.
+  command.insert(command.end(), {"--oversubscribe", "--bind-to", "none"});
+  if (geteuid() == 0) command.emplace_back("--allow-run-as-root");
+  std::error_code ignored;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  command.push_back(ignored ? argv[0] : self.string());
+  for (char** word = argv + 1; *word != nullptr; ++word) command.emplace_back(*word);
+  return command;
+}
+
+[[noreturn]] void become(std::vector<std::string>& command) {
+  // mpirun in a process group of its own: a terminal's Ctrl-C must reach it through us alone. It dies with
+  // us.
+  setpgid(0, 0);
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  std::vector<char*> words;
+  for (std::string& word : command) words.push_back(word.data());
+  words.push_back(nullptr);
+  execvp(words[0], words.data());
+  _exit(127);
+}
+
+}  // namespace
+
+int run_under_mpirun(int ranks, const std::string& hostfile, char** argv) {
+  std::vector<std::string> command = mpirun_command(ranks, hostfile, argv);
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error(std::string("cannot start mpirun: ") + std::strerror(errno));
+  if (child == 0) become(command);
+  mpirun_pid = child;
+  pass_signals_on();
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0) {
+    if (errno != EINTR)
+      throw std::runtime_error(std::string("cannot wait for mpirun: ") + std::strerror(errno));
+  }
+  if (stopped_by != 0) return 128 + stopped_by;
+  if (WIFSIGNALED(status)) return 128 + WTERMSIG(status);
+  const int code = WEXITSTATUS(status);
+  if (code == 127)
+    throw std::runtime_error("cannot start mpirun: it is not on the PATH (package openmpi-bin)");
+  return code;
+}
+
+}  // namespace pprt

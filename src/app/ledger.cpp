@@ -1,0 +1,174 @@
+#include "app/ledger.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <stdexcept>
+#include <utility>
+
+namespace pprt {
+namespace {
+
+Json rays_record(const RayCounts& rays) {
+  return {{"primary", rays.primary},
+          {"shadow", rays.shadow},
+          {"reflection", rays.reflection},
+          {"refraction", rays.refraction}};
+}
+
+void add_to(RayCounts& sum, const RayCounts& rays) {
+  sum.primary += rays.primary;
+  sum.eye_hits += rays.eye_hits;
+  sum.shadow += rays.shadow;
+  sum.reflection += rays.reflection;
+  sum.refraction += rays.refraction;
+  sum.total_internal_reflection += rays.total_internal_reflection;
+}
+
+// Sums over the ranks of one frame.
+RankReport sum_of(const std::vector<RankReport>& ranks) {
+  RankReport sum;
+  for (const RankReport& r : ranks) {
+    sum.samples_new += r.samples_new;
+    sum.samples_cast += r.samples_cast;
+    sum.samples_received += r.samples_received;
+    sum.samples_known += r.samples_known;
+    sum.samples_in_region += r.samples_in_region;
+    sum.non_finite += r.non_finite;
+    add_to(sum.rays, r.rays);
+    sum.cpu_ms.sampling += r.cpu_ms.sampling;
+    sum.cpu_ms.casting += r.cpu_ms.casting;
+    sum.cpu_ms.reconstruction += r.cpu_ms.reconstruction;
+    sum.cpu_ms.balancing += r.cpu_ms.balancing;
+    sum.cpu_ms.idle += r.cpu_ms.idle;
+    sum.bytes_samples += r.bytes_samples;
+    sum.bytes_pixels += r.bytes_pixels;
+  }
+  return sum;
+}
+
+// Mean and standard deviation over ranks of their refinement (paper s. 6.2); ranks without triangles do not
+// count.
+std::pair<double, double> refinement_over_ranks(const std::vector<RankReport>& ranks) {
+  double sum = 0, squares = 0;
+  int count = 0;
+  for (const RankReport& r : ranks) {
+    if (r.triangles_in_region == 0) continue;
+    sum += r.refinement;
+    squares += r.refinement * r.refinement;
+    ++count;
+  }
+  if (count == 0) return {0, 0};
+  const double mean = sum / count;
+  return {mean, std::sqrt(std::max(0.0, squares / count - mean * mean))};
+}
+
+double percentile(const std::vector<double>& sorted, double share) {
+  if (sorted.empty()) return 0;
+  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
+  return sorted[std::clamp<std::size_t>(rank, 1, sorted.size()) - 1];
+}
+
+}  // namespace
+
+Json frame_record(const FinishedFrame& frame) {
+  const RankReport sum = sum_of(frame.ranks);
+  const auto [refinement, deviation] = refinement_over_ranks(frame.ranks);
+  return {{"record", "frame"},
+          {"frame", frame.order.number},
+          {"cut", frame.order.cut},
+          {"deadline_s", frame.order.deadline_s},
+          {"finished_s", frame.finished_s},
+          {"late_ms", frame.late_ms},
+          {"samples_new", sum.samples_new},
+          {"samples_cast", sum.samples_cast},
+          {"samples", sum.samples_in_region},
+          {"samples_received", sum.samples_received},
+          {"samples_received_twice", sum.samples_known},
+          {"refinement", refinement},
+          {"refinement_dev", deviation},
+          {"rays", rays_record(sum.rays)},
+          {"cpu_ms",
+           {{"sampling", sum.cpu_ms.sampling},
+            {"casting", sum.cpu_ms.casting},
+            {"reconstruction", sum.cpu_ms.reconstruction},
+            {"balancing", sum.cpu_ms.balancing},
+            {"idle", sum.cpu_ms.idle}}},
+          {"bytes",
+           {{"samples", sum.bytes_samples}, {"progress", 0}, {"balance", 0}, {"pixels", sum.bytes_pixels}}},
+          {"tiles_moved", 0},
+          {"global_balance", false},
+          {"non_finite", sum.non_finite}};
+}
+
+void RunTotals::add(const FinishedFrame& frame) {
+  const RankReport sum = sum_of(frame.ranks);
+  ++frames_;
+  on_time_ += frame.late_ms <= 0;
+  samples_ += sum.samples_in_region;
+  non_finite_ += sum.non_finite;
+  add_to(rays_, sum.rays);
+  late_ms_.push_back(frame.late_ms);
+}
+
+double RunTotals::samples_per_frame() const {
+  return frames_ > 0 ? static_cast<double>(samples_) / frames_ : 0;
+}
+
+double RunTotals::worst_late_ms() const {
+  return late_ms_.empty() ? 0 : *std::max_element(late_ms_.begin(), late_ms_.end());
+}
+
+Json RunTotals::summary(bool has_rate) const {
+  std::vector<double> sorted = late_ms_;
+  std::sort(sorted.begin(), sorted.end());
+  Json record = {{"record", "summary"}, {"frames", frames_}};
+  if (has_rate) {
+    record["on_time"] = on_time_;
+    record["late_ms"] = {{"p50", percentile(sorted, 0.50)},
+                         {"p95", percentile(sorted, 0.95)},
+                         {"p99", percentile(sorted, 0.99)},
+                         {"max", worst_late_ms()}};
+  }
+  record["samples"] = samples_;
+  record["rays"] = rays_record(rays_);
+  record["non_finite"] = non_finite_;
+  return record;
+}
+
+Ledger::Ledger(const std::string& path) : path_(path) {
+  if (path_.empty() || path_ == "-") return;
+  file_.open(path_, std::ios::trunc);
+  if (!file_) throw std::runtime_error("cannot write '" + path_ + "'");
+}
+
+void Ledger::write(const Json& record) {
+  if (!enabled()) return;
+  std::ostream& out = path_ == "-" ? std::cout : file_;
+  out << record.dump() << '\n' << std::flush;
+  if (!out) throw std::runtime_error("cannot write '" + path_ + "'");
+}
+
+void Ledger::write_frame(Json record, std::optional<std::future<double>> rmse) {
+  pending_.push_back({std::move(record), std::move(rmse)});
+  settle(false);
+}
+
+void Ledger::finish() {
+  settle(true);
+}
+
+void Ledger::settle(bool wait) {
+  while (!pending_.empty()) {
+    Pending& next = pending_.front();
+    if (next.rmse) {
+      if (!wait && next.rmse->wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+      next.record["rmse"] = next.rmse->get();
+    }
+    write(next.record);
+    pending_.pop_front();
+  }
+}
+
+}  // namespace pprt

@@ -1,0 +1,211 @@
+#include "app/render.h"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <iostream>
+#include <sstream>
+#include <utility>
+
+#include "app/exit.h"
+#include "app/frame_recorder.h"
+#include "app/launch.h"
+#include "app/render_job.h"
+#include "app/render_plan.h"
+#include "app/stop_signals.h"
+#include "app/version.h"
+#include "base/diagnostics.h"
+#include "parallel/local_communicator.h"
+#include "parallel/mpi_communicator.h"
+#include "parallel/session.h"
+#include "parser/nff_parser.h"
+#include "scene/nff_writer.h"
+
+namespace pprt {
+namespace {
+
+Probe probe_of(Tracer& tracer) {
+  return {[&tracer](const Camera& camera) { tracer.set_camera(camera); },
+          [&tracer](double x, double y) { return tracer.trace(x, y); },
+          [&tracer](const Vec3f& hit, bool at_infinity) { return tracer.visible(hit, at_infinity); },
+          [&tracer] { return tracer.counts(); }};
+}
+
+std::string nff_text(const SceneDescription& scene) {
+  std::ostringstream text;
+  write_nff(scene, text);
+  return std::move(text).str();
+}
+
+// What decides the pictures: two runs with equal keys may continue each other.
+std::string run_key(const RenderOptions& o, const RenderPlan& plan, int ranks,
+                    const std::string& scene_hash) {
+  const SessionSettings& s = plan.settings;
+  std::string text = fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", scene_hash, ranks, s.width,
+                                 s.height, o.clock, s.frames_per_second, s.budget_units, s.stop.seconds,
+                                 s.stop.samples, s.stop.quality, o.balance, o.cast, s.seed, o.max_depth,
+                                 o.effects + (o.cull ? " cull" : ""));
+  for (const PlannedFrame& f : plan.frames) {
+    const View& v = f.view;
+    text += fmt::format("\n{} {} {} {} {} {} {} {} {} {} {} {}", f.number, f.cut, v.from.x, v.from.y,
+                        v.from.z, v.at.x, v.at.y, v.at.z, v.up.x, v.up.y, v.up.z, v.angle_degrees);
+  }
+  return content_hash(text);
+}
+
+Json run_record(const RenderOptions& o, const RenderPlan& plan, int ranks, const CompiledScene& scene,
+                const std::string& scene_hash) {
+  char host[256] = {};
+  gethostname(host, sizeof host - 1);
+  const SessionSettings& s = plan.settings;
+  Json options = {{"fps", s.frames_per_second}, {"balance", o.balance}, {"cast", o.cast}, {"seed", s.seed},
+                  {"max_depth", o.max_depth},   {"cull", o.cull}};
+  if (s.clock == ClockKind::kWork) options["budget"] = s.budget_units;
+  if (s.frames_per_second <= 0) {
+    options["time"] = s.stop.seconds, options["samples"] = s.stop.samples,
+    options["quality"] = s.stop.quality;
+  }
+  return {{"record", "run"},
+          {"version", kVersion},
+          {"scene", plan.scene.name},
+          {"scene_hash", scene_hash},
+          {"script", plan.script_name},
+          {"options", options},
+          {"effects", to_string(scene.effects())},
+          {"ranks", ranks},
+          {"size", {s.width, s.height}},
+          {"clock", o.clock},
+          {"host", std::string(host)}};
+}
+
+// The script as the camera source: one frame after the other, until a signal or a full disk ends it.
+CameraSource camera_source(const RenderPlan& plan, const CompiledScene& scene, FrameRecorder& recorder) {
+  std::vector<FrameRequest> requests;
+  int before = 0;
+  for (const PlannedFrame& frame : plan.frames) {
+    if (recorder.finished_before().count(frame.number) != 0) continue;
+    // What does not follow its predecessor carries nothing over from it.
+    requests.push_back({frame.number, scene.camera(frame.view), frame.cut || frame.number != before + 1});
+    before = frame.number;
+  }
+  return [requests = std::move(requests), &recorder](int index) -> std::optional<FrameRequest> {
+    if (take_status_request()) recorder.status();
+    if (stop_requested() || recorder.failed()) return std::nullopt;
+    const auto i = static_cast<std::size_t>(index);
+    return i < requests.size() ? std::optional(requests[i]) : std::nullopt;
+  };
+}
+
+void print_rays(const RunTotals& totals) {
+  const RayCounts& rays = totals.rays();
+  fmt::print("rays traced: {} primary, {} shadow, {} reflection, {} refraction\n", rays.primary, rays.shadow,
+             rays.reflection, rays.refraction);
+}
+
+// Reads and checks everything before any other rank is told to begin.
+struct Prepared {
+  RenderPlan plan;
+  CompiledScene scene;
+};
+
+Prepared prepare(const RenderOptions& options) {
+  RenderPlan plan = plan_render(options);
+  std::cerr << plan.warnings;
+  CompiledScene scene = compile(plan.scene, plan.compile);
+  if (options.census) std::cout << scene.census() << std::flush;
+  return {std::move(plan), std::move(scene)};
+}
+
+// `told` becomes true once the other ranks know what to do.
+int run_frames(Communicator& network, const RenderOptions& options, const Prepared& prepared, bool& told) {
+  const std::string nff = nff_text(prepared.plan.scene);
+  const RenderPlan& plan = prepared.plan;
+  const std::string scene_hash = content_hash(nff);
+  const Json run = run_record(options, plan, network.size(), prepared.scene, scene_hash);
+  FrameRecorder recorder(options, plan, run_key(options, plan, network.size(), scene_hash), run);
+  const CameraSource source = camera_source(plan, prepared.scene, recorder);
+
+  Bytes job = encode(RenderJob{true, plan.settings, plan.compile, nff});
+  network.broadcast(job);
+  told = true;
+  watch_signals();
+  Tracer tracer(prepared.scene, Camera());
+  run_as_master(network, plan.settings, probe_of(tracer), source,
+                [&](FinishedFrame&& frame) { recorder.record(std::move(frame)); });
+  // All ranks have come to their end: what cannot be written now is this rank's matter alone.
+  try {
+    recorder.finish(stop_requested().has_value());
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "pprt-render: error: {}\n", e.what());
+    return kExitFailure;
+  }
+  if (options.census) print_rays(recorder.totals());
+  return stop_requested() ? 128 + *stop_requested() : kExitDone;
+}
+
+int master_rank(Communicator& network, const RenderOptions& options) {
+  bool told = false;
+  try {
+    const Prepared prepared = prepare(options);
+    // A census alone renders nothing.
+    if (options.census && options.outputs.empty()) {
+      Bytes nothing = encode(RenderJob{});
+      network.broadcast(nothing);
+      return kExitDone;
+    }
+    require_new_files(options, prepared.plan);
+    return run_frames(network, options, prepared, told);
+  } catch (...) {
+    if (!told) {
+      Bytes nothing = encode(RenderJob{});
+      network.broadcast(nothing);
+    }
+    throw;
+  }
+}
+
+int worker_rank(Communicator& network) {
+  ignore_signals();
+  Bytes bytes;
+  network.broadcast(bytes);
+  const RenderJob job = decode_job(bytes);
+  if (!job.go) return kExitDone;
+  const CompiledScene scene = compile(parse_nff(job.scene_nff, "scene").scene, job.compile);
+  Tracer tracer(scene, Camera());
+  run_as_worker(network, job.settings, probe_of(tracer));
+  return kExitDone;
+}
+
+// No exception may pass ranks that others wait for: errors of the input end all ranks in order, others at
+// once.
+int run_mpi_rank(const RenderOptions& options, int argc, char** argv) {
+  MpiCommunicator network(argc, argv);
+  try {
+    return network.rank() == 0 ? master_rank(network, options) : worker_rank(network);
+  } catch (const InputError&) {
+    throw;
+  } catch (const UsageError&) {
+    throw;
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "pprt-render: rank {}: error: {}\n", network.rank(), e.what());
+    network.abort_all(kExitFailure);
+  }
+}
+
+}  // namespace
+
+int render(const RenderOptions& options, const std::string& config, int argc, char** argv) {
+  check_usage(options);
+  if (options.write_config) {
+    std::cout << config;
+    return kExitDone;
+  }
+  if (started_by_mpi_launcher()) return run_mpi_rank(options, argc, argv);
+  if (options.ranks > 1) return run_under_mpirun(options.ranks, options.hostfile, argv);
+  LocalNetwork alone(1);
+  LocalCommunicator network(alone, 0);
+  return master_rank(network, options);
+}
+
+}  // namespace pprt

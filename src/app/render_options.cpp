@@ -1,0 +1,153 @@
+#include "app/render_options.h"
+
+#include "app/command_line.h"
+#include "trace/effects.h"
+
+namespace pprt {
+namespace {
+
+void add_positionals(CLI::App& app, RenderOptions& o) {
+  app.add_option("SCENE", o.input,
+                 "FILE.nff, - (standard input), spd:NAME[:SIZE], or a script that names its scene")
+      ->required()
+      ->type_name("");
+  app.add_option("SCRIPT", o.script,
+                 "Animation script, FILE.anim; without one a still from the scene's own view")
+      ->type_name("");
+}
+
+void add_run_options(CLI::App& app, RenderOptions& o) {
+  const std::string group = "Run";
+  app.add_option("--np", o.ranks, "Ranks (also -np N, as in mpirun); starts mpirun itself when more than one")
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str()
+      ->type_name("N")
+      ->group(group);
+  app.add_option("--hostfile", o.hostfile, "Hosts to run on, handed to mpirun")
+      ->type_name("FILE")
+      ->group(group);
+  app.add_option("--fps", o.fps,
+                 "Fixed frame rate, a deadline for every frame; 0: none (default: the script's)")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->type_name("F")
+      ->group(group);
+  app.add_option("--clock", o.clock,
+                 "wall: real time; work: counted work, the same result on any machine and load")
+      ->check(CLI::IsMember({"wall", "work"}))
+      ->capture_default_str()
+      ->type_name("CLOCK")
+      ->group(group);
+  app.add_option("--budget", o.budget, "Work clock: work units per rank and frame (default: 50000000 / fps)")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 60))
+      ->type_name("N")
+      ->group(group);
+  app.add_option("--time", o.time, "Without a rate: stop a frame after so many seconds")
+      ->check(CLI::Range(1e-3, 1e9))
+      ->type_name("S")
+      ->group(group);
+  app.add_option("--samples", o.samples, "Without a rate: stop a frame at so many samples")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40))
+      ->type_name("N")
+      ->group(group);
+  app.add_option("--quality", o.quality,
+                 "Without a rate: stop a frame at this mean triangle weight (default: 0.02)")
+      ->check(CLI::Range(1e-12, 1e12))
+      ->type_name("Q")
+      ->group(group);
+  app.add_option("--balance", o.balance, "Load balancing among ranks: none")
+      ->check(CLI::IsMember({"none"}))
+      ->capture_default_str()
+      ->type_name("MODE")
+      ->group(group);
+  app.add_option("--cast", o.cast, "Samples carried to the next frame: off, paper, verified or auto")
+      ->check(CLI::IsMember({"off", "paper", "verified", "auto"}))
+      ->capture_default_str()
+      ->type_name("WAY")
+      ->group(group);
+  app.add_option("--seed", o.seed, "Of the pattern that every frame starts from")
+      ->capture_default_str()
+      ->type_name("N")
+      ->group(group);
+}
+
+void add_image_options(CLI::App& app, RenderOptions& o) {
+  const std::string group = "Image";
+  app.add_option("-s,--size", o.size, "Width and height in pixels (default: the script's, or the scene's)")
+      ->type_name("WxH")
+      ->group(group);
+  app.add_option(
+         "-o,--output", o.outputs,
+         "File name with %04d or #### for the frame number, .exr or .png; may be given twice (default: " +
+             std::string(kDefaultOutput) + ")")
+      ->type_name("PATTERN")
+      ->type_size(1)
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group(group);
+  app.add_option("--frames", o.frames, "Render only frames A to B")->type_name("A-B")->group(group);
+  auto* overwrite =
+      app.add_flag("--overwrite", o.overwrite, "Replace frames that are there already")->group(group);
+  app.add_flag("--resume", o.resume,
+               "Skip frames that the manifest says are finished with the same scene and options")
+      ->excludes(overwrite)
+      ->group(group);
+}
+
+void add_effect_options(CLI::App& app, RenderOptions& o) {
+  const std::string group = "Effects";
+  app.add_option("--max-depth", o.max_depth, "Longest chain of rays; an eye ray has depth 1")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str()
+      ->type_name("N")
+      ->group(group);
+  app.add_option("--effects", o.effects,
+                 "auto (what the scene calls for), all, none, or some of shadows, highlights, reflection, "
+                 "refraction, smooth-normals")
+      ->capture_default_str()
+      ->type_name("LIST")
+      ->group(group);
+  app.add_flag("--cull", o.cull, "Opaque surfaces are visible from the front only")->group(group);
+  app.add_flag("--census", o.census,
+               "Print what effects the scene calls for and why, and with frames the rays of each")
+      ->group(group);
+  app.add_flag("--strict", o.strict, "Reject what the NFF specification does not allow")->group(group);
+}
+
+void add_report_options(CLI::App& app, RenderOptions& o) {
+  const std::string group = "Reports and settings";
+  app.add_option("--stats", o.stats, "Write the ledger, one JSON object a line; - is standard output")
+      ->type_name("FILE")
+      ->group(group);
+  app.add_option("--reference", o.reference, "Pictures to measure each frame's error against")
+      ->type_name("PATTERN")
+      ->group(group);
+  app.add_option("--progress", o.progress, "tty, json or none (auto: tty on a terminal)")
+      ->check(CLI::IsMember({"auto", "tty", "json", "none"}))
+      ->capture_default_str()
+      ->type_name("HOW")
+      ->group(group);
+  app.set_config("--config", "", "Read options from a file")->type_name("FILE")->group(group);
+  app.add_flag("--write-config", o.write_config, "Print the options in force as such a file, and exit")
+      ->configurable(false)
+      ->group(group);
+}
+
+}  // namespace
+
+void add_render_options(CLI::App& app, RenderOptions& options) {
+  add_positionals(app, options);
+  add_run_options(app, options);
+  add_image_options(app, options);
+  add_effect_options(app, options);
+  add_report_options(app, options);
+}
+
+std::vector<std::string> with_long_np(int argc, const char* const* argv) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  for (std::string& word : words) {
+    if (word == "-np") word = "--np";
+  }
+  return words;
+}
+
+}  // namespace pprt

@@ -1,0 +1,44 @@
+// What a command line asks for, checked and settled before anything is rendered.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "app/render_options.h"
+#include "image/frame_pattern.h"
+#include "parallel/session_settings.h"
+#include "scene/animation.h"
+#include "scene/scene_description.h"
+#include "trace/compiled_scene.h"
+
+namespace pprt {
+
+// One frame to render: its view, in scene space and of the image's size.
+struct PlannedFrame {
+  int number = 1;
+  View view;
+  bool cut = false;
+};
+
+struct RenderPlan {
+  SceneDescription scene;
+  std::string script_name;  // empty: none
+  std::vector<PlannedFrame> frames;
+  std::vector<FramePattern> outputs;
+  SessionSettings settings;
+  CompileOptions compile;
+  std::string warnings;  // of scene and script, for people
+};
+
+// A still looks converged at this mean triangle weight: on the SPD scenes about one sample per pixel where
+// the picture is flat and a dozen along edges (docs/decisions/0007-still-quality.md).
+inline constexpr double kStillQuality = 0.02;
+
+// What can be judged from the command line alone. Throws UsageError.
+void check_usage(const RenderOptions& options);
+
+// Reads scene and script, once. Throws UsageError, or InputError with every problem of the file that has any.
+RenderPlan plan_render(const RenderOptions& options);
+
+}  // namespace pprt
