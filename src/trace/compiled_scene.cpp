@@ -30,6 +30,12 @@ bool finite(const Vec3d& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+[[noreturn]] void reject(const std::string& name, SourceLocation at, const std::string& problem) {
+  const std::string place =
+      at.line > 0 ? name + ":" + std::to_string(at.line) + ":" + std::to_string(at.column) : name;
+  throw InputError(place + ": error: " + problem);
+}
+
 ShadingMaterial shading_material(const Material& m, double ambient_weight) {
   ShadingMaterial result;
   result.ambient = to_color(m.color * (kAmbientReflectance * ambient_weight));
@@ -72,6 +78,7 @@ class PartsBuilder {
   }
 
   void add(const Sphere& s) {
+    require(finite(s.center) && std::isfinite(s.radius), s.location);
     if (s.radius == 0) return drop();
     auto [to, shape] =
         part<std::vector<SphereRecord>>(PrimitiveKind::kSphere, sides(s.material, s.radius < 0));
@@ -80,6 +87,7 @@ class PartsBuilder {
   }
 
   void add(const Cone& c) {
+    require(finite(c.base) && finite(c.apex) && std::isfinite(c.base_radius + c.apex_radius), c.location);
     const double base_radius = impl_.normalisation.length(std::abs(c.base_radius));
     const double apex_radius = impl_.normalisation.length(std::abs(c.apex_radius));
     const Vec3d axis = (c.apex - c.base) * impl_.normalisation.scale;
@@ -92,7 +100,10 @@ class PartsBuilder {
 
   void add(const Polygon& p) {
     positions_.clear();
-    for (const Vec3d& v : scene_.vertices(p)) positions_.push_back(impl_.normalisation.point(v));
+    for (const Vec3d& v : scene_.vertices(p)) {
+      require(finite(v), p.location);
+      positions_.push_back(impl_.normalisation.point(v));
+    }
     auto [to, mesh] = part<Mesh>(PrimitiveKind::kPolygon, sides(p.material, false));
     finish(to, mesh.add(positions_, {}), p.material);
   }
@@ -101,6 +112,7 @@ class PartsBuilder {
     positions_.clear();
     normals_.clear();
     for (const PatchVertex& v : scene_.vertices(p)) {
+      require(finite(v.position) && finite(v.normal), p.location);
       positions_.push_back(impl_.normalisation.point(v.position));
       normals_.emplace_back(v.normal.normalized());  // zero stays zero
     }
@@ -112,6 +124,10 @@ class PartsBuilder {
     if (triangles == 0) return drop();
     to.materials.insert(to.materials.end(), triangles, material);
     impl_.figures.triangles += triangles;
+  }
+
+  void require(bool is_finite, SourceLocation at) const {
+    if (!is_finite) reject(scene_.name, at, "a coordinate or radius is not finite");
   }
 
   void drop() { ++impl_.figures.degenerate; }
@@ -187,12 +203,6 @@ EffectSet chosen_effects(const Inventory& inventory, const CompileOptions& optio
   return effects;
 }
 
-[[noreturn]] void reject(const std::string& name, SourceLocation at, const std::string& problem) {
-  const std::string place =
-      at.line > 0 ? name + ":" + std::to_string(at.line) + ":" + std::to_string(at.column) : name;
-  throw InputError(place + ": error: " + problem);
-}
-
 }  // namespace
 
 CompiledScene::CompiledScene(std::unique_ptr<const Impl> impl) : impl_(std::move(impl)) {}
@@ -241,7 +251,7 @@ CompiledScene compile(const SceneDescription& scene, const CompileOptions& optio
   if (scene.primitive_count() == 0 || box.isEmpty()) {
     reject(scene.name, {}, "the scene has no objects: there is nothing in it to see");
   }
-  if (!finite(box.min) || !finite(box.max)) reject(scene.name, {}, "a coordinate of the scene is not finite");
+  if (!finite(box.max - box.min)) reject(scene.name, {}, "the scene is too large to be measured");
 
   auto impl = std::make_unique<CompiledScene::Impl>();
   impl->name = scene.name;
@@ -255,6 +265,7 @@ CompiledScene compile(const SceneDescription& scene, const CompileOptions& optio
   const double weight = light_weight(scene.lights.size());
   for (const Material& m : scene.materials) impl->materials.push_back(shading_material(m, weight));
   for (const Light& l : scene.lights) {
+    if (!finite(l.position)) reject(scene.name, l.location, "the position of a light is not finite");
     impl->lights.push_back(
         {impl->normalisation.point(l.position), to_color(l.color.value_or(Rgb(1, 1, 1)) * weight)});
   }
