@@ -8,17 +8,33 @@ namespace {
 
 constexpr std::size_t kScreenWidth = 100;  // bytes of a source line shown around the caret
 
-// The bytes of line `line` (from 1) without its line end; CR, LF and CR LF all end a line.
-std::string_view line_of(std::string_view text, std::uint32_t line) {
-  std::size_t begin = 0;
-  for (std::uint32_t current = 1; current < line; ++current) {
-    const std::size_t end = text.find_first_of("\r\n", begin);
-    if (end == std::string_view::npos) return {};
-    begin = end + 1;
-    if (text[end] == '\r' && begin < text.size() && text[begin] == '\n') ++begin;
+// The lines of a text, asked for in rising order: one pass over the text in all. CR, LF and CR LF all end a
+// line.
+class Lines {
+ public:
+  explicit Lines(std::string_view text) : rest_(text), length_(line_length()) {}
+
+  // The bytes of line `number` (from 1) without its line end; empty behind the last line.
+  std::string_view at(std::uint32_t number) {
+    for (; current_ < number; ++current_) {
+      const bool pair = rest_.substr(length_).starts_with("\r\n");
+      rest_.remove_prefix(std::min(length_ + (pair ? 2 : 1), rest_.size()));
+      length_ = line_length();
+    }
+    return rest_.substr(0, length_);
   }
-  return text.substr(begin, std::min(text.find_first_of("\r\n", begin), text.size()) - begin);
-}
+
+ private:
+  std::size_t line_length() const {
+    std::size_t length = 0;
+    while (length < rest_.size() && rest_[length] != '\n' && rest_[length] != '\r') ++length;
+    return length;
+  }
+
+  std::string_view rest_;  // from the current line's begin
+  std::size_t length_;     // of the current line
+  std::uint32_t current_ = 1;
+};
 
 // Control characters would break the caret's alignment or the terminal.
 char printable(char c) {
@@ -26,8 +42,8 @@ char printable(char c) {
   return byte < 0x20 || byte == 0x7f ? ' ' : c;
 }
 
-void append_line_and_caret(std::string& out, std::string_view text, SourceLocation at) {
-  const std::string_view line = line_of(text, at.line);
+void append_line_and_caret(std::string& out, Lines& lines, SourceLocation at) {
+  const std::string_view line = lines.at(at.line);
   const std::size_t caret = at.column > 0 ? at.column - 1 : 0;
   if (caret > line.size()) return;
   const std::size_t first =
@@ -63,6 +79,7 @@ std::string format(const Diagnostics& diagnostics, std::string_view file_name, s
     return std::pair(a.location.line, a.location.column) < std::pair(b.location.line, b.location.column);
   });
   std::string out;
+  Lines lines(text);
   for (const Diagnostic& d : ordered) {
     out += file_name;
     if (d.location.line > 0) {
@@ -70,7 +87,7 @@ std::string format(const Diagnostics& diagnostics, std::string_view file_name, s
     }
     out += d.severity == Severity::kError ? ": error: " : ": warning: ";
     out += d.message + '\n';
-    if (d.location.line > 0) append_line_and_caret(out, text, d.location);
+    if (d.location.line > 0) append_line_and_caret(out, lines, d.location);
   }
   const std::size_t left_out = diagnostics.error_count() + diagnostics.warning_count() - ordered.size();
   if (left_out > 0) {

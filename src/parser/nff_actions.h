@@ -233,7 +233,7 @@ template <>
 struct action<grammar::patch> : without_text<&SceneBuilder::add_patch> {};
 
 template <>
-struct action<grammar::mail_header> {
+struct action<grammar::header_begin> {
   template <typename Input>
   static bool apply(const Input& in, SceneBuilder& builder) {
     return builder.mail_header({in.begin(), in.size()});

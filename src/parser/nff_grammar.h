@@ -103,8 +103,9 @@ struct keyword : seq<string<Letters...>, at<sor<token_end, number_begin>>> {};
 // Where reading is taken up again after a problem: a keyword that stands alone or before a whole number.
 struct entity_letters : sor<string<'p', 'p'>, one<'v', 'b', 'l', 'f', 'c', 's', 'p'>> {};
 struct entity_begin : seq<entity_letters, sor<at<token_end>, number>> {};
-struct resume
-    : star<not_at<entity_begin>, sor<blank, hash_comment, percent_comment, block_comment, token, any>> {};
+struct open_comment : seq<string<'/', '*'>, star<any>> {};
+struct passed_over : sor<blank, hash_comment, percent_comment, block_comment, open_comment, token, any> {};
+struct resume : star<not_at<entity_begin>, passed_over> {};
 
 // v from x y z at x y z up x y z angle a hither d [yon d] resolution w h, in any order.
 struct view_value : field {};
@@ -181,8 +182,8 @@ struct patch : seq<patch_keyword, vertex_count, counted<patch_vertex>> {};
 struct header_name : seq<pegtl::alpha, star<sor<pegtl::alnum, one<'-'>>>, one<':'>> {};
 struct folded_line : seq<sor<string<'\r', '\n'>, line_end>, plus<one<' ', '\t'>>,
                          not_at<sor<eof, line_end, entity_begin>>, to_line_end> {};
-struct mail_header : seq<sor<header_name, string<'F', 'r', 'o', 'm', ' '>>, to_line_end, star<folded_line>> {
-};
+struct header_begin : sor<header_name, string<'F', 'r', 'o', 'm', ' '>> {};
+struct mail_header : seq<header_begin, to_line_end, star<folded_line>> {};
 
 // Anything else that begins with a word: passed over to the end of its line, with the numbers that follow.
 struct unknown_word : seq<not_at<number_begin>, token> {};

@@ -18,35 +18,35 @@ std::string read_text(const std::string& path, std::size_t max_bytes);
 // A token as it is quoted in a message: control bytes replaced, long ones cut.
 std::string quoted(std::string_view token);
 
-// Line and column of places in a text. Made for places asked for in rising order: each then costs only the
-// bytes since the place before, and a whole pass is linear. A place before the last one's line is found
-// again from the start of the text. CR, LF and CR LF each end a line.
+// Line and column of places in a text. Each costs only the bytes between it and the place asked for before
+// (or, going back, the lines between), so that a whole pass is linear. CR, LF and CR LF each end a line.
 class LineCursor {
  public:
   explicit LineCursor(std::string_view text)
-      : text_(text), line_begin_(text.data()), has_cr_(text.find('\r') != std::string_view::npos) {}
+      : text_(text),
+        line_begin_(text.data()),
+        searched_(text.data()),
+        has_cr_(text.find('\r') != std::string_view::npos) {}
 
   SourceLocation at(const char* place) {
-    if (place < line_begin_) {
-      line_begin_ = text_.data();
-      line_ = 1;
-    }
+    while (place < line_begin_) to_previous_line();
     while (const char* next = next_line(place)) {
-      line_begin_ = next;
+      line_begin_ = searched_ = next;
       ++line_;
     }
+    if (searched_ < place) searched_ = place;
     return {line_, static_cast<std::uint32_t>(place - line_begin_) + 1};
   }
 
  private:
-  // Where the line after line_begin_ begins, when that is not behind `place`.
+  // Where the line after this one begins, when that is not behind `place`.
   const char* next_line(const char* place) const {
+    if (searched_ >= place) return nullptr;
     if (!has_cr_) {
-      const auto length = static_cast<std::size_t>(place - line_begin_);
-      const void* lf = length > 0 ? std::memchr(line_begin_, '\n', length) : nullptr;
+      const void* lf = std::memchr(searched_, '\n', static_cast<std::size_t>(place - searched_));
       return lf ? static_cast<const char*>(lf) + 1 : nullptr;
     }
-    for (const char* p = line_begin_; p < place; ++p) {
+    for (const char* p = searched_; p < place; ++p) {
       if (*p == '\n') return p + 1;
       if (*p != '\r') continue;
       const bool pair = p + 1 < text_.data() + text_.size() && p[1] == '\n';
@@ -55,8 +55,17 @@ class LineCursor {
     return nullptr;
   }
 
+  void to_previous_line() {
+    const char* p = line_begin_ - 1;  // on the previous line's end
+    if (*p == '\n' && p > text_.data() && p[-1] == '\r') --p;
+    while (p > text_.data() && p[-1] != '\n' && p[-1] != '\r') --p;
+    line_begin_ = searched_ = p;
+    --line_;
+  }
+
   std::string_view text_;
   const char* line_begin_;
+  const char* searched_;  // no line ends between line_begin_ and here
   std::uint32_t line_ = 1;
   bool has_cr_;
 };
