@@ -120,6 +120,23 @@ TEST_CASE("rays leave polygons, slender and concave ones too") {
   CHECK(rays > 20000);
 }
 
+TEST_CASE("rays leave triangles of any shape in any plane") {
+  std::mt19937 engine(9);
+  std::uniform_real_distribution<double> u(-1, 1);
+  const auto point = [&] { return Vec3d(u(engine), u(engine), u(engine)); };
+  std::uint64_t rays = 0;
+  for (int i = 0; i < 20; ++i) {
+    const Vec3d a = point(), b = point(), c = a + (b - a) * 0.4 + point() * (i % 2 ? 1 : 0.05);
+    SceneDescription scene = matte();
+    add_polygon(scene, std::vector<Vec3d>{a, b, c}, 0);
+    const Vec3d middle = (a + b + c) * (1 / 3.0);
+    View view = view_from(middle + (b - a).cross(c - a).normalized() * 3, middle, 40);
+    view.up = b - a;
+    rays += check_no_shadow(scene, view);
+  }
+  CHECK(rays > 100000);
+}
+
 TEST_CASE("rays leave a patch") {
   SceneDescription scene = matte();
   // Its normals are those of its plane: others would light points that do lie in the patch's own shadow.
