@@ -8,7 +8,7 @@
 
 namespace pprt {
 
-// Pixels between seeds. Found by measurement (docs/decisions/0005-seeds.md): coarse enough to cost little,
+// Pixels between seeds. Found by measurement (docs/decisions/0008-seeds.md): coarse enough to cost little,
 // dense enough that small features are met and every rank's region holds several.
 inline constexpr double kSeedSpacing = 16;
 

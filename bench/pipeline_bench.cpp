@@ -1,0 +1,138 @@
+// What a progressive sample costs besides its rays, by stage, and what reconstruction and casting cost.
+//
+// The picture is the SPD tree at 512x512, traced once beforehand to a fine grid that the probe looks up, so
+// that "insert" is the triangulation and the queue alone; "sample" traces for real.
+
+#include <benchmark/benchmark.h>
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "pipeline/casting.h"
+#include "pipeline/reconstruction.h"
+#include "pipeline/sample_mesh.h"
+#include "pipeline/seeds.h"
+#include "spd/spd.h"
+#include "trace/compiled_scene.h"
+
+namespace {
+
+using namespace pprt;
+
+constexpr int kSize = 512;
+
+struct Tree {
+  CompiledScene scene = compile(make_spd("tree", std::nullopt));
+  Camera camera = scene.camera(view());
+  Tracer tracer{scene, camera};
+
+  static View view() {
+    View view = *make_spd("tree", std::nullopt).view;
+    view.width = view.height = kSize;
+    return view;
+  }
+};
+
+Tree& tree() {
+  static Tree instance;
+  return instance;
+}
+
+// Four looked-up values a pixel side.
+RaySample look_up(double x, double y) {
+  constexpr int kPerPixel = 4, kRow = kSize * kPerPixel;
+  static const std::vector<RaySample> grid = [] {
+    std::vector<RaySample> samples;
+    for (int j = 0; j < kRow; ++j) {
+      for (int i = 0; i < kRow; ++i) {
+        samples.push_back(tree().tracer.trace((i + 0.5) / kPerPixel, (j + 0.5) / kPerPixel));
+      }
+    }
+    return samples;
+  }();
+  const int i = std::min(static_cast<int>(x * kPerPixel), kRow - 1);
+  const int j = std::min(static_cast<int>(y * kPerPixel), kRow - 1);
+  return grid[static_cast<std::size_t>(j) * kRow + static_cast<std::size_t>(i)];
+}
+
+template <typename Trace>
+void refine(SampleMesh& mesh, std::size_t samples, const Trace& trace) {
+  mesh.clear();
+  const auto add = [&](const Vec2d& p) {
+    Sample s;
+    s.x = p.x, s.y = p.y, s.frame = 1, s.ray = trace(p.x, p.y);
+    mesh.insert(s);
+  };
+  for (const Vec2d& p : seed_points(kSize, kSize, 1, 1)) add(p);
+  while (mesh.samples().size() < samples) {
+    const std::optional<Vec2d> p = mesh.next_point();
+    if (!p) return;
+    add(*p);
+  }
+}
+
+Region whole() {
+  return Region::whole({kSize, kSize, 32});
+}
+
+void per_sample(benchmark::State& state) {
+  const auto samples = static_cast<double>(state.range(0)) * static_cast<double>(state.iterations());
+  state.counters["per_sample"] =
+      benchmark::Counter(samples, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+void insert_and_queue(benchmark::State& state) {
+  look_up(0, 0);
+  SampleMesh mesh(whole());
+  for (auto _ : state) refine(mesh, static_cast<std::size_t>(state.range(0)), look_up);
+  per_sample(state);
+}
+BENCHMARK(insert_and_queue)->Arg(4000)->Arg(16000)->Arg(64000)->Unit(benchmark::kMillisecond);
+
+void whole_sample(benchmark::State& state) {
+  SampleMesh mesh(whole());
+  for (auto _ : state) {
+    refine(mesh, static_cast<std::size_t>(state.range(0)),
+           [](double x, double y) { return tree().tracer.trace(x, y); });
+  }
+  per_sample(state);
+}
+BENCHMARK(whole_sample)->Arg(16000)->Arg(64000)->Unit(benchmark::kMillisecond);
+
+void scan_line_sample(benchmark::State& state) {
+  for (auto _ : state) {
+    for (int y = 0; y < kSize; ++y) {
+      for (int x = 0; x < kSize; ++x) benchmark::DoNotOptimize(tree().tracer.trace(x + 0.5, y + 0.5));
+    }
+  }
+  state.counters["per_sample"] =
+      benchmark::Counter(static_cast<double>(state.iterations()) * kSize * kSize,
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(scan_line_sample)->Unit(benchmark::kMillisecond);
+
+void reconstruction(benchmark::State& state) {
+  SampleMesh mesh(whole());
+  refine(mesh, static_cast<std::size_t>(state.range(0)), look_up);
+  RegionPixels pixels;
+  ReconstructionBuffers buffers;
+  for (auto _ : state) reconstruct(mesh, pixels, buffers);
+}
+BENCHMARK(reconstruction)->Arg(4000)->Arg(16000)->Arg(64000)->Unit(benchmark::kMillisecond);
+
+void casting(benchmark::State& state) {
+  SampleMesh mesh(whole());
+  refine(mesh, static_cast<std::size_t>(state.range(0)), look_up);
+  View view = Tree::view();
+  view.from.x += 0.05;
+  const Camera next = tree().scene.camera(view);
+  const Visibility visible = [](const Vec3f&, bool) { return true; };
+  for (auto _ : state) benchmark::DoNotOptimize(cast_samples(mesh, next, 2, {}, visible));
+  per_sample(state);
+}
+BENCHMARK(casting)->Arg(16000)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+
+BENCHMARK_MAIN();
