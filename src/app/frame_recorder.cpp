@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/diagnostics.h"
+#include "image/contact_sheet.h"
 #include "image/metrics.h"
 
 namespace pprt {
@@ -45,13 +46,14 @@ Facts header_facts(Json record) {
 
 void require_new_files(const RenderOptions& options, const RenderPlan& plan) {
   if (options.overwrite || options.resume) return;
+  std::vector<std::filesystem::path> files;
   for (const PlannedFrame& frame : plan.frames) {
-    for (const FramePattern& output : plan.outputs) {
-      const std::filesystem::path file = file_name(output, frame.number);
-      if (!std::filesystem::exists(file)) continue;
-      throw UsageError(file.string() +
-                       " is there already; --overwrite replaces it, --resume goes on after it");
-    }
+    for (const FramePattern& output : plan.outputs) files.push_back(file_name(output, frame.number));
+  }
+  if (!options.contact_sheet.empty()) files.emplace_back(options.contact_sheet);
+  for (const std::filesystem::path& file : files) {
+    if (!std::filesystem::exists(file)) continue;
+    throw UsageError(file.string() + " is there already; --overwrite replaces it, --resume goes on after it");
   }
 }
 
@@ -59,12 +61,15 @@ FrameRecorder::FrameRecorder(const RenderOptions& options, const RenderPlan& pla
                              const Json& run)
     : has_rate_(plan.settings.frames_per_second > 0),
       where_(names_of(options)),
+      contact_sheet_(options.contact_sheet),
+      first_output_(plan.outputs.front()),
       manifest_(manifest_path(plan.outputs.front()), key, options.resume),
       writer_(plan.outputs, {.overwrite = true}),
       ledger_(options.stats),
       progress_(progress_kind(options.progress), static_cast<int>(plan.frames.size()),
                 plan.settings.frames_per_second, options.progress == "none") {
   if (!options.reference.empty()) reference_ = parse_frame_pattern(options.reference, FrameCount::kOne);
+  written_ = manifest_.finished();
   ledger_.write(run);
 }
 
@@ -75,7 +80,7 @@ void FrameRecorder::record(FinishedFrame&& frame) {
   if (ledger_.enabled()) ledger_.write_frame(std::move(record), measure_error(frame));
   progress_.frame_done(frame, totals_);
   writer_.submit({frame.order.number, std::move(frame.image), std::move(facts)});
-  manifest_.add(writer_.take_finished());
+  note_written(writer_.take_finished());
 }
 
 std::optional<std::future<double>> FrameRecorder::measure_error(const FinishedFrame& frame) const {
@@ -86,14 +91,32 @@ std::optional<std::future<double>> FrameRecorder::measure_error(const FinishedFr
                     });
 }
 
+void FrameRecorder::note_written(const std::vector<WrittenFrame>& frames) {
+  manifest_.add(frames);
+  for (const WrittenFrame& frame : frames) written_.insert(frame.frame);
+}
+
+// From the files, when all are written: the frame loop is not delayed, and one picture of full size is held
+// at a time.
+void FrameRecorder::write_contact_sheet() const {
+  if (contact_sheet_.empty() || written_.empty()) return;
+  const ContactSheetLayout layout;
+  std::vector<Image> thumbnails;
+  for (const int frame : written_) {
+    thumbnails.push_back(thumbnail(read_image(file_name(first_output_, frame)), layout.thumbnail_width));
+  }
+  write_image(contact_sheet_, contact_sheet(thumbnails, layout));
+}
+
 void FrameRecorder::finish(bool stopped) {
   try {
     writer_.finish();
-    manifest_.add(writer_.take_finished());
+    note_written(writer_.take_finished());
+    write_contact_sheet();
     ledger_.finish();
     ledger_.write(totals_.summary(has_rate_));
   } catch (...) {
-    manifest_.add(writer_.take_finished());
+    note_written(writer_.take_finished());
     progress_.finish("failed", totals_, where_);
     throw;
   }

@@ -2,8 +2,11 @@
 // frame loop.
 #pragma once
 
+#include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "app/ledger.h"
 #include "app/manifest.h"
@@ -30,14 +33,20 @@ class FrameRecorder {
   void status() const { progress_.status(totals_); }
   const RunTotals& totals() const { return totals_; }
 
-  // Waits for the last file, writes the summary; throws what kept a frame from being written.
+  // Waits for the last file, writes the contact sheet and the summary; throws what kept a frame from being
+  // written.
   void finish(bool stopped);
 
  private:
   std::optional<std::future<double>> measure_error(const FinishedFrame& frame) const;
+  void note_written(const std::vector<WrittenFrame>& frames);
+  void write_contact_sheet() const;
 
   bool has_rate_;
   std::string where_;
+  std::filesystem::path contact_sheet_;  // empty: none
+  FramePattern first_output_;
+  std::set<int> written_;  // frames whose files are whole, those of earlier runs too
   std::optional<FramePattern> reference_;
   Manifest manifest_;
   FrameWriter writer_;

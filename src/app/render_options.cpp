@@ -85,6 +85,10 @@ void add_image_options(CLI::App& app, RenderOptions& o) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->group(group);
   app.add_option("--frames", o.frames, "Render only frames A to B")->type_name("A-B")->group(group);
+  app.add_option("--contact-sheet", o.contact_sheet,
+                 "Put thumbnails of the finished frames on one picture, .exr or .png")
+      ->type_name("FILE")
+      ->group(group);
   auto* overwrite =
       app.add_flag("--overwrite", o.overwrite, "Replace frames that are there already")->group(group);
   app.add_flag("--resume", o.resume,

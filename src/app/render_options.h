@@ -32,6 +32,7 @@ struct RenderOptions {
   std::string size;                  // "WxH"; empty: the script's or the scene's
   std::vector<std::string> outputs;  // patterns; empty: kDefaultOutput
   std::string frames;                // "A-B"; empty: all
+  std::string contact_sheet;         // picture of all frames; empty: none
   bool overwrite = false;
   bool resume = false;
 

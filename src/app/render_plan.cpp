@@ -196,6 +196,10 @@ std::vector<FramePattern> parse_outputs(const RenderOptions& options, FrameCount
 }  // namespace
 
 void check_usage(const RenderOptions& options) {
+  const std::filesystem::path sheet(options.contact_sheet);
+  if (!sheet.empty() && sheet.extension() != ".png" && sheet.extension() != ".exr") {
+    throw UsageError("--contact-sheet " + sheet.string() + ": want a name that ends in .png or .exr");
+  }
   requested_size(options);
   requested_frames(options);
   compile_options(options);

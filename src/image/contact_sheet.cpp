@@ -79,6 +79,10 @@ Image resize(const Image& image, int width, int height) {
   return result;
 }
 
+Image thumbnail(const Image& picture, int width) {
+  return resize(picture, width, thumbnail_height(picture, width));
+}
+
 Image contact_sheet(std::span<const Image> pictures, const ContactSheetLayout& layout) {
   require_usable(pictures, layout);
   const auto columns = std::min(static_cast<std::size_t>(layout.columns), pictures.size());
@@ -96,8 +100,7 @@ Image contact_sheet(std::span<const Image> pictures, const ContactSheetLayout& l
   const int pitch = layout.thumbnail_width + layout.gap;
   Image page(layout.gap + static_cast<int>(columns) * pitch, row_tops.back());
   for (std::size_t i = 0; i < pictures.size(); ++i) {
-    const int height = thumbnail_height(pictures[i], layout.thumbnail_width);
-    copy_into(page, resize(pictures[i], layout.thumbnail_width, height),
+    copy_into(page, thumbnail(pictures[i], layout.thumbnail_width),
               layout.gap + static_cast<int>(i % columns) * pitch, row_tops[i / columns]);
   }
   return page;

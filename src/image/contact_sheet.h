@@ -17,6 +17,9 @@ struct ContactSheetLayout {
   int thumbnail_width = 128;  // pixels; heights follow each picture's shape
 };
 
+// The picture as it stands on a sheet: of this width in pixels, its shape kept.
+Image thumbnail(const Image& picture, int width);
+
 // Thumbnails row after row in reading order; a row is as high as its highest picture. Fewer pictures than
 // columns make a narrower page. Throws std::invalid_argument when there is no picture, one is empty, or a
 // measure makes no sense.

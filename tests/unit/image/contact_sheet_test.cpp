@@ -55,3 +55,11 @@ TEST_CASE("a contact sheet of nothing is refused") {
   const std::vector<Image> pictures(1, Image());
   CHECK_THROWS_AS(contact_sheet(pictures), std::invalid_argument);
 }
+
+TEST_CASE("thumbnails keep the picture's shape") {
+  const Image small = thumbnail(Image(40, 20, Color(2.0f)), 10);
+  CHECK(small.width == 10);
+  CHECK(small.height == 5);
+  CHECK(small.at(9, 4) == Color(2.0f));
+  CHECK(thumbnail(Image(100, 1), 10).height == 1);
+}

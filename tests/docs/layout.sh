@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# layout.sh SOURCE_DIR: the rooms as docs/architecture.md tells them. Which module may include which; each
+# third-party library in one module, in headers that no other module includes (Imath's vectors and fmt are
+# everyone's); no file over 500 lines, no main over 40.
+set -euo pipefail
+cd "$1"
+failures=0
+complain() { echo "$1"; failures=$((failures + 1)); }
+
+declare -A allowed=(
+  [base]="base" [scene]="base scene" [spd]="base scene spd" [parser]="base scene parser"
+  [trace]="base scene trace" [image]="base image" [pipeline]="base pipeline"
+  [parallel]="base image pipeline parallel"
+  [app]="base scene spd parser trace image pipeline parallel app")
+declare -A home=(
+  [embree3]=trace [CGAL]=pipeline [mpi.h]=parallel [tao]=parser [OpenEXR]=image [png.h]=image [CLI]=app
+  [nlohmann]=app)
+
+seen=0
+while IFS=: read -r file include; do
+  module=${file#src/} module=${module%%/*}
+  [[ -n ${allowed[$module]:-} ]] || { complain "$file: src/$module is no room"; continue; }
+  name=${include#*[\"<]} name=${name%%[\">]*} first=${name%%/*}
+  seen=$((seen + 1))
+  if [[ $include == *\"* ]]; then
+    [[ " ${allowed[$module]} " == *" $first "* ]] || complain "$file: $module may not include $name"
+  elif [[ -n ${home[$first]:-} ]]; then
+    [[ ${home[$first]} == "$module" ]] || complain "$file: <$name> belongs to ${home[$first]}"
+  elif [[ $first != Imath && $first != fmt && $name =~ / && $name != sys/* ]]; then
+    complain "$file: <$name> belongs to no room"
+  fi
+  if [[ $include == *'<'* && $file == *.h ]] && [[ -n ${home[$first]:-} || $first == fmt ]]; then
+    outside=$(grep -rlF "#include \"${file#src/}\"" src --include='*.h' --include='*.cpp' |
+              grep -v "^src/$module/" || true)
+    [[ -z $outside ]] || complain "$file: shows <$name> to $outside"
+  fi
+done < <(grep -roE '^#include ["<][^">]+[">]' src --include='*.h' --include='*.cpp')
+[[ $seen -gt 100 ]] || complain "only $seen includes were found in $PWD/src"
+
+while read -r lines file; do
+  [[ $file == total || $lines -le 500 ]] || complain "$file: has $lines lines, more than 500"
+done < <(find src tests bench -name '*.h' -o -name '*.cpp' | xargs wc -l)
+for file in src/app/*_main.cpp; do
+  lines=$(awk '/^int main/ { inside = 1 } inside { ++n } inside && /^}/ { exit } END { print n }' "$file")
+  [[ $lines -le 40 ]] || complain "$file: main has $lines lines, more than 40"
+done
+[[ $failures -eq 0 ]]

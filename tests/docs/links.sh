@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# links.sh SOURCE_DIR: every relative link in the Markdown files leads to a file, and every decision is in the
+# index.
+set -euo pipefail
+cd "$1"
+failures=0
+complain() { echo "$1"; failures=$((failures + 1)); }
+
+seen=0
+while IFS=: read -r file link; do
+  target=${link#*](} target=${target%)} target=${target%%#*}
+  case $target in '' | http:* | https:* | mailto:*) continue ;; esac
+  seen=$((seen + 1))
+  [[ -e $(dirname "$file")/$target ]] || complain "$file: $target is not there"
+done < <(grep -roE '\]\([^) ]+\)' ./*.md docs --include='*.md')
+[[ $seen -gt 5 ]] || complain "only $seen links were found"
+
+for decision in docs/decisions/[0-9]*.md; do
+  grep -qF "(${decision##*/})" docs/decisions/README.md ||
+    complain "docs/decisions/README.md: does not list ${decision##*/}"
+done
+[[ $failures -eq 0 ]]
