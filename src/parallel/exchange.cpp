@@ -29,8 +29,9 @@ TileRange tiles_around(const TileGrid& grid, const Circle& circle) {
     return static_cast<int>(std::clamp(std::floor(v / grid.tile_size), 0.0, count - 1.0));
   };
   const Vec2d& c = circle.center;
-  return {tile(c.x - circle.radius, grid.columns()), tile(c.y - circle.radius, grid.rows()),
-          tile(c.x + circle.radius, grid.columns()), tile(c.y + circle.radius, grid.rows())};
+  const double radius = std::sqrt(circle.radius_squared);
+  return {tile(c.x - radius, grid.columns()), tile(c.y - radius, grid.rows()),
+          tile(c.x + radius, grid.columns()), tile(c.y + radius, grid.rows())};
 }
 
 // Per tile of the rank: a lower bound of the distance of its points to any foreign tile; 0 for foreign tiles.
@@ -128,7 +129,7 @@ void SampleExchange::seeded_here(const SampleMesh& mesh) {
   note_newest(rank_);
   const auto newest = static_cast<std::uint32_t>(mesh.samples().size() - 1);
   const Sample& seed = mesh.samples()[newest];
-  touch_ranks({{seed.x, seed.y}, kSeedReach});
+  touch_ranks({{seed.x, seed.y}, kSeedReach * kSeedReach});
   for (const int rank : touched_) tell(mesh, newest, rank);
 }
 
@@ -158,7 +159,7 @@ void SampleExchange::touch_ranks(const Circle& circle) {
       const std::int32_t owner = partition_.owner[static_cast<std::size_t>(tile)];
       std::uint32_t& stamp = touch_stamp_[static_cast<std::size_t>(owner)];
       if (stamp == stamp_) continue;
-      if (distance_squared(circle.center, grid.pixels(tile)) > circle.radius * circle.radius) continue;
+      if (distance_squared(circle.center, grid.pixels(tile)) > circle.radius_squared) continue;
       stamp = stamp_;
       if (owner == rank_) {
         touches_own_ = true;
@@ -173,7 +174,8 @@ bool SampleExchange::far_inside(const Circle& circle) const {
   const TileGrid& grid = partition_.grid;
   const Vec2d& c = circle.center;
   if (c.x < 0 || c.y < 0 || c.x > grid.width || c.y > grid.height) return false;
-  return circle.radius < inside_by_[static_cast<std::size_t>(grid.tile_at(c.x, c.y))];
+  const double inside_by = inside_by_[static_cast<std::size_t>(grid.tile_at(c.x, c.y))];
+  return circle.radius_squared < inside_by * inside_by;
 }
 
 }  // namespace pprt

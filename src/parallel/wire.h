@@ -21,12 +21,8 @@ class WireWriter {
   template <typename T>
   requires std::is_trivially_copyable_v<T>
   void put(const T& value) { append(&value, sizeof value); }
-  void put(const Vec3d& v) {
-    put(v.x), put(v.y), put(v.z);
-  }
-  void put(const Color& c) {
-    put(c.x), put(c.y), put(c.z);
-  }
+  void put(const Vec3d& v) { put(v.x), put(v.y), put(v.z); }
+  void put(const Color& c) { put(c.x), put(c.y), put(c.z); }
   void put(const Camera& c) {
     put(c.eye), put(c.right), put(c.up), put(c.forward);
     put(c.slope_per_pixel), put(c.width), put(c.height);
@@ -61,12 +57,8 @@ class WireReader {
   template <typename T>
   requires std::is_trivially_copyable_v<T>
   void get(T& value) { copy_out(&value, sizeof value); }
-  void get(Vec3d& v) {
-    get(v.x), get(v.y), get(v.z);
-  }
-  void get(Color& c) {
-    get(c.x), get(c.y), get(c.z);
-  }
+  void get(Vec3d& v) { get(v.x), get(v.y), get(v.z); }
+  void get(Color& c) { get(c.x), get(c.y), get(c.z); }
   void get(Camera& c) {
     get(c.eye), get(c.right), get(c.up), get(c.forward);
     get(c.slope_per_pixel), get(c.width), get(c.height);

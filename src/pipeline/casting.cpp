@@ -51,9 +51,9 @@ void hide_behind_turned_triangles(const SampleMesh& mesh, std::vector<Flight>& f
   constexpr double kNearly = 0.99;
   const auto& delaunay = mesh.impl().delaunay();
   for (auto face = delaunay.finite_faces_begin(); face != delaunay.finite_faces_end(); ++face) {
-    const std::array<Flight*, 3> corner = {&flights[face->vertex(0)->info()],
-                                           &flights[face->vertex(1)->info()],
-                                           &flights[face->vertex(2)->info()]};
+    const std::array<Flight*, 3> corner = {&flights[face->vertex(0)->info().sample],
+                                           &flights[face->vertex(1)->info().sample],
+                                           &flights[face->vertex(2)->info().sample]};
     if (!corner[0]->projected || !corner[1]->projected || !corner[2]->projected) continue;
     const Vec2d ab = corner[1]->point - corner[0]->point, ac = corner[2]->point - corner[0]->point;
     // CGAL's corners are counter-clockwise, so a triangle that keeps its sense has a positive cross product.

@@ -115,12 +115,11 @@ void reconstruct(const SampleMesh& mesh, RegionPixels& pixels, ReconstructionBuf
   pixels.bounds = mesh.region().bounds();
   pixels.colors.assign(pixels.bounds.area(), Color(0, 0, 0));
   const auto& delaunay = mesh.impl().delaunay();
-  const std::span<const Sample> samples = mesh.samples();
   for (auto face = delaunay.finite_faces_begin(); face != delaunay.finite_faces_end(); ++face) {
     std::array<Corner, 3> corner;
     for (int i = 0; i < 3; ++i) {
-      const Sample& sample = samples[face->vertex(i)->info()];
-      corner[static_cast<std::size_t>(i)] = {sample.x, sample.y, sample.ray.color};
+      const auto& vertex = *face->vertex(i);
+      corner[static_cast<std::size_t>(i)] = {vertex.point().x(), vertex.point().y(), vertex.info().color};
     }
     fill_triangle(corner, pixels);
   }

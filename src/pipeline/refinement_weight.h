@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "base/vector.h"
@@ -11,12 +10,12 @@ namespace pprt {
 
 struct Circle {
   Vec2d center{0, 0};
-  double radius = 0;
+  double radius_squared = 0;
 };
 
 struct TriangleShape {
   Circle circumcircle;
-  double longest_edge = 0;  // pixels
+  double longest_edge_squared = 0;  // square pixels
 };
 
 // Twice the area below which a triangle counts as having it, in square pixels: keeps the circumcircle of
@@ -30,30 +29,27 @@ inline TriangleShape triangle_shape(const Vec2d& a, const Vec2d& b, const Vec2d&
   const double ab2 = ab.dot(ab), ac2 = ac.dot(ac), bc2 = bc.dot(bc);
   const double half = 0.5 / cross;
   const Vec2d to_center((ac.y * ab2 - ab.y * ac2) * half, (ab.x * ac2 - ac.x * ab2) * half);
-  return {{a + to_center, std::sqrt(to_center.dot(to_center))}, std::sqrt(std::max({ab2, ac2, bc2}))};
+  return {{a + to_center, to_center.dot(to_center)}, std::max({ab2, ac2, bc2})};
 }
 
-// Mean over the channels of the variance of three intensities on the display scale [0, 1].
-inline double display_variance(const std::array<const Color*, 3>& corners) {
-  double sum = 0;
-  for (int channel = 0; channel < 3; ++channel) {
-    const double p = std::clamp((*corners[0])[channel], 0.0f, 1.0f);
-    const double q = std::clamp((*corners[1])[channel], 0.0f, 1.0f);
-    const double r = std::clamp((*corners[2])[channel], 0.0f, 1.0f);
-    const double mean = (p + q + r) / 3;
-    sum += (p - mean) * (p - mean) + (q - mean) * (q - mean) + (r - mean) * (r - mean);
-  }
-  return sum / 9;
+// Mean over the channels of the variance of three intensities on the display scale [0, 1]. The variance of
+// three numbers is a ninth of the sum of their squared differences.
+inline float display_variance(const Color& a, const Color& b, const Color& c) {
+  const auto channel = [](float p, float q, float r) {
+    p = std::clamp(p, 0.0f, 1.0f), q = std::clamp(q, 0.0f, 1.0f), r = std::clamp(r, 0.0f, 1.0f);
+    return (p - q) * (p - q) + (q - r) * (q - r) + (r - p) * (r - p);
+  };
+  return (channel(a.x, b.x, c.x) + channel(a.y, b.y, c.y) + channel(a.z, b.z, c.z)) * (1.0f / 27);
 }
 
 // Weight(t) = Rad^2 log(1.01 + 500 Var), with two safeguards. Rad is at most the longest edge: a sliver on
 // the hull has a circumradius of any size. A triangle whose circle is smaller than a pixel keeps only its
 // variance as a reason (Painter and Sloan 1989): the constant 1.01 becomes 1, and a flat one has weight 0.
-inline double refinement_weight(const TriangleShape& shape, double variance) {
+inline float refinement_weight(const TriangleShape& shape, float variance) {
   constexpr double kPixelRadiusSquared = 0.31830988618379067;  // 1 / pi: a circle of one square pixel
-  const double radius = std::min(shape.circumcircle.radius, shape.longest_edge);
-  const double offset = radius * radius < kPixelRadiusSquared ? 1.0 : 1.01;
-  return radius * radius * std::log(offset + 500 * variance);
+  const double radius_squared = std::min(shape.circumcircle.radius_squared, shape.longest_edge_squared);
+  const float offset = radius_squared < kPixelRadiusSquared ? 1.0f : 1.01f;
+  return static_cast<float>(radius_squared) * std::log(offset + 500 * variance);
 }
 
 }  // namespace pprt

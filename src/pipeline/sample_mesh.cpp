@@ -72,7 +72,7 @@ bool SampleMesh::Impl::insert(const Sample& sample) {
   const std::size_t before = delaunay_.number_of_vertices();
   const Vertex vertex = delaunay_.insert({point.x, point.y}, at.type, at.face, at.index);
   if (delaunay_.number_of_vertices() == before) return false;
-  vertex->info() = static_cast<std::uint32_t>(samples_.size());
+  vertex->info() = {static_cast<std::uint32_t>(samples_.size()), sample.ray.color};
   samples_.push_back(sample);
   latest_in_tile_[static_cast<std::size_t>(grid.tile_at(point.x, point.y))] = vertex;
 
@@ -130,23 +130,19 @@ SampleMesh::Impl::Face SampleMesh::Impl::face_near(const Vec2d& point) const {
 }
 
 void SampleMesh::Impl::adopt(Face face) {
-  const Vec2d a = corner(face, 0), b = corner(face, 1), c = corner(face, 2);
-  const TriangleShape shape = triangle_shape(a, b, c);
-  const std::array<std::uint32_t, 3> corners = {face->vertex(0)->info(), face->vertex(1)->info(),
-                                                face->vertex(2)->info()};
-  const double variance = display_variance(
-      {&samples_[corners[0]].ray.color, &samples_[corners[1]].ray.color, &samples_[corners[2]].ray.color});
+  const TriangleShape shape = triangle_shape(corner(face, 0), corner(face, 1), corner(face, 2));
+  const VertexInfo &a = face->vertex(0)->info(), &b = face->vertex(1)->info(), &c = face->vertex(2)->info();
   const Vec2d point = refinement_point(face, shape.circumcircle.center);
 
   FaceInfo& info = face->info();
   info.stamp = next_stamp_++;
-  info.weight = static_cast<float>(refinement_weight(shape, variance));
+  info.weight = refinement_weight(shape, display_variance(a.color, b.color, c.color));
   info.tile = region_.grid().tile_at(point.x, point.y);
   TileWeights& tile = tile_weights_[static_cast<std::size_t>(info.tile)];
   tile.total_weight += info.weight;
   ++tile.triangles;
   if (info.weight > 0 && region_.owns_tile(info.tile)) queue_.push(info.weight, {face, info.stamp});
-  created_.push_back({shape.circumcircle, corners});
+  created_.push_back({shape.circumcircle, {a.sample, b.sample, c.sample}});
 }
 
 void SampleMesh::Impl::forget(FaceInfo& info) {
@@ -199,7 +195,8 @@ std::vector<std::array<std::uint32_t, 3>> triangles(const SampleMesh& mesh) {
   std::vector<std::array<std::uint32_t, 3>> result;
   const auto& delaunay = mesh.impl().delaunay();
   for (auto face = delaunay.finite_faces_begin(); face != delaunay.finite_faces_end(); ++face) {
-    result.push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
+    result.push_back(
+        {face->vertex(0)->info().sample, face->vertex(1)->info().sample, face->vertex(2)->info().sample});
   }
   return result;
 }

@@ -75,8 +75,8 @@ class SampleMesh {
   std::unique_ptr<Impl> impl_;
 };
 
-// Every finite triangle, corners counter-clockwise in the sense of x, y (clockwise on the screen, whose y grows
-// downwards), as indices into mesh.samples().
+// Every finite triangle, corners counter-clockwise in the sense of x, y (clockwise on the screen, whose y
+// grows downwards), as indices into mesh.samples().
 std::vector<std::array<std::uint32_t, 3>> triangles(const SampleMesh& mesh);
 
 }  // namespace pprt

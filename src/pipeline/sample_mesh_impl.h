@@ -23,10 +23,16 @@ struct FaceInfo {
   std::int32_t tile = 0;
 };
 
+// What a vertex knows of its sample: all that refinement and reconstruction need, beside its point.
+struct VertexInfo {
+  std::uint32_t sample = 0;  // index into samples()
+  Color color{0, 0, 0};
+};
+
 class SampleMesh::Impl {
  public:
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-  using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>;
+  using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<VertexInfo, Kernel>;
   using FaceBase = CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel>;
   using Delaunay =
       CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;

@@ -18,29 +18,48 @@ struct PixelRect {
 };
 
 // Tiles are numbered row by row from the top left; those of the last column and row may be narrower.
-struct TileGrid {
-  int width = 1;  // image, pixels
-  int height = 1;
-  int tile_size = 16;  // pixels
+class TileGrid {
+ public:
+  // The image's size and a tile's side, pixels, all positive.
+  TileGrid(int image_width, int image_height, int tile_side)
+      : width(image_width),
+        height(image_height),
+        tile_size(tile_side),
+        columns_((width + tile_size - 1) / tile_size),
+        rows_((height + tile_size - 1) / tile_size),
+        tiles_per_pixel_(1.0 / tile_size) {}
 
-  int columns() const { return (width + tile_size - 1) / tile_size; }
-  int rows() const { return (height + tile_size - 1) / tile_size; }
-  int tile_count() const { return columns() * rows(); }
+  int columns() const { return columns_; }
+  int rows() const { return rows_; }
+  int tile_count() const { return columns_ * rows_; }
 
   // The tile that holds an image point; points on the right and lower border belong to the last tile.
   int tile_at(double x, double y) const {
-    const int column = std::clamp(static_cast<int>(x) / tile_size, 0, columns() - 1);
-    const int row = std::clamp(static_cast<int>(y) / tile_size, 0, rows() - 1);
-    return row * columns() + column;
+    return std::clamp(lane(x), 0, columns_ - 1) + columns_ * std::clamp(lane(y), 0, rows_ - 1);
   }
 
   PixelRect pixels(int tile) const {
-    const int x0 = tile % columns() * tile_size;
-    const int y0 = tile / columns() * tile_size;
+    const int x0 = tile % columns_ * tile_size;
+    const int y0 = tile / columns_ * tile_size;
     return {x0, y0, std::min(x0 + tile_size, width), std::min(y0 + tile_size, height)};
   }
 
   friend bool operator==(const TileGrid&, const TileGrid&) = default;
+
+  int width;
+  int height;
+  int tile_size;
+
+ private:
+  // Column or row of a coordinate. From the middle of its pixel, so that the product never rounds into the
+  // next tile; a division would cost more than the rest of a triangle's bookkeeping.
+  int lane(double coordinate) const {
+    return static_cast<int>((static_cast<int>(coordinate) + 0.5) * tiles_per_pixel_);
+  }
+
+  int columns_;
+  int rows_;
+  double tiles_per_pixel_;
 };
 
 }  // namespace pprt

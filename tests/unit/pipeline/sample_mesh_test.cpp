@@ -23,7 +23,8 @@ double deepest_intrusion(const SampleMesh& mesh) {
     const Sample &a = mesh.samples()[t[0]], &b = mesh.samples()[t[1]], &c = mesh.samples()[t[2]];
     const Circle circle = triangle_shape({a.x, a.y}, {b.x, b.y}, {c.x, c.y}).circumcircle;
     for (const Sample& s : mesh.samples()) {
-      deepest = std::max(deepest, circle.radius - std::hypot(s.x - circle.center.x, s.y - circle.center.y));
+      deepest = std::max(deepest, std::sqrt(circle.radius_squared) -
+                                      std::hypot(s.x - circle.center.x, s.y - circle.center.y));
     }
   }
   return deepest;
@@ -179,9 +180,9 @@ TEST_CASE("weight follows the paper's formula above a pixel and variance alone b
 
 TEST_CASE("display variance clamps and averages channels") {
   const Color black(0, 0, 0), bright(9, 1, 0);
-  CHECK(display_variance({&black, &black, &black}) == 0);
+  CHECK(display_variance(black, black, black) == 0);
   // Red and green: (0, 0, 1) has variance 2/9; blue has none.
-  CHECK(display_variance({&black, &black, &bright}) == Approx(2 * (2.0 / 9) / 3));
+  CHECK(display_variance(black, black, bright) == Approx(2 * (2.0 / 9) / 3));
 }
 
 TEST_CASE("the bucket queue pops within a sixteenth of the heaviest") {
