@@ -11,21 +11,28 @@ bool Inbox::pump() {
   bool any = false;
   while (const std::optional<Message> message = network_.receive()) {
     any = true;
-    switch (message->tag) {
-      case Tag::kFrameOrder:
-        orders_.push_back(decode_frame_order(message->payload));
-        break;
-      case Tag::kBundle:
-        bundles_.push_back({message->from, decode_bundle(message->payload)});
-        break;
-      case Tag::kPixels:
-        to_master_(*message);
-        break;
-      default:
-        throw ProtocolError("a message came that belongs before the sequence");
-    }
+    accept(*message);
   }
   return any;
+}
+
+void Inbox::accept(const Message& message) {
+  switch (message.tag) {
+    case Tag::kFrameOrder:
+      orders_.push_back(decode_frame_order(message.payload));
+      return;
+    case Tag::kBundle:
+      bundles_.push_back({message.from, decode_bundle(message.payload)});
+      return;
+    case Tag::kPixels:
+      to_master_(message);
+      return;
+    case Tag::kClockPing:
+    case Tag::kClockPong:
+    case Tag::kStart:
+      throw ProtocolError("a message came that belongs before the sequence");
+  }
+  throw ProtocolError("a message came of a kind that is none");
 }
 
 std::optional<FrameOrder> Inbox::take_order(int index) {

@@ -27,6 +27,9 @@ class Inbox {
   // Takes in all that has arrived; false when there was nothing.
   bool pump();
 
+  // Takes in one message. Throws ProtocolError for one that has no place in a sequence.
+  void accept(const Message& message);
+
   // The order for a frame, if it has come.
   std::optional<FrameOrder> take_order(int index);
 

@@ -8,6 +8,12 @@
 #include "parallel/work_units.h"
 
 namespace pprt {
+namespace {
+
+// The share of a period that follows sampling, before any frame has shown it.
+constexpr double kFirstGuess = 0.2;
+
+}  // namespace
 
 Master::Master(Communicator& network, const SessionSettings& settings, const Partition& partition,
                CameraSource source, FrameSink sink)
@@ -15,7 +21,9 @@ Master::Master(Communicator& network, const SessionSettings& settings, const Par
       settings_(settings),
       partition_(partition),
       source_(std::move(source)),
-      sink_(std::move(sink)) {}
+      sink_(std::move(sink)) {
+  if (settings.frames_per_second > 0) after_sampling_s_.push_back(kFirstGuess / settings.frames_per_second);
+}
 
 void Master::begin_sequence(double start_s) {
   start_s_ = start_s;
@@ -113,14 +121,18 @@ void Master::learn_reserve(const Assembly& assembly, double finished_s) {
   if (after_sampling_s_.size() > kRemembered) after_sampling_s_.pop_front();
 }
 
-// What to leave between the end of sampling and the deadline: the worst of the last frames and a fifth more;
-// before any was seen, a third of the period; never more than seven tenths, so that some sampling remains.
+// What to leave between the end of sampling and the deadline: the worst of the last frames (and, for the
+// first ones, of a careful guess) and two fifths more, for ranks that share cores are not punctual; and what
+// three frames of growth will add: an order goes out before the two frames ahead of it are whole, and where
+// samples accumulate every reconstruction takes longer. At least a twenty-fifth of the period; at most seven
+// tenths, so that some sampling remains.
 double Master::reserve_s() const {
   if (settings_.frames_per_second <= 0) return 0;
   const double period = 1 / settings_.frames_per_second;
-  if (after_sampling_s_.empty()) return period / 3;
   const double worst = *std::max_element(after_sampling_s_.begin(), after_sampling_s_.end());
-  return std::min(0.7 * period, 1.2 * worst + 0.001);
+  const double span = static_cast<double>(after_sampling_s_.size());
+  const double growth = std::max(0.0, (after_sampling_s_.back() - after_sampling_s_.front()) / span);
+  return std::clamp(1.4 * worst + 3 * growth + 0.001, 0.04 * period, 0.7 * period);
 }
 
 }  // namespace pprt

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "parallel/frame_clock.h"
@@ -19,13 +20,17 @@ namespace {
 constexpr int kPings = 8;
 constexpr double kHeadStart = 0.005;  // seconds between the start message and the sequence's start
 
-Message wait_for(Communicator& network, Tag tag) {
+// Ranks that were told to start earlier may already be sending what belongs to the first frame.
+Message wait_for(Communicator& network, Inbox& inbox, Tag tag) {
   while (true) {
-    if (std::optional<Message> message = network.receive()) {
-      if (message->tag != tag) throw ProtocolError("a message came out of turn before the sequence");
-      return *message;
+    std::optional<Message> message = network.receive();
+    if (!message) {
+      rest_briefly();
+    } else if (message->tag == tag) {
+      return std::move(*message);
+    } else {
+      inbox.accept(*message);
     }
-    rest_briefly();
   }
 }
 
@@ -43,12 +48,12 @@ void send_time(Communicator& network, int to, Tag tag, double seconds) {
 
 // How far a rank's steady clock is ahead of ours, from the exchange with the shortest way. Within the
 // uncertainty of half a round trip the clocks count as one: ranks of a host share theirs.
-double clock_offset(Communicator& network, int rank) {
+double clock_offset(Communicator& network, Inbox& inbox, int rank) {
   double shortest = std::numeric_limits<double>::infinity(), offset = 0;
   for (int i = 0; i < kPings; ++i) {
     const double sent = monotonic_seconds();
     send_time(network, rank, Tag::kClockPing, sent);
-    const double theirs = time_in(wait_for(network, Tag::kClockPong));
+    const double theirs = time_in(wait_for(network, inbox, Tag::kClockPong));
     const double received = monotonic_seconds();
     if (received - sent >= shortest) continue;
     shortest = received - sent;
@@ -57,10 +62,10 @@ double clock_offset(Communicator& network, int rank) {
   return std::abs(offset) <= 0.5 * shortest ? 0 : offset;
 }
 
-double start_together(Communicator& network) {
+double start_together(Communicator& network, Inbox& inbox) {
   std::vector<double> offsets(static_cast<std::size_t>(network.size()), 0);
   for (int rank = 1; rank < network.size(); ++rank) {
-    offsets[static_cast<std::size_t>(rank)] = clock_offset(network, rank);
+    offsets[static_cast<std::size_t>(rank)] = clock_offset(network, inbox, rank);
   }
   const double start = monotonic_seconds() + kHeadStart;
   for (int rank = 1; rank < network.size(); ++rank) {
@@ -69,12 +74,12 @@ double start_together(Communicator& network) {
   return start;
 }
 
-double await_start(Communicator& network) {
+double await_start(Communicator& network, Inbox& inbox) {
   for (int i = 0; i < kPings; ++i) {
-    wait_for(network, Tag::kClockPing);
+    wait_for(network, inbox, Tag::kClockPing);
     send_time(network, 0, Tag::kClockPong, monotonic_seconds());
   }
-  return time_in(wait_for(network, Tag::kStart));
+  return time_in(wait_for(network, inbox, Tag::kStart));
 }
 
 Partition equal_areas(const SessionSettings& settings, int ranks) {
@@ -111,7 +116,7 @@ void run_as_master(Communicator& network, const SessionSettings& settings, const
   const Partition partition = equal_areas(settings, network.size());
   Master master(network, settings, partition, source, sink);
   Inbox inbox(network, [&](const Message& message) { master.handle(message); });
-  const double start_s = start_together(network);
+  const double start_s = start_together(network, inbox);
   Worker worker = make_worker(network, inbox, settings, partition, probe, start_s);
   master.begin_sequence(start_s);
   for (int index = 0; const std::optional<FrameOrder> order = await_order(inbox, index); ++index) {
@@ -128,7 +133,7 @@ void run_as_worker(Communicator& network, const SessionSettings& settings, const
   const Partition partition = equal_areas(settings, network.size());
   Inbox inbox(network,
               [](const Message&) { throw ProtocolError("pixels came to a rank that is not the master"); });
-  Worker worker = make_worker(network, inbox, settings, partition, probe, await_start(network));
+  Worker worker = make_worker(network, inbox, settings, partition, probe, await_start(network, inbox));
   for (int index = 0; const std::optional<FrameOrder> order = await_order(inbox, index); ++index) {
     worker.render(*order);
   }

@@ -9,8 +9,9 @@
 namespace pprt {
 namespace {
 
-// Beyond so many samples in each pixel of a region the display's steps are far below what they can change.
-constexpr std::uint64_t kSamplesPerPixelAtMost = 64;
+// A resting camera accumulates no more than this: further samples change a pixel by less than a display step,
+// and each costs time in every reconstruction to come.
+constexpr std::uint64_t kSamplesPerPixelAtMost = 16;
 
 // Wall clock: the share of a frame's period that a rank waits for its neighbours' seeds before it goes on
 // without.
