@@ -14,6 +14,6 @@ int main(int argc, char** argv) {
     pprt::add_common_flags(app);
     std::vector<std::string> words = pprt::with_long_np(argc, argv);
     if (!pprt::parse_command_line(app, words)) return pprt::kExitDone;
-    return pprt::render(options, app.config_to_str(true, true), argc, argv);
+    return pprt::render(options, pprt::options_in_force(app), argc, argv);
   });
 }

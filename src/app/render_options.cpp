@@ -1,5 +1,8 @@
 #include "app/render_options.h"
 
+#include <cstdio>
+#include <sstream>
+
 #include "app/command_line.h"
 #include "trace/effects.h"
 
@@ -144,6 +147,21 @@ void add_render_options(CLI::App& app, RenderOptions& options) {
   add_image_options(app, options);
   add_effect_options(app, options);
   add_report_options(app, options);
+}
+
+std::string options_in_force(const CLI::App& app) {
+  // Paragraphs, each a comment and "name=value".
+  std::istringstream lines(app.config_to_str(true, true));
+  std::string result, paragraph;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.empty()) paragraph += line + "\n";
+    const bool ends = line.empty() || lines.peek() == EOF;
+    if (!ends) continue;
+    const bool unset = paragraph.ends_with("=\"\"\n") || paragraph.ends_with("=false\n");
+    if (!unset && !paragraph.empty()) result += (result.empty() ? "" : "\n") + paragraph;
+    paragraph.clear();
+  }
+  return result;
 }
 
 std::vector<std::string> with_long_np(int argc, const char* const* argv) {

@@ -53,6 +53,9 @@ inline constexpr const char* kDefaultOutput = "frame_%04d.png";
 // Binds the options to their names, with the help text in groups.
 void add_render_options(CLI::App& app, RenderOptions& options);
 
+// The options in force as a file for --config; those without a value, and flags that are off, are absent.
+std::string options_in_force(const CLI::App& app);
+
 // mpirun's spelling "-np N" in the form that other long options have.
 std::vector<std::string> with_long_np(int argc, const char* const* argv);
 

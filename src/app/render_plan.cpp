@@ -1,5 +1,7 @@
 #include "app/render_plan.h"
 
+#include <fmt/core.h>
+
 #include <charconv>
 #include <filesystem>
 #include <optional>
@@ -165,8 +167,10 @@ SessionSettings settle(const RenderOptions& options, const View& view, double fp
   const bool has_stop_rule = options.time || options.samples || options.quality;
   if (fps > 0) {
     if (has_stop_rule) {
-      throw UsageError("--time, --samples and --quality end frames without a rate, but the rate is " +
-                       std::to_string(fps) + " frames/s; --fps 0 turns it off");
+      throw UsageError(
+          fmt::format("--time, --samples and --quality end frames without a rate, but the rate is {:g} "
+                      "frames/s; --fps 0 turns it off",
+                      fps));
     }
     settings.budget_units = options.budget.value_or(default_budget_units(fps));
   } else {

@@ -14,7 +14,7 @@ declare -A allowed=(
   [app]="base scene spd parser trace image pipeline parallel app")
 declare -A home=(
   [embree3]=trace [CGAL]=pipeline [mpi.h]=parallel [tao]=parser [OpenEXR]=image [png.h]=image [CLI]=app
-  [nlohmann]=app)
+  [nlohmann]=app [spdlog]=app)
 
 seen=0
 while IFS=: read -r file include; do
