@@ -1,4 +1,4 @@
-// The work clock's prices (paper: none; see docs/decisions/0006-work-clock.md).
+// The work clock's prices. The paper has no such clock; docs/decisions/0006-work-clock.md says why and whence.
 #pragma once
 
 #include <cstdint>
@@ -22,15 +22,15 @@ constexpr WorkUnits price(Work work) {
     case Work::kRay:
       return 110;
     case Work::kOwnSample:
-      return 800;
+      return 840;
     case Work::kReceivedSample:
       return 600;
     case Work::kSentSample:
       return 60;
     case Work::kPixel:
-      return 30;
+      return 22;
     case Work::kCastSample:
-      return 60;
+      return 30;
   }
   return 0;
 }
