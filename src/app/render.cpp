@@ -11,6 +11,7 @@
 #include "app/exit.h"
 #include "app/frame_recorder.h"
 #include "app/launch.h"
+#include "app/log.h"
 #include "app/render_job.h"
 #include "app/render_plan.h"
 #include "app/stop_signals.h"
@@ -112,7 +113,9 @@ struct Prepared {
 Prepared prepare(const RenderOptions& options) {
   RenderPlan plan = plan_render(options);
   std::cerr << plan.warnings;
+  log_info(fmt::format("read {} objects of {}", plan.scene.primitive_count(), plan.scene.name));
   CompiledScene scene = compile(plan.scene, plan.compile);
+  log_info(fmt::format("compiled for effects: {}", to_string(scene.effects())));
   if (options.census) std::cout << scene.census() << std::flush;
   return {std::move(plan), std::move(scene)};
 }
@@ -131,8 +134,11 @@ int run_frames(Communicator& network, const RenderOptions& options, const Prepar
   told = true;
   watch_signals();
   Tracer tracer(prepared.scene, Camera());
-  run_as_master(network, plan.settings, probe_of(tracer), source,
-                [&](FinishedFrame&& frame) { recorder.record(std::move(frame)); });
+  run_as_master(network, plan.settings, probe_of(tracer), source, [&](FinishedFrame&& frame) {
+    log_debug(fmt::format("frame {} whole at {:.3f} s, reserve {:.1f} ms, {:+.1f} ms to its deadline",
+                          frame.order.number, frame.finished_s, 1e3 * frame.order.reserve_s, frame.late_ms));
+    recorder.record(std::move(frame));
+  });
   // All ranks have come to their end: what cannot be written now is this rank's matter alone.
   try {
     recorder.finish(stop_requested().has_value());
@@ -181,6 +187,7 @@ int worker_rank(Communicator& network) {
 // once.
 int run_mpi_rank(const RenderOptions& options, int argc, char** argv) {
   MpiCommunicator network(argc, argv);
+  set_up_log(options.log, network.rank());
   try {
     return network.rank() == 0 ? master_rank(network, options) : worker_rank(network);
   } catch (const InputError&) {
@@ -203,6 +210,7 @@ int render(const RenderOptions& options, const std::string& config, int argc, ch
   }
   if (started_by_mpi_launcher()) return run_mpi_rank(options, argc, argv);
   if (options.ranks > 1) return run_under_mpirun(options.ranks, options.hostfile, argv);
+  set_up_log(options.log, 0);
   LocalNetwork alone(1);
   LocalCommunicator network(alone, 0);
   return master_rank(network, options);

@@ -53,7 +53,7 @@ void add_run_options(CLI::App& app, RenderOptions& o) {
       ->type_name("N")
       ->group(group);
   app.add_option("--quality", o.quality,
-                 "Without a rate: stop a frame at this mean triangle weight (default: 0.02)")
+                 "Without a rate: stop a frame at this mean triangle weight (default: 0.005)")
       ->check(CLI::Range(1e-12, 1e12))
       ->type_name("Q")
       ->group(group);
@@ -132,6 +132,12 @@ void add_report_options(CLI::App& app, RenderOptions& o) {
       ->check(CLI::IsMember({"auto", "tty", "json", "none"}))
       ->capture_default_str()
       ->type_name("HOW")
+      ->group(group);
+  app.add_option("--log", o.log,
+                 "Tell what is done on standard error: trace, debug, info, warning, error or off")
+      ->check(CLI::IsMember({"trace", "debug", "info", "warning", "error", "off"}))
+      ->capture_default_str()
+      ->type_name("LEVEL")
       ->group(group);
   app.set_config("--config", "", "Read options from a file")->type_name("FILE")->group(group);
   app.add_flag("--write-config", o.write_config, "Print the options in force as such a file, and exit")

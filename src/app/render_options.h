@@ -45,6 +45,7 @@ struct RenderOptions {
   std::string stats;      // the ledger's file; "-" standard output; empty: none
   std::string reference;  // pattern of reference pictures; empty: none
   std::string progress = "auto";
+  std::string log = "warning";
   bool write_config = false;
 };
 
