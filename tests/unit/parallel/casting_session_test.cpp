@@ -1,0 +1,108 @@
+// Samples that cross a border when they are cast.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "parallel/partition.h"
+#include "virtual_run.h"
+
+namespace pprt {
+namespace {
+
+constexpr int kRanks = 4;
+
+SessionSettings casting_settings(CastChoice cast) {
+  SessionSettings settings;
+  settings.width = 128, settings.height = 96;
+  settings.clock = ClockKind::kWork;
+  settings.frames_per_second = 4;
+  settings.budget_units = 2'000'000;
+  settings.cast = cast;
+  return settings;
+}
+
+// As the session cuts the image: by area.
+Partition partition_of(const SessionSettings& settings) {
+  const TileGrid grid = tile_grid_for(settings.width, settings.height, kRanks);
+  std::vector<double> areas;
+  for (int tile = 0; tile < grid.tile_count(); ++tile) {
+    areas.push_back(static_cast<double>(grid.pixels(tile).area()));
+  }
+  return bisect(grid, areas, kRanks);
+}
+
+std::uint64_t total(const FinishedFrame& frame, std::uint64_t RankReport::*figure) {
+  std::uint64_t sum = 0;
+  for (const RankReport& r : frame.ranks) sum += r.*figure;
+  return sum;
+}
+
+double distance_to_region(const Region& region, const Sample& s) {
+  double nearest = 1e9;
+  for (const int tile : region.tiles()) {
+    const PixelRect r = region.grid().pixels(tile);
+    nearest = std::min(nearest, std::max({r.x0 - s.x, s.x - r.x1, r.y0 - s.y, s.y - r.y1, 0.0}));
+  }
+  return nearest;
+}
+
+}  // namespace
+
+TEST_CASE("cast samples serve the next frame, the same each time") {
+  for (const CastChoice cast : {CastChoice::kPaper, CastChoice::kVerified}) {
+    const SessionSettings settings = casting_settings(cast);
+    const VirtualRun run = run_session(kRanks, settings, still_or_pan(settings, 4, 3));
+    const VirtualRun again =
+        run_session(kRanks, settings, still_or_pan(settings, 4, 3), {.slow_at_random = true});
+    CHECK(run.error.empty());
+    CHECK(same_pictures(run, again));
+    REQUIRE(run.frames.size() == 4);
+    CHECK(total(run.frames[0], &RankReport::samples_cast) == 0);
+    for (std::size_t i = 1; i < 4; ++i) {
+      const std::uint64_t cast_in = total(run.frames[i], &RankReport::samples_cast);
+      const std::uint64_t before = total(run.frames[i - 1], &RankReport::samples_in_region);
+      INFO("frame " << i << ": " << cast_in << " of " << before);
+      // Of 128 columns three leave the picture; a plane hides nothing.
+      CHECK(cast_in > before * 85 / 100);
+      CHECK(cast_in <= before);
+    }
+  }
+}
+
+TEST_CASE("frames that carry many samples are on time") {
+  for (const CastChoice cast : {CastChoice::kPaper, CastChoice::kVerified}) {
+    const SessionSettings settings = casting_settings(cast);
+    for (const FinishedFrame& frame : run_session(kRanks, settings, still_or_pan(settings, 8, 1)).frames) {
+      INFO("frame " << frame.order.number << ": " << total(frame, &RankReport::samples_cast) << " cast");
+      CHECK(frame.late_ms <= 0);
+    }
+  }
+}
+
+TEST_CASE("a cast sample that crosses a border is told back to the rank it came from") {
+  // Its triangles reach over the border it has crossed: the former owner needs it as much as any.
+  const SessionSettings settings = casting_settings(CastChoice::kPaper);
+  const Partition partition = partition_of(settings);
+  const VirtualRun run = run_session(kRanks, settings, still_or_pan(settings, 2, 3));
+  REQUIRE(run.frames.size() == 2);
+  std::set<std::pair<int, SampleId>> told;  // receiver, sample: after the first exchange of frame 1
+  for (const SentBundle& b : run.bundles) {
+    if (b.bundle.frame_index != 1 || b.bundle.round == 0) continue;
+    for (const Sample& s : b.bundle.samples) told.emplace(b.to, s.id);
+  }
+  int crossed = 0, back = 0;
+  for (const SentBundle& b : run.bundles) {
+    if (b.bundle.frame_index != 1 || b.bundle.round != 0) continue;
+    for (const Sample& s : b.bundle.samples) {
+      const bool guest = s.frame == 1 && region_of(partition, b.to).owns_point(s.x, s.y);
+      if (!guest || distance_to_region(region_of(partition, b.from), s) > 1) continue;
+      ++crossed;
+      back += told.count({b.from, s.id}) != 0;
+    }
+  }
+  INFO(back << " of " << crossed);
+  CHECK(crossed > 20);
+  CHECK(back >= crossed * 9 / 10);
+}
+
+}  // namespace pprt

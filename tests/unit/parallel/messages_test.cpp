@@ -1,0 +1,183 @@
+#include "parallel/messages.h"
+
+#include <catch2/catch.hpp>
+#include <functional>
+#include <limits>
+
+#include "parallel/session_settings.h"
+#include "parallel/wire.h"
+
+namespace pprt {
+namespace {
+
+Sample some_sample(int i) {
+  Sample s;
+  s.x = 0.25 + i;
+  s.y = 1e-300 * (i + 1);
+  s.id = (SampleId{7} << 40) | static_cast<SampleId>(i);
+  s.frame = -3 + i;
+  s.ray = {Color(0.5f, 1e-38f, 2.0f), Vec3f(1, 2, 3.5f), i % 2 == 0, i % 3 == 0,
+           17u + static_cast<unsigned>(i)};
+  return s;
+}
+
+Bundle some_bundle() {
+  Bundle bundle{3, 2, 19, true, {}};
+  for (int i = 0; i < 6; ++i) bundle.samples.push_back(some_sample(i));
+  return bundle;
+}
+
+FrameOrder some_order() {
+  FrameOrder order;
+  order.index = 5, order.number = 42, order.cut = true, order.carry = Carry::kCastVerified;
+  order.camera.eye = {1, 2, 3}, order.camera.right = {0, 1, 0}, order.camera.up = {0, 0, 1};
+  order.camera.forward = {1, 0, 0}, order.camera.slope_per_pixel = 0.01;
+  order.camera.width = 320, order.camera.height = 200;
+  order.deadline_s = 1.5, order.reserve_s = 0.02;
+  return order;
+}
+
+PixelMessage some_pixels() {
+  PixelMessage pixels;
+  pixels.frame_index = 9;
+  pixels.report.samples_new = 1, pixels.report.samples_known = 2, pixels.report.non_finite = 3;
+  pixels.report.refinement = 0.125, pixels.report.rays.shadow = 77, pixels.report.cpu_ms.idle = 4.5;
+  pixels.report.finished_s = 6.5;
+  pixels.tiles = {4, 1};
+  pixels.rgb = {0.1f, 0.2f, 0.3f, 1, 2, 3};
+  return pixels;
+}
+
+SessionSettings some_settings() {
+  SessionSettings settings;
+  settings.width = 123, settings.height = 45, settings.clock = ClockKind::kWork;
+  settings.frames_per_second = 4, settings.budget_units = 12345;
+  settings.stop = {1.5, 678, 0.01};
+  settings.cast = CastChoice::kVerified, settings.seed = 99;
+  return settings;
+}
+
+// Every message, cut short after each of its bytes, and with one byte too many.
+void check_cut_short(const Bytes& whole, const std::function<void(const Bytes&)>& decode) {
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    INFO("cut after " << size << " of " << whole.size() << " bytes");
+    CHECK_THROWS_AS(decode(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size))),
+                    ProtocolError);
+  }
+  CHECK_NOTHROW(decode(whole));
+}
+
+void check_one_too_many(Bytes whole, const std::function<void(const Bytes&)>& decode) {
+  whole.push_back(std::byte{0});
+  CHECK_THROWS_AS(decode(whole), ProtocolError);
+}
+
+// Announces counts that no message can hold at the place where the count stands.
+void check_hostile_count(Bytes whole, std::size_t at, const std::function<void(const Bytes&)>& decode) {
+  for (const std::uint64_t count : {std::numeric_limits<std::uint64_t>::max(), std::uint64_t{1} << 63,
+                                    std::uint64_t{1} << 58, std::uint64_t{1} << 40, std::uint64_t{1000}}) {
+    INFO("count " << count);
+    std::memcpy(whole.data() + at, &count, sizeof count);
+    CHECK_THROWS_AS(decode(whole), ProtocolError);
+  }
+}
+
+const auto kDecodeOrder = [](const Bytes& bytes) { decode_frame_order(bytes); };
+const auto kDecodeBundle = [](const Bytes& bytes) { decode_bundle(bytes); };
+const auto kDecodePixels = [](const Bytes& bytes) { decode_pixels(bytes); };
+const auto kDecodeSettings = [](const Bytes& bytes) { decode_settings(bytes); };
+
+}  // namespace
+
+TEST_CASE("a frame order comes back as it was sent") {
+  const FrameOrder order = some_order(), back = decode_frame_order(encode(order));
+  CHECK(back.end == order.end);
+  CHECK(back.index == order.index);
+  CHECK(back.number == order.number);
+  CHECK(back.cut == order.cut);
+  CHECK(back.carry == order.carry);
+  CHECK(back.camera == order.camera);
+  CHECK(back.deadline_s == order.deadline_s);
+  CHECK(back.reserve_s == order.reserve_s);
+  FrameOrder end;
+  end.end = true;
+  CHECK(decode_frame_order(encode(end)).end);
+}
+
+TEST_CASE("a bundle comes back as it was sent") {
+  const Bundle bundle = some_bundle(), back = decode_bundle(encode(bundle));
+  CHECK(back.frame_index == 3);
+  CHECK(back.epoch == 2);
+  CHECK(back.round == 19);
+  CHECK(back.done);
+  REQUIRE(back.samples.size() == bundle.samples.size());
+  for (std::size_t i = 0; i < back.samples.size(); ++i) {
+    const Sample &a = bundle.samples[i], &b = back.samples[i];
+    CHECK((a.x == b.x && a.y == b.y && a.id == b.id && a.frame == b.frame));
+    CHECK((a.ray.color == b.ray.color && a.ray.hit == b.ray.hit && a.ray.rays == b.ray.rays));
+    CHECK((a.ray.at_infinity == b.ray.at_infinity && a.ray.eye_dependent == b.ray.eye_dependent));
+  }
+  CHECK(decode_bundle(encode(Bundle())).samples.empty());
+}
+
+TEST_CASE("pixels and their report come back as they were sent") {
+  const PixelMessage pixels = some_pixels(), back = decode_pixels(encode(pixels));
+  CHECK(back.frame_index == 9);
+  CHECK(back.tiles == pixels.tiles);
+  CHECK(back.rgb == pixels.rgb);
+  CHECK(back.report.samples_new == 1);
+  CHECK(back.report.samples_known == 2);
+  CHECK(back.report.non_finite == 3);
+  CHECK(back.report.refinement == 0.125);
+  CHECK(back.report.rays.shadow == 77);
+  CHECK(back.report.cpu_ms.idle == 4.5);
+  CHECK(back.report.finished_s == 6.5);
+  CHECK(encode(back) == encode(pixels));
+}
+
+TEST_CASE("settings come back as they were sent") {
+  const SessionSettings settings = some_settings(), back = decode_settings(encode(settings));
+  CHECK((back.width == 123 && back.height == 45 && back.clock == ClockKind::kWork));
+  CHECK((back.frames_per_second == 4 && back.budget_units == 12345 && back.seed == 99));
+  CHECK((back.stop.seconds == 1.5 && back.stop.samples == 678 && back.stop.quality == 0.01));
+  CHECK(back.cast == CastChoice::kVerified);
+}
+
+TEST_CASE("a message cut short anywhere is refused") {
+  check_cut_short(encode(some_order()), kDecodeOrder);
+  check_cut_short(encode(some_bundle()), kDecodeBundle);
+  check_cut_short(encode(some_pixels()), kDecodePixels);
+  check_cut_short(encode(some_settings()), kDecodeSettings);
+}
+
+TEST_CASE("a message with more than it should hold is refused") {
+  check_one_too_many(encode(some_order()), kDecodeOrder);
+  check_one_too_many(encode(some_bundle()), kDecodeBundle);
+  check_one_too_many(encode(some_pixels()), kDecodePixels);
+}
+
+TEST_CASE("a count that a message cannot hold takes no memory") {
+  const Bytes bundle = encode(some_bundle());
+  const std::size_t samples = bundle.size() - encode(Bundle()).size();
+  check_hostile_count(bundle, bundle.size() - samples - sizeof(std::uint64_t), kDecodeBundle);
+
+  const PixelMessage pixels = some_pixels();
+  const Bytes bytes = encode(pixels);
+  const std::size_t rgb = bytes.size() - 6 * sizeof(float) - sizeof(std::uint64_t);
+  check_hostile_count(bytes, rgb, kDecodePixels);
+  check_hostile_count(bytes, rgb - 2 * sizeof(std::int32_t) - sizeof(std::uint64_t), kDecodePixels);
+}
+
+TEST_CASE("texts travel with their length") {
+  WireWriter out;
+  out.put(std::string("tree")), out.put(std::string());
+  const Bytes bytes = out.take();
+  WireReader in(bytes);
+  std::string first, second = "not empty";
+  in.get(first), in.get(second);
+  CHECK(first == "tree");
+  CHECK(second.empty());
+  CHECK(in.at_end());
+}
+
+}  // namespace pprt

@@ -1,0 +1,255 @@
+#include "parallel/session.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "parallel/work_units.h"
+#include "virtual_run.h"
+
+namespace pprt {
+namespace {
+
+// 4 frames a second of counted work, a megaunit and a half a rank: about a thousand samples each.
+SessionSettings work_settings() {
+  SessionSettings settings;
+  settings.width = 96, settings.height = 64;
+  settings.clock = ClockKind::kWork;
+  settings.frames_per_second = 4;
+  settings.budget_units = 1'500'000;
+  settings.cast = CastChoice::kOff;
+  return settings;
+}
+
+// No rate: a stop rule ends each frame.
+SessionSettings free_settings(ClockKind clock, const StopRules& stop) {
+  SessionSettings settings = work_settings();
+  settings.clock = clock;
+  settings.frames_per_second = 0, settings.budget_units = 0;
+  settings.stop = stop;
+  return settings;
+}
+
+std::uint64_t total(const FinishedFrame& frame, std::uint64_t RankReport::*figure) {
+  std::uint64_t sum = 0;
+  for (const RankReport& r : frame.ranks) sum += r.*figure;
+  return sum;
+}
+
+// The disc and what lies around it, apart from the edge between.
+void check_shows_disc(const Image& image) {
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const double r = std::hypot(x + 0.5 - 0.5 * image.width, y + 0.5 - 0.5 * image.height) / image.height;
+      if (std::abs(r - 0.3) < 0.06) continue;
+      const Color wanted = r < 0.3 ? Color(0.9f, 0.7f, 0.2f) : Color(0.1f, 0.1f, 0.3f);
+      const Color got = image.at(x, y);
+      INFO("pixel " << x << ", " << y);
+      REQUIRE(std::abs(got.x - wanted.x) + std::abs(got.y - wanted.y) + std::abs(got.z - wanted.z) < 1e-5);
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("frames of counted work are whole, on time, and the same each time") {
+  const SessionSettings settings = work_settings();
+  for (const int ranks : {1, 2, 3, 5, 8}) {
+    INFO(ranks << " ranks");
+    const VirtualRun first = run_session(ranks, settings, still_or_pan(settings, 4, 2));
+    const VirtualRun again =
+        run_session(ranks, settings, still_or_pan(settings, 4, 2), {.slow_at_random = true});
+    CHECK(first.error.empty());
+    REQUIRE(first.frames.size() == 4);
+    CHECK(same_pictures(first, again));
+    for (std::size_t i = 0; i < 4; ++i) {
+      const FinishedFrame& frame = first.frames[i];
+      CHECK(frame.order.number == static_cast<int>(i) + 1);
+      CHECK(frame.late_ms <= 0);
+      CHECK(frame.finished_s == again.frames[i].finished_s);
+      CHECK(total(frame, &RankReport::samples_new) > 300u * static_cast<unsigned>(ranks));
+    }
+    check_shows_disc(first.frames[0].image);
+  }
+}
+
+TEST_CASE("another seed gives another pattern, more budget a finer one") {
+  SessionSettings settings = work_settings();
+  const VirtualRun one = run_session(2, settings, still_or_pan(settings, 1));
+  settings.seed = 2;
+  CHECK_FALSE(same_pictures(one, run_session(2, settings, still_or_pan(settings, 1))));
+  settings.budget_units *= 2;
+  const VirtualRun finer = run_session(2, settings, still_or_pan(settings, 1));
+  CHECK(finer.frames.at(0).ranks[1].refinement < one.frames.at(0).ranks[1].refinement);
+}
+
+TEST_CASE("samples accumulate while the camera rests, unless casting is off") {
+  SessionSettings settings = work_settings();
+  settings.cast = CastChoice::kAuto;
+  const VirtualRun rest = run_session(3, settings, still_or_pan(settings, 4));
+  REQUIRE(rest.frames.size() == 4);
+  for (std::size_t i = 1; i < 4; ++i) {
+    const FinishedFrame &before = rest.frames[i - 1], &frame = rest.frames[i];
+    CHECK(frame.order.carry == Carry::kAccumulate);
+    CHECK(total(frame, &RankReport::samples_cast) == total(before, &RankReport::samples_in_region));
+    CHECK(total(frame, &RankReport::samples_in_region) > total(before, &RankReport::samples_in_region) + 500);
+    CHECK(frame.late_ms <= 0);
+  }
+  settings.cast = CastChoice::kOff;
+  const VirtualRun off = run_session(3, settings, still_or_pan(settings, 2));
+  REQUIRE(off.frames.size() == 2);
+  CHECK(off.frames[1].order.carry == Carry::kNothing);
+  CHECK(total(off.frames[1], &RankReport::samples_cast) == 0);
+}
+
+TEST_CASE("nothing is carried across a cut") {
+  SessionSettings settings = work_settings();
+  settings.cast = CastChoice::kPaper;
+  const auto source = [&](int index) -> std::optional<FrameRequest> {
+    if (index == 3) return std::nullopt;
+    return FrameRequest{index + 1, camera_before_disc(settings.width, settings.height), index == 2};
+  };
+  const VirtualRun run = run_session(2, settings, source);
+  REQUIRE(run.frames.size() == 3);
+  CHECK(run.frames[1].order.carry == Carry::kAccumulate);
+  CHECK(run.frames[2].order.carry == Carry::kNothing);
+}
+
+TEST_CASE("a stop rule on samples counts those of the whole image") {
+  for (const int ranks : {1, 3, 5}) {
+    const SessionSettings settings = free_settings(ClockKind::kWork, {.samples = 2000});
+    const VirtualRun run = run_session(ranks, settings, still_or_pan(settings, 1));
+    CHECK(run.error.empty());
+    REQUIRE(run.frames.size() == 1);
+    const std::uint64_t samples = total(run.frames[0], &RankReport::samples_in_region);
+    CHECK(samples >= 2000);
+    CHECK(samples <= 2000u + static_cast<unsigned>(ranks));
+  }
+}
+
+TEST_CASE("a stop rule on quality holds in every region") {
+  for (const int ranks : {1, 3, 5}) {
+    const SessionSettings settings = free_settings(ClockKind::kWork, {.quality = 0.1});
+    const VirtualRun run = run_session(ranks, settings, still_or_pan(settings, 1));
+    REQUIRE(run.frames.size() == 1);
+    for (const RankReport& r : run.frames[0].ranks) {
+      CHECK(r.refinement > 0);
+      CHECK(r.refinement <= 0.105);  // what neighbours send after a rank is done may disturb it a little
+    }
+  }
+}
+
+TEST_CASE("a stop rule on time counts work") {
+  const SessionSettings settings = free_settings(ClockKind::kWork, {.seconds = 0.03});
+  const VirtualRun run = run_session(2, settings, still_or_pan(settings, 1));
+  REQUIRE(run.frames.size() == 1);
+  const double pixels = 96 * 64 * static_cast<double>(price(Work::kPixel)) / kWorkUnitsPerSecond;
+  for (const RankReport& r : run.frames[0].ranks) {
+    CHECK(r.finished_s >= 0.03);
+    CHECK(r.finished_s < 0.04 + pixels);
+  }
+}
+
+TEST_CASE("the first stop rule reached ends the frame") {
+  const SessionSettings settings = free_settings(ClockKind::kWork, {.samples = 600, .quality = 1e-9});
+  const VirtualRun run = run_session(2, settings, still_or_pan(settings, 1));
+  REQUIRE(run.frames.size() == 1);
+  CHECK(total(run.frames[0], &RankReport::samples_in_region) < 610);
+}
+
+TEST_CASE("colours that are no numbers are counted and never shown") {
+  const SessionSettings settings = work_settings();
+  const VirtualRun run = run_session(3, settings, still_or_pan(settings, 2), {.no_number_every = 40});
+  REQUIRE(run.frames.size() == 2);
+  std::uint64_t counted = 0, asked = 0;
+  for (const FinishedFrame& frame : run.frames) {
+    counted += total(frame, &RankReport::non_finite);
+    for (const Color& c : frame.image.pixels) {
+      REQUIRE((std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z)));
+    }
+  }
+  for (const auto& of_rank : run.traced) asked += of_rank.size() / 40;
+  CHECK(asked > 0);
+  CHECK(counted == asked);
+}
+
+TEST_CASE("more ranks than tiles still make a whole picture") {
+  SessionSettings settings = work_settings();
+  settings.width = 9, settings.height = 7;  // six tiles
+  for (const ClockKind clock : {ClockKind::kWork, ClockKind::kWall}) {
+    settings.clock = clock;
+    settings.frames_per_second = 20;
+    const VirtualRun run = run_session(9, settings, still_or_pan(settings, 2));
+    CHECK(run.error.empty());
+    REQUIRE(run.frames.size() == 2);
+    for (const Color& c : run.frames[1].image.pixels) CHECK(c.z > 0.15f);
+  }
+  for (const StopRules& stop :
+       {StopRules{.samples = 50}, StopRules{.quality = 0.5}, StopRules{.seconds = 0.02}}) {
+    const SessionSettings free = free_settings(ClockKind::kWork, stop);
+    SessionSettings small = free;
+    small.width = 9, small.height = 7;
+    CHECK(run_session(9, small, still_or_pan(small, 1)).frames.size() == 1);
+  }
+}
+
+TEST_CASE("a budget too small for anything still gives a whole picture, and says it is late") {
+  SessionSettings settings = work_settings();
+  settings.budget_units = 1;
+  const VirtualRun run = run_session(3, settings, still_or_pan(settings, 2));
+  REQUIRE(run.frames.size() == 2);
+  for (const FinishedFrame& frame : run.frames) {
+    CHECK(frame.late_ms > 0);
+    for (const Color& c : frame.image.pixels) REQUIRE(c.z > 0.15f);  // no pixel is left black
+  }
+}
+
+TEST_CASE("the reports of a frame add up to what was asked of the tracers") {
+  const SessionSettings settings = work_settings();
+  const VirtualRun run = run_session(3, settings, still_or_pan(settings, 3, 1));
+  REQUIRE(run.frames.size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::uint64_t asked = 0, told = 0;
+    for (const auto& of_rank : run.traced) {
+      asked += static_cast<std::uint64_t>(std::count_if(of_rank.begin(), of_rank.end(), [&](const Traced& t) {
+        return t.frame == static_cast<int>(i) + 1;
+      }));
+    }
+    for (const RankReport& r : run.frames[i].ranks) told += r.rays.primary;
+    CHECK(told == asked);
+    CHECK(total(run.frames[i], &RankReport::samples_new) == asked);
+  }
+}
+
+TEST_CASE("a sequence in real time delivers every frame") {
+  SessionSettings settings = work_settings();
+  settings.clock = ClockKind::kWall;
+  settings.frames_per_second = 10;
+  const VirtualRun run = run_session(3, settings, still_or_pan(settings, 4, 1), {.arrive_at_random = true});
+  CHECK(run.error.empty());
+  REQUIRE(run.frames.size() == 4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    CHECK(run.frames[i].order.deadline_s == Approx(0.1 * static_cast<double>(i + 1)));
+    CHECK(run.frames[i].finished_s > 0);
+  }
+}
+
+TEST_CASE("frames without a rate end in real time, whenever the last messages arrive") {
+  // The end of each frame is told by messages: none may be overlooked.
+  for (int repeat = 0; repeat < 5; ++repeat) {
+    const SessionSettings settings = free_settings(ClockKind::kWall, {.quality = 0.5});
+    const VirtualRun run =
+        run_session(4, settings, still_or_pan(settings, 5, 1), {.arrive_at_random = true, .patience_s = 10});
+    CHECK(run.error.empty());
+    REQUIRE(run.frames.size() == 5);
+  }
+}
+
+TEST_CASE("an empty sequence ends at once") {
+  const SessionSettings settings = work_settings();
+  const VirtualRun run = run_session(3, settings, still_or_pan(settings, 0));
+  CHECK(run.error.empty());
+  CHECK(run.frames.empty());
+}
+
+}  // namespace pprt

@@ -1,0 +1,185 @@
+#include "virtual_run.h"
+
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <mutex>
+#include <random>
+#include <thread>
+#include <utility>
+
+#include "parallel/frame_clock.h"
+#include "parallel/local_communicator.h"
+
+namespace pprt {
+namespace {
+
+constexpr double kPlaneDistance = 10;
+constexpr double kDiscRadius = 3;
+
+// The probe of one rank.
+class DiscTracer {
+ public:
+  DiscTracer(const Conditions& conditions, unsigned seed) : conditions_(conditions), random_(seed) {}
+
+  Probe probe() {
+    return {[this](const Camera& camera) {
+              camera_ = camera;
+              ++frame_;
+            },
+            [this](double x, double y) { return trace(x, y); }, [](const Vec3f&, bool) { return true; },
+            [this] { return counts_; }};
+  }
+
+  std::vector<Traced> take_traced() { return std::move(traced_); }
+
+ private:
+  RaySample trace(double x, double y) {
+    traced_.push_back({frame_, x, y});
+    ++counts_.primary;
+    const Vec3d hit = camera_.eye + ray_direction(camera_, x, y) * kPlaneDistance;
+    const double period = conditions_.period;
+    const bool in_disc =
+        period > 0 ? std::hypot(std::remainder(hit.x, period), std::remainder(hit.y, period)) < 0.3 * period
+                   : std::hypot(hit.x, hit.y) < kDiscRadius;
+    RaySample sample;
+    sample.hit = Vec3f(hit);
+    sample.color = in_disc ? Color(0.9f, 0.7f, 0.2f) : Color(0.1f, 0.1f, 0.3f);
+    sample.rays = in_disc ? 4 : 1;
+    counts_.shadow += sample.rays - 1;
+    if (conditions_.no_number_every > 0 &&
+        traced_.size() % static_cast<std::size_t>(conditions_.no_number_every) == 0) {
+      sample.color.x = std::numeric_limits<float>::quiet_NaN();
+    }
+    if (conditions_.slow_at_random && random_() % 256 == 0) {
+      std::this_thread::sleep_for(std::chrono::microseconds(random_() % 2000));
+    }
+    return sample;
+  }
+
+  Conditions conditions_;
+  std::mt19937 random_;
+  Camera camera_;
+  RayCounts counts_;
+  int frame_ = 0;
+  std::vector<Traced> traced_;
+};
+
+// All bundles that were sent in a run.
+class Log {
+ public:
+  void add(SentBundle bundle) {
+    const std::lock_guard lock(mutex_);
+    bundles_.push_back(std::move(bundle));
+  }
+  void fail(int rank, const std::string& what) {
+    const std::lock_guard lock(mutex_);
+    error_ += "rank " + std::to_string(rank) + ": " + what + "\n";
+  }
+  std::vector<SentBundle> take_bundles() { return std::move(bundles_); }
+  std::string error() const { return error_; }
+
+ private:
+  std::mutex mutex_;
+  std::vector<SentBundle> bundles_;
+  std::string error_;
+};
+
+class WatchedCommunicator final : public Communicator {
+ public:
+  WatchedCommunicator(LocalNetwork& network, int rank, const Conditions& conditions, Log& log)
+      : inner_(network, rank), conditions_(conditions), log_(log), random_(static_cast<unsigned>(rank + 1)) {}
+
+  int rank() const override { return inner_.rank(); }
+  int size() const override { return inner_.size(); }
+  void send(int to, Tag tag, Bytes payload) override {
+    if (tag == Tag::kBundle) {
+      Bundle bundle = decode_bundle(payload);
+      if (conditions_.drop_samples) {
+        bundle.samples.clear();
+        payload = encode(bundle);
+      }
+      log_.add({rank(), to, std::move(bundle)});
+    }
+    inner_.send(to, tag, std::move(payload));
+  }
+  std::optional<Message> receive() override {
+    if (conditions_.arrive_at_random && random_() % 2 == 0) return look();
+    std::optional<Message> message = inner_.receive();
+    return message ? (last_arrival_s_ = monotonic_seconds(), message) : look();
+  }
+  void broadcast(Bytes& data) override { inner_.broadcast(data); }
+  void flush() override { inner_.flush(); }
+
+ private:
+  std::optional<Message> look() const {
+    if (monotonic_seconds() - last_arrival_s_ > conditions_.patience_s) {
+      throw std::runtime_error("waited in vain for a message");
+    }
+    return std::nullopt;
+  }
+
+  LocalCommunicator inner_;
+  Conditions conditions_;
+  Log& log_;
+  std::mt19937 random_;
+  double last_arrival_s_ = monotonic_seconds();
+};
+
+}  // namespace
+
+Camera camera_before_disc(int width, int height, double shift) {
+  Camera camera;
+  camera.slope_per_pixel = 1.0 / height;
+  camera.width = width, camera.height = height;
+  camera.eye.x = shift * camera.slope_per_pixel * kPlaneDistance;
+  return camera;
+}
+
+CameraSource still_or_pan(const SessionSettings& settings, int frames, double shift) {
+  return [=, width = settings.width, height = settings.height](int index) -> std::optional<FrameRequest> {
+    if (index >= frames) return std::nullopt;
+    return FrameRequest{index + 1, camera_before_disc(width, height, index * shift), false};
+  };
+}
+
+VirtualRun run_session(int ranks, const SessionSettings& settings, const CameraSource& source,
+                       const Conditions& conditions) {
+  VirtualRun run;
+  run.traced.resize(static_cast<std::size_t>(ranks));
+  Log log;
+  LocalNetwork network(ranks);
+  const auto rank_body = [&](int rank) {
+    WatchedCommunicator communicator(network, rank, conditions, log);
+    DiscTracer tracer(conditions, static_cast<unsigned>(rank));
+    try {
+      if (rank == 0) {
+        run_as_master(communicator, settings, tracer.probe(), source,
+                      [&](FinishedFrame&& frame) { run.frames.push_back(std::move(frame)); });
+      } else {
+        run_as_worker(communicator, settings, tracer.probe());
+      }
+    } catch (const std::exception& e) {
+      log.fail(rank, e.what());
+    }
+    run.traced[static_cast<std::size_t>(rank)] = tracer.take_traced();
+  };
+  std::vector<std::thread> threads;
+  for (int rank = 0; rank < ranks; ++rank) threads.emplace_back(rank_body, rank);
+  for (std::thread& thread : threads) thread.join();
+  run.bundles = log.take_bundles();
+  run.error = log.error();
+  return run;
+}
+
+bool same_pictures(const VirtualRun& a, const VirtualRun& b) {
+  if (a.frames.size() != b.frames.size()) return false;
+  for (std::size_t i = 0; i < a.frames.size(); ++i) {
+    const std::vector<Color>&p = a.frames[i].image.pixels, &q = b.frames[i].image.pixels;
+    if (p.size() != q.size() || std::memcmp(p.data(), q.data(), p.size() * sizeof(Color)) != 0) return false;
+  }
+  return true;
+}
+
+}  // namespace pprt

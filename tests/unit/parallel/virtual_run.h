@@ -1,0 +1,55 @@
+// Whole sessions in one process: a thread per rank, a scene given by a formula.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "parallel/session.h"
+
+namespace pprt {
+
+// A camera before the plane z = 10 that holds a disc; `shift` moves it to the right, in pixels.
+Camera camera_before_disc(int width, int height, double shift = 0);
+
+// So many frames, numbered from 1, whose cameras are `shift` pixels apart.
+CameraSource still_or_pan(const SessionSettings& settings, int frames, double shift = 0);
+
+// The scene, and what is done to a run that it must bear or that it must show.
+struct Conditions {
+  double period = 0;              // of a pattern of discs all over the plane, scene units; 0: one disc
+  bool slow_at_random = false;    // the probe sleeps now and then: threads run in another order
+  int no_number_every = 0;        // every so many eye rays of a rank give no number; 0: none
+  bool drop_samples = false;      // bundles arrive empty
+  bool arrive_at_random = false;  // what has arrived is not seen at every look
+  double patience_s = 120;        // after so long a rank that still waits for a message gives up: an error
+};
+
+// A bundle on its way, as the network saw it.
+struct SentBundle {
+  int from = 0;
+  int to = 0;
+  Bundle bundle;
+};
+
+struct Traced {
+  int frame = 0;  // the how many-th camera
+  double x = 0;
+  double y = 0;
+};
+
+struct VirtualRun {
+  std::vector<FinishedFrame> frames;
+  std::vector<std::vector<Traced>> traced;  // per rank: the eye rays asked for
+  std::vector<SentBundle> bundles;
+  std::string error;  // of the ranks that failed; empty: none
+};
+
+VirtualRun run_session(int ranks, const SessionSettings& settings, const CameraSource& source,
+                       const Conditions& conditions = {});
+
+// Whether two sequences hold the same pictures, bit by bit.
+bool same_pictures(const VirtualRun& a, const VirtualRun& b);
+
+}  // namespace pprt
