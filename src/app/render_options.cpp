@@ -140,6 +140,8 @@ void add_report_options(CLI::App& app, RenderOptions& o) {
       ->type_name("LEVEL")
       ->group(group);
   app.set_config("--config", "", "Read options from a file")->type_name("FILE")->group(group);
+  app.get_config_formatter_base()->comment(';');  // '#' stands in file name patterns
+  app.allow_config_extras(CLI::config_extras_mode::error);
   app.add_flag("--write-config", o.write_config, "Print the options in force as such a file, and exit")
       ->configurable(false)
       ->group(group);

@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# Standard output carries what was asked for and nothing else.
+source "$(dirname "$0")/check.sh"
+
+# The ledger: a line for the run, one a frame, one for the sum.
+run pprt-render ball.anim --clock work --budget 400000 --frames 1-2 --stats -; expect_code 0
+[[ $(wc -l <out) -eq 4 ]] || complain "the ledger has not four lines: $(cat out)"
+expect_line out '{"record":"run","version":.*"ranks":1,"size":\[32,24\],"clock":"work".*}'
+expect_line out '{"record":"frame","frame":1,"cut":false,"deadline_s":0.25,.*,"non_finite":0}'
+expect_line out '{"record":"frame","frame":2,"cut":false,"deadline_s":0.5,.*,"non_finite":0}'
+expect_line out '{"record":"summary","frames":2,"on_time":2,"late_ms":{.*},.*,"non_finite":0}'
+expect_line err 'done: 2 of 2 frames in frame_%04d.png; .*'
+
+# The same ledger on ranks of their own; only the master speaks.
+run pprt-render ball.anim --clock work --budget 400000 --frames 1-2 --overwrite -np 3 --stats -; expect_code 0
+[[ $(wc -l <out) -eq 4 ]] || complain "the ledger of three ranks has not four lines: $(cat out)"
+expect_line out '{"record":"run","version":.*"ranks":3,.*}'
+
+# The error against a reference; of a picture to itself it is the rounding of its file.
+run pprt-render ball.nff --clock work -o ref.exr; expect_code 0
+run pprt-render ball.nff --clock work -o same.exr --reference ref.exr --stats -; expect_code 0
+expect_line out '.*"rmse":[0-9.e-]*}'
+expect_same ref.exr same.exr
+
+# A census alone renders nothing.
+run pprt-render ball.nff --census; expect_code 0; expect_text err ''; expect_no_file frame_0000.png
+expect_line out '  reflection *yes  1 material with Ks > 0'
+expect_line out '  refraction *no   no material with T > 0'
+run pprt-render ball.nff --census --clock work --samples 300 -o c.png; expect_code 0; expect_file c.png
+expect_line out 'rays traced: 300 primary, .* 0 refraction'
+
+run pprt-render ball.nff --samples 50 -o p.png --progress none; expect_code 0; expect_text err ''; expect_text out ''
+run pprt-render ball.nff --samples 50 -o q.png --progress json; expect_code 0; expect_text out ''
+expect_line err '{"event":"frame","frame":1,.*}'
+expect_line err '{"event":"done","done":1,"frames":1}'
+finish

@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# Scenes and scripts: where they come from, and how they are refused.
+source "$(dirname "$0")/check.sh"
+
+run pprt-render none.nff; expect_code 3; expect_text out ''
+expect_text err "cannot read 'none.nff': No such file or directory"
+run pprt-render ball.nff none.anim; expect_code 3
+expect_text err "cannot read 'none.anim': No such file or directory"
+run pprt-render spd:bush; expect_code 3
+expect_text err "spd:bush: error: no procedural database has the name 'bush' (there are: tree balls gears mount rings tetra teapot jacks lattice)"
+
+# Every problem, each with its place.
+sed 's/^s .*/s 0 0 zero 1/; s/^l .*/l 5 five 5/' ball.nff >bad.nff
+bad_scene="bad.nff:9:5: error: expected a number for y of the position of 'l', found 'five'
+    l 5 five 5
+        ^
+bad.nff:11:7: error: expected a number for z of the centre of 's', found 'zero'
+    s 0 0 zero 1
+          ^"
+run pprt-render bad.nff; expect_code 3; expect_text err "$bad_scene"; expect_text out ''
+run pprt-render -np 3 bad.nff; expect_code 3; expect_text err "$bad_scene"; expect_text out ''
+
+sed '/^[vfahru]/d; /^f /d' ball.nff >noview.nff
+run pprt-render noview.nff; expect_code 3
+expect_text err "noview.nff: error: the scene has no view ('v' ...) and no script gives a camera: nothing can be seen"
+
+sed 's/at <0, 0, 0>/at <0, 0, 5>/; s/angle 45/angle 190/' ball.anim >bad.anim
+run pprt-render bad.anim; expect_code 3; expect_line err 'bad.anim:[0-9]*:[0-9]*: error: .*'; expect_line err ' *^'
+grep -v scene ball.anim >noscene.anim
+run pprt-render noscene.anim
+expect_usage "the script noscene.anim names no scene: give one before it, or add 'scene \"...\"' to it"
+
+# Standard input is as good as a file.
+run pprt-render ball.nff --clock work -o a.png; expect_code 0
+pprt-render - --clock work -o b.png <ball.nff 2>err; expect_same a.png b.png
+finish

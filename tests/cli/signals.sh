@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# A signal ends the run after the frame at hand, with manifest and summary.
+source "$(dirname "$0")/check.sh"
+
+# Some minutes of frames, so that the run cannot end by itself before the signal comes.
+sed -i 's/frames 12/frames 60000/; s/key 12/key 60000/' ball.anim
+
+# stopped_by SIGNAL CODE OPTIONS...: sends the signal once two frames are there.
+stopped_by() {
+  local signal=$1 expected=$2
+  shift 2
+  rm -rf out_frames
+  command="pprt-render $* with SIG$signal"
+  pprt-render ball.anim --clock work --budget 1000000 -o out_frames/%05d.png --progress auto "$@" >out 2>err &
+  local pid=$!
+  for ((i = 0; i < 600 && $(find out_frames -name '*.png' 2>/dev/null | wc -l) < 2; ++i)); do sleep 0.1; done
+  kill -USR1 "$pid"
+  sleep 0.5
+  kill "-$signal" "$pid"
+  code=0
+  wait "$pid" || code=$?
+  expect_code "$expected"
+  expect_line err 'frame [0-9]* of 60000  [0-9]* on time at 4/s .*'
+  expect_line err 'stopped: [0-9]* of 60000 frames in out_frames/%05d.png; .*'
+  # Every picture is whole and told of in the manifest, and nothing else lies about.
+  local pictures others
+  pictures=$(find out_frames -name '?????.png' | wc -l)
+  others=$(find out_frames -type f ! -name '?????.png' ! -name manifest.ndjson)
+  [[ -z $others ]] || complain "'$command' left $others"
+  [[ $(wc -l <out_frames/manifest.ndjson) -eq $((pictures + 1)) ]] || complain "'$command': manifest and pictures differ"
+}
+
+stopped_by INT 130
+stopped_by TERM 143
+stopped_by INT 130 -np 2
+finish

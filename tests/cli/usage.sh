@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# Command lines that make no sense.
+source "$(dirname "$0")/check.sh"
+
+run pprt-render; expect_usage "SCENE is required"
+run pprt-render --bogus ball.nff; expect_usage "The following argument was not expected: --bogus"
+run pprt-render ball.nff ball.anim third; expect_usage "The following argument was not expected: third"
+run pprt-render ball.nff --np 0; expect_usage "--np: Value 0 not in range 1 to 4096"
+run pprt-render ball.nff --clock sun; expect_usage "--clock: sun not in {wall,work}"
+run pprt-render ball.nff --resume --overwrite; expect_usage "--overwrite excludes --resume"
+run pprt-render ball.nff --budget 5; expect_usage "--budget counts work: it needs --clock work"
+run pprt-render ball.nff --budget 5 --clock work; expect_usage "--budget needs a frame rate (--fps)"
+run pprt-render ball.nff --fps 4 --samples 10
+expect_usage "--time, --samples and --quality end frames without a rate, but the rate is 4 frames/s; --fps 0 turns it off"
+for size in 1e9x1 0x5 16x 99999x2; do
+  run pprt-render ball.nff -s $size
+  expect_usage "--size $size: want WIDTHxHEIGHT in pixels, each from 1 to 16384, such as 256x256"
+done
+run pprt-render ball.anim --frames 0-3; expect_usage "--frames 0-3: want FIRST-LAST, counted from 1, such as 1-40"
+run pprt-render ball.anim --frames 3-13; expect_usage "--frames 3-13: the last frame is 12"
+run pprt-render ball.nff -o x.tif; expect_usage "output 'x.tif': the name must end in .exr or .png"
+run pprt-render ball.nff --contact-sheet x.jpg
+expect_usage "--contact-sheet x.jpg: want a name that ends in .png or .exr"
+run pprt-render ball.nff --effects caustics
+expect_usage "unknown effect 'caustics'; there are shadows,highlights,reflection,refraction,smooth-normals, and the words all and none"
+run pprt-render --config none.ini; expect_usage "none.ini was not readable (missing?)"
+
+run pprt-render --version; expect_code 0; expect_line out 'pprt-render [0-9]*\.[0-9]*\.[0-9]*'; expect_text err ''
+run pprt-render --help; expect_code 0; expect_line out '  --contact-sheet FILE .*'; expect_text err ''
+for program in pprt-convert pprt-compare pprt-study; do
+  run "$program"; expect_code 2; expect_line err "try '$program --help'"
+  run "$program" --help; expect_code 0; expect_text err ''
+  run "$program" --version; expect_code 0; expect_line out "$program [0-9]*\.[0-9]*\.[0-9]*"
+done
+expect_no_file frame_0001.png
+finish
