@@ -14,7 +14,7 @@ struct Image {
   std::vector<Color> pixels;  // width * height, row after row
 
   Image() = default;
-  Image(int w, int h, Color fill = Color(0, 0, 0))
+  Image(int w, int h, const Color& fill = Color(0, 0, 0))
       : width(w), height(h), pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), fill) {}
 
   Color& at(int x, int y) {

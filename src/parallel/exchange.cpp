@@ -39,9 +39,11 @@ TileRange tiles_around(const TileGrid& grid, const Circle& circle) {
 std::vector<double> distances_inside(const Partition& partition, int rank) {
   const TileGrid& grid = partition.grid;
   const int columns = grid.columns(), rows = grid.rows();
+  const auto tile_index = [columns](int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x);
+  };
   const auto owned = [&](int x, int y) {
-    return x < 0 || y < 0 || x >= columns || y >= rows ||
-           partition.owner[static_cast<std::size_t>(y * columns + x)] == rank;
+    return x < 0 || y < 0 || x >= columns || y >= rows || partition.owner[tile_index(x, y)] == rank;
   };
   std::vector<double> inside(partition.owner.size(), 0);
   for (int y = 0; y < rows; ++y) {
@@ -57,7 +59,7 @@ std::vector<double> distances_inside(const Partition& partition, int rank) {
       };
       const int most = std::max(columns, rows);
       while (steps < most && ring_is_owned(steps + 1)) ++steps;
-      inside[static_cast<std::size_t>(y * columns + x)] = steps * grid.tile_size;
+      inside[tile_index(x, y)] = steps * grid.tile_size;
     }
   }
   return inside;

@@ -39,15 +39,14 @@ class Bisector {
   }
 
  private:
-  double cost(int x, int y) const {
-    return costs_[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) +
-                  static_cast<std::size_t>(x)];
+  std::size_t tile_index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x);
   }
+  double cost(int x, int y) const { return costs_[tile_index(x, y)]; }
 
   void give(const TileRect& rect, int rank) {
     for (int y = rect.y0; y < rect.y1; ++y) {
-      for (int x = rect.x0; x < rect.x1; ++x)
-        partition_.owner[static_cast<std::size_t>(y * columns_ + x)] = rank;
+      for (int x = rect.x0; x < rect.x1; ++x) partition_.owner[tile_index(x, y)] = rank;
     }
   }
 

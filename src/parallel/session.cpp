@@ -85,6 +85,7 @@ double await_start(Communicator& network, Inbox& inbox) {
 Partition equal_areas(const SessionSettings& settings, int ranks) {
   const TileGrid grid = tile_grid_for(settings.width, settings.height, ranks);
   std::vector<double> areas;
+  areas.reserve(static_cast<std::size_t>(grid.tile_count()));
   for (int tile = 0; tile < grid.tile_count(); ++tile) {
     areas.push_back(static_cast<double>(grid.pixels(tile).area()));
   }
@@ -101,8 +102,8 @@ Worker make_worker(Communicator& network, Inbox& inbox, const SessionSettings& s
 
 std::optional<FrameOrder> await_order(Inbox& inbox, int index) {
   while (true) {
-    if (const std::optional<FrameOrder> order = inbox.take_order(index)) {
-      if (order->end) return std::nullopt;
+    if (std::optional<FrameOrder> order = inbox.take_order(index)) {
+      if (order->end) order.reset();
       return order;
     }
     if (!inbox.pump()) rest_briefly();

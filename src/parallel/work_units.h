@@ -1,4 +1,5 @@
-// The work clock's prices. The paper has no such clock; docs/decisions/0006-work-clock.md says why and whence.
+// The work clock's prices. The paper has no such clock; docs/decisions/0006-work-clock.md says why and
+// whence.
 #pragma once
 
 #include <cstdint>

@@ -93,7 +93,7 @@ void Worker::prepare(const FrameOrder& order) {
   epoch_ = order.index;
   in_region_ = 0;
   trace_seeds(order);
-  settle(order, std::move(survivors));
+  settle(order, survivors);
 }
 
 std::vector<Sample> Worker::cast(const FrameOrder& order) {
@@ -116,10 +116,10 @@ void Worker::trace_seeds(const FrameOrder& order) {
 }
 
 // Seeds cross the borders first; then each survivor goes to the rank whose tile it landed in.
-void Worker::settle(const FrameOrder& order, std::vector<Sample> survivors) {
+void Worker::settle(const FrameOrder& order, const std::vector<Sample>& survivors) {
   std::vector<Sample> own;
   std::vector<std::vector<Sample>> emigrants(static_cast<std::size_t>(network_.size()));
-  for (Sample& s : survivors) {
+  for (const Sample& s : survivors) {
     const int owner = exchange_.owner_of(s.x, s.y);
     (owner == network_.rank() ? own : emigrants[static_cast<std::size_t>(owner)]).push_back(s);
   }

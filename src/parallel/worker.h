@@ -41,7 +41,7 @@ class Worker {
   void prepare(const FrameOrder& order);
   std::vector<Sample> cast(const FrameOrder& order);
   void trace_seeds(const FrameOrder& order);
-  void settle(const FrameOrder& order, std::vector<Sample> survivors);
+  void settle(const FrameOrder& order, const std::vector<Sample>& survivors);
   void receive_seeds(const FrameOrder& order);
 
   void sample(const FrameOrder& order);

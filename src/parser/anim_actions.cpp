@@ -6,7 +6,7 @@
 #include <array>
 #include <numbers>
 
-#include "parser/nearest_word.h"
+#include "base/nearest_word.h"
 #include "parser/text_input.h"
 
 namespace pprt::anim {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string>
 
-#include "parser/nearest_word.h"
+#include "base/nearest_word.h"
 
 namespace pprt::anim {
 namespace {

@@ -1,6 +1,6 @@
 #include "spd/spd.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/diagnostics.h"
+#include "base/nearest_word.h"
 #include "spd/generators.h"
 
 namespace pprt {
@@ -57,44 +58,11 @@ std::optional<std::size_t> find_database(std::string_view name) {
   return static_cast<std::size_t>(found - kDatabases.begin());
 }
 
-// Number of insertions, deletions and replacements of one byte that turn `a` into `b` (Levenshtein).
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i);
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = std::exchange(row[j], std::min({replaced, row[j] + 1, row[j - 1] + 1}));
-    }
-  }
-  return row.back();
-}
-
-// ", did you mean 'tree'?" when a name is close enough to be a slip of the finger; else nothing.
-std::string suggestion(std::string_view name) {
-  constexpr std::size_t kMostSlips = 2;
-  constexpr std::size_t kLongestName = 32;
-  if (name.size() > kLongestName) return {};
-  const auto nearest = std::min_element(kDatabases.begin(), kDatabases.end(), [name](auto& a, auto& b) {
-    return edit_distance(name, a.name) < edit_distance(name, b.name);
-  });
-  if (edit_distance(name, nearest->name) > kMostSlips) return {};
-  return fmt::format("; did you mean '{}'?", nearest->name);
-}
-
-std::string all_names() {
-  std::string names;
-  for (const SpdDatabase& d : kDatabases) {
-    if (!names.empty()) names += ' ';
-    names += d.name;
-  }
-  return names;
-}
-
 [[noreturn]] void reject_name(std::string_view scene, std::string_view name) {
+  std::vector<std::string_view> names;
+  for (const SpdDatabase& d : kDatabases) names.push_back(d.name);
   reject(scene, fmt::format("no procedural database has the name '{}'{} (there are: {})", name,
-                            suggestion(name), all_names()));
+                            did_you_mean(name, names), fmt::join(names, " ")));
 }
 
 int largest_size(const Generator& generator) {
