@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# What is wrong with the input is told once, by one rank, and every rank leaves with its code.
+source "$(dirname "$0")/lib.sh"
+
+printf 'v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 30\nhither 1\nresolution 8 8\ns 0 0\n' >broken.nff
+for way in own hand; do
+  code=0
+  if [[ $way == own ]]; then
+    pprt-render broken.nff -np 4 -o broken.png 2>told || code=$?
+  else
+    mpirun_by_hand --quiet -np 4 pprt-render broken.nff -o broken.png 2>told || code=$?
+  fi
+  [[ $code == 3 ]] || { cat told >&2; fail "a broken scene ended with code $code instead of 3 ($way)"; }
+  [[ $(grep -c 'broken.nff:[0-9]*:[0-9]*: error' told) == 1 ]] ||
+    { cat told >&2; fail "one report of the error was wanted ($way)"; }
+  [[ ! -e broken.png ]] || fail "a picture was written"
+done
+code=0
+pprt-render no-such.nff -np 4 -o none.png 2>told || code=$?
+[[ $code == 3 ]] || fail "a missing scene ended with code $code instead of 3"
