@@ -1,0 +1,111 @@
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <sstream>
+
+#include "app/manifest.h"
+#include "base/diagnostics.h"
+#include "unit/image/temporary_directory.h"
+
+namespace pprt {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& path) {
+  std::stringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+void append(const fs::path& path, const std::string& text) {
+  std::ofstream(path, std::ios::app) << text;
+}
+
+// A run that has written frames 1 to 3, with the pictures.
+struct FinishedRun {
+  TemporaryDirectory directory;
+  fs::path path = directory.path() / "manifest.ndjson";
+
+  FinishedRun() {
+    Manifest manifest(path, "key", false);
+    for (const int frame : {1, 2, 3}) {
+      append(picture(frame), "x");
+      manifest.add({{frame, {picture(frame)}}});
+    }
+  }
+  fs::path picture(int frame) const { return directory.path() / (std::to_string(frame) + ".png"); }
+  std::set<int> resumed() const { return Manifest(path, "key", true).finished(); }
+};
+
+}  // namespace
+
+TEST_CASE("the manifest stands beside the frames") {
+  const auto path = [](const char* pattern) {
+    return manifest_path(parse_frame_pattern(pattern, FrameCount::kOne));
+  };
+  CHECK(path("out/%04d.exr") == "out/manifest.ndjson");
+  CHECK(path("frame_####.png") == "frame_manifest.ndjson");
+  CHECK(path("out/a%db.png") == "out/amanifest.ndjson");
+}
+
+TEST_CASE("a run goes on after the frames that are finished") {
+  const FinishedRun run;
+  CHECK(run.resumed() == std::set<int>{1, 2, 3});
+  Manifest(run.path, "key", true).add({{7, {run.picture(3)}}});
+  CHECK(run.resumed() == std::set<int>{1, 2, 3, 7});
+}
+
+TEST_CASE("a frame whose picture is gone is not finished") {
+  const FinishedRun run;
+  fs::remove(run.picture(2));
+  CHECK(run.resumed() == std::set<int>{1, 3});
+}
+
+TEST_CASE("a line that a dying run left half-written is no line, and harms none after it") {
+  const FinishedRun run;
+  append(run.path, R"({"record":"frame","frame":4,"fi)");
+  append(run.picture(5), "x");
+  {
+    Manifest manifest(run.path, "key", true);
+    CHECK(manifest.finished() == std::set<int>{1, 2, 3});
+    manifest.add({{5, {run.picture(5)}}});
+  }
+  CHECK(run.resumed() == std::set<int>{1, 2, 3, 5});
+}
+
+TEST_CASE("another scene or other options cannot be resumed") {
+  const FinishedRun run;
+  CHECK_THROWS_AS(Manifest(run.path, "other", true), UsageError);
+  CHECK(run.resumed().size() == 3);  // nothing was lost by trying
+}
+
+TEST_CASE("a manifest that is empty or whose first line is torn is of another run") {
+  const FinishedRun run;
+  for (const char* text :
+       {"", "{\"record\":\"ru", "\n\n", "[1, 2]\n", "{\"record\":\"frame\",\"frame\":1}\n"}) {
+    INFO("text '" << text << "'");
+    std::ofstream(run.path, std::ios::trunc) << text;
+    CHECK_THROWS_AS(Manifest(run.path, "key", true), UsageError);
+  }
+}
+
+TEST_CASE("a manifest with lines that are JSON but no records does not end the program") {
+  const FinishedRun run;
+  append(run.path, "17\n{\"record\":\"frame\"}\n{\"record\":\"frame\",\"frame\":\"x\",\"files\":3}\n");
+  CHECK(run.resumed() == std::set<int>{1, 2, 3});
+}
+
+TEST_CASE("without --resume a manifest starts anew") {
+  const FinishedRun run;
+  CHECK(Manifest(run.path, "other", false).finished().empty());
+  CHECK(text_of(run.path) == "{\"record\":\"run\",\"key\":\"other\"}\n");
+}
+
+TEST_CASE("resuming where nothing was begun is a new run") {
+  const TemporaryDirectory directory;
+  const fs::path path = directory.path() / "manifest.ndjson";
+  CHECK(Manifest(path, "key", true).finished().empty());
+  CHECK(text_of(path) == "{\"record\":\"run\",\"key\":\"key\"}\n");
+}
+
+}  // namespace pprt
