@@ -58,6 +58,7 @@ class Worker {
   Sample trace(const FrameOrder& order, double x, double y);
   bool insert(const Sample& sample, const Insertion& how);
   void await(const std::function<bool()>& arrived);
+  void await_news();
 
   Communicator& network_;
   Inbox& inbox_;
