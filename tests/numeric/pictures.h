@@ -1,0 +1,35 @@
+// Pictures as the renderer traces them, and how much of one is not as in another.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "trace/compiled_scene.h"
+
+namespace pprt::test {
+
+// The scene's own view at size x size pixels, a ray through the middle of each, row by row from the top.
+inline std::vector<Rgb> traced_picture(const SceneDescription& scene, int size) {
+  const CompiledScene compiled = compile(scene);
+  View view = scene.view.value();
+  view.width = view.height = size;
+  Tracer tracer(compiled, compiled.camera(view));
+  std::vector<Rgb> picture;
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) picture.emplace_back(tracer.trace(x + 0.5, y + 0.5).color);
+  }
+  return picture;
+}
+
+// Share of pixels that differ by more than one display step of 1/255 in some channel; no number differs.
+inline double share_different(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const Rgb d = a[i] - b[i];
+    count += !(std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}) <= 1 / 255.0) ? 1u : 0u;
+  }
+  return static_cast<double>(count) / static_cast<double>(a.size());
+}
+
+}  // namespace pprt::test
