@@ -31,8 +31,8 @@ struct RenderPlan {
   std::string warnings;  // of scene and script, for people
 };
 
-// A still looks converged at this mean triangle weight: the structural similarity to a converged picture is at least
-// 0.99 on every SPD scene tried (docs/decisions/0007-still-quality.md).
+// A still looks converged at this mean triangle weight: the structural similarity to a converged picture is
+// at least 0.99 on every SPD scene tried (docs/decisions/0007-still-quality.md).
 inline constexpr double kStillQuality = 0.005;
 
 // What can be judged from the command line alone. Throws UsageError.
