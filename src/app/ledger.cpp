@@ -14,7 +14,8 @@ Json rays_record(const RayCounts& rays) {
   return {{"primary", rays.primary},
           {"shadow", rays.shadow},
           {"reflection", rays.reflection},
-          {"refraction", rays.refraction}};
+          {"refraction", rays.refraction},
+          {"visibility", rays.visibility}};
 }
 
 void add_to(RayCounts& sum, const RayCounts& rays) {
@@ -24,6 +25,7 @@ void add_to(RayCounts& sum, const RayCounts& rays) {
   sum.reflection += rays.reflection;
   sum.refraction += rays.refraction;
   sum.total_internal_reflection += rays.total_internal_reflection;
+  sum.visibility += rays.visibility;
 }
 
 // Sums over the ranks of one frame.

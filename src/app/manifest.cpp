@@ -14,17 +14,22 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+std::string text_of(const Json& record, const char* key) {
+  const auto found = record.find(key);
+  return found != record.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
 bool all_there(const Json& files) {
-  return std::all_of(files.begin(), files.end(),
-                     [](const Json& f) { return std::filesystem::exists(f.get<std::string>()); });
+  return files.is_array() && !files.empty() && std::all_of(files.begin(), files.end(), [](const Json& f) {
+           return f.is_string() && std::filesystem::exists(f.get<std::string>());
+         });
 }
 
 }  // namespace
 
 std::filesystem::path manifest_path(const FramePattern& output) {
   const std::filesystem::path before(output.before);
-  std::string stem = before.filename().string();
-  if (!output.digits) stem += "_";
+  const std::string stem = output.digits ? before.filename().string() : before.stem().string() + "_";
   return before.parent_path() / (stem + "manifest.ndjson");
 }
 
@@ -42,20 +47,25 @@ Manifest::Manifest(const std::filesystem::path& path, const std::string& key, bo
 void Manifest::read(const std::filesystem::path& path, const std::string& key) {
   const std::string text = read_whole_file(path);
   std::istringstream lines(text);
-  bool first = true;
-  for (std::string line; std::getline(lines, line); first = false) {
-    // A line that a dying process left half-written is no line.
-    const Json record = Json::parse(line, nullptr, false);
-    if (record.is_discarded()) continue;
-    if (first && record.value("key", "") != key) {
-      throw UsageError("--resume: " + path.string() +
-                       " is of another scene or other options; --overwrite starts anew");
-    }
-    if (record.value("record", "") == "frame" && all_there(record.at("files"))) {
-      finished_.insert(record.at("frame").get<int>());
+  const auto next_record = [&lines] {
+    std::string line;
+    std::getline(lines, line);
+    // A line that a dying process left half-written, or that is no record, counts as an empty one.
+    Json record = Json::parse(line, nullptr, false);
+    return record.is_object() ? record : Json::object();
+  };
+  if (text_of(next_record(), "key") != key) {
+    throw UsageError("--resume: " + path.string() +
+                     " is of another scene or other options; --overwrite starts anew");
+  }
+  while (lines.peek() != std::istringstream::traits_type::eof()) {
+    const Json record = next_record();
+    if (text_of(record, "record") == "frame" && record.contains("frame") &&
+        record["frame"].is_number_integer() && record.contains("files") && all_there(record["files"])) {
+      finished_.insert(record["frame"].get<int>());
     }
   }
-  if (!text.empty() && text.back() != '\n') write_whole_file(path, text + "\n");
+  if (text.back() != '\n') write_whole_file(path, text + "\n");
 }
 
 void Manifest::add(const std::vector<WrittenFrame>& frames) {

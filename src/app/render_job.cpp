@@ -27,6 +27,7 @@ RenderJob decode_job(const Bytes& bytes) {
   in.get(restricted), in.get(effects);
   if (restricted) job.compile.effects = EffectSet(effects);
   in.get(job.scene_nff);
+  in.expect_end();
   return job;
 }
 

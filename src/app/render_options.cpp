@@ -3,11 +3,41 @@
 #include <cstdio>
 #include <sstream>
 
+#include <charconv>
+#include <cstdint>
+#include <sstream>
+#include <system_error>
+
 #include "app/command_line.h"
 #include "trace/effects.h"
 
 namespace pprt {
 namespace {
+
+// Numbers from `least` to `most`; unlike CLI::Range it does not let NaN through.
+CLI::Validator number_between(double least, double most) {
+  return CLI::Validator(
+      [least, most](std::string& text) -> std::string {
+        double value = 0;
+        if (CLI::detail::lexical_cast(text, value) && value >= least && value <= most) return {};
+        std::ostringstream want;
+        want << "value " << text << " is not a number from " << least << " to " << most;
+        return want.str();
+      },
+      "");
+}
+
+// Whole numbers from `least`; a minus sign would wrap round.
+CLI::Validator count_from(std::uint64_t least) {
+  return CLI::Validator(
+      [least](std::string& text) -> std::string {
+        std::uint64_t value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error == std::errc() && end == text.data() + text.size() && value >= least) return {};
+        return "value " + text + " is not a whole number from " + std::to_string(least);
+      },
+      "");
+}
 
 void add_positionals(CLI::App& app, RenderOptions& o) {
   app.add_option("SCENE", o.input,
@@ -31,7 +61,7 @@ void add_run_options(CLI::App& app, RenderOptions& o) {
       ->group(group);
   app.add_option("--fps", o.fps,
                  "Fixed frame rate, a deadline for every frame; 0: none (default: the script's)")
-      ->check(CLI::Range(0.0, 1000.0))
+      ->check(number_between(0, 1000))
       ->type_name("F")
       ->group(group);
   app.add_option("--clock", o.clock,
@@ -41,20 +71,20 @@ void add_run_options(CLI::App& app, RenderOptions& o) {
       ->type_name("CLOCK")
       ->group(group);
   app.add_option("--budget", o.budget, "Work clock: work units per rank and frame (default: 50000000 / fps)")
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 60))
+      ->check(count_from(1))
       ->type_name("N")
       ->group(group);
   app.add_option("--time", o.time, "Without a rate: stop a frame after so many seconds")
-      ->check(CLI::Range(1e-3, 1e9))
+      ->check(number_between(1e-3, 1e9))
       ->type_name("S")
       ->group(group);
   app.add_option("--samples", o.samples, "Without a rate: stop a frame at so many samples")
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40))
+      ->check(count_from(1))
       ->type_name("N")
       ->group(group);
   app.add_option("--quality", o.quality,
                  "Without a rate: stop a frame at this mean triangle weight (default: 0.005)")
-      ->check(CLI::Range(1e-12, 1e12))
+      ->check(number_between(1e-12, 1e12))
       ->type_name("Q")
       ->group(group);
   app.add_option("--balance", o.balance, "Load balancing among ranks: none")
@@ -68,6 +98,7 @@ void add_run_options(CLI::App& app, RenderOptions& o) {
       ->type_name("WAY")
       ->group(group);
   app.add_option("--seed", o.seed, "Of the pattern that every frame starts from")
+      ->check(count_from(0))
       ->capture_default_str()
       ->type_name("N")
       ->group(group);
@@ -86,6 +117,7 @@ void add_image_options(CLI::App& app, RenderOptions& o) {
       ->type_size(1)
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false)
       ->group(group);
   app.add_option("--frames", o.frames, "Render only frames A to B")->type_name("A-B")->group(group);
   app.add_option("--contact-sheet", o.contact_sheet,

@@ -33,7 +33,7 @@ class ProtocolError : public std::runtime_error {
 };
 
 // One rank's end of the network. Used by one thread. No call waits for another rank but broadcast() and
-// flush().
+// finish().
 class Communicator {
  public:
   virtual ~Communicator() = default;
@@ -50,8 +50,9 @@ class Communicator {
   // Gives every rank what rank 0 holds in `data`. All ranks call it together.
   virtual void broadcast(Bytes& data) = 0;
 
-  // Waits until all that was sent has left.
-  virtual void flush() = 0;
+  // The last call: returns when nothing that was sent here can be lost any more. What still arrives is
+  // dropped.
+  virtual void finish() = 0;
 };
 
 }  // namespace pprt

@@ -9,8 +9,8 @@
 namespace pprt {
 namespace {
 
-// Triangles of the jittered seed grid have a circumradius below two spacings, so a region needs the seeds
-// within two of its border; one more covers the jitter. Pixels.
+// A triangle whose circumcircle meets a region has its corners within two circumradii of it. Those of the
+// jittered seed grid's triangles are at most 17 pixels at a spacing of 16, so 34 would do. Pixels.
 constexpr double kSeedReach = 3 * kSeedSpacing;
 
 // Squared distance of a point to a rectangle; 0 inside.

@@ -30,7 +30,9 @@ class RecentMaximum {
 
 class WallClock final : public FrameClock {
  public:
-  WallClock(double start_s, bool crowded) : start_s_(start_s), crowded_(crowded) {}
+  // `ranks_per_core`: how many ranks share one of this host's cores, at least 1.
+  WallClock(double start_s, double period_s, double ranks_per_core)
+      : start_s_(start_s), period_s_(period_s), ranks_per_core_(ranks_per_core) {}
 
   void begin_frame(const FrameOrder& order) override {
     frame_began_s_ = monotonic_seconds();
@@ -43,7 +45,7 @@ class WallClock final : public FrameClock {
   void begin_packet() override {
     left_in_packet_ = kSamplesPerPacket;
     // With more ranks than cores, short turns keep every rank near its deadline.
-    if (crowded_) sched_yield();
+    if (ranks_per_core_ > 1) sched_yield();
   }
   bool packet_over() override {
     if (left_in_packet_-- == 0) return true;
@@ -59,6 +61,10 @@ class WallClock final : public FrameClock {
   void end_frame() override {
     if (stop_s_ > 0) after_sampling_s_.add(monotonic_seconds() - sampling_ended_s_);
   }
+  std::size_t affordable(Work work, double share) const override {
+    const double seconds = 1e-9 * static_cast<double>(price(work)) * ranks_per_core_;
+    return static_cast<std::size_t>(share * period_s_ / seconds);
+  }
   bool in_lockstep() const override { return false; }
   double lap_ms() override {
     const double now = thread_cpu_seconds(), lap = now - last_lap_s_;
@@ -72,7 +78,8 @@ class WallClock final : public FrameClock {
   static constexpr int kSamplesPerPacket = 48;
 
   double start_s_;
-  bool crowded_;
+  double period_s_;
+  double ranks_per_core_;
   double frame_began_s_ = 0;
   double stop_s_ = 0;  // when sampling must stop; 0: no rate
   double sampling_ended_s_ = 0;
@@ -106,6 +113,9 @@ class WorkClock final : public FrameClock {
     sequence_units_ += frame_units_;
     lap_began_ -= static_cast<double>(frame_units_);
   }
+  std::size_t affordable(Work work, double share) const override {
+    return static_cast<std::size_t>(share * static_cast<double>(budget_) / static_cast<double>(price(work)));
+  }
   bool in_lockstep() const override { return true; }
   double lap_ms() override {
     const double lap = static_cast<double>(frame_units_) - lap_began_;
@@ -131,9 +141,10 @@ class WorkClock final : public FrameClock {
 }  // namespace
 
 std::unique_ptr<FrameClock> make_frame_clock(const SessionSettings& settings, double start_s,
-                                             std::size_t region_pixels, bool crowded) {
+                                             std::size_t region_pixels, double ranks_per_core) {
   if (settings.clock == ClockKind::kWork) return std::make_unique<WorkClock>(settings, region_pixels);
-  return std::make_unique<WallClock>(start_s, crowded);
+  const double fps = settings.frames_per_second;
+  return std::make_unique<WallClock>(start_s, fps > 0 ? 1 / fps : 0, ranks_per_core);
 }
 
 double monotonic_seconds() {

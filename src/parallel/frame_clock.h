@@ -2,6 +2,7 @@
 // s. 4.3, 4.6).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 
@@ -31,6 +32,9 @@ class FrameClock {
   // Tells how long the frame took after sampling, so that the next frames leave enough.
   virtual void end_frame() = 0;
 
+  // With a rate: how often a piece of work fits into a share of one frame's time.
+  virtual std::size_t affordable(Work work, double share) const = 0;
+
   // Whether all ranks take the same packets and wait for each other's messages after each.
   virtual bool in_lockstep() const = 0;
 
@@ -47,7 +51,7 @@ class FrameClock {
 // `start_s` is the moment the sequence begins in terms of monotonic_seconds(); the work clock ignores it.
 // `region_pixels` is what reconstruction will have to fill.
 std::unique_ptr<FrameClock> make_frame_clock(const SessionSettings& settings, double start_s,
-                                             std::size_t region_pixels, bool crowded);
+                                             std::size_t region_pixels, double ranks_per_core);
 
 // Seconds on this host's steady clock.
 double monotonic_seconds();

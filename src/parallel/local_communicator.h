@@ -37,7 +37,7 @@ class LocalCommunicator final : public Communicator {
   void send(int to, Tag tag, Bytes payload) override;
   std::optional<Message> receive() override { return network_.collect(rank_); }
   void broadcast(Bytes& data) override;
-  void flush() override {}
+  void finish() override {}
 
  private:
   LocalNetwork& network_;

@@ -48,10 +48,6 @@ Sample from_wire(const WireSample& w) {
   return s;
 }
 
-void expect_end(const WireReader& reader) {
-  if (!reader.at_end()) throw ProtocolError("a message holds more than it should");
-}
-
 }  // namespace
 
 Bytes encode(const FrameOrder& order) {
@@ -66,7 +62,7 @@ FrameOrder decode_frame_order(std::span<const std::byte> bytes) {
   FrameOrder order;
   in.get(order.end), in.get(order.index), in.get(order.number), in.get(order.cut), in.get(order.carry);
   in.get(order.camera), in.get(order.deadline_s), in.get(order.reserve_s);
-  expect_end(in);
+  in.expect_end();
   return order;
 }
 
@@ -86,7 +82,7 @@ Bundle decode_bundle(std::span<const std::byte> bytes) {
   std::vector<WireSample> samples;
   in.get(bundle.frame_index), in.get(bundle.epoch), in.get(bundle.round), in.get(bundle.done);
   in.get_all(samples);
-  expect_end(in);
+  in.expect_end();
   bundle.samples.reserve(samples.size());
   for (const WireSample& s : samples) bundle.samples.push_back(from_wire(s));
   return bundle;
@@ -106,7 +102,7 @@ PixelMessage decode_pixels(std::span<const std::byte> bytes) {
   in.get(pixels.frame_index), in.get(pixels.report);
   in.get_all(pixels.tiles);
   in.get_all(pixels.rgb);
-  expect_end(in);
+  in.expect_end();
   return pixels;
 }
 

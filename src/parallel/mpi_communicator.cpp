@@ -119,10 +119,25 @@ void MpiCommunicator::broadcast(Bytes& data) {
   }
 }
 
-void MpiCommunicator::flush() {
-  for (impl_->reap(); !impl_->sending.empty(); impl_->reap()) {
-    std::this_thread::sleep_for(std::chrono::microseconds(100));
-  }
+void MpiCommunicator::finish() {
+  // A large message leaves only when its receiver takes it, so all go on receiving until none has anything to
+  // send.
+  const auto drain_until = [this](const auto& over) {
+    while (!over()) {
+      if (!receive()) std::this_thread::sleep_for(std::chrono::microseconds(100));
+    }
+  };
+  drain_until([this] {
+    impl_->reap();
+    return impl_->sending.empty();
+  });
+  MPI_Request all_here = MPI_REQUEST_NULL;
+  check(MPI_Ibarrier(MPI_COMM_WORLD, &all_here), "MPI_Ibarrier");
+  drain_until([&all_here] {
+    int over = 0;
+    check(MPI_Test(&all_here, &over, MPI_STATUS_IGNORE), "MPI_Test");
+    return over != 0;
+  });
 }
 
 void MpiCommunicator::abort_all(int exit_code) {

@@ -21,7 +21,7 @@ class MpiCommunicator final : public Communicator {
   void send(int to, Tag tag, Bytes payload) override;
   std::optional<Message> receive() override;
   void broadcast(Bytes& data) override;
-  void flush() override;
+  void finish() override;
 
   // Ends every rank of the run with this exit code.
   [[noreturn]] void abort_all(int exit_code);

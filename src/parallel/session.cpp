@@ -94,10 +94,11 @@ Partition equal_areas(const SessionSettings& settings, int ranks) {
 
 Worker make_worker(Communicator& network, Inbox& inbox, const SessionSettings& settings,
                    const Partition& partition, const Probe& probe, double start_s) {
-  const bool crowded = network.size() > static_cast<int>(std::thread::hardware_concurrency());
+  const double cores = std::max(1u, std::thread::hardware_concurrency());
+  const double ranks_per_core = std::max(1.0, network.size() / cores);
   const std::size_t pixels = region_of(partition, network.rank()).pixel_count();
   return Worker(network, inbox, settings, partition, probe,
-                make_frame_clock(settings, start_s, pixels, crowded));
+                make_frame_clock(settings, start_s, pixels, ranks_per_core));
 }
 
 std::optional<FrameOrder> await_order(Inbox& inbox, int index) {
@@ -127,7 +128,7 @@ void run_as_master(Communicator& network, const SessionSettings& settings, const
   while (!master.idle()) {
     if (!inbox.pump()) rest_briefly();
   }
-  network.flush();
+  network.finish();
 }
 
 void run_as_worker(Communicator& network, const SessionSettings& settings, const Probe& probe) {
@@ -138,7 +139,7 @@ void run_as_worker(Communicator& network, const SessionSettings& settings, const
   for (int index = 0; const std::optional<FrameOrder> order = await_order(inbox, index); ++index) {
     worker.render(*order);
   }
-  network.flush();
+  network.finish();
 }
 
 std::uint64_t default_budget_units(double frames_per_second) {

@@ -12,7 +12,9 @@ Bytes encode(const SessionSettings& settings) {
 
 SessionSettings decode_settings(const Bytes& bytes) {
   SessionSettings settings;
-  WireReader(bytes).get(settings);
+  WireReader in(bytes);
+  in.get(settings);
+  in.expect_end();
   return settings;
 }
 

@@ -74,7 +74,10 @@ class WireReader {
     copy_out(values.data(), values.size() * sizeof(T));
   }
 
-  bool at_end() const { return rest_.empty(); }
+  // Call it after the last value.
+  void expect_end() const {
+    if (!rest_.empty()) throw ProtocolError("a message holds more than it should");
+  }
 
  private:
   // A length that what is left can hold: a broken one must not take the memory.

@@ -44,6 +44,6 @@ inline constexpr double kWorkUnitsPerSecond = 5e7;
 inline constexpr int kRoundsPerFrame = 24;
 
 // A round's length in frames without a rate.
-inline constexpr WorkUnits kUnitsPerFreeRound = 2'000'000;
+inline constexpr WorkUnits kUnitsPerFreeRound = 250'000;
 
 }  // namespace pprt

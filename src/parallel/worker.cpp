@@ -38,10 +38,11 @@ std::vector<float> flat_rgb(const RegionPixels& pixels, const Region& region) {
   return rgb;
 }
 
-RayCounts operator-(const RayCounts& a, const RayCounts& b) {
-  return {a.primary - b.primary,       a.eye_hits - b.eye_hits,
-          a.shadow - b.shadow,         a.reflection - b.reflection,
-          a.refraction - b.refraction, a.total_internal_reflection - b.total_internal_reflection};
+RayCounts operator-(RayCounts a, const RayCounts& b) {
+  a.primary -= b.primary, a.eye_hits -= b.eye_hits, a.shadow -= b.shadow, a.reflection -= b.reflection;
+  a.refraction -= b.refraction, a.total_internal_reflection -= b.total_internal_reflection;
+  a.visibility -= b.visibility;
+  return a;
 }
 
 }  // namespace
@@ -101,7 +102,11 @@ std::vector<Sample> Worker::cast(const FrameOrder& order) {
   cast_settings.method = order.carry == Carry::kCastVerified ? CastMethod::kVerified : CastMethod::kPaper;
   clock_->spend(Work::kCastSample, in_region_);
   if (cast_settings.method == CastMethod::kVerified) clock_->spend(Work::kRay, in_region_);
-  return cast_samples(mesh_, order.camera, order.number, cast_settings, probe_.visible).survivors;
+  std::vector<Sample> survivors =
+      cast_samples(mesh_, order.camera, order.number, cast_settings, probe_.visible).survivors;
+  // Putting them back may take half of a frame at most; the rest is for new samples.
+  if (order.deadline_s > 0) keep_youngest(survivors, clock_->affordable(Work::kOwnSample, 0.5));
+  return survivors;
 }
 
 void Worker::trace_seeds(const FrameOrder& order) {
@@ -159,7 +164,8 @@ void Worker::receive_seeds(const FrameOrder& order) {
     for (const Inbox::Arrived& arrived : bundles) {
       for (const Sample& s : arrived.bundle.samples) {
         if (mesh_.region().owns_point(s.x, s.y) == seeds) continue;
-        const bool inserted = insert(s, {arrived.from, seeds});
+        // Who hands a survivor over keeps none: it is this rank's to tell, to the former owner too.
+        const bool inserted = insert(s, {seeds ? arrived.from : network_.rank(), seeds});
         ++(inserted ? report_.samples_received : report_.samples_known);
         report_.samples_cast += inserted && !seeds;
       }
@@ -171,17 +177,20 @@ void Worker::receive_seeds(const FrameOrder& order) {
 // ------------------------------------------------------------------------------------------------------
 
 void Worker::sample(const FrameOrder& order) {
+  const bool free = order.deadline_s == 0;
   for (int round = kSeedRound + 1;; ++round) {
     clock_->begin_packet();
-    bool idle = false, newly_done = false;
+    bool idle = false, traced = false;
     while (!idle && !clock_->packet_over()) {
-      idle = done_ || !refine_once(order);
-      if (order.deadline_s == 0 && !done_ && (idle || goal_reached())) newly_done = done_ = true;
+      idle = (free && goal_reached()) || !refine_once(order);
+      traced = traced || !idle;
     }
-    send_bundles(order, round, newly_done);
+    // A goal counts when it still holds after what the others have sent: not in the round that reached it.
+    const bool was_done = std::exchange(done_, free && idle && !traced);
+    send_bundles(order, round, done_ != was_done);
     receive_bundles(order, round);
-    if (clock_->sampling_over() || (order.deadline_s == 0 && all_done())) return;
-    if (idle && !clock_->in_lockstep()) await_news();
+    if (clock_->sampling_over() || (free && all_done())) return;
+    if (idle && !traced && !clock_->in_lockstep()) await_news();
   }
 }
 
@@ -225,7 +234,7 @@ void Worker::receive_bundles(const FrameOrder& order, int round) {
     };
     const auto expected = static_cast<std::size_t>(network_.size() - 1);
     await([&] { return inbox_.count_bundles(of_this_round) >= expected; });
-    for (const Inbox::Arrived& arrived : inbox_.take_bundles(of_this_round)) take_in(arrived);
+    for (const Inbox::Arrived& arrived : inbox_.take_bundles(of_this_round)) take_in(arrived, order);
     return;
   }
   inbox_.pump();
@@ -233,11 +242,13 @@ void Worker::receive_bundles(const FrameOrder& order, int round) {
   const auto due = [&](const Inbox::Arrived& a) {
     return a.bundle.epoch <= epoch_ && a.bundle.frame_index <= order.index;
   };
-  for (const Inbox::Arrived& arrived : inbox_.take_bundles(due)) take_in(arrived);
+  for (const Inbox::Arrived& arrived : inbox_.take_bundles(due)) take_in(arrived, order);
 }
 
-void Worker::take_in(const Inbox::Arrived& arrived) {
-  if (arrived.bundle.done) peer_done_[static_cast<std::size_t>(arrived.from)] = 1;
+void Worker::take_in(const Inbox::Arrived& arrived, const FrameOrder& order) {
+  if (arrived.bundle.frame_index == order.index) {
+    peer_done_[static_cast<std::size_t>(arrived.from)] = arrived.bundle.done;
+  }
   if (arrived.bundle.epoch != epoch_) return;
   for (const Sample& s : arrived.bundle.samples) {
     ++(insert(s, {arrived.from, false}) ? report_.samples_received : report_.samples_known);

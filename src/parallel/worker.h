@@ -50,7 +50,7 @@ class Worker {
   bool all_done() const;
   void send_bundles(const FrameOrder& order, int round, bool to_all);
   void receive_bundles(const FrameOrder& order, int round);
-  void take_in(const Inbox::Arrived& arrived);
+  void take_in(const Inbox::Arrived& arrived, const FrameOrder& order);
 
   void reconstruct_and_send(const FrameOrder& order);
   RankReport finish_report();

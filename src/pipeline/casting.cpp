@@ -1,6 +1,8 @@
 #include "pipeline/casting.h"
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -94,6 +96,17 @@ CastResult cast_samples(const SampleMesh& mesh, const Camera& next, int next_fra
     survivor.y = flight.point.y;
   }
   return result;
+}
+
+void keep_youngest(std::vector<Sample>& samples, std::size_t limit) {
+  if (samples.size() <= limit) return;
+  const auto younger = [](const Sample& a, const Sample& b) {
+    return a.frame != b.frame ? a.frame > b.frame : a.id < b.id;
+  };
+  std::vector<Sample> ordered = samples;
+  const auto first_dropped = ordered.begin() + static_cast<std::ptrdiff_t>(limit);
+  std::nth_element(ordered.begin(), first_dropped, ordered.end(), younger);
+  std::erase_if(samples, [&](const Sample& s) { return !younger(s, *first_dropped); });
 }
 
 }  // namespace pprt

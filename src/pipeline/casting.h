@@ -38,4 +38,8 @@ using Visibility = std::function<bool(const Vec3f& hit, bool at_infinity)>;
 CastResult cast_samples(const SampleMesh& mesh, const Camera& next, int next_frame,
                         const CastSettings& settings, const Visibility& visible);
 
+// Drops the oldest samples beyond `limit`; of equal age those with the greatest id. The rest keep their
+// order.
+void keep_youngest(std::vector<Sample>& samples, std::size_t limit);
+
 }  // namespace pprt

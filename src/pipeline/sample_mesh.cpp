@@ -52,6 +52,7 @@ void SampleMesh::Impl::clear() {
   created_.clear();
   queue_.clear();
   tile_weights_.assign(tiles, {});
+  region_weights_ = {};
   latest_in_tile_.assign(tiles, Vertex());
   planar_ = false;
   wanted_.reset();
@@ -108,16 +109,6 @@ std::optional<Vec2d> SampleMesh::Impl::next_point() {
   return std::nullopt;
 }
 
-double SampleMesh::Impl::refinement() const {
-  TileWeights sum;
-  for (const int tile : region_.tiles()) {
-    const TileWeights& t = tile_weights_[static_cast<std::size_t>(tile)];
-    sum.total_weight += t.total_weight;
-    sum.triangles += t.triangles;
-  }
-  return sum.triangles > 0 ? sum.total_weight / static_cast<double>(sum.triangles) : 0;
-}
-
 SampleMesh::Impl::Location SampleMesh::Impl::locate(const Vec2d& point, Face near) const {
   Location at;
   at.face = delaunay_.locate({point.x, point.y}, at.type, at.index, near);
@@ -138,20 +129,25 @@ void SampleMesh::Impl::adopt(Face face) {
   info.stamp = next_stamp_++;
   info.weight = refinement_weight(shape, display_variance(a.color, b.color, c.color));
   info.tile = region_.grid().tile_at(point.x, point.y);
-  TileWeights& tile = tile_weights_[static_cast<std::size_t>(info.tile)];
-  tile.total_weight += info.weight;
-  ++tile.triangles;
+  count(info, 1);
   if (info.weight > 0 && region_.owns_tile(info.tile)) queue_.push(info.weight, {face, info.stamp});
   created_.push_back({shape.circumcircle, {a.sample, b.sample, c.sample}});
 }
 
 void SampleMesh::Impl::forget(FaceInfo& info) {
   if (info.stamp == 0) return;
-  TileWeights& tile = tile_weights_[static_cast<std::size_t>(info.tile)];
-  tile.total_weight -= info.weight;
-  // The last triangle takes the rounding of the running sum with it.
-  if (--tile.triangles == 0) tile.total_weight = 0;
+  count(info, -1);
   info.stamp = 0;
+}
+
+void SampleMesh::Impl::count(const FaceInfo& info, int sign) {
+  const auto change = [&](TileWeights& weights) {
+    weights.triangles += sign;
+    // The last triangle takes the rounding of the running sum with it.
+    weights.total_weight = weights.triangles == 0 ? 0 : weights.total_weight + sign * info.weight;
+  };
+  change(tile_weights_[static_cast<std::size_t>(info.tile)]);
+  if (region_.owns_tile(info.tile)) change(region_weights_);
 }
 
 void SampleMesh::Impl::rescan() {
@@ -159,6 +155,7 @@ void SampleMesh::Impl::rescan() {
   wanted_.reset();
   created_.clear();
   tile_weights_.assign(tile_weights_.size(), {});
+  region_weights_ = {};
   for (auto face = delaunay_.finite_faces_begin(); face != delaunay_.finite_faces_end(); ++face) adopt(face);
 }
 

@@ -45,7 +45,10 @@ class SampleMesh::Impl {
   void set_region(const Region& region);
   bool insert(const Sample& sample);
   std::optional<Vec2d> next_point();
-  double refinement() const;
+  double refinement() const {
+    const auto count = static_cast<double>(region_weights_.triangles);
+    return region_weights_.triangles > 0 ? region_weights_.total_weight / count : 0;
+  }
 
   const Region& region() const { return region_; }
   const Delaunay& delaunay() const { return delaunay_; }
@@ -66,9 +69,10 @@ class SampleMesh::Impl {
 
   Location locate(const Vec2d& point, Face near) const;
   Face face_near(const Vec2d& point) const;
-  void adopt(Face face);        // a triangle that is new: statistics, queue, created_
-  void forget(FaceInfo& info);  // a triangle that is gone: statistics
-  void rescan();                // every triangle anew
+  void adopt(Face face);                       // a triangle that is new: statistics, queue, created_
+  void count(const FaceInfo& info, int sign);  // into, or out of, the statistics
+  void forget(FaceInfo& info);                 // a triangle that is gone: statistics
+  void rescan();                               // every triangle anew
   Vec2d refinement_point(Face face, const Vec2d& circumcenter) const;
   Vec2d corner(Face face, int i) const;
 
@@ -77,6 +81,7 @@ class SampleMesh::Impl {
   std::vector<Sample> samples_;
   std::vector<NewTriangle> created_;
   std::vector<TileWeights> tile_weights_;
+  TileWeights region_weights_;          // over the region's tiles
   std::vector<Vertex> latest_in_tile_;  // where to start a walk; null handles before the first
   BucketQueue<QueueEntry> queue_;
   std::uint32_t next_stamp_ = 1;

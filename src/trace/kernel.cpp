@@ -91,8 +91,10 @@ Vec3d mirrored(const Vec3d& direction, const Vec3d& normal) {
 bool refracted(const Vec3d& direction, const Vec3d& normal, double index_ratio, Vec3d& result) {
   const double cosine = -direction.dot(normal);
   const double sine2 = index_ratio * index_ratio * (1 - cosine * cosine);
-  if (sine2 >= 1) return false;
-  result = unit(direction * index_ratio + normal * (index_ratio * cosine - std::sqrt(1 - sine2)));
+  if (!(sine2 < 1)) return false;
+  // The tangential part by itself: added up otherwise, an extreme ratio cancels both parts at perpendicular
+  // incidence.
+  result = unit((direction + normal * cosine) * index_ratio - normal * std::sqrt(1 - sine2));
   return true;
 }
 

@@ -35,7 +35,7 @@ int not_numbers(const SceneDescription& scene) {
 
 TEST_CASE("materials at the ends of their ranges give finite colours") {
   for (const double shine : {0.0, 1e-30, 1.0, 99999.0, 100000.0, 1e30}) {
-    for (const double index : {0.0, -1.0, 1e-9, 1.0, 1.5, 1e9}) {
+    for (const double index : {0.0, -1.0, 1e-30, 1e-9, 1.0, 1.5, 1e9, 1e30}) {
       for (const double transmittance : {0.0, 1.0}) {
         const Material material{{1, 1, 1}, 1, 1, shine, transmittance, index};
         CAPTURE(shine, index, transmittance);

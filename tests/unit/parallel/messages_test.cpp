@@ -177,7 +177,7 @@ TEST_CASE("texts travel with their length") {
   in.get(first), in.get(second);
   CHECK(first == "tree");
   CHECK(second.empty());
-  CHECK(in.at_end());
+  CHECK_NOTHROW(in.expect_end());
 }
 
 }  // namespace pprt

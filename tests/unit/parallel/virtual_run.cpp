@@ -110,7 +110,7 @@ class WatchedCommunicator final : public Communicator {
     return message ? (last_arrival_s_ = monotonic_seconds(), message) : look();
   }
   void broadcast(Bytes& data) override { inner_.broadcast(data); }
-  void flush() override { inner_.flush(); }
+  void finish() override { inner_.finish(); }
 
  private:
   std::optional<Message> look() const {
