@@ -115,7 +115,7 @@ void reconstruction(benchmark::State& state) {
   refine(mesh, static_cast<std::size_t>(state.range(0)), look_up);
   RegionPixels pixels;
   ReconstructionBuffers buffers;
-  for (auto _ : state) reconstruct(mesh, pixels, buffers);
+  for (auto _ : state) reconstruct(mesh, mesh.region().bounds(), pixels, buffers);
 }
 BENCHMARK(reconstruction)->Arg(4000)->Arg(16000)->Arg(64000)->Unit(benchmark::kMillisecond);
 

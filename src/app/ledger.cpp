@@ -44,6 +44,9 @@ RankReport sum_of(const std::vector<RankReport>& ranks) {
     sum.cpu_ms.reconstruction += r.cpu_ms.reconstruction;
     sum.cpu_ms.balancing += r.cpu_ms.balancing;
     sum.cpu_ms.idle += r.cpu_ms.idle;
+    sum.tiles_given += r.tiles_given;
+    sum.bytes_progress += r.bytes_progress;
+    sum.bytes_balance += r.bytes_balance;
     sum.bytes_samples += r.bytes_samples;
     sum.bytes_pixels += r.bytes_pixels;
   }
@@ -98,9 +101,12 @@ Json frame_record(const FinishedFrame& frame) {
             {"balancing", sum.cpu_ms.balancing},
             {"idle", sum.cpu_ms.idle}}},
           {"bytes",
-           {{"samples", sum.bytes_samples}, {"progress", 0}, {"balance", 0}, {"pixels", sum.bytes_pixels}}},
-          {"tiles_moved", 0},
-          {"global_balance", false},
+           {{"samples", sum.bytes_samples},
+            {"progress", sum.bytes_progress},
+            {"balance", sum.bytes_balance},
+            {"pixels", sum.bytes_pixels}}},
+          {"tiles_moved", sum.tiles_given},
+          {"global_balance", frame.global_balance},
           {"non_finite", sum.non_finite}};
 }
 

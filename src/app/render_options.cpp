@@ -87,8 +87,8 @@ void add_run_options(CLI::App& app, RenderOptions& o) {
       ->check(number_between(1e-12, 1e12))
       ->type_name("Q")
       ->group(group);
-  app.add_option("--balance", o.balance, "Load balancing among ranks: none")
-      ->check(CLI::IsMember({"none"}))
+  app.add_option("--balance", o.balance, "Load balancing among ranks: none, local, global or combined")
+      ->check(CLI::IsMember({"none", "local", "global", "combined"}))
       ->capture_default_str()
       ->type_name("MODE")
       ->group(group);
@@ -96,6 +96,12 @@ void add_run_options(CLI::App& app, RenderOptions& o) {
       ->check(CLI::IsMember({"off", "paper", "verified", "auto"}))
       ->capture_default_str()
       ->type_name("WAY")
+      ->group(group);
+  app.add_option("--keep-samples", o.keep_samples,
+                 "When the image is cut anew: on hands samples over, off drops them")
+      ->check(CLI::IsMember({"on", "off"}))
+      ->capture_default_str()
+      ->type_name("WHETHER")
       ->group(group);
   app.add_option("--seed", o.seed, "Of the pattern that every frame starts from")
       ->check(count_from(0))

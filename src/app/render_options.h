@@ -25,8 +25,9 @@ struct RenderOptions {
   std::optional<double> time;
   std::optional<std::uint64_t> samples;
   std::optional<double> quality;
-  std::string balance = "none";
+  std::string balance = "combined";
   std::string cast = "auto";
+  std::string keep_samples = "on";
   std::uint64_t seed = 1;
 
   std::string size;                  // "WxH"; empty: the script's or the scene's

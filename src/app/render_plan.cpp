@@ -151,6 +151,12 @@ CastChoice cast_choice(const std::string& word) {
   return word == "verified" ? CastChoice::kVerified : CastChoice::kAuto;
 }
 
+BalanceMode balance_mode(const std::string& word) {
+  if (word == "none") return BalanceMode::kNone;
+  if (word == "local") return BalanceMode::kLocal;
+  return word == "global" ? BalanceMode::kGlobal : BalanceMode::kCombined;
+}
+
 double frame_rate(const RenderOptions& options, const Sources& sources) {
   if (options.fps) return *options.fps;
   return sources.script ? sources.script->animation.fps : 0;
@@ -162,7 +168,9 @@ SessionSettings settle(const RenderOptions& options, const View& view, double fp
   settings.height = view.height;
   settings.clock = options.clock == "work" ? ClockKind::kWork : ClockKind::kWall;
   settings.frames_per_second = fps;
+  settings.balance = balance_mode(options.balance);
   settings.cast = cast_choice(options.cast);
+  settings.keep_samples = options.keep_samples == "on";
   settings.seed = options.seed;
   const bool has_stop_rule = options.time || options.samples || options.quality;
   if (fps > 0) {

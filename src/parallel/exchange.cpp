@@ -1,6 +1,7 @@
 #include "parallel/exchange.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -34,6 +35,11 @@ TileRange tiles_around(const TileGrid& grid, const Circle& circle) {
           tile(c.x + radius, grid.columns()), tile(c.y + radius, grid.rows())};
 }
 
+std::int32_t owner_at(const Partition& partition, int column, int row) {
+  return partition.owner[static_cast<std::size_t>(row) * static_cast<std::size_t>(partition.grid.columns()) +
+                         static_cast<std::size_t>(column)];
+}
+
 // Per tile of the rank: a lower bound of the distance of its points to any foreign tile; 0 for foreign tiles.
 // Tiles within `d` steps (diagonals count one) that are all owned keep (d) tile widths between.
 std::vector<double> distances_inside(const Partition& partition, int rank) {
@@ -65,29 +71,29 @@ std::vector<double> distances_inside(const Partition& partition, int rank) {
   return inside;
 }
 
-double distance_squared(const PixelRect& a, const PixelRect& b) {
-  const double dx = std::max({a.x0 - b.x1, 0, b.x0 - a.x1});
-  const double dy = std::max({a.y0 - b.y1, 0, b.y0 - a.y1});
-  return dx * dx + dy * dy;
+// Other ranks with a tile within so many rows and columns of one of the rank's own, ascending.
+std::vector<int> ranks_around(const Partition& partition, int rank, int tiles_away) {
+  const int columns = partition.grid.columns(), rows = partition.grid.rows();
+  std::vector<std::uint8_t> near(static_cast<std::size_t>(partition.ranks), 0);
+  for (int y = 0; y < rows; ++y) {
+    for (int x = 0; x < columns; ++x) {
+      if (owner_at(partition, x, y) != rank) continue;
+      for (int v = std::max(y - tiles_away, 0); v <= std::min(y + tiles_away, rows - 1); ++v) {
+        for (int u = std::max(x - tiles_away, 0); u <= std::min(x + tiles_away, columns - 1); ++u) {
+          near[static_cast<std::size_t>(owner_at(partition, u, v))] = 1;
+        }
+      }
+    }
+  }
+  std::vector<int> others;
+  for (int r = 0; r < partition.ranks; ++r) {
+    if (r != rank && near[static_cast<std::size_t>(r)] != 0) others.push_back(r);
+  }
+  return others;
 }
 
-// Other ranks with a tile no farther than `reach` pixels from one of the rank's own, ascending.
-std::vector<int> peers_within(const Partition& partition, int rank, double reach) {
-  std::vector<std::uint8_t> near(static_cast<std::size_t>(partition.ranks), 0);
-  const std::vector<int> own = region_of(partition, rank).tiles();
-  for (std::size_t tile = 0; tile < partition.owner.size(); ++tile) {
-    std::uint8_t& mark = near[static_cast<std::size_t>(partition.owner[tile])];
-    if (mark != 0 || partition.owner[tile] == rank) continue;
-    const PixelRect rect = partition.grid.pixels(static_cast<int>(tile));
-    mark = std::any_of(own.begin(), own.end(), [&](int t) {
-      return distance_squared(partition.grid.pixels(t), rect) <= reach * reach;
-    });
-  }
-  std::vector<int> peers;
-  for (int r = 0; r < partition.ranks; ++r) {
-    if (near[static_cast<std::size_t>(r)] != 0) peers.push_back(r);
-  }
-  return peers;
+int tiles_of_seed_reach(const Partition& partition) {
+  return static_cast<int>(std::ceil(kSeedReach / partition.grid.tile_size)) + 1;
 }
 
 }  // namespace
@@ -98,8 +104,39 @@ SampleExchange::SampleExchange(const Partition& partition, int rank)
       known_by_(partition.ranks),
       outbox_(static_cast<std::size_t>(partition.ranks)),
       inside_by_(distances_inside(partition, rank)),
-      seed_peers_(peers_within(partition, rank, kSeedReach)),
+      seed_peers_(ranks_around(partition, rank, tiles_of_seed_reach(partition))),
+      neighbours_(ranks_around(partition, rank, 1)),
       touch_stamp_(static_cast<std::size_t>(partition.ranks), 0) {}
+
+void SampleExchange::repartition(const Partition& partition) {
+  partition_ = partition;
+  inside_by_ = distances_inside(partition, rank_);
+  seed_peers_ = ranks_around(partition, rank_, tiles_of_seed_reach(partition));
+  neighbours_ = ranks_around(partition, rank_, 1);
+}
+
+void SampleExchange::introduce(const SampleMesh& mesh, std::span<const int> tiles, int taker) {
+  const std::span<const Sample> samples = mesh.samples();
+  const auto corner = [&](std::uint32_t i) { return Vec2d(samples[i].x, samples[i].y); };
+  for (const std::array<std::uint32_t, 3>& t : triangles(mesh)) {
+    const Circle circle = triangle_shape(corner(t[0]), corner(t[1]), corner(t[2])).circumcircle;
+    const bool meets = std::any_of(tiles.begin(), tiles.end(), [&](int tile) {
+      return distance_squared(circle.center, partition_.grid.pixels(tile)) <= circle.radius_squared;
+    });
+    if (!meets) continue;
+    for (const std::uint32_t sample : t) tell(mesh, sample, taker);
+  }
+}
+
+std::vector<std::uint32_t> SampleExchange::known_in_tiles(const SampleMesh& mesh, int rank) const {
+  std::vector<std::uint32_t> known(partition_.owner.size(), 0);
+  const std::span<const Sample> samples = mesh.samples();
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (!known_by_.contains(i, rank)) continue;
+    ++known[static_cast<std::size_t>(partition_.grid.tile_at(samples[i].x, samples[i].y))];
+  }
+  return known;
+}
 
 void SampleExchange::clear() {
   known_by_.clear();

@@ -27,9 +27,24 @@ class SampleExchange {
                                                     // for there is no triangulation yet to ask
   void seeded_elsewhere(int from);                  // another rank's seed: told to all by that rank
 
+  const Partition& partition() const { return partition_; }
+
+  // Tiles have new owners; the mesh keeps its samples.
+  void repartition(const Partition& partition);
+
+  // Tells `taker` every corner of the triangles whose circumcircle meets one of these tiles. Call it before
+  // the tiles are the taker's.
+  void introduce(const SampleMesh& mesh, std::span<const int> tiles, int taker);
+
+  // How many samples of each tile `rank` knows.
+  std::vector<std::uint32_t> known_in_tiles(const SampleMesh& mesh, int rank) const;
+
   // Other ranks whose region lies within reach of the own one's seeds. Symmetric: i is j's peer when j is
   // i's.
   const std::vector<int>& seed_peers() const { return seed_peers_; }
+
+  // Other ranks that have a tile beside one of the own ones.
+  const std::vector<int>& neighbours() const { return neighbours_; }
 
   int owner_of(double x, double y) const {
     return partition_.owner[static_cast<std::size_t>(partition_.grid.tile_at(x, y))];
@@ -51,6 +66,7 @@ class SampleExchange {
   std::vector<std::vector<Sample>> outbox_;  // per rank
   std::vector<double> inside_by_;  // per tile: distance in pixels that keeps a point of it from other regions
   std::vector<int> seed_peers_;
+  std::vector<int> neighbours_;
   std::vector<int> touched_;
   std::vector<std::uint32_t> touch_stamp_;  // per rank, to list each once
   std::uint32_t stamp_ = 0;

@@ -65,6 +65,7 @@ class WallClock final : public FrameClock {
     const double seconds = 1e-9 * static_cast<double>(price(work)) * ranks_per_core_;
     return static_cast<std::size_t>(share * period_s_ / seconds);
   }
+  void region_changed(std::size_t) override {}
   bool in_lockstep() const override { return false; }
   double lap_ms() override {
     const double now = thread_cpu_seconds(), lap = now - last_lap_s_;
@@ -95,16 +96,16 @@ class WorkClock final : public FrameClock {
         reconstruction_(price(Work::kPixel) * region_pixels) {}
 
   void begin_frame(const FrameOrder&) override {
-    // Besides reconstruction, a round's worth is kept for what the last exchange brings.
-    const WorkUnits kept = reconstruction_ + budget_ / kRoundsPerFrame;
-    sampling_ = budget_ > kept ? budget_ - kept : 0;
     frame_units_ = 0;
     round_ = 0;
   }
   void spend(Work work, std::uint64_t count) override { frame_units_ += price(work) * count; }
   void begin_packet() override {
     ++round_;
-    round_end_ = budget_ > 0 ? sampling_ * static_cast<WorkUnits>(round_) / kRoundsPerFrame
+    // Besides reconstruction, a round's worth is kept for what the last exchange brings.
+    const WorkUnits kept = reconstruction_ + budget_ / kRoundsPerFrame;
+    const WorkUnits sampling = budget_ > kept ? budget_ - kept : 0;
+    round_end_ = budget_ > 0 ? sampling * static_cast<WorkUnits>(round_) / kRoundsPerFrame
                              : static_cast<WorkUnits>(round_) * kUnitsPerFreeRound;
   }
   bool packet_over() override { return frame_units_ >= round_end_; }
@@ -116,6 +117,7 @@ class WorkClock final : public FrameClock {
   std::size_t affordable(Work work, double share) const override {
     return static_cast<std::size_t>(share * static_cast<double>(budget_) / static_cast<double>(price(work)));
   }
+  void region_changed(std::size_t pixels) override { reconstruction_ = price(Work::kPixel) * pixels; }
   bool in_lockstep() const override { return true; }
   double lap_ms() override {
     const double lap = static_cast<double>(frame_units_) - lap_began_;
@@ -130,7 +132,6 @@ class WorkClock final : public FrameClock {
  private:
   WorkUnits budget_;          // a frame's; 0: no rate
   WorkUnits reconstruction_;  // what it will cost
-  WorkUnits sampling_ = 0;    // what is left for sampling
   WorkUnits frame_units_ = 0;
   WorkUnits sequence_units_ = 0;
   WorkUnits round_end_ = 0;

@@ -16,7 +16,7 @@ class FrameClock {
  public:
   virtual ~FrameClock() = default;
 
-  // A frame begins; `reserve` is what must follow its sampling: seconds of wall time, or work units.
+  // A frame begins.
   virtual void begin_frame(const FrameOrder& order) = 0;
 
   // Counts work (a no-op for wall time: it passes by itself).
@@ -40,6 +40,9 @@ class FrameClock {
 
   // Milliseconds of this rank's CPU (work clock: units / 1e6) since the last call.
   virtual double lap_ms() = 0;
+
+  // The region has so many pixels from now on.
+  virtual void region_changed(std::size_t pixels) = 0;
 
   // Seconds since this frame began (work clock: units / kWorkUnitsPerSecond).
   virtual double frame_seconds() const = 0;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "parallel/frame_clock.h"
+#include "parallel/global_balance.h"
 #include "parallel/work_units.h"
 
 namespace pprt {
@@ -54,8 +55,15 @@ void Master::order_next() {
     order.camera = request->camera;
     if (settings_.frames_per_second > 0) order.deadline_s = (order.index + 1) / settings_.frames_per_second;
     order.reserve_s = reserve_s();
-    assemblies_[order.index] = {order, Image(settings_.width, settings_.height),
-                                std::vector<RankReport>(static_cast<std::size_t>(network_.size())),
+    if (!next_owners_.empty()) ++generation_;
+    order.owners = std::exchange(next_owners_, {});
+    order.generation = generation_;
+    const auto ranks = static_cast<std::size_t>(network_.size());
+    assemblies_[order.index] = {order,
+                                Image(settings_.width, settings_.height),
+                                std::vector<RankReport>(ranks),
+                                std::vector<std::vector<TileReport>>(ranks),
+                                std::vector<std::uint8_t>(partition_.owner.size(), 0),
                                 network_.size()};
     before_ = request;
   } else {
@@ -78,23 +86,43 @@ Carry Master::carry_into(const FrameRequest& request) const {
 }
 
 void Master::paste(Assembly& assembly, int from, const PixelMessage& message) const {
-  assembly.ranks[static_cast<std::size_t>(from)] = message.report;
+  const auto rank = static_cast<std::size_t>(from);
+  assembly.ranks[rank] = message.report;
+  assembly.tiles[rank] = message.tiles;
   std::size_t next = 0;
-  for (const std::int32_t tile : message.tiles) {
+  const auto paste_tile = [&](std::int32_t tile, bool by_owner) {
     if (tile < 0 || tile >= partition_.grid.tile_count())
       throw ProtocolError("pixels of a tile that is none");
     const PixelRect rect = partition_.grid.pixels(tile);
     if (message.rgb.size() - next < 3 * rect.area()) throw ProtocolError("pixels are missing in a message");
+    std::uint8_t& shown = assembly.shown_by_owner[static_cast<std::size_t>(tile)];
+    const bool stands = shown != 0 && !by_owner;  // what a former owner sends only fills a gap
+    shown = shown != 0 || by_owner;
     for (int y = rect.y0; y < rect.y1; ++y) {
       for (int x = rect.x0; x < rect.x1; ++x, next += 3) {
+        if (stands) continue;
         assembly.image.at(x, y) = Color(message.rgb[next], message.rgb[next + 1], message.rgb[next + 2]);
       }
     }
-  }
+  };
+  for (const TileReport& tile : message.tiles) paste_tile(tile.tile, true);
+  for (const std::int32_t tile : message.given) paste_tile(tile, false);
+}
+
+// From what the frame's tiles took, the partition for the next order; in combined only where it is worth it.
+void Master::balance_globally(const Assembly& assembly) {
+  const bool always = settings_.balance == BalanceMode::kGlobal;
+  if (!always && settings_.balance != BalanceMode::kCombined) return;
+  if (network_.size() == 1 || (!always && imbalance(assembly.tiles) <= kImbalanceTrigger)) return;
+  next_owners_ =
+      bisect(partition_.grid, predicted_costs(partition_.grid, assembly.tiles), network_.size()).owner;
 }
 
 void Master::deliver(Assembly& assembly) {
+  ++delivered_;
+  balance_globally(assembly);
   FinishedFrame frame;
+  frame.global_balance = !assembly.order.owners.empty();
   const double period = settings_.frames_per_second > 0 ? 1 / settings_.frames_per_second : 0;
   if (settings_.clock == ClockKind::kWork) {
     double slowest = 0;

@@ -31,8 +31,9 @@ struct FinishedFrame {
   FrameOrder order;
   Image image;
   std::vector<RankReport> ranks;
-  double finished_s = 0;  // whole at the master, since the start of the sequence (work clock: virtual)
-  double late_ms = 0;     // after its deadline; <= 0: on time; 0 without a rate
+  double finished_s = 0;        // whole at the master, since the start of the sequence (work clock: virtual)
+  bool global_balance = false;  // a new partition was in force from this frame on
+  double late_ms = 0;           // after its deadline; <= 0: on time; 0 without a rate
 };
 using FrameSink = std::function<void(FinishedFrame&&)>;
 
@@ -50,6 +51,9 @@ class Master {
 
   void handle(const Message& message);
 
+  // Whether all frames before this one are whole.
+  bool has_delivered_before(int index) const { return delivered_ >= index; }
+
   // Whether every frame ordered has been delivered.
   bool idle() const { return assemblies_.empty(); }
 
@@ -58,12 +62,15 @@ class Master {
     FrameOrder order;
     Image image;
     std::vector<RankReport> ranks;
-    int missing = 0;  // ranks whose pixels have not come
+    std::vector<std::vector<TileReport>> tiles;  // per rank
+    std::vector<std::uint8_t> shown_by_owner;    // per tile
+    int missing = 0;                             // ranks whose pixels have not come
   };
 
   void order_next();
   Carry carry_into(const FrameRequest& request) const;
   void paste(Assembly& assembly, int from, const PixelMessage& message) const;
+  void balance_globally(const Assembly& assembly);
   void deliver(Assembly& assembly);
   void learn_reserve(const Assembly& assembly, double finished_s);
   double reserve_s() const;
@@ -73,8 +80,11 @@ class Master {
   Partition partition_;
   CameraSource source_;
   FrameSink sink_;
-  std::map<int, Assembly> assemblies_;  // by frame index
-  std::optional<FrameRequest> before_;  // the frame ordered last
+  std::map<int, Assembly> assemblies_;     // by frame index
+  std::optional<FrameRequest> before_;     // the frame ordered last
+  std::vector<std::int32_t> next_owners_;  // a new partition, for the next order
+  std::uint32_t generation_ = 0;           // of the partition ordered last
+  int delivered_ = 0;                      // frames that are whole
   bool ended_ = false;
   int next_index_ = 0;
   double start_s_ = 0;

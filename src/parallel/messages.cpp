@@ -53,7 +53,8 @@ Sample from_wire(const WireSample& w) {
 Bytes encode(const FrameOrder& order) {
   WireWriter out;
   out.put(order.end), out.put(order.index), out.put(order.number), out.put(order.cut), out.put(order.carry);
-  out.put(order.camera), out.put(order.deadline_s), out.put(order.reserve_s);
+  out.put(order.camera), out.put(order.deadline_s), out.put(order.reserve_s), out.put(order.generation);
+  out.put_all(std::span<const std::int32_t>(order.owners));
   return out.take();
 }
 
@@ -61,7 +62,8 @@ FrameOrder decode_frame_order(std::span<const std::byte> bytes) {
   WireReader in(bytes);
   FrameOrder order;
   in.get(order.end), in.get(order.index), in.get(order.number), in.get(order.cut), in.get(order.carry);
-  in.get(order.camera), in.get(order.deadline_s), in.get(order.reserve_s);
+  in.get(order.camera), in.get(order.deadline_s), in.get(order.reserve_s), in.get(order.generation);
+  in.get_all(order.owners);
   in.expect_end();
   return order;
 }
@@ -72,6 +74,8 @@ Bytes encode(const Bundle& bundle) {
   for (const Sample& s : bundle.samples) samples.push_back(to_wire(s));
   WireWriter out;
   out.put(bundle.frame_index), out.put(bundle.epoch), out.put(bundle.round), out.put(bundle.done);
+  out.put(bundle.progress);
+  out.put_all(std::span<const TileGrant>(bundle.grants));
   out.put_all(std::span<const WireSample>(samples));
   return out.take();
 }
@@ -81,6 +85,8 @@ Bundle decode_bundle(std::span<const std::byte> bytes) {
   Bundle bundle;
   std::vector<WireSample> samples;
   in.get(bundle.frame_index), in.get(bundle.epoch), in.get(bundle.round), in.get(bundle.done);
+  in.get(bundle.progress);
+  in.get_all(bundle.grants);
   in.get_all(samples);
   in.expect_end();
   bundle.samples.reserve(samples.size());
@@ -91,7 +97,8 @@ Bundle decode_bundle(std::span<const std::byte> bytes) {
 Bytes encode(const PixelMessage& pixels) {
   WireWriter out;
   out.put(pixels.frame_index), out.put(pixels.report);
-  out.put_all(std::span<const std::int32_t>(pixels.tiles));
+  out.put_all(std::span<const TileReport>(pixels.tiles));
+  out.put_all(std::span<const std::int32_t>(pixels.given));
   out.put_all(std::span<const float>(pixels.rgb));
   return out.take();
 }
@@ -101,6 +108,7 @@ PixelMessage decode_pixels(std::span<const std::byte> bytes) {
   PixelMessage pixels;
   in.get(pixels.frame_index), in.get(pixels.report);
   in.get_all(pixels.tiles);
+  in.get_all(pixels.given);
   in.get_all(pixels.rgb);
   in.expect_end();
   return pixels;

@@ -9,6 +9,7 @@
 #include "base/ray_counts.h"
 #include "base/vector.h"
 #include "parallel/communicator.h"
+#include "parallel/tile_cost.h"
 #include "pipeline/sample.h"
 
 namespace pprt {
@@ -29,8 +30,10 @@ struct FrameOrder {
   bool cut = false;
   Carry carry = Carry::kNothing;
   Camera camera;
-  double deadline_s = 0;  // since the start of the sequence; 0: no rate
-  double reserve_s = 0;   // wall clock: what the master has seen pass between end of sampling and whole frame
+  double deadline_s = 0;             // since the start of the sequence; 0: no rate
+  std::uint32_t generation = 0;      // of the partition in force from this frame on
+  std::vector<std::int32_t> owners;  // per tile, when that partition is a new one
+  double reserve_s = 0;  // wall clock: what the master has seen pass between end of sampling and whole frame
 };
 
 // Rank to rank: samples whose triangles touch the receiver's region.
@@ -38,7 +41,9 @@ struct Bundle {
   std::int32_t frame_index = 0;
   std::int32_t epoch = 0;  // index of the frame in which the sender's triangulation began
   std::int32_t round = 0;
-  bool done = false;  // the sender has reached its goal (frames without a rate)
+  bool done = false;              // the sender has reached its goal (frames without a rate)
+  RankProgress progress;          // of the sender
+  std::vector<TileGrant> grants;  // tiles that the sender has given away
   std::vector<Sample> samples;
 };
 
@@ -63,18 +68,22 @@ struct RankReport {
   std::uint64_t triangles_in_region = 0;
   RayCounts rays;
   StageTimes cpu_ms;
+  std::uint64_t tiles_given = 0;
+  std::uint64_t bytes_progress = 0;
+  std::uint64_t bytes_balance = 0;
   std::uint64_t bytes_samples = 0;  // sent
   std::uint64_t bytes_pixels = 0;
   double finished_s = 0;        // work clock: virtual time used in this frame, seconds
   double sampling_ended_s = 0;  // wall clock: since the start of the sequence
 };
 
-// Rank to master: the pixels of its tiles, tile after tile, rows from the top.
+// Rank to master: the pixels of its tiles and of those it has given away, tile after tile, rows from the top.
 struct PixelMessage {
   std::int32_t frame_index = 0;
   RankReport report;
-  std::vector<std::int32_t> tiles;
-  std::vector<float> rgb;  // 3 per pixel
+  std::vector<TileReport> tiles;
+  std::vector<std::int32_t> given;  // tiles given away in this frame: shown unless their new owner sends them
+  std::vector<float> rgb;           // 3 per pixel
 };
 
 Bytes encode(const FrameOrder& order);

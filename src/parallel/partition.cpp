@@ -87,7 +87,8 @@ TileGrid tile_grid_for(int width, int height, int ranks) {
 }
 
 Partition bisect(const TileGrid& grid, std::span<const double> tile_costs, int ranks) {
-  Partition partition{grid, ranks, std::vector<std::int32_t>(static_cast<std::size_t>(grid.tile_count()), 0)};
+  Partition partition{grid, ranks, std::vector<std::int32_t>(static_cast<std::size_t>(grid.tile_count()), 0),
+                      std::vector<std::uint64_t>(static_cast<std::size_t>(grid.tile_count()), 0)};
   Bisector(grid, tile_costs, partition).share({0, 0, grid.columns(), grid.rows()}, 0, ranks);
   return partition;
 }

@@ -10,12 +10,19 @@
 
 namespace pprt {
 
-// Invariant: exactly one owner a tile, each in [0, ranks).
+// Invariant: exactly one owner a tile, each in [0, ranks). Only a tile's owner gives it away, and with a
+// higher version; so whatever the order in which ranks hear of it, the highest version tells the owner.
 struct Partition {
   TileGrid grid;
   int ranks = 1;
-  std::vector<std::int32_t> owner;  // per tile
+  std::vector<std::int32_t> owner;     // per tile
+  std::vector<std::uint64_t> version;  // per tile: generation of the partition << 32 | times given since
 };
+
+// The first version of a partition's tiles: higher than any of a generation before.
+inline std::uint64_t first_version(std::uint32_t generation) {
+  return std::uint64_t{generation} << 32;
+}
 
 // Square tiles, about 32 a rank so that balancing has something to move, between 4 and 32 pixels wide.
 TileGrid tile_grid_for(int width, int height, int ranks);

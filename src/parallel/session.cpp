@@ -101,14 +101,14 @@ Worker make_worker(Communicator& network, Inbox& inbox, const SessionSettings& s
                 make_frame_clock(settings, start_s, pixels, ranks_per_core));
 }
 
+// Empty: the sequence is over.
 std::optional<FrameOrder> await_order(Inbox& inbox, int index) {
-  while (true) {
-    if (std::optional<FrameOrder> order = inbox.take_order(index)) {
-      if (order->end) order.reset();
-      return order;
-    }
+  std::optional<FrameOrder> order;
+  while (!(order = inbox.take_order(index))) {
     if (!inbox.pump()) rest_briefly();
   }
+  if (order->end) order.reset();
+  return order;
 }
 
 }  // namespace
@@ -122,6 +122,11 @@ void run_as_master(Communicator& network, const SessionSettings& settings, const
   Worker worker = make_worker(network, inbox, settings, partition, probe, start_s);
   master.begin_sequence(start_s);
   for (int index = 0; const std::optional<FrameOrder> order = await_order(inbox, index); ++index) {
+    // Under the work clock an order must not depend on what happens to have come: all of the frame before the
+    // last has, or will without a further order.
+    while (settings.clock == ClockKind::kWork && !master.has_delivered_before(index - 1)) {
+      if (!inbox.pump()) rest_briefly();
+    }
     master.frame_begun();
     worker.render(*order);
   }

@@ -16,6 +16,14 @@ enum class ClockKind : std::uint8_t {
 // kOff.
 enum class CastChoice : std::uint8_t { kOff, kPaper, kVerified, kAuto };
 
+// How load is shared among ranks (paper s. 3.6, 4.4, 4.5).
+enum class BalanceMode : std::uint8_t {
+  kNone,
+  kLocal,    // tiles move between neighbours during a frame
+  kGlobal,   // the image is cut anew after every frame, in force one frame later
+  kCombined  // local, and global when the imbalance is great
+};
+
 // When a frame without a rate is good enough: at the first of these that is reached; 0 means no such limit.
 struct StopRules {
   double seconds = 0;         // wall clock: elapsed; work clock: work units / kWorkUnitsPerSecond
@@ -30,7 +38,9 @@ struct SessionSettings {
   double frames_per_second = 0;    // 0: no rate, the stop rules end a frame
   std::uint64_t budget_units = 0;  // work clock, with a rate: per rank and frame
   StopRules stop;
+  BalanceMode balance = BalanceMode::kCombined;
   CastChoice cast = CastChoice::kAuto;
+  bool keep_samples = true;  // when the image is cut anew: hand samples over, or drop them as the paper does
   std::uint64_t seed = 1;
 };
 

@@ -19,15 +19,17 @@ constexpr double kSeedPatience = 0.1;
 
 constexpr int kSeedRound = 0;
 
+// A rank tells its progress to its neighbours after so many packets, if there is no sample to tell before.
+constexpr int kPacketsPerProgress = 4;
+
 bool is_finite(const Color& c) {
   return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
 }
 
-std::vector<float> flat_rgb(const RegionPixels& pixels, const Region& region) {
-  std::vector<float> rgb;
-  rgb.reserve(3 * region.pixel_count());
-  for (const int tile : region.tiles()) {
-    const PixelRect rect = region.grid().pixels(tile);
+void append_rgb(const RegionPixels& pixels, const TileGrid& grid, std::span<const int> tiles,
+                std::vector<float>& rgb) {
+  for (const int tile : tiles) {
+    const PixelRect rect = grid.pixels(tile);
     for (int y = rect.y0; y < rect.y1; ++y) {
       for (int x = rect.x0; x < rect.x1; ++x) {
         const Color& c = pixels.at(x, y);
@@ -35,7 +37,11 @@ std::vector<float> flat_rgb(const RegionPixels& pixels, const Region& region) {
       }
     }
   }
-  return rgb;
+}
+
+PixelRect united(const PixelRect& a, const PixelRect& b) {
+  if (a.area() == 0) return b;
+  return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
 }
 
 RayCounts operator-(RayCounts a, const RayCounts& b) {
@@ -56,17 +62,17 @@ Worker::Worker(Communicator& network, Inbox& inbox, const SessionSettings& setti
       clock_(std::move(clock)),
       mesh_(region_of(partition, network.rank())),
       exchange_(partition, network.rank()),
+      balancer_(network.rank(), network.size(), partition.grid.tile_count()),
       peer_done_(static_cast<std::size_t>(network.size()), 0) {
-  const std::uint64_t own = mesh_.region().pixel_count();
-  const auto all = static_cast<std::uint64_t>(settings.width) * static_cast<std::uint64_t>(settings.height);
-  sample_share_ = (settings.stop.samples * own + all - 1) / all;
-  sample_limit_ = kSamplesPerPixelAtMost * own;
+  own_region_changed();
 }
 
 void Worker::render(const FrameOrder& order) {
   report_ = {};
+  frame_index_ = order.index;
   rays_before_ = probe_.counts();
   done_ = false;
+  given_.clear();
   std::fill(peer_done_.begin(), peer_done_.end(), std::uint8_t{0});
   clock_->begin_frame(order);
   clock_->lap_ms();
@@ -81,13 +87,21 @@ void Worker::render(const FrameOrder& order) {
 
 void Worker::prepare(const FrameOrder& order) {
   probe_.look_from(order.camera);
-  if (order.carry == Carry::kAccumulate) {
+  const bool new_partition = !order.owners.empty();
+  const Carry carry = new_partition && !settings_.keep_samples ? Carry::kNothing : order.carry;
+  balancer_.begin_frame(carry != Carry::kAccumulate);
+  if (carry == Carry::kAccumulate) {
+    if (new_partition) {
+      adopt_partition(order, true);
+      send_handed_over(order);
+    }
     report_.samples_cast = in_region_;
     return;
   }
   std::vector<Sample> survivors;
-  if (order.carry != Carry::kNothing) survivors = cast(order);
+  if (carry != Carry::kNothing) survivors = cast(order);
   report_.cpu_ms.casting += clock_->lap_ms();
+  if (new_partition) adopt_partition(order, false);
 
   mesh_.clear();
   exchange_.clear();
@@ -95,6 +109,31 @@ void Worker::prepare(const FrameOrder& order) {
   in_region_ = 0;
   trace_seeds(order);
   settle(order, survivors);
+}
+
+// The master has cut the image anew. The samples of tiles that go to another rank are told to it if they are
+// kept.
+void Worker::adopt_partition(const FrameOrder& order, bool keep_samples) {
+  Partition next = exchange_.partition();
+  next.owner = order.owners;
+  std::fill(next.version.begin(), next.version.end(), first_version(order.generation));
+  for (int rank = 0; keep_samples && rank < network_.size(); ++rank) {
+    std::vector<int> moved;
+    for (const int tile : mesh_.region().tiles()) {
+      if (rank != network_.rank() && next.owner[static_cast<std::size_t>(tile)] == rank)
+        moved.push_back(tile);
+    }
+    if (!moved.empty()) exchange_.introduce(mesh_, moved, rank);
+  }
+  exchange_.repartition(next);
+  own_region_changed();
+}
+
+// What the ranks tell each other before the first sample of a frame that keeps its triangulation but not its
+// partition.
+void Worker::send_handed_over(const FrameOrder& order) {
+  send_bundles(order, kSeedRound, false);
+  receive_bundles(order, kSeedRound);
 }
 
 std::vector<Sample> Worker::cast(const FrameOrder& order) {
@@ -136,7 +175,7 @@ void Worker::settle(const FrameOrder& order, const std::vector<Sample>& survivor
     const bool peer = std::binary_search(exchange_.seed_peers().begin(), exchange_.seed_peers().end(), rank);
     if (samples.empty() && !peer && !clock_->in_lockstep()) continue;
     clock_->spend(Work::kSentSample, samples.size());
-    Bytes bytes = encode(Bundle{order.index, epoch_, kSeedRound, false, std::move(samples)});
+    Bytes bytes = encode(Bundle{order.index, epoch_, kSeedRound, false, {}, {}, std::move(samples)});
     report_.bytes_samples += bytes.size();
     network_.send(rank, Tag::kBundle, std::move(bytes));
   }
@@ -216,13 +255,21 @@ bool Worker::all_done() const {
 }
 
 void Worker::send_bundles(const FrameOrder& order, int round, bool to_all) {
+  const bool local = settings_.balance == BalanceMode::kLocal || settings_.balance == BalanceMode::kCombined;
+  const std::vector<TileGrant> grants = local ? give_tiles(round) : std::vector<TileGrant>();
+  const RankProgress progress = local ? balancer_.progress(mesh_) : RankProgress();
+  const bool tell_progress = local && round % kPacketsPerProgress == 0;
   for (int rank = 0; rank < network_.size(); ++rank) {
     if (rank == network_.rank()) continue;
     std::vector<Sample> samples = exchange_.take_outbox(rank);
-    if (samples.empty() && !to_all && !clock_->in_lockstep()) continue;
+    const bool neighbour = tell_progress && std::binary_search(exchange_.neighbours().begin(),
+                                                               exchange_.neighbours().end(), rank);
+    if (samples.empty() && grants.empty() && !neighbour && !to_all && !clock_->in_lockstep()) continue;
     clock_->spend(Work::kSentSample, samples.size());
-    Bytes bytes = encode(Bundle{order.index, epoch_, round, done_, std::move(samples)});
-    report_.bytes_samples += bytes.size();
+    Bytes bytes = encode(Bundle{order.index, epoch_, round, done_, progress, grants, std::move(samples)});
+    report_.bytes_progress += sizeof(RankProgress);
+    report_.bytes_balance += grants.size() * sizeof(TileGrant);
+    report_.bytes_samples += bytes.size() - sizeof(RankProgress) - grants.size() * sizeof(TileGrant);
     network_.send(rank, Tag::kBundle, std::move(bytes));
   }
 }
@@ -234,7 +281,7 @@ void Worker::receive_bundles(const FrameOrder& order, int round) {
     };
     const auto expected = static_cast<std::size_t>(network_.size() - 1);
     await([&] { return inbox_.count_bundles(of_this_round) >= expected; });
-    for (const Inbox::Arrived& arrived : inbox_.take_bundles(of_this_round)) take_in(arrived, order);
+    take_in(inbox_.take_bundles(of_this_round));
     return;
   }
   inbox_.pump();
@@ -242,17 +289,71 @@ void Worker::receive_bundles(const FrameOrder& order, int round) {
   const auto due = [&](const Inbox::Arrived& a) {
     return a.bundle.epoch <= epoch_ && a.bundle.frame_index <= order.index;
   };
-  for (const Inbox::Arrived& arrived : inbox_.take_bundles(due)) take_in(arrived, order);
+  take_in(inbox_.take_bundles(due));
 }
 
-void Worker::take_in(const Inbox::Arrived& arrived, const FrameOrder& order) {
-  if (arrived.bundle.frame_index == order.index) {
-    peer_done_[static_cast<std::size_t>(arrived.from)] = arrived.bundle.done;
+// First who owns what from now on, then the samples: those that fall to new tiles are refined at once.
+void Worker::take_in(const std::vector<Inbox::Arrived>& bundles) {
+  std::vector<TileGrant> grants;
+  for (const Inbox::Arrived& arrived : bundles) {
+    const Bundle& bundle = arrived.bundle;
+    grants.insert(grants.end(), bundle.grants.begin(), bundle.grants.end());
+    if (bundle.frame_index != frame_index_) continue;
+    balancer_.heard(arrived.from, bundle.progress);
+    peer_done_[static_cast<std::size_t>(arrived.from)] = bundle.done;
   }
-  if (arrived.bundle.epoch != epoch_) return;
-  for (const Sample& s : arrived.bundle.samples) {
-    ++(insert(s, {arrived.from, false}) ? report_.samples_received : report_.samples_known);
+  apply(grants);
+  for (const Inbox::Arrived& arrived : bundles) {
+    if (arrived.bundle.epoch != epoch_) continue;
+    for (const Sample& s : arrived.bundle.samples) {
+      ++(insert(s, {arrived.from, false}) ? report_.samples_received : report_.samples_known);
+    }
   }
+}
+
+// Tiles for a neighbour that is ahead, already made the taker's here. Not in a frame's last round: the taker
+// could do nothing with them any more.
+std::vector<TileGrant> Worker::give_tiles(int round) {
+  if (clock_->in_lockstep() && settings_.frames_per_second > 0 && round >= kRoundsPerFrame) return {};
+  std::vector<TileGrant> grants = balancer_.give(mesh_, exchange_);
+  for (const TileGrant& grant : grants) given_.push_back(grant.tile);
+  report_.tiles_given += grants.size();
+  apply(grants);
+  return grants;
+}
+
+// Makes grants true here, those that are news.
+void Worker::apply(std::span<const TileGrant> grants) {
+  Partition next = exchange_.partition();
+  bool changed = false, own_changed = false;
+  for (const TileGrant& grant : grants) {
+    const auto tile = static_cast<std::size_t>(grant.tile);
+    if (tile >= next.owner.size() || grant.owner < 0 || grant.owner >= next.ranks) {
+      throw ProtocolError("a tile was given that is none, or to nobody");
+    }
+    if (grant.version <= next.version[tile]) continue;
+    changed = true;
+    own_changed = own_changed || next.owner[tile] == network_.rank() || grant.owner == network_.rank();
+    if (grant.owner == network_.rank()) balancer_.take(grant);
+    next.owner[tile] = grant.owner;
+    next.version[tile] = grant.version;
+  }
+  if (!changed) return;
+  exchange_.repartition(next);
+  if (own_changed) own_region_changed();
+}
+
+void Worker::own_region_changed() {
+  mesh_.set_region(region_of(exchange_.partition(), network_.rank()));
+  const Region& region = mesh_.region();
+  const std::span<const Sample> samples = mesh_.samples();
+  in_region_ = static_cast<std::uint64_t>(std::count_if(
+      samples.begin(), samples.end(), [&](const Sample& s) { return region.owns_point(s.x, s.y); }));
+  const std::uint64_t own = region.pixel_count();
+  const auto all = static_cast<std::uint64_t>(settings_.width) * static_cast<std::uint64_t>(settings_.height);
+  sample_share_ = (settings_.stop.samples * own + all - 1) / all;
+  sample_limit_ = kSamplesPerPixelAtMost * own;
+  clock_->region_changed(own);
 }
 
 // --- Reconstruct and report
@@ -260,15 +361,21 @@ void Worker::take_in(const Inbox::Arrived& arrived, const FrameOrder& order) {
 
 void Worker::reconstruct_and_send(const FrameOrder& order) {
   report_.sampling_ended_s = clock_->sequence_seconds();
-  reconstruct(mesh_, pixels_, buffers_);
+  const TileGrid& grid = mesh_.region().grid();
+  PixelRect bounds = mesh_.region().bounds();
+  for (const int tile : given_) bounds = united(bounds, grid.pixels(tile));
+  reconstruct(mesh_, bounds, pixels_, buffers_);
   clock_->spend(Work::kPixel, mesh_.region().pixel_count());
   report_.cpu_ms.reconstruction = clock_->lap_ms();
 
   PixelMessage message;
   message.frame_index = order.index;
-  message.tiles.assign(mesh_.region().tiles().begin(), mesh_.region().tiles().end());
-  message.rgb = flat_rgb(pixels_, mesh_.region());
-  report_.bytes_pixels = message.rgb.size() * sizeof(float) + message.tiles.size() * sizeof(std::int32_t);
+  message.tiles = balancer_.report(mesh_);
+  // In lockstep the new owners certainly have them.
+  if (!clock_->in_lockstep()) message.given = given_;
+  append_rgb(pixels_, grid, mesh_.region().tiles(), message.rgb);
+  append_rgb(pixels_, grid, message.given, message.rgb);
+  report_.bytes_pixels = message.rgb.size() * sizeof(float) + message.tiles.size() * sizeof(TileReport);
   message.report = finish_report();
   network_.send(0, Tag::kPixels, encode(message));
   clock_->end_frame();
@@ -303,6 +410,8 @@ Sample Worker::trace(const FrameOrder& order, double x, double y) {
   }
   ++report_.samples_new;
   clock_->spend(Work::kRay, sample.ray.rays);
+  balancer_.paid(mesh_.region().grid().tile_at(x, y),
+                 static_cast<double>(price(Work::kRay) * sample.ray.rays + price(Work::kOwnSample)));
   return sample;
 }
 

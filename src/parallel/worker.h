@@ -10,9 +10,11 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "base/probe.h"
+#include "parallel/balancer.h"
 #include "parallel/exchange.h"
 #include "parallel/frame_clock.h"
 #include "parallel/inbox.h"
@@ -39,6 +41,8 @@ class Worker {
   };
 
   void prepare(const FrameOrder& order);
+  void adopt_partition(const FrameOrder& order, bool keep_samples);
+  void send_handed_over(const FrameOrder& order);
   std::vector<Sample> cast(const FrameOrder& order);
   void trace_seeds(const FrameOrder& order);
   void settle(const FrameOrder& order, const std::vector<Sample>& survivors);
@@ -50,7 +54,10 @@ class Worker {
   bool all_done() const;
   void send_bundles(const FrameOrder& order, int round, bool to_all);
   void receive_bundles(const FrameOrder& order, int round);
-  void take_in(const Inbox::Arrived& arrived, const FrameOrder& order);
+  void take_in(const std::vector<Inbox::Arrived>& bundles);
+  std::vector<TileGrant> give_tiles(int round);
+  void apply(std::span<const TileGrant> grants);
+  void own_region_changed();
 
   void reconstruct_and_send(const FrameOrder& order);
   RankReport finish_report();
@@ -67,9 +74,12 @@ class Worker {
   std::unique_ptr<FrameClock> clock_;
   SampleMesh mesh_;
   SampleExchange exchange_;
+  Balancer balancer_;
   RegionPixels pixels_;
   ReconstructionBuffers buffers_;
 
+  std::vector<std::int32_t> given_;  // tiles given away in this frame
+  int frame_index_ = -1;
   int epoch_ = -1;  // index of the frame in which the triangulation began
   std::uint64_t next_id_ = 0;
   std::uint64_t sample_share_ = 0;  // of settings_.stop.samples

@@ -111,8 +111,9 @@ void average_crowded_pixels(const SampleMesh& mesh, RegionPixels& pixels, Recons
 
 }  // namespace
 
-void reconstruct(const SampleMesh& mesh, RegionPixels& pixels, ReconstructionBuffers& buffers) {
-  pixels.bounds = mesh.region().bounds();
+void reconstruct(const SampleMesh& mesh, const PixelRect& bounds, RegionPixels& pixels,
+                 ReconstructionBuffers& buffers) {
+  pixels.bounds = bounds;
   pixels.colors.assign(pixels.bounds.area(), Color(0, 0, 0));
   const auto& delaunay = mesh.impl().delaunay();
   for (auto face = delaunay.finite_faces_begin(); face != delaunay.finite_faces_end(); ++face) {

@@ -10,8 +10,7 @@
 
 namespace pprt {
 
-// The pixels of a region: those of its bounds, row by row from the top; pixels of foreign tiles hold no
-// meaning.
+// The pixels of a rectangle, row by row from the top.
 struct RegionPixels {
   PixelRect bounds;
   std::vector<Color> colors;
@@ -28,9 +27,10 @@ struct ReconstructionBuffers {
   std::vector<std::uint32_t> counts;
 };
 
-// Every pixel of the mesh's region: the barycentric mean of the triangle that holds its centre or, when more
-// than one sample falls in the pixel, their average. Each centre belongs to exactly one triangle, also on
-// shared edges.
-void reconstruct(const SampleMesh& mesh, RegionPixels& pixels, ReconstructionBuffers& buffers);
+// Every pixel of `bounds`, as the mesh has it: the barycentric mean of the triangle that holds its centre or,
+// when more than one sample falls in the pixel, their average. Each centre belongs to exactly one triangle,
+// also on shared edges.
+void reconstruct(const SampleMesh& mesh, const PixelRect& bounds, RegionPixels& pixels,
+                 ReconstructionBuffers& buffers);
 
 }  // namespace pprt

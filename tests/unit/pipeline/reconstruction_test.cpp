@@ -13,7 +13,7 @@ const TileGrid kGrid{100, 60, 16};
 RegionPixels rebuild(const SampleMesh& mesh) {
   RegionPixels pixels;
   ReconstructionBuffers buffers;
-  reconstruct(mesh, pixels, buffers);
+  reconstruct(mesh, mesh.region().bounds(), pixels, buffers);
   return pixels;
 }
 

@@ -1,0 +1,45 @@
+// Local balancing: tiles move between neighbours during a frame (paper s. 3.6, 4.3).
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "parallel/partition.h"
+#include "parallel/tile_cost.h"
+
+namespace pprt {
+
+// Found by measurement (docs/decisions/0009-balancing.md).
+struct LocalBalanceSettings {
+  double quality_ratio = 1.1;         // give only when the own quality is so much worse, and
+  double cost_ratio = 1.1;            // the own future cost so much higher
+  double balance_weight = 0.6;        // w1: share of the difference that a tile takes away
+  double communication_weight = 0.2;  // w2: share of its samples that the taker knows
+  double border_weight = 0.2;         // w3: change of the border's length
+};
+
+// Whether a rank should give tiles to the neighbour that sent `theirs`; `own_future_cost` is at
+// theirs.target.
+bool should_give(const LocalBalanceSettings& settings, double own_quality, double own_future_cost,
+                 const RankProgress& theirs);
+
+// A target quality that a rank at `quality` names: a power of two below it, so that estimates are comparable.
+double target_quality(double quality);
+
+// What the giver knows of one of its tiles.
+struct TileOffer {
+  double future_cost = 0;     // Fcost(s, Q'), work units
+  double samples = 0;         // N_s
+  double known_to_taker = 0;  // U(j, s)
+};
+
+// Which of the giver's tiles along its border with the taker to give, one after the other by their grade,
+// until half of `difference` (Delta, the ranks' difference in future cost) has moved. The giver's region
+// stays connected and keeps at least one tile. `offer` is asked for tiles of the giver only; `insertion_cost`
+// is Icost, work units.
+std::vector<int> tiles_to_give(const LocalBalanceSettings& settings, const Partition& partition, int giver,
+                               int taker, double difference, double insertion_cost,
+                               const std::function<TileOffer(int tile)>& offer);
+
+}  // namespace pprt
