@@ -65,6 +65,9 @@ class WallClock final : public FrameClock {
     const double seconds = 1e-9 * static_cast<double>(price(work)) * ranks_per_core_;
     return static_cast<std::size_t>(share * period_s_ / seconds);
   }
+  bool time_for_gifts() const override {
+    return stop_s_ == 0 || monotonic_seconds() < stop_s_ - 0.2 * period_s_;
+  }
   void region_changed(std::size_t) override {}
   bool in_lockstep() const override { return false; }
   double lap_ms() override {
@@ -117,6 +120,7 @@ class WorkClock final : public FrameClock {
   std::size_t affordable(Work work, double share) const override {
     return static_cast<std::size_t>(share * static_cast<double>(budget_) / static_cast<double>(price(work)));
   }
+  bool time_for_gifts() const override { return budget_ == 0 || 4 * round_ <= 3 * kRoundsPerFrame; }
   void region_changed(std::size_t pixels) override { reconstruction_ = price(Work::kPixel) * pixels; }
   bool in_lockstep() const override { return true; }
   double lap_ms() override {

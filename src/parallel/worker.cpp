@@ -256,7 +256,7 @@ bool Worker::all_done() const {
 
 void Worker::send_bundles(const FrameOrder& order, int round, bool to_all) {
   const bool local = settings_.balance == BalanceMode::kLocal || settings_.balance == BalanceMode::kCombined;
-  const std::vector<TileGrant> grants = local ? give_tiles(round) : std::vector<TileGrant>();
+  const std::vector<TileGrant> grants = local ? give_tiles() : std::vector<TileGrant>();
   const RankProgress progress = local ? balancer_.progress(mesh_) : RankProgress();
   const bool tell_progress = local && round % kPacketsPerProgress == 0;
   for (int rank = 0; rank < network_.size(); ++rank) {
@@ -311,10 +311,9 @@ void Worker::take_in(const std::vector<Inbox::Arrived>& bundles) {
   }
 }
 
-// Tiles for a neighbour that is ahead, already made the taker's here. Not in a frame's last round: the taker
-// could do nothing with them any more.
-std::vector<TileGrant> Worker::give_tiles(int round) {
-  if (clock_->in_lockstep() && settings_.frames_per_second > 0 && round >= kRoundsPerFrame) return {};
+// Tiles for a neighbour that is ahead, already made the taker's here.
+std::vector<TileGrant> Worker::give_tiles() {
+  if (!clock_->time_for_gifts()) return {};
   std::vector<TileGrant> grants = balancer_.give(mesh_, exchange_);
   for (const TileGrant& grant : grants) given_.push_back(grant.tile);
   report_.tiles_given += grants.size();

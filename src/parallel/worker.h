@@ -55,7 +55,7 @@ class Worker {
   void send_bundles(const FrameOrder& order, int round, bool to_all);
   void receive_bundles(const FrameOrder& order, int round);
   void take_in(const std::vector<Inbox::Arrived>& bundles);
-  std::vector<TileGrant> give_tiles(int round);
+  std::vector<TileGrant> give_tiles();
   void apply(std::span<const TileGrant> grants);
   void own_region_changed();
 
