@@ -73,7 +73,8 @@ void Master::order_next() {
 }
 
 Carry Master::carry_into(const FrameRequest& request) const {
-  if (!before_ || request.cut || settings_.cast == CastChoice::kOff) return Carry::kNothing;
+  if (!before_ || request.cut || request.carries_nothing || settings_.cast == CastChoice::kOff)
+    return Carry::kNothing;
   if (request.camera == before_->camera) return Carry::kAccumulate;
   switch (settings_.cast) {
     case CastChoice::kPaper:

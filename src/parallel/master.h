@@ -22,7 +22,8 @@ namespace pprt {
 struct FrameRequest {
   int number = 1;
   Camera camera;
-  bool cut = false;
+  bool cut = false;              // the camera jumped to it
+  bool carries_nothing = false;  // it does not follow the request before, cut or not
 };
 using CameraSource = std::function<std::optional<FrameRequest>(int index)>;
 
