@@ -55,6 +55,8 @@ void Master::order_next() {
     order.camera = request->camera;
     if (settings_.frames_per_second > 0) order.deadline_s = (order.index + 1) / settings_.frames_per_second;
     order.reserve_s = reserve_s();
+    const bool hands_over = order.carry != Carry::kNothing && settings_.keep_samples;
+    if (hands_over && !can_afford_to_hand_over()) next_owners_.clear();
     if (!next_owners_.empty()) ++generation_;
     order.owners = std::exchange(next_owners_, {});
     order.generation = generation_;
@@ -117,6 +119,24 @@ void Master::balance_globally(const Assembly& assembly) {
   if (network_.size() == 1 || (!always && imbalance(assembly.tiles) <= kImbalanceTrigger)) return;
   next_owners_ =
       bisect(partition_.grid, predicted_costs(partition_.grid, assembly.tiles), network_.size()).owner;
+  handed_over_.assign(assembly.tiles.size(), 0);
+  for (std::size_t rank = 0; rank < assembly.tiles.size(); ++rank) {
+    for (const TileReport& tile : assembly.tiles[rank]) {
+      const auto taker = static_cast<std::size_t>(next_owners_[static_cast<std::size_t>(tile.tile)]);
+      // A triangulation has about two triangles a sample.
+      if (taker != rank) handed_over_[taker] += 0.5 * tile.triangles;
+    }
+  }
+}
+
+// Whether every rank can take in the samples of its new tiles in a quarter of a frame. A camera that has
+// rested for long has more samples than that; then local balancing goes on alone.
+bool Master::can_afford_to_hand_over() const {
+  if (next_owners_.empty() || settings_.frames_per_second <= 0) return true;
+  const double frame_units = settings_.clock == ClockKind::kWork ? static_cast<double>(settings_.budget_units)
+                                                                 : 1e9 / settings_.frames_per_second;
+  const double most = *std::max_element(handed_over_.begin(), handed_over_.end());
+  return most * static_cast<double>(price(Work::kReceivedSample)) <= 0.25 * frame_units;
 }
 
 void Master::deliver(Assembly& assembly) {

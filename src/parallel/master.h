@@ -72,6 +72,7 @@ class Master {
   Carry carry_into(const FrameRequest& request) const;
   void paste(Assembly& assembly, int from, const PixelMessage& message) const;
   void balance_globally(const Assembly& assembly);
+  bool can_afford_to_hand_over() const;
   void deliver(Assembly& assembly);
   void learn_reserve(const Assembly& assembly, double finished_s);
   double reserve_s() const;
@@ -84,6 +85,7 @@ class Master {
   std::map<int, Assembly> assemblies_;     // by frame index
   std::optional<FrameRequest> before_;     // the frame ordered last
   std::vector<std::int32_t> next_owners_;  // a new partition, for the next order
+  std::vector<double> handed_over_;        // per rank: samples it will have to take in with that partition
   std::uint32_t generation_ = 0;           // of the partition ordered last
   int delivered_ = 0;                      // frames that are whole
   bool ended_ = false;

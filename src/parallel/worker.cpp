@@ -311,9 +311,10 @@ void Worker::take_in(const std::vector<Inbox::Arrived>& bundles) {
   }
 }
 
-// Tiles for a neighbour that is ahead, already made the taker's here.
+// Tiles for a neighbour that is ahead, already made the taker's here. Where a number of samples is the goal
+// each rank takes the share of its area, which stays as it is.
 std::vector<TileGrant> Worker::give_tiles() {
-  if (!clock_->time_for_gifts()) return {};
+  if (!clock_->time_for_gifts() || settings_.stop.samples > 0) return {};
   std::vector<TileGrant> grants = balancer_.give(mesh_, exchange_);
   for (const TileGrant& grant : grants) given_.push_back(grant.tile);
   report_.tiles_given += grants.size();

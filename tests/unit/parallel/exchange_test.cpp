@@ -185,8 +185,8 @@ Partition random_rectangles(const TileGrid& grid, int ranks, unsigned seed) {
 // Connected regions of ragged outline: each rank grows from a tile of its own.
 Partition random_growths(const TileGrid& grid, int ranks, unsigned seed) {
   std::mt19937 random(seed);
-  Partition partition{grid, ranks,
-                      std::vector<std::int32_t>(static_cast<std::size_t>(grid.tile_count()), -1)};
+  Partition partition{grid, ranks, std::vector<std::int32_t>(static_cast<std::size_t>(grid.tile_count()), -1),
+                      std::vector<std::uint64_t>(static_cast<std::size_t>(grid.tile_count()), 0)};
   for (int rank = 0; rank < ranks; ++rank) {
     std::int32_t* owner = nullptr;
     do {

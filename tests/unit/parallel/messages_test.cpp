@@ -22,7 +22,7 @@ Sample some_sample(int i) {
 }
 
 Bundle some_bundle() {
-  Bundle bundle{3, 2, 19, true, {}};
+  Bundle bundle{3, 2, 19, true, {0.5, 0.25, 1e6}, {{4, 2, 7, {1, 2}, {3, 4}}}, {}};
   for (int i = 0; i < 6; ++i) bundle.samples.push_back(some_sample(i));
   return bundle;
 }
@@ -34,6 +34,7 @@ FrameOrder some_order() {
   order.camera.forward = {1, 0, 0}, order.camera.slope_per_pixel = 0.01;
   order.camera.width = 320, order.camera.height = 200;
   order.deadline_s = 1.5, order.reserve_s = 0.02;
+  order.generation = 3, order.owners = {1, 0, 1};
   return order;
 }
 
@@ -43,7 +44,8 @@ PixelMessage some_pixels() {
   pixels.report.samples_new = 1, pixels.report.samples_known = 2, pixels.report.non_finite = 3;
   pixels.report.refinement = 0.125, pixels.report.rays.shadow = 77, pixels.report.cpu_ms.idle = 4.5;
   pixels.report.finished_s = 6.5;
-  pixels.tiles = {4, 1};
+  pixels.tiles = {{4, 12, 0.5, 100, 20, 3}, {1, 0, 0, 0, 0, 0}};
+  pixels.given = {7};
   pixels.rgb = {0.1f, 0.2f, 0.3f, 1, 2, 3};
   return pixels;
 }
@@ -99,6 +101,7 @@ TEST_CASE("a frame order comes back as it was sent") {
   CHECK(back.camera == order.camera);
   CHECK(back.deadline_s == order.deadline_s);
   CHECK(back.reserve_s == order.reserve_s);
+  CHECK((back.generation == 3 && back.owners == order.owners));
   FrameOrder end;
   end.end = true;
   CHECK(decode_frame_order(encode(end)).end);
@@ -110,6 +113,10 @@ TEST_CASE("a bundle comes back as it was sent") {
   CHECK(back.epoch == 2);
   CHECK(back.round == 19);
   CHECK(back.done);
+  CHECK((back.progress.quality == 0.5 && back.progress.target == 0.25 && back.progress.future_cost == 1e6));
+  REQUIRE(back.grants.size() == 1);
+  CHECK((back.grants[0].tile == 4 && back.grants[0].owner == 2 && back.grants[0].version == 7));
+  CHECK((back.grants[0].now.cost == 1 && back.grants[0].last.average_weight == 4));
   REQUIRE(back.samples.size() == bundle.samples.size());
   for (std::size_t i = 0; i < back.samples.size(); ++i) {
     const Sample &a = bundle.samples[i], &b = back.samples[i];
@@ -123,7 +130,10 @@ TEST_CASE("a bundle comes back as it was sent") {
 TEST_CASE("pixels and their report come back as they were sent") {
   const PixelMessage pixels = some_pixels(), back = decode_pixels(encode(pixels));
   CHECK(back.frame_index == 9);
-  CHECK(back.tiles == pixels.tiles);
+  REQUIRE(back.tiles.size() == 2);
+  CHECK((back.tiles[0].tile == 4 && back.tiles[0].triangles == 12 && back.tiles[0].total_weight == 0.5));
+  CHECK((back.tiles[0].cost == 100 && back.tiles[0].reconstruction == 20 && back.tiles[0].preparation == 3));
+  CHECK(back.given == pixels.given);
   CHECK(back.rgb == pixels.rgb);
   CHECK(back.report.samples_new == 1);
   CHECK(back.report.samples_known == 2);
@@ -158,14 +168,19 @@ TEST_CASE("a message with more than it should hold is refused") {
 
 TEST_CASE("a count that a message cannot hold takes no memory") {
   const Bytes bundle = encode(some_bundle());
-  const std::size_t samples = bundle.size() - encode(Bundle()).size();
-  check_hostile_count(bundle, bundle.size() - samples - sizeof(std::uint64_t), kDecodeBundle);
+  Bundle without = some_bundle();
+  without.samples.clear();
+  check_hostile_count(bundle, encode(without).size() - sizeof(std::uint64_t), kDecodeBundle);
+  check_hostile_count(bundle, encode(without).size() - 2 * sizeof(std::uint64_t) - sizeof(TileGrant),
+                      kDecodeBundle);
 
   const PixelMessage pixels = some_pixels();
   const Bytes bytes = encode(pixels);
   const std::size_t rgb = bytes.size() - 6 * sizeof(float) - sizeof(std::uint64_t);
   check_hostile_count(bytes, rgb, kDecodePixels);
-  check_hostile_count(bytes, rgb - 2 * sizeof(std::int32_t) - sizeof(std::uint64_t), kDecodePixels);
+  const std::size_t given = rgb - sizeof(std::int32_t) - sizeof(std::uint64_t);
+  check_hostile_count(bytes, given, kDecodePixels);
+  check_hostile_count(bytes, given - 2 * sizeof(TileReport) - sizeof(std::uint64_t), kDecodePixels);
 }
 
 TEST_CASE("texts travel with their length") {

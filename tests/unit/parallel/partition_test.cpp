@@ -171,7 +171,7 @@ TEST_CASE("tiles are between 4 and 32 pixels and about 32 a rank") {
 }
 
 TEST_CASE("regions that hang together by a corner only are not connected") {
-  Partition partition{TileGrid(20, 20, 10), 2, {0, 1, 1, 0}};
+  Partition partition{TileGrid(20, 20, 10), 2, {0, 1, 1, 0}, {0, 0, 0, 0}};
   CHECK_FALSE(is_connected(partition, 0));
   CHECK_FALSE(is_connected(partition, 1));
   partition.owner = {0, 0, 1, 0};
