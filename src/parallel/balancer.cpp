@@ -74,8 +74,8 @@ std::vector<int> Balancer::neighbours_ahead(const SampleMesh& mesh,
   return ahead;
 }
 
-std::vector<int> Balancer::tiles_for(const SampleMesh& mesh, const SampleExchange& exchange,
-                                     int taker) const {
+std::vector<int> Balancer::tiles_for(const SampleMesh& mesh, const SampleExchange& exchange, int taker,
+                                     double most_samples) const {
   const RankProgress& theirs = theirs_[static_cast<std::size_t>(taker)];
   const std::vector<std::uint32_t> known = exchange.known_in_tiles(mesh, taker);
   const std::vector<std::uint32_t> all = exchange.known_in_tiles(mesh, rank_);
@@ -86,14 +86,14 @@ std::vector<int> Balancer::tiles_for(const SampleMesh& mesh, const SampleExchang
                      static_cast<double>(known[t])};
   };
   return tiles_to_give(settings_, exchange.partition(), rank_, taker, difference,
-                       static_cast<double>(price(Work::kReceivedSample)), offer);
+                       static_cast<double>(price(Work::kReceivedSample)), most_samples, offer);
 }
 
-std::vector<TileGrant> Balancer::give(const SampleMesh& mesh, SampleExchange& exchange) {
+std::vector<TileGrant> Balancer::give(const SampleMesh& mesh, SampleExchange& exchange, double most_samples) {
   std::vector<TileGrant> grants;
   // One taker at a time: after the first gift the estimates for the others no longer hold.
   for (const int taker : neighbours_ahead(mesh, exchange.neighbours())) {
-    const std::vector<int> tiles = tiles_for(mesh, exchange, taker);
+    const std::vector<int> tiles = tiles_for(mesh, exchange, taker, most_samples);
     if (tiles.empty()) continue;  // it touches this region at a corner only, or every tile is too big a gift
     exchange.introduce(mesh, tiles, taker);
     for (const int tile : tiles) {

@@ -31,7 +31,7 @@ class Balancer {
   // Tiles to give to a neighbour that is ahead, if this rank is the last among its neighbours: so two
   // neighbours never give at the same time, and a region cannot fall apart while it receives. Their samples
   // are put into the exchange's outbox; the caller sends the grants to every rank and makes them true.
-  std::vector<TileGrant> give(const SampleMesh& mesh, SampleExchange& exchange);
+  std::vector<TileGrant> give(const SampleMesh& mesh, SampleExchange& exchange, double most_samples);
 
   // Remembers the mean weights that the frame has led to, and tells what every tile of the region took.
   std::vector<TileReport> report(const SampleMesh& mesh);
@@ -40,7 +40,8 @@ class Balancer {
   double future_cost_of(const SampleMesh& mesh, int tile, double quality) const;
   double future_cost_of_region(const SampleMesh& mesh, double quality) const;
   std::vector<int> neighbours_ahead(const SampleMesh& mesh, const std::vector<int>& neighbours) const;
-  std::vector<int> tiles_for(const SampleMesh& mesh, const SampleExchange& exchange, int taker) const;
+  std::vector<int> tiles_for(const SampleMesh& mesh, const SampleExchange& exchange, int taker,
+                             double most_samples) const;
 
   LocalBalanceSettings settings_;
   int rank_;

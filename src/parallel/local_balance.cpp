@@ -56,7 +56,7 @@ double target_quality(double quality) {
 }
 
 std::vector<int> tiles_to_give(const LocalBalanceSettings& settings, const Partition& before, int giver,
-                               int taker, double difference, double insertion_cost,
+                               int taker, double difference, double insertion_cost, double most_samples,
                                const std::function<TileOffer(int tile)>& offer) {
   Partition partition = before;
   std::vector<int> given;
@@ -65,15 +65,16 @@ std::vector<int> tiles_to_give(const LocalBalanceSettings& settings, const Parti
   while (to_move > 0 && owned > 1) {
     double best_grade = 0;
     std::optional<int> best;
-    double best_cost = 0;
+    double best_cost = 0, best_unknown = 0;
     for (int tile = 0; tile < partition.grid.tile_count(); ++tile) {
       if (partition.owner[static_cast<std::size_t>(tile)] != giver) continue;
       const Sides sides = owners_beside(partition, tile, giver, taker);
       if (sides.taker == 0) continue;
       const TileOffer o = offer(tile);
       // More than what is left to move would only turn the imbalance round.
-      if (o.future_cost <= 0 || o.future_cost > 1.5 * to_move) continue;
-      const double balance = (o.future_cost - insertion_cost * (o.samples - o.known_to_taker)) / difference;
+      const double unknown = o.samples - o.known_to_taker;
+      if (o.future_cost <= 0 || o.future_cost > 1.5 * to_move || unknown > most_samples) continue;
+      const double balance = (o.future_cost - insertion_cost * unknown) / difference;
       const double known = o.samples > 0 ? o.known_to_taker / o.samples : 1;
       const double longer_border = 0.25 * (sides.giver - sides.taker);
       const double grade = settings.balance_weight * balance +
@@ -81,12 +82,13 @@ std::vector<int> tiles_to_give(const LocalBalanceSettings& settings, const Parti
                                std::min(1.0, o.future_cost / to_move);
       if ((best && grade <= best_grade) || balance <= 0 || !can_spare(partition, tile, giver, taker))
         continue;
-      best = tile, best_grade = grade, best_cost = o.future_cost;
+      best = tile, best_grade = grade, best_cost = o.future_cost, best_unknown = unknown;
     }
     if (!best) break;
     partition.owner[static_cast<std::size_t>(*best)] = taker;
     given.push_back(*best);
     to_move -= best_cost;
+    most_samples -= best_unknown;
     --owned;
   }
   return given;

@@ -36,10 +36,10 @@ struct TileOffer {
 
 // Which of the giver's tiles along its border with the taker to give, one after the other by their grade,
 // until half of `difference` (Delta, the ranks' difference in future cost) has moved. The giver's region
-// stays connected and keeps at least one tile. `offer` is asked for tiles of the giver only; `insertion_cost`
-// is Icost, work units.
+// stays connected and keeps at least one tile, and the taker need not take in more than `most_samples`.
+// `offer` is asked for tiles of the giver only; `insertion_cost` is Icost, work units.
 std::vector<int> tiles_to_give(const LocalBalanceSettings& settings, const Partition& partition, int giver,
-                               int taker, double difference, double insertion_cost,
+                               int taker, double difference, double insertion_cost, double most_samples,
                                const std::function<TileOffer(int tile)>& offer);
 
 }  // namespace pprt

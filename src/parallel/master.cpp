@@ -17,10 +17,11 @@ constexpr double kFirstGuess = 0.2;
 }  // namespace
 
 Master::Master(Communicator& network, const SessionSettings& settings, const Partition& partition,
-               CameraSource source, FrameSink sink)
+               double ranks_per_core, CameraSource source, FrameSink sink)
     : network_(network),
       settings_(settings),
       partition_(partition),
+      ranks_per_core_(ranks_per_core),
       source_(std::move(source)),
       sink_(std::move(sink)) {
   if (settings.frames_per_second > 0) after_sampling_s_.push_back(kFirstGuess / settings.frames_per_second);
@@ -133,8 +134,9 @@ void Master::balance_globally(const Assembly& assembly) {
 // rested for long has more samples than that; then local balancing goes on alone.
 bool Master::can_afford_to_hand_over() const {
   if (next_owners_.empty() || settings_.frames_per_second <= 0) return true;
-  const double frame_units = settings_.clock == ClockKind::kWork ? static_cast<double>(settings_.budget_units)
-                                                                 : 1e9 / settings_.frames_per_second;
+  const double frame_units = settings_.clock == ClockKind::kWork
+                                 ? static_cast<double>(settings_.budget_units)
+                                 : 1e9 / settings_.frames_per_second / ranks_per_core_;
   const double most = *std::max_element(handed_over_.begin(), handed_over_.end());
   return most * static_cast<double>(price(Work::kReceivedSample)) <= 0.25 * frame_units;
 }

@@ -42,7 +42,7 @@ class Master {
  public:
   // The sink is called in frame order, on the caller's thread.
   Master(Communicator& network, const SessionSettings& settings, const Partition& partition,
-         CameraSource source, FrameSink sink);
+         double ranks_per_core, CameraSource source, FrameSink sink);
 
   // Sends every rank the order for the next frame; `start_s` is the sequence's start by monotonic_seconds().
   void begin_sequence(double start_s);
@@ -80,6 +80,7 @@ class Master {
   Communicator& network_;
   SessionSettings settings_;
   Partition partition_;
+  double ranks_per_core_;
   CameraSource source_;
   FrameSink sink_;
   std::map<int, Assembly> assemblies_;     // by frame index

@@ -92,13 +92,17 @@ Partition equal_areas(const SessionSettings& settings, int ranks) {
   return bisect(grid, areas, ranks);
 }
 
+// How many ranks share a core, at least 1, if this host has them all: a guess on the careful side.
+double ranks_per_core(const Communicator& network) {
+  return std::max(1.0,
+                  network.size() / static_cast<double>(std::max(1u, std::thread::hardware_concurrency())));
+}
+
 Worker make_worker(Communicator& network, Inbox& inbox, const SessionSettings& settings,
                    const Partition& partition, const Probe& probe, double start_s) {
-  const double cores = std::max(1u, std::thread::hardware_concurrency());
-  const double ranks_per_core = std::max(1.0, network.size() / cores);
   const std::size_t pixels = region_of(partition, network.rank()).pixel_count();
   return Worker(network, inbox, settings, partition, probe,
-                make_frame_clock(settings, start_s, pixels, ranks_per_core));
+                make_frame_clock(settings, start_s, pixels, ranks_per_core(network)));
 }
 
 // Empty: the sequence is over.
@@ -116,7 +120,7 @@ std::optional<FrameOrder> await_order(Inbox& inbox, int index) {
 void run_as_master(Communicator& network, const SessionSettings& settings, const Probe& probe,
                    const CameraSource& source, const FrameSink& sink) {
   const Partition partition = equal_areas(settings, network.size());
-  Master master(network, settings, partition, source, sink);
+  Master master(network, settings, partition, ranks_per_core(network), source, sink);
   Inbox inbox(network, [&](const Message& message) { master.handle(message); });
   const double start_s = start_together(network, inbox);
   Worker worker = make_worker(network, inbox, settings, partition, probe, start_s);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "pipeline/seeds.h"
@@ -315,7 +316,11 @@ void Worker::take_in(const std::vector<Inbox::Arrived>& bundles) {
 // each rank takes the share of its area, which stays as it is.
 std::vector<TileGrant> Worker::give_tiles() {
   if (!clock_->time_for_gifts() || settings_.stop.samples > 0) return {};
-  std::vector<TileGrant> grants = balancer_.give(mesh_, exchange_);
+  // What the taker must take in may cost it a twentieth of the frame.
+  const double most_samples = settings_.frames_per_second > 0
+                                  ? static_cast<double>(clock_->affordable(Work::kReceivedSample, 0.05))
+                                  : std::numeric_limits<double>::infinity();
+  std::vector<TileGrant> grants = balancer_.give(mesh_, exchange_, most_samples);
   for (const TileGrant& grant : grants) given_.push_back(grant.tile);
   report_.tiles_given += grants.size();
   apply(grants);
