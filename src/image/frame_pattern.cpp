@@ -13,7 +13,7 @@ constexpr std::size_t kMaxDigits = 9;  // more than any int frame number needs
 
 class PatternReader {
  public:
-  explicit PatternReader(std::string_view text) : text_(text), rest_(text) {}
+  PatternReader(std::string_view text, std::string_view what) : what_(what), text_(text), rest_(text) {}
 
   FramePattern read() {
     while (!rest_.empty()) {
@@ -32,7 +32,7 @@ class PatternReader {
   }
 
   [[noreturn]] void fail(std::string_view problem) const {
-    throw UsageError(fmt::format("output '{}': {}", text_, problem));
+    throw UsageError(fmt::format("{} '{}': {}", what_, text_, problem));
   }
 
  private:
@@ -66,6 +66,7 @@ class PatternReader {
     rest_.remove_prefix(length);
   }
 
+  std::string_view what_;
   std::string_view text_;
   std::string_view rest_;
   FramePattern pattern_;
@@ -73,8 +74,8 @@ class PatternReader {
 
 }  // namespace
 
-FramePattern parse_frame_pattern(std::string_view text, FrameCount count) {
-  PatternReader reader(text);
+FramePattern parse_frame_pattern(std::string_view text, FrameCount count, std::string_view what) {
+  PatternReader reader(text, what);
   FramePattern pattern = reader.read();
   const std::filesystem::path name = file_name(pattern, 0);
   if (name.extension() != ".exr" && name.extension() != ".png")

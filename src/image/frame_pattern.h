@@ -19,8 +19,8 @@ struct FramePattern {
 enum class FrameCount { kOne, kMany };
 
 // Reads a pattern that ends in .exr or .png. One frame may do without a field, many may not. Throws
-// UsageError that says what is wrong and what would be right.
-FramePattern parse_frame_pattern(std::string_view text, FrameCount count);
+// UsageError that says what is wrong and what would be right, of `what` (an option).
+FramePattern parse_frame_pattern(std::string_view text, FrameCount count, std::string_view what = "output");
 
 // The name for one frame, whose number is not negative.
 std::filesystem::path file_name(const FramePattern& pattern, int frame);
