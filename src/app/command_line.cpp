@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "app/launch.h"
 #include "app/version.h"
 #include "base/diagnostics.h"
 
@@ -23,7 +24,7 @@ bool parse_command_line(CLI::App& app, std::vector<std::string> words) {
     app.parse(words);
     return true;
   } catch (const CLI::Success& request) {
-    app.exit(request, std::cout, std::cout);
+    if (launcher_rank() == 0) app.exit(request, std::cout, std::cout);
     return false;
   } catch (const CLI::ParseError& e) {
     throw UsageError(e.what());

@@ -5,6 +5,7 @@
 #include <exception>
 #include <new>
 
+#include "app/launch.h"
 #include "base/diagnostics.h"
 
 namespace pprt {
@@ -13,9 +14,11 @@ int run_guarded(std::string_view program, const std::function<int()>& body) {
   try {
     return body();
   } catch (const InputError& e) {
+    if (launcher_rank() > 0) return kExitDone;
     fmt::print(stderr, "{}\n", e.what());
     return kExitInput;
   } catch (const UsageError& e) {
+    if (launcher_rank() > 0) return kExitDone;
     fmt::print(stderr, "{0}: error: {1}\ntry '{0} --help'\n", program, e.what());
     return kExitUsage;
   } catch (const std::bad_alloc&) {

@@ -13,11 +13,17 @@
 #include <thread>
 #include <vector>
 
+#include "app/exit.h"
+
 namespace pprt {
 namespace {
 
 volatile std::sig_atomic_t mpirun_pid = 0;
 volatile std::sig_atomic_t stopped_by = 0;
+volatile std::sig_atomic_t forced = 0;  // a second signal came
+
+// Tells the ranks, whose standard error is a pipe to mpirun, that a terminal is at its end.
+constexpr const char* kTerminalVariable = "PPRT_ON_TERMINAL";
 
 // A first SIGINT or SIGTERM asks rank 0 to finish its frame; a second one ends mpirun.
 void pass_on(int signal) {
@@ -26,6 +32,7 @@ void pass_on(int signal) {
     kill(mpirun_pid, SIGUSR1);
   } else {
     kill(mpirun_pid, stopped_by == 0 ? SIGUSR2 : signal);
+    forced = stopped_by != 0;
     stopped_by = signal;
   }
 }
@@ -43,6 +50,7 @@ std::vector<std::string> mpirun_command(int ranks, const std::string& hostfile, 
   // More ranks than cores is a normal case here: idle ranks sleep, and none may be tied to a core.
   command.insert(command.end(), {"--oversubscribe", "--bind-to", "none"});
   if (geteuid() == 0) command.emplace_back("--allow-run-as-root");
+  if (on_terminal()) command.insert(command.end(), {"-x", std::string(kTerminalVariable) + "=1"});
   std::error_code ignored;
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", ignored);
   command.push_back(ignored ? argv[0] : self.string());
@@ -76,12 +84,25 @@ int run_under_mpirun(int ranks, const std::string& hostfile, char** argv) {
     if (errno != EINTR)
       throw std::runtime_error(std::string("cannot wait for mpirun: ") + std::strerror(errno));
   }
-  if (stopped_by != 0) return 128 + stopped_by;
-  if (WIFSIGNALED(status)) return 128 + WTERMSIG(status);
-  const int code = WEXITSTATUS(status);
+  const int code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+  // A run that was to stop may fail at that; what mpirun makes of being ended itself says nothing.
+  const bool failed = code >= kExitFailure && code <= kExitInput;
+  if (stopped_by != 0 && (forced != 0 || !failed)) return 128 + stopped_by;
   if (code == 127)
     throw std::runtime_error("cannot start mpirun: it is not on the PATH (package openmpi-bin)");
   return code;
+}
+
+bool on_terminal() {
+  return isatty(STDERR_FILENO) != 0 || std::getenv(kTerminalVariable) != nullptr;
+}
+
+int launcher_rank() {
+  // Of Open MPI, of PMIx, and of the PMI of MPICH and Slurm.
+  for (const char* name : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"}) {
+    if (const char* rank = std::getenv(name)) return std::atoi(rank);
+  }
+  return 0;
 }
 
 }  // namespace pprt

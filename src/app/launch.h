@@ -7,7 +7,13 @@ namespace pprt {
 
 // Runs this same command line under mpirun with so many ranks and returns its exit code. SIGINT and SIGTERM
 // are passed on as a wish to end after the frame at hand, SIGUSR1 as it is; after the former the code is 128
-// + signal. Throws std::runtime_error when mpirun cannot be started.
+// + signal, unless the run failed. Throws std::runtime_error when mpirun cannot be started.
 int run_under_mpirun(int ranks, const std::string& hostfile, char** argv);
+
+// Whether people watch standard error: a terminal, which run_under_mpirun() may stand between.
+bool on_terminal();
+
+// This process's rank as its launcher tells it before MPI begins; 0 without a launcher.
+int launcher_rank();
 
 }  // namespace pprt

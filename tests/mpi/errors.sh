@@ -15,6 +15,14 @@ for way in own hand; do
     { cat told >&2; fail "one report of the error was wanted ($way)"; }
   [[ ! -e broken.png ]] || fail "a picture was written"
 done
+# Every rank meets a command line that makes no sense; one speaks.
+code=0
+mpirun_by_hand --quiet -np 3 pprt-render broken.nff --bogus 2>told || code=$?
+[[ $code == 2 && $(grep -c -- --bogus told) == 1 ]] || { cat told >&2; fail "a usage error ended with code $code"; }
+for what in --help --write-config; do
+  mpirun_by_hand -np 3 pprt-render broken.nff $what >told || fail "$what failed"
+  [[ $(grep -c 'max-depth' told) == 1 ]] || { cat told >&2; fail "$what was not told once"; }
+done
 code=0
 pprt-render no-such.nff -np 4 -o none.png 2>told || code=$?
 [[ $code == 3 ]] || fail "a missing scene ended with code $code instead of 3"
