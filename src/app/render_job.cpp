@@ -10,7 +10,7 @@ namespace pprt {
 
 Bytes encode(const RenderJob& job) {
   WireWriter out;
-  out.put(job.go), out.put(job.settings);
+  out.put(job.go), out.put_all<std::byte>(encode(job.settings));
   out.put(job.compile.max_depth), out.put(job.compile.cull);
   out.put(job.compile.effects.has_value()), out.put(job.compile.effects.value_or(EffectSet()).bits());
   out.put(job.scene_nff);
@@ -20,9 +20,11 @@ Bytes encode(const RenderJob& job) {
 RenderJob decode_job(const Bytes& bytes) {
   WireReader in(bytes);
   RenderJob job;
+  Bytes settings;
   bool restricted = false;
   unsigned effects = 0;
-  in.get(job.go), in.get(job.settings);
+  in.get(job.go), in.get_all(settings);
+  job.settings = decode_settings(settings);
   in.get(job.compile.max_depth), in.get(job.compile.cull);
   in.get(restricted), in.get(effects);
   if (restricted) job.compile.effects = EffectSet(effects);
