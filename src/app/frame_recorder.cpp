@@ -42,7 +42,13 @@ Facts header_facts(Json record) {
   return facts;
 }
 
-}  // namespace
+std::set<int> frames_in(const Manifest& manifest, const RenderPlan& plan) {
+  std::set<int> frames;
+  for (const PlannedFrame& frame : plan.frames) {
+    if (manifest.has(frame.number, plan.outputs)) frames.insert(frame.number);
+  }
+  return frames;
+}
 
 void require_new_files(const RenderOptions& options, const RenderPlan& plan) {
   if (options.overwrite || options.resume) return;
@@ -57,30 +63,55 @@ void require_new_files(const RenderOptions& options, const RenderPlan& plan) {
   }
 }
 
+void require_references(const RenderPlan& plan) {
+  if (!plan.reference) return;
+  for (const PlannedFrame& frame : plan.frames) {
+    const std::filesystem::path file = file_name(*plan.reference, frame.number);
+    if (!std::filesystem::exists(file)) throw UsageError("--reference: there is no " + file.string());
+  }
+}
+
+}  // namespace
+
+void check_files(const RenderOptions& options, const RenderPlan& plan) {
+  require_new_files(options, plan);
+  require_references(plan);
+}
+
 FrameRecorder::FrameRecorder(const RenderOptions& options, const RenderPlan& plan, const std::string& key,
                              const Json& run)
     : has_rate_(plan.settings.frames_per_second > 0),
       where_(names_of(options)),
       contact_sheet_(options.contact_sheet),
       first_output_(plan.outputs.front()),
+      reference_(plan.reference),
+      ledger_(options.stats, options.resume),
       manifest_(manifest_path(plan.outputs.front()), key, options.resume),
+      finished_before_(frames_in(manifest_, plan)),
+      written_(finished_before_),
       writer_(plan.outputs, {.overwrite = true}),
-      ledger_(options.stats),
       progress_(progress_kind(options.progress), static_cast<int>(plan.frames.size()),
-                plan.settings.frames_per_second, options.progress == "none") {
-  if (!options.reference.empty()) reference_ = parse_frame_pattern(options.reference, FrameCount::kOne);
-  written_ = manifest_.finished();
+                static_cast<int>(finished_before_.size()), plan.settings.frames_per_second,
+                options.progress == "none") {
   ledger_.write(run);
 }
 
 void FrameRecorder::record(FinishedFrame&& frame) {
-  totals_.add(frame);
   Json record = frame_record(frame);
   Facts facts = header_facts(record);
   if (ledger_.enabled()) ledger_.write_frame(std::move(record), measure_error(frame));
-  progress_.frame_done(frame, totals_);
+  {
+    const std::scoped_lock lock(mutex_);
+    totals_.add(frame);
+    progress_.frame_done(frame, totals_);
+  }
   writer_.submit({frame.order.number, std::move(frame.image), std::move(facts)});
   note_written(writer_.take_finished());
+}
+
+void FrameRecorder::status() const {
+  const std::scoped_lock lock(mutex_);
+  progress_.status(totals_);
 }
 
 std::optional<std::future<double>> FrameRecorder::measure_error(const FinishedFrame& frame) const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <mutex>
 #include <optional>
 #include <set>
 #include <string>
@@ -22,15 +23,15 @@ class FrameRecorder {
   FrameRecorder(const RenderOptions& options, const RenderPlan& plan, const std::string& key,
                 const Json& run);
 
-  // Frames that an earlier run has finished (--resume).
-  const std::set<int>& finished_before() const { return manifest_.finished(); }
+  // Whether an earlier run has finished the frame (--resume).
+  bool finished_before(int frame) const { return finished_before_.count(frame) != 0; }
 
   void record(FinishedFrame&& frame);
 
   // Whether going on serves nothing: a frame could not be written.
   bool failed() const { return writer_.error().has_value(); }
 
-  void status() const { progress_.status(totals_); }
+  void status() const;  // from any thread
   const RunTotals& totals() const { return totals_; }
 
   // Waits for the last file, writes the contact sheet and the summary; throws what kept a frame from being
@@ -46,16 +47,18 @@ class FrameRecorder {
   std::string where_;
   std::filesystem::path contact_sheet_;  // empty: none
   FramePattern first_output_;
-  std::set<int> written_;  // frames whose files are whole, those of earlier runs too
   std::optional<FramePattern> reference_;
+  Ledger ledger_;  // before the manifest, which must stand as it was when no ledger can be written
   Manifest manifest_;
+  std::set<int> finished_before_;
+  std::set<int> written_;  // frames whose files are whole, those of earlier runs too
   FrameWriter writer_;
-  Ledger ledger_;
+  mutable std::mutex mutex_;  // guards what follows
   Progress progress_;
   RunTotals totals_;
 };
 
-// Throws UsageError when an output is there already and may not be replaced.
-void require_new_files(const RenderOptions& options, const RenderPlan& plan);
+// Throws UsageError when an output is there already and may not be replaced, or a reference is not there.
+void check_files(const RenderOptions& options, const RenderPlan& plan);
 
 }  // namespace pprt

@@ -1,5 +1,7 @@
 #include "app/ledger.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -145,9 +147,9 @@ Json RunTotals::summary(bool has_rate) const {
   return record;
 }
 
-Ledger::Ledger(const std::string& path) : path_(path) {
+Ledger::Ledger(const std::string& path, bool append) : path_(path) {
   if (path_.empty() || path_ == "-") return;
-  file_.open(path_, std::ios::trunc);
+  file_.open(path_, append ? std::ios::app : std::ios::trunc);
   if (!file_) throw std::runtime_error("cannot write '" + path_ + "'");
 }
 
@@ -160,22 +162,34 @@ void Ledger::write(const Json& record) {
 
 void Ledger::write_frame(Json record, std::optional<std::future<double>> rmse) {
   pending_.push_back({std::move(record), std::move(rmse)});
-  settle(false);
+  settle(kMostPending);
 }
 
 void Ledger::finish() {
-  settle(true);
+  settle(0);
 }
 
-void Ledger::settle(bool wait) {
+// Writes what is ready, and waits until at most `may_wait` frames are not.
+void Ledger::settle(std::size_t may_wait) {
   while (!pending_.empty()) {
     Pending& next = pending_.front();
     if (next.rmse) {
-      if (!wait && next.rmse->wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-      next.record["rmse"] = next.rmse->get();
+      const bool ready = next.rmse->wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+      if (!ready && pending_.size() <= may_wait) return;
+      add_rmse(next);
     }
     write(next.record);
     pending_.pop_front();
+  }
+}
+
+void Ledger::add_rmse(Pending& pending) {
+  try {
+    pending.record["rmse"] = pending.rmse->get();
+  } catch (const std::exception& e) {
+    if (!std::exchange(told_of_failure_, true)) {
+      fmt::print(stderr, "pprt-render: warning: --reference: {}; rmse is left out\n", e.what());
+    }
   }
 }
 

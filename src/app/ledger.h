@@ -44,11 +44,16 @@ class RunTotals {
 // Throws std::runtime_error when the file cannot be written.
 class Ledger {
  public:
-  explicit Ledger(const std::string& path);  // empty: writes nothing; "-": standard output
+  // So many frames may wait for their error; then the frame loop waits for the oldest of them.
+  static constexpr std::size_t kMostPending = 4;
+
+  // `path` empty: writes nothing; "-": standard output. `append` keeps the records that are there.
+  Ledger(const std::string& path, bool append);
 
   bool enabled() const { return !path_.empty(); }
   void write(const Json& record);
-  // `rmse` is measured beside the frame loop; empty: none is asked for.
+  // `rmse` is measured beside the frame loop; empty: none is asked for. One that cannot be measured is told
+  // on standard error, once a run, and left out.
   void write_frame(Json record, std::optional<std::future<double>> rmse);
   // Waits for what is still being measured.
   void finish();
@@ -59,11 +64,13 @@ class Ledger {
     std::optional<std::future<double>> rmse;
   };
 
-  void settle(bool wait);
+  void settle(std::size_t may_wait);
+  void add_rmse(Pending& pending);
 
   std::string path_;
   std::ofstream file_;
   std::deque<Pending> pending_;
+  bool told_of_failure_ = false;
 };
 
 }  // namespace pprt

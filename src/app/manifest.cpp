@@ -19,12 +19,6 @@ std::string text_of(const Json& record, const char* key) {
   return found != record.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
-bool all_there(const Json& files) {
-  return files.is_array() && !files.empty() && std::all_of(files.begin(), files.end(), [](const Json& f) {
-           return f.is_string() && std::filesystem::exists(f.get<std::string>());
-         });
-}
-
 }  // namespace
 
 std::filesystem::path manifest_path(const FramePattern& output) {
@@ -61,11 +55,23 @@ void Manifest::read(const std::filesystem::path& path, const std::string& key) {
   while (lines.peek() != std::istringstream::traits_type::eof()) {
     const Json record = next_record();
     if (text_of(record, "record") == "frame" && record.contains("frame") &&
-        record["frame"].is_number_integer() && record.contains("files") && all_there(record["files"])) {
-      finished_.insert(record["frame"].get<int>());
+        record["frame"].is_number_integer() && record.contains("files") && record["files"].is_array()) {
+      std::set<std::string>& names = written_before_[record["frame"].get<int>()];
+      for (const Json& file : record["files"]) {
+        if (file.is_string()) names.insert(file.get<std::string>());
+      }
     }
   }
   if (text.back() != '\n') write_whole_file(path, text + "\n");
+}
+
+bool Manifest::has(int frame, const std::vector<FramePattern>& outputs) const {
+  const auto found = written_before_.find(frame);
+  return found != written_before_.end() &&
+         std::all_of(outputs.begin(), outputs.end(), [&](const FramePattern& output) {
+           const std::filesystem::path file = file_name(output, frame);
+           return found->second.count(file.string()) != 0 && std::filesystem::exists(file);
+         });
 }
 
 void Manifest::add(const std::vector<WrittenFrame>& frames) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -22,15 +23,15 @@ class Manifest {
   // options: a manifest with another one cannot be resumed (UsageError).
   Manifest(const std::filesystem::path& path, const std::string& key, bool resume);
 
-  // Frames finished before this run, whose files are all there.
-  const std::set<int>& finished() const { return finished_; }
+  // Whether an earlier run has written the frame under every one of these names, and all are there still.
+  bool has(int frame, const std::vector<FramePattern>& outputs) const;
 
   void add(const std::vector<WrittenFrame>& frames);
 
  private:
   void read(const std::filesystem::path& path, const std::string& key);
 
-  std::set<int> finished_;
+  std::map<int, std::set<std::string>> written_before_;  // names by frame
   std::ofstream file_;
   std::filesystem::path path_;
 };

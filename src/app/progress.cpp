@@ -1,10 +1,11 @@
 #include "app/progress.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <locale>
+
+#include "app/launch.h"
 
 namespace pprt {
 namespace {
@@ -25,39 +26,40 @@ std::string lateness(double late_ms) {
 }  // namespace
 
 ProgressKind progress_kind(const std::string& word) {
-  if (word == "tty" || (word == "auto" && isatty(STDERR_FILENO) != 0)) return ProgressKind::kTty;
+  if (word == "tty" || (word == "auto" && on_terminal())) return ProgressKind::kTty;
   return word == "json" ? ProgressKind::kJson : ProgressKind::kNone;
 }
 
-Progress::Progress(ProgressKind kind, int frames, double frames_per_second, bool quiet)
-    : kind_(kind), frames_(frames), frames_per_second_(frames_per_second), quiet_(quiet) {}
+Progress::Progress(ProgressKind kind, int frames, int there, double frames_per_second, bool quiet)
+    : kind_(kind), frames_(frames), there_(there), frames_per_second_(frames_per_second), quiet_(quiet) {}
 
 void Progress::frame_done(const FinishedFrame& frame, const RunTotals& totals) {
   if (kind_ == ProgressKind::kTty) fmt::print(stderr, "\r{}\033[K", line(totals));
   if (kind_ != ProgressKind::kJson) return;
-  const Json record = {{"event", "frame"},
-                       {"frame", frame.order.number},
-                       {"done", totals.frames()},
-                       {"frames", frames_},
-                       {"on_time", totals.on_time()},
-                       {"late_ms", frame.late_ms},
-                       {"samples_per_frame", totals.samples_per_frame()}};
+  const Json record = {{"event", "frame"},         {"frame", frame.order.number},
+                       {"done", totals.frames()},  {"there", there_},
+                       {"frames", frames_},        {"on_time", totals.on_time()},
+                       {"late_ms", frame.late_ms}, {"samples_per_frame", totals.samples_per_frame()}};
   fmt::print(stderr, "{}\n", record.dump());
 }
 
 void Progress::status(const RunTotals& totals) const {
-  fmt::print(stderr, "{}\n", line(totals));
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
+  const char* over_line = kind_ == ProgressKind::kTty ? "\r\033[K" : "";
+  fmt::print(stderr, "{}{}  {:.1f} s elapsed\n", over_line, line(totals), elapsed.count());
 }
 
 void Progress::finish(const std::string& event, const RunTotals& totals, const std::string& where) {
   if (kind_ == ProgressKind::kJson) {
-    fmt::print(stderr, "{}\n", Json{{"event", event}, {"done", totals.frames()}, {"frames", frames_}}.dump());
+    const Json record = {{"event", event}, {"done", totals.frames()}, {"there", there_}, {"frames", frames_}};
+    fmt::print(stderr, "{}\n", record.dump());
     return;
   }
   if (kind_ == ProgressKind::kTty && totals.frames() > 0) fmt::print(stderr, "\r\033[K");
   if (quiet_) return;
-  std::string text = fmt::format("{}: {} of {} frame{} in {}", event, totals.frames(), frames_,
-                                 frames_ == 1 ? "" : "s", where);
+  const std::string there = there_ > 0 ? fmt::format(" ({} were there already)", there_) : "";
+  std::string text = fmt::format("{}: {} of {} frame{}{} in {}", event, totals.frames(), frames_,
+                                 frames_ == 1 ? "" : "s", there, where);
   if (totals.frames() > 0) {
     if (frames_per_second_ > 0) {
       text += fmt::format("; {} on time at {:g} frames/s, the slowest {}", totals.on_time(),
@@ -69,10 +71,11 @@ void Progress::finish(const std::string& event, const RunTotals& totals, const s
 }
 
 std::string Progress::line(const RunTotals& totals) const {
-  std::string text = fmt::format("frame {} of {}", totals.frames(), frames_);
+  std::string text = fmt::format("frame {} of {}", there_ + totals.frames(), frames_);
+  if (totals.frames() == 0) return text;
   if (frames_per_second_ > 0) {
     text += fmt::format("  {} on time at {:g}/s", totals.on_time(), frames_per_second_);
-    if (totals.frames() > 0) text += fmt::format("  slowest {}", lateness(totals.worst_late_ms()));
+    text += fmt::format("  slowest {}", lateness(totals.worst_late_ms()));
   }
   return text + fmt::format("  {} samples a frame", grouped(totals.samples_per_frame()));
 }

@@ -1,6 +1,7 @@
 // What people are told on standard error while frames are made.
 #pragma once
 
+#include <chrono>
 #include <string>
 
 #include "app/ledger.h"
@@ -14,10 +15,11 @@ ProgressKind progress_kind(const std::string& word);
 
 class Progress {
  public:
-  Progress(ProgressKind kind, int frames, double frames_per_second, bool quiet);
+  // Of `frames`, an earlier run has finished `there`.
+  Progress(ProgressKind kind, int frames, int there, double frames_per_second, bool quiet);
 
   void frame_done(const FinishedFrame& frame, const RunTotals& totals);
-  void status(const RunTotals& totals) const;  // one line, asked for by a signal
+  void status(const RunTotals& totals) const;  // one line with the time elapsed, asked for by a signal
 
   // The end, told exactly once: "done", "stopped" or "failed".
   void finish(const std::string& event, const RunTotals& totals, const std::string& where);
@@ -27,8 +29,10 @@ class Progress {
 
   ProgressKind kind_;
   int frames_;
+  int there_;
   double frames_per_second_;
   bool quiet_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace pprt

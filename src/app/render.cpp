@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <limits>
 #include <sstream>
 #include <utility>
 
@@ -39,7 +40,8 @@ std::string nff_text(const SceneDescription& scene) {
   return std::move(text).str();
 }
 
-// What decides the pictures: two runs with equal keys may continue each other.
+// What decides the pictures, but not which of them are made: two runs with equal keys may continue each
+// other.
 std::string run_key(const RenderOptions& o, const RenderPlan& plan, int ranks,
                     const std::string& scene_hash) {
   const SessionSettings& s = plan.settings;
@@ -47,7 +49,7 @@ std::string run_key(const RenderOptions& o, const RenderPlan& plan, int ranks,
                                  s.height, o.clock, s.frames_per_second, s.budget_units, s.stop.seconds,
                                  s.stop.samples, s.stop.quality, o.balance + o.keep_samples, o.cast, s.seed,
                                  o.max_depth, o.effects + (o.cull ? " cull" : ""));
-  for (const PlannedFrame& f : plan.frames) {
+  for (const PlannedFrame& f : plan.script_frames) {
     const View& v = f.view;
     text += fmt::format("\n{} {} {} {} {} {} {} {} {} {} {} {}", f.number, f.cut, v.from.x, v.from.y,
                         v.from.z, v.at.x, v.at.y, v.at.z, v.up.x, v.up.y, v.up.z, v.angle_degrees);
@@ -90,13 +92,12 @@ CameraSource camera_source(const RenderPlan& plan, const CompiledScene& scene, F
   std::vector<FrameRequest> requests;
   int before = 0;
   for (const PlannedFrame& frame : plan.frames) {
-    if (recorder.finished_before().count(frame.number) != 0) continue;
+    if (recorder.finished_before(frame.number)) continue;
     // What does not follow its predecessor carries nothing over from it.
-    requests.push_back({frame.number, scene.camera(frame.view), frame.cut || frame.number != before + 1});
+    requests.push_back({frame.number, scene.camera(frame.view), frame.cut, frame.number != before + 1});
     before = frame.number;
   }
   return [requests = std::move(requests), &recorder](int index) -> std::optional<FrameRequest> {
-    if (take_status_request()) recorder.status();
     if (stop_requested() || recorder.failed()) return std::nullopt;
     const auto i = static_cast<std::size_t>(index);
     return i < requests.size() ? std::optional(requests[i]) : std::nullopt;
@@ -105,8 +106,8 @@ CameraSource camera_source(const RenderPlan& plan, const CompiledScene& scene, F
 
 void print_rays(const RunTotals& totals) {
   const RayCounts& rays = totals.rays();
-  fmt::print("rays traced: {} primary, {} shadow, {} reflection, {} refraction\n", rays.primary, rays.shadow,
-             rays.reflection, rays.refraction);
+  fmt::print("rays traced: {} primary, {} shadow, {} reflection, {} refraction, {} visibility\n",
+             rays.primary, rays.shadow, rays.reflection, rays.refraction, rays.visibility);
 }
 
 // Reads and checks everything before any other rank is told to begin.
@@ -138,6 +139,7 @@ int run_frames(Communicator& network, const RenderOptions& options, const Prepar
   network.broadcast(job);
   told = true;
   watch_signals();
+  const StatusTeller teller([&recorder] { recorder.status(); });
   Tracer tracer(prepared.scene, Camera());
   run_as_master(network, plan.settings, probe_of(tracer), source, [&](FinishedFrame&& frame) {
     log_debug(fmt::format("frame {} whole at {:.3f} s, reserve {:.1f} ms, {:+.1f} ms to its deadline",
@@ -155,8 +157,7 @@ int run_frames(Communicator& network, const RenderOptions& options, const Prepar
   return stop_requested() ? 128 + *stop_requested() : kExitDone;
 }
 
-int master_rank(Communicator& network, const RenderOptions& options) {
-  bool told = false;
+int master_rank(Communicator& network, const RenderOptions& options, bool& told) {
   try {
     const Prepared prepared = prepare(options);
     // A census alone renders nothing.
@@ -165,7 +166,7 @@ int master_rank(Communicator& network, const RenderOptions& options) {
       network.broadcast(nothing);
       return kExitDone;
     }
-    require_new_files(options, prepared.plan);
+    check_files(options, prepared.plan);
     return run_frames(network, options, prepared, told);
   } catch (...) {
     if (!told) {
@@ -176,30 +177,36 @@ int master_rank(Communicator& network, const RenderOptions& options) {
   }
 }
 
+// For the master's own text, which may be longer than what it has read: only foreign files need limits.
+NffOptions without_limits() {
+  NffOptions options;
+  options.max_bytes = options.max_primitives = options.max_polygon_vertices = options.max_lights =
+      options.max_materials = std::numeric_limits<std::size_t>::max();
+  return options;
+}
+
 int worker_rank(Communicator& network) {
   ignore_signals();
   Bytes bytes;
   network.broadcast(bytes);
   const RenderJob job = decode_job(bytes);
   if (!job.go) return kExitDone;
-  const CompiledScene scene = compile(parse_nff(job.scene_nff, "scene").scene, job.compile);
+  const CompiledScene scene = compile(parse_nff(job.scene_nff, "scene", without_limits()).scene, job.compile);
   Tracer tracer(scene, Camera());
   run_as_worker(network, job.settings, probe_of(tracer));
   return kExitDone;
 }
 
-// No exception may pass ranks that others wait for: errors of the input end all ranks in order, others at
-// once.
+// No exception may pass ranks that others wait for: what keeps the master from beginning ends all ranks in
+// order, what comes later ends them at once.
 int run_mpi_rank(const RenderOptions& options, int argc, char** argv) {
   MpiCommunicator network(argc, argv);
   set_up_log(options.log, network.rank());
+  bool told = false;
   try {
-    return network.rank() == 0 ? master_rank(network, options) : worker_rank(network);
-  } catch (const InputError&) {
-    throw;
-  } catch (const UsageError&) {
-    throw;
+    return network.rank() == 0 ? master_rank(network, options, told) : worker_rank(network);
   } catch (const std::exception& e) {
+    if (network.rank() == 0 && !told) throw;
     fmt::print(stderr, "pprt-render: rank {}: error: {}\n", network.rank(), e.what());
     network.abort_all(kExitFailure);
   }
@@ -210,7 +217,7 @@ int run_mpi_rank(const RenderOptions& options, int argc, char** argv) {
 int render(const RenderOptions& options, const std::string& config, int argc, char** argv) {
   check_usage(options);
   if (options.write_config) {
-    std::cout << config;
+    if (launcher_rank() == 0) std::cout << config;
     return kExitDone;
   }
   if (started_by_mpi_launcher()) return run_mpi_rank(options, argc, argv);
@@ -218,7 +225,8 @@ int render(const RenderOptions& options, const std::string& config, int argc, ch
   set_up_log(options.log, 0);
   LocalNetwork alone(1);
   LocalCommunicator network(alone, 0);
-  return master_rank(network, options);
+  bool told = false;
+  return master_rank(network, options, told);
 }
 
 }  // namespace pprt

@@ -128,21 +128,26 @@ void require_sound_cameras(const Animation& animation, const View& base, const s
   throw InputError(report);
 }
 
-std::vector<PlannedFrame> plan_frames(const RenderOptions& options, const Sources& sources,
-                                      const View& base) {
-  const std::optional<FrameRange> range = requested_frames(options);
+std::vector<PlannedFrame> script_frames(const Sources& sources, const View& base) {
   const int count = sources.script ? sources.script->animation.frames : 1;
-  if (range && range->last > count) {
-    throw UsageError("--frames " + options.frames + ": the last frame is " + std::to_string(count));
-  }
   std::vector<PlannedFrame> frames;
-  for (int n = range ? range->first : 1; n <= (range ? range->last : count); ++n) {
+  for (int n = 1; n <= count; ++n) {
     PlannedFrame& frame = frames.emplace_back(PlannedFrame{n, base, false});
     if (!sources.script) continue;
     frame.view = view_at(sources.script->animation, n, base);
     frame.cut = cut_before(sources.script->animation, n);
   }
   return frames;
+}
+
+std::vector<PlannedFrame> frames_to_render(const RenderOptions& options,
+                                           const std::vector<PlannedFrame>& all) {
+  const std::optional<FrameRange> range = requested_frames(options);
+  if (!range) return all;
+  if (range->last > static_cast<int>(all.size())) {
+    throw UsageError("--frames " + options.frames + ": the last frame is " + std::to_string(all.size()));
+  }
+  return {all.begin() + (range->first - 1), all.begin() + range->last};
 }
 
 CastChoice cast_choice(const std::string& word) {
@@ -205,6 +210,11 @@ std::vector<FramePattern> parse_outputs(const RenderOptions& options, FrameCount
   return outputs;
 }
 
+std::optional<FramePattern> parse_reference(const RenderOptions& options) {
+  if (options.reference.empty()) return std::nullopt;
+  return parse_frame_pattern(options.reference, FrameCount::kOne, "--reference");
+}
+
 }  // namespace
 
 void check_usage(const RenderOptions& options) {
@@ -216,6 +226,7 @@ void check_usage(const RenderOptions& options) {
   requested_frames(options);
   compile_options(options);
   parse_outputs(options, FrameCount::kOne);
+  parse_reference(options);
   if (options.budget && options.clock != "work")
     throw UsageError("--budget counts work: it needs --clock work");
 }
@@ -230,8 +241,10 @@ RenderPlan plan_render(const RenderOptions& options) {
     require_sound_cameras(sources.script->animation, base,
                           options.script.empty() ? options.input : options.script);
   }
-  plan.frames = plan_frames(options, sources, base);
+  plan.script_frames = script_frames(sources, base);
+  plan.frames = frames_to_render(options, plan.script_frames);
   plan.outputs = parse_outputs(options, plan.frames.size() > 1 ? FrameCount::kMany : FrameCount::kOne);
+  plan.reference = parse_reference(options);
   plan.settings = settle(options, base, frame_rate(options, sources));
   plan.compile = compile_options(options);
   plan.warnings = sources.scene.warnings + (sources.script ? sources.script->warnings : "");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,9 +24,11 @@ struct PlannedFrame {
 
 struct RenderPlan {
   SceneDescription scene;
-  std::string script_name;  // empty: none
-  std::vector<PlannedFrame> frames;
+  std::string script_name;                  // empty: none
+  std::vector<PlannedFrame> script_frames;  // all, rendered or not
+  std::vector<PlannedFrame> frames;         // those to render
   std::vector<FramePattern> outputs;
+  std::optional<FramePattern> reference;
   SessionSettings settings;
   CompileOptions compile;
   std::string warnings;  // of scene and script, for people

@@ -1,13 +1,17 @@
 #include "app/stop_signals.h"
 
+#include <semaphore.h>
+
+#include <cerrno>
 #include <csignal>
+#include <utility>
 
 namespace pprt {
 namespace {
 
 // The only state a signal handler may touch.
 volatile std::sig_atomic_t stop_signal = 0;
-volatile std::sig_atomic_t status_wanted = 0;
+sem_t status_wanted;  // set up by watch_signals()
 
 void on_stop(int signal) {
   if (stop_signal != 0 && signal != SIGUSR2) {
@@ -18,7 +22,9 @@ void on_stop(int signal) {
 }
 
 void on_status(int) {
-  status_wanted = 1;
+  const int error = errno;
+  sem_post(&status_wanted);
+  errno = error;
 }
 
 void handle(int signal, void (*handler)(int)) {
@@ -31,6 +37,7 @@ void handle(int signal, void (*handler)(int)) {
 }  // namespace
 
 void watch_signals() {
+  sem_init(&status_wanted, 0, 0);
   for (const int signal : {SIGINT, SIGTERM, SIGUSR2}) handle(signal, on_stop);
   handle(SIGUSR1, on_status);
 }
@@ -44,10 +51,21 @@ std::optional<int> stop_requested() {
   return static_cast<int>(stop_signal);
 }
 
-bool take_status_request() {
-  if (status_wanted == 0) return false;
-  status_wanted = 0;
-  return true;
+StatusTeller::StatusTeller(std::function<void()> tell) : tell_(std::move(tell)), thread_([this] { run(); }) {}
+
+StatusTeller::~StatusTeller() {
+  over_ = true;
+  sem_post(&status_wanted);
+  thread_.join();
+}
+
+void StatusTeller::run() const {
+  for (;;) {
+    while (sem_wait(&status_wanted) != 0) {
+    }
+    if (over_) return;
+    tell_();
+  }
 }
 
 }  // namespace pprt

@@ -1,7 +1,10 @@
 // What the outside world may ask of a running program.
 #pragma once
 
+#include <atomic>
+#include <functional>
 #include <optional>
+#include <thread>
 
 namespace pprt {
 
@@ -15,7 +18,21 @@ void ignore_signals();
 // The signal that asked for the end, if any did.
 std::optional<int> stop_requested();
 
-// Whether a status line was asked for since the last call.
-bool take_status_request();
+// While it lives, answers SIGUSR1 by calling `tell` in a thread of its own, which sleeps otherwise: a frame
+// may take minutes. At most one at a time.
+class StatusTeller {
+ public:
+  explicit StatusTeller(std::function<void()> tell);
+  ~StatusTeller();
+  StatusTeller(const StatusTeller&) = delete;
+  StatusTeller& operator=(const StatusTeller&) = delete;
+
+ private:
+  void run() const;
+
+  std::function<void()> tell_;
+  std::atomic<bool> over_ = false;
+  std::thread thread_;  // last: it uses the others
+};
 
 }  // namespace pprt

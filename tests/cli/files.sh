@@ -21,12 +21,29 @@ run pprt-render ball.anim "${work[@]}" --frames 2-2 -o pics/%04d.png --overwrite
 # Resuming renders what is missing and nothing else; its sheet shows all frames.
 run pprt-render ball.anim "${work[@]}" -o r/%04d.png; expect_code 0
 run pprt-render ball.anim "${work[@]}" -o r/%04d.png --resume; expect_code 0
-expect_text err 'done: 0 of 12 frames in r/%04d.png'
+expect_text err 'done: 0 of 12 frames (12 were there already) in r/%04d.png'
 rm r/0007.png
 run pprt-render ball.anim "${work[@]}" -o r/%04d.png --resume --contact-sheet r/sheet.png; expect_code 0
-expect_line err 'done: 1 of 12 frames .*'; expect_file r/0007.png; expect_file r/sheet.png
+expect_line err 'done: 1 of 12 frames (11 were there already) .*'; expect_file r/0007.png; expect_file r/sheet.png
 run pprt-render ball.anim "${work[@]}" --seed 2 -o r/%04d.png --resume
 expect_usage "--resume: r/manifest.ndjson is of another scene or other options; --overwrite starts anew"
+
+# A frame is finished under the names asked for, in whatever part of the script they are asked for.
+run pprt-render ball.anim "${work[@]}" -o r/%04d.png -o r/%04d.exr --frames 2-3 --resume; expect_code 0
+expect_line err 'done: 2 of 2 frames in .*'; expect_file r/0003.exr; expect_no_file r/0004.exr
+run pprt-render ball.anim "${work[@]}" -o part/%04d.png --frames 1-3 --stats part.ndjson; expect_code 0
+run pprt-render ball.anim "${work[@]}" -o part/%04d.png --frames 2-5 --resume --stats part.ndjson; expect_code 0
+expect_line err 'done: 2 of 4 frames (2 were there already) in part/%04d.png; .*'
+[[ $(grep -c '"record":"frame"' part.ndjson) -eq 5 ]] || complain "resuming did not append to the ledger: $(cat part.ndjson)"
+
+# What ends before it has begun harms nothing that is there.
+cp part/manifest.ndjson before.ndjson
+run pprt-render ball.anim "${work[@]}" -o part/%04d.png --overwrite --stats none/ledger; expect_code 1
+expect_text err "pprt-render: error: cannot write 'none/ledger'"
+expect_same before.ndjson part/manifest.ndjson
+run pprt-render ball.anim "${work[@]}" -o part/%04d.png --overwrite --reference none/%04d.png
+expect_usage "--reference: there is no none/0001.png"
+expect_same before.ndjson part/manifest.ndjson
 
 # A directory that cannot be: a file stands in its place.
 touch file

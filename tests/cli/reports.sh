@@ -22,15 +22,30 @@ run pprt-render ball.nff --clock work -o same.exr --reference ref.exr --stats -;
 expect_line out '.*"rmse":[0-9.e-]*}'
 expect_same ref.exr same.exr
 
+# A reference of another size has no error: it is told once, and the run goes on.
+mkdir odd
+run pprt-render ball.anim --clock work --budget 400000 --frames 2-3 -o odd/%04d.png --reference ref.exr --stats odd/ledger
+expect_code 0
+[[ $(grep -c 'pprt-render: warning: --reference: .*; rmse is left out' err) -eq 1 ]] || complain "not one warning: $(cat err)"
+if grep -q rmse odd/ledger; then complain "an error that was not measured: $(cat odd/ledger)"; fi
+# The first frame of a part is no cut.
+expect_line odd/ledger '{"record":"frame","frame":2,"cut":false,.*'
+
 # A census alone renders nothing.
 run pprt-render ball.nff --census; expect_code 0; expect_text err ''; expect_no_file frame_0000.png
 expect_line out '  reflection *yes  1 material with Ks > 0'
 expect_line out '  refraction *no   no material with T > 0'
 run pprt-render ball.nff --census --clock work --samples 300 -o c.png; expect_code 0; expect_file c.png
-expect_line out 'rays traced: 300 primary, .* 0 refraction'
+expect_line out 'rays traced: 300 primary, .* 0 refraction, 0 visibility'
 
 run pprt-render ball.nff --samples 50 -o p.png --progress none; expect_code 0; expect_text err ''; expect_text out ''
 run pprt-render ball.nff --samples 50 -o q.png --progress json; expect_code 0; expect_text out ''
 expect_line err '{"event":"frame","frame":1,.*}'
-expect_line err '{"event":"done","done":1,"frames":1}'
+expect_line err '{"event":"done","done":1,"there":0,"frames":1}'
+
+# A terminal at the launcher's end is one for rank 0.
+for np in 1 2; do
+  script -qec "pprt-render ball.nff --samples 50 -o tty.png --overwrite -np $np" typescript >out 2>err </dev/null
+  grep -q $'\r''frame 1 of 1 ' out || complain "no progress on a terminal with $np ranks: $(cat out)"
+done
 finish

@@ -33,4 +33,27 @@ stopped_by() {
 stopped_by INT 130
 stopped_by TERM 143
 stopped_by INT 130 -np 2
+
+# A run that was to stop and cannot write what it owes has failed.
+touch file
+rm -rf out_frames
+pprt-render ball.anim -np 2 --clock work --budget 1000000 -o out_frames/%05d.png --contact-sheet file/sheet.png >out 2>err &
+pid=$!
+for ((i = 0; i < 600 && $(find out_frames -name '*.png' 2>/dev/null | wc -l) < 2; ++i)); do sleep 0.1; done
+kill -INT "$pid"
+code=0
+wait "$pid" || code=$?
+command='a stopped run without its sheet'
+expect_code 1
+
+# A frame that takes long does not keep the status back.
+pprt-render ball.nff --time 4 -s 512x512 -o long.png >out 2>err &
+pid=$!
+sleep 1.5
+kill -USR1 "$pid"
+sleep 1
+command='a still asked for its status'
+expect_line err 'frame 0 of 1  [0-9.]* s elapsed'
+expect_no_file long.png
+wait "$pid"
 finish

@@ -19,6 +19,7 @@ done
 run pprt-render ball.anim --frames 0-3; expect_usage "--frames 0-3: want FIRST-LAST, counted from 1, such as 1-40"
 run pprt-render ball.anim --frames 3-13; expect_usage "--frames 3-13: the last frame is 12"
 run pprt-render ball.nff -o x.tif; expect_usage "output 'x.tif': the name must end in .exr or .png"
+run pprt-render ball.nff --reference x.tif; expect_usage "--reference 'x.tif': the name must end in .exr or .png"
 run pprt-render ball.nff --contact-sheet x.jpg
 expect_usage "--contact-sheet x.jpg: want a name that ends in .png or .exr"
 run pprt-render ball.nff --effects caustics

@@ -95,7 +95,7 @@ TEST_CASE("a frame's figures are sums over its ranks") {
 TEST_CASE("records keep their order while errors are still being measured") {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "ledger.ndjson";
-  Ledger ledger(path.string());
+  Ledger ledger(path.string(), false);
   ledger.write_frame({{"frame", 1}}, std::async(std::launch::async, [] {
                        std::this_thread::sleep_for(std::chrono::milliseconds(50));
                        return 0.25;
@@ -108,9 +108,44 @@ TEST_CASE("records keep their order while errors are still being measured") {
   CHECK((records[1]["frame"] == 2 && !records[1].contains("rmse")));
 }
 
+TEST_CASE("few frames may wait for their error") {
+  const TemporaryDirectory directory;
+  const auto path = directory.path() / "ledger.ndjson";
+  Ledger ledger(path.string(), false);
+  for (std::size_t i = 0; i < Ledger::kMostPending + 2; ++i) {
+    ledger.write_frame({{"frame", i}}, std::async(std::launch::deferred, [] { return 0.5; }));
+  }
+  CHECK(records_of(path).size() == 2);  // a deferred future is never ready by itself
+  ledger.finish();
+  CHECK(records_of(path).size() == Ledger::kMostPending + 2);
+}
+
+TEST_CASE("an error that cannot be measured is left out") {
+  const TemporaryDirectory directory;
+  const auto path = directory.path() / "ledger.ndjson";
+  Ledger ledger(path.string(), false);
+  ledger.write_frame({{"frame", 1}}, std::async([]() -> double { throw std::runtime_error("torn"); }));
+  ledger.write_frame({{"frame", 2}}, std::async([] { return 0.5; }));
+  ledger.finish();
+  const std::vector<Json> records = records_of(path);
+  REQUIRE(records.size() == 2);
+  CHECK_FALSE(records[0].contains("rmse"));
+  CHECK(records[1]["rmse"] == 0.5);
+}
+
+TEST_CASE("a ledger starts anew or goes on") {
+  const TemporaryDirectory directory;
+  const std::string path = (directory.path() / "ledger.ndjson").string();
+  Ledger(path, false).write({{"run", 1}});
+  Ledger(path, true).write({{"run", 2}});
+  CHECK(records_of(path).size() == 2);
+  Ledger(path, false).write({{"run", 3}});
+  CHECK(records_of(path).size() == 1);
+}
+
 TEST_CASE("a ledger that cannot be written is an error at once") {
-  CHECK_THROWS_AS(Ledger("/no/such/directory/ledger"), std::runtime_error);
-  CHECK_FALSE(Ledger("").enabled());
+  CHECK_THROWS_AS(Ledger("/no/such/directory/ledger", false), std::runtime_error);
+  CHECK_FALSE(Ledger("", false).enabled());
 }
 
 }  // namespace pprt

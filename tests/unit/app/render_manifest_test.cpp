@@ -34,7 +34,17 @@ struct FinishedRun {
     }
   }
   fs::path picture(int frame) const { return directory.path() / (std::to_string(frame) + ".png"); }
-  std::set<int> resumed() const { return Manifest(path, "key", true).finished(); }
+  std::vector<FramePattern> outputs(const std::string& extension = "png") const {
+    return {parse_frame_pattern((directory.path() / "#.").string() + extension, FrameCount::kMany)};
+  }
+  std::set<int> finished(const Manifest& manifest) const {
+    std::set<int> frames;
+    for (int frame = 1; frame < 10; ++frame) {
+      if (manifest.has(frame, outputs())) frames.insert(frame);
+    }
+    return frames;
+  }
+  std::set<int> resumed() const { return finished(Manifest(path, "key", true)); }
 };
 
 }  // namespace
@@ -51,7 +61,8 @@ TEST_CASE("the manifest stands beside the frames") {
 TEST_CASE("a run goes on after the frames that are finished") {
   const FinishedRun run;
   CHECK(run.resumed() == std::set<int>{1, 2, 3});
-  Manifest(run.path, "key", true).add({{7, {run.picture(3)}}});
+  append(run.picture(7), "x");
+  Manifest(run.path, "key", true).add({{7, {run.picture(7)}}});
   CHECK(run.resumed() == std::set<int>{1, 2, 3, 7});
 }
 
@@ -61,13 +72,28 @@ TEST_CASE("a frame whose picture is gone is not finished") {
   CHECK(run.resumed() == std::set<int>{1, 3});
 }
 
+TEST_CASE("a frame is finished when it was written under every name that is asked for now") {
+  const FinishedRun run;
+  Manifest manifest(run.path, "key", true);
+  std::vector<FramePattern> both = run.outputs();
+  both.push_back(run.outputs("exr").front());
+  CHECK((manifest.has(1, run.outputs()) && !manifest.has(1, run.outputs("exr")) && !manifest.has(1, both)));
+  // Runs that wrote one format each have together written both.
+  const fs::path exr = run.directory.path() / "1.exr";
+  append(exr, "x");
+  manifest.add({{1, {exr}}});
+  const Manifest later(run.path, "key", true);
+  CHECK(later.has(1, both));
+  CHECK_FALSE(later.has(2, both));
+}
+
 TEST_CASE("a line that a dying run left half-written is no line, and harms none after it") {
   const FinishedRun run;
   append(run.path, R"({"record":"frame","frame":4,"fi)");
   append(run.picture(5), "x");
   {
     Manifest manifest(run.path, "key", true);
-    CHECK(manifest.finished() == std::set<int>{1, 2, 3});
+    CHECK(run.finished(manifest) == std::set<int>{1, 2, 3});
     manifest.add({{5, {run.picture(5)}}});
   }
   CHECK(run.resumed() == std::set<int>{1, 2, 3, 5});
@@ -97,14 +123,14 @@ TEST_CASE("a manifest with lines that are JSON but no records does not end the p
 
 TEST_CASE("without --resume a manifest starts anew") {
   const FinishedRun run;
-  CHECK(Manifest(run.path, "other", false).finished().empty());
+  CHECK(run.finished(Manifest(run.path, "other", false)).empty());
   CHECK(text_of(run.path) == "{\"record\":\"run\",\"key\":\"other\"}\n");
 }
 
 TEST_CASE("resuming where nothing was begun is a new run") {
   const TemporaryDirectory directory;
   const fs::path path = directory.path() / "manifest.ndjson";
-  CHECK(Manifest(path, "key", true).finished().empty());
+  Manifest(path, "key", true);
   CHECK(text_of(path) == "{\"record\":\"run\",\"key\":\"key\"}\n");
 }
 

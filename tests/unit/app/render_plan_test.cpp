@@ -101,6 +101,7 @@ TEST_CASE("frames: all, a range, or one; cuts stay where they are") {
   plan = plan_render(options);
   REQUIRE(plan.frames.size() == 3);
   CHECK((plan.frames[0].number == 5 && plan.frames[2].number == 7));
+  CHECK(plan.script_frames.size() == 10);
   CHECK(plan.frames[1].cut);
   options.frames = "7";
   CHECK(plan_render(options).frames.size() == 1);
@@ -144,6 +145,7 @@ TEST_CASE("what cannot be meant is a usage error that says what is wrong") {
   refuse([](RenderOptions& o) { o.budget = 10, o.clock = "work", o.fps = 0; }, "--budget needs a frame rate");
   refuse([](RenderOptions& o) { o.outputs = {"one.png"}; }, "one.png");
   refuse([](RenderOptions& o) { o.outputs = {"%04d.jpg"}; }, "%04d.jpg");
+  refuse([](RenderOptions& o) { o.reference = "%04d.jpg"; }, "--reference '%04d.jpg'");
   refuse([](RenderOptions& o) { o.effects = "glitter"; }, "glitter");
 }
 
