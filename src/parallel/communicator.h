@@ -41,6 +41,9 @@ class Communicator {
   virtual int rank() const = 0;
   virtual int size() const = 0;
 
+  // How many of the ranks run on this host.
+  virtual int ranks_on_host() const = 0;
+
   // Takes the payload and sends it; a rank may send to itself. Messages between two ranks keep their order.
   virtual void send(int to, Tag tag, Bytes payload) = 0;
 

@@ -36,6 +36,7 @@ class WallClock final : public FrameClock {
 
   void begin_frame(const FrameOrder& order) override {
     frame_began_s_ = monotonic_seconds();
+    sampling_began_s_ = 0;
     // What this rank needs itself, a quarter more for luck; or what the master has seen, which holds the
     // slowest rank, the network and the assembly as well.
     const double reserve = std::max(order.reserve_s, 1.25 * after_sampling_s_.get());
@@ -44,6 +45,7 @@ class WallClock final : public FrameClock {
   void spend(Work, std::uint64_t) override {}
   void begin_packet() override {
     left_in_packet_ = kSamplesPerPacket;
+    if (sampling_began_s_ == 0) sampling_began_s_ = monotonic_seconds();
     // With more ranks than cores, short turns keep every rank near its deadline.
     if (ranks_per_core_ > 1) sched_yield();
   }
@@ -51,15 +53,9 @@ class WallClock final : public FrameClock {
     if (left_in_packet_-- == 0) return true;
     return (left_in_packet_ & 7) == 0 && sampling_over();
   }
-  bool sampling_over() override {
-    if (stop_s_ == 0) return false;
-    const double now = monotonic_seconds();
-    if (now < stop_s_) return false;
-    sampling_ended_s_ = now;
-    return true;
-  }
+  bool sampling_over() override { return stop_s_ > 0 && monotonic_seconds() >= stop_s_; }
   void end_frame() override {
-    if (stop_s_ > 0) after_sampling_s_.add(monotonic_seconds() - sampling_ended_s_);
+    if (stop_s_ > 0) after_sampling_s_.add(monotonic_seconds() - std::max(stop_s_, sampling_began_s_));
   }
   std::size_t affordable(Work work, double share) const override {
     const double seconds = 1e-9 * static_cast<double>(price(work)) * ranks_per_core_;
@@ -76,6 +72,7 @@ class WallClock final : public FrameClock {
     return 1e3 * lap;
   }
   double frame_seconds() const override { return monotonic_seconds() - frame_began_s_; }
+  double sampling_end_seconds() const override { return std::max(stop_s_, sampling_began_s_) - start_s_; }
   double sequence_seconds() const override { return monotonic_seconds() - start_s_; }
 
  private:
@@ -85,8 +82,8 @@ class WallClock final : public FrameClock {
   double period_s_;
   double ranks_per_core_;
   double frame_began_s_ = 0;
-  double stop_s_ = 0;  // when sampling must stop; 0: no rate
-  double sampling_ended_s_ = 0;
+  double stop_s_ = 0;            // when sampling must stop; 0: no rate
+  double sampling_began_s_ = 0;  // of this frame; 0: not yet
   RecentMaximum after_sampling_s_;
   int left_in_packet_ = 0;
   double last_lap_s_ = thread_cpu_seconds();
@@ -129,6 +126,7 @@ class WorkClock final : public FrameClock {
     return 1e-6 * lap;
   }
   double frame_seconds() const override { return static_cast<double>(frame_units_) / kWorkUnitsPerSecond; }
+  double sampling_end_seconds() const override { return sequence_seconds(); }
   double sequence_seconds() const override {
     return static_cast<double>(sequence_units_ + frame_units_) / kWorkUnitsPerSecond;
   }

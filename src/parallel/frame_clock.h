@@ -51,6 +51,10 @@ class FrameClock {
   // Seconds since this frame began (work clock: units / kWorkUnitsPerSecond).
   virtual double frame_seconds() const = 0;
 
+  // When this frame's sampling had to end, or began if that was later: seconds since the sequence began. What
+  // comes after it is what a frame must leave room for, the last exchange included.
+  virtual double sampling_end_seconds() const = 0;
+
   // Seconds since the sequence began; work clock: of this rank's virtual time.
   virtual double sequence_seconds() const = 0;
 };

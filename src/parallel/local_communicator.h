@@ -34,6 +34,7 @@ class LocalCommunicator final : public Communicator {
 
   int rank() const override { return rank_; }
   int size() const override { return network_.size(); }
+  int ranks_on_host() const override { return size(); }
   void send(int to, Tag tag, Bytes payload) override;
   std::optional<Message> receive() override { return network_.collect(rank_); }
   void broadcast(Bytes& data) override;

@@ -14,6 +14,9 @@ namespace {
 // The share of a period that follows sampling, before any frame has shown it.
 constexpr double kFirstGuess = 0.2;
 
+// How many frames may be ordered and not yet whole.
+constexpr std::size_t kMostIncompleteFrames = 4;
+
 }  // namespace
 
 Master::Master(Communicator& network, const SessionSettings& settings, const Partition& partition,
@@ -32,6 +35,18 @@ void Master::begin_sequence(double start_s) {
   order_next();
 }
 
+void Master::frame_begun() {
+  order_is_due_ = true;
+  order_if_due();
+}
+
+// A rank that falls behind holds back the orders, not the memory: its frames would pile up.
+void Master::order_if_due() {
+  if (!order_is_due_ || assemblies_.size() >= kMostIncompleteFrames) return;
+  order_is_due_ = false;
+  order_next();
+}
+
 void Master::handle(const Message& message) {
   const PixelMessage pixels = decode_pixels(message.payload);
   const auto found = assemblies_.find(pixels.frame_index);
@@ -42,6 +57,7 @@ void Master::handle(const Message& message) {
   // Every rank sends its frames in order, so no earlier frame can still be incomplete.
   deliver(assembly);
   assemblies_.erase(found);
+  order_if_due();
 }
 
 void Master::order_next() {

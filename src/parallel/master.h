@@ -48,7 +48,7 @@ class Master {
   void begin_sequence(double start_s);
 
   // Rank 0 has begun a frame: time for the order of the one after.
-  void frame_begun() { order_next(); }
+  void frame_begun();
 
   void handle(const Message& message);
 
@@ -68,6 +68,7 @@ class Master {
     int missing = 0;                             // ranks whose pixels have not come
   };
 
+  void order_if_due();
   void order_next();
   Carry carry_into(const FrameRequest& request) const;
   void paste(Assembly& assembly, int from, const PixelMessage& message) const;
@@ -89,6 +90,7 @@ class Master {
   std::vector<double> handed_over_;        // per rank: samples it will have to take in with that partition
   std::uint32_t generation_ = 0;           // of the partition ordered last
   int delivered_ = 0;                      // frames that are whole
+  bool order_is_due_ = false;              // but too many frames are still incomplete
   bool ended_ = false;
   int next_index_ = 0;
   double start_s_ = 0;

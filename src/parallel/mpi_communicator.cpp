@@ -51,6 +51,7 @@ class MpiCommunicator::Impl {
 
   int rank = 0;
   int size = 1;
+  int on_host = 1;
   std::deque<Sending> sending;
   std::deque<Message> to_self;
 };
@@ -61,6 +62,11 @@ MpiCommunicator::MpiCommunicator(int& argc, char**& argv) : impl_(std::make_uniq
   MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
   check(MPI_Comm_rank(MPI_COMM_WORLD, &impl_->rank), "MPI_Comm_rank");
   check(MPI_Comm_size(MPI_COMM_WORLD, &impl_->size), "MPI_Comm_size");
+  MPI_Comm host = MPI_COMM_NULL;
+  check(MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &host),
+        "MPI_Comm_split_type");
+  check(MPI_Comm_size(host, &impl_->on_host), "MPI_Comm_size");
+  check(MPI_Comm_free(&host), "MPI_Comm_free");
 }
 
 MpiCommunicator::~MpiCommunicator() {
@@ -72,6 +78,9 @@ int MpiCommunicator::rank() const {
 }
 int MpiCommunicator::size() const {
   return impl_->size;
+}
+int MpiCommunicator::ranks_on_host() const {
+  return impl_->on_host;
 }
 
 void MpiCommunicator::send(int to, Tag tag, Bytes payload) {

@@ -18,6 +18,7 @@ class MpiCommunicator final : public Communicator {
 
   int rank() const override;
   int size() const override;
+  int ranks_on_host() const override;
   void send(int to, Tag tag, Bytes payload) override;
   std::optional<Message> receive() override;
   void broadcast(Bytes& data) override;

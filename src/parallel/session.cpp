@@ -92,10 +92,10 @@ Partition equal_areas(const SessionSettings& settings, int ranks) {
   return bisect(grid, areas, ranks);
 }
 
-// How many ranks share a core, at least 1, if this host has them all: a guess on the careful side.
+// How many ranks share one of this host's cores, at least 1.
 double ranks_per_core(const Communicator& network) {
-  return std::max(1.0,
-                  network.size() / static_cast<double>(std::max(1u, std::thread::hardware_concurrency())));
+  return std::max(
+      1.0, network.ranks_on_host() / static_cast<double>(std::max(1u, std::thread::hardware_concurrency())));
 }
 
 Worker make_worker(Communicator& network, Inbox& inbox, const SessionSettings& settings,
@@ -126,9 +126,9 @@ void run_as_master(Communicator& network, const SessionSettings& settings, const
   Worker worker = make_worker(network, inbox, settings, partition, probe, start_s);
   master.begin_sequence(start_s);
   for (int index = 0; const std::optional<FrameOrder> order = await_order(inbox, index); ++index) {
-    // Under the work clock an order must not depend on what happens to have come: all of the frame before the
-    // last has, or will without a further order.
-    while (settings.clock == ClockKind::kWork && !master.has_delivered_before(index - 1)) {
+    // Under the work clock an order must not depend on what happens to have come: the frame before is whole,
+    // or will be without a further order.
+    while (settings.clock == ClockKind::kWork && !master.has_delivered_before(index)) {
       if (!inbox.pump()) rest_briefly();
     }
     master.frame_begun();

@@ -156,7 +156,10 @@ void Worker::trace_seeds(const FrameOrder& order) {
   for (std::size_t i = 0; i < seeds.size(); ++i) {
     const bool own = mesh_.region().owns_point(seeds[i].x, seeds[i].y);
     if (i >= kCorners && !own) continue;
-    insert(trace(order, seeds[i].x, seeds[i].y), {network_.rank(), true});
+    // A foreign corner is its owner's sample, which tells it to others and counts it.
+    const int owner = exchange_.owner_of(seeds[i].x, seeds[i].y);
+    insert(trace(order, seeds[i].x, seeds[i].y), {owner, true});
+    report_.samples_new += own;
   }
 }
 
@@ -181,35 +184,50 @@ void Worker::settle(const FrameOrder& order, const std::vector<Sample>& survivor
     network_.send(rank, Tag::kBundle, std::move(bytes));
   }
   receive_seeds(order);
+  report_.cpu_ms.sampling += clock_->lap_ms();
   for (const Sample& s : own) {
     if (insert(s, {network_.rank(), false})) ++report_.samples_cast;
   }
+  report_.cpu_ms.casting += clock_->lap_ms();
 }
 
 void Worker::receive_seeds(const FrameOrder& order) {
+  const std::vector<int>& peers = exchange_.seed_peers();
   const auto of_this_round = [&](const Inbox::Arrived& a) {
     return a.bundle.frame_index == order.index && a.bundle.round == kSeedRound;
   };
+  const auto awaited = [&](const Inbox::Arrived& a) {
+    return of_this_round(a) &&
+           (clock_->in_lockstep() || std::binary_search(peers.begin(), peers.end(), a.from));
+  };
   const std::size_t expected =
-      clock_->in_lockstep() ? static_cast<std::size_t>(network_.size() - 1) : exchange_.seed_peers().size();
-  const double patience =
-      settings_.frames_per_second > 0 ? kSeedPatience / settings_.frames_per_second : kSeedPatience;
+      clock_->in_lockstep() ? static_cast<std::size_t>(network_.size() - 1) : peers.size();
+  const bool has_patience = clock_->in_lockstep() || order.deadline_s == 0;
   await([&] {
-    return inbox_.count_bundles(of_this_round) >= expected ||
-           (!clock_->in_lockstep() && clock_->frame_seconds() > patience);
+    return inbox_.count_bundles(awaited) >= expected ||
+           (!has_patience && clock_->frame_seconds() * settings_.frames_per_second > kSeedPatience);
   });
-  // Survivors from elsewhere, which lie in the own region, are subject to the update rule: after all seeds.
   const std::vector<Inbox::Arrived> bundles = inbox_.take_bundles(of_this_round);
-  for (const bool seeds : {true, false}) {
-    for (const Inbox::Arrived& arrived : bundles) {
-      for (const Sample& s : arrived.bundle.samples) {
-        if (mesh_.region().owns_point(s.x, s.y) == seeds) continue;
-        // Who hands a survivor over keeps none: it is this rank's to tell, to the former owner too.
-        const bool inserted = insert(s, {seeds ? arrived.from : network_.rank(), seeds});
-        ++(inserted ? report_.samples_received : report_.samples_known);
-        report_.samples_cast += inserted && !seeds;
-      }
-    }
+  for (const Inbox::Arrived& arrived : bundles) take_in_seeds(arrived);
+  for (const Inbox::Arrived& arrived : bundles) take_in_survivors(arrived);
+}
+
+// What comes before a fresh triangulation's first round and lies elsewhere is another rank's seed.
+void Worker::take_in_seeds(const Inbox::Arrived& arrived) {
+  for (const Sample& s : arrived.bundle.samples) {
+    if (mesh_.region().owns_point(s.x, s.y)) continue;
+    ++(insert(s, {arrived.from, true}) ? report_.samples_received : report_.samples_known);
+  }
+}
+
+// And what lies in the own region is a survivor that landed here. Who hands it over keeps none: it is this
+// rank's to tell, to the former owner too.
+void Worker::take_in_survivors(const Inbox::Arrived& arrived) {
+  for (const Sample& s : arrived.bundle.samples) {
+    if (!mesh_.region().owns_point(s.x, s.y)) continue;
+    const bool inserted = insert(s, {network_.rank(), false});
+    ++(inserted ? report_.samples_received : report_.samples_known);
+    report_.samples_cast += inserted;
   }
 }
 
@@ -240,6 +258,7 @@ bool Worker::refine_once(const FrameOrder& order) {
   const std::optional<Vec2d> point = mesh_.next_point();
   if (!point) return false;
   insert(trace(order, point->x, point->y), {network_.rank(), false});
+  ++report_.samples_new;
   return true;
 }
 
@@ -306,6 +325,11 @@ void Worker::take_in(const std::vector<Inbox::Arrived>& bundles) {
   apply(grants);
   for (const Inbox::Arrived& arrived : bundles) {
     if (arrived.bundle.epoch != epoch_) continue;
+    if (arrived.bundle.round == kSeedRound && arrived.bundle.frame_index == epoch_) {
+      take_in_seeds(arrived);  // too late to be waited for
+      take_in_survivors(arrived);
+      continue;
+    }
     for (const Sample& s : arrived.bundle.samples) {
       ++(insert(s, {arrived.from, false}) ? report_.samples_received : report_.samples_known);
     }
@@ -316,9 +340,9 @@ void Worker::take_in(const std::vector<Inbox::Arrived>& bundles) {
 // each rank takes the share of its area, which stays as it is.
 std::vector<TileGrant> Worker::give_tiles() {
   if (!clock_->time_for_gifts() || settings_.stop.samples > 0) return {};
-  // What the taker must take in may cost it a twentieth of the frame.
+  // What the taker must take in may cost it a tenth of the frame.
   const double most_samples = settings_.frames_per_second > 0
-                                  ? static_cast<double>(clock_->affordable(Work::kReceivedSample, 0.05))
+                                  ? static_cast<double>(clock_->affordable(Work::kReceivedSample, 0.1))
                                   : std::numeric_limits<double>::infinity();
   std::vector<TileGrant> grants = balancer_.give(mesh_, exchange_, most_samples);
   for (const TileGrant& grant : grants) given_.push_back(grant.tile);
@@ -365,7 +389,7 @@ void Worker::own_region_changed() {
 // --------------------------------------------------------------------------------------
 
 void Worker::reconstruct_and_send(const FrameOrder& order) {
-  report_.sampling_ended_s = clock_->sequence_seconds();
+  report_.sampling_ended_s = clock_->sampling_end_seconds();
   const TileGrid& grid = mesh_.region().grid();
   PixelRect bounds = mesh_.region().bounds();
   for (const int tile : given_) bounds = united(bounds, grid.pixels(tile));
@@ -413,7 +437,6 @@ Sample Worker::trace(const FrameOrder& order, double x, double y) {
     ++report_.non_finite;
     sample.ray.color = Color(0, 0, 0);
   }
-  ++report_.samples_new;
   clock_->spend(Work::kRay, sample.ray.rays);
   balancer_.paid(mesh_.region().grid().tile_at(x, y),
                  static_cast<double>(price(Work::kRay) * sample.ray.rays + price(Work::kOwnSample)));

@@ -47,6 +47,8 @@ class Worker {
   void trace_seeds(const FrameOrder& order);
   void settle(const FrameOrder& order, const std::vector<Sample>& survivors);
   void receive_seeds(const FrameOrder& order);
+  void take_in_seeds(const Inbox::Arrived& arrived);
+  void take_in_survivors(const Inbox::Arrived& arrived);
 
   void sample(const FrameOrder& order);
   bool refine_once(const FrameOrder& order);

@@ -54,6 +54,7 @@ void SampleMesh::Impl::clear() {
   tile_weights_.assign(tiles, {});
   region_weights_ = {};
   latest_in_tile_.assign(tiles, Vertex());
+  next_stamp_ = 1;
   planar_ = false;
   wanted_.reset();
 }

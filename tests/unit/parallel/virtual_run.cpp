@@ -93,6 +93,7 @@ class WatchedCommunicator final : public Communicator {
 
   int rank() const override { return inner_.rank(); }
   int size() const override { return inner_.size(); }
+  int ranks_on_host() const override { return inner_.ranks_on_host(); }
   void send(int to, Tag tag, Bytes payload) override {
     if (tag == Tag::kBundle) {
       Bundle bundle = decode_bundle(payload);
