@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 namespace pprt {
@@ -149,6 +151,10 @@ Json RunTotals::summary(bool has_rate) const {
 
 Ledger::Ledger(const std::string& path, bool append) : path_(path) {
   if (path_.empty() || path_ == "-") return;
+  // As for frames, missing directories are made; where that fails, opening does too.
+  const std::filesystem::path directory = std::filesystem::path(path_).parent_path();
+  std::error_code ignored;
+  if (!directory.empty()) std::filesystem::create_directories(directory, ignored);
   file_.open(path_, append ? std::ios::app : std::ios::trunc);
   if (!file_) throw std::runtime_error("cannot write '" + path_ + "'");
 }

@@ -63,7 +63,7 @@ TEST_CASE("a linear picture is reconstructed to rounding from 100,000 samples") 
   REQUIRE(mesh.samples().size() > kSamples);
   RegionPixels pixels;
   ReconstructionBuffers buffers;
-  reconstruct(mesh, pixels, buffers);
+  reconstruct(mesh, mesh.region().bounds(), pixels, buffers);
 
   const std::vector<PixelMean> means = means_of(mesh);
   double interpolated = 0, averaged = 0;  // largest errors
