@@ -22,16 +22,6 @@ Json rays_record(const RayCounts& rays) {
           {"visibility", rays.visibility}};
 }
 
-void add_to(RayCounts& sum, const RayCounts& rays) {
-  sum.primary += rays.primary;
-  sum.eye_hits += rays.eye_hits;
-  sum.shadow += rays.shadow;
-  sum.reflection += rays.reflection;
-  sum.refraction += rays.refraction;
-  sum.total_internal_reflection += rays.total_internal_reflection;
-  sum.visibility += rays.visibility;
-}
-
 // Sums over the ranks of one frame.
 RankReport sum_of(const std::vector<RankReport>& ranks) {
   RankReport sum;
@@ -42,7 +32,7 @@ RankReport sum_of(const std::vector<RankReport>& ranks) {
     sum.samples_known += r.samples_known;
     sum.samples_in_region += r.samples_in_region;
     sum.non_finite += r.non_finite;
-    add_to(sum.rays, r.rays);
+    sum.rays += r.rays;
     sum.cpu_ms.sampling += r.cpu_ms.sampling;
     sum.cpu_ms.casting += r.cpu_ms.casting;
     sum.cpu_ms.reconstruction += r.cpu_ms.reconstruction;
@@ -120,7 +110,7 @@ void RunTotals::add(const FinishedFrame& frame) {
   on_time_ += frame.late_ms <= 0;
   samples_ += sum.samples_in_region;
   non_finite_ += sum.non_finite;
-  add_to(rays_, sum.rays);
+  rays_ += sum.rays;
   late_ms_.push_back(frame.late_ms);
 }
 

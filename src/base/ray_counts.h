@@ -18,4 +18,18 @@ struct RayCounts {
   std::uint64_t traced() const { return primary + shadow + reflection + refraction + visibility; }
 };
 
+inline RayCounts& operator+=(RayCounts& a, const RayCounts& b) {
+  a.primary += b.primary, a.eye_hits += b.eye_hits, a.shadow += b.shadow, a.reflection += b.reflection;
+  a.refraction += b.refraction, a.total_internal_reflection += b.total_internal_reflection;
+  a.visibility += b.visibility;
+  return a;
+}
+
+inline RayCounts operator-(RayCounts a, const RayCounts& b) {
+  a.primary -= b.primary, a.eye_hits -= b.eye_hits, a.shadow -= b.shadow, a.reflection -= b.reflection;
+  a.refraction -= b.refraction, a.total_internal_reflection -= b.total_internal_reflection;
+  a.visibility -= b.visibility;
+  return a;
+}
+
 }  // namespace pprt

@@ -45,13 +45,6 @@ PixelRect united(const PixelRect& a, const PixelRect& b) {
   return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
 }
 
-RayCounts operator-(RayCounts a, const RayCounts& b) {
-  a.primary -= b.primary, a.eye_hits -= b.eye_hits, a.shadow -= b.shadow, a.reflection -= b.reflection;
-  a.refraction -= b.refraction, a.total_internal_reflection -= b.total_internal_reflection;
-  a.visibility -= b.visibility;
-  return a;
-}
-
 }  // namespace
 
 Worker::Worker(Communicator& network, Inbox& inbox, const SessionSettings& settings,
@@ -83,8 +76,7 @@ void Worker::render(const FrameOrder& order) {
   reconstruct_and_send(order);
 }
 
-// --- Prepare
-// -----------------------------------------------------------------------------------------------------
+// --- Prepare ---
 
 void Worker::prepare(const FrameOrder& order) {
   probe_.look_from(order.camera);
@@ -231,8 +223,7 @@ void Worker::take_in_survivors(const Inbox::Arrived& arrived) {
   }
 }
 
-// --- Sample
-// ------------------------------------------------------------------------------------------------------
+// --- Sample ---
 
 void Worker::sample(const FrameOrder& order) {
   const bool free = order.deadline_s == 0;
@@ -353,6 +344,7 @@ std::vector<TileGrant> Worker::give_tiles() {
 
 // Makes grants true here, those that are news.
 void Worker::apply(std::span<const TileGrant> grants) {
+  if (grants.empty()) return;
   Partition next = exchange_.partition();
   bool changed = false, own_changed = false;
   for (const TileGrant& grant : grants) {
@@ -385,8 +377,7 @@ void Worker::own_region_changed() {
   clock_->region_changed(own);
 }
 
-// --- Reconstruct and report
-// --------------------------------------------------------------------------------------
+// --- Reconstruct and report ---
 
 void Worker::reconstruct_and_send(const FrameOrder& order) {
   report_.sampling_ended_s = clock_->sampling_end_seconds();
@@ -422,8 +413,7 @@ RankReport Worker::finish_report() {
   return report_;
 }
 
-// --- Common
-// ------------------------------------------------------------------------------------------------------
+// --- Common ---
 
 // The one gate for colours that are no numbers: counted, and black from here on.
 Sample Worker::trace(const FrameOrder& order, double x, double y) {
