@@ -144,7 +144,10 @@ TEST_CASE("a ledger starts anew or goes on") {
 }
 
 TEST_CASE("a ledger that cannot be written is an error at once") {
-  CHECK_THROWS_AS(Ledger("/no/such/directory/ledger", false), std::runtime_error);
+  const TemporaryDirectory directory;
+  const std::string file = (directory.path() / "file").string();
+  std::ofstream(file) << "a file is no directory";
+  CHECK_THROWS_AS(Ledger(file + "/ledger", false), std::runtime_error);
   CHECK_FALSE(Ledger("", false).enabled());
 }
 

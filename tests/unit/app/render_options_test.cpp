@@ -21,7 +21,7 @@ RenderOptions parse(std::vector<std::string> words) {
 
 }  // namespace
 
-TEST_CASE("-np is one option, wherever it stands") {
+TEST_CASE("mpirun's -np is one option, wherever it stands") {
   CHECK(parse({"-np", "32", "spd:tree"}).ranks == 32);
   CHECK(parse({"spd:tree", "a.anim", "-np", "3", "--fps", "4"}).ranks == 3);
   CHECK(parse({"spd:tree", "--np", "3"}).ranks == 3);
