@@ -38,15 +38,15 @@ expect_line err 'done: 2 of 4 frames (2 were there already) in part/%04d.png; .*
 
 # What ends before it has begun harms nothing that is there.
 cp part/manifest.ndjson before.ndjson
-run pprt-render ball.anim "${work[@]}" -o part/%04d.png --overwrite --stats none/ledger; expect_code 1
-expect_text err "pprt-render: error: cannot write 'none/ledger'"
+touch file
+run pprt-render ball.anim "${work[@]}" -o part/%04d.png --overwrite --stats file/ledger; expect_code 1
+expect_text err "pprt-render: error: cannot write 'file/ledger'"
 expect_same before.ndjson part/manifest.ndjson
 run pprt-render ball.anim "${work[@]}" -o part/%04d.png --overwrite --reference none/%04d.png
 expect_usage "--reference: there is no none/0001.png"
 expect_same before.ndjson part/manifest.ndjson
 
 # A directory that cannot be: a file stands in its place.
-touch file
 run pprt-render ball.nff "${work[@]}" --fps 4 -o file/%04d.png; expect_code 1
 expect_text err "pprt-render: error: cannot write 'file/manifest.ndjson': Not a directory"
 run pprt-render ball.anim "${work[@]}" -np 2 -o file/%04d.png; expect_code 1
