@@ -116,10 +116,18 @@ void SampleExchange::repartition(const Partition& partition) {
 }
 
 void SampleExchange::introduce(const SampleMesh& mesh, std::span<const int> tiles, int taker) {
+  if (tiles.empty()) return;
+  PixelRect around = partition_.grid.pixels(tiles.front());
+  for (const int tile : tiles) {
+    const PixelRect rect = partition_.grid.pixels(tile);
+    around = {std::min(around.x0, rect.x0), std::min(around.y0, rect.y0), std::max(around.x1, rect.x1),
+              std::max(around.y1, rect.y1)};
+  }
   const std::span<const Sample> samples = mesh.samples();
   const auto corner = [&](std::uint32_t i) { return Vec2d(samples[i].x, samples[i].y); };
   for (const std::array<std::uint32_t, 3>& t : triangles(mesh)) {
     const Circle circle = triangle_shape(corner(t[0]), corner(t[1]), corner(t[2])).circumcircle;
+    if (distance_squared(circle.center, around) > circle.radius_squared) continue;
     const bool meets = std::any_of(tiles.begin(), tiles.end(), [&](int tile) {
       return distance_squared(circle.center, partition_.grid.pixels(tile)) <= circle.radius_squared;
     });

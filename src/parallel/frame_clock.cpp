@@ -34,6 +34,9 @@ class WallClock final : public FrameClock {
   WallClock(double start_s, double period_s, double ranks_per_core)
       : start_s_(start_s), period_s_(period_s), ranks_per_core_(ranks_per_core) {}
 
+  bool may_begin(const FrameOrder& order) const override {
+    return ranks_per_core_ <= 1 || monotonic_seconds() >= start_s_ + order.deadline_s - period_s_;
+  }
   void begin_frame(const FrameOrder& order) override {
     frame_began_s_ = monotonic_seconds();
     sampling_began_s_ = 0;
@@ -95,6 +98,7 @@ class WorkClock final : public FrameClock {
       : budget_(settings.frames_per_second > 0 ? settings.budget_units : 0),
         reconstruction_(price(Work::kPixel) * region_pixels) {}
 
+  bool may_begin(const FrameOrder&) const override { return true; }
   void begin_frame(const FrameOrder&) override {
     frame_units_ = 0;
     round_ = 0;

@@ -16,6 +16,10 @@ class FrameClock {
  public:
   virtual ~FrameClock() = default;
 
+  // Whether a frame may begin. Where ranks share cores, not before the deadline of the one before: who is
+  // ready would take the time of those who still reconstruct it.
+  virtual bool may_begin(const FrameOrder& order) const = 0;
+
   // A frame begins.
   virtual void begin_frame(const FrameOrder& order) = 0;
 

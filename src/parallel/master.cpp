@@ -146,19 +146,26 @@ void Master::balance_globally(const Assembly& assembly) {
   }
 }
 
-// Whether every rank can take in the samples of its new tiles in a quarter of a frame. A camera that has
+// Whether every rank can take in the samples of its new tiles in a twentieth of a frame: its former
+// owner has to look for them, too. A camera that has
 // rested for long has more samples than that; then local balancing goes on alone.
 bool Master::can_afford_to_hand_over() const {
   if (next_owners_.empty() || settings_.frames_per_second <= 0) return true;
+  if (samples_delivered_ >
+      static_cast<std::uint64_t>(settings_.width) * static_cast<std::uint64_t>(settings_.height)) {
+    return false;  // fine enough as it is
+  }
   const double frame_units = settings_.clock == ClockKind::kWork
                                  ? static_cast<double>(settings_.budget_units)
                                  : 1e9 / settings_.frames_per_second / ranks_per_core_;
   const double most = *std::max_element(handed_over_.begin(), handed_over_.end());
-  return most * static_cast<double>(price(Work::kReceivedSample)) <= 0.25 * frame_units;
+  return most * static_cast<double>(price(Work::kReceivedSample)) <= 0.05 * frame_units;
 }
 
 void Master::deliver(Assembly& assembly) {
   ++delivered_;
+  samples_delivered_ = 0;
+  for (const RankReport& r : assembly.ranks) samples_delivered_ += r.samples_in_region;
   balance_globally(assembly);
   FinishedFrame frame;
   frame.global_balance = !assembly.order.owners.empty();
@@ -189,7 +196,7 @@ void Master::learn_reserve(const Assembly& assembly, double finished_s) {
 }
 
 // What to leave between the end of sampling and the deadline: the worst of the last frames (and, for the
-// first ones, of a careful guess) and two fifths more, for ranks that share cores are not punctual; and what
+// first ones, of a careful guess) and seven tenths more, for ranks that share cores are not punctual; and what
 // three frames of growth will add: an order goes out before the two frames ahead of it are whole, and where
 // samples accumulate every reconstruction takes longer. At least a twenty-fifth of the period; at most seven
 // tenths, so that some sampling remains.
@@ -199,7 +206,7 @@ double Master::reserve_s() const {
   const double worst = *std::max_element(after_sampling_s_.begin(), after_sampling_s_.end());
   const double span = static_cast<double>(after_sampling_s_.size());
   const double growth = std::max(0.0, (after_sampling_s_.back() - after_sampling_s_.front()) / span);
-  return std::clamp(1.4 * worst + 3 * growth + 0.001, 0.04 * period, 0.7 * period);
+  return std::clamp(1.7 * worst + 4 * growth + 0.001, 0.04 * period, 0.7 * period);
 }
 
 }  // namespace pprt

@@ -89,6 +89,7 @@ class Master {
   std::vector<std::int32_t> next_owners_;  // a new partition, for the next order
   std::vector<double> handed_over_;        // per rank: samples it will have to take in with that partition
   std::uint32_t generation_ = 0;           // of the partition ordered last
+  std::uint64_t samples_delivered_ = 0;    // in the frame delivered last
   int delivered_ = 0;                      // frames that are whole
   bool order_is_due_ = false;              // but too many frames are still incomplete
   bool ended_ = false;

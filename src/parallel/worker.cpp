@@ -68,6 +68,7 @@ void Worker::render(const FrameOrder& order) {
   done_ = false;
   given_.clear();
   std::fill(peer_done_.begin(), peer_done_.end(), std::uint8_t{0});
+  await([&] { return clock_->may_begin(order); });
   clock_->begin_frame(order);
   clock_->lap_ms();
   prepare(order);
@@ -328,8 +329,10 @@ void Worker::take_in(const std::vector<Inbox::Arrived>& bundles) {
 }
 
 // Tiles for a neighbour that is ahead, already made the taker's here. Where a number of samples is the goal
-// each rank takes the share of its area, which stays as it is.
+// each rank takes the share of its area, which stays as it is. Under a resting camera a region with more
+// samples than pixels is fine enough, and its samples are too many to hand over.
 std::vector<TileGrant> Worker::give_tiles() {
+  if (epoch_ != frame_index_ && in_region_ > mesh_.region().pixel_count()) return {};
   if (!clock_->time_for_gifts() || settings_.stop.samples > 0) return {};
   // What the taker must take in may cost it a tenth of the frame.
   const double most_samples = settings_.frames_per_second > 0
