@@ -196,10 +196,10 @@ void Master::learn_reserve(const Assembly& assembly, double finished_s) {
 }
 
 // What to leave between the end of sampling and the deadline: the worst of the last frames (and, for the
-// first ones, of a careful guess) and seven tenths more, for ranks that share cores are not punctual; and what
-// three frames of growth will add: an order goes out before the two frames ahead of it are whole, and where
-// samples accumulate every reconstruction takes longer. At least a twenty-fifth of the period; at most seven
-// tenths, so that some sampling remains.
+// first ones, of a careful guess) and seven tenths more, for ranks that share cores are not punctual; and
+// what four frames of growth will add: an order goes out before the two frames ahead of it are whole, and
+// where samples accumulate every reconstruction takes longer. At least a twenty-fifth of the period; at most
+// seven tenths, so that some sampling remains.
 double Master::reserve_s() const {
   if (settings_.frames_per_second <= 0) return 0;
   const double period = 1 / settings_.frames_per_second;
