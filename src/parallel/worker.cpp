@@ -171,10 +171,7 @@ void Worker::settle(const FrameOrder& order, const std::vector<Sample>& survivor
     samples.insert(samples.end(), guests.begin(), guests.end());
     const bool peer = std::binary_search(exchange_.seed_peers().begin(), exchange_.seed_peers().end(), rank);
     if (samples.empty() && !peer && !clock_->in_lockstep()) continue;
-    clock_->spend(Work::kSentSample, samples.size());
-    Bytes bytes = encode(Bundle{order.index, epoch_, kSeedRound, false, {}, {}, std::move(samples)});
-    report_.bytes_samples += bytes.size();
-    network_.send(rank, Tag::kBundle, std::move(bytes));
+    send_bundle(rank, {order.index, epoch_, kSeedRound, false, {}, {}, std::move(samples)});
   }
   receive_seeds(order);
   report_.cpu_ms.sampling += clock_->lap_ms();
@@ -277,13 +274,18 @@ void Worker::send_bundles(const FrameOrder& order, int round, bool to_all) {
     const bool neighbour = tell_progress && std::binary_search(exchange_.neighbours().begin(),
                                                                exchange_.neighbours().end(), rank);
     if (samples.empty() && grants.empty() && !neighbour && !to_all && !clock_->in_lockstep()) continue;
-    clock_->spend(Work::kSentSample, samples.size());
-    Bytes bytes = encode(Bundle{order.index, epoch_, round, done_, progress, grants, std::move(samples)});
-    report_.bytes_progress += sizeof(RankProgress);
-    report_.bytes_balance += grants.size() * sizeof(TileGrant);
-    report_.bytes_samples += bytes.size() - sizeof(RankProgress) - grants.size() * sizeof(TileGrant);
-    network_.send(rank, Tag::kBundle, std::move(bytes));
+    send_bundle(rank, {order.index, epoch_, round, done_, progress, grants, std::move(samples)});
   }
+}
+
+void Worker::send_bundle(int rank, const Bundle& bundle) {
+  clock_->spend(Work::kSentSample, bundle.samples.size());
+  Bytes bytes = encode(bundle);
+  const std::size_t of_grants = bundle.grants.size() * sizeof(TileGrant);
+  report_.bytes_progress += sizeof(RankProgress);
+  report_.bytes_balance += of_grants;
+  report_.bytes_samples += bytes.size() - sizeof(RankProgress) - of_grants;
+  network_.send(rank, Tag::kBundle, std::move(bytes));
 }
 
 void Worker::receive_bundles(const FrameOrder& order, int round) {

@@ -55,6 +55,7 @@ class Worker {
   bool goal_reached() const;
   bool all_done() const;
   void send_bundles(const FrameOrder& order, int round, bool to_all);
+  void send_bundle(int rank, const Bundle& bundle);
   void receive_bundles(const FrameOrder& order, int round);
   void take_in(const std::vector<Inbox::Arrived>& bundles);
   std::vector<TileGrant> give_tiles();
