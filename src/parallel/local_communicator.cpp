@@ -1,6 +1,7 @@
 #include "parallel/local_communicator.h"
 
 #include <chrono>
+#include <stdexcept>
 #include <thread>
 #include <utility>
 
@@ -13,6 +14,7 @@ void LocalNetwork::deliver(int to, Message message) {
 }
 
 std::optional<Message> LocalNetwork::collect(int rank) {
+  if (failed_) throw std::runtime_error("another rank has failed");
   Box& box = boxes_.at(static_cast<std::size_t>(rank));
   const std::lock_guard lock(box.mutex);
   if (box.messages.empty()) return std::nullopt;

@@ -1,6 +1,7 @@
 // A network inside one process: for a run on one rank, and for tests of many.
 #pragma once
 
+#include <atomic>
 #include <deque>
 #include <memory>
 #include <mutex>
@@ -17,7 +18,9 @@ class LocalNetwork {
 
   int size() const { return static_cast<int>(boxes_.size()); }
   void deliver(int to, Message message);
+  // Throws once a rank has failed: nobody must wait for it.
   std::optional<Message> collect(int rank);
+  void fail() { failed_ = true; }
 
  private:
   struct Box {
@@ -25,6 +28,7 @@ class LocalNetwork {
     std::deque<Message> messages;
   };
   std::vector<Box> boxes_;
+  std::atomic<bool> failed_ = false;
 };
 
 // One rank of a LocalNetwork, driven by a thread of its own.

@@ -83,6 +83,8 @@ void Master::order_next() {
                                 std::vector<RankReport>(ranks),
                                 std::vector<std::vector<TileReport>>(ranks),
                                 std::vector<std::uint8_t>(partition_.owner.size(), 0),
+                                std::vector<std::int32_t>(partition_.owner.size(), -1),
+                                {},
                                 network_.size()};
     before_ = request;
   } else {
@@ -109,6 +111,7 @@ void Master::paste(Assembly& assembly, int from, const PixelMessage& message) co
   const auto rank = static_cast<std::size_t>(from);
   assembly.ranks[rank] = message.report;
   assembly.tiles[rank] = message.tiles;
+  assembly.samples.insert(assembly.samples.end(), message.samples.begin(), message.samples.end());
   std::size_t next = 0;
   const auto paste_tile = [&](std::int32_t tile, bool by_owner) {
     if (tile < 0 || tile >= partition_.grid.tile_count())
@@ -118,6 +121,7 @@ void Master::paste(Assembly& assembly, int from, const PixelMessage& message) co
     std::uint8_t& shown = assembly.shown_by_owner[static_cast<std::size_t>(tile)];
     const bool stands = shown != 0 && !by_owner;  // what a former owner sends only fills a gap
     shown = shown != 0 || by_owner;
+    if (!stands) assembly.owners[static_cast<std::size_t>(tile)] = from;
     for (int y = rect.y0; y < rect.y1; ++y) {
       for (int x = rect.x0; x < rect.x1; ++x, next += 3) {
         if (stands) continue;
@@ -184,6 +188,8 @@ void Master::deliver(Assembly& assembly) {
   frame.order = assembly.order;
   frame.image = std::move(assembly.image);
   frame.ranks = std::move(assembly.ranks);
+  frame.owners = std::move(assembly.owners);
+  frame.samples = std::move(assembly.samples);
   sink_(std::move(frame));
 }
 

@@ -32,6 +32,8 @@ struct FinishedFrame {
   FrameOrder order;
   Image image;
   std::vector<RankReport> ranks;
+  std::vector<std::int32_t> owners;  // per tile: the rank whose pixels are shown
+  std::vector<Sample> samples;       // of all ranks, each once; empty unless the settings ask for them
   double finished_s = 0;        // whole at the master, since the start of the sequence (work clock: virtual)
   bool global_balance = false;  // a new partition was in force from this frame on
   double late_ms = 0;           // after its deadline; <= 0: on time; 0 without a rate
@@ -65,7 +67,9 @@ class Master {
     std::vector<RankReport> ranks;
     std::vector<std::vector<TileReport>> tiles;  // per rank
     std::vector<std::uint8_t> shown_by_owner;    // per tile
-    int missing = 0;                             // ranks whose pixels have not come
+    std::vector<std::int32_t> owners;            // per tile: whose pixels are shown; -1: nobody's yet
+    std::vector<Sample> samples;
+    int missing = 0;  // ranks whose pixels have not come
   };
 
   void order_if_due();

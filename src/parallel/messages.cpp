@@ -48,6 +48,22 @@ Sample from_wire(const WireSample& w) {
   return s;
 }
 
+void put_samples(WireWriter& out, std::span<const Sample> samples) {
+  std::vector<WireSample> wire;
+  wire.reserve(samples.size());
+  for (const Sample& s : samples) wire.push_back(to_wire(s));
+  out.put_all(std::span<const WireSample>(wire));
+}
+
+std::vector<Sample> get_samples(WireReader& in) {
+  std::vector<WireSample> wire;
+  in.get_all(wire);
+  std::vector<Sample> samples;
+  samples.reserve(wire.size());
+  for (const WireSample& w : wire) samples.push_back(from_wire(w));
+  return samples;
+}
+
 }  // namespace
 
 Bytes encode(const FrameOrder& order) {
@@ -69,28 +85,22 @@ FrameOrder decode_frame_order(std::span<const std::byte> bytes) {
 }
 
 Bytes encode(const Bundle& bundle) {
-  std::vector<WireSample> samples;
-  samples.reserve(bundle.samples.size());
-  for (const Sample& s : bundle.samples) samples.push_back(to_wire(s));
   WireWriter out;
   out.put(bundle.frame_index), out.put(bundle.epoch), out.put(bundle.round), out.put(bundle.done);
   out.put(bundle.progress);
   out.put_all(std::span<const TileGrant>(bundle.grants));
-  out.put_all(std::span<const WireSample>(samples));
+  put_samples(out, bundle.samples);
   return out.take();
 }
 
 Bundle decode_bundle(std::span<const std::byte> bytes) {
   WireReader in(bytes);
   Bundle bundle;
-  std::vector<WireSample> samples;
   in.get(bundle.frame_index), in.get(bundle.epoch), in.get(bundle.round), in.get(bundle.done);
   in.get(bundle.progress);
   in.get_all(bundle.grants);
-  in.get_all(samples);
+  bundle.samples = get_samples(in);
   in.expect_end();
-  bundle.samples.reserve(samples.size());
-  for (const WireSample& s : samples) bundle.samples.push_back(from_wire(s));
   return bundle;
 }
 
@@ -100,6 +110,7 @@ Bytes encode(const PixelMessage& pixels) {
   out.put_all(std::span<const TileReport>(pixels.tiles));
   out.put_all(std::span<const std::int32_t>(pixels.given));
   out.put_all(std::span<const float>(pixels.rgb));
+  put_samples(out, pixels.samples);
   return out.take();
 }
 
@@ -110,6 +121,7 @@ PixelMessage decode_pixels(std::span<const std::byte> bytes) {
   in.get_all(pixels.tiles);
   in.get_all(pixels.given);
   in.get_all(pixels.rgb);
+  pixels.samples = get_samples(in);
   in.expect_end();
   return pixels;
 }

@@ -84,6 +84,7 @@ struct PixelMessage {
   std::vector<TileReport> tiles;
   std::vector<std::int32_t> given;  // tiles given away in this frame: shown unless their new owner sends them
   std::vector<float> rgb;           // 3 per pixel
+  std::vector<Sample> samples;      // of the region; empty unless the settings ask for them
 };
 
 Bytes encode(const FrameOrder& order);

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "parallel/communicator.h"
+#include "parallel/machine.h"
 
 namespace pprt {
 
@@ -42,6 +43,8 @@ struct SessionSettings {
   CastChoice cast = CastChoice::kAuto;
   bool keep_samples = true;  // when the image is cut anew: hand samples over, or drop them as the paper does
   std::uint64_t seed = 1;
+  bool report_samples = false;  // every sample of a frame comes to the master with the pixels
+  Machine machine;              // of the work clock
 };
 
 // For the master's broadcast.

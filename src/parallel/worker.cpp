@@ -401,9 +401,18 @@ void Worker::reconstruct_and_send(const FrameOrder& order) {
   append_rgb(pixels_, grid, mesh_.region().tiles(), message.rgb);
   append_rgb(pixels_, grid, message.given, message.rgb);
   report_.bytes_pixels = message.rgb.size() * sizeof(float) + message.tiles.size() * sizeof(TileReport);
+  if (settings_.report_samples) message.samples = own_samples();
   message.report = finish_report();
   network_.send(0, Tag::kPixels, encode(message));
   clock_->end_frame();
+}
+
+std::vector<Sample> Worker::own_samples() const {
+  std::vector<Sample> own;
+  for (const Sample& s : mesh_.samples()) {
+    if (mesh_.region().owns_point(s.x, s.y)) own.push_back(s);
+  }
+  return own;
 }
 
 RankReport Worker::finish_report() {

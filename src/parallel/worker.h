@@ -63,6 +63,7 @@ class Worker {
   void own_region_changed();
 
   void reconstruct_and_send(const FrameOrder& order);
+  std::vector<Sample> own_samples() const;
   RankReport finish_report();
 
   Sample trace(const FrameOrder& order, double x, double y);

@@ -1,0 +1,18 @@
+// A whole run inside one process: a thread for every rank. Under the work clock it gives the same frames as
+// ranks under MPI, so that studies of many ranks need neither MPI nor as many copies of the scene.
+#pragma once
+
+#include <functional>
+
+#include "parallel/session.h"
+
+namespace pprt {
+
+// Returns when every frame has been delivered to the sink, which is called on rank 0's thread. `make_probe`
+// is called once a rank, on that rank's thread; what the probe refers to must outlive the call. What a rank
+// throws first ends all of them and is thrown here.
+void run_virtual_ranks(int ranks, const SessionSettings& settings,
+                       const std::function<Probe(int rank)>& make_probe, const CameraSource& source,
+                       const FrameSink& sink);
+
+}  // namespace pprt
