@@ -45,5 +45,6 @@ set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS openmpi-bin)  # pprt-render starts mpirun
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS gnuplot-nox)  # pprt-study has it draw plots
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 include(CPack)
