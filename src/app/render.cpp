@@ -17,6 +17,7 @@
 #include "app/render_job.h"
 #include "app/render_plan.h"
 #include "app/stop_signals.h"
+#include "app/tracer_probe.h"
 #include "app/version.h"
 #include "base/diagnostics.h"
 #include "parallel/local_communicator.h"
@@ -27,13 +28,6 @@
 
 namespace pprt {
 namespace {
-
-Probe probe_of(Tracer& tracer) {
-  return {[&tracer](const Camera& camera) { tracer.set_camera(camera); },
-          [&tracer](double x, double y) { return tracer.trace(x, y); },
-          [&tracer](const Vec3f& hit, bool at_infinity) { return tracer.visible(hit, at_infinity); },
-          [&tracer] { return tracer.counts(); }};
-}
 
 std::string nff_text(const SceneDescription& scene) {
   std::ostringstream text;

@@ -1,0 +1,17 @@
+// A Tracer as the ranks see it.
+#pragma once
+
+#include "base/probe.h"
+#include "trace/compiled_scene.h"
+
+namespace pprt {
+
+// Asks the tracer, which must outlive it.
+inline Probe probe_of(Tracer& tracer) {
+  return {[&tracer](const Camera& camera) { tracer.set_camera(camera); },
+          [&tracer](double x, double y) { return tracer.trace(x, y); },
+          [&tracer](const Vec3f& hit, bool at_infinity) { return tracer.visible(hit, at_infinity); },
+          [&tracer] { return tracer.counts(); }};
+}
+
+}  // namespace pprt

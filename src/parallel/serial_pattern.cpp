@@ -1,0 +1,57 @@
+#include "parallel/serial_pattern.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "parallel/virtual_ranks.h"
+
+namespace pprt {
+namespace {
+
+std::pair<int, int> bucket_of(const Sample& sample) {
+  return {static_cast<int>(std::floor(sample.x / kBucketPixels)),
+          static_cast<int>(std::floor(sample.y / kBucketPixels))};
+}
+
+}  // namespace
+
+double bucket_distance(std::span<const Sample> a, std::span<const Sample> b) {
+  if (a.empty() && b.empty()) return 0;
+  std::map<std::pair<int, int>, std::int64_t> excess;  // of a's samples over b's
+  for (const Sample& sample : a) ++excess[bucket_of(sample)];
+  for (const Sample& sample : b) --excess[bucket_of(sample)];
+  std::int64_t sum = 0;
+  for (const auto& [bucket, count] : excess) sum += std::abs(count);
+  return static_cast<double>(sum) / static_cast<double>(a.size() + b.size());
+}
+
+std::vector<Sample> serial_samples(const SessionSettings& settings, const Camera& camera, std::uint64_t count,
+                                   const Probe& probe) {
+  SessionSettings serial;
+  serial.width = settings.width;
+  serial.height = settings.height;
+  serial.seed = settings.seed;
+  serial.clock = ClockKind::kWork;
+  serial.stop.samples = count;
+  serial.cast = CastChoice::kOff;
+  serial.balance = BalanceMode::kNone;
+  serial.report_samples = true;
+  const auto one_frame = [&](int index) {
+    return index == 0 ? std::optional(FrameRequest{1, camera, false, true}) : std::nullopt;
+  };
+  std::vector<Sample> samples;
+  run_virtual_ranks(
+      1, serial, [&](int) { return probe; }, one_frame,
+      [&](FinishedFrame&& frame) { samples = std::move(frame.samples); });
+  return samples;
+}
+
+double distance_to_serial(const FinishedFrame& frame, const SessionSettings& settings, const Probe& probe) {
+  return bucket_distance(frame.samples,
+                         serial_samples(settings, frame.order.camera, frame.samples.size(), probe));
+}
+
+}  // namespace pprt

@@ -1,0 +1,84 @@
+// The distance of a sample pattern to the serial one: the formula, and what it says of real frames.
+#include "parallel/serial_pattern.h"
+
+#include <catch2/catch.hpp>
+#include <utility>
+
+#include "parallel/virtual_ranks.h"
+#include "virtual_run.h"
+
+namespace pprt {
+namespace {
+
+std::vector<Sample> at(std::initializer_list<std::pair<double, double>> points) {
+  std::vector<Sample> samples;
+  for (const auto& [x, y] : points) {
+    samples.emplace_back();
+    samples.back().x = x;
+    samples.back().y = y;
+  }
+  return samples;
+}
+
+// A bright half of the image beside a dark one, along a diagonal: most samples belong there.
+Probe diagonal() {
+  return {[](const Camera&) {},
+          [](double x, double y) {
+            RaySample sample;
+            sample.color = Color(static_cast<float>(x > y), 0.5f, 0.5f);
+            return sample;
+          },
+          [](const Vec3f&, bool) { return true; }, [] { return RayCounts(); }};
+}
+
+SessionSettings settings() {
+  SessionSettings s;
+  s.width = 96, s.height = 96;
+  s.clock = ClockKind::kWork;
+  s.frames_per_second = 4;
+  s.budget_units = 2'000'000;
+  s.report_samples = true;
+  return s;
+}
+
+FinishedFrame first_frame(int ranks, const SessionSettings& s) {
+  FinishedFrame first;
+  run_virtual_ranks(
+      ranks, s, [](int) { return diagonal(); }, still_or_pan(s, 1),
+      [&](FinishedFrame&& frame) { first = std::move(frame); });
+  return first;
+}
+
+}  // namespace
+
+TEST_CASE("the distance of two patterns is the share of samples in other buckets") {
+  const std::vector<Sample> a = at({{1, 1}, {9.99, 9.99}, {15, 5}, {5, 25}});
+  CHECK(bucket_distance(a, a) == 0);
+  CHECK(bucket_distance(a, at({{5, 5}, {3, 3}, {11, 1}, {1, 29}})) == 0);
+  CHECK(bucket_distance(a, at({{5, 5}, {3, 3}, {11, 1}, {1, 31}})) == 0.25);  // one of four has moved
+  CHECK(bucket_distance(a, at({{55, 5}, {53, 3}})) == 1);
+  CHECK(bucket_distance(a, at({{1, 1}})) == 0.6);  // |2-1| + 1 + 1 of five
+  CHECK(bucket_distance({}, {}) == 0);
+  CHECK(bucket_distance(a, {}) == 1);
+}
+
+TEST_CASE("the serial sampler makes as many samples as are asked for, where the picture calls for them") {
+  const SessionSettings s = settings();
+  const std::vector<Sample> samples = serial_samples(s, camera_before_disc(96, 96), 1500, diagonal());
+  CHECK(samples.size() == 1500);
+  std::size_t near_edge = 0;
+  for (const Sample& sample : samples) near_edge += std::abs(sample.x - sample.y) < 10;
+  CHECK(near_edge > 750);  // of a fifth of the area
+}
+
+TEST_CASE("one rank has the serial pattern, many without balancing have not") {
+  SessionSettings s = settings();
+  CHECK(distance_to_serial(first_frame(1, s), s, diagonal()) == 0);
+  s.balance = BalanceMode::kNone;
+  s.budget_units = 400'000;
+  const double nine = distance_to_serial(first_frame(9, s), s, diagonal());
+  CHECK(nine > 0.05);
+  CHECK(nine < 0.6);
+}
+
+}  // namespace pprt
