@@ -17,12 +17,14 @@ std::string names_of(const RenderOptions& options) {
   return names.empty() ? kDefaultOutput : names;
 }
 
-// The record's entries as a header's: nested ones become "rays.primary" and the like.
+// The record's entries as a header's: nested ones become "rays.primary" and the like, lists text.
 void append_facts(Facts& facts, const std::string& prefix, const Json& record) {
   for (const auto& [key, value] : record.items()) {
     const std::string name = prefix + "." + key;
     if (value.is_object()) {
       append_facts(facts, name, value);
+    } else if (value.is_array()) {
+      facts.emplace_back(name, value.dump());
     } else if (value.is_string()) {
       facts.emplace_back(name, value.get<std::string>());
     } else if (value.is_number_float()) {

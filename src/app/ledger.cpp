@@ -80,6 +80,9 @@ Json frame_record(const FinishedFrame& frame) {
           {"deadline_s", frame.order.deadline_s},
           {"finished_s", frame.finished_s},
           {"late_ms", frame.late_ms},
+          {"late_ranks", frame.late_ranks},
+          {"stale_tiles", frame.stale_tiles},
+          {"overdue_pixels", frame.overdue_pixels},
           {"samples_new", sum.samples_new},
           {"samples_cast", sum.samples_cast},
           {"samples", sum.samples_in_region},
@@ -108,6 +111,7 @@ void RunTotals::add(const FinishedFrame& frame) {
   const RankReport sum = sum_of(frame.ranks);
   ++frames_;
   on_time_ += frame.late_ms <= 0;
+  with_late_ranks_ += !frame.late_ranks.empty();
   samples_ += sum.samples_in_region;
   non_finite_ += sum.non_finite;
   rays_ += sum.rays;
@@ -128,6 +132,7 @@ Json RunTotals::summary(bool has_rate) const {
   Json record = {{"record", "summary"}, {"frames", frames_}};
   if (has_rate) {
     record["on_time"] = on_time_;
+    record["with_late_ranks"] = with_late_ranks_;
     record["late_ms"] = {{"p50", percentile(sorted, 0.50)},
                          {"p95", percentile(sorted, 0.95)},
                          {"p99", percentile(sorted, 0.99)},

@@ -34,6 +34,7 @@ class RunTotals {
  private:
   int frames_ = 0;
   int on_time_ = 0;
+  int with_late_ranks_ = 0;  // frames
   std::uint64_t samples_ = 0;
   std::uint64_t non_finite_ = 0;
   RayCounts rays_;

@@ -58,7 +58,10 @@ class WallClock final : public FrameClock {
   }
   bool sampling_over() override { return stop_s_ > 0 && monotonic_seconds() >= stop_s_; }
   void end_frame() override {
-    if (stop_s_ > 0) after_sampling_s_.add(monotonic_seconds() - std::max(stop_s_, sampling_began_s_));
+    if (stop_s_ <= 0) return;
+    // A rank that stood still for longer than a frame has not worked that long: it learns nothing from it.
+    const double took_s = monotonic_seconds() - std::max(stop_s_, sampling_began_s_);
+    if (took_s <= period_s_) after_sampling_s_.add(took_s);
   }
   std::size_t affordable(Work work, double share) const override {
     const double seconds = 1e-9 * static_cast<double>(price(work)) * ranks_per_core_;

@@ -13,6 +13,7 @@ bool Inbox::pump() {
     any = true;
     accept(*message);
   }
+  after_look_();
   return any;
 }
 

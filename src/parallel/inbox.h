@@ -20,9 +20,12 @@ class Inbox {
     Bundle bundle;
   };
 
-  // `to_master` gets what is not for a worker (pixels); never called where no master lives.
-  Inbox(Communicator& network, std::function<void(const Message&)> to_master)
-      : network_(network), to_master_(std::move(to_master)) {}
+  // `to_master` gets what is not for a worker (pixels); never called where no master lives. `after_look` is
+  // called at the end of every pump(): rank 0 keeps the deadlines by it.
+  Inbox(
+      Communicator& network, std::function<void(const Message&)> to_master,
+      std::function<void()> after_look = [] {})
+      : network_(network), to_master_(std::move(to_master)), after_look_(std::move(after_look)) {}
 
   // Takes in all that has arrived; false when there was nothing.
   bool pump();
@@ -36,12 +39,16 @@ class Inbox {
   // Removes and returns the bundles that `wanted` accepts, in order of rank and then of sending.
   std::vector<Arrived> take_bundles(const std::function<bool(const Arrived&)>& wanted);
 
+  // All bundles that are here.
+  const std::vector<Arrived>& bundles() const { return bundles_; }
+
   // How many bundles that `wanted` accepts are here.
   std::size_t count_bundles(const std::function<bool(const Arrived&)>& wanted) const;
 
  private:
   Communicator& network_;
   std::function<void(const Message&)> to_master_;
+  std::function<void()> after_look_;
   std::deque<FrameOrder> orders_;
   std::vector<Arrived> bundles_;
 };

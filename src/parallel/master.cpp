@@ -1,6 +1,7 @@
 #include "parallel/master.h"
 
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -14,20 +15,33 @@ namespace {
 // The share of a period that follows sampling, before any frame has shown it.
 constexpr double kFirstGuess = 0.2;
 
-// How many frames may be ordered and not yet whole.
+// How many frames may be ordered and not yet delivered.
 constexpr std::size_t kMostIncompleteFrames = 4;
 
 }  // namespace
 
 Master::Master(Communicator& network, const SessionSettings& settings, const Partition& partition,
-               double ranks_per_core, CameraSource source, FrameSink sink)
+               double ranks_per_core, CameraSource source, FrameSink sink, std::function<double()> now)
     : network_(network),
       settings_(settings),
       partition_(partition),
       ranks_per_core_(ranks_per_core),
       source_(std::move(source)),
-      sink_(std::move(sink)) {
+      sink_(std::move(sink)),
+      now_(std::move(now)),
+      keeps_deadlines_(settings.clock == ClockKind::kWall && settings.frames_per_second > 0),
+      shown_(partition.grid) {
   if (settings.frames_per_second > 0) after_sampling_s_.push_back(kFirstGuess / settings.frames_per_second);
+}
+
+bool Master::may_begin(int index) const {
+  if (delivered_ >= index) return true;
+  // An order must not depend on what happens to have come: the frame before is whole, or will be without a
+  // further order.
+  if (settings_.clock == ClockKind::kWork) return false;
+  // Who prepares a frame cannot deliver one. Where ranks share cores nobody begins before that deadline
+  // anyway.
+  return !keeps_deadlines_ || (ranks_per_core_ <= 1 && sequence_s() < deadline_s(index - 1));
 }
 
 void Master::begin_sequence(double start_s) {
@@ -40,7 +54,7 @@ void Master::frame_begun() {
   order_if_due();
 }
 
-// A rank that falls behind holds back the orders, not the memory: its frames would pile up.
+// Where all ranks are waited for, one that falls behind holds back the orders: its frames would pile up.
 void Master::order_if_due() {
   if (!order_is_due_ || assemblies_.size() >= kMostIncompleteFrames) return;
   order_is_due_ = false;
@@ -50,14 +64,55 @@ void Master::order_if_due() {
 void Master::handle(const Message& message) {
   const PixelMessage pixels = decode_pixels(message.payload);
   const auto found = assemblies_.find(pixels.frame_index);
-  if (found == assemblies_.end()) throw ProtocolError("pixels came for a frame that was not ordered");
+  if (found == assemblies_.end()) {
+    handle_overdue(message.from, pixels);
+    return;
+  }
   Assembly& assembly = found->second;
-  paste(assembly, message.from, pixels);
-  if (--assembly.missing > 0) return;
-  // Every rank sends its frames in order, so no earlier frame can still be incomplete.
-  deliver(assembly);
-  assemblies_.erase(found);
-  order_if_due();
+  const auto rank = static_cast<std::size_t>(message.from);
+  if (std::exchange(assembly.has_come[rank], std::uint8_t{1}) != 0) throw ProtocolError("pixels came twice");
+  assembly.picture.paste(message.from, pixels);
+  assembly.ranks[rank] = pixels.report;
+  assembly.tiles[rank] = pixels.tiles;
+  assembly.samples.insert(assembly.samples.end(), pixels.samples.begin(), pixels.samples.end());
+  assembly.last_arrival_s = sequence_s();
+  if (--assembly.missing == 0) deliver_due();
+}
+
+// The frame has not waited for these pixels; where nothing newer is shown they will fill the next gap. What
+// they tell of the time a frame needs counts, unless it is more than a period: then the rank has stood still.
+void Master::handle_overdue(int from, const PixelMessage& pixels) {
+  if (!keeps_deadlines_ || pixels.frame_index < 0 || pixels.frame_index >= next_index_) {
+    throw ProtocolError("pixels came for a frame that was not ordered");
+  }
+  shown_.paste(from, pixels);
+  ++overdue_pixels_;
+  if (sequence_s() < deadline_s(pixels.frame_index + 1)) {
+    learn_reserve(sequence_s() - pixels.report.sampling_ended_s);
+  }
+}
+
+void Master::keep_deadlines() {
+  if (!keeps_deadlines_) return;
+  const double now_s = sequence_s();
+  for (auto& [index, assembly] : assemblies_) {
+    if (!assembly.overdue_since_s && now_s >= assembly.order.deadline_s) assembly.overdue_since_s = now_s;
+  }
+  deliver_due();
+}
+
+bool Master::is_due(const Assembly& assembly) const {
+  if (assembly.missing == 0) return true;
+  if (!assembly.overdue_since_s || delivered_ == 0) return false;
+  return sequence_s() >= *assembly.overdue_since_s + kGraceSeconds;
+}
+
+void Master::deliver_due() {
+  while (!assemblies_.empty() && is_due(assemblies_.begin()->second)) {
+    deliver(assemblies_.begin()->second);
+    assemblies_.erase(assemblies_.begin());
+    order_if_due();
+  }
 }
 
 void Master::order_next() {
@@ -70,22 +125,18 @@ void Master::order_next() {
     order.cut = request->cut;
     order.carry = carry_into(*request);
     order.camera = request->camera;
-    if (settings_.frames_per_second > 0) order.deadline_s = (order.index + 1) / settings_.frames_per_second;
+    if (settings_.frames_per_second > 0) order.deadline_s = deadline_s(order.index);
     order.reserve_s = reserve_s();
     const bool hands_over = order.carry != Carry::kNothing && settings_.keep_samples;
     if (hands_over && !can_afford_to_hand_over()) next_owners_.clear();
     if (!next_owners_.empty()) ++generation_;
     order.owners = std::exchange(next_owners_, {});
     order.generation = generation_;
-    const auto ranks = static_cast<std::size_t>(network_.size());
-    assemblies_[order.index] = {order,
-                                Image(settings_.width, settings_.height),
-                                std::vector<RankReport>(ranks),
-                                std::vector<std::vector<TileReport>>(ranks),
-                                std::vector<std::uint8_t>(partition_.owner.size(), 0),
-                                std::vector<std::int32_t>(partition_.owner.size(), -1),
-                                {},
-                                network_.size()};
+    Assembly& assembly = assemblies_.emplace(order.index, start_assembly(order)).first->second;
+    // Rank 0 was away for so long that nobody can carry this order out in time.
+    if (keeps_deadlines_ && sequence_s() >= order.deadline_s + kGraceSeconds) {
+      assembly.overdue_since_s = order.deadline_s;
+    }
     before_ = request;
   } else {
     order.end = ended_ = true;
@@ -107,37 +158,26 @@ Carry Master::carry_into(const FrameRequest& request) const {
   }
 }
 
-void Master::paste(Assembly& assembly, int from, const PixelMessage& message) const {
-  const auto rank = static_cast<std::size_t>(from);
-  assembly.ranks[rank] = message.report;
-  assembly.tiles[rank] = message.tiles;
-  assembly.samples.insert(assembly.samples.end(), message.samples.begin(), message.samples.end());
-  std::size_t next = 0;
-  const auto paste_tile = [&](std::int32_t tile, bool by_owner) {
-    if (tile < 0 || tile >= partition_.grid.tile_count())
-      throw ProtocolError("pixels of a tile that is none");
-    const PixelRect rect = partition_.grid.pixels(tile);
-    if (message.rgb.size() - next < 3 * rect.area()) throw ProtocolError("pixels are missing in a message");
-    std::uint8_t& shown = assembly.shown_by_owner[static_cast<std::size_t>(tile)];
-    const bool stands = shown != 0 && !by_owner;  // what a former owner sends only fills a gap
-    shown = shown != 0 || by_owner;
-    if (!stands) assembly.owners[static_cast<std::size_t>(tile)] = from;
-    for (int y = rect.y0; y < rect.y1; ++y) {
-      for (int x = rect.x0; x < rect.x1; ++x, next += 3) {
-        if (stands) continue;
-        assembly.image.at(x, y) = Color(message.rgb[next], message.rgb[next + 1], message.rgb[next + 2]);
-      }
-    }
-  };
-  for (const TileReport& tile : message.tiles) paste_tile(tile.tile, true);
-  for (const std::int32_t tile : message.given) paste_tile(tile, false);
+Master::Assembly Master::start_assembly(const FrameOrder& order) const {
+  const auto ranks = static_cast<std::size_t>(network_.size());
+  return {.order = order,
+          .picture = Mosaic(partition_.grid),
+          .ranks = std::vector<RankReport>(ranks),
+          .tiles = std::vector<std::vector<TileReport>>(ranks),
+          .has_come = std::vector<std::uint8_t>(ranks, 0),
+          .samples = {},
+          .missing = network_.size(),
+          .overdue_since_s = {}};
 }
 
 // From what the frame's tiles took, the partition for the next order; in combined only where it is worth it.
+// A frame that some ranks did not report tells nothing of the balance.
 void Master::balance_globally(const Assembly& assembly) {
   const bool always = settings_.balance == BalanceMode::kGlobal;
   if (!always && settings_.balance != BalanceMode::kCombined) return;
-  if (network_.size() == 1 || (!always && imbalance(assembly.tiles) <= kImbalanceTrigger)) return;
+  if (network_.size() == 1 || assembly.missing > 0 ||
+      (!always && imbalance(assembly.tiles) <= kImbalanceTrigger))
+    return;
   next_owners_ =
       bisect(partition_.grid, predicted_costs(partition_.grid, assembly.tiles), network_.size()).owner;
   handed_over_.assign(assembly.tiles.size(), 0);
@@ -167,37 +207,58 @@ bool Master::can_afford_to_hand_over() const {
 }
 
 void Master::deliver(Assembly& assembly) {
-  ++delivered_;
   samples_delivered_ = 0;
   for (const RankReport& r : assembly.ranks) samples_delivered_ += r.samples_in_region;
   balance_globally(assembly);
   FinishedFrame frame;
-  frame.global_balance = !assembly.order.owners.empty();
-  const double period = settings_.frames_per_second > 0 ? 1 / settings_.frames_per_second : 0;
-  if (settings_.clock == ClockKind::kWork) {
-    double slowest = 0;
-    for (const RankReport& r : assembly.ranks) slowest = std::max(slowest, r.finished_s);
-    const double budget_s = static_cast<double>(settings_.budget_units) / kWorkUnitsPerSecond;
-    frame.finished_s = assembly.order.index * period + slowest;
-    frame.late_ms = period > 0 ? 1e3 * (slowest - budget_s) : 0;
-  } else {
-    frame.finished_s = monotonic_seconds() - start_s_;
-    frame.late_ms = period > 0 ? 1e3 * (frame.finished_s - assembly.order.deadline_s) : 0;
-    learn_reserve(assembly, frame.finished_s);
+  if (keeps_deadlines_) {
+    if (assembly.missing > 0) frame.stale_tiles = assembly.picture.fill_gaps(shown_);
+    shown_ = assembly.picture;
+    learn_reserve(assembly);
   }
-  frame.order = assembly.order;
-  frame.image = std::move(assembly.image);
+  ++delivered_;
+  frame.order = std::move(assembly.order);
+  frame.image = assembly.picture.take_image();
   frame.ranks = std::move(assembly.ranks);
-  frame.owners = std::move(assembly.owners);
+  frame.owners = assembly.picture.shown_ranks();
   frame.samples = std::move(assembly.samples);
+  for (int rank = 0; rank < network_.size(); ++rank) {
+    if (assembly.has_come[static_cast<std::size_t>(rank)] == 0) frame.late_ranks.push_back(rank);
+  }
+  frame.overdue_pixels = std::exchange(overdue_pixels_, 0);
+  frame.global_balance = !frame.order.owners.empty();
+  tell_when(frame);
   sink_(std::move(frame));
 }
 
-void Master::learn_reserve(const Assembly& assembly, double finished_s) {
+void Master::tell_when(FinishedFrame& frame) const {
+  const double period = settings_.frames_per_second > 0 ? 1 / settings_.frames_per_second : 0;
+  if (settings_.clock == ClockKind::kWork) {
+    double slowest = 0;
+    for (const RankReport& r : frame.ranks) slowest = std::max(slowest, r.finished_s);
+    const double budget_s = static_cast<double>(settings_.budget_units) / kWorkUnitsPerSecond;
+    frame.finished_s = frame.order.index * period + slowest;
+    frame.late_ms = period > 0 ? 1e3 * (slowest - budget_s) : 0;
+  } else {
+    frame.finished_s = sequence_s();
+    frame.late_ms = period > 0 ? 1e3 * (frame.finished_s - frame.order.deadline_s) : 0;
+  }
+}
+
+// From the first rank's end of sampling to the last pixels that came. Of a frame without late ranks that is
+// what it needed; one with late ranks needed more, which handle_overdue() learns.
+void Master::learn_reserve(const Assembly& assembly) {
+  double first_end_s = std::numeric_limits<double>::infinity();
+  for (std::size_t rank = 0; rank < assembly.ranks.size(); ++rank) {
+    if (assembly.has_come[rank] != 0)
+      first_end_s = std::min(first_end_s, assembly.ranks[rank].sampling_ended_s);
+  }
+  if (first_end_s < assembly.last_arrival_s) learn_reserve(assembly.last_arrival_s - first_end_s);
+}
+
+void Master::learn_reserve(double after_sampling_s) {
   constexpr std::size_t kRemembered = 12;
-  double first_end = finished_s;
-  for (const RankReport& r : assembly.ranks) first_end = std::min(first_end, r.sampling_ended_s);
-  after_sampling_s_.push_back(finished_s - first_end);
+  after_sampling_s_.push_back(after_sampling_s);
   if (after_sampling_s_.size() > kRemembered) after_sampling_s_.pop_front();
 }
 

@@ -11,7 +11,9 @@
 
 #include "image/image.h"
 #include "parallel/communicator.h"
+#include "parallel/frame_clock.h"
 #include "parallel/messages.h"
+#include "parallel/mosaic.h"
 #include "parallel/partition.h"
 #include "parallel/session_settings.h"
 
@@ -27,24 +29,36 @@ struct FrameRequest {
 };
 using CameraSource = std::function<std::optional<FrameRequest>(int index)>;
 
-// A whole frame and what it took.
+// Wall clock with a rate: how long a frame waits for the last ranks' pixels once rank 0 sees that its
+// deadline has passed. What is on its way arrives within this (docs/decisions/0010-late-ranks.md).
+inline constexpr double kGraceSeconds = 0.003;
+
+// A frame as it is delivered, and what it took.
 struct FinishedFrame {
   FrameOrder order;
   Image image;
-  std::vector<RankReport> ranks;
-  std::vector<std::int32_t> owners;  // per tile: the rank whose pixels are shown
-  std::vector<Sample> samples;       // of all ranks, each once; empty unless the settings ask for them
-  double finished_s = 0;        // whole at the master, since the start of the sequence (work clock: virtual)
+  std::vector<RankReport> ranks;         // empty reports of those that were late
+  std::vector<std::int32_t> owners;      // per tile: the rank whose pixels are shown
+  std::vector<Sample> samples;           // of all ranks, each once; empty unless the settings ask for them
+  std::vector<std::int32_t> late_ranks;  // whose pixels had not come: ascending
+  int stale_tiles = 0;                   // tiles that show an earlier frame, for nobody has sent them
+  int overdue_pixels = 0;       // messages of earlier frames that came after those had been delivered
+  double finished_s = 0;        // delivered, since the start of the sequence (work clock: virtual)
   bool global_balance = false;  // a new partition was in force from this frame on
   double late_ms = 0;           // after its deadline; <= 0: on time; 0 without a rate
 };
 using FrameSink = std::function<void(FinishedFrame&&)>;
 
+// With a rate on the wall clock a frame is delivered once it is whole, or at its deadline (and a grace) with
+// what has come: the tiles of late ranks show what they showed last. Only the first frame, before which there
+// is nothing to show, waits for all ranks; so does every frame without a rate or on the work clock.
 class Master {
  public:
-  // The sink is called in frame order, on the caller's thread.
+  // The sink is called in frame order, on the caller's thread. `now` tells the time as monotonic_seconds()
+  // does.
   Master(Communicator& network, const SessionSettings& settings, const Partition& partition,
-         double ranks_per_core, CameraSource source, FrameSink sink);
+         double ranks_per_core, CameraSource source, FrameSink sink,
+         std::function<double()> now = monotonic_seconds);
 
   // Sends every rank the order for the next frame; `start_s` is the sequence's start by monotonic_seconds().
   void begin_sequence(double start_s);
@@ -52,10 +66,14 @@ class Master {
   // Rank 0 has begun a frame: time for the order of the one after.
   void frame_begun();
 
+  // Takes in a rank's pixels, also those of a frame that did not wait for them.
   void handle(const Message& message);
 
-  // Whether all frames before this one are whole.
-  bool has_delivered_before(int index) const { return delivered_ >= index; }
+  // Delivers what is due: to be called as often as the inbox is looked into.
+  void keep_deadlines();
+
+  // Whether rank 0 may begin a frame, or has to look after the one before.
+  bool may_begin(int index) const;
 
   // Whether every frame ordered has been delivered.
   bool idle() const { return assemblies_.empty(); }
@@ -63,24 +81,32 @@ class Master {
  private:
   struct Assembly {
     FrameOrder order;
-    Image image;
+    Mosaic picture;
     std::vector<RankReport> ranks;
     std::vector<std::vector<TileReport>> tiles;  // per rank
-    std::vector<std::uint8_t> shown_by_owner;    // per tile
-    std::vector<std::int32_t> owners;            // per tile: whose pixels are shown; -1: nobody's yet
+    std::vector<std::uint8_t> has_come;          // per rank: its pixels
     std::vector<Sample> samples;
-    int missing = 0;  // ranks whose pixels have not come
+    int missing = 0;                        // ranks whose pixels have not come
+    double last_arrival_s = 0;              // of those that have
+    std::optional<double> overdue_since_s;  // seen by rank 0, which may have been away at the deadline
   };
 
   void order_if_due();
   void order_next();
   Carry carry_into(const FrameRequest& request) const;
-  void paste(Assembly& assembly, int from, const PixelMessage& message) const;
+  Assembly start_assembly(const FrameOrder& order) const;
+  void handle_overdue(int from, const PixelMessage& pixels);
+  bool is_due(const Assembly& assembly) const;
+  void deliver_due();
+  void deliver(Assembly& assembly);
+  void tell_when(FinishedFrame& frame) const;
   void balance_globally(const Assembly& assembly);
   bool can_afford_to_hand_over() const;
-  void deliver(Assembly& assembly);
-  void learn_reserve(const Assembly& assembly, double finished_s);
+  void learn_reserve(const Assembly& assembly);
+  void learn_reserve(double after_sampling_s);
   double reserve_s() const;
+  double deadline_s(int index) const { return (index + 1) / settings_.frames_per_second; }
+  double sequence_s() const { return now_() - start_s_; }
 
   Communicator& network_;
   SessionSettings settings_;
@@ -88,14 +114,18 @@ class Master {
   double ranks_per_core_;
   CameraSource source_;
   FrameSink sink_;
-  std::map<int, Assembly> assemblies_;     // by frame index
+  std::function<double()> now_;
+  bool keeps_deadlines_;                // delivers at a deadline whatever is missing
+  std::map<int, Assembly> assemblies_;  // by frame index
+  Mosaic shown_;            // with deadlines: the frame delivered last, and what came for it since
+  int overdue_pixels_ = 0;  // since that frame was delivered
   std::optional<FrameRequest> before_;     // the frame ordered last
   std::vector<std::int32_t> next_owners_;  // a new partition, for the next order
   std::vector<double> handed_over_;        // per rank: samples it will have to take in with that partition
   std::uint32_t generation_ = 0;           // of the partition ordered last
   std::uint64_t samples_delivered_ = 0;    // in the frame delivered last
-  int delivered_ = 0;                      // frames that are whole
-  bool order_is_due_ = false;              // but too many frames are still incomplete
+  int delivered_ = 0;                      // frames
+  bool order_is_due_ = false;              // but too many frames are not delivered yet
   bool ended_ = false;
   int next_index_ = 0;
   double start_s_ = 0;

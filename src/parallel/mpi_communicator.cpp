@@ -2,6 +2,7 @@
 
 #include <mpi.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <deque>
@@ -29,30 +30,77 @@ int mpi_count(std::size_t bytes) {
   return static_cast<int>(bytes);
 }
 
+// What goes to one other rank, in order. MPI keeps a message that is not taken in memory that all messages of
+// this rank share: a rank that stands still would use it up (Open MPI has room for 512 on a host), and then
+// none could be sent to anyone. So only so many are MPI's at a time, and the others wait here.
+class Lane {
+ public:
+  void send(int to, Tag tag, Bytes payload) {
+    under_way_.push_back({std::move(payload), tag, MPI_REQUEST_NULL});
+    advance(to);
+  }
+
+  bool empty() const { return under_way_.empty(); }
+
+  // Forgets what has left, and hands over to MPI what may go.
+  void advance(int to) {
+    while (handed_over_ > 0 && has_left(under_way_.front())) {
+      if (under_way_.front().is_confirmed) unconfirmed_ -= kPerConfirmation;
+      under_way_.pop_front();
+      --handed_over_;
+    }
+    while (handed_over_ < under_way_.size() && unconfirmed_ < kMostUnconfirmed) {
+      hand_over(under_way_[handed_over_++], to);
+    }
+  }
+
+ private:
+  static constexpr int kMostUnconfirmed = 32;
+  static constexpr int kPerConfirmation = 8;
+
+  // A send under way owns what it sends; a deque keeps both where they are.
+  struct Sending {
+    Bytes payload;
+    Tag tag;
+    MPI_Request request;
+    bool is_confirmed = false;  // is over only when the receiver has taken it, and so all before it
+  };
+
+  void hand_over(Sending& sending, int to) {
+    sending.is_confirmed = ++unconfirmed_ % kPerConfirmation == 0;
+    check((sending.is_confirmed ? MPI_Issend : MPI_Isend)(
+              sending.payload.data(), mpi_count(sending.payload.size()), MPI_BYTE, to,
+              static_cast<int>(sending.tag), MPI_COMM_WORLD, &sending.request),
+          "MPI_Isend");
+  }
+
+  static bool has_left(Sending& sending) {
+    int over = 0;
+    check(MPI_Test(&sending.request, &over, MPI_STATUS_IGNORE), "MPI_Test");
+    return over != 0;
+  }
+
+  std::deque<Sending> under_way_;
+  std::size_t handed_over_ = 0;  // of those, to MPI
+  int unconfirmed_ = 0;          // handed over since the last that is known to have been taken
+};
+
 }  // namespace
 
 class MpiCommunicator::Impl {
  public:
-  // A send under way owns what it sends; a deque keeps both where they are.
-  struct Sending {
-    Bytes payload;
-    MPI_Request request = MPI_REQUEST_NULL;
-  };
+  void advance() {
+    for (int to = 0; to < size; ++to) lanes[static_cast<std::size_t>(to)].advance(to);
+  }
 
-  // Forgets the sends that have left, oldest first: they are mostly over in that order.
-  void reap() {
-    while (!sending.empty()) {
-      int over = 0;
-      check(MPI_Test(&sending.front().request, &over, MPI_STATUS_IGNORE), "MPI_Test");
-      if (!over) return;
-      sending.pop_front();
-    }
+  bool all_sent() const {
+    return std::all_of(lanes.begin(), lanes.end(), [](const Lane& lane) { return lane.empty(); });
   }
 
   int rank = 0;
   int size = 1;
   int on_host = 1;
-  std::deque<Sending> sending;
+  std::vector<Lane> lanes;  // by receiver
   std::deque<Message> to_self;
 };
 
@@ -62,6 +110,7 @@ MpiCommunicator::MpiCommunicator(int& argc, char**& argv) : impl_(std::make_uniq
   MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
   check(MPI_Comm_rank(MPI_COMM_WORLD, &impl_->rank), "MPI_Comm_rank");
   check(MPI_Comm_size(MPI_COMM_WORLD, &impl_->size), "MPI_Comm_size");
+  impl_->lanes.resize(static_cast<std::size_t>(impl_->size));
   MPI_Comm host = MPI_COMM_NULL;
   check(MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &host),
         "MPI_Comm_split_type");
@@ -88,12 +137,7 @@ void MpiCommunicator::send(int to, Tag tag, Bytes payload) {
     impl_->to_self.push_back({to, tag, std::move(payload)});
     return;
   }
-  impl_->reap();
-  Impl::Sending& sending = impl_->sending.emplace_back();
-  sending.payload = std::move(payload);
-  check(MPI_Isend(sending.payload.data(), mpi_count(sending.payload.size()), MPI_BYTE, to,
-                  static_cast<int>(tag), MPI_COMM_WORLD, &sending.request),
-        "MPI_Isend");
+  impl_->lanes.at(static_cast<std::size_t>(to)).send(to, tag, std::move(payload));
 }
 
 std::optional<Message> MpiCommunicator::receive() {
@@ -103,7 +147,7 @@ std::optional<Message> MpiCommunicator::receive() {
     return message;
   }
   if (impl_->size == 1) return std::nullopt;
-  impl_->reap();
+  impl_->advance();
   int arrived = 0;
   MPI_Message handle = MPI_MESSAGE_NULL;
   MPI_Status status;
@@ -137,8 +181,8 @@ void MpiCommunicator::finish() {
     }
   };
   drain_until([this] {
-    impl_->reap();
-    return impl_->sending.empty();
+    impl_->advance();
+    return impl_->all_sent();
   });
   MPI_Request all_here = MPI_REQUEST_NULL;
   check(MPI_Ibarrier(MPI_COMM_WORLD, &all_here), "MPI_Ibarrier");

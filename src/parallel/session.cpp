@@ -121,14 +121,13 @@ void run_as_master(Communicator& network, const SessionSettings& settings, const
                    const CameraSource& source, const FrameSink& sink) {
   const Partition partition = equal_areas(settings, network.size());
   Master master(network, settings, partition, ranks_per_core(network), source, sink);
-  Inbox inbox(network, [&](const Message& message) { master.handle(message); });
+  Inbox inbox(
+      network, [&](const Message& message) { master.handle(message); }, [&] { master.keep_deadlines(); });
   const double start_s = start_together(network, inbox);
   Worker worker = make_worker(network, inbox, settings, partition, probe, start_s);
   master.begin_sequence(start_s);
   for (int index = 0; const std::optional<FrameOrder> order = await_order(inbox, index); ++index) {
-    // Under the work clock an order must not depend on what happens to have come: the frame before is whole,
-    // or will be without a further order.
-    while (settings.clock == ClockKind::kWork && !master.has_delivered_before(index)) {
+    while (!master.may_begin(index)) {
       if (!inbox.pump()) rest_briefly();
     }
     master.frame_begun();

@@ -69,6 +69,11 @@ void Worker::render(const FrameOrder& order) {
   given_.clear();
   std::fill(peer_done_.begin(), peer_done_.end(), std::uint8_t{0});
   await([&] { return clock_->may_begin(order); });
+  if (is_past(order)) {
+    leave_out(order);
+    return;
+  }
+  hear_gifts(order);
   clock_->begin_frame(order);
   clock_->lap_ms();
   prepare(order);
@@ -77,13 +82,58 @@ void Worker::render(const FrameOrder& order) {
   reconstruct_and_send(order);
 }
 
+// --- Late ---
+
+bool Worker::is_past(const FrameOrder& order) const {
+  return !clock_->in_lockstep() && order.deadline_s > 0 && order.index > 0 &&
+         clock_->sequence_seconds() >= order.deadline_s;
+}
+
+// The frame is delivered without this rank. Who owns what holds on, and bundles wait in the inbox: those of a
+// triangulation that still stands will be taken in.
+void Worker::leave_out(const FrameOrder& order) {
+  if (!order.owners.empty()) adopt_partition(order, false);
+  const Carry carry = carried_into(order);
+  if (carry == Carry::kAccumulate) return;
+  missed_ = {true, order.index, order.number, missed_.cut || carry == Carry::kNothing};
+}
+
+Carry Worker::carried_into(const FrameOrder& order) const {
+  return !order.owners.empty() && !settings_.keep_samples ? Carry::kNothing : order.carry;
+}
+
+// Tiles given away in frames before, of which this rank has not heard in time: whose they are must be known
+// before the seeds are traced.
+void Worker::hear_gifts(const FrameOrder& order) {
+  std::vector<TileGrant> grants;
+  for (const Inbox::Arrived& arrived : inbox_.bundles()) {
+    if (arrived.bundle.frame_index >= order.index) continue;
+    grants.insert(grants.end(), arrived.bundle.grants.begin(), arrived.bundle.grants.end());
+  }
+  apply(grants);
+}
+
+// The others accumulate in a triangulation that they have begun without this rank: its part of it, from the
+// seeds of that frame and from what they have told since.
+void Worker::catch_up(const FrameOrder& order, const Missed& missed) {
+  if (!order.owners.empty()) adopt_partition(order, false);
+  begin_triangulation(missed.epoch);
+  trace_seeds(order, missed.number);
+  receive_bundles(order, kSeedRound);
+}
+
 // --- Prepare ---
 
 void Worker::prepare(const FrameOrder& order) {
   probe_.look_from(order.camera);
   const bool new_partition = !order.owners.empty();
-  const Carry carry = new_partition && !settings_.keep_samples ? Carry::kNothing : order.carry;
-  balancer_.begin_frame(carry != Carry::kAccumulate);
+  const Carry carry = carried_into(order);
+  const Missed missed = std::exchange(missed_, {});
+  balancer_.begin_frame(carry != Carry::kAccumulate || missed.triangulation);
+  if (carry == Carry::kAccumulate && missed.triangulation) {
+    catch_up(order, missed);
+    return;
+  }
   if (carry == Carry::kAccumulate) {
     if (new_partition) {
       adopt_partition(order, true);
@@ -93,16 +143,20 @@ void Worker::prepare(const FrameOrder& order) {
     return;
   }
   std::vector<Sample> survivors;
-  if (carry != Carry::kNothing) survivors = cast(order);
+  if (carry != Carry::kNothing && !missed.cut) survivors = cast(order);
   report_.cpu_ms.casting += clock_->lap_ms();
   if (new_partition) adopt_partition(order, false);
 
+  begin_triangulation(order.index);
+  trace_seeds(order, order.number);
+  settle(order, survivors);
+}
+
+void Worker::begin_triangulation(int epoch) {
   mesh_.clear();
   exchange_.clear();
-  epoch_ = order.index;
+  epoch_ = epoch;
   in_region_ = 0;
-  trace_seeds(order);
-  settle(order, survivors);
 }
 
 // The master has cut the image anew. The samples of tiles that go to another rank are told to it if they are
@@ -142,9 +196,9 @@ std::vector<Sample> Worker::cast(const FrameOrder& order) {
   return survivors;
 }
 
-void Worker::trace_seeds(const FrameOrder& order) {
-  const std::vector<Vec2d> seeds =
-      seed_points(settings_.width, settings_.height, settings_.seed, order.number);
+// The seeds of the frame of that number, seen from this one's camera.
+void Worker::trace_seeds(const FrameOrder& order, int number) {
+  const std::vector<Vec2d> seeds = seed_points(settings_.width, settings_.height, settings_.seed, number);
   constexpr std::size_t kCorners = 4;  // every mesh needs them, so that its hull is the image
   for (std::size_t i = 0; i < seeds.size(); ++i) {
     const bool own = mesh_.region().owns_point(seeds[i].x, seeds[i].y);

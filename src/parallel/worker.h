@@ -31,7 +31,9 @@ class Worker {
   Worker(Communicator& network, Inbox& inbox, const SessionSettings& settings, const Partition& partition,
          Probe probe, std::unique_ptr<FrameClock> clock);
 
-  // Carries out one order and sends its pixels.
+  // Carries out one order and sends its pixels. With a rate on the wall clock, an order whose deadline has
+  // passed is only noted: the rank joins the others at the first frame whose deadline is still to come. The
+  // sequence's first frame is never left out.
   void render(const FrameOrder& order);
 
  private:
@@ -40,11 +42,25 @@ class Worker {
     bool is_seed;  // not subject to the update rule
   };
 
+  // What the frames that were left out have changed for those after them.
+  struct Missed {
+    bool triangulation = false;  // the others have begun one without this rank:
+    int epoch = -1;              // index and number of the frame in which they did
+    int number = 0;
+    bool cut = false;  // what this rank holds is of no use any more
+  };
+
+  bool is_past(const FrameOrder& order) const;
+  void leave_out(const FrameOrder& order);
+  Carry carried_into(const FrameOrder& order) const;
+  void hear_gifts(const FrameOrder& order);
   void prepare(const FrameOrder& order);
+  void catch_up(const FrameOrder& order, const Missed& missed);
+  void begin_triangulation(int epoch);
   void adopt_partition(const FrameOrder& order, bool keep_samples);
   void send_handed_over(const FrameOrder& order);
   std::vector<Sample> cast(const FrameOrder& order);
-  void trace_seeds(const FrameOrder& order);
+  void trace_seeds(const FrameOrder& order, int number);
   void settle(const FrameOrder& order, const std::vector<Sample>& survivors);
   void receive_seeds(const FrameOrder& order);
   void take_in_seeds(const Inbox::Arrived& arrived);
@@ -82,6 +98,7 @@ class Worker {
   RegionPixels pixels_;
   ReconstructionBuffers buffers_;
 
+  Missed missed_;                    // since the last frame that was not left out
   std::vector<std::int32_t> given_;  // tiles given away in this frame
   int frame_index_ = -1;
   int epoch_ = -1;  // index of the frame in which the triangulation began

@@ -42,6 +42,20 @@ TEST_CASE("lateness by percentiles, nearest rank") {
   CHECK(summary["late_ms"]["max"] == 2);
 }
 
+TEST_CASE("a frame's record names the ranks that were late") {
+  FinishedFrame frame = frame_with(3);
+  CHECK(frame_record(frame)["late_ranks"] == Json::array());
+  frame.late_ranks = {1, 4};
+  frame.stale_tiles = 7, frame.overdue_pixels = 2;
+  const Json record = frame_record(frame);
+  CHECK(record["late_ranks"] == Json::array({1, 4}));
+  CHECK(record["stale_tiles"] == 7);
+  CHECK(record["overdue_pixels"] == 2);
+  RunTotals totals;
+  totals.add(frame), totals.add(frame_with(-3));
+  CHECK(totals.summary(true)["with_late_ranks"] == 1);
+}
+
 TEST_CASE("percentiles of few frames are frames that were") {
   RunTotals totals;
   CHECK(totals.summary(true)["late_ms"]["p99"] == 0);  // of none

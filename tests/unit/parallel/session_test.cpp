@@ -236,6 +236,30 @@ TEST_CASE("a sequence in real time delivers every frame") {
   }
 }
 
+TEST_CASE("a rank that stands still is named, and keeps no frame back") {
+  SessionSettings settings = work_settings();
+  settings.clock = ClockKind::kWall;
+  settings.frames_per_second = 10;
+  settings.cast = CastChoice::kPaper;
+  for (const int sleeper : {0, 2}) {
+    for (const double shift : {0.0, 1.0}) {
+      const VirtualRun run = run_session(3, settings, still_or_pan(settings, 10, shift),
+                                         {.bundle_delay_s = 0.02, .sleeper = sleeper, .sleeps_s = 0.35});
+      CHECK(run.error.empty());
+      REQUIRE(run.frames.size() == 10);
+      int without_sleeper = 0;
+      for (std::size_t i = 0; i < 10; ++i) {
+        const FinishedFrame& frame = run.frames[i];
+        CHECK(frame.order.index == static_cast<int>(i));
+        CHECK(std::count(frame.owners.begin(), frame.owners.end(), -1) == 0);
+        without_sleeper += std::count(frame.late_ranks.begin(), frame.late_ranks.end(), sleeper) != 0;
+      }
+      CHECK(without_sleeper >= 1);
+      for (const Color& c : run.frames[9].image.pixels) REQUIRE(c.z > 0.15f);  // no pixel is left black
+    }
+  }
+}
+
 TEST_CASE("frames without a rate end in real time, whenever the last messages arrive") {
   // The end of each frame is told by messages: none may be overlooked.
   for (int repeat = 0; repeat < 5; ++repeat) {

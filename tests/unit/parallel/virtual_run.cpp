@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <deque>
 #include <limits>
 #include <mutex>
 #include <random>
@@ -21,12 +22,15 @@ constexpr double kDiscRadius = 3;
 // The probe of one rank.
 class DiscTracer {
  public:
-  DiscTracer(const Conditions& conditions, unsigned seed) : conditions_(conditions), random_(seed) {}
+  DiscTracer(const Conditions& conditions, int rank)
+      : conditions_(conditions), rank_(rank), random_(static_cast<unsigned>(rank)) {}
 
   Probe probe() {
     return {[this](const Camera& camera) {
               camera_ = camera;
-              ++frame_;
+              if (++frame_ == 3 && rank_ == conditions_.sleeper) {
+                std::this_thread::sleep_for(std::chrono::duration<double>(conditions_.sleeps_s));
+              }
             },
             [this](double x, double y) { return trace(x, y); }, [](const Vec3f&, bool) { return true; },
             [this] { return counts_; }};
@@ -59,6 +63,7 @@ class DiscTracer {
   }
 
   Conditions conditions_;
+  int rank_;
   std::mt19937 random_;
   Camera camera_;
   RayCounts counts_;
@@ -108,6 +113,7 @@ class WatchedCommunicator final : public Communicator {
   std::optional<Message> receive() override {
     if (conditions_.arrive_at_random && random_() % 2 == 0) return look();
     std::optional<Message> message = inner_.receive();
+    if (conditions_.bundle_delay_s > 0) message = delayed(std::move(message));
     return message ? (last_arrival_s_ = monotonic_seconds(), message) : look();
   }
   void broadcast(Bytes& data) override { inner_.broadcast(data); }
@@ -121,7 +127,21 @@ class WatchedCommunicator final : public Communicator {
     return std::nullopt;
   }
 
+  // Bundles take their time; everything else passes them by.
+  std::optional<Message> delayed(std::optional<Message> message) {
+    const double now = monotonic_seconds();
+    if (message && message->tag == Tag::kBundle) {
+      on_their_way_.emplace_back(now + conditions_.bundle_delay_s, std::move(*message));
+      message.reset();
+    }
+    if (message || on_their_way_.empty() || on_their_way_.front().first > now) return message;
+    message = std::move(on_their_way_.front().second);
+    on_their_way_.pop_front();
+    return message;
+  }
+
   LocalCommunicator inner_;
+  std::deque<std::pair<double, Message>> on_their_way_;  // with the time when each is seen
   Conditions conditions_;
   Log& log_;
   std::mt19937 random_;
@@ -153,7 +173,7 @@ VirtualRun run_session(int ranks, const SessionSettings& settings, const CameraS
   LocalNetwork network(ranks);
   const auto rank_body = [&](int rank) {
     WatchedCommunicator communicator(network, rank, conditions, log);
-    DiscTracer tracer(conditions, static_cast<unsigned>(rank));
+    DiscTracer tracer(conditions, rank);
     try {
       if (rank == 0) {
         run_as_master(communicator, settings, tracer.probe(), source,

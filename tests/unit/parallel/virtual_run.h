@@ -23,6 +23,9 @@ struct Conditions {
   int no_number_every = 0;        // every so many eye rays of a rank give no number; 0: none
   bool drop_samples = false;      // bundles arrive empty
   bool arrive_at_random = false;  // what has arrived is not seen at every look
+  double bundle_delay_s = 0;      // bundles are seen so long after they have been sent
+  int sleeper = -1;               // a rank that stands still before the first ray of its third frame
+  double sleeps_s = 0;            // so long
   double patience_s = 120;        // after so long a rank that still waits for a message gives up: an error
 };
 

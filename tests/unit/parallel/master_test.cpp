@@ -1,0 +1,305 @@
+// The master alone: a network that only keeps what is sent, and a clock that the test sets.
+#include "parallel/master.h"
+
+#include <catch2/catch.hpp>
+#include <map>
+
+#include "parallel/local_communicator.h"
+#include "virtual_run.h"
+
+namespace pprt {
+namespace {
+
+constexpr int kRanks = 3;
+constexpr double kPeriod = 0.25;
+constexpr double kMoment = 0.001;  // less than the grace
+
+// Three ranks whose regions are two tiles each; what they send is one value per frame and rank.
+class Stage {
+ public:
+  explicit Stage(ClockKind clock = ClockKind::kWall, double frames_per_second = 1 / kPeriod,
+                 double ranks_per_core = 16)
+      : settings_(settings_for(clock, frames_per_second)),
+        master_(
+            communicator_, settings_, partition_, ranks_per_core, still_or_pan(settings_, 40, 1),
+            [this](FinishedFrame&& frame) { delivered.push_back(std::move(frame)); },
+            [this] { return now_; }) {
+    master_.begin_sequence(0);
+  }
+
+  Master& master() { return master_; }
+
+  // Rank 0 begins a frame; the order for the one after goes out.
+  void begin() { master_.frame_begun(); }
+
+  void at(double seconds) {
+    now_ = seconds;
+    master_.keep_deadlines();
+  }
+
+  void send(int rank, int frame, double sampling_ended_s = 0) {
+    PixelMessage message;
+    message.frame_index = frame;
+    message.report.sampling_ended_s = sampling_ended_s;
+    message.report.samples_in_region = 10;
+    for (int tile = 0; tile < partition_.grid.tile_count(); ++tile) {
+      if (partition_.owner[static_cast<std::size_t>(tile)] != rank) continue;
+      // The middle rank's triangles weigh more: worth a new partition.
+      message.tiles.push_back({tile, 4, rank == 1 ? 40.0 : 4.0, 100, 1, 0});
+      message.rgb.insert(message.rgb.end(), 3 * partition_.grid.pixels(tile).area(), value(rank, frame));
+    }
+    master_.handle({rank, Tag::kPixels, encode(message)});
+  }
+  void send_all(int frame, double sampling_ended_s = 0) {
+    for (int rank = 0; rank < kRanks; ++rank) send(rank, frame, sampling_ended_s);
+  }
+
+  static float value(int rank, int frame) { return static_cast<float>(rank + 10 * frame); }
+
+  // What a delivered frame shows of a rank's region; all its pixels must be alike.
+  float shown(const FinishedFrame& frame, int rank) const {
+    std::optional<float> seen;
+    for (int tile = 0; tile < partition_.grid.tile_count(); ++tile) {
+      if (partition_.owner[static_cast<std::size_t>(tile)] != rank) continue;
+      const PixelRect rect = partition_.grid.pixels(tile);
+      for (int y = rect.y0; y < rect.y1; ++y) {
+        for (int x = rect.x0; x < rect.x1; ++x) {
+          const float here = frame.image.at(x, y).x;
+          if (!seen) seen = here;
+          CHECK(here == *seen);
+        }
+      }
+    }
+    REQUIRE(seen);
+    return *seen;
+  }
+
+  // The orders that a rank was sent since the last call.
+  std::vector<FrameOrder> orders() {
+    std::vector<FrameOrder> orders;
+    while (const std::optional<Message> message = network_.collect(1)) {
+      orders.push_back(decode_frame_order(message->payload));
+    }
+    return orders;
+  }
+
+  std::vector<FinishedFrame> delivered;
+
+ private:
+  static SessionSettings settings_for(ClockKind clock, double frames_per_second) {
+    SessionSettings settings;
+    settings.width = 24, settings.height = 16;
+    settings.clock = clock;
+    settings.frames_per_second = frames_per_second;
+    settings.budget_units = 1'000'000;
+    settings.balance = BalanceMode::kCombined;
+    settings.cast = CastChoice::kOff;
+    return settings;
+  }
+
+  SessionSettings settings_;
+  LocalNetwork network_{kRanks};
+  LocalCommunicator communicator_{network_, 0};
+  Partition partition_ = bisect(TileGrid(24, 16, 8), std::vector<double>(6, 1), kRanks);
+  double now_ = 0;
+  Master master_;
+};
+
+}  // namespace
+
+TEST_CASE("a whole frame is delivered at once") {
+  Stage stage;
+  stage.begin();
+  stage.at(0.2);
+  stage.send(0, 0), stage.send(1, 0);
+  CHECK(stage.delivered.empty());
+  stage.send(2, 0);
+  REQUIRE(stage.delivered.size() == 1);
+  CHECK(stage.delivered[0].late_ranks.empty());
+  CHECK(stage.delivered[0].late_ms == Approx(-50));
+}
+
+TEST_CASE("a frame whose ranks are late is delivered after the grace, with what they showed last") {
+  Stage stage;
+  stage.begin();
+  stage.send_all(0);
+  stage.begin();
+  stage.send(0, 1), stage.send(2, 1);
+  stage.at(2 * kPeriod);
+  stage.at(2 * kPeriod + kGraceSeconds - kMoment);
+  CHECK(stage.delivered.size() == 1);
+  stage.at(2 * kPeriod + kGraceSeconds);
+  REQUIRE(stage.delivered.size() == 2);
+  const FinishedFrame& frame = stage.delivered[1];
+  CHECK(frame.late_ranks == std::vector<std::int32_t>{1});
+  CHECK(frame.stale_tiles == 2);
+  CHECK(frame.late_ms == Approx(1e3 * kGraceSeconds));
+  CHECK(stage.shown(frame, 0) == Stage::value(0, 1));
+  CHECK(stage.shown(frame, 1) == Stage::value(1, 0));
+  CHECK(stage.shown(frame, 2) == Stage::value(2, 1));
+  CHECK(std::count(frame.owners.begin(), frame.owners.end(), 1) == 2);
+}
+
+TEST_CASE("pixels that arrive within the grace are shown") {
+  Stage stage;
+  stage.begin();
+  stage.send_all(0);
+  stage.begin();
+  stage.send(0, 1), stage.send(2, 1);
+  stage.at(2 * kPeriod + kMoment);
+  stage.send(1, 1);
+  REQUIRE(stage.delivered.size() == 2);
+  CHECK(stage.delivered[1].late_ranks.empty());
+  CHECK(stage.shown(stage.delivered[1], 1) == Stage::value(1, 1));
+}
+
+TEST_CASE("the first frame waits for all ranks, and those after it for their turn") {
+  Stage stage;
+  stage.begin();
+  stage.send(0, 0), stage.send(1, 0), stage.send(0, 1), stage.send(1, 1);
+  stage.at(1);
+  stage.at(1 + kGraceSeconds);
+  CHECK(stage.delivered.empty());
+  CHECK_FALSE(stage.master().may_begin(1));
+  stage.send(2, 0);
+  REQUIRE(stage.delivered.size() == 2);
+  CHECK(stage.delivered[0].late_ranks.empty());
+  CHECK(stage.delivered[1].late_ranks == std::vector<std::int32_t>{2});
+  CHECK(stage.shown(stage.delivered[1], 2) == Stage::value(2, 0));
+}
+
+TEST_CASE("pixels of a frame already delivered are counted and fill the next gap") {
+  Stage stage;
+  for (int frame = 0; frame < 3; ++frame) stage.begin();
+  stage.send_all(0);
+  for (const int frame : {1, 2}) {
+    stage.send(0, frame), stage.send(1, frame);
+    stage.at((frame + 1) * kPeriod);
+    stage.at((frame + 1) * kPeriod + kGraceSeconds);
+    if (frame == 1) stage.send(2, 1);  // a moment too late
+  }
+  REQUIRE(stage.delivered.size() == 3);
+  CHECK(stage.shown(stage.delivered[1], 2) == Stage::value(2, 0));
+  CHECK(stage.delivered[1].overdue_pixels == 0);
+  CHECK(stage.shown(stage.delivered[2], 2) == Stage::value(2, 1));
+  CHECK(stage.delivered[2].late_ranks == std::vector<std::int32_t>{2});
+  CHECK(stage.delivered[2].overdue_pixels == 1);
+  // Older pixels than those shown change nothing.
+  stage.send_all(3);
+  stage.send(2, 2);
+  REQUIRE(stage.delivered.size() == 4);
+  CHECK(stage.shown(stage.delivered[3], 2) == Stage::value(2, 3));
+}
+
+TEST_CASE("pixels of a frame that was not ordered are refused, and pixels that come twice") {
+  Stage stage;
+  CHECK_THROWS_AS(stage.send(1, 7), ProtocolError);
+  CHECK_THROWS_AS(stage.send(1, -1), ProtocolError);
+  stage.send(1, 0);
+  CHECK_THROWS_AS(stage.send(1, 0), ProtocolError);
+  Stage counted(ClockKind::kWork);
+  counted.send_all(0);
+  CHECK_THROWS_AS(counted.send(1, 0), ProtocolError);  // nobody can be late there
+}
+
+TEST_CASE("a rank 0 that was away hears what has come before it judges") {
+  Stage stage;
+  stage.begin();
+  stage.send_all(0);
+  stage.begin();
+  stage.at(10);  // long after the deadline of frame 1
+  CHECK(stage.delivered.size() == 1);
+  stage.send_all(1);
+  REQUIRE(stage.delivered.size() == 2);
+  CHECK(stage.delivered[1].late_ranks.empty());
+  // What is ordered only now, nobody can have rendered.
+  stage.begin();
+  stage.at(10);
+  stage.at(10 + kGraceSeconds);
+  REQUIRE(stage.delivered.size() == 4);
+  CHECK(stage.delivered[3].late_ranks == std::vector<std::int32_t>{0, 1, 2});
+  CHECK(stage.shown(stage.delivered[3], 1) == Stage::value(1, 1));
+}
+
+TEST_CASE("without a rate, and on the work clock, every frame waits for all ranks") {
+  for (const ClockKind clock : {ClockKind::kWall, ClockKind::kWork}) {
+    Stage stage(clock, clock == ClockKind::kWall ? 0 : 1 / kPeriod);
+    stage.begin();
+    stage.send_all(0);
+    stage.send(0, 1), stage.send(1, 1);
+    stage.at(100);
+    stage.at(200);
+    CHECK(stage.delivered.size() == 1);
+    stage.send(2, 1);
+    REQUIRE(stage.delivered.size() == 2);
+    CHECK(stage.delivered[1].late_ranks.empty());
+  }
+}
+
+TEST_CASE("rank 0 does not begin a frame while the one before needs it") {
+  Stage shared(ClockKind::kWall, 1 / kPeriod, 2);
+  shared.begin();
+  CHECK(shared.master().may_begin(0));
+  CHECK_FALSE(shared.master().may_begin(1));
+  shared.send_all(0);
+  CHECK(shared.master().may_begin(1));
+
+  Stage alone(ClockKind::kWall, 1 / kPeriod, 1);
+  alone.begin();
+  CHECK(alone.master().may_begin(1));
+  alone.at(kPeriod);
+  CHECK_FALSE(alone.master().may_begin(1));
+}
+
+TEST_CASE("no new partition follows from a frame that a rank did not report") {
+  for (const bool late : {false, true}) {
+    Stage stage;
+    stage.begin();
+    stage.send_all(0);
+    stage.orders();
+    stage.begin();  // with the partition that frame 0 led to
+    CHECK(stage.orders().at(0).owners.size() == 6);
+    stage.send(0, 1), stage.send(1, 1);
+    if (!late) stage.send(2, 1);
+    stage.at(2 * kPeriod);
+    stage.at(2 * kPeriod + kGraceSeconds);
+    REQUIRE(stage.delivered.size() == 2);
+    stage.begin();
+    CHECK(stage.orders().at(0).owners.empty() == late);
+  }
+}
+
+TEST_CASE("a late rank teaches the reserve what it needs, one that stood still nothing") {
+  // The reserve in the order after three frames, the third of which lacks rank 2 until `came_s` after its
+  // deadline.
+  const auto reserve_after = [](double came_s) {
+    Stage stage;
+    for (int frame = 0; frame < 3; ++frame) {
+      stage.begin();
+      const double deadline = (frame + 1) * kPeriod;
+      stage.at(deadline - 0.01);
+      stage.send(0, frame, deadline - 0.02), stage.send(1, frame, deadline - 0.02);
+      if (frame < 2) stage.send(2, frame, deadline - 0.02);
+      stage.at(deadline);
+      stage.at(deadline + kGraceSeconds);
+    }
+    REQUIRE(stage.delivered.size() == 3);
+    stage.at(3 * kPeriod + came_s);
+    stage.send(2, 2, 3 * kPeriod - 0.02);
+    stage.orders();
+    // What was assumed before the first frame is forgotten after twelve.
+    for (int frame = 3; frame < 13; ++frame) {
+      stage.begin();
+      const double deadline = (frame + 1) * kPeriod;
+      stage.at(deadline - 0.01);
+      stage.send_all(frame, deadline - 0.02);
+    }
+    stage.begin();
+    return stage.orders().back().reserve_s;
+  };
+  const double soon = reserve_after(0.02), still = reserve_after(2);
+  CHECK(soon == Approx(1.7 * 0.04 + 0.001).margin(0.002));
+  CHECK(still == Approx(1.7 * 0.01 + 0.001).margin(0.002));
+}
+
+}  // namespace pprt
