@@ -1,19 +1,22 @@
 #include "app/launch.h"
 
+#include <fcntl.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
-#include <thread>
+#include <string_view>
 #include <vector>
 
 #include "app/exit.h"
+#include "app/mpirun_messages.h"
 
 namespace pprt {
 namespace {
@@ -45,7 +48,7 @@ void pass_signals_on() {
 }
 
 std::vector<std::string> mpirun_command(int ranks, const std::string& hostfile, char** argv) {
-  std::vector<std::string> command = {"mpirun", "--quiet", "-np", std::to_string(ranks)};
+  std::vector<std::string> command = {"mpirun", "-np", std::to_string(ranks)};
   if (!hostfile.empty()) command.insert(command.end(), {"--hostfile", hostfile});
   // More ranks than cores is a normal case here: idle ranks sleep, and none may be tied to a core.
   command.insert(command.end(), {"--oversubscribe", "--bind-to", "none"});
@@ -58,11 +61,12 @@ std::vector<std::string> mpirun_command(int ranks, const std::string& hostfile, 
   return command;
 }
 
-[[noreturn]] void become(std::vector<std::string>& command) {
+[[noreturn]] void become(std::vector<std::string>& command, int standard_error) {
   // mpirun in a process group of its own: a terminal's Ctrl-C must reach it through us alone. It dies with
   // us.
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
+  dup2(standard_error, STDERR_FILENO);
   std::vector<char*> words;
   for (std::string& word : command) words.push_back(word.data());
   words.push_back(nullptr);
@@ -70,26 +74,65 @@ std::vector<std::string> mpirun_command(int ranks, const std::string& hostfile, 
   _exit(127);
 }
 
+[[noreturn]] void throw_errno(const std::string& what) {
+  throw std::runtime_error(what + ": " + std::strerror(errno));
+}
+
+void show(std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t count = write(STDERR_FILENO, text.data(), text.size());
+    if (count < 0 && errno != EINTR) return;  // nobody to tell
+    if (count > 0) text.remove_prefix(static_cast<std::size_t>(count));
+  }
+}
+
+// Hands on what mpirun and the ranks say until they end.
+MpirunMessages relay(int from) {
+  MpirunMessages messages;
+  std::array<char, 4096> piece{};
+  for (ssize_t count = 0; (count = read(from, piece.data(), piece.size())) != 0;) {
+    if (count > 0) {
+      show(messages.take({piece.data(), static_cast<std::size_t>(count)}));
+    } else if (errno != EINTR) {
+      throw_errno("cannot read from mpirun");
+    }
+  }
+  show(messages.finish());
+  return messages;
+}
+
+int wait_for(pid_t child) {
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0) {
+    if (errno != EINTR) throw_errno("cannot wait for mpirun");
+  }
+  return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+}
+
 }  // namespace
 
 int run_under_mpirun(int ranks, const std::string& hostfile, char** argv) {
   std::vector<std::string> command = mpirun_command(ranks, hostfile, argv);
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) throw_errno("cannot start mpirun");
   const pid_t child = fork();
-  if (child < 0) throw std::runtime_error(std::string("cannot start mpirun: ") + std::strerror(errno));
-  if (child == 0) become(command);
+  if (child < 0) throw_errno("cannot start mpirun");
+  if (child == 0) become(command, ends[1]);
+  close(ends[1]);
   mpirun_pid = child;
   pass_signals_on();
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR)
-      throw std::runtime_error(std::string("cannot wait for mpirun: ") + std::strerror(errno));
-  }
-  const int code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+  const MpirunMessages messages = relay(ends[0]);
+  const int code = wait_for(child);
+  close(ends[0]);
   // A run that was to stop may fail at that; what mpirun makes of being ended itself says nothing.
   const bool failed = code >= kExitFailure && code <= kExitInput;
   if (stopped_by != 0 && (forced != 0 || !failed)) return 128 + stopped_by;
   if (code == 127)
     throw std::runtime_error("cannot start mpirun: it is not on the PATH (package openmpi-bin)");
+  if (code > kExitInput) {
+    throw std::runtime_error(messages.lost_rank().value_or("mpirun ended with code " + std::to_string(code)) +
+                             "; frames that are in place are whole, and --resume goes on after them");
+  }
   return code;
 }
 

@@ -7,7 +7,8 @@ namespace pprt {
 
 // Runs this same command line under mpirun with so many ranks and returns its exit code. SIGINT and SIGTERM
 // are passed on as a wish to end after the frame at hand, SIGUSR1 as it is; after the former the code is 128
-// + signal, unless the run failed. Throws std::runtime_error when mpirun cannot be started.
+// + signal, unless the run failed. Throws std::runtime_error when mpirun cannot be started, or a rank was
+// ended by a signal: then the text names it.
 int run_under_mpirun(int ranks, const std::string& hostfile, char** argv);
 
 // Whether people watch standard error: a terminal, which run_under_mpirun() may stand between.
