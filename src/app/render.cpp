@@ -82,16 +82,50 @@ Json run_record(const RenderOptions& o, const RenderPlan& plan, int ranks, const
           {"host", std::string(host)}};
 }
 
-// The script as the camera source: one frame after the other, until a signal or a full disk ends it.
-CameraSource camera_source(const RenderPlan& plan, const CompiledScene& scene, FrameRecorder& recorder) {
+// Where a run that goes on must begin, by index into the plan. Real time never repeats itself: at the first
+// frame that is missing. On the work clock the pictures must equal those of an undisturbed run, so it begins
+// where that frame's samples came from; where ranks share load, who owns what follows from all frames before.
+std::size_t first_to_render(const RenderPlan& plan, int ranks, const FrameRecorder& recorder) {
+  const std::vector<PlannedFrame>& frames = plan.frames;
+  std::size_t first = 0;
+  while (first < frames.size() && recorder.finished_before(frames[first].number)) ++first;
+  if (plan.settings.clock == ClockKind::kWall || first == frames.size()) return first;
+  if (ranks > 1 && plan.settings.balance != BalanceMode::kNone) return 0;
+  const auto follows = [&](std::size_t i) {
+    return plan.settings.cast != CastChoice::kOff && !frames[i].cut &&
+           frames[i].number == frames[i - 1].number + 1;
+  };
+  while (first > 0 && follows(first)) --first;
+  return first;
+}
+
+// The frames to render: those that are missing, and on the work clock those before them that they follow
+// from.
+std::vector<FrameRequest> frame_requests(const RenderPlan& plan, const CompiledScene& scene, int ranks,
+                                         const FrameRecorder& recorder) {
+  const bool again = plan.settings.clock == ClockKind::kWork;
   std::vector<FrameRequest> requests;
+  std::size_t wanted = 0;  // requests up to the last frame that is missing
   int before = 0;
-  for (const PlannedFrame& frame : plan.frames) {
-    if (recorder.finished_before(frame.number)) continue;
+  for (std::size_t i = first_to_render(plan, ranks, recorder); i < plan.frames.size(); ++i) {
+    const PlannedFrame& frame = plan.frames[i];
+    const bool finished = recorder.finished_before(frame.number);
+    if (finished && !again) continue;
     // What does not follow its predecessor carries nothing over from it.
-    requests.push_back({frame.number, scene.camera(frame.view), frame.cut, frame.number != before + 1});
+    requests.push_back({.number = frame.number,
+                        .camera = scene.camera(frame.view),
+                        .cut = frame.cut,
+                        .carries_nothing = frame.number != before + 1,
+                        .left_out = static_cast<int>(i - requests.size())});
     before = frame.number;
+    if (!finished) wanted = requests.size();
   }
+  requests.resize(wanted);
+  return requests;
+}
+
+// The script as the camera source: one frame after the other, until a signal or a full disk ends it.
+CameraSource camera_source(std::vector<FrameRequest> requests, const FrameRecorder& recorder) {
   return [requests = std::move(requests), &recorder](int index) -> std::optional<FrameRequest> {
     if (stop_requested() || recorder.failed()) return std::nullopt;
     const auto i = static_cast<std::size_t>(index);
@@ -128,7 +162,8 @@ int run_frames(Communicator& network, const RenderOptions& options, const Prepar
   const std::string scene_hash = content_hash(nff);
   const Json run = run_record(options, plan, network.size(), prepared.scene, scene_hash);
   FrameRecorder recorder(options, plan, run_key(options, plan, network.size(), scene_hash), run);
-  const CameraSource source = camera_source(plan, prepared.scene, recorder);
+  const CameraSource source =
+      camera_source(frame_requests(plan, prepared.scene, network.size(), recorder), recorder);
 
   Bytes job = encode(RenderJob{true, plan.settings, plan.compile, nff});
   network.broadcast(job);
@@ -139,7 +174,7 @@ int run_frames(Communicator& network, const RenderOptions& options, const Prepar
   run_as_master(network, plan.settings, probe_of(tracer), source, [&](FinishedFrame&& frame) {
     log_debug(fmt::format("frame {} whole at {:.3f} s, reserve {:.1f} ms, {:+.1f} ms to its deadline",
                           frame.order.number, frame.finished_s, 1e3 * frame.order.reserve_s, frame.late_ms));
-    recorder.record(std::move(frame));
+    if (!recorder.finished_before(frame.order.number)) recorder.record(std::move(frame));
   });
   // All ranks have come to their end: what cannot be written now is this rank's matter alone.
   try {

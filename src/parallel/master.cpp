@@ -1,6 +1,7 @@
 #include "parallel/master.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -125,7 +126,10 @@ void Master::order_next() {
     order.cut = request->cut;
     order.carry = carry_into(*request);
     order.camera = request->camera;
-    if (settings_.frames_per_second > 0) order.deadline_s = deadline_s(order.index);
+    if (settings_.frames_per_second > 0) {
+      order.deadline_s =
+          deadline_s(order.index + (settings_.clock == ClockKind::kWork ? request->left_out : 0));
+    }
     order.reserve_s = reserve_s();
     const bool hands_over = order.carry != Carry::kNothing && settings_.keep_samples;
     if (hands_over && !can_afford_to_hand_over()) next_owners_.clear();
@@ -237,7 +241,8 @@ void Master::tell_when(FinishedFrame& frame) const {
     double slowest = 0;
     for (const RankReport& r : frame.ranks) slowest = std::max(slowest, r.finished_s);
     const double budget_s = static_cast<double>(settings_.budget_units) / kWorkUnitsPerSecond;
-    frame.finished_s = frame.order.index * period + slowest;
+    const auto begun_periods = std::lround(frame.order.deadline_s * settings_.frames_per_second) - 1;
+    frame.finished_s = period > 0 ? static_cast<double>(begun_periods) * period + slowest : slowest;
     frame.late_ms = period > 0 ? 1e3 * (slowest - budget_s) : 0;
   } else {
     frame.finished_s = sequence_s();

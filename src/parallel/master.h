@@ -26,6 +26,8 @@ struct FrameRequest {
   Camera camera;
   bool cut = false;              // the camera jumped to it
   bool carries_nothing = false;  // it does not follow the request before, cut or not
+  int left_out =
+      0;  // frames of the sequence before it that were not asked for; work clock: its time counts them
 };
 using CameraSource = std::function<std::optional<FrameRequest>(int index)>;
 

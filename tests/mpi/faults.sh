@@ -1,0 +1,193 @@
+#!/usr/bin/env bash
+# faults.sh FAULT [TIMES]: does something bad to a run and sees that nothing is lost. Tells what it measured in one
+# line, "fault | what was done | what came of it".
+#
+#   stopped         one rank stands still for 2 s at 4 frames/s
+#   stopped-master  rank 0 does
+#   lost            one rank is killed
+#   killed          the whole run is killed, TIMES times at random moments
+#   full            the disk is full
+#   read-only       the directory cannot be written to
+#
+# Ends with 77 where the machine does not let a test mount a file system of its own.
+source "$(dirname "$0")/lib.sh"
+fault=$1 times=${2:-10}
+script=$here/moving.anim
+frames=28
+
+# What a killed MPI leaves behind goes with the test's directory.
+mkdir tmp
+export OMPI_MCA_orte_tmpdir_base=$work/tmp OMPI_MCA_btl_vader_backing_directory=$work/tmp
+
+report() { echo "$fault | $1 | $2"; }
+
+# The processes of a run: the launcher, its mpirun, the ranks.
+processes_of() {
+  local run=$1 mpirun
+  mpirun=$(pgrep -P "$run" || true)
+  echo "$run" "$mpirun" $([[ -n $mpirun ]] && pgrep -P "$mpirun")
+}
+
+# rank_process RUN RANK: its process id, waiting until it is there.
+rank_process() {
+  local process
+  for ((i = 0; i < 200; ++i)); do
+    for process in $(processes_of "$1"); do
+      if tr '\0' '\n' 2>/dev/null <"/proc/$process/environ" | grep -qx "OMPI_COMM_WORLD_RANK=$2"; then
+        echo "$process"
+        return
+      fi
+    done
+    sleep 0.05
+  done
+  fail "there is no rank $2"
+}
+
+# await_frames DIRECTORY COUNT
+await_frames() {
+  for ((i = 0; i < 600; ++i)); do
+    if [[ $(find "$1" -name '????.png' 2>/dev/null | wc -l) -ge $2 ]]; then return; fi
+    sleep 0.05
+  done
+  fail "$1 does not come to hold $2 frames"
+}
+
+# Every file in place is a picture, and stands in the manifest unless the run was killed in between.
+expect_whole() {
+  local file
+  for file in "$1"/????.png; do
+    pprt-compare "$file" "$file" >/dev/null || fail "$file is not whole"
+  done
+}
+
+expect_equal() {
+  local file
+  for file in "$1"/????.png; do
+    cmp "$file" "reference/${file##*/}" || fail "$file differs from that of an undisturbed run"
+  done
+}
+
+# In counted time, so that runs can be compared: a second or two for all frames.
+counted=(pprt-render spd:tree:5 "$script" -np 3 --clock work --budget 6000000 --progress none)
+undisturbed() { "${counted[@]}" -o 'reference/%04d.png'; }
+
+stand_still() {
+  local rank=$1 run code=0 process
+  pprt-render spd:tree:5 "$script" -np 4 --progress none -o 'out/%04d.png' --stats ledger.ndjson &
+  run=$!
+  await_frames out 4
+  process=$(rank_process $run "$rank")
+  kill -STOP "$process"
+  sleep 2
+  kill -CONT "$process"
+  wait $run || code=$?
+  [[ $code == 0 ]] || fail "the run ended with code $code"
+  expect_frames out png $frames
+  expect_whole out
+  # In the order of the script, each once.
+  grep -o '"record":"frame","frame":[0-9]*' ledger.ndjson | grep -o '[0-9]*$' | cmp - <(seq $frames) ||
+    fail "the ledger does not tell of every frame in its turn"
+  # Frame by frame: whether the rank was late, and how late the frame.
+  sed -n 's/.*"late_ms":\([-0-9.e]*\),"late_ranks":\[\([0-9,]*\)\].*/\1 ,\2,/p' ledger.ndjson >late
+  awk -v rank=",$rank," '
+    index($2, rank) { ++missed; last = NR }
+    { if (NR == 1 || $1 > most) most = $1 }
+    END { printf "%d %d %.1f\n", missed, last, most }' late
+}
+
+case $fault in
+  stopped | stopped-master)
+    rank=$([[ $fault == stopped ]] && echo 2 || echo 0)
+    figures=$(stand_still "$rank")
+    read -r missed last most <<<"$figures"
+    [[ $missed -gt 0 ]] || fail "the ledger does not name rank $rank"
+    [[ $last -lt $frames ]] || fail "rank $rank has not come back"
+    report "rank $rank of 4 stood still for 2 s at 4 frames/s" \
+      "all $frames frames; $missed without its pixels, and whole again; the latest $most ms after its deadline"
+    ;;
+  lost)
+    undisturbed
+    "${counted[@]}" -o 'out/%04d.png' 2>told &
+    run=$!
+    await_frames out 3
+    process=$(rank_process $run 2)
+    kill -KILL "$process"
+    began=$(date +%s%N) code=0
+    wait $run || code=$?
+    took=$((($(date +%s%N) - began) / 1000000))
+    [[ $code == 1 ]] || fail "the run ended with code $code instead of 1"
+    grep -q 'rank 2 on .* was ended by signal 9' told || { cat told >&2; fail "nobody named the rank"; }
+    [[ $took -lt 10000 ]] || fail "the run took $took ms to end"
+    expect_equal out
+    found=$(find out -name '????.png' | wc -l)
+    "${counted[@]}" -o 'out/%04d.png' --resume
+    expect_frames out png $frames
+    expect_equal out
+    report "rank 2 of 3 was killed" \
+      "exit 1 after $took ms, the rank named; $found frames in place, all whole; --resume made the others, all as undisturbed"
+    ;;
+  killed)
+    began=$(date +%s%N)
+    undisturbed
+    whole=$((($(date +%s%N) - began) / 1000000)) # milliseconds of an undisturbed run
+    in_place=0 completed=0
+    for ((k = 0; k < times; ++k)); do
+      "${counted[@]}" -o "$work/out/%04d.png" --resume 2>/dev/null &
+      run=$!
+      sleep "$(awk -v whole="$whole" -v seed="$RANDOM" 'BEGIN { srand(seed); print rand() * whole / 1000 }')"
+      # shellcheck disable=SC2046 # one word a process
+      kill -KILL $(processes_of $run) 2>/dev/null || true
+      wait $run 2>/dev/null || true
+      # A rank that began in this moment ends without its mpirun, or now.
+      while processes=$(pgrep -f "$work/out"); do
+        # shellcheck disable=SC2086 # one word a process
+        kill -KILL $processes 2>/dev/null || true
+        sleep 0.02
+      done
+      [[ -d out ]] || continue
+      found=$(find out -name '????.png' | wc -l)
+      if [[ $found -gt 0 ]]; then expect_equal out; fi
+      in_place=$((in_place + found))
+      if [[ $found == "$frames" ]]; then
+        completed=$((completed + 1))
+        rm -r out
+      fi
+    done
+    "${counted[@]}" -o "$work/out/%04d.png" --resume
+    expect_frames out png $frames
+    expect_equal out
+    report "3 ranks were killed $times times at random moments and went on with --resume" \
+      "$in_place files looked at, all as undisturbed; $((completed + 1)) sequences completed, bit for bit"
+    ;;
+  full | read-only)
+    if [[ -z ${PPRT_OWN_MOUNTS:-} ]]; then
+      namespace=(unshare --mount)
+      if [[ $(id -u) != 0 ]]; then namespace=(unshare --map-root-user --mount); fi
+      mkdir disk
+      "${namespace[@]}" mount -t tmpfs none disk 2>/dev/null || exit 77
+      PPRT_OWN_MOUNTS=1 "${namespace[@]}" bash "$here/faults.sh" "$fault"
+      exit
+    fi
+    mkdir disk
+    trap 'cd / && umount "$work/disk"; rm -rf "$work"' EXIT
+    mount -t tmpfs -o size=128k none disk
+    code=0
+    if [[ $fault == full ]]; then
+      "${counted[@]}" -o 'disk/out/%04d.png' 2>told || code=$?
+      grep -q "cannot write 'disk/out/.*No space left on device" told || { cat told >&2; fail "nobody told of the disk"; }
+      done='the disk had room for 128 KiB'
+    else
+      "${counted[@]}" -o 'disk/out/%04d.png' --frames 1-4
+      mount -o remount,ro disk
+      "${counted[@]}" -o 'disk/out/%04d.png' --frames 1-6 --overwrite 2>told || code=$?
+      grep -q "cannot write 'disk/out/.*Read-only file system" told || { cat told >&2; fail "nobody told of the directory"; }
+      done='the file system became read-only after frame 4'
+    fi
+    [[ $code == 1 ]] || { cat told >&2; fail "the run ended with code $code instead of 1"; }
+    expect_whole disk/out
+    others=$(find disk -type f ! -name '????.png' ! -name '*manifest.ndjson')
+    [[ -z $others ]] || fail "$others lies about"
+    report "$done" "exit 1 and a message; $(find disk/out -name '????.png' | wc -l) frames in place, all whole"
+    ;;
+  *) fail "there is no fault '$fault'" ;;
+esac
