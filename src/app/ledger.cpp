@@ -132,11 +132,11 @@ Json RunTotals::summary(bool has_rate) const {
   Json record = {{"record", "summary"}, {"frames", frames_}};
   if (has_rate) {
     record["on_time"] = on_time_;
-    record["with_late_ranks"] = with_late_ranks_;
     record["late_ms"] = {{"p50", percentile(sorted, 0.50)},
                          {"p95", percentile(sorted, 0.95)},
                          {"p99", percentile(sorted, 0.99)},
                          {"max", worst_late_ms()}};
+    record["with_late_ranks"] = with_late_ranks_;
   }
   record["samples"] = samples_;
   record["rays"] = rays_record(rays_);
