@@ -1,31 +1,82 @@
 #include "app/command_line.h"
 #include "app/exit.h"
 #include "app/study_counts.h"
+#include "app/study_paper.h"
+
+namespace {
+
+CLI::App* add_counts(CLI::App& app, pprt::CountsOptions& options) {
+  CLI::App* command = app.add_subcommand("counts", "Rays by kind against Haines' published table");
+  command
+      ->add_option("SCENE", options.scenes,
+                   "FILE.nff, - (standard input) or spd:NAME[:SIZE]; default: the "
+                   "seven published")
+      ->type_name("");
+  command->add_option("--tolerance", options.tolerance_percent, "Greatest difference that passes, in percent")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str()
+      ->type_name("PERCENT");
+  command->add_option("--corners", options.corners, "Eye rays in each direction")
+      ->check(CLI::Range(2, 16385))
+      ->capture_default_str()
+      ->type_name("N");
+  command->add_flag("--two-sided", options.two_sided, "Opaque surfaces have two sides in every scene");
+  command->add_flag("--json", options.json, "Print a JSON object for each scene, one a line");
+  return command;
+}
+
+CLI::App* add_paper(CLI::App& app, pprt::PaperOptions& options) {
+  CLI::App* command = app.add_subcommand("paper", "The paper's experiments, figures 5 to 9");
+  command->add_option("-o,--output", options.directory, "Directory for tables, plots and index.html")
+      ->required()
+      ->type_name("DIR");
+  command->add_flag("--quick", options.quick, "Small pictures of a small tree on few ranks: a trial");
+  command
+      ->add_option("--ranks", options.ranks,
+                   "Numbers of ranks for figures 5 to 7; default: 32,62, or 4,6 if quick")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 512))
+      ->type_name("N,...");
+  command
+      ->add_option("--frames", options.frames,
+                   "Render the first N frames of each sequence; default: 40, or 6 if quick")
+      ->check(CLI::Range(5, 40))
+      ->type_name("N");
+  command->add_option("--machine", options.machine, "Speed of processors and network: cluster or sp2")
+      ->capture_default_str()
+      ->type_name("NAME");
+  command->add_option("--latency", options.latency_us, "Of the network, microseconds; default: the machine's")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("US");
+  command->add_option("--bandwidth", options.bandwidth_mb_s, "Of a rank's link, MB/s; default: the machine's")
+      ->check(CLI::PositiveNumber)
+      ->type_name("MB/S");
+  command->add_option("--seed", options.seed, "Of the seed samples' places")
+      ->capture_default_str()
+      ->type_name("N");
+  return command;
+}
+
+std::string words(int argc, char** argv) {
+  std::string text;
+  for (int i = 0; i < argc; ++i) text += (i == 0 ? "" : " ") + std::string(argv[i]);
+  return text;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   return pprt::run_guarded("pprt-study", [&]() -> int {
     CLI::App app("Measures this renderer against published results.", "pprt-study");
     app.require_subcommand(1);
     pprt::CountsOptions counts;
-    CLI::App* command = app.add_subcommand("counts", "Rays by kind against Haines' published table");
-    command
-        ->add_option("SCENE", counts.scenes,
-                     "FILE.nff, - (standard input) or spd:NAME[:SIZE]; default: the "
-                     "seven published")
-        ->type_name("");
-    command
-        ->add_option("--tolerance", counts.tolerance_percent, "Greatest difference that passes, in percent")
-        ->check(CLI::NonNegativeNumber)
-        ->capture_default_str()
-        ->type_name("PERCENT");
-    command->add_option("--corners", counts.corners, "Eye rays in each direction")
-        ->check(CLI::Range(2, 16385))
-        ->capture_default_str()
-        ->type_name("N");
-    command->add_flag("--two-sided", counts.two_sided, "Opaque surfaces have two sides in every scene");
-    command->add_flag("--json", counts.json, "Print a JSON object for each scene, one a line");
+    pprt::PaperOptions paper;
+    add_counts(app, counts);
+    const CLI::App* paper_command = add_paper(app, paper);
     pprt::add_common_flags(app);
     if (!pprt::parse_command_line(app, argc, argv)) return pprt::kExitDone;
-    return pprt::study_counts(counts) ? pprt::kExitDone : pprt::kExitFailure;
+    if (!paper_command->parsed()) return pprt::study_counts(counts) ? pprt::kExitDone : pprt::kExitFailure;
+    pprt::study_paper(paper, words(argc, argv));
+    return pprt::kExitDone;
   });
 }

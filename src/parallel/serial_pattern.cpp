@@ -1,5 +1,6 @@
 #include "parallel/serial_pattern.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -28,8 +29,21 @@ double bucket_distance(std::span<const Sample> a, std::span<const Sample> b) {
   return static_cast<double>(sum) / static_cast<double>(a.size() + b.size());
 }
 
+std::size_t samples_near_borders(std::span<const Sample> samples, const TileGrid& grid,
+                                 std::span<const std::int32_t> owners, double reach) {
+  const auto owner = [&](double x, double y) {
+    return owners[static_cast<std::size_t>(
+        grid.tile_at(std::clamp(x, 0.0, grid.width - 0.5), std::clamp(y, 0.0, grid.height - 0.5)))];
+  };
+  return static_cast<std::size_t>(std::count_if(samples.begin(), samples.end(), [&](const Sample& s) {
+    const std::int32_t own = owner(s.x, s.y);
+    return owner(s.x - reach, s.y) != own || owner(s.x + reach, s.y) != own ||
+           owner(s.x, s.y - reach) != own || owner(s.x, s.y + reach) != own;
+  }));
+}
+
 std::vector<Sample> serial_samples(const SessionSettings& settings, const Camera& camera, std::uint64_t count,
-                                   const Probe& probe) {
+                                   const Probe& probe, int frame) {
   SessionSettings serial;
   serial.width = settings.width;
   serial.height = settings.height;
@@ -40,18 +54,18 @@ std::vector<Sample> serial_samples(const SessionSettings& settings, const Camera
   serial.balance = BalanceMode::kNone;
   serial.report_samples = true;
   const auto one_frame = [&](int index) {
-    return index == 0 ? std::optional(FrameRequest{1, camera, false, true}) : std::nullopt;
+    return index == 0 ? std::optional(FrameRequest{frame, camera, false, true}) : std::nullopt;
   };
   std::vector<Sample> samples;
   run_virtual_ranks(
       1, serial, [&](int) { return probe; }, one_frame,
-      [&](FinishedFrame&& frame) { samples = std::move(frame.samples); });
+      [&](FinishedFrame&& finished) { samples = std::move(finished.samples); });
   return samples;
 }
 
 double distance_to_serial(const FinishedFrame& frame, const SessionSettings& settings, const Probe& probe) {
-  return bucket_distance(frame.samples,
-                         serial_samples(settings, frame.order.camera, frame.samples.size(), probe));
+  return bucket_distance(frame.samples, serial_samples(settings, frame.order.camera, frame.samples.size(),
+                                                       probe, frame.order.number));
 }
 
 }  // namespace pprt

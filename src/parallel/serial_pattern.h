@@ -9,6 +9,7 @@
 #include "parallel/master.h"
 #include "parallel/session_settings.h"
 #include "pipeline/sample.h"
+#include "pipeline/tile_grid.h"
 
 namespace pprt {
 
@@ -20,10 +21,16 @@ inline constexpr int kBucketPixels = 10;
 // patterns without samples.
 double bucket_distance(std::span<const Sample> a, std::span<const Sample> b);
 
+// How many of the samples lie at most `reach` pixels to the side of, above or below a border between regions;
+// `owners` are the frame's, per tile.
+std::size_t samples_near_borders(std::span<const Sample> samples, const TileGrid& grid,
+                                 std::span<const std::int32_t> owners, double reach);
+
 // The pattern of one rank that samples the camera's image afresh until it holds `count` samples, its seeds
-// included. Of the settings only size and seed count. The probe is left looking from `camera`.
+// included: those of the frame numbered `frame`. Of the settings only size and seed count. The probe is left
+// looking from `camera`.
 std::vector<Sample> serial_samples(const SessionSettings& settings, const Camera& camera, std::uint64_t count,
-                                   const Probe& probe);
+                                   const Probe& probe, int frame = 1);
 
 // bucket_distance() of a frame's samples, which the settings must have asked for, to as many of the serial
 // sampler's.

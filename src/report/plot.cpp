@@ -53,6 +53,12 @@ bool has_spread(const Curve& curve) {
                      [](const PlotPoint& p) { return std::isfinite(p.low) && std::isfinite(p.high); });
 }
 
+// gnuplot puts it before the names of the parts, and takes no "-" there.
+std::string terminal_name(std::string name) {
+  std::replace(name.begin(), name.end(), '-', '_');
+  return quoted(name);
+}
+
 std::string block_name(std::size_t panel, std::size_t curve) {
   return fmt::format("$p{}c{}", panel, curve);
 }
@@ -150,7 +156,7 @@ std::string gnuplot_script(const Plot& plot) {
       "set grid lc rgb '#dddddd' lt 1 lw 0.5\nset key bmargin center horizontal Left reverse samplen 1.5\n"
       "set style data histograms\nset style histogram rowstacked\nset boxwidth 0.7\n"
       "set multiplot layout {},{}\n",
-      columns * kPanelWidth, rows * kPanelHeight, quoted(plot.name), rows, columns);
+      columns * kPanelWidth, rows * kPanelHeight, terminal_name(plot.name), rows, columns);
   for (std::size_t p = 0; p < plot.panels.size(); ++p) text += panel_commands(plot.panels[p], p);
   return text + "unset multiplot\n";
 }

@@ -18,7 +18,7 @@ Plot two_panels() {
   Panel bars{"Parts", {"ranks"}, {"ms"}, {}, PanelKind::kStackedBars};
   bars.curves.push_back({"sampling", {{1, 10}, {32, 12}}});
   bars.curves.push_back({"casting", {{1, 1}, {32, 2}}});
-  return {"two", {curves, bars}, 2};
+  return {"two-panels", {curves, bars}, 2};
 }
 
 }  // namespace

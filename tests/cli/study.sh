@@ -1,0 +1,52 @@
+#!/usr/bin/env bash
+# pprt-study paper as users meet it: files, rows, what is told, with gnuplot and without.
+source "$(dirname "$0")/check.sh"
+
+# A Debian machine may lack gnuplot; the study then tells so and goes on.
+figures=(simple-2 simple-6 casting scaling costs network)
+run pprt-study paper -o all --quick --ranks 2,6 --frames 5; expect_code 0; expect_text out ''
+expect_line err 'pprt-study: simple: 96x96, 6 ranks, combined: 5 frames in .* s'
+for file in index.html provenance.json frames.csv speedup.csv findings.csv; do expect_file "all/$file"; done
+if command -v gnuplot >/dev/null; then
+  for figure in "${figures[@]}"; do expect_file "all/$figure.svg"; done
+  [[ $(grep -c '<svg' all/index.html) -eq ${#figures[@]} ]] || complain "not all plots are on the page"
+fi
+
+# rows FILE EXPERIMENT: data rows of that experiment.
+rows() { grep -v '^#' "$1" | awk -F, -v experiment="$2" '$1 == experiment' | wc -l; }
+for expected in simple:40 casting:20 scaling:60 costs:15 growth:10 repeat:5 pattern:10 latency:35 bandwidth:35; do
+  experiment=${expected%:*}
+  [[ $(rows all/frames.csv "$experiment") -eq ${expected#*:} ]] ||
+    complain "$(rows all/frames.csv "$experiment") rows of $experiment, not ${expected#*:}"
+done
+grep -q '^# cpu: .' all/frames.csv || complain "frames.csv does not tell the processor"
+grep -q '"command": "pprt-study paper -o all --quick --ranks 2,6 --frames 5"' all/provenance.json ||
+  complain "provenance.json does not tell the command: $(cat all/provenance.json)"
+
+# The same figures again, whatever the hour.
+figures_of() { grep -v '^#' "$1"; }
+run pprt-study paper -o again --quick --ranks 2,6 --frames 5; expect_code 0
+diff <(figures_of all/frames.csv) <(figures_of again/frames.csv) || complain "two studies differ"
+# Another seed makes other figures.
+run pprt-study paper -o other --quick --ranks 2,6 --frames 5 --seed 2; expect_code 0
+if diff -q <(figures_of all/frames.csv) <(figures_of other/frames.csv) >/dev/null; then complain "the seed changes nothing"; fi
+
+# A findings table that calls everything good shows nothing: the control must be there, and hold.
+expect_line all/findings.csv '.*Control: without balancing .*,holds,.*'
+
+# Without gnuplot.
+bare=$(mktemp -d -p .)
+ln -s "$(command -v pprt-study)" "$bare"
+run env PATH="$PWD/$bare" "$bare/pprt-study" paper -o bare --quick --ranks 2 --frames 5; expect_code 0
+expect_line err 'pprt-study: warning: gnuplot is not installed (Debian package gnuplot-nox): tables and page are written without plots'
+expect_file bare/index.html; expect_file bare/frames.csv; expect_no_file bare/scaling.svg
+grep -q 'The plot is missing: gnuplot is not installed' bare/index.html || complain "the page does not tell what is missing"
+
+# Refused.
+run pprt-study paper; expect_code 2; expect_line err '.*--output is required.*'
+run pprt-study paper -o x --machine sp3; expect_code 2
+expect_line err 'pprt-study: error: --machine sp3: want cluster or sp2'; expect_no_file x
+run pprt-study paper -o x --frames 2; expect_code 2; expect_no_file x
+touch file
+run pprt-study paper -o file/x --quick; expect_code 1; expect_line err "pprt-study: error: cannot write 'file/x/provenance.json': .*"
+finish
