@@ -7,6 +7,8 @@
 #include "base/diagnostics.h"
 #include "image/contact_sheet.h"
 #include "image/metrics.h"
+#include "layers/frame_layers.h"
+#include "parallel/partition.h"
 
 namespace pprt {
 namespace {
@@ -45,9 +47,12 @@ Facts header_facts(Json record) {
 }
 
 std::set<int> frames_in(const Manifest& manifest, const RenderPlan& plan) {
+  const std::vector<FramePattern> files = files_of_a_frame(plan);
+  std::vector<std::string> layers;
+  for (const Layer layer : plan.layers) layers.emplace_back(name_of(layer));
   std::set<int> frames;
   for (const PlannedFrame& frame : plan.frames) {
-    if (manifest.has(frame.number, plan.outputs)) frames.insert(frame.number);
+    if (manifest.has(frame.number, files, layers)) frames.insert(frame.number);
   }
   return frames;
 }
@@ -56,7 +61,7 @@ void require_new_files(const RenderOptions& options, const RenderPlan& plan) {
   if (options.overwrite || options.resume) return;
   std::vector<std::filesystem::path> files;
   for (const PlannedFrame& frame : plan.frames) {
-    for (const FramePattern& output : plan.outputs) files.push_back(file_name(output, frame.number));
+    for (const FramePattern& file : files_of_a_frame(plan)) files.push_back(file_name(file, frame.number));
   }
   if (!options.contact_sheet.empty()) files.emplace_back(options.contact_sheet);
   for (const std::filesystem::path& file : files) {
@@ -80,12 +85,14 @@ void check_files(const RenderOptions& options, const RenderPlan& plan) {
   require_references(plan);
 }
 
-FrameRecorder::FrameRecorder(const RenderOptions& options, const RenderPlan& plan, const std::string& key,
-                             const Json& run)
-    : has_rate_(plan.settings.frames_per_second > 0),
+FrameRecorder::FrameRecorder(const RenderOptions& options, const RenderPlan& plan, const CompiledScene& scene,
+                             const std::string& key, const Json& run)
+    : scene_(scene),
+      has_rate_(plan.settings.frames_per_second > 0),
       where_(names_of(options)),
       contact_sheet_(options.contact_sheet),
       first_output_(plan.outputs.front()),
+      layers_(plan.layers),
       reference_(plan.reference),
       ledger_(options.stats, options.resume),
       manifest_(manifest_path(plan.outputs.front()), key, options.resume),
@@ -107,13 +114,25 @@ void FrameRecorder::record(FinishedFrame&& frame) {
     totals_.add(frame);
     progress_.frame_done(frame, totals_);
   }
-  writer_.submit({frame.order.number, std::move(frame.image), std::move(facts)});
+  LayerMaker layers = layers_of(frame);
+  writer_.submit({frame.order.number, std::move(frame.image), std::move(facts), std::move(layers)});
   note_written(writer_.take_finished());
 }
 
 void FrameRecorder::status() const {
   const std::scoped_lock lock(mutex_);
   progress_.status(totals_);
+}
+
+// Made on the writer's thread, which asks a tracer of its own.
+LayerMaker FrameRecorder::layers_of(FinishedFrame& frame) const {
+  if (layers_.empty()) return {};
+  const int ranks = static_cast<int>(frame.ranks.size());
+  return layer_maker(
+      layers_,
+      {frame.order.number, tile_grid_for(frame.image.width, frame.image.height, ranks),
+       std::move(frame.owners), std::move(frame.samples),
+       [tracer = Tracer(scene_, frame.order.camera)](double x, double y) { return tracer.first_hit(x, y); }});
 }
 
 std::optional<std::future<double>> FrameRecorder::measure_error(const FinishedFrame& frame) const {

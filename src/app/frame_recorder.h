@@ -20,8 +20,9 @@ namespace pprt {
 class FrameRecorder {
  public:
   // `key` stands for scene and options in the manifest; `run` is the ledger's first record.
-  FrameRecorder(const RenderOptions& options, const RenderPlan& plan, const std::string& key,
-                const Json& run);
+  // The scene must outlive the recorder.
+  FrameRecorder(const RenderOptions& options, const RenderPlan& plan, const CompiledScene& scene,
+                const std::string& key, const Json& run);
 
   // Whether an earlier run has finished the frame (--resume).
   bool finished_before(int frame) const { return finished_before_.count(frame) != 0; }
@@ -39,14 +40,17 @@ class FrameRecorder {
   void finish(bool stopped);
 
  private:
+  LayerMaker layers_of(FinishedFrame& frame) const;
   std::optional<std::future<double>> measure_error(const FinishedFrame& frame) const;
   void note_written(const std::vector<WrittenFrame>& frames);
   void write_contact_sheet() const;
 
+  const CompiledScene& scene_;
   bool has_rate_;
   std::string where_;
   std::filesystem::path contact_sheet_;  // empty: none
   FramePattern first_output_;
+  std::vector<Layer> layers_;
   std::optional<FramePattern> reference_;
   Ledger ledger_;  // before the manifest, which must stand as it was when no ledger can be written
   Manifest manifest_;

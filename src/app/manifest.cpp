@@ -14,6 +14,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// The texts in a record's array; none where there is no such array.
+std::set<std::string> texts_of(const Json& record, const char* key) {
+  std::set<std::string> texts;
+  const auto found = record.find(key);
+  if (found == record.end() || !found->is_array()) return texts;
+  for (const Json& entry : *found) {
+    if (entry.is_string()) texts.insert(entry.get<std::string>());
+  }
+  return texts;
+}
+
 std::string text_of(const Json& record, const char* key) {
   const auto found = record.find(key);
   return found != record.end() && found->is_string() ? found->get<std::string>() : std::string();
@@ -55,30 +66,35 @@ void Manifest::read(const std::filesystem::path& path, const std::string& key) {
   while (lines.peek() != std::istringstream::traits_type::eof()) {
     const Json record = next_record();
     if (text_of(record, "record") == "frame" && record.contains("frame") &&
-        record["frame"].is_number_integer() && record.contains("files") && record["files"].is_array()) {
-      std::set<std::string>& names = written_before_[record["frame"].get<int>()];
-      for (const Json& file : record["files"]) {
-        if (file.is_string()) names.insert(file.get<std::string>());
-      }
+        record["frame"].is_number_integer()) {
+      auto& written = written_before_[record["frame"].get<int>()];
+      for (const std::string& file : texts_of(record, "files")) written[file] = texts_of(record, "layers");
     }
   }
   if (text.back() != '\n') write_whole_file(path, text + "\n");
 }
 
-bool Manifest::has(int frame, const std::vector<FramePattern>& outputs) const {
+bool Manifest::has(int frame, const std::vector<FramePattern>& files,
+                   const std::vector<std::string>& layers) const {
   const auto found = written_before_.find(frame);
-  return found != written_before_.end() &&
-         std::all_of(outputs.begin(), outputs.end(), [&](const FramePattern& output) {
-           const std::filesystem::path file = file_name(output, frame);
-           return found->second.count(file.string()) != 0 && std::filesystem::exists(file);
-         });
+  if (found == written_before_.end()) return false;
+  return std::all_of(files.begin(), files.end(), [&](const FramePattern& pattern) {
+    const std::filesystem::path file = file_name(pattern, frame);
+    const auto written = found->second.find(file.string());
+    if (written == found->second.end() || !std::filesystem::exists(file)) return false;
+    return !holds_channels(pattern) ||
+           std::all_of(layers.begin(), layers.end(),
+                       [&](const std::string& layer) { return written->second.count(layer) != 0; });
+  });
 }
 
 void Manifest::add(const std::vector<WrittenFrame>& frames) {
   for (const WrittenFrame& frame : frames) {
     Json files = Json::array();
     for (const std::filesystem::path& file : frame.files) files.push_back(file.string());
-    file_ << Json{{"record", "frame"}, {"frame", frame.frame}, {"files", files}}.dump() + "\n" << std::flush;
+    Json record = {{"record", "frame"}, {"frame", frame.frame}, {"files", files}};
+    if (!frame.layers.empty()) record["layers"] = frame.layers;
+    file_ << record.dump() + "\n" << std::flush;
     if (!file_) throw std::runtime_error("cannot write '" + path_.string() + "'");
   }
 }

@@ -23,15 +23,18 @@ class Manifest {
   // options: a manifest with another one cannot be resumed (UsageError).
   Manifest(const std::filesystem::path& path, const std::string& key, bool resume);
 
-  // Whether an earlier run has written the frame under every one of these names, and all are there still.
-  bool has(int frame, const std::vector<FramePattern>& outputs) const;
+  // Whether an earlier run has written the frame under every one of these names, and all are there still; and
+  // those that hold channels with those of every one of these layers.
+  bool has(int frame, const std::vector<FramePattern>& files,
+           const std::vector<std::string>& layers = {}) const;
 
   void add(const std::vector<WrittenFrame>& frames);
 
  private:
   void read(const std::filesystem::path& path, const std::string& key);
 
-  std::map<int, std::set<std::string>> written_before_;  // names by frame
+  // By frame and file name: the layers in the file.
+  std::map<int, std::map<std::string, std::set<std::string>>> written_before_;
   std::ofstream file_;
   std::filesystem::path path_;
 };

@@ -161,7 +161,8 @@ int run_frames(Communicator& network, const RenderOptions& options, const Prepar
   const RenderPlan& plan = prepared.plan;
   const std::string scene_hash = content_hash(nff);
   const Json run = run_record(options, plan, network.size(), prepared.scene, scene_hash);
-  FrameRecorder recorder(options, plan, run_key(options, plan, network.size(), scene_hash), run);
+  FrameRecorder recorder(options, plan, prepared.scene, run_key(options, plan, network.size(), scene_hash),
+                         run);
   const CameraSource source =
       camera_source(frame_requests(plan, prepared.scene, network.size(), recorder), recorder);
 

@@ -126,6 +126,12 @@ void add_image_options(CLI::App& app, RenderOptions& o) {
       ->allow_extra_args(false)
       ->group(group);
   app.add_option("--frames", o.frames, "Render only frames A to B")->type_name("A-B")->group(group);
+  app.add_option(
+         "--layers", o.layers,
+         "What shows how a frame came about, as EXR channels and PNG pictures: all, or some of samples, "
+         "triangulation, regions, age, density, cost, confidence, depth, normal, id")
+      ->type_name("LIST")
+      ->group(group);
   app.add_option("--contact-sheet", o.contact_sheet,
                  "Put thumbnails of the finished frames on one picture, .exr or .png")
       ->type_name("FILE")
@@ -165,6 +171,9 @@ void add_report_options(CLI::App& app, RenderOptions& o) {
       ->group(group);
   app.add_option("--reference", o.reference, "Pictures to measure each frame's error against")
       ->type_name("PATTERN")
+      ->group(group);
+  app.add_flag("--compare-serial", o.compare_serial,
+               "Measure each frame's sample pattern against the serial one of as many samples")
       ->group(group);
   app.add_option("--progress", o.progress, "tty, json or none (auto: tty on a terminal)")
       ->check(CLI::IsMember({"auto", "tty", "json", "none"}))

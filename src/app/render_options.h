@@ -33,6 +33,7 @@ struct RenderOptions {
   std::string size;                  // "WxH"; empty: the script's or the scene's
   std::vector<std::string> outputs;  // patterns; empty: kDefaultOutput
   std::string frames;                // "A-B"; empty: all
+  std::string layers;                // names with commas between them; empty: none
   std::string contact_sheet;         // picture of all frames; empty: none
   bool overwrite = false;
   bool resume = false;
@@ -45,6 +46,7 @@ struct RenderOptions {
 
   std::string stats;      // the ledger's file; "-" standard output; empty: none
   std::string reference;  // pattern of reference pictures; empty: none
+  bool compare_serial = false;
   std::string progress = "auto";
   std::string log = "warning";
   bool write_config = false;

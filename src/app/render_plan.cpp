@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <optional>
@@ -9,6 +10,7 @@
 
 #include "app/scene_source.h"
 #include "base/diagnostics.h"
+#include "image/frame_writer.h"
 #include "image/whole_file.h"
 #include "parallel/session.h"
 #include "parser/anim_parser.h"
@@ -167,6 +169,10 @@ double frame_rate(const RenderOptions& options, const Sources& sources) {
   return sources.script ? sources.script->animation.fps : 0;
 }
 
+std::vector<Layer> requested_layers(const RenderOptions& options) {
+  return options.layers.empty() ? std::vector<Layer>() : parse_layers(options.layers);
+}
+
 SessionSettings settle(const RenderOptions& options, const View& view, double fps) {
   SessionSettings settings;
   settings.width = view.width;
@@ -177,6 +183,9 @@ SessionSettings settle(const RenderOptions& options, const View& view, double fp
   settings.cast = cast_choice(options.cast);
   settings.keep_samples = options.keep_samples == "on";
   settings.seed = options.seed;
+  const std::vector<Layer> layers = requested_layers(options);
+  settings.report_samples =
+      options.compare_serial || std::any_of(layers.begin(), layers.end(), needs_samples);
   const bool has_stop_rule = options.time || options.samples || options.quality;
   if (fps > 0) {
     if (has_stop_rule) {
@@ -217,6 +226,15 @@ std::optional<FramePattern> parse_reference(const RenderOptions& options) {
 
 }  // namespace
 
+std::vector<FramePattern> files_of_a_frame(const RenderPlan& plan) {
+  std::vector<FramePattern> files = plan.outputs;
+  for (const FramePattern& output : plan.outputs) {
+    if (holds_channels(output)) continue;
+    for (const Layer layer : plan.layers) files.push_back(beside(output, name_of(layer)));
+  }
+  return files;
+}
+
 void check_usage(const RenderOptions& options) {
   const std::filesystem::path sheet(options.contact_sheet);
   if (!sheet.empty() && sheet.extension() != ".png" && sheet.extension() != ".exr") {
@@ -227,6 +245,10 @@ void check_usage(const RenderOptions& options) {
   compile_options(options);
   parse_outputs(options, FrameCount::kOne);
   parse_reference(options);
+  requested_layers(options);
+  if (options.compare_serial && options.stats.empty()) {
+    throw UsageError("--compare-serial tells the ledger: it needs --stats");
+  }
   if (options.budget && options.clock != "work")
     throw UsageError("--budget counts work: it needs --clock work");
 }
@@ -244,6 +266,7 @@ RenderPlan plan_render(const RenderOptions& options) {
   plan.script_frames = script_frames(sources, base);
   plan.frames = frames_to_render(options, plan.script_frames);
   plan.outputs = parse_outputs(options, plan.frames.size() > 1 ? FrameCount::kMany : FrameCount::kOne);
+  plan.layers = requested_layers(options);
   plan.reference = parse_reference(options);
   plan.settings = settle(options, base, frame_rate(options, sources));
   plan.compile = compile_options(options);

@@ -8,6 +8,7 @@
 
 #include "app/render_options.h"
 #include "image/frame_pattern.h"
+#include "layers/layer.h"
 #include "parallel/session_settings.h"
 #include "scene/animation.h"
 #include "scene/scene_description.h"
@@ -28,6 +29,7 @@ struct RenderPlan {
   std::vector<PlannedFrame> script_frames;  // all, rendered or not
   std::vector<PlannedFrame> frames;         // those to render
   std::vector<FramePattern> outputs;
+  std::vector<Layer> layers;
   std::optional<FramePattern> reference;
   SessionSettings settings;
   CompileOptions compile;
@@ -37,6 +39,9 @@ struct RenderPlan {
 // A still looks converged at this mean triangle weight: the structural similarity to a converged picture is
 // at least 0.99 on every SPD scene tried (docs/decisions/0007-still-quality.md).
 inline constexpr double kStillQuality = 0.005;
+
+// Every file of a frame: the outputs and, beside those that cannot hold them, the layers' pictures.
+std::vector<FramePattern> files_of_a_frame(const RenderPlan& plan);
 
 // What can be judged from the command line alone. Throws UsageError.
 void check_usage(const RenderOptions& options);

@@ -10,6 +10,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <stdexcept>
@@ -98,6 +99,28 @@ Imf::Header make_header(const Image& image, const Facts& facts) {
   return header;
 }
 
+// Adds the channel's values to what is written; they stay where they are until then.
+void add_channel(const Channel& channel, const Image& image, Imf::Header& header, Imf::FrameBuffer& buffer) {
+  if (header.channels().findChannel(channel.name) != nullptr) {
+    throw std::runtime_error(fmt::format("the channel '{}' is there already", channel.name));
+  }
+  const auto add = [&](Imf::PixelType type, const auto& values) {
+    if (values.size() != image.pixels.size()) {
+      throw std::runtime_error(fmt::format("the channel '{}' has not the picture's size", channel.name));
+    }
+    header.channels().insert(channel.name, Imf::Channel(type));
+    buffer.insert(channel.name, Imf::Slice::Make(type, values.data(), header.dataWindow()));
+  };
+  if (const auto* numbers = std::get_if<std::vector<std::uint32_t>>(&channel.values)) {
+    return add(Imf::UINT, *numbers);
+  }
+  const auto& floats = std::get<std::vector<float>>(channel.values);
+  if (std::any_of(floats.begin(), floats.end(), [](float v) { return std::isnan(v); })) {
+    throw std::runtime_error(fmt::format("the channel '{}' has values that are no numbers", channel.name));
+  }
+  add(Imf::FLOAT, floats);
+}
+
 std::vector<half> to_half(const Image& image) {
   constexpr auto kHalfMax = static_cast<float>(HALF_MAX);
   std::vector<half> halves(image.pixels.size() * 3);
@@ -132,16 +155,17 @@ ChannelNames channels_to_read(const Imf::ChannelList& channels) {
 
 }  // namespace
 
-std::string encode_exr(const Image& image, const Facts& facts) {
+std::string encode_exr(const Image& image, const Facts& facts, const std::vector<Channel>& channels) {
   require_encodable(image);
   try {
-    const Imf::Header header = make_header(image, facts);
+    Imf::Header header = make_header(image, facts);
     std::vector<half> halves = to_half(image);
     Imf::FrameBuffer buffer;
     std::size_t offset = 0;
     for (const char* channel : {"R", "G", "B"}) {
       buffer.insert(channel, slice(Imf::HALF, halves.data() + offset++, header.dataWindow()));
     }
+    for (const Channel& channel : channels) add_channel(channel, image, header, buffer);
     StringOutput output;
     {
       Imf::OutputFile file(output, header, kThreads);

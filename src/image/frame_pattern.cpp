@@ -89,6 +89,13 @@ FramePattern parse_frame_pattern(std::string_view text, FrameCount count, std::s
   return pattern;
 }
 
+FramePattern beside(const FramePattern& pattern, std::string_view name) {
+  FramePattern result = pattern;
+  std::string& end = pattern.digits ? result.after : result.before;
+  end.insert(end.rfind('.'), fmt::format(".{}", name));
+  return result;
+}
+
 std::filesystem::path file_name(const FramePattern& pattern, int frame) {
   if (frame < 0) throw std::invalid_argument("a frame number is not negative");
   if (!pattern.digits) return pattern.before;

@@ -22,6 +22,9 @@ enum class FrameCount { kOne, kMany };
 // UsageError that says what is wrong and what would be right, of `what` (an option).
 FramePattern parse_frame_pattern(std::string_view text, FrameCount count, std::string_view what = "output");
 
+// The pattern for a picture that stands beside the frame: "out/%04d.depth.png" beside "out/%04d.png".
+FramePattern beside(const FramePattern& pattern, std::string_view name);
+
 // The name for one frame, whose number is not negative.
 std::filesystem::path file_name(const FramePattern& pattern, int frame);
 

@@ -9,10 +9,14 @@ namespace pprt {
 namespace {
 
 std::size_t pixel_bytes(const FrameToWrite& frame) {
-  return frame.image.pixels.size() * sizeof(Color);
+  return frame.image.pixels.size() * sizeof(Color) + frame.layers.bytes;
 }
 
 }  // namespace
+
+bool holds_channels(const FramePattern& output) {
+  return file_name(output, 0).extension() == ".exr";
+}
 
 FrameWriter::FrameWriter(std::vector<FramePattern> outputs, FrameWriterOptions options)
     : outputs_(std::move(outputs)), options_(options), thread_([this] { run(); }) {}
@@ -90,14 +94,23 @@ void FrameWriter::run() {
 }
 
 WrittenFrame FrameWriter::write(const FrameToWrite& frame) const {
-  WrittenFrame written{frame.frame, {}};
-  for (const FramePattern& output : outputs_) {
-    std::filesystem::path file = file_name(output, frame.frame);
+  WrittenFrame written{frame.frame, {}, frame.layers.names};
+  const auto write_to = [&](const FramePattern& pattern, const Image& image,
+                            const std::vector<Channel>& channels) {
+    std::filesystem::path file = file_name(pattern, frame.frame);
     if (!options_.overwrite && std::filesystem::exists(file)) {
       throw std::runtime_error(fmt::format("cannot write '{}': the file is there already", file.string()));
     }
-    write_image(file, frame.image, frame.facts);
+    write_image(file, image, frame.facts, channels);
     written.files.push_back(std::move(file));
+  };
+  const std::vector<std::string>& layers = frame.layers.names;
+  for (const FramePattern& output : outputs_) {
+    const bool has_channels = !layers.empty() && holds_channels(output);
+    write_to(output, frame.image, has_channels ? frame.layers.channels() : std::vector<Channel>());
+    for (std::size_t i = 0; i < layers.size() && !has_channels; ++i) {
+      write_to(beside(output, layers[i]), frame.layers.picture(i, frame.image), {});
+    }
   }
   return written;
 }

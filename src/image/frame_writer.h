@@ -15,6 +15,7 @@
 #include "image/frame_pattern.h"
 #include "image/image.h"
 #include "image/image_io.h"
+#include "image/image_layers.h"
 
 namespace pprt {
 
@@ -22,11 +23,13 @@ struct FrameToWrite {
   int frame = 0;
   Image image;  // has passed the gate: replace_non_finite
   Facts facts;
+  LayerMaker layers = {};  // channels of every EXR, pictures beside every PNG
 };
 
 struct WrittenFrame {
   int frame = 0;
-  std::vector<std::filesystem::path> files;  // one per output, in their order
+  std::vector<std::filesystem::path> files;  // per output the frame, then its layers' pictures
+  std::vector<std::string> layers;           // that the frame was written with
 };
 
 struct FrameWriterOptions {
@@ -36,6 +39,9 @@ struct FrameWriterOptions {
   // 256x256 frame takes 0.75 MiB, so that some 340 of them may wait.
   std::size_t memory_bound = std::size_t{256} << 20;
 };
+
+// Whether an output holds layers in itself, as channels, rather than beside it.
+bool holds_channels(const FramePattern& output);
 
 // Writes frames in the order in which they are submitted, in a thread of its own. The first error is kept
 // until it is asked for; a frame that cannot be written does not keep later ones from being tried, as its

@@ -13,8 +13,9 @@ namespace {
 constexpr std::string_view kExrMagic = "\x76\x2f\x31\x01";
 constexpr std::string_view kPngMagic = "\x89PNG\r\n\x1a\n";
 
-std::string encode(const std::filesystem::path& path, const Image& image, const Facts& facts) {
-  if (path.extension() == ".exr") return encode_exr(image, facts);
+std::string encode(const std::filesystem::path& path, const Image& image, const Facts& facts,
+                   const std::vector<Channel>& channels) {
+  if (path.extension() == ".exr") return encode_exr(image, facts, channels);
   if (path.extension() == ".png") return encode_png(image, facts);
   throw std::runtime_error("the name ends neither in .exr nor in .png");
 }
@@ -41,10 +42,11 @@ std::size_t replace_non_finite(Image& image) {
   return replaced;
 }
 
-void write_image(const std::filesystem::path& path, const Image& image, const Facts& facts) {
+void write_image(const std::filesystem::path& path, const Image& image, const Facts& facts,
+                 const std::vector<Channel>& channels) {
   std::string bytes;
   try {
-    bytes = encode(path, image, facts);
+    bytes = encode(path, image, facts, channels);
   } catch (const std::runtime_error& e) {
     throw std::runtime_error(fmt::format("cannot write '{}': {}", path.string(), e.what()));
   }

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "image/image.h"
+#include "image/image_layers.h"
 
 namespace pprt {
 
@@ -31,8 +32,10 @@ std::size_t replace_non_finite(Image& image);
 
 // The file's bytes. Throw std::runtime_error with the reason when the picture is empty, has a value that is
 // not finite (it should have passed the gate), or a fact has a name that the format refuses. Values beyond
-// the range of half (65504) are clamped to it.
-std::string encode_exr(const Image& image, const Facts& facts = {});
+// the range of half (65504) are clamped to it. Channels stand beside R, G and B, in 32 bits each;
+// std::runtime_error when one has not the picture's size, a NaN, or a name that is taken.
+std::string encode_exr(const Image& image, const Facts& facts = {},
+                       const std::vector<Channel>& channels = {});
 std::string encode_png(const Image& image, const Facts& facts = {});
 
 // The picture in a file's bytes. Throw std::runtime_error with the reason.
@@ -42,8 +45,10 @@ Image decode_exr(std::string_view bytes);
 Image decode_png(std::string_view bytes);
 
 // Writes the whole file or nothing (see image/whole_file.h); the format is the extension's, .exr or .png.
-// Throws std::runtime_error "cannot write 'PATH': REASON".
-void write_image(const std::filesystem::path& path, const Image& image, const Facts& facts = {});
+// Throws std::runtime_error "cannot write 'PATH': REASON". Channels are for an EXR; a PNG has no room for
+// them.
+void write_image(const std::filesystem::path& path, const Image& image, const Facts& facts = {},
+                 const std::vector<Channel>& channels = {});
 
 // Reads an EXR or a PNG, told apart by their first bytes. Throws std::runtime_error "cannot read 'PATH':
 // REASON".

@@ -59,18 +59,27 @@ class LinearPatch {
   double ax_, ay_, bx_, by_;
 };
 
-// Fills the pixel centres of one triangle: rows [top, bottom), in each row centres in [left, right).
-void fill_triangle(const std::array<Corner, 3>& corner, RegionPixels& pixels) {
-  const PixelRect& bounds = pixels.bounds;
-  const auto [min_y, max_y] = std::minmax({corner[0].y, corner[1].y, corner[2].y});
-  const int top = std::max(first_center(min_y), bounds.y0);
-  const int bottom = std::min(first_center(max_y), bounds.y1);
-  if (top >= bottom) return;
-  const auto [min_x, max_x] = std::minmax({corner[0].x, corner[1].x, corner[2].x});
-  if (std::max(first_center(min_x), bounds.x0) >= std::min(first_center(max_x), bounds.x1)) return;
+// Rows of pixels, half-open.
+struct Rows {
+  int top = 0, bottom = 0;
+};
 
-  const LinearPatch patch(corner[0], corner[1], corner[2]);
-  for (int row = top; row < bottom; ++row) {
+// Those within `bounds` whose centres a triangle may hold: none when it lies between centres or beside the
+// bounds.
+Rows rows_of(const std::array<Corner, 3>& corner, const PixelRect& bounds) {
+  const auto [min_y, max_y] = std::minmax({corner[0].y, corner[1].y, corner[2].y});
+  const Rows rows{std::max(first_center(min_y), bounds.y0), std::min(first_center(max_y), bounds.y1)};
+  if (rows.top >= rows.bottom) return {};
+  const auto [min_x, max_x] = std::minmax({corner[0].x, corner[1].x, corner[2].x});
+  if (std::max(first_center(min_x), bounds.x0) >= std::min(first_center(max_x), bounds.x1)) return {};
+  return rows;
+}
+
+// Calls fill(row, left, right) for the pixel centres of one triangle: in each row those in [left, right).
+template <typename Fill>
+void for_each_span(const std::array<Corner, 3>& corner, const Rows& rows, const PixelRect& bounds,
+                   const Fill& fill) {
+  for (int row = rows.top; row < rows.bottom; ++row) {
     const double y = row + 0.5;
     // Exactly two of the three edges cross the row: those whose ends lie on different sides of it.
     std::array<double, 2> ends{};
@@ -83,10 +92,32 @@ void fill_triangle(const std::array<Corner, 3>& corner, RegionPixels& pixels) {
     if (found < 2) continue;
     const int left = std::max(first_center(std::min(ends[0], ends[1])), bounds.x0);
     const int right = std::min(first_center(std::max(ends[0], ends[1])), bounds.x1);
-    Color* first =
-        pixels.colors.data() + static_cast<std::ptrdiff_t>(row - bounds.y0) * bounds.width() - bounds.x0;
-    patch.fill(left, right, y, first);
+    if (left < right) fill(row, left, right);
   }
+}
+
+// Where a row of the bounds begins, as if its first pixel were number 0.
+std::ptrdiff_t row_start(const PixelRect& bounds, int row) {
+  return static_cast<std::ptrdiff_t>(row - bounds.y0) * bounds.width() - bounds.x0;
+}
+
+template <typename Face>
+std::array<Corner, 3> corners_of(const Face& face) {
+  std::array<Corner, 3> corner;
+  for (int i = 0; i < 3; ++i) {
+    const auto& vertex = *face->vertex(i);
+    corner[static_cast<std::size_t>(i)] = {vertex.point().x(), vertex.point().y(), vertex.info().color};
+  }
+  return corner;
+}
+
+void fill_triangle(const std::array<Corner, 3>& corner, RegionPixels& pixels) {
+  const Rows rows = rows_of(corner, pixels.bounds);
+  if (rows.top >= rows.bottom) return;
+  const LinearPatch patch(corner[0], corner[1], corner[2]);
+  for_each_span(corner, rows, pixels.bounds, [&](int row, int left, int right) {
+    patch.fill(left, right, row + 0.5, pixels.colors.data() + row_start(pixels.bounds, row));
+  });
 }
 
 // The average rule: where more than one sample falls in a pixel, their mean replaces the interpolation.
@@ -117,14 +148,23 @@ void reconstruct(const SampleMesh& mesh, const PixelRect& bounds, RegionPixels& 
   pixels.colors.assign(pixels.bounds.area(), Color(0, 0, 0));
   const auto& delaunay = mesh.impl().delaunay();
   for (auto face = delaunay.finite_faces_begin(); face != delaunay.finite_faces_end(); ++face) {
-    std::array<Corner, 3> corner;
-    for (int i = 0; i < 3; ++i) {
-      const auto& vertex = *face->vertex(i);
-      corner[static_cast<std::size_t>(i)] = {vertex.point().x(), vertex.point().y(), vertex.info().color};
-    }
-    fill_triangle(corner, pixels);
+    fill_triangle(corners_of(face), pixels);
   }
   average_crowded_pixels(mesh, pixels, buffers);
+}
+
+std::vector<std::uint32_t> triangle_at_centers(const SampleMesh& mesh, const PixelRect& bounds) {
+  std::vector<std::uint32_t> result(bounds.area(), kNoTriangle);
+  const auto& delaunay = mesh.impl().delaunay();
+  std::uint32_t number = 0;
+  for (auto face = delaunay.finite_faces_begin(); face != delaunay.finite_faces_end(); ++face, ++number) {
+    const std::array<Corner, 3> corner = corners_of(face);
+    for_each_span(corner, rows_of(corner, bounds), bounds, [&](int row, int left, int right) {
+      std::uint32_t* pixel = result.data() + row_start(bounds, row);
+      std::fill(pixel + left, pixel + right, number);
+    });
+  }
+  return result;
 }
 
 }  // namespace pprt

@@ -33,4 +33,9 @@ struct ReconstructionBuffers {
 void reconstruct(const SampleMesh& mesh, const PixelRect& bounds, RegionPixels& pixels,
                  ReconstructionBuffers& buffers);
 
+// Per pixel of `bounds`, row by row: which of triangles(mesh) holds its centre, by the same rule;
+// kNoTriangle where none does.
+inline constexpr std::uint32_t kNoTriangle = ~std::uint32_t{0};
+std::vector<std::uint32_t> triangle_at_centers(const SampleMesh& mesh, const PixelRect& bounds);
+
 }  // namespace pprt

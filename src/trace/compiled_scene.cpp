@@ -54,13 +54,22 @@ class PartsBuilder {
   PartsBuilder(const SceneDescription& scene, CompiledScene::Impl& impl) : scene_(scene), impl_(impl) {}
 
   void run() {
-    for (const Sphere& s : scene_.spheres) add(s);
-    for (const Cone& c : scene_.cones) add(c);
-    for (const Polygon& p : scene_.polygons) add(p);
-    for (const Patch& p : scene_.patches) add(p);
+    add_all(PrimitiveKind::kSphere, scene_.spheres);
+    add_all(PrimitiveKind::kCone, scene_.cones);
+    add_all(PrimitiveKind::kPolygon, scene_.polygons);
+    add_all(PrimitiveKind::kPatch, scene_.patches);
   }
 
  private:
+  template <class Primitive>
+  void add_all(PrimitiveKind kind, const std::vector<Primitive>& primitives) {
+    for (std::size_t i = 0; i < scene_.order.size(); ++i) {
+      if (scene_.order[i].kind != kind) continue;
+      primitive_ = static_cast<std::uint32_t>(i);
+      add(primitives[scene_.order[i].index]);
+    }
+  }
+
   Sides sides(MaterialIndex material, bool inside_only) const {
     if (inside_only) return Sides::kBack;
     const bool opaque = !(scene_.materials[material].transmittance > 0);
@@ -73,7 +82,7 @@ class PartsBuilder {
     for (ScenePart& p : impl_.parts) {
       if (p.kind == kind && p.sides == sides) return {p, std::get<Shape>(p.shape)};
     }
-    impl_.parts.push_back({kind, sides, Shape(), {}});
+    impl_.parts.push_back({kind, sides, Shape(), {}, {}});
     return {impl_.parts.back(), std::get<Shape>(impl_.parts.back().shape)};
   }
 
@@ -83,7 +92,7 @@ class PartsBuilder {
     auto [to, shape] =
         part<std::vector<SphereRecord>>(PrimitiveKind::kSphere, sides(s.material, s.radius < 0));
     shape.push_back({impl_.normalisation.point(s.center), impl_.normalisation.length(std::abs(s.radius))});
-    to.materials.push_back(s.material);
+    finish(to, 1, s.material);
   }
 
   void add(const Cone& c) {
@@ -95,7 +104,7 @@ class PartsBuilder {
     const bool inside_only = c.base_radius < 0 || c.apex_radius < 0;
     auto [to, shape] = part<std::vector<ConeRecord>>(PrimitiveKind::kCone, sides(c.material, inside_only));
     shape.push_back({impl_.normalisation.point(c.base), axis, base_radius, apex_radius - base_radius});
-    to.materials.push_back(c.material);
+    finish(to, 1, c.material);
   }
 
   void add(const Polygon& p) {
@@ -105,7 +114,7 @@ class PartsBuilder {
       positions_.push_back(impl_.normalisation.point(v));
     }
     auto [to, mesh] = part<Mesh>(PrimitiveKind::kPolygon, sides(p.material, false));
-    finish(to, mesh.add(positions_, {}), p.material);
+    finish_mesh(to, mesh.add(positions_, {}), p.material);
   }
 
   void add(const Patch& p) {
@@ -117,12 +126,18 @@ class PartsBuilder {
       normals_.emplace_back(v.normal.normalized());  // zero stays zero
     }
     auto [to, mesh] = part<Mesh>(PrimitiveKind::kPatch, sides(p.material, false));
-    finish(to, mesh.add(positions_, normals_), p.material);
+    finish_mesh(to, mesh.add(positions_, normals_), p.material);
   }
 
-  void finish(ScenePart& to, std::size_t triangles, MaterialIndex material) {
+  // `count`: of what Embree sees of the primitive.
+  void finish(ScenePart& to, std::size_t count, MaterialIndex material) const {
+    to.materials.insert(to.materials.end(), count, material);
+    to.primitives.insert(to.primitives.end(), count, primitive_);
+  }
+
+  void finish_mesh(ScenePart& to, std::size_t triangles, MaterialIndex material) {
     if (triangles == 0) return drop();
-    to.materials.insert(to.materials.end(), triangles, material);
+    finish(to, triangles, material);
     impl_.figures.triangles += triangles;
   }
 
@@ -134,6 +149,7 @@ class PartsBuilder {
 
   const SceneDescription& scene_;
   CompiledScene::Impl& impl_;
+  std::uint32_t primitive_ = 0;  // place of the one being added in the description's order
   std::vector<Vec3d> positions_;
   std::vector<Vec3f> normals_;
 };
@@ -152,7 +168,7 @@ std::size_t bytes(const ScenePart& part) {
   } else {
     shape = bytes(std::get<std::vector<ConeRecord>>(part.shape));
   }
-  return shape + bytes(part.materials);
+  return shape + bytes(part.materials) + bytes(part.primitives);
 }
 
 EmbreeGeometry new_geometry(const EmbreeDevice& device, ScenePart& part) {

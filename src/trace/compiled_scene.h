@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/camera.h"
+#include "base/first_hit.h"
 #include "base/ray_counts.h"
 #include "base/ray_sample.h"
 #include "base/vector.h"
@@ -64,6 +65,10 @@ class Tracer {
 
   // The whole ray tree of the eye ray through image point (x, y), in pixels.
   RaySample trace(double x, double y);
+
+  // What lies behind image point (x, y), by one ray, which is not counted. Primitives have their number in
+  // SceneDescription::order, materials in SceneDescription::materials, both from 1.
+  FirstHit first_hit(double x, double y) const;
 
   // Whether nothing lies between the eye and a hit point of a former frame (compiled space).
   bool visible(const Vec3f& hit, bool at_infinity);

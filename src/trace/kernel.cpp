@@ -30,6 +30,15 @@ void set_ray(RTCRay& ray, const Vec3f& origin, const Vec3f& direction, float len
   ray.flags = 0;
 }
 
+bool intersect(const CompiledScene::Impl& scene, RTCIntersectContext& context, const Vec3f& origin,
+               const Vec3f& direction, RTCRayHit& found) {
+  set_ray(found.ray, origin, direction, kInfinity);
+  found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(scene.embree.get(), &context, &found);
+  return found.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+}
+
 // Where a ray met the scene, found anew on the primitive in double.
 struct Surface {
   Vec3d position{0, 0, 0};
@@ -109,7 +118,7 @@ class RayTree {
   void follow_eye_ray(const Vec3f& origin, const Vec3f& direction, RaySample& sample) {
     ++counts_.primary;
     RTCRayHit found;
-    if (!intersect(origin, direction, found)) {
+    if (!intersect(scene_, context_, origin, direction, found)) {
       sample.color = scene_.background;
       sample.hit = direction;
       sample.at_infinity = true;
@@ -133,14 +142,6 @@ class RayTree {
   static constexpr bool kRefraction = has(Effect::kRefraction);
   static constexpr bool kSmooth = has(Effect::kSmoothNormals);
 
-  bool intersect(const Vec3f& origin, const Vec3f& direction, RTCRayHit& found) {
-    set_ray(found.ray, origin, direction, kInfinity);
-    found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(scene_.embree.get(), &context_, &found);
-    return found.hit.geomID != RTC_INVALID_GEOMETRY_ID;
-  }
-
   bool in_shadow(const Vec3f& origin, const Vec3d& direction, double length) {
     ++counts_.shadow;
     RTCRay ray;
@@ -152,7 +153,7 @@ class RayTree {
   Color follow(const Vec3d& origin, const Vec3d& direction, int depth) {
     const Vec3f d(direction);
     RTCRayHit found;
-    if (!intersect(Vec3f(origin), d, found)) return scene_.background;
+    if (!intersect(scene_, context_, Vec3f(origin), d, found)) return scene_.background;
     const Vec3d exact(d);
     return shade(surface_at<kSmooth>(scene_, found, exact), exact, depth);
   }
@@ -248,6 +249,20 @@ Kernel kernel_for(EffectSet effects, bool published) {
   static constexpr auto kRendering = table<false>(std::make_integer_sequence<unsigned, kEffectSets>());
   static constexpr auto kCounting = table<true>(std::make_integer_sequence<unsigned, kEffectSets>());
   return published ? kCounting[effects.bits()] : kRendering[effects.bits()];
+}
+
+std::optional<VisibleSurface> visible_surface(const CompiledScene::Impl& scene, const Vec3f& origin,
+                                              const Vec3f& direction) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRayHit found;
+  if (!intersect(scene, context, origin, direction, found)) return std::nullopt;
+  const bool smooth = scene.effects.has(Effect::kSmoothNormals);
+  const Surface surface = smooth ? surface_at<true>(scene, found, Vec3d(direction))
+                                 : surface_at<false>(scene, found, Vec3d(direction));
+  const ScenePart& part = scene.parts[found.hit.geomID];
+  return VisibleSurface{surface.position, surface.shading, part.primitives[found.hit.primID],
+                        part.materials[found.hit.primID]};
 }
 
 bool occluded(const CompiledScene::Impl& scene, const Vec3f& origin, const Vec3f& direction, float length) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
@@ -38,7 +39,8 @@ struct ScenePart {
   PrimitiveKind kind = PrimitiveKind::kSphere;
   Sides sides = Sides::kBoth;
   std::variant<std::vector<SphereRecord>, std::vector<ConeRecord>, Mesh> shape;
-  std::vector<MaterialIndex> materials;  // by Embree's primitive number
+  std::vector<MaterialIndex> materials;   // by Embree's primitive number
+  std::vector<std::uint32_t> primitives;  // by the same: place in the description's order
 };
 
 struct BuildFigures {

@@ -27,6 +27,17 @@ RaySample Tracer::trace(double x, double y) {
   return sample;
 }
 
+FirstHit Tracer::first_hit(double x, double y) const {
+  const Vec3d direction = unit(ray_direction(camera_, x, y));
+  const Vec3d origin = camera_.eye + direction * distance_to_scene(camera_.eye, direction);
+  const std::optional<VisibleSurface> surface =
+      visible_surface(scene_.impl(), Vec3f(origin), Vec3f(direction));
+  if (!surface) return {};
+  const double depth = (surface->position - camera_.eye).dot(camera_.forward);
+  return {static_cast<float>(depth / scene_.impl().normalisation.scale), Vec3f(surface->normal),
+          surface->primitive + 1, surface->material + 1};
+}
+
 bool Tracer::visible(const Vec3f& hit, bool at_infinity) {
   ++counts_.visibility;
   const Vec3d to_hit = at_infinity ? Vec3d(hit) : Vec3d(hit) - camera_.eye;

@@ -1,0 +1,189 @@
+#include "layers/pictures.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace pprt {
+namespace {
+
+constexpr int kDrawingSide = 1024;  // pixels, at least, of the longer side
+
+Image enlarged(const Image& image, int scale) {
+  Image result(image.width * scale, image.height * scale);
+  for (int y = 0; y < result.height; ++y) {
+    for (int x = 0; x < result.width; ++x) result.at(x, y) = image.at(x / scale, y / scale);
+  }
+  return result;
+}
+
+Color mix(const Color& a, const Color& b, float share) {
+  return a + (b - a) * share;
+}
+
+// Of a display value, 0 to 1.
+float lightness(const Color& color) {
+  const auto channel = [](float v) { return std::clamp(v, 0.0f, 1.0f); };
+  return 0.3f * channel(color.x) + 0.59f * channel(color.y) + 0.11f * channel(color.z);
+}
+
+// A colour of full strength; hues go round once from 0 to 1.
+Color from_hue(double hue) {
+  const auto channel = [&](double phase) {
+    const double h = std::abs(std::fmod(hue + phase, 1.0) * 6 - 3);
+    return static_cast<float>(std::clamp(h - 1, 0.0, 1.0));
+  };
+  return {channel(0), channel(2.0 / 3), channel(1.0 / 3)};
+}
+
+// Multiples of the golden ratio: any few in a row lie far apart on the colour circle.
+double hue_of(std::uint32_t number) {
+  return std::fmod(number * 0.6180339887498949, 1.0);
+}
+
+// From dark to light through blue, red and yellow; lightness grows all the way, so that it reads without
+// colour.
+Color heat(double value) {
+  static constexpr std::array<std::array<float, 3>, 6> kStops = {{{0.03f, 0.03f, 0.12f},
+                                                                  {0.22f, 0.12f, 0.45f},
+                                                                  {0.57f, 0.17f, 0.47f},
+                                                                  {0.87f, 0.33f, 0.32f},
+                                                                  {0.98f, 0.64f, 0.25f},
+                                                                  {0.99f, 0.97f, 0.75f}}};
+  const double place = std::clamp(value, 0.0, 1.0) * (kStops.size() - 1);
+  const std::size_t stop = std::min(static_cast<std::size_t>(place), kStops.size() - 2);
+  const auto color = [](const std::array<float, 3>& c) { return Color(c[0], c[1], c[2]); };
+  return mix(color(kStops[stop]), color(kStops[stop + 1]),
+             static_cast<float>(place - static_cast<double>(stop)));
+}
+
+template <typename Value, typename ToColor>
+Image picture_of(std::span<const Value> values, int width, int height, const ToColor& color) {
+  Image image(width, height);
+  std::transform(values.begin(), values.end(), image.pixels.begin(), color);
+  return image;
+}
+
+// Mean distance between samples in a drawing, pixels.
+double spacing(const Triangulation& frame, int scale) {
+  const double area = static_cast<double>(frame.width) * frame.height;
+  const auto samples = static_cast<double>(std::max<std::size_t>(frame.samples.size(), 1));
+  return scale * std::sqrt(area / samples);
+}
+
+// Where the owner changes: every side of a tile that another rank's tile lies behind.
+Ink region_borders(const TileGrid& grid, std::span<const std::int32_t> owners, int scale, double width) {
+  Ink ink(grid.width * scale, grid.height * scale);
+  const auto owner = [&](int tile) { return owners[static_cast<std::size_t>(tile)]; };
+  const auto corner = [&](int x, int y) { return Vec2d(x, y) * static_cast<double>(scale); };
+  for (int tile = 0; tile < grid.tile_count(); ++tile) {
+    const PixelRect r = grid.pixels(tile);
+    if (r.x1 < grid.width && owner(tile) != owner(tile + 1)) {
+      draw_line(ink, corner(r.x1, r.y0), corner(r.x1, r.y1), width);
+    }
+    if (r.y1 < grid.height && owner(tile) != owner(tile + grid.columns())) {
+      draw_line(ink, corner(r.x0, r.y1), corner(r.x1, r.y1), width);
+    }
+  }
+  return ink;
+}
+
+}  // namespace
+
+int drawing_scale(int width, int height) {
+  const int longer = std::max(width, height);
+  return (kDrawingSide + longer - 1) / longer;
+}
+
+// Dots shrink as samples come closer, down to what still shows.
+Ink sample_dots(const Triangulation& frame) {
+  const int scale = drawing_scale(frame.width, frame.height);
+  const double diameter = std::clamp(0.16 * spacing(frame, scale), 1.6, 5.0);
+  Ink ink(frame.width * scale, frame.height * scale);
+  for (const Sample& s : frame.samples) draw_dot(ink, Vec2d(s.x, s.y) * static_cast<double>(scale), diameter);
+  return ink;
+}
+
+Ink triangle_edges(const Triangulation& frame) {
+  const int scale = drawing_scale(frame.width, frame.height);
+  const double width = std::clamp(0.05 * spacing(frame, scale), 0.3, 1.2);
+  Ink ink(frame.width * scale, frame.height * scale);
+  const auto place = [&](std::uint32_t sample) {
+    return Vec2d(frame.samples[sample].x, frame.samples[sample].y) * static_cast<double>(scale);
+  };
+  for (const auto& corners : frame.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) draw_line(ink, place(corners[i]), place(corners[(i + 1) % 3]), width);
+  }
+  return ink;
+}
+
+Image black_on_white(const Ink& ink) {
+  Image image(ink.width, ink.height, Color(1, 1, 1));
+  paint(image, ink, Color(0, 0, 0));
+  return image;
+}
+
+// The frame in grey, so that its own colours do not mix with the ranks'.
+Image region_picture(const Image& frame, const TileGrid& grid, std::span<const std::int32_t> owners) {
+  const int scale = drawing_scale(frame.width, frame.height);
+  Image tinted = frame;
+  for (int tile = 0; tile < grid.tile_count(); ++tile) {
+    const std::int32_t owner = owners[static_cast<std::size_t>(tile)];
+    const Color tint = owner < 0
+                           ? Color(1, 1, 1)
+                           : mix(from_hue(hue_of(static_cast<std::uint32_t>(owner))), Color(1, 1, 1), 0.5f);
+    const PixelRect r = grid.pixels(tile);
+    for (int y = r.y0; y < r.y1; ++y) {
+      for (int x = r.x0; x < r.x1; ++x) tinted.at(x, y) = tint * (0.2f + 0.8f * lightness(tinted.at(x, y)));
+    }
+  }
+  Image picture = enlarged(tinted, scale);
+  // Light within dark: seen on any ground.
+  paint(picture, region_borders(grid, owners, scale, 5), Color(0, 0, 0));
+  paint(picture, region_borders(grid, owners, scale, 2), Color(1, 1, 1));
+  return picture;
+}
+
+Image heat_picture(std::span<const float> values, int width, int height, double low, double high) {
+  return picture_of(values, width, height, [&](float value) {
+    return heat(std::log(std::max<double>(value, low) / low) / std::log(high / low));
+  });
+}
+
+Image cost_picture(std::span<const float> values, int width, int height) {
+  return picture_of(values, width, height, [](float rays) {
+    const double share = std::log(std::max(1.0f, rays)) / std::log(kMostRays);
+    return Color(static_cast<float>(std::clamp(1 - share, 0.0, 1.0)));
+  });
+}
+
+Image depth_picture(std::span<const FirstHit> hits, int width, int height) {
+  float nearest = std::numeric_limits<float>::infinity(), farthest = 0;
+  for (const FirstHit& hit : hits) {
+    if (hit.primitive == 0) continue;
+    nearest = std::min(nearest, hit.depth), farthest = std::max(farthest, hit.depth);
+  }
+  const float range = 1 / nearest - 1 / farthest;
+  return picture_of(hits, width, height, [&](const FirstHit& hit) {
+    if (hit.primitive == 0) return Color(0, 0, 0);
+    return Color(range > 0 ? 0.1f + 0.9f * (1 / hit.depth - 1 / farthest) / range : 1.0f);
+  });
+}
+
+Image normal_picture(std::span<const FirstHit> hits, int width, int height) {
+  return picture_of(hits, width, height, [](const FirstHit& hit) {
+    if (hit.primitive == 0) return Color(0, 0, 0);
+    return Color((hit.normal + Vec3f(1, 1, 1)) * 0.5f);
+  });
+}
+
+Image id_picture(std::span<const FirstHit> hits, int width, int height) {
+  return picture_of(hits, width, height, [](const FirstHit& hit) {
+    if (hit.primitive == 0) return Color(0, 0, 0);
+    const Color hue = mix(from_hue(hue_of(hit.material)), Color(1, 1, 1), 0.25f);
+    return hue * static_cast<float>(0.45 + 0.55 * hue_of(hit.primitive));
+  });
+}
+
+}  // namespace pprt

@@ -1,0 +1,30 @@
+#include "layers/layer.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "base/diagnostics.h"
+
+using namespace pprt;
+
+TEST_CASE("layers are named in any order and come in theirs, each once") {
+  CHECK(parse_layers("id,samples,id") == std::vector<Layer>{Layer::kSamples, Layer::kId});
+  CHECK(parse_layers("depth") == std::vector<Layer>{Layer::kDepth});
+  CHECK(parse_layers("all") == std::vector<Layer>(kAllLayers.begin(), kAllLayers.end()));
+  for (const Layer layer : kAllLayers) CHECK(parse_layers(name_of(layer)) == std::vector<Layer>{layer});
+}
+
+TEST_CASE("what is no layer is refused with what was meant") {
+  CHECK_THROWS_WITH(
+      parse_layers("samples,dephts"),
+      "--layers samples,dephts: 'dephts' is none of samples, triangulation, regions, age, density, "
+      "cost, confidence, depth, normal, id, all; did you mean 'depth'?");
+  CHECK_THROWS_AS(parse_layers(""), UsageError);
+  CHECK_THROWS_AS(parse_layers("depth,"), UsageError);
+}
+
+TEST_CASE("only what is made of samples asks for them") {
+  CHECK(std::count_if(kAllLayers.begin(), kAllLayers.end(), needs_samples) == 6);
+  CHECK(needs_samples(Layer::kConfidence));
+  CHECK_FALSE(needs_samples(Layer::kRegions));
+}

@@ -1,0 +1,98 @@
+#include "layers/pictures.h"
+
+#include <catch2/catch.hpp>
+#include <limits>
+
+#include "hand_made.h"
+
+using namespace pprt;
+using namespace pprt::test;
+
+namespace {
+
+const Color kBlack(0, 0, 0), kWhite(1, 1, 1);
+
+FirstHit hit(float depth, const Vec3f& normal, std::uint32_t primitive, std::uint32_t material) {
+  return {depth, normal, primitive, material};
+}
+
+}  // namespace
+
+TEST_CASE("drawings have at least 1024 pixels on the longer side") {
+  CHECK(drawing_scale(256, 256) == 4);
+  CHECK(drawing_scale(160, 120) == 7);
+  CHECK(drawing_scale(500, 1023) == 2);
+  CHECK(drawing_scale(1024, 16) == 1);
+  CHECK(drawing_scale(1920, 1080) == 1);
+}
+
+TEST_CASE("a sample is a black dot on white, where it lies") {
+  const Image picture = black_on_white(sample_dots(triangulate_frame({sample(1, 3)}, kFourByFour)));
+  REQUIRE((picture.width == 1024 && picture.height == 1024));
+  CHECK(picture.at(256, 768) == kBlack);
+  CHECK(picture.at(768, 256) == kWhite);
+}
+
+TEST_CASE("edges run from sample to sample, and nowhere else") {
+  const Image picture = black_on_white(triangle_edges(triangulate_frame(corners_and_middle(), kFourByFour)));
+  CHECK(picture.at(300, 300).x < 0.5f);  // on the diagonal
+  CHECK(picture.at(300, 723).x < 0.5f);  // on the other one
+  CHECK(picture.at(512, 200) == kWhite);
+}
+
+TEST_CASE("regions have a colour each and a border between them, where both sides are one rank's none") {
+  const Image frame(4, 4, Color(0.5f));
+  const std::vector<std::int32_t> owners = {0, 1, 0, -1};  // two tiles of rank 0 on the left
+  const Image picture = region_picture(frame, kFourByFour, owners);
+  REQUIRE(picture.width == 1024);
+  const Color left = picture.at(100, 100), right = picture.at(900, 100), nobody = picture.at(900, 900);
+  CHECK(picture.at(100, 900) == left);
+  CHECK(left != right);
+  CHECK((nobody.x == nobody.y && nobody.y == nobody.z));
+  CHECK(picture.at(512, 100) == kWhite);  // with black at its sides
+  CHECK(picture.at(509, 100).x < 0.6f * left.x);
+  CHECK(picture.at(100, 512) == left);
+}
+
+TEST_CASE("heat grows lighter all the way, by factors") {
+  const std::vector<float> values = {0, 1, 10, 100, 1000};
+  const Image picture = heat_picture(values, 5, 1, 1, 100);
+  const auto light = [&](int x) { return picture.at(x, 0).x + picture.at(x, 0).y + picture.at(x, 0).z; };
+  CHECK(light(0) == light(1));
+  CHECK((light(1) < light(2) && light(2) < light(3)));
+  CHECK(light(3) == light(4));
+}
+
+TEST_CASE("the dearer the darker") {
+  const std::vector<float> rays = {0, 1, 8, 64, 1000};
+  const Image picture = cost_picture(rays, 5, 1);
+  CHECK(picture.at(0, 0) == kWhite);
+  CHECK(picture.at(1, 0) == kWhite);
+  CHECK(picture.at(2, 0).x == Approx(0.5));
+  CHECK(picture.at(3, 0) == kBlack);
+  CHECK(picture.at(4, 0) == kBlack);
+}
+
+TEST_CASE("depth is light near by, black where nothing is") {
+  const std::vector<FirstHit> hits = {hit(1, {0, 0, 1}, 1, 1), hit(2, {0, 0, 1}, 1, 1),
+                                      hit(4, {0, 0, 1}, 1, 1), FirstHit()};
+  const Image picture = depth_picture(hits, 4, 1);
+  CHECK(picture.at(0, 0).x == Approx(1));
+  CHECK(picture.at(1, 0).x == Approx(0.1 + 0.9 / 3));  // 1/2 - 1/4 of 1 - 1/4
+  CHECK(picture.at(2, 0).x == Approx(0.1));
+  CHECK(picture.at(3, 0) == kBlack);
+  const std::vector<FirstHit> flat(4, hit(3, {0, 0, 1}, 1, 1));
+  CHECK(depth_picture(flat, 4, 1).at(0, 0) == kWhite);
+  CHECK(depth_picture(std::vector<FirstHit>(4), 4, 1).at(0, 0) == kBlack);
+}
+
+TEST_CASE("normals are colours; ids tell materials and primitives apart") {
+  const std::vector<FirstHit> hits = {hit(1, {-1, 0, 1}, 1, 1), hit(1, {0, 0, 1}, 2, 1),
+                                      hit(1, {0, 0, 1}, 2, 2), FirstHit()};
+  const Image normals = normal_picture(hits, 4, 1);
+  CHECK(normals.at(0, 0) == Color(0, 0.5f, 1));
+  CHECK(normals.at(3, 0) == kBlack);
+  const Image ids = id_picture(hits, 4, 1);
+  CHECK((ids.at(0, 0) != ids.at(1, 0) && ids.at(1, 0) != ids.at(2, 0)));
+  CHECK(ids.at(3, 0) == kBlack);
+}
