@@ -102,13 +102,14 @@ FrameRecorder::FrameRecorder(const RenderOptions& options, const RenderPlan& pla
       progress_(progress_kind(options.progress), static_cast<int>(plan.frames.size()),
                 static_cast<int>(finished_before_.size()), plan.settings.frames_per_second,
                 options.progress == "none") {
+  if (options.compare_serial) serial_.emplace(scene, plan.settings);
   ledger_.write(run);
 }
 
 void FrameRecorder::record(FinishedFrame&& frame) {
   Json record = frame_record(frame);
   Facts facts = header_facts(record);
-  if (ledger_.enabled()) ledger_.write_frame(std::move(record), measure_error(frame));
+  if (ledger_.enabled()) ledger_.write_frame(std::move(record), measurements_of(frame));
   {
     const std::scoped_lock lock(mutex_);
     totals_.add(frame);
@@ -135,12 +136,19 @@ LayerMaker FrameRecorder::layers_of(FinishedFrame& frame) const {
        [tracer = Tracer(scene_, frame.order.camera)](double x, double y) { return tracer.first_hit(x, y); }});
 }
 
-std::optional<std::future<double>> FrameRecorder::measure_error(const FinishedFrame& frame) const {
-  if (!reference_) return std::nullopt;
-  return std::async(std::launch::async,
-                    [image = frame.image, path = file_name(*reference_, frame.order.number)] {
-                      return difference(image, read_image(path), 0).rmse;
-                    });
+std::vector<Measurement> FrameRecorder::measurements_of(const FinishedFrame& frame) {
+  std::vector<Measurement> measurements;
+  if (reference_) {
+    const auto measure = [image = frame.image, path = file_name(*reference_, frame.order.number)] {
+      return difference(image, read_image(path), 0).rmse;
+    };
+    measurements.push_back({"rmse", "--reference", false, std::async(std::launch::async, measure)});
+  }
+  if (serial_) {
+    measurements.push_back({"distance_to_serial", "--compare-serial", true,
+                            serial_->distance(frame.order.camera, frame.samples)});
+  }
+  return measurements;
 }
 
 void FrameRecorder::note_written(const std::vector<WrittenFrame>& frames) {
@@ -165,6 +173,7 @@ void FrameRecorder::finish(bool stopped) {
     writer_.finish();
     note_written(writer_.take_finished());
     write_contact_sheet();
+    if (serial_) serial_->catch_up();
     ledger_.finish();
     ledger_.write(totals_.summary(has_rate_));
   } catch (...) {

@@ -13,6 +13,7 @@
 #include "app/manifest.h"
 #include "app/progress.h"
 #include "app/render_plan.h"
+#include "app/serial_comparison.h"
 #include "image/frame_writer.h"
 
 namespace pprt {
@@ -41,7 +42,7 @@ class FrameRecorder {
 
  private:
   LayerMaker layers_of(FinishedFrame& frame) const;
-  std::optional<std::future<double>> measure_error(const FinishedFrame& frame) const;
+  std::vector<Measurement> measurements_of(const FinishedFrame& frame);
   void note_written(const std::vector<WrittenFrame>& frames);
   void write_contact_sheet() const;
 
@@ -52,6 +53,7 @@ class FrameRecorder {
   FramePattern first_output_;
   std::vector<Layer> layers_;
   std::optional<FramePattern> reference_;
+  std::optional<SerialComparison> serial_;
   Ledger ledger_;  // before the manifest, which must stand as it was when no ledger can be written
   Manifest manifest_;
   std::set<int> finished_before_;

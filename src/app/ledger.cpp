@@ -161,36 +161,43 @@ void Ledger::write(const Json& record) {
   if (!out) throw std::runtime_error("cannot write '" + path_ + "'");
 }
 
-void Ledger::write_frame(Json record, std::optional<std::future<double>> rmse) {
-  pending_.push_back({std::move(record), std::move(rmse)});
-  settle(kMostPending);
+void Ledger::write_frame(Json record, std::vector<Measurement> measurements) {
+  pending_.push_back({std::move(record), std::move(measurements)});
+  settle(false);
 }
 
 void Ledger::finish() {
-  settle(0);
+  settle(true);
 }
 
-// Writes what is ready, and waits until at most `may_wait` frames are not.
-void Ledger::settle(std::size_t may_wait) {
-  while (!pending_.empty()) {
-    Pending& next = pending_.front();
-    if (next.rmse) {
-      const bool ready = next.rmse->wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-      if (!ready && pending_.size() <= may_wait) return;
-      add_rmse(next);
-    }
-    write(next.record);
+// Takes what is ready, of too old pictures also what is not, and writes the records that are complete.
+void Ledger::settle(bool wait_for_all) {
+  std::size_t pictures = 0;
+  for (auto frame = pending_.rbegin(); frame != pending_.rend(); ++frame) {
+    std::erase_if(frame->measurements, [&](Measurement& measurement) {
+      const bool is_ready = measurement.value.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+      const bool may_wait = !wait_for_all && (measurement.may_lag || pictures < kMostPictures);
+      if (!is_ready && may_wait) {
+        pictures += !measurement.may_lag;
+        return false;
+      }
+      take(measurement, frame->record);
+      return true;
+    });
+  }
+  while (!pending_.empty() && pending_.front().measurements.empty()) {
+    write(pending_.front().record);
     pending_.pop_front();
   }
 }
 
-void Ledger::add_rmse(Pending& pending) {
+void Ledger::take(Measurement& measurement, Json& record) {
   try {
-    pending.record["rmse"] = pending.rmse->get();
+    record[measurement.key] = measurement.value.get();
   } catch (const std::exception& e) {
-    if (!std::exchange(told_of_failure_, true)) {
-      fmt::print(stderr, "pprt-render: warning: --reference: {}; rmse is left out\n", e.what());
-    }
+    if (!told_of_.insert(measurement.key).second) return;
+    fmt::print(stderr, "pprt-render: warning: {}: {}; {} is left out\n", measurement.option, e.what(),
+               measurement.key);
   }
 }
 

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <future>
 #include <nlohmann/json.hpp>
-#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,6 +18,15 @@ using Json = nlohmann::ordered_json;
 
 // What is said of a frame in the ledger and in its file's header, without the error to a reference.
 Json frame_record(const FinishedFrame& frame);
+
+// A figure of a frame that is still being measured, beside the frame loop. One that cannot be is told on
+// standard error, once a run, and left out.
+struct Measurement {
+  std::string key;      // in the record
+  std::string option;   // that asked for it, for messages
+  bool may_lag = true;  // false: holds a picture, and only few frames may
+  std::future<double> value;
+};
 
 // Keeps the sums that the summary tells.
 class RunTotals {
@@ -41,37 +50,35 @@ class RunTotals {
   std::vector<double> late_ms_;
 };
 
-// Writes records in frame order; a frame whose error is still being measured holds back those after it.
-// Throws std::runtime_error when the file cannot be written.
+// Writes records in frame order; a frame of which something is still being measured holds back those after
+// it. Throws std::runtime_error when the file cannot be written.
 class Ledger {
  public:
-  // So many frames may wait for their error; then the frame loop waits for the oldest of them.
-  static constexpr std::size_t kMostPending = 4;
+  // So many frames may wait for a measurement that holds a picture; then the frame loop waits for the oldest.
+  static constexpr std::size_t kMostPictures = 4;
 
   // `path` empty: writes nothing; "-": standard output. `append` keeps the records that are there.
   Ledger(const std::string& path, bool append);
 
   bool enabled() const { return !path_.empty(); }
   void write(const Json& record);
-  // `rmse` is measured beside the frame loop; empty: none is asked for. One that cannot be measured is told
-  // on standard error, once a run, and left out.
-  void write_frame(Json record, std::optional<std::future<double>> rmse);
+  void write_frame(Json record, std::vector<Measurement> measurements);
   // Waits for what is still being measured.
   void finish();
 
  private:
   struct Pending {
     Json record;
-    std::optional<std::future<double>> rmse;
+    std::vector<Measurement> measurements;  // those not taken yet
   };
 
-  void settle(std::size_t may_wait);
-  void add_rmse(Pending& pending);
+  void settle(bool wait_for_all);
+  void take(Measurement& measurement, Json& record);
 
   std::string path_;
   std::ofstream file_;
   std::deque<Pending> pending_;
-  bool told_of_failure_ = false;
+  std::set<std::string> told_of_;  // measurements that failed
 };
 
 }  // namespace pprt

@@ -29,7 +29,7 @@ struct FrameToWrite {
 struct WrittenFrame {
   int frame = 0;
   std::vector<std::filesystem::path> files;  // per output the frame, then its layers' pictures
-  std::vector<std::string> layers;           // that the frame was written with
+  std::vector<std::string> layers = {};      // of its channels and of those pictures
 };
 
 struct FrameWriterOptions {

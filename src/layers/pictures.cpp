@@ -124,7 +124,8 @@ Image black_on_white(const Ink& ink) {
   return image;
 }
 
-// The frame in grey, so that its own colours do not mix with the ranks'.
+// The frame in grey, so that its own colours do not mix with the ranks', and lightened, as pictures mostly
+// are dark.
 Image region_picture(const Image& frame, const TileGrid& grid, std::span<const std::int32_t> owners) {
   const int scale = drawing_scale(frame.width, frame.height);
   Image tinted = frame;
@@ -135,7 +136,8 @@ Image region_picture(const Image& frame, const TileGrid& grid, std::span<const s
                            : mix(from_hue(hue_of(static_cast<std::uint32_t>(owner))), Color(1, 1, 1), 0.5f);
     const PixelRect r = grid.pixels(tile);
     for (int y = r.y0; y < r.y1; ++y) {
-      for (int x = r.x0; x < r.x1; ++x) tinted.at(x, y) = tint * (0.2f + 0.8f * lightness(tinted.at(x, y)));
+      for (int x = r.x0; x < r.x1; ++x)
+        tinted.at(x, y) = tint * (0.25f + 0.75f * std::sqrt(lightness(tinted.at(x, y))));
     }
   }
   Image picture = enlarged(tinted, scale);

@@ -28,6 +28,17 @@ std::vector<Json> records_of(const std::filesystem::path& path) {
   return records;
 }
 
+Measurement error(std::future<double> value) {
+  return {"rmse", "--reference", false, std::move(value)};
+}
+
+// Futures are not copied, as an initializer list would.
+std::vector<Measurement> one(Measurement measurement) {
+  std::vector<Measurement> result;
+  result.push_back(std::move(measurement));
+  return result;
+}
+
 }  // namespace
 
 TEST_CASE("lateness by percentiles, nearest rank") {
@@ -110,11 +121,11 @@ TEST_CASE("records keep their order while errors are still being measured") {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "ledger.ndjson";
   Ledger ledger(path.string(), false);
-  ledger.write_frame({{"frame", 1}}, std::async(std::launch::async, [] {
+  ledger.write_frame({{"frame", 1}}, one(error(std::async(std::launch::async, [] {
                        std::this_thread::sleep_for(std::chrono::milliseconds(50));
                        return 0.25;
-                     }));
-  ledger.write_frame({{"frame", 2}}, std::nullopt);
+                     }))));
+  ledger.write_frame({{"frame", 2}}, {});
   ledger.finish();
   const std::vector<Json> records = records_of(path);
   REQUIRE(records.size() == 2);
@@ -126,20 +137,42 @@ TEST_CASE("few frames may wait for their error") {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "ledger.ndjson";
   Ledger ledger(path.string(), false);
-  for (std::size_t i = 0; i < Ledger::kMostPending + 2; ++i) {
-    ledger.write_frame({{"frame", i}}, std::async(std::launch::deferred, [] { return 0.5; }));
+  for (std::size_t i = 0; i < Ledger::kMostPictures + 2; ++i) {
+    ledger.write_frame({{"frame", i}}, one(error(std::async(std::launch::deferred, [] { return 0.5; }))));
   }
   CHECK(records_of(path).size() == 2);  // a deferred future is never ready by itself
   ledger.finish();
-  CHECK(records_of(path).size() == Ledger::kMostPending + 2);
+  CHECK(records_of(path).size() == Ledger::kMostPictures + 2);
+}
+
+TEST_CASE("any number of frames may wait for what may lag, and errors are taken meanwhile") {
+  const TemporaryDirectory directory;
+  const auto path = directory.path() / "ledger.ndjson";
+  Ledger ledger(path.string(), false);
+  std::promise<double> first;
+  for (std::size_t i = 0; i < 20; ++i) {
+    std::vector<Measurement> measurements = one(error(std::async(std::launch::deferred, [] { return 0.5; })));
+    measurements.push_back(
+        {"distance_to_serial", "--compare-serial", true,
+         i == 0 ? first.get_future() : std::async(std::launch::deferred, [] { return 0.1; })});
+    ledger.write_frame({{"frame", i}}, std::move(measurements));
+  }
+  CHECK(records_of(path).empty());
+  first.set_value(0.25);
+  ledger.finish();
+  const std::vector<Json> records = records_of(path);
+  REQUIRE(records.size() == 20);
+  CHECK((records[0]["rmse"] == 0.5 && records[0]["distance_to_serial"] == 0.25));
+  CHECK((records[19]["frame"] == 19 && records[19]["distance_to_serial"] == 0.1));
 }
 
 TEST_CASE("an error that cannot be measured is left out") {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "ledger.ndjson";
   Ledger ledger(path.string(), false);
-  ledger.write_frame({{"frame", 1}}, std::async([]() -> double { throw std::runtime_error("torn"); }));
-  ledger.write_frame({{"frame", 2}}, std::async([] { return 0.5; }));
+  ledger.write_frame({{"frame", 1}},
+                     one(error(std::async([]() -> double { throw std::runtime_error("torn"); }))));
+  ledger.write_frame({{"frame", 2}}, one(error(std::async([] { return 0.5; }))));
   ledger.finish();
   const std::vector<Json> records = records_of(path);
   REQUIRE(records.size() == 2);

@@ -87,6 +87,19 @@ TEST_CASE("a frame is finished when it was written under every name that is aske
   CHECK_FALSE(later.has(2, both));
 }
 
+TEST_CASE("an EXR is finished with the layers that it holds") {
+  const FinishedRun run;
+  const fs::path exr = run.directory.path() / "1.exr";
+  append(exr, "x");
+  Manifest(run.path, "key", true).add({{1, {exr}, {"age", "depth"}}});
+  const Manifest later(run.path, "key", true);
+  CHECK(later.has(1, run.outputs("exr")));
+  CHECK(later.has(1, run.outputs("exr"), {"depth"}));
+  CHECK_FALSE(later.has(1, run.outputs("exr"), {"depth", "id"}));
+  // A PNG holds none: its layers are files of their own.
+  CHECK(later.has(1, run.outputs(), {"depth"}));
+}
+
 TEST_CASE("a line that a dying run left half-written is no line, and harms none after it") {
   const FinishedRun run;
   append(run.path, R"({"record":"frame","frame":4,"fi)");

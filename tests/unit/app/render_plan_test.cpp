@@ -56,6 +56,27 @@ TEST_CASE("a still has the scene's view and ends at the still's quality") {
   CHECK(file_name(plan.outputs[0], 1) == "frame_0001.png");
 }
 
+TEST_CASE("samples come to the master only for what is made of them") {
+  RenderOptions options = options_for("spd:tree:1");
+  CHECK_FALSE(plan_render(options).settings.report_samples);
+  options.layers = "depth,regions,normal,id";
+  CHECK_FALSE(plan_render(options).settings.report_samples);
+  options.layers += ",age";
+  CHECK(plan_render(options).settings.report_samples);
+  options.layers.clear();
+  options.compare_serial = true, options.stats = "-";
+  CHECK(plan_render(options).settings.report_samples);
+}
+
+TEST_CASE("the layers' pictures stand beside the PNGs, not beside the EXRs") {
+  RenderOptions options = options_for("spd:tree:1");
+  options.outputs = {"a_%04d.exr", "b_%04d.png"};
+  options.layers = "id,age";
+  std::vector<std::string> names;
+  for (const FramePattern& file : files_of_a_frame(plan_render(options))) names.push_back(file_name(file, 2));
+  CHECK(names == std::vector<std::string>{"a_0002.exr", "b_0002.png", "b_0002.age.png", "b_0002.id.png"});
+}
+
 TEST_CASE("size: the options' before the script's before the scene's") {
   const Files files;
   RenderOptions options = scripted(files);
@@ -146,6 +167,9 @@ TEST_CASE("what cannot be meant is a usage error that says what is wrong") {
   refuse([](RenderOptions& o) { o.outputs = {"one.png"}; }, "one.png");
   refuse([](RenderOptions& o) { o.outputs = {"%04d.jpg"}; }, "%04d.jpg");
   refuse([](RenderOptions& o) { o.reference = "%04d.jpg"; }, "--reference '%04d.jpg'");
+  refuse([](RenderOptions& o) { o.layers = "depth,colour"; }, "--layers depth,colour: 'colour' is none of");
+  refuse([](RenderOptions& o) { o.compare_serial = true; },
+         "--compare-serial tells the ledger: it needs --stats");
   refuse([](RenderOptions& o) { o.effects = "glitter"; }, "glitter");
 }
 

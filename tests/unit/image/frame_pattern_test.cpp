@@ -23,6 +23,15 @@ std::string complaint(const char* pattern, FrameCount count = FrameCount::kMany)
 
 }  // namespace
 
+TEST_CASE("a picture stands beside its frame") {
+  const auto name = [](const char* pattern, int frame) {
+    return file_name(beside(parse_frame_pattern(pattern, FrameCount::kOne), "depth"), frame).string();
+  };
+  CHECK(name("out/%04d.png", 7) == "out/0007.depth.png");
+  CHECK(name("a.b/####_x.y.png", 7) == "a.b/0007_x.y.depth.png");
+  CHECK(name("a.b/still.png", 7) == "a.b/still.depth.png");
+}
+
 TEST_CASE("a pattern names its frames") {
   CHECK(name("frame_%04d.png", 7) == "frame_0007.png");
   CHECK(name("out/####.exr", 12) == "out/0012.exr");

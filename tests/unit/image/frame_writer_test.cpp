@@ -54,6 +54,32 @@ TEST_CASE("all frames are written in order, to all outputs") {
   CHECK(!writer.error());
 }
 
+TEST_CASE("layers are channels of an EXR and pictures beside a PNG, made when they are written") {
+  const TemporaryDirectory directory;
+  std::thread::id maker;
+  LayerMaker layers;
+  layers.names = {"a", "b"};
+  layers.channels = [&] {
+    maker = std::this_thread::get_id();
+    return std::vector<Channel>{{"a.Y", std::vector<float>(64, 2.0f)}};
+  };
+  layers.picture = [](std::size_t layer, const Image& frame) {
+    return Image(4, 2, layer == 0 ? Color(1, 1, 1) : frame.at(0, 0));
+  };
+  FrameWriter writer({pattern_in(directory.path(), "%d.exr"), pattern_in(directory.path(), "%d.png")});
+  writer.submit({3, picture_of(3), {}, layers});
+  writer.finish();
+  const std::vector<WrittenFrame> finished = writer.take_finished();
+  REQUIRE(finished.size() == 1);
+  CHECK(finished[0].layers == layers.names);
+  CHECK(finished[0].files == std::vector<fs::path>{directory.path() / "3.exr", directory.path() / "3.png",
+                                                   directory.path() / "3.a.png",
+                                                   directory.path() / "3.b.png"});
+  CHECK(read_image(directory.path() / "3.a.png").at(3, 1) == Color(1, 1, 1));
+  CHECK(read_image(directory.path() / "3.b.png").at(0, 0) == picture_of(3).at(0, 0));
+  CHECK(maker != std::this_thread::get_id());
+}
+
 TEST_CASE("a writer that may hold one frame only loses none") {
   const TemporaryDirectory directory;
   FrameWriter writer({pattern_in(directory.path(), "%d.png")}, {.overwrite = false, .memory_bound = 1});

@@ -180,6 +180,40 @@ TEST_CASE("facts stand in the EXR header with their types") {
   CHECK(header.channels()["R"].type == Imf::HALF);
 }
 
+TEST_CASE("channels stand in the EXR beside its colours, exact in 32 bits") {
+  const TemporaryDirectory directory;
+  const fs::path path = directory.path() / "c.exr";
+  const float infinity = std::numeric_limits<float>::infinity();
+  const std::vector<float> depths = {0.1f, infinity, -3, 70000};
+  const std::vector<std::uint32_t> ids = {0, 1, 16777217, 4294967295u};
+  write_image(path, half_exact_picture(2, 2), {}, {{"depth.Z", depths}, {"id.primitive", ids}});
+
+  std::vector<float> read_depths(4);
+  std::vector<std::uint32_t> read_ids(4);
+  Imf::InputFile file(path.c_str());
+  CHECK(file.header().channels()["depth.Z"].type == Imf::FLOAT);
+  CHECK(file.header().channels()["id.primitive"].type == Imf::UINT);
+  const Imath::Box2i window = file.header().dataWindow();
+  Imf::FrameBuffer buffer;
+  buffer.insert("depth.Z", Imf::Slice::Make(Imf::FLOAT, read_depths.data(), window));
+  buffer.insert("id.primitive", Imf::Slice::Make(Imf::UINT, read_ids.data(), window));
+  file.setFrameBuffer(buffer);
+  file.readPixels(window.min.y, window.max.y);
+  CHECK(read_depths == depths);
+  CHECK(read_ids == ids);
+  CHECK(read_image(path).pixels == half_exact_picture(2, 2).pixels);
+}
+
+TEST_CASE("a channel that does not fit is refused") {
+  const Image image(2, 1);
+  const auto encode = [&](const Channel& channel) { return encode_exr(image, {}, {channel}); };
+  CHECK_NOTHROW(encode({"a.Y", std::vector<float>(2)}));
+  CHECK_THROWS_WITH(encode({"a.Y", std::vector<float>(3)}), "the channel 'a.Y' has not the picture's size");
+  CHECK_THROWS_WITH(encode({"R", std::vector<float>(2)}), "the channel 'R' is there already");
+  CHECK_THROWS_WITH(encode({"a.Y", std::vector<float>(2, std::numeric_limits<float>::quiet_NaN())}),
+                    "the channel 'a.Y' has values that are no numbers");
+}
+
 TEST_CASE("facts stand in the PNG as texts") {
   const std::string file = encode_png(Image(2, 2), {{"pprt.frame", std::int64_t{12}},
                                                     {"pprt.late_ms", 0.1},

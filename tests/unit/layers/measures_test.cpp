@@ -67,11 +67,11 @@ TEST_CASE("confidence is the weight of the triangle that holds the pixel") {
 
 TEST_CASE("where no triangle is, nothing is measured") {
   // What a rank that is missing leaves behind.
-  const Triangulation half =
+  const Triangulation torn =
       triangulate_frame({sample(0, 0, 1, 7), sample(4, 0, 1, 7), sample(0, 4, 1, 7)}, kFourByFour);
-  CHECK(at(costs(half), 0, 0) == 7);
-  CHECK(at(costs(half), 3, 3) == 0);
-  CHECK(at(weights(half), 3, 3) == 0);
+  CHECK(at(costs(torn), 0, 0) == 7);
+  CHECK(at(costs(torn), 3, 3) == 0);
+  CHECK(at(weights(torn), 3, 3) == 0);
   const Triangulation nothing = triangulate_frame({}, kFourByFour);
   CHECK(densities(nothing) == std::vector<float>(16, 0));
 }

@@ -42,9 +42,9 @@ TEST_CASE("normals of patches are interpolated unless the effect is ruled out") 
 TEST_CASE("primitives have their place in the file, over all kinds; materials theirs") {
   SceneDescription scene = scene_with(Material());
   scene.materials.push_back({.color = {1, 0, 0}});
-  add_square(scene, 50, -5);                                              // the first: 1
-  add_sphere(scene, {.center = {-2, 0, 0}, .radius = 1, .material = 1});  // 2
-  add_square(scene, 1, 1);                                                // 3
+  add_square(scene, 50, -5);                  // the first: 1
+  add_sphere(scene, {{-2, 0, 0}, 1, 1, {}});  // 2
+  add_square(scene, 1, 1);                    // 3
   const CompiledScene compiled = compile(scene);
   Tracer tracer(compiled, compiled.camera(view_from({-2, 0, 10}, {-2, 0, 0})));
   CHECK(tracer.first_hit(32, 32).primitive == 2);
