@@ -146,7 +146,7 @@ std::vector<Measurement> FrameRecorder::measurements_of(const FinishedFrame& fra
   }
   if (serial_) {
     measurements.push_back({"distance_to_serial", "--compare-serial", true,
-                            serial_->distance(frame.order.camera, frame.samples)});
+                            serial_->distance(frame.order.number, frame.order.camera, frame.samples)});
   }
   return measurements;
 }

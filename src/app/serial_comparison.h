@@ -33,7 +33,7 @@ class SerialComparison {
   ~SerialComparison();
 
   // Of all samples of a frame to as many that a single rank would have placed, 0 to 1.
-  std::future<double> distance(const Camera& camera, std::vector<Sample> samples);
+  std::future<double> distance(int frame, const Camera& camera, std::vector<Sample> samples);
 
   // Does all that waits in the caller's thread, whose priority gets it done: when the last frame is whole,
   // ranks of other processes may still spin until this one ends.
@@ -41,6 +41,7 @@ class SerialComparison {
 
  private:
   struct Task {
+    int frame;
     Camera camera;
     std::vector<Sample> samples;
     std::promise<double> result;
