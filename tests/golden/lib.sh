@@ -15,3 +15,18 @@ golden_picture() {
 
 # golden_name SCENE: "tree" for "spd:tree:6".
 golden_name() { local rest=${1#spd:}; echo "${rest%%:*}"; }
+
+# Layers whose pictures are approved, with the largest rmse and the largest share of pixels with an error above
+# 0.05. The tolerances are half as much again as what another --seed makes of them.
+readonly golden_layer_scene=spd:gears:2
+golden_layers() { printf '%s\n' "cost 0.0150 0.0115" "regions 0.0050 0.0005"; }
+
+# golden_layer_picture LAYER RANKS OUT [OPTION...]: without balancing, whose thresholds are found by measurement.
+golden_layer_picture() {
+  local folder
+  folder=$(mktemp -d)
+  pprt-render "$golden_layer_scene" -np "$2" -s 160x120 --clock work --fps 1 --budget $((golden_units / $2)) \
+    --balance none --progress none --layers "$1" -o "$folder/picture.png" "${@:4}" </dev/null  # which mpirun would read to its end
+  mv "$folder/picture.$1.png" "$3"
+  rm -r "$folder"
+}
