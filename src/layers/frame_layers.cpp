@@ -119,6 +119,8 @@ const Triangulation& FrameLayers::triangulation() {
 
 const std::vector<FirstHit>& FrameLayers::hits() {
   if (!hits_.empty()) return hits_;
+  hits_.reserve(static_cast<std::size_t>(sources_.grid.width) *
+                static_cast<std::size_t>(sources_.grid.height));
   for (int y = 0; y < sources_.grid.height; ++y) {
     for (int x = 0; x < sources_.grid.width; ++x) hits_.push_back(sources_.first_hit(x + 0.5, y + 0.5));
   }
