@@ -144,7 +144,7 @@ std::vector<Measurement> FrameRecorder::measurements_of(const FinishedFrame& fra
     };
     measurements.push_back({"rmse", "--reference", false, std::async(std::launch::async, measure)});
   }
-  if (serial_) {
+  if (serial_ && !frame.samples.empty()) {  // none have come when all ranks are late
     measurements.push_back({"distance_to_serial", "--compare-serial", true,
                             serial_->distance(frame.order.number, frame.order.camera, frame.samples)});
   }
