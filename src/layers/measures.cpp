@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "pipeline/refinement_weight.h"
 
@@ -68,7 +69,7 @@ std::vector<float> weights(const Triangulation& frame) {
     of_triangles.push_back(
         refinement_weight(shape_of(frame, corners), display_variance(color(0), color(1), color(2))));
   }
-  std::vector<float> values(frame.triangle_at.size(), 0);
+  std::vector<float> values(frame.triangle_at.size(), std::numeric_limits<float>::infinity());
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (frame.triangle_at[i] != kNoTriangle) values[i] = of_triangles[frame.triangle_at[i]];
   }

@@ -21,7 +21,7 @@ std::vector<float> densities(const Triangulation& frame);
 std::vector<float> costs(const Triangulation& frame);
 
 // The refinement weight of the triangle that holds the pixel's centre: the smaller, the more can the pixel be
-// trusted.
+// trusted; infinite where no triangle is.
 std::vector<float> weights(const Triangulation& frame);
 
 }  // namespace pprt
