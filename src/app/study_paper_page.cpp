@@ -232,6 +232,15 @@ Table speedup_table(const Runs& runs) {
   return table;
 }
 
+void add_gallery(const PaperResults& results, bool of_patterns, const char* heading, Page& page) {
+  page.heading(heading);
+  page.begin_gallery();
+  for (const Picture& picture : results.pictures) {
+    if (picture.of_pattern == of_patterns) page.picture(picture.png, picture.caption);
+  }
+  page.end_gallery();
+}
+
 std::string setting_text(const PaperResults& results, const PaperOptions& options) {
   const Machine machine = machine_of(options);
   const Calibration& calibration = results.calibration;
@@ -366,10 +375,8 @@ void write_paper(const PaperResults& results, const PaperOptions& options, Study
                     fmt::format("The simple sequence on {} ranks, combined balancing; 1 is the "
                                 "best network tried.",
                                 options.ranks.back()));
-  page.heading("Frames (the paper's figure 4)");
-  page.begin_gallery();
-  for (const Picture& picture : results.pictures) page.picture(picture.png, picture.caption);
-  page.end_gallery();
+  add_gallery(results, true, "Sample patterns (the paper's figures 1 and 2)", page);
+  add_gallery(results, false, "Frames, patterns and regions (the paper's figure 4)", page);
 }
 
 }  // namespace pprt

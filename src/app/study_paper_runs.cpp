@@ -6,15 +6,16 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
 #include "app/ledger.h"
 #include "app/render_job.h"
+#include "app/study_paper_pictures.h"
 #include "app/study_scripts.h"
 #include "app/tracer_probe.h"
 #include "base/diagnostics.h"
-#include "image/image_io.h"
 #include "parallel/partition.h"
 #include "parallel/serial_pattern.h"
 #include "parallel/virtual_ranks.h"
@@ -38,10 +39,6 @@ struct Setting {
   Animation simple, casting;
   double total_units = 0;
 };
-
-int picture_side(const PaperOptions& options) {
-  return options.quick ? kQuickSide : kPaperSide;
-}
 
 double pixels_of(int side) {
   return static_cast<double>(side) * side;
@@ -171,17 +168,6 @@ Calibration calibrate(const Setting& setting) {
   return calibration;
 }
 
-// As in the paper's figure 4.
-bool is_shown(const PaperRun& run, const PaperOptions& options, int frame) {
-  constexpr std::array kSimpleShown = {1, 13, 15, 18, 22, 32};
-  constexpr std::array kCastingShown = {1, 5, 13, 18, 26, 35};
-  const bool simple = run.experiment == kSimple && run.ranks == options.ranks.front();
-  const bool casting = run.experiment == kCasting && run.keep_samples;
-  if (run.balance != BalanceMode::kCombined || !(simple || casting)) return false;
-  const auto& shown = simple ? kSimpleShown : kCastingShown;
-  return std::find(shown.begin(), shown.end(), frame) != shown.end();
-}
-
 void add_simple_and_casting(const PaperOptions& options, const Calibration& calibration, const PaperRun& base,
                             std::vector<PaperRun>& runs) {
   const std::array modes = {BalanceMode::kNone, BalanceMode::kLocal, BalanceMode::kGlobal,
@@ -259,6 +245,10 @@ void add_network(const PaperOptions& options, const Calibration& calibration, Pa
 
 }  // namespace
 
+int picture_side(const PaperOptions& options) {
+  return options.quick ? kQuickSide : kPaperSide;
+}
+
 std::string_view to_word(BalanceMode mode) {
   switch (mode) {
     case BalanceMode::kNone:
@@ -313,10 +303,8 @@ PaperResults run_paper(const PaperOptions& options, const std::function<void(con
   for (const PaperRun& run : paper_runs(options, results.calibration)) {
     const auto begin = std::chrono::steady_clock::now();
     results.runs.push_back(carry_out(setting, run, [&](const FinishedFrame& frame) {
-      const int number = frame.order.number;
-      if (!is_shown(run, options, number)) return;
-      results.pictures.push_back(
-          {fmt::format("{}, frame {}", run.sequence, number), encode_png(frame.image)});
+      std::vector<Picture> pictures = pictures_of(options, run, frame);
+      std::move(pictures.begin(), pictures.end(), std::back_inserter(results.pictures));
     }));
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
     tell(fmt::format("{}: {}x{}, {} ranks, {}: {} frames in {:.1f} s", run.experiment, run.side, run.side,

@@ -79,6 +79,7 @@ struct MeasuredRun {
 };
 
 struct Picture {
+  bool of_pattern = false;  // of figures 1 and 2; otherwise of figure 4
   std::string caption;
   std::string png;
 };
@@ -96,6 +97,9 @@ struct PaperResults {
   std::vector<MeasuredRun> runs;
   std::vector<Picture> pictures;
 };
+
+// Of the smaller pictures, pixels.
+int picture_side(const PaperOptions& options);
 
 std::string_view to_word(BalanceMode mode);
 

@@ -19,6 +19,7 @@ tr.good td:first-child { border-left: 4px solid #009e73; } tr.bad td:first-child
 figure { margin: 1rem 0; } figure svg { width: 100%; height: auto; }
 figcaption { font-size: 0.85rem; color: #555; }
 div.gallery { display: flex; flex-wrap: wrap; gap: 1rem; } div.gallery figure { margin: 0; width: 18.5rem; }
+div.gallery img { width: 100%; }
 figure img { max-width: 100%; image-rendering: pixelated; border: 1px solid #ddd; }
 p.note { background: #fff4dd; border-left: 4px solid #e69f00; padding: 0.5rem 1rem; }
 )css";

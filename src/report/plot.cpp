@@ -153,7 +153,8 @@ std::string gnuplot_script(const Plot& plot) {
       "set encoding utf8\n"
       "set terminal svg noenhanced size {},{} dynamic background rgb 'white' font 'sans-serif,12' name {}\n"
       "set border 3 lc rgb '#666666'\nset tics nomirror textcolor rgb '#333333'\n"
-      "set grid lc rgb '#dddddd' lt 1 lw 0.5\nset key bmargin center horizontal Left reverse samplen 1.5\n"
+      "set grid lc rgb '#dddddd' lt 1 lw 0.5\nset xlabel offset 0,0.5\nset key bmargin center horizontal "
+      "Left reverse samplen 1.5\n"
       "set style data histograms\nset style histogram rowstacked\nset boxwidth 0.7\n"
       "set multiplot layout {},{}\n",
       columns * kPanelWidth, rows * kPanelHeight, terminal_name(plot.name), rows, columns);

@@ -93,5 +93,10 @@ TEST_CASE("a quick study measures every frame of every run") {
   CHECK(mean(runs.find(kSimple, 2, BalanceMode::kCombined), {4, 5}, samples) == Approx(2672).epsilon(0.05));
   CHECK(mean(runs.find(kScaling, 1, BalanceMode::kNone), {1, 5}, distance) == 0);
   CHECK(mean(runs.find(kSimple, 2, BalanceMode::kNone), {1, 5}, distance) > 0.01);
-  CHECK(results.pictures.size() == 3);  // frame 1 of the simple sequence, 1 and 5 of the casting one
+  // Three views each of frame 1 of the simple sequence, and of 1 and 5 of the casting one; one rank's pattern
+  // in four, nine ranks' in one and two.
+  const auto patterns = std::count_if(results.pictures.begin(), results.pictures.end(),
+                                      [](const Picture& picture) { return picture.of_pattern; });
+  CHECK(patterns == 7);
+  CHECK(results.pictures.size() == 7 + 9);
 }
