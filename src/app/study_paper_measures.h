@@ -33,6 +33,11 @@ inline double refinement(const FrameMeasures& m) {
   return m.refinement;
 }
 
+// Of a sample, how many other ranks take it in.
+inline double received_per_sample(const FrameMeasures& m) {
+  return m.samples_received / m.samples;
+}
+
 // Milliseconds of all stages.
 inline double cpu_ms(const FrameMeasures& m) {
   return m.cpu_ms.sampling + m.cpu_ms.casting + m.cpu_ms.reconstruction + m.cpu_ms.balancing;

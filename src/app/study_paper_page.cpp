@@ -59,11 +59,10 @@ Plot sequence_plot(const std::string& name, const std::vector<Named>& runs, bool
                  frame_panel("(c) Distance to the serial pattern", "share of samples", runs, distance),
                  frame_panel("(d) Samples", "samples in the frame", runs, samples),
                  frame_panel("Deviation / mean of refinement", "ratio", runs, relative_deviation),
-                 casting
-                     ? frame_panel("Samples cast from the frame before", "samples in the frame", runs,
-                                   [](const FrameMeasures& m) { return m.samples_cast; })
-                     : frame_panel("Samples received from other ranks", "share of the frame's samples", runs,
-                                   [](const FrameMeasures& m) { return m.samples_received / m.samples; })};
+                 casting ? frame_panel("Samples cast from the frame before", "samples in the frame", runs,
+                                       [](const FrameMeasures& m) { return m.samples_cast; })
+                         : frame_panel("Samples received from other ranks", "share of the frame's samples",
+                                       runs, received_per_sample)};
   return plot;
 }
 

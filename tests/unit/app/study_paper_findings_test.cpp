@@ -170,6 +170,38 @@ TEST_CASE("samples lost at a repartition, and kept") {
   CHECK(verdict(results, "A repartition") == std::nullopt);
 }
 
+TEST_CASE("the overhead of balancing for each number of ranks") {
+  PaperResults results;
+  for (const int ranks : {1, 8, 64}) {
+    add(results, run_of(kScaling, ranks, BalanceMode::kNone), 10);
+    add(results, run_of(kScaling, ranks, BalanceMode::kCombined), 10,
+        [ranks](FrameMeasures& m) { m.samples *= ranks == 64 ? 0.9 : 0.97; });
+  }
+  const std::string claim = "Balancing's overhead";
+  CHECK(verdict(results, claim) == std::optional(true));
+  for (FrameMeasures& m : results.runs.back().frames) m.samples *= 0.9;
+  CHECK(find(findings(results), claim).why_not == "the least with p = 64");
+}
+
+TEST_CASE("balance while casting, samples kept and dropped") {
+  PaperResults results;
+  const auto add_mode = [&](BalanceMode mode, bool keep, double level) {
+    PaperRun run = run_of(kCasting, 62, mode);
+    run.keep_samples = keep;
+    add(results, run, 40, [level](FrameMeasures& m) { m.deviation = level, m.distance = level; });
+  };
+  add_mode(BalanceMode::kNone, false, 0.5);
+  add_mode(BalanceMode::kLocal, false, 0.3);
+  add_mode(BalanceMode::kCombined, false, 0.1);
+  add_mode(BalanceMode::kCombined, true, 0.12);
+  CHECK(verdict(results, "With casting too") == std::optional(true));
+  CHECK(verdict(results, "Where samples are handed over") == std::optional(true));
+  for (FrameMeasures& m : results.runs[3].frames) m.distance = 0.4;
+  CHECK(find(findings(results), "Where samples are handed over").why_not == "the image was cut anew 0 times");
+  for (FrameMeasures& m : results.runs[1].frames) m.deviation = 0.6;
+  CHECK(find(findings(results), "With casting too").why_not == "local is not better than none");
+}
+
 TEST_CASE("casting's samples rise and level off") {
   PaperResults results;
   PaperRun run = run_of(kGrowth, 1, BalanceMode::kCombined);
@@ -207,6 +239,11 @@ TEST_CASE("where the network begins to hurt") {
   const std::string claim = "The machine's network is good enough in latency";
   CHECK(verdict(results, claim) == std::optional(true));
   CHECK(find(findings(results), claim).measured == "0.0 % worse; hurts at 10 microseconds");
+  PaperResults harmless = results;
+  for (MeasuredRun& r : harmless.runs) {
+    for (FrameMeasures& m : r.frames) m.refinement = 1;
+  }
+  CHECK(verdict(harmless, claim) == std::nullopt);  // what makes no difference shows nothing
   const Change worse = [](FrameMeasures& m) { m.refinement = 1.06; };
   CHECK(verdict(with(results, kSimple, BalanceMode::kCombined, worse), claim) == std::optional(false));
 }
