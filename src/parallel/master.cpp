@@ -77,7 +77,8 @@ void Master::handle(const Message& message) {
   assembly.tiles[rank] = pixels.tiles;
   assembly.samples.insert(assembly.samples.end(), pixels.samples.begin(), pixels.samples.end());
   assembly.last_arrival_s = sequence_s();
-  if (--assembly.missing == 0) deliver_due();
+  --assembly.missing;
+  while (!assemblies_.empty() && assemblies_.begin()->second.missing == 0) deliver_first();
 }
 
 // The frame has not waited for these pixels; where nothing newer is shown they will fill the next gap. What
@@ -99,7 +100,7 @@ void Master::keep_deadlines() {
   for (auto& [index, assembly] : assemblies_) {
     if (!assembly.overdue_since_s && now_s >= assembly.order.deadline_s) assembly.overdue_since_s = now_s;
   }
-  deliver_due();
+  while (!assemblies_.empty() && is_due(assemblies_.begin()->second)) deliver_first();
 }
 
 bool Master::is_due(const Assembly& assembly) const {
@@ -108,12 +109,11 @@ bool Master::is_due(const Assembly& assembly) const {
   return sequence_s() >= *assembly.overdue_since_s + kGraceSeconds;
 }
 
-void Master::deliver_due() {
-  while (!assemblies_.empty() && is_due(assemblies_.begin()->second)) {
-    deliver(assemblies_.begin()->second);
-    assemblies_.erase(assemblies_.begin());
-    order_if_due();
-  }
+void Master::deliver_first() {
+  const auto first = assemblies_.begin();
+  deliver(first->second);
+  assemblies_.erase(first);
+  order_if_due();
 }
 
 void Master::order_next() {

@@ -71,7 +71,7 @@ class Master {
   // Takes in a rank's pixels, also those of a frame that did not wait for them.
   void handle(const Message& message);
 
-  // Delivers what is due: to be called as often as the inbox is looked into.
+  // Delivers what is due: to be called whenever all that has arrived has been taken in.
   void keep_deadlines();
 
   // Whether rank 0 may begin a frame, or has to look after the one before.
@@ -99,7 +99,7 @@ class Master {
   Assembly start_assembly(const FrameOrder& order) const;
   void handle_overdue(int from, const PixelMessage& pixels);
   bool is_due(const Assembly& assembly) const;
-  void deliver_due();
+  void deliver_first();
   void deliver(Assembly& assembly);
   void tell_when(FinishedFrame& frame) const;
   void balance_globally(const Assembly& assembly);

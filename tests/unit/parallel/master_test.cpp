@@ -162,6 +162,8 @@ TEST_CASE("the first frame waits for all ranks, and those after it for their tur
   CHECK(stage.delivered.empty());
   CHECK_FALSE(stage.master().may_begin(1));
   stage.send(2, 0);
+  CHECK(stage.delivered.size() == 1);
+  stage.at(1 + kGraceSeconds);  // all that has arrived has been taken in
   REQUIRE(stage.delivered.size() == 2);
   CHECK(stage.delivered[0].late_ranks.empty());
   CHECK(stage.delivered[1].late_ranks == std::vector<std::int32_t>{2});
