@@ -42,6 +42,8 @@ class Worker {
     bool is_seed;  // not subject to the update rule
   };
 
+  static constexpr int kSeedRound = 0;  // the bundles of seeds and survivors; sampling counts on from there
+
   // What the frames that were left out have changed for those after them.
   struct Missed {
     bool triangulation = false;  // the others have begun one without this rank:
