@@ -54,7 +54,7 @@ double cpu_ms() {
 double reconstruction_ms() {
   const TileGrid grid(kSize, kSize, 32);
   SampleMesh mesh(Region::whole(grid));
-  for (const Vec2d& p : seed_points(kSize, kSize, 1, 1)) {
+  for (const Vec2d& p : seed_points(kSize, kSize, 1)) {
     Sample sample;
     sample.x = p.x, sample.y = p.y, sample.ray = grey(p.x, p.y);
     mesh.insert(sample);

@@ -62,7 +62,7 @@ void refine(SampleMesh& mesh, std::size_t samples, const Trace& trace) {
     s.x = p.x, s.y = p.y, s.frame = 1, s.ray = trace(p.x, p.y);
     mesh.insert(s);
   };
-  for (const Vec2d& p : seed_points(kSize, kSize, 1, 1)) add(p);
+  for (const Vec2d& p : seed_points(kSize, kSize, 1)) add(p);
   while (mesh.samples().size() < samples) {
     const std::optional<Vec2d> p = mesh.next_point();
     if (!p) return;

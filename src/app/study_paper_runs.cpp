@@ -103,7 +103,7 @@ FrameMeasures measures_of(const FinishedFrame& frame) {
 void compare_with_serial(const FinishedFrame& frame, const SessionSettings& settings, int ranks,
                          const Probe& probe, FrameMeasures& measures) {
   const std::vector<Sample> serial =
-      serial_samples(settings, frame.order.camera, frame.samples.size(), probe, frame.order.number);
+      serial_samples(settings, frame.order.camera, frame.samples.size(), probe);
   measures.distance = bucket_distance(frame.samples, serial);
   const TileGrid grid = tile_grid_for(settings.width, settings.height, ranks);
   const auto near = [&](const std::vector<Sample>& samples) {

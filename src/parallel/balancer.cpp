@@ -1,14 +1,16 @@
 #include "parallel/balancer.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "parallel/work_units.h"
 
 namespace pprt {
 namespace {
 
-// Below the cost of so many samples a tile's estimate from this frame alone is too rough.
-constexpr double kEnoughUnits = 20 * 1300;
+// Costs below that of a sample are all the same.
+constexpr double kOneSample = 1300;
 
 }  // namespace
 
@@ -18,8 +20,11 @@ Balancer::Balancer(int rank, int ranks, int tile_count)
       last_(static_cast<std::size_t>(tile_count)),
       theirs_(static_cast<std::size_t>(ranks)) {}
 
-void Balancer::begin_frame(bool fresh_mesh) {
+void Balancer::begin_frame(bool fresh_mesh, Known known_before) {
   std::fill(theirs_.begin(), theirs_.end(), RankProgress());
+  known_before_ = known_before;
+  share_of_now_ = known_before == Known::kNothing ? 1 : 0;
+  received_last_ = std::exchange(received_now_, 0);
   if (!fresh_mesh) return;
   last_ = now_;
   std::fill(now_.begin(), now_.end(), TileEstimate());
@@ -30,52 +35,76 @@ void Balancer::take(const TileGrant& grant) {
   last_[static_cast<std::size_t>(grant.tile)] = grant.last;
 }
 
-RankProgress Balancer::progress(const SampleMesh& mesh) const {
+RankProgress Balancer::progress(const SampleMesh& mesh, double elapsed) {
+  share_of_now_ = known_before_ == Known::kNothing ? 1 : known_before_ == Known::kAll ? 0 : elapsed;
   const double quality = mesh.refinement();
   if (quality <= 0) return {};
-  const double target = target_quality(quality);
+  // The mean weight falls as the reciprocal of the samples: what it will be when the frame ends.
+  const double target = target_quality(quality * elapsed);
   return {quality, target, future_cost_of_region(mesh, target)};
 }
 
+// What the tile was in the frame before gives way to what it is in this one as the frame goes on.
 double Balancer::future_cost_of(const SampleMesh& mesh, int tile, double quality) const {
   const auto t = static_cast<std::size_t>(tile);
   const TileWeights& weights = mesh.tile_weights()[t];
-  const double paid = now_[t].cost;
-  if (paid < kEnoughUnits && last_[t].cost > 0) return future_cost(last_[t], paid, quality);
   const double mean =
       weights.triangles > 0 ? weights.total_weight / static_cast<double>(weights.triangles) : 0;
-  return future_cost({paid, mean}, paid, quality);
+  const double paid = now_[t].cost;
+  const double cost_at_1 =
+      (1 - share_of_now_) * last_[t].cost * last_[t].average_weight + share_of_now_ * paid * mean;
+  const double pixels = static_cast<double>(mesh.region().grid().pixels(tile).area());
+  return cost_at_1 / quality - paid + pixels * static_cast<double>(price(Work::kPixel));
 }
 
 double Balancer::future_cost_of_region(const SampleMesh& mesh, double quality) const {
-  double sum = 0;
+  const double still_to_come =
+      known_before_ == Known::kNothing ? 0 : std::max(0.0, received_last_ - received_now_);
+  double sum = still_to_come;
   for (const int tile : mesh.region().tiles()) sum += future_cost_of(mesh, tile, quality);
   return sum;
 }
 
-// The neighbours that this rank should give to, the best first; none unless this rank's quality is worse than
-// that of every neighbour heard of.
-std::vector<int> Balancer::neighbours_ahead(const SampleMesh& mesh,
-                                            const std::vector<int>& neighbours) const {
-  const double quality = mesh.refinement();
-  const auto theirs = [this](int rank) -> const RankProgress& {
-    return theirs_[static_cast<std::size_t>(rank)];
-  };
-  std::vector<int> ahead;
+// How much more this rank has to pay than its neighbours for what they aim at: the geometric mean of the
+// ratios; 1 where nothing was heard.
+double Balancer::load_by_neighbours(const SampleMesh& mesh, const std::vector<int>& neighbours) const {
+  double sum = 0;
+  int heard = 0;
   for (const int rank : neighbours) {
-    if (theirs(rank).quality <= 0) continue;
-    if (theirs(rank).quality > quality || (theirs(rank).quality == quality && rank < rank_)) return {};
-    const double own_cost = future_cost_of_region(mesh, theirs(rank).target);
-    if (should_give(settings_, quality, own_cost, theirs(rank))) ahead.push_back(rank);
+    const RankProgress& theirs = theirs_[static_cast<std::size_t>(rank)];
+    if (theirs.quality <= 0) continue;
+    const double own = future_cost_of_region(mesh, theirs.target);
+    sum += std::log(std::max(own, kOneSample) / std::max(theirs.future_cost, kOneSample));
+    ++heard;
   }
-  std::sort(ahead.begin(), ahead.end(), [&](int a, int b) {
-    return theirs(a).quality != theirs(b).quality ? theirs(a).quality < theirs(b).quality : a < b;
-  });
-  return ahead;
+  return heard > 0 ? std::exp(sum / heard) : 1;
 }
 
-std::vector<int> Balancer::tiles_for(const SampleMesh& mesh, const SampleExchange& exchange, int taker,
-                                     double most_samples) const {
+bool Balancer::wants_to_give(const SampleMesh& mesh, const std::vector<int>& neighbours,
+                             bool is_giving) const {
+  return load_by_neighbours(mesh, neighbours) > (is_giving ? 1 : settings_.giving_ratio);
+}
+
+// The neighbours that take and that this rank should give to, the one that is farthest ahead first.
+std::vector<int> Balancer::takers(const SampleMesh& mesh, const std::vector<int>& neighbours,
+                                  const Stance& stance) const {
+  const double quality = mesh.refinement();
+  std::vector<std::pair<double, int>> ahead;
+  for (const int rank : neighbours) {
+    const RankProgress& theirs = theirs_[static_cast<std::size_t>(rank)];
+    if (!stance.takes(rank) || !stance.has_counted_gifts(rank) || theirs.quality <= 0) continue;
+    const double own_cost = future_cost_of_region(mesh, theirs.target);
+    if (!should_give(settings_, quality, own_cost, theirs)) continue;
+    ahead.emplace_back(theirs.future_cost / own_cost, rank);
+  }
+  std::sort(ahead.begin(), ahead.end());
+  std::vector<int> ranks;
+  for (const auto& [ratio, rank] : ahead) ranks.push_back(rank);
+  return ranks;
+}
+
+std::vector<int> Balancer::tiles_for(const SampleMesh& mesh, const SampleExchange& exchange,
+                                     const Partition& partition, int taker, double most_samples) const {
   const RankProgress& theirs = theirs_[static_cast<std::size_t>(taker)];
   const std::vector<std::uint32_t> known = exchange.known_in_tiles(mesh, taker);
   const std::vector<std::uint32_t> all = exchange.known_in_tiles(mesh, rank_);
@@ -85,30 +114,33 @@ std::vector<int> Balancer::tiles_for(const SampleMesh& mesh, const SampleExchang
     return TileOffer{future_cost_of(mesh, tile, theirs.target), static_cast<double>(all[t]),
                      static_cast<double>(known[t])};
   };
-  return tiles_to_give(settings_, exchange.partition(), rank_, taker, difference,
+  return tiles_to_give(settings_, partition, rank_, taker, difference,
                        static_cast<double>(price(Work::kReceivedSample)), most_samples, offer);
 }
 
-std::vector<TileGrant> Balancer::give(const SampleMesh& mesh, SampleExchange& exchange, double most_samples) {
+std::vector<TileGrant> Balancer::give(const SampleMesh& mesh, SampleExchange& exchange, Stance& stance,
+                                      double most_samples) {
   std::vector<TileGrant> grants;
-  // One taker at a time: after the first gift the estimates for the others no longer hold.
-  for (const int taker : neighbours_ahead(mesh, exchange.neighbours())) {
-    const std::vector<int> tiles = tiles_for(mesh, exchange, taker, most_samples);
+  if (!stance.may_give()) return grants;
+  Partition partition = exchange.partition();
+  for (const int taker : takers(mesh, exchange.neighbours(), stance)) {
+    const std::vector<int> tiles = tiles_for(mesh, exchange, partition, taker, most_samples);
     if (tiles.empty()) continue;  // it touches this region at a corner only, or every tile is too big a gift
     exchange.introduce(mesh, tiles, taker);
     for (const int tile : tiles) {
       const auto t = static_cast<std::size_t>(tile);
-      grants.push_back({tile, taker, exchange.partition().version[t] + 1, now_[t], last_[t]});
+      grants.push_back({tile, taker, partition.version[t] + 1, now_[t], last_[t]});
+      partition.owner[t] = taker;
     }
-    // What was heard no longer holds: wait for the taker's next word.
-    theirs_[static_cast<std::size_t>(taker)] = RankProgress();
-    break;
+    stance.gave(taker);
   }
   return grants;
 }
 
 std::vector<TileReport> Balancer::report(const SampleMesh& mesh) {
   std::vector<TileReport> reports;
+  const double received =
+      received_now_ / static_cast<double>(std::max<std::size_t>(1, mesh.region().tiles().size()));
   for (const int tile : mesh.region().tiles()) {
     const auto t = static_cast<std::size_t>(tile);
     const TileWeights& weights = mesh.tile_weights()[t];
@@ -116,7 +148,7 @@ std::vector<TileReport> Balancer::report(const SampleMesh& mesh) {
       now_[t].average_weight = weights.total_weight / static_cast<double>(weights.triangles);
     const double pixels = static_cast<double>(mesh.region().grid().pixels(tile).area());
     reports.push_back({tile, static_cast<std::int32_t>(weights.triangles), weights.total_weight, now_[t].cost,
-                       pixels * static_cast<double>(price(Work::kPixel)), 0});
+                       pixels * static_cast<double>(price(Work::kPixel)), received});
   }
   return reports;
 }

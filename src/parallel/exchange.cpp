@@ -5,14 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "pipeline/seeds.h"
-
 namespace pprt {
 namespace {
-
-// A triangle whose circumcircle meets a region has its corners within two circumradii of it. Those of the
-// jittered seed grid's triangles are at most 17 pixels at a spacing of 16, so 34 would do. Pixels.
-constexpr double kSeedReach = 3 * kSeedSpacing;
 
 // Squared distance of a point to a rectangle; 0 inside.
 double distance_squared(const Vec2d& p, const PixelRect& rect) {
@@ -71,48 +65,77 @@ std::vector<double> distances_inside(const Partition& partition, int rank) {
   return inside;
 }
 
-// Other ranks with a tile within so many rows and columns of one of the rank's own, ascending.
-std::vector<int> ranks_around(const Partition& partition, int rank, int tiles_away) {
+// Ranks that are marked, ascending, `except` one.
+std::vector<int> members(std::span<const std::uint8_t> marked, int except) {
+  std::vector<int> ranks;
+  for (int r = 0; r < static_cast<int>(marked.size()); ++r) {
+    if (r != except && marked[static_cast<std::size_t>(r)] != 0) ranks.push_back(r);
+  }
+  return ranks;
+}
+
+// Other ranks with a tile beside one of the rank's own, corner to corner included; ascending.
+std::vector<int> ranks_beside(const Partition& partition, int rank) {
   const int columns = partition.grid.columns(), rows = partition.grid.rows();
   std::vector<std::uint8_t> near(static_cast<std::size_t>(partition.ranks), 0);
   for (int y = 0; y < rows; ++y) {
     for (int x = 0; x < columns; ++x) {
       if (owner_at(partition, x, y) != rank) continue;
-      for (int v = std::max(y - tiles_away, 0); v <= std::min(y + tiles_away, rows - 1); ++v) {
-        for (int u = std::max(x - tiles_away, 0); u <= std::min(x + tiles_away, columns - 1); ++u) {
+      for (int v = std::max(y - 1, 0); v <= std::min(y + 1, rows - 1); ++v) {
+        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, columns - 1); ++u) {
           near[static_cast<std::size_t>(owner_at(partition, u, v))] = 1;
         }
       }
     }
   }
-  std::vector<int> others;
-  for (int r = 0; r < partition.ranks; ++r) {
-    if (r != rank && near[static_cast<std::size_t>(r)] != 0) others.push_back(r);
-  }
-  return others;
-}
-
-int tiles_of_seed_reach(const Partition& partition) {
-  return static_cast<int>(std::ceil(kSeedReach / partition.grid.tile_size)) + 1;
+  return members(near, rank);
 }
 
 }  // namespace
 
-SampleExchange::SampleExchange(const Partition& partition, int rank)
+SampleExchange::SampleExchange(const Partition& partition, int rank, SeedPattern seeds)
     : partition_(partition),
       rank_(rank),
       known_by_(partition.ranks),
       outbox_(static_cast<std::size_t>(partition.ranks)),
       inside_by_(distances_inside(partition, rank)),
-      seed_peers_(ranks_around(partition, rank, tiles_of_seed_reach(partition))),
-      neighbours_(ranks_around(partition, rank, 1)),
-      touch_stamp_(static_cast<std::size_t>(partition.ranks), 0) {}
+      seeds_(std::move(seeds)),
+      neighbours_(ranks_beside(partition, rank)),
+      touch_stamp_(static_cast<std::size_t>(partition.ranks), 0) {
+  plan_seeds();
+}
 
 void SampleExchange::repartition(const Partition& partition) {
   partition_ = partition;
   inside_by_ = distances_inside(partition, rank_);
-  seed_peers_ = ranks_around(partition, rank_, tiles_of_seed_reach(partition));
-  neighbours_ = ranks_around(partition, rank_, 1);
+  neighbours_ = ranks_beside(partition, rank_);
+  seeds_are_planned_ = false;
+}
+
+// The update rule, applied to the triangles that all seeds together will make.
+void SampleExchange::plan_seeds() {
+  const PixelRect around = region_of(partition_, rank_).bounds();
+  std::vector<std::uint8_t> is_peer(static_cast<std::size_t>(partition_.ranks), 0);
+  told_seed_.assign(seeds_.points.size(), {});
+  for (const MeshTriangle& triangle : seeds_.triangles) {
+    if (distance_squared(triangle.circumcircle.center, around) > triangle.circumcircle.radius_squared)
+      continue;
+    touch_ranks(triangle.circumcircle);
+    for (const std::uint32_t seed : triangle.corners) {
+      const int owner = owner_of(seeds_.points[seed].x, seeds_.points[seed].y);
+      if (owner == rank_) {
+        std::vector<int>& told = told_seed_[seed];
+        for (const int rank : touched_) {
+          is_peer[static_cast<std::size_t>(rank)] = 1;
+          if (std::find(told.begin(), told.end(), rank) == told.end()) told.push_back(rank);
+        }
+      } else if (touches_own_) {
+        is_peer[static_cast<std::size_t>(owner)] = 1;
+      }
+    }
+  }
+  seed_peers_ = members(is_peer, rank_);
+  seeds_are_planned_ = true;
 }
 
 void SampleExchange::introduce(const SampleMesh& mesh, std::span<const int> tiles, int taker) {
@@ -147,6 +170,7 @@ std::vector<std::uint32_t> SampleExchange::known_in_tiles(const SampleMesh& mesh
 }
 
 void SampleExchange::clear() {
+  if (!seeds_are_planned_) plan_seeds();
   known_by_.clear();
   for (auto& box : outbox_) box.clear();
 }
@@ -161,23 +185,25 @@ void SampleExchange::note_newest(int from) {
 void SampleExchange::inserted(const SampleMesh& mesh, int from) {
   note_newest(from);
   if (partition_.ranks == 1) return;
-  for (const NewTriangle& triangle : mesh.created()) {
+  for (const MeshTriangle& triangle : mesh.created()) {
     if (far_inside(triangle.circumcircle)) continue;
+    const auto is_own = [&](std::uint32_t corner) {
+      const Sample& s = mesh.samples()[corner];
+      return owner_of(s.x, s.y) == rank_;
+    };
+    if (std::none_of(triangle.corners.begin(), triangle.corners.end(), is_own)) continue;
     touch_ranks(triangle.circumcircle);
-    // A triangle that does not meet the own region is another rank's to tell; here it may not even be right.
-    if (!touches_own_) continue;
-    for (const int rank : touched_) {
-      for (const std::uint32_t corner : triangle.corners) tell(mesh, corner, rank);
+    for (const std::uint32_t corner : triangle.corners) {
+      if (!is_own(corner)) continue;
+      for (const int rank : touched_) tell(mesh, corner, rank);
     }
   }
 }
 
-void SampleExchange::seeded_here(const SampleMesh& mesh) {
+void SampleExchange::seeded_here(const SampleMesh& mesh, std::uint32_t seed) {
   note_newest(rank_);
   const auto newest = static_cast<std::uint32_t>(mesh.samples().size() - 1);
-  const Sample& seed = mesh.samples()[newest];
-  touch_ranks({{seed.x, seed.y}, kSeedReach * kSeedReach});
-  for (const int rank : touched_) tell(mesh, newest, rank);
+  for (const int rank : told_seed_[seed]) tell(mesh, newest, rank);
 }
 
 void SampleExchange::seeded_elsewhere(int from) {

@@ -2,32 +2,37 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "parallel/partition.h"
 #include "parallel/rank_set.h"
 #include "pipeline/sample_mesh.h"
+#include "pipeline/seeds.h"
 
 namespace pprt {
 
-// Kept in step with one rank's mesh. Invariant to be reached: every triangle whose circumcircle meets the
-// regions of two ranks is in both their triangulations once all messages have arrived.
+// Kept in step with one rank's mesh. Each rank tells its own samples, and nobody else does: whenever a new
+// triangle's circumcircle meets another rank's region, that rank is told the triangle's corners that lie in
+// the own one. Once all messages have arrived, every triangle whose circumcircle meets the regions of two
+// ranks is in both their triangulations (docs/decisions/0012-owners-tell.md has the proof).
 class SampleExchange {
  public:
-  SampleExchange(const Partition& partition, int rank);
+  SampleExchange(const Partition& partition, int rank, SeedPattern seeds);
 
   // The mesh starts anew.
   void clear();
 
   // Every successful insert is followed by exactly one of these three. `from` is the rank that the sample
   // came from, or this one.
-  void inserted(const SampleMesh& mesh, int from);  // the update rule
-  void seeded_here(const SampleMesh& mesh);         // an own seed: to every rank whose region it may border,
-                                                    // for there is no triangulation yet to ask
-  void seeded_elsewhere(int from);                  // another rank's seed: told to all by that rank
+  void inserted(const SampleMesh& mesh, int from);               // the update rule
+  void seeded_here(const SampleMesh& mesh, std::uint32_t seed);  // an own seed: which triangles it will be in
+                                                                 // is known before the mesh has them
+  void seeded_elsewhere(int from);                               // another rank's seed
 
   const Partition& partition() const { return partition_; }
+  const SeedPattern& seeds() const { return seeds_; }
 
   // Tiles have new owners; the mesh keeps its samples.
   void repartition(const Partition& partition);
@@ -39,8 +44,8 @@ class SampleExchange {
   // How many samples of each tile `rank` knows.
   std::vector<std::uint32_t> known_in_tiles(const SampleMesh& mesh, int rank) const;
 
-  // Other ranks whose region lies within reach of the own one's seeds. Symmetric: i is j's peer when j is
-  // i's.
+  // Other ranks that are told seeds by this one or tell it theirs, from clear() on. Symmetric: i is j's peer
+  // when j is i's.
   const std::vector<int>& seed_peers() const { return seed_peers_; }
 
   // Other ranks that have a tile beside one of the own ones.
@@ -54,6 +59,7 @@ class SampleExchange {
   std::vector<Sample> take_outbox(int rank);
 
  private:
+  void plan_seeds();
   void note_newest(int from);
   void tell(const SampleMesh& mesh, std::uint32_t sample, int rank);
   void touch_ranks(
@@ -65,6 +71,9 @@ class SampleExchange {
   RankSets known_by_;                        // per sample of the mesh
   std::vector<std::vector<Sample>> outbox_;  // per rank
   std::vector<double> inside_by_;  // per tile: distance in pixels that keeps a point of it from other regions
+  SeedPattern seeds_;
+  std::vector<std::vector<int>> told_seed_;  // per seed of the own region: ranks to tell
+  bool seeds_are_planned_ = false;           // for this partition
   std::vector<int> seed_peers_;
   std::vector<int> neighbours_;
   std::vector<int> touched_;

@@ -11,6 +11,8 @@
 namespace pprt {
 namespace {
 
+constexpr double kShareWithoutEnd = 0.5;
+
 double thread_cpu_seconds() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
@@ -67,8 +69,10 @@ class WallClock final : public FrameClock {
     const double seconds = 1e-9 * static_cast<double>(price(work)) * ranks_per_core_;
     return static_cast<std::size_t>(share * period_s_ / seconds);
   }
-  bool time_for_gifts() const override {
-    return stop_s_ == 0 || monotonic_seconds() < stop_s_ - 0.2 * period_s_;
+  double sampling_share() const override {
+    if (stop_s_ == 0) return kShareWithoutEnd;
+    const double span = stop_s_ - sampling_began_s_;
+    return span > 0 ? std::clamp((monotonic_seconds() - sampling_began_s_) / span, 0.01, 1.0) : 1;
   }
   void region_changed(std::size_t) override {}
   bool in_lockstep() const override { return false; }
@@ -124,7 +128,9 @@ class WorkClock final : public FrameClock {
   std::size_t affordable(Work work, double share) const override {
     return static_cast<std::size_t>(share * static_cast<double>(budget_) / static_cast<double>(price(work)));
   }
-  bool time_for_gifts() const override { return budget_ == 0 || 4 * round_ <= 3 * kRoundsPerFrame; }
+  double sampling_share() const override {
+    return budget_ > 0 ? static_cast<double>(std::max(round_, 1)) / kRoundsPerFrame : kShareWithoutEnd;
+  }
   void region_changed(std::size_t pixels) override { reconstruction_ = price(Work::kPixel) * pixels; }
   bool in_lockstep() const override { return true; }
   double lap_ms() override {

@@ -45,9 +45,8 @@ class FrameClock {
   // Milliseconds of this rank's CPU (work clock: units / 1e6) since the last call.
   virtual double lap_ms() = 0;
 
-  // Whether enough of the frame's sampling is left for tiles to change hands: their new owner must take in
-  // their samples, and refine them.
-  virtual bool time_for_gifts() const = 0;
+  // How much of the frame's sampling time has passed, in (0, 1]; 1 without a rate.
+  virtual double sampling_share() const = 0;
 
   // The region has so many pixels from now on.
   virtual void region_changed(std::size_t pixels) = 0;

@@ -23,6 +23,18 @@ double imbalance(std::span<const std::vector<TileReport>> of_rank) {
   return std::sqrt(std::max(0.0, squares / ranks - mean * mean)) / mean;
 }
 
+std::vector<TileEstimate> tile_estimates(const TileGrid& grid,
+                                         std::span<const std::vector<TileReport>> of_rank) {
+  std::vector<TileEstimate> estimates(static_cast<std::size_t>(grid.tile_count()));
+  for (const std::vector<TileReport>& tiles : of_rank) {
+    for (const TileReport& t : tiles) {
+      estimates[static_cast<std::size_t>(t.tile)] = {t.cost,
+                                                     t.triangles > 0 ? t.total_weight / t.triangles : 0};
+    }
+  }
+  return estimates;
+}
+
 std::vector<double> predicted_costs(const TileGrid& grid, std::span<const std::vector<TileReport>> of_rank) {
   double weight = 0, triangles = 0;
   for (const std::vector<TileReport>& tiles : of_rank) {

@@ -18,6 +18,10 @@ inline constexpr double kImbalanceTrigger = 0.2;
 // weights. `of_rank[k]` are rank k's tiles.
 double imbalance(std::span<const std::vector<TileReport>> of_rank);
 
+// What each tile of the grid took; zero for tiles nobody reported.
+std::vector<TileEstimate> tile_estimates(const TileGrid& grid,
+                                         std::span<const std::vector<TileReport>> of_rank);
+
 // Cost(i) of s. 4.4 for every tile of the grid: what it takes to bring it to the mean weight A of the whole
 // image, besides its reconstruction and preparation. Tiles nobody reported cost the mean of the others.
 std::vector<double> predicted_costs(const TileGrid& grid, std::span<const std::vector<TileReport>> of_rank);

@@ -12,11 +12,14 @@ namespace pprt {
 
 // Found by measurement (docs/decisions/0009-balancing.md).
 struct LocalBalanceSettings {
-  double quality_ratio = 1.1;         // give only when the own quality is so much worse, and
-  double cost_ratio = 1.1;            // the own future cost so much higher
-  double balance_weight = 0.6;        // w1: share of the difference that a tile takes away
-  double communication_weight = 0.2;  // w2: share of its samples that the taker knows
-  double border_weight = 0.2;         // w3: change of the border's length
+  double giving_ratio = 1.03;         // begin to give when the neighbours have so much less to pay
+  double quality_ratio = 1.0;         // give to those whose quality is so much better, and
+  double cost_ratio = 1.2;            // future cost so much lower,
+  double share = 0.3;                 // at once, this share of the difference in future cost
+  double balance_weight = 0.5;        // w1: what a tile takes away, by the most that any takes away
+  double communication_weight = 0.1;  // w2: share of its samples that the taker knows
+  double border_weight = 0.15;        // w3: change of the border's length, and
+  double shape_weight = 0.25;         // of the regions' shapes
 };
 
 // Whether a rank should give tiles to the neighbour that sent `theirs`; `own_future_cost` is at
@@ -35,7 +38,7 @@ struct TileOffer {
 };
 
 // Which of the giver's tiles along its border with the taker to give, one after the other by their grade,
-// until half of `difference` (Delta, the ranks' difference in future cost) has moved. The giver's region
+// until its share of `difference` (Delta, the ranks' difference in future cost) has moved. The giver's region
 // stays connected and keeps at least one tile, and the taker need not take in more than `most_samples`.
 // `offer` is asked for tiles of the giver only; `insertion_cost` is Icost, work units.
 std::vector<int> tiles_to_give(const LocalBalanceSettings& settings, const Partition& partition, int giver,

@@ -135,6 +135,7 @@ void Master::order_next() {
     if (hands_over && !can_afford_to_hand_over()) next_owners_.clear();
     if (!next_owners_.empty()) ++generation_;
     order.owners = std::exchange(next_owners_, {});
+    if (!order.owners.empty()) order.tiles = found_;
     order.generation = generation_;
     Assembly& assembly = assemblies_.emplace(order.index, start_assembly(order)).first->second;
     // Rank 0 was away for so long that nobody can carry this order out in time.
@@ -184,6 +185,7 @@ void Master::balance_globally(const Assembly& assembly) {
     return;
   next_owners_ =
       bisect(partition_.grid, predicted_costs(partition_.grid, assembly.tiles), network_.size()).owner;
+  found_ = tile_estimates(partition_.grid, assembly.tiles);
   handed_over_.assign(assembly.tiles.size(), 0);
   for (std::size_t rank = 0; rank < assembly.tiles.size(); ++rank) {
     for (const TileReport& tile : assembly.tiles[rank]) {

@@ -123,6 +123,7 @@ class Master {
   int overdue_pixels_ = 0;  // since that frame was delivered
   std::optional<FrameRequest> before_;     // the frame ordered last
   std::vector<std::int32_t> next_owners_;  // a new partition, for the next order
+  std::vector<TileEstimate> found_;        // per tile, what that partition stands on
   std::vector<double> handed_over_;        // per rank: samples it will have to take in with that partition
   std::uint32_t generation_ = 0;           // of the partition ordered last
   std::uint64_t samples_delivered_ = 0;    // in the frame delivered last

@@ -71,6 +71,7 @@ Bytes encode(const FrameOrder& order) {
   out.put(order.end), out.put(order.index), out.put(order.number), out.put(order.cut), out.put(order.carry);
   out.put(order.camera), out.put(order.deadline_s), out.put(order.reserve_s), out.put(order.generation);
   out.put_all(std::span<const std::int32_t>(order.owners));
+  out.put_all(std::span<const TileEstimate>(order.tiles));
   return out.take();
 }
 
@@ -80,6 +81,7 @@ FrameOrder decode_frame_order(std::span<const std::byte> bytes) {
   in.get(order.end), in.get(order.index), in.get(order.number), in.get(order.cut), in.get(order.carry);
   in.get(order.camera), in.get(order.deadline_s), in.get(order.reserve_s), in.get(order.generation);
   in.get_all(order.owners);
+  in.get_all(order.tiles);
   in.expect_end();
   return order;
 }
@@ -87,7 +89,7 @@ FrameOrder decode_frame_order(std::span<const std::byte> bytes) {
 Bytes encode(const Bundle& bundle) {
   WireWriter out;
   out.put(bundle.frame_index), out.put(bundle.epoch), out.put(bundle.round), out.put(bundle.done);
-  out.put(bundle.progress);
+  out.put(bundle.progress), out.put(bundle.stance);
   out.put_all(std::span<const TileGrant>(bundle.grants));
   put_samples(out, bundle.samples);
   return out.take();
@@ -97,7 +99,7 @@ Bundle decode_bundle(std::span<const std::byte> bytes) {
   WireReader in(bytes);
   Bundle bundle;
   in.get(bundle.frame_index), in.get(bundle.epoch), in.get(bundle.round), in.get(bundle.done);
-  in.get(bundle.progress);
+  in.get(bundle.progress), in.get(bundle.stance);
   in.get_all(bundle.grants);
   bundle.samples = get_samples(in);
   in.expect_end();

@@ -9,6 +9,7 @@
 #include "base/ray_counts.h"
 #include "base/vector.h"
 #include "parallel/communicator.h"
+#include "parallel/stance.h"
 #include "parallel/tile_cost.h"
 #include "pipeline/sample.h"
 
@@ -33,6 +34,7 @@ struct FrameOrder {
   double deadline_s = 0;             // since the start of the sequence; 0: no rate
   std::uint32_t generation = 0;      // of the partition in force from this frame on
   std::vector<std::int32_t> owners;  // per tile, when that partition is a new one
+  std::vector<TileEstimate> tiles;   // and what each of them was found to be, for its new owner
   double reserve_s = 0;  // wall clock: what the master has seen pass between end of sampling and whole frame
 };
 
@@ -41,8 +43,9 @@ struct Bundle {
   std::int32_t frame_index = 0;
   std::int32_t epoch = 0;  // index of the frame in which the sender's triangulation began
   std::int32_t round = 0;
-  bool done = false;              // the sender has reached its goal (frames without a rate)
-  RankProgress progress;          // of the sender
+  bool done = false;      // the sender has reached its goal (frames without a rate)
+  RankProgress progress;  // of the sender
+  StanceWord stance;
   std::vector<TileGrant> grants;  // tiles that the sender has given away
   std::vector<Sample> samples;
 };

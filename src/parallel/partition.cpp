@@ -80,10 +80,10 @@ class Bisector {
 }  // namespace
 
 TileGrid tile_grid_for(int width, int height, int ranks) {
-  constexpr double kTilesPerRank = 32;
+  constexpr double kTilesPerRank = 64;
   const double pixels = static_cast<double>(width) * height;
   const int size = static_cast<int>(std::sqrt(pixels / (kTilesPerRank * ranks)));
-  return {width, height, std::clamp(size, 4, 32)};
+  return {width, height, std::clamp(size, 2, 32)};
 }
 
 Partition bisect(const TileGrid& grid, std::span<const double> tile_costs, int ranks) {

@@ -43,7 +43,7 @@ std::size_t samples_near_borders(std::span<const Sample> samples, const TileGrid
 }
 
 std::vector<Sample> serial_samples(const SessionSettings& settings, const Camera& camera, std::uint64_t count,
-                                   const Probe& probe, int frame) {
+                                   const Probe& probe) {
   SessionSettings serial;
   serial.width = settings.width;
   serial.height = settings.height;
@@ -54,7 +54,7 @@ std::vector<Sample> serial_samples(const SessionSettings& settings, const Camera
   serial.balance = BalanceMode::kNone;
   serial.report_samples = true;
   const auto one_frame = [&](int index) {
-    return index == 0 ? std::optional(FrameRequest{frame, camera, false, true}) : std::nullopt;
+    return index == 0 ? std::optional(FrameRequest{1, camera, false, true}) : std::nullopt;
   };
   std::vector<Sample> samples;
   run_virtual_ranks(
@@ -64,8 +64,8 @@ std::vector<Sample> serial_samples(const SessionSettings& settings, const Camera
 }
 
 double distance_to_serial(const FinishedFrame& frame, const SessionSettings& settings, const Probe& probe) {
-  return bucket_distance(frame.samples, serial_samples(settings, frame.order.camera, frame.samples.size(),
-                                                       probe, frame.order.number));
+  return bucket_distance(frame.samples,
+                         serial_samples(settings, frame.order.camera, frame.samples.size(), probe));
 }
 
 }  // namespace pprt

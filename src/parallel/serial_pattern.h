@@ -27,10 +27,10 @@ std::size_t samples_near_borders(std::span<const Sample> samples, const TileGrid
                                  std::span<const std::int32_t> owners, double reach);
 
 // The pattern of one rank that samples the camera's image afresh until it holds `count` samples, its seeds
-// included: those of the frame numbered `frame`. Of the settings only size and seed count. The probe is left
+// included. Of the settings only size and seed count. The probe is left
 // looking from `camera`.
 std::vector<Sample> serial_samples(const SessionSettings& settings, const Camera& camera, std::uint64_t count,
-                                   const Probe& probe, int frame = 1);
+                                   const Probe& probe);
 
 // bucket_distance() of a frame's samples, which the settings must have asked for, to as many of the serial
 // sampler's.

@@ -41,7 +41,7 @@ struct TileReport {
   double total_weight = 0;     // LastTotalWeight
   double cost = 0;             // LastCost, work units
   double reconstruction = 0;   // Restore
-  double preparation = 0;      // Pre
+  double preparation = 0;      // Pre, with its share of what other ranks' samples cost its owner
 };
 
 }  // namespace pprt

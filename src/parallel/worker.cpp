@@ -14,10 +14,6 @@ namespace {
 // and each costs time in every reconstruction to come.
 constexpr std::uint64_t kSamplesPerPixelAtMost = 16;
 
-// Wall clock: the share of a frame's period that a rank waits for its neighbours' seeds before it goes on
-// without.
-constexpr double kSeedPatience = 0.1;
-
 // A rank tells its progress to its neighbours after so many packets, if there is no sample to tell before.
 constexpr int kPacketsPerProgress = 4;
 
@@ -53,8 +49,9 @@ Worker::Worker(Communicator& network, Inbox& inbox, const SessionSettings& setti
       probe_(std::move(probe)),
       clock_(std::move(clock)),
       mesh_(region_of(partition, network.rank())),
-      exchange_(partition, network.rank()),
+      exchange_(partition, network.rank(), seed_pattern(settings.width, settings.height, settings.seed)),
       balancer_(network.rank(), network.size(), partition.grid.tile_count()),
+      stance_(network.size()),
       peer_done_(static_cast<std::size_t>(network.size()), 0) {
   own_region_changed();
 }
@@ -78,159 +75,6 @@ void Worker::render(const FrameOrder& order) {
   sample(order);
   report_.cpu_ms.sampling += clock_->lap_ms();
   reconstruct_and_send(order);
-}
-
-// --- Prepare ---
-
-void Worker::prepare(const FrameOrder& order) {
-  probe_.look_from(order.camera);
-  const bool new_partition = !order.owners.empty();
-  const Carry carry = carried_into(order);
-  const Missed missed = std::exchange(missed_, {});
-  balancer_.begin_frame(carry != Carry::kAccumulate || missed.triangulation);
-  if (carry == Carry::kAccumulate && missed.triangulation) {
-    catch_up(order, missed);
-    return;
-  }
-  if (carry == Carry::kAccumulate) {
-    if (new_partition) {
-      adopt_partition(order, true);
-      send_handed_over(order);
-    }
-    report_.samples_cast = in_region_;
-    return;
-  }
-  std::vector<Sample> survivors;
-  if (carry != Carry::kNothing && !missed.cut) survivors = cast(order);
-  report_.cpu_ms.casting += clock_->lap_ms();
-  if (new_partition) adopt_partition(order, false);
-
-  begin_triangulation(order.index);
-  trace_seeds(order, order.number);
-  settle(order, survivors);
-}
-
-void Worker::begin_triangulation(int epoch) {
-  mesh_.clear();
-  exchange_.clear();
-  epoch_ = epoch;
-  in_region_ = 0;
-}
-
-// The master has cut the image anew. The samples of tiles that go to another rank are told to it if they are
-// kept.
-void Worker::adopt_partition(const FrameOrder& order, bool keep_samples) {
-  Partition next = exchange_.partition();
-  next.owner = order.owners;
-  std::fill(next.version.begin(), next.version.end(), first_version(order.generation));
-  for (int rank = 0; keep_samples && rank < network_.size(); ++rank) {
-    std::vector<int> moved;
-    for (const int tile : mesh_.region().tiles()) {
-      if (rank != network_.rank() && next.owner[static_cast<std::size_t>(tile)] == rank)
-        moved.push_back(tile);
-    }
-    if (!moved.empty()) exchange_.introduce(mesh_, moved, rank);
-  }
-  exchange_.repartition(next);
-  own_region_changed();
-}
-
-// What the ranks tell each other before the first sample of a frame that keeps its triangulation but not its
-// partition.
-void Worker::send_handed_over(const FrameOrder& order) {
-  send_bundles(order, kSeedRound, false);
-  receive_bundles(order, kSeedRound);
-}
-
-std::vector<Sample> Worker::cast(const FrameOrder& order) {
-  CastSettings cast_settings;
-  cast_settings.method = order.carry == Carry::kCastVerified ? CastMethod::kVerified : CastMethod::kPaper;
-  clock_->spend(Work::kCastSample, in_region_);
-  if (cast_settings.method == CastMethod::kVerified) clock_->spend(Work::kRay, in_region_);
-  std::vector<Sample> survivors =
-      cast_samples(mesh_, order.camera, order.number, cast_settings, probe_.visible).survivors;
-  // Putting them back may take half of a frame at most; the rest is for new samples.
-  if (order.deadline_s > 0) keep_youngest(survivors, clock_->affordable(Work::kOwnSample, 0.5));
-  return survivors;
-}
-
-// The seeds of the frame of that number, seen from this one's camera.
-void Worker::trace_seeds(const FrameOrder& order, int number) {
-  const std::vector<Vec2d> seeds = seed_points(settings_.width, settings_.height, settings_.seed, number);
-  constexpr std::size_t kCorners = 4;  // every mesh needs them, so that its hull is the image
-  for (std::size_t i = 0; i < seeds.size(); ++i) {
-    const bool own = mesh_.region().owns_point(seeds[i].x, seeds[i].y);
-    if (i >= kCorners && !own) continue;
-    // A foreign corner is its owner's sample, which tells it to others and counts it.
-    const int owner = exchange_.owner_of(seeds[i].x, seeds[i].y);
-    insert(trace(order, seeds[i].x, seeds[i].y), {owner, true});
-    report_.samples_new += own;
-  }
-}
-
-// Seeds cross the borders first; then each survivor goes to the rank whose tile it landed in.
-void Worker::settle(const FrameOrder& order, const std::vector<Sample>& survivors) {
-  std::vector<Sample> own;
-  std::vector<std::vector<Sample>> emigrants(static_cast<std::size_t>(network_.size()));
-  for (const Sample& s : survivors) {
-    const int owner = exchange_.owner_of(s.x, s.y);
-    (owner == network_.rank() ? own : emigrants[static_cast<std::size_t>(owner)]).push_back(s);
-  }
-  for (int rank = 0; rank < network_.size(); ++rank) {
-    if (rank == network_.rank()) continue;
-    std::vector<Sample> samples = exchange_.take_outbox(rank);
-    const auto& guests = emigrants[static_cast<std::size_t>(rank)];
-    samples.insert(samples.end(), guests.begin(), guests.end());
-    const bool peer = std::binary_search(exchange_.seed_peers().begin(), exchange_.seed_peers().end(), rank);
-    if (samples.empty() && !peer && !clock_->in_lockstep()) continue;
-    send_bundle(rank, {order.index, epoch_, kSeedRound, false, {}, {}, std::move(samples)});
-  }
-  receive_seeds(order);
-  report_.cpu_ms.sampling += clock_->lap_ms();
-  for (const Sample& s : own) {
-    if (insert(s, {network_.rank(), false})) ++report_.samples_cast;
-  }
-  report_.cpu_ms.casting += clock_->lap_ms();
-}
-
-void Worker::receive_seeds(const FrameOrder& order) {
-  const std::vector<int>& peers = exchange_.seed_peers();
-  const auto of_this_round = [&](const Inbox::Arrived& a) {
-    return a.bundle.frame_index == order.index && a.bundle.round == kSeedRound;
-  };
-  const auto awaited = [&](const Inbox::Arrived& a) {
-    return of_this_round(a) &&
-           (clock_->in_lockstep() || std::binary_search(peers.begin(), peers.end(), a.from));
-  };
-  const std::size_t expected =
-      clock_->in_lockstep() ? static_cast<std::size_t>(network_.size() - 1) : peers.size();
-  const bool has_patience = clock_->in_lockstep() || order.deadline_s == 0;
-  await([&] {
-    return inbox_.count_bundles(awaited) >= expected ||
-           (!has_patience && clock_->frame_seconds() * settings_.frames_per_second > kSeedPatience);
-  });
-  const std::vector<Inbox::Arrived> bundles = inbox_.take_bundles(of_this_round);
-  for (const Inbox::Arrived& arrived : bundles) take_in_seeds(arrived);
-  for (const Inbox::Arrived& arrived : bundles) take_in_survivors(arrived);
-}
-
-// What comes before a fresh triangulation's first round and lies elsewhere is another rank's seed.
-void Worker::take_in_seeds(const Inbox::Arrived& arrived) {
-  for (const Sample& s : arrived.bundle.samples) {
-    if (mesh_.region().owns_point(s.x, s.y)) continue;
-    ++(insert(s, {arrived.from, true}) ? report_.samples_received : report_.samples_known);
-  }
-}
-
-// And what lies in the own region is a survivor that landed here. Who hands it over keeps none: it is this
-// rank's to tell, to the former owner too.
-void Worker::take_in_survivors(const Inbox::Arrived& arrived) {
-  for (const Sample& s : arrived.bundle.samples) {
-    if (!mesh_.region().owns_point(s.x, s.y)) continue;
-    const bool inserted = insert(s, {network_.rank(), false});
-    ++(inserted ? report_.samples_received : report_.samples_known);
-    report_.samples_cast += inserted;
-  }
 }
 
 // --- Sample ---
@@ -258,7 +102,7 @@ bool Worker::refine_once(const FrameOrder& order) {
   if (in_region_ >= sample_limit_) return false;
   const std::optional<Vec2d> point = mesh_.next_point();
   if (!point) return false;
-  insert(trace(order, point->x, point->y), {network_.rank(), false});
+  insert(trace(order, point->x, point->y), {network_.rank(), {}});
   ++report_.samples_new;
   return true;
 }
@@ -278,19 +122,22 @@ bool Worker::all_done() const {
 void Worker::send_bundles(const FrameOrder& order, int round, bool to_all) {
   const bool local = settings_.balance == BalanceMode::kLocal || settings_.balance == BalanceMode::kCombined;
   const std::vector<TileGrant> grants = local ? give_tiles() : std::vector<TileGrant>();
-  const RankProgress progress = local ? balancer_.progress(mesh_) : RankProgress();
+  const RankProgress progress = local ? balancer_.progress(mesh_, clock_->sampling_share()) : RankProgress();
   const bool tell_progress = local && round % kPacketsPerProgress == 0;
   for (int rank = 0; rank < network_.size(); ++rank) {
     if (rank == network_.rank()) continue;
     std::vector<Sample> samples = exchange_.take_outbox(rank);
     const bool neighbour = tell_progress && std::binary_search(exchange_.neighbours().begin(),
                                                                exchange_.neighbours().end(), rank);
-    if (samples.empty() && grants.empty() && !neighbour && !to_all && !clock_->in_lockstep()) continue;
-    send_bundle(rank, {order.index, epoch_, round, done_, progress, grants, std::move(samples)});
+    if (samples.empty() && grants.empty() && !neighbour && !to_all && !stance_.owes_word(rank) &&
+        !clock_->in_lockstep())
+      continue;
+    send_bundle(rank, {order.index, epoch_, round, done_, progress, {}, grants, std::move(samples)});
   }
 }
 
-void Worker::send_bundle(int rank, const Bundle& bundle) {
+void Worker::send_bundle(int rank, Bundle bundle) {
+  bundle.stance = stance_.tell(rank);
   clock_->spend(Work::kSentSample, bundle.samples.size());
   Bytes bytes = encode(bundle);
   const std::size_t of_grants = bundle.grants.size() * sizeof(TileGrant);
@@ -324,6 +171,10 @@ void Worker::take_in(const std::vector<Inbox::Arrived>& bundles) {
   for (const Inbox::Arrived& arrived : bundles) {
     const Bundle& bundle = arrived.bundle;
     grants.insert(grants.end(), bundle.grants.begin(), bundle.grants.end());
+    stance_.hear(arrived.from, bundle.stance);
+    const bool gift = std::any_of(bundle.grants.begin(), bundle.grants.end(),
+                                  [&](const TileGrant& g) { return g.owner == network_.rank(); });
+    if (gift) stance_.took(arrived.from);
     if (bundle.frame_index != frame_index_) continue;
     balancer_.heard(arrived.from, bundle.progress);
     peer_done_[static_cast<std::size_t>(arrived.from)] = bundle.done;
@@ -337,7 +188,7 @@ void Worker::take_in(const std::vector<Inbox::Arrived>& bundles) {
       continue;
     }
     for (const Sample& s : arrived.bundle.samples) {
-      ++(insert(s, {arrived.from, false}) ? report_.samples_received : report_.samples_known);
+      ++(insert(s, {arrived.from, {}}) ? report_.samples_received : report_.samples_known);
     }
   }
 }
@@ -347,12 +198,13 @@ void Worker::take_in(const std::vector<Inbox::Arrived>& bundles) {
 // samples than pixels is fine enough, and its samples are too many to hand over.
 std::vector<TileGrant> Worker::give_tiles() {
   if (epoch_ != frame_index_ && in_region_ > mesh_.region().pixel_count()) return {};
-  if (!clock_->time_for_gifts() || settings_.stop.samples > 0) return {};
+  if (!balancer_.is_time_to_give(clock_->sampling_share()) || settings_.stop.samples > 0) return {};
   // What the taker must take in may cost it a tenth of the frame.
   const double most_samples = settings_.frames_per_second > 0
                                   ? static_cast<double>(clock_->affordable(Work::kReceivedSample, 0.1))
                                   : std::numeric_limits<double>::infinity();
-  std::vector<TileGrant> grants = balancer_.give(mesh_, exchange_, most_samples);
+  stance_.decide(balancer_.wants_to_give(mesh_, exchange_.neighbours(), stance_.is_giving()));
+  std::vector<TileGrant> grants = balancer_.give(mesh_, exchange_, stance_, most_samples);
   for (const TileGrant& grant : grants) given_.push_back(grant.tile);
   report_.tiles_given += grants.size();
   apply(grants);
@@ -462,12 +314,13 @@ Sample Worker::trace(const FrameOrder& order, double x, double y) {
 bool Worker::insert(const Sample& sample, const Insertion& how) {
   const bool own = how.from == network_.rank();
   clock_->spend(own ? Work::kOwnSample : Work::kReceivedSample, 1);
+  if (!own) balancer_.received(static_cast<double>(price(Work::kReceivedSample)));
   if (!mesh_.insert(sample)) return false;
   in_region_ += mesh_.region().owns_point(sample.x, sample.y);
-  if (!how.is_seed) {
+  if (!how.seed) {
     exchange_.inserted(mesh_, how.from);
   } else if (own) {
-    exchange_.seeded_here(mesh_);
+    exchange_.seeded_here(mesh_, *how.seed);
   } else {
     exchange_.seeded_elsewhere(how.from);
   }

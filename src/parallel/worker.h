@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -38,8 +39,8 @@ class Worker {
 
  private:
   struct Insertion {
-    int from;      // rank
-    bool is_seed;  // not subject to the update rule
+    int from;                           // rank
+    std::optional<std::uint32_t> seed;  // which one: known before, hence not subject to the update rule
   };
 
   static constexpr int kSeedRound = 0;  // the bundles of seeds and survivors; sampling counts on from there
@@ -47,9 +48,8 @@ class Worker {
   // What the frames that were left out have changed for those after them.
   struct Missed {
     bool triangulation = false;  // the others have begun one without this rank:
-    int epoch = -1;              // index and number of the frame in which they did
-    int number = 0;
-    bool cut = false;  // what this rank holds is of no use any more
+    int epoch = -1;              // index of the frame in which they did
+    bool cut = false;            // what this rank holds is of no use any more
   };
 
   bool is_past(const FrameOrder& order) const;
@@ -57,12 +57,13 @@ class Worker {
   Carry carried_into(const FrameOrder& order) const;
   void hear_gifts(const FrameOrder& order);
   void prepare(const FrameOrder& order);
+  Balancer::Known known_before(const FrameOrder& order, const Missed& missed) const;
   void catch_up(const FrameOrder& order, const Missed& missed);
   void begin_triangulation(int epoch);
   void adopt_partition(const FrameOrder& order, bool keep_samples);
   void send_handed_over(const FrameOrder& order);
   std::vector<Sample> cast(const FrameOrder& order);
-  void trace_seeds(const FrameOrder& order, int number);
+  void trace_seeds(const FrameOrder& order);
   void settle(const FrameOrder& order, const std::vector<Sample>& survivors);
   void receive_seeds(const FrameOrder& order);
   void take_in_seeds(const Inbox::Arrived& arrived);
@@ -73,7 +74,7 @@ class Worker {
   bool goal_reached() const;
   bool all_done() const;
   void send_bundles(const FrameOrder& order, int round, bool to_all);
-  void send_bundle(int rank, const Bundle& bundle);
+  void send_bundle(int rank, Bundle bundle);
   void receive_bundles(const FrameOrder& order, int round);
   void take_in(const std::vector<Inbox::Arrived>& bundles);
   std::vector<TileGrant> give_tiles();
@@ -97,11 +98,13 @@ class Worker {
   SampleMesh mesh_;
   SampleExchange exchange_;
   Balancer balancer_;
+  Stance stance_;
   RegionPixels pixels_;
   ReconstructionBuffers buffers_;
 
   Missed missed_;                    // since the last frame that was not left out
   std::vector<std::int32_t> given_;  // tiles given away in this frame
+  std::optional<Camera> camera_before_;
   int frame_index_ = -1;
   int epoch_ = -1;  // index of the frame in which the triangulation began
   std::uint64_t next_id_ = 0;

@@ -15,7 +15,7 @@ void Worker::leave_out(const FrameOrder& order) {
   if (!order.owners.empty()) adopt_partition(order, false);
   const Carry carry = carried_into(order);
   if (carry == Carry::kAccumulate) return;
-  missed_ = {true, order.index, order.number, missed_.cut || carry == Carry::kNothing};
+  missed_ = {true, order.index, missed_.cut || carry == Carry::kNothing};
 }
 
 Carry Worker::carried_into(const FrameOrder& order) const {
@@ -38,7 +38,7 @@ void Worker::hear_gifts(const FrameOrder& order) {
 void Worker::catch_up(const FrameOrder& order, const Missed& missed) {
   if (!order.owners.empty()) adopt_partition(order, false);
   begin_triangulation(missed.epoch);
-  trace_seeds(order, missed.number);
+  trace_seeds(order);
   receive_bundles(order, kSeedRound);
 }
 

@@ -31,7 +31,7 @@ std::optional<Vec2d> SampleMesh::next_point() {
 std::span<const Sample> SampleMesh::samples() const {
   return impl_->samples();
 }
-std::span<const NewTriangle> SampleMesh::created() const {
+std::span<const MeshTriangle> SampleMesh::created() const {
   return impl_->created();
 }
 std::span<const TileWeights> SampleMesh::tile_weights() const {
@@ -128,16 +128,19 @@ void SampleMesh::Impl::adopt(Face face) {
 
   FaceInfo& info = face->info();
   info.stamp = next_stamp_++;
-  info.weight = refinement_weight(shape, display_variance(a.color, b.color, c.color));
   info.tile = region_.grid().tile_at(point.x, point.y);
-  count(info, 1);
-  if (info.weight > 0 && region_.owns_tile(info.tile)) queue_.push(info.weight, {face, info.stamp});
+  // What is refined elsewhere is weighed elsewhere.
+  if (region_.owns_tile(info.tile)) {
+    info.weight = refinement_weight(shape, display_variance(a.color, b.color, c.color));
+    count(info, 1);
+    if (info.weight > 0) queue_.push(info.weight, {face, info.stamp});
+  }
   created_.push_back({shape.circumcircle, {a.sample, b.sample, c.sample}});
 }
 
 void SampleMesh::Impl::forget(FaceInfo& info) {
   if (info.stamp == 0) return;
-  count(info, -1);
+  if (region_.owns_tile(info.tile)) count(info, -1);
   info.stamp = 0;
 }
 
@@ -148,7 +151,7 @@ void SampleMesh::Impl::count(const FaceInfo& info, int sign) {
     weights.total_weight = weights.triangles == 0 ? 0 : weights.total_weight + sign * info.weight;
   };
   change(tile_weights_[static_cast<std::size_t>(info.tile)]);
-  if (region_.owns_tile(info.tile)) change(region_weights_);
+  change(region_weights_);
 }
 
 void SampleMesh::Impl::rescan() {

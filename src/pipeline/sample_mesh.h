@@ -16,14 +16,14 @@
 
 namespace pprt {
 
-// A Delaunay triangle that an insertion made. Corners index SampleMesh::samples().
-struct NewTriangle {
+// A Delaunay triangle. Corners index SampleMesh::samples().
+struct MeshTriangle {
   Circle circumcircle;
   std::array<std::uint32_t, 3> corners;
 };
 
-// Per tile, over the triangles whose refinement point lies in it (paper s. 4.4: LastTotalWeight,
-// LastTotalNum).
+// Per tile of the region, over the triangles whose refinement point lies in it (paper s. 4.4:
+// LastTotalWeight, LastTotalNum).
 struct TileWeights {
   double total_weight = 0;
   std::int64_t triangles = 0;
@@ -60,9 +60,9 @@ class SampleMesh {
   std::span<const Sample> samples() const;
 
   // The triangles that the last successful insert made; valid until the next one.
-  std::span<const NewTriangle> created() const;
+  std::span<const MeshTriangle> created() const;
 
-  // One entry per tile of the grid.
+  // One entry per tile of the grid; zero outside the region.
   std::span<const TileWeights> tile_weights() const;
 
   // Quality of the region, Q_k: mean weight of its triangles (paper s. 3.6); smaller is better. 0 without

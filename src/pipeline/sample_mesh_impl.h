@@ -53,7 +53,7 @@ class SampleMesh::Impl {
   const Region& region() const { return region_; }
   const Delaunay& delaunay() const { return delaunay_; }
   const std::vector<Sample>& samples() const { return samples_; }
-  const std::vector<NewTriangle>& created() const { return created_; }
+  const std::vector<MeshTriangle>& created() const { return created_; }
   const std::vector<TileWeights>& tile_weights() const { return tile_weights_; }
 
  private:
@@ -79,7 +79,7 @@ class SampleMesh::Impl {
   Region region_;
   Delaunay delaunay_;
   std::vector<Sample> samples_;
-  std::vector<NewTriangle> created_;
+  std::vector<MeshTriangle> created_;
   std::vector<TileWeights> tile_weights_;
   TileWeights region_weights_;          // over the region's tiles
   std::vector<Vertex> latest_in_tile_;  // where to start a walk; null handles before the first

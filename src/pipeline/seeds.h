@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/vector.h"
+#include "pipeline/sample_mesh.h"
 
 namespace pprt {
 
@@ -13,7 +14,14 @@ namespace pprt {
 inline constexpr double kSeedSpacing = 16;
 
 // A jittered grid over the image, borders and corners included (points there keep to their border exactly).
-// The first four are the image's corners. The same for every rank: depends on size, seed and frame alone.
-std::vector<Vec2d> seed_points(int width, int height, std::uint64_t seed, int frame);
+// The first four are the image's corners. The same for every rank and frame: depends on size and seed alone.
+std::vector<Vec2d> seed_points(int width, int height, std::uint64_t seed);
+
+// Those points with their Delaunay triangles, whose corners index them.
+struct SeedPattern {
+  std::vector<Vec2d> points;
+  std::vector<MeshTriangle> triangles;
+};
+SeedPattern seed_pattern(int width, int height, std::uint64_t seed);
 
 }  // namespace pprt

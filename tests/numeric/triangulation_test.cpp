@@ -106,7 +106,7 @@ TEST_CASE("a million hard points leave the triangulation whole") {
       ++refused;
       continue;
     }
-    for (const NewTriangle& t : mesh.created()) {
+    for (const MeshTriangle& t : mesh.created()) {
       const auto& [a, b, c] = t.corners;
       turned += orientation(mesh.samples()[a], mesh.samples()[b], mesh.samples()[c]) <= 0;
     }

@@ -47,25 +47,26 @@ double unevenness(const FinishedFrame& frame) {
 }  // namespace
 
 TEST_CASE("a rank gives only when it is behind in quality and in cost") {
-  const LocalBalanceSettings settings;
+  LocalBalanceSettings settings;
+  settings.quality_ratio = settings.cost_ratio = 1.1;
   CHECK(should_give(settings, 2.0, 200, {1.0, 0.5, 100}));
   CHECK_FALSE(should_give(settings, 1.05, 200, {1.0, 0.5, 100}));
   CHECK_FALSE(should_give(settings, 2.0, 105, {1.0, 0.5, 100}));
   CHECK_FALSE(should_give(settings, 2.0, 200, {}));  // nothing was heard
 }
 
-TEST_CASE("targets are powers of two below the quality") {
-  CHECK(target_quality(1.0) == 0.5);
-  CHECK(target_quality(0.9) == 0.25);
-  CHECK(target_quality(3.0) == 1.0);
+TEST_CASE("targets are powers of two, at most the quality") {
+  CHECK(target_quality(1.0) == 1.0);
+  CHECK(target_quality(0.9) == 0.5);
+  CHECK(target_quality(3.0) == 2.0);
 }
 
-TEST_CASE("about half of the difference moves, along the border, and the giver stays whole") {
+TEST_CASE("its share of the difference moves, along the border, and the giver stays whole") {
   const Partition partition = halves();
   const auto offer = [](int) { return TileOffer{100, 10, 0}; };
   const std::vector<int> tiles =
-      tiles_to_give({}, partition, 0, 1, 1200, 1, kUnlimited, offer);  // half: six tiles
-  CHECK(tiles.size() == 6);
+      tiles_to_give({}, partition, 0, 1, 1000, 1, kUnlimited, offer);  // three tenths: three tiles
+  CHECK(tiles.size() == 3);
   Partition after = partition;
   for (const int tile : tiles) {
     CHECK(partition.owner[static_cast<std::size_t>(tile)] == 0);
@@ -75,22 +76,33 @@ TEST_CASE("about half of the difference moves, along the border, and the giver s
   CHECK(is_connected(after, 1));
 }
 
-TEST_CASE("a gift is bounded: by what is left to move, by the taker's room, by the giver's last tile") {
+TEST_CASE("a gift is bounded: by what is left to move, by the taker's room, by a quarter of the region") {
   const Partition partition = halves();
   const auto costly = [](int) { return TileOffer{1000, 10, 0}; };
   CHECK(tiles_to_give({}, partition, 0, 1, 1200, 1, kUnlimited, costly).empty());
   const auto plain = [](int) { return TileOffer{100, 10, 0}; };
   CHECK(tiles_to_give({}, partition, 0, 1, 1200, 1, 25, plain).size() == 2);
   const auto known = [](int) { return TileOffer{100, 10, 10}; };
-  CHECK(tiles_to_give({}, partition, 0, 1, 1200, 1, 0, known).size() == 6);  // nothing to take in
-  CHECK(tiles_to_give({}, partition, 0, 1, 1e9, 1, kUnlimited, plain).size() == 15);
-  const auto not_worth_it = [](int) { return TileOffer{100, 1000, 0}; };
-  CHECK(tiles_to_give({}, partition, 0, 1, 1200, 1, kUnlimited, not_worth_it).empty());
+  CHECK(tiles_to_give({}, partition, 0, 1, 1000, 1, 0, known).size() == 3);  // nothing to take in
+  CHECK(tiles_to_give({}, partition, 0, 1, 1e9, 1, kUnlimited, plain).size() == 4);
+}
+
+TEST_CASE("a tile that costs the taker more than it relieves the giver comes last") {
+  const auto offer = [](int tile) { return tile == 19 ? TileOffer{100, 1, 0} : TileOffer{100, 1000, 0}; };
+  const std::vector<int> tiles = tiles_to_give({}, halves(), 0, 1, 400, 1, kUnlimited, offer);
+  REQUIRE(tiles.size() == 1);
+  CHECK(tiles[0] == 19);
+}
+
+TEST_CASE("tiles without cost are given on the way to those that have one") {
+  // Only the column behind the border costs anything.
+  const auto offer = [](int tile) { return tile % 8 == 2 ? TileOffer{1000, 10, 0} : TileOffer{0, 0, 0}; };
+  CHECK_FALSE(tiles_to_give({}, halves(), 0, 1, 4000, 1, kUnlimited, offer).empty());
 }
 
 TEST_CASE("tiles that the taker knows go first") {
   const auto offer = [](int tile) { return TileOffer{100, 10, tile == 19 ? 10.0 : 0.0}; };
-  const std::vector<int> tiles = tiles_to_give({}, halves(), 0, 1, 200, 1, kUnlimited, offer);
+  const std::vector<int> tiles = tiles_to_give({}, halves(), 0, 1, 400, 1, kUnlimited, offer);
   REQUIRE(tiles.size() == 1);
   CHECK(tiles[0] == 19);
 }

@@ -20,25 +20,31 @@ struct Virtual {
   SampleExchange exchange;
   std::deque<std::pair<int, Sample>> inbox;  // sender, sample
 
-  Virtual(const Partition& partition, int rank)
-      : mesh(region_of(partition, rank)), exchange(partition, rank) {}
+  Virtual(const Partition& partition, int rank, const SeedPattern& seeds)
+      : mesh(region_of(partition, rank)), exchange(partition, rank, seeds) {}
 };
 
 class VirtualRanks {
  public:
   VirtualRanks(const Partition& partition, unsigned seed)
       : partition_(partition), picture_(disc(partition.grid)), random_(seed) {
-    for (int rank = 0; rank < partition.ranks; ++rank) ranks_.emplace_back(partition, rank);
+    const SeedPattern seeds = seed_pattern(partition.grid.width, partition.grid.height, seed);
+    for (int rank = 0; rank < partition.ranks; ++rank) ranks_.emplace_back(partition, rank, seeds);
   }
 
   // As a frame begins: own seeds and the corners, then those of the others.
-  void seed(int frame) {
-    const TileGrid& grid = partition_.grid;
-    const std::vector<Vec2d> seeds = seed_points(grid.width, grid.height, 1, frame);
+  void seed() {
     for (Virtual& v : ranks_) {
-      for (std::size_t i = 0; i < seeds.size(); ++i) {
-        if (i >= 4 && !v.mesh.region().owns_point(seeds[i].x, seeds[i].y)) continue;
-        if (v.mesh.insert(sample_of(picture_, seeds[i].x, seeds[i].y))) v.exchange.seeded_here(v.mesh);
+      const std::vector<Vec2d>& points = v.exchange.seeds().points;
+      for (std::uint32_t i = 0; i < points.size(); ++i) {
+        const Vec2d& p = points[i];
+        const bool own = v.mesh.region().owns_point(p.x, p.y);
+        if ((i >= 4 && !own) || !v.mesh.insert(sample_of(picture_, p.x, p.y))) continue;
+        if (own) {
+          v.exchange.seeded_here(v.mesh, i);
+        } else {
+          v.exchange.seeded_elsewhere(v.exchange.owner_of(p.x, p.y));
+        }
       }
     }
     post();
@@ -214,7 +220,7 @@ Partition random_growths(const TileGrid& grid, int ranks, unsigned seed) {
 
 void check_invariant(const Partition& partition, unsigned seed) {
   VirtualRanks run(partition, seed);
-  run.seed(static_cast<int>(seed));
+  run.seed();
   run.quieten();
   for (int round = 0; round < 12; ++round) run.sample_round(25);
   run.quieten();
@@ -253,19 +259,17 @@ TEST_CASE("all ranks have the triangles that meet their regions: regions smaller
 TEST_CASE("without the exchange the same comparison finds many triangles wrong") {
   const Partition partition = random_rectangles(TileGrid(128, 96, 8), 9, 1);
   VirtualRanks run(partition, 1);
-  run.seed(1);
+  run.seed();
   for (int round = 0; round < 6; ++round) run.sample_round(25);
   // What is under way stays there.
   const Findings findings = compare_with_serial(run);
   CHECK(findings.unknown > 20);
 }
 
-TEST_CASE("triangles of seeds are so small that seeds within the reach suffice") {
-  // Two ranks whose regions are one tile each can only differ in seeds that lie farther than the reach: none
-  // of those may be a corner of a triangle that meets the region.
-  for (int frame = 1; frame <= 40; ++frame) {
-    VirtualRanks run(random_rectangles(TileGrid(200, 150, 10), 7, static_cast<unsigned>(frame)), 1);
-    run.seed(frame);
+TEST_CASE("each rank is told the seeds that its triangles need") {
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    VirtualRanks run(random_rectangles(TileGrid(200, 150, 10), 7, seed), seed);
+    run.seed();
     const Findings findings = compare_with_serial(run);
     CHECK(findings.unknown == 0);
     CHECK(findings.wrong == 0);
@@ -275,7 +279,8 @@ TEST_CASE("triangles of seeds are so small that seeds within the reach suffice")
 TEST_CASE("peers for seeds are mutual, and no rank is its own") {
   const Partition partition = random_growths(TileGrid(400, 300, 10), 20, 5);
   std::vector<std::vector<int>> peers;
-  for (int rank = 0; rank < 20; ++rank) peers.push_back(SampleExchange(partition, rank).seed_peers());
+  for (int rank = 0; rank < 20; ++rank)
+    peers.push_back(SampleExchange(partition, rank, seed_pattern(400, 300, 1)).seed_peers());
   for (int i = 0; i < 20; ++i) {
     for (const int j : peers[static_cast<std::size_t>(i)]) {
       CHECK(i != j);
@@ -287,7 +292,7 @@ TEST_CASE("peers for seeds are mutual, and no rank is its own") {
 
 TEST_CASE("a sample is told to a rank once") {
   VirtualRanks run(random_rectangles(TileGrid(128, 96, 8), 5, 3), 3);
-  run.seed(1);
+  run.seed();
   for (int round = 0; round < 8; ++round) run.sample_round(25);
   run.quieten();
   CHECK(run.repeats() == 0);

@@ -22,7 +22,7 @@ Sample some_sample(int i) {
 }
 
 Bundle some_bundle() {
-  Bundle bundle{3, 2, 19, true, {0.5, 0.25, 1e6}, {{4, 2, 7, {1, 2}, {3, 4}}}, {}};
+  Bundle bundle{3, 2, 19, true, {0.5, 0.25, 1e6}, {5, 8, 2}, {{4, 2, 7, {1, 2}, {3, 4}}}, {}};
   for (int i = 0; i < 6; ++i) bundle.samples.push_back(some_sample(i));
   return bundle;
 }
@@ -34,7 +34,7 @@ FrameOrder some_order() {
   order.camera.forward = {1, 0, 0}, order.camera.slope_per_pixel = 0.01;
   order.camera.width = 320, order.camera.height = 200;
   order.deadline_s = 1.5, order.reserve_s = 0.02;
-  order.generation = 3, order.owners = {1, 0, 1};
+  order.generation = 3, order.owners = {1, 0, 1}, order.tiles = {{1, 2}, {3, 4}, {5, 6}};
   return order;
 }
 
@@ -102,6 +102,8 @@ TEST_CASE("a frame order comes back as it was sent") {
   CHECK(back.deadline_s == order.deadline_s);
   CHECK(back.reserve_s == order.reserve_s);
   CHECK((back.generation == 3 && back.owners == order.owners));
+  REQUIRE(back.tiles.size() == 3);
+  CHECK((back.tiles[1].cost == 3 && back.tiles[1].average_weight == 4));
   FrameOrder end;
   end.end = true;
   CHECK(decode_frame_order(encode(end)).end);
@@ -115,6 +117,7 @@ TEST_CASE("a bundle comes back as it was sent") {
   CHECK(back.done);
   CHECK((back.progress.quality == 0.5 && back.progress.target == 0.25 && back.progress.future_cost == 1e6));
   REQUIRE(back.grants.size() == 1);
+  CHECK((back.stance.stance == 5 && back.stance.heard == 8 && back.stance.taken == 2));
   CHECK((back.grants[0].tile == 4 && back.grants[0].owner == 2 && back.grants[0].version == 7));
   CHECK((back.grants[0].now.cost == 1 && back.grants[0].last.average_weight == 4));
   REQUIRE(back.samples.size() == bundle.samples.size());

@@ -41,7 +41,7 @@ Sample look(const Camera& camera, double x, double y, int frame) {
 
 SampleMesh seen_by(const Camera& camera, int frame) {
   SampleMesh mesh(Region::whole(kGrid));
-  for (const Vec2d& p : seed_points(kSize, kSize, 1, frame)) mesh.insert(look(camera, p.x, p.y, frame));
+  for (const Vec2d& p : seed_points(kSize, kSize, 1)) mesh.insert(look(camera, p.x, p.y, frame));
   for (int i = 0; i < 600; ++i) {
     const auto p = mesh.next_point();
     if (!p) break;

@@ -40,7 +40,7 @@ TEST_CASE("every pixel is covered, slivers and points on pixel centres included"
   // Samples on the centres and corners of pixels: the worst case for edges through centres.
   SampleMesh mesh(Region::whole(kGrid));
   const Picture one = [](double, double) { return Color(1, 1, 1); };
-  for (const Vec2d& p : seed_points(kGrid.width, kGrid.height, 3, 1)) {
+  for (const Vec2d& p : seed_points(kGrid.width, kGrid.height, 3)) {
     mesh.insert(sample_of(one, std::round(2 * p.x) / 2, std::round(2 * p.y) / 2));
   }
   for (int x = 0; x < 100; ++x) mesh.insert(sample_of(one, x + 0.5, 30.5));

@@ -142,7 +142,7 @@ TEST_CASE("the created triangles are those around the new sample") {
   REQUIRE(mesh.insert(sample_of(disc(kGrid), point->x, point->y)));
   const auto newest = static_cast<std::uint32_t>(mesh.samples().size() - 1);
   CHECK(mesh.created().size() >= 3);
-  for (const NewTriangle& t : mesh.created()) {
+  for (const MeshTriangle& t : mesh.created()) {
     CHECK(std::find(t.corners.begin(), t.corners.end(), newest) != t.corners.end());
   }
 }

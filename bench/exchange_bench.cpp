@@ -1,0 +1,118 @@
+// What the samples of other ranks cost: insertion with the update rule, and their way through a message. The
+// work clock's prices for them stand on these figures.
+
+#include <benchmark/benchmark.h>
+
+#include <chrono>
+#include <cstddef>
+#include <vector>
+
+#include "parallel/exchange.h"
+#include "parallel/messages.h"
+#include "parallel/partition.h"
+
+namespace {
+
+using namespace pprt;
+
+constexpr int kSize = 512, kRanks = 64, kRank = 27;
+constexpr std::size_t kSamples = 76'000;  // the paper's per pixel
+constexpr std::size_t kBatch = 40;        // about what a round brings
+
+// Rings of changing width: as much fine detail as the SPD tree has, everywhere.
+Sample sample_at(double x, double y) {
+  Sample s;
+  s.x = x, s.y = y;
+  const double r = (x - 300) * (x - 300) + (y - 200) * (y - 200);
+  s.ray.color = static_cast<int>(r / 4000) % 2 == 0 ? Color(0.9f, 0.6f, 0.1f) : Color(0.1f, 0.2f, 0.4f);
+  return s;
+}
+
+Partition equal_squares() {
+  const TileGrid grid(kSize, kSize, 16);
+  return bisect(grid, std::vector<double>(static_cast<std::size_t>(grid.tile_count()), 1.0), kRanks);
+}
+
+// All samples of a serial run, in the order in which they were wanted.
+const std::vector<Sample>& serial_samples() {
+  static const std::vector<Sample> samples = [] {
+    SampleMesh mesh(Region::whole({kSize, kSize, 16}));
+    for (const Vec2d& p : seed_points(kSize, kSize, 1)) mesh.insert(sample_at(p.x, p.y));
+    while (mesh.samples().size() < kSamples) {
+      const Vec2d p = *mesh.next_point();
+      mesh.insert(sample_at(p.x, p.y));
+    }
+    return std::vector<Sample>(mesh.samples().begin(), mesh.samples().end());
+  }();
+  return samples;
+}
+
+// One rank's own samples and, in batches between them, those within a few pixels of its region; only the
+// latter are timed.
+void receive_sample(benchmark::State& state) {
+  using Clock = std::chrono::steady_clock;
+  const Partition partition = equal_squares();
+  const Region region = region_of(partition, kRank);
+  const PixelRect own = region.bounds();
+  constexpr double kReach = 6;
+  const SeedPattern seeds = seed_pattern(kSize, kSize, 1);
+  std::size_t received = 0;
+  for (auto _ : state) {
+    SampleMesh mesh(region);
+    SampleExchange exchange(partition, kRank, seeds);
+    std::vector<Sample> batch;
+    std::chrono::duration<double> spent(0);
+    const auto flush = [&] {
+      const auto began = Clock::now();
+      for (const Sample& s : batch) {
+        if (mesh.insert(s)) exchange.inserted(mesh, kRank + 1);
+      }
+      spent += Clock::now() - began;
+      received += batch.size();
+      batch.clear();
+    };
+    for (const Vec2d p : {Vec2d(0, 0), Vec2d(kSize, 0), Vec2d(kSize, kSize), Vec2d(0, kSize)}) {
+      if (mesh.insert(sample_at(p.x, p.y))) exchange.inserted(mesh, kRank);
+    }
+    for (const Sample& s : serial_samples()) {
+      if (region.owns_point(s.x, s.y)) {
+        if (mesh.insert(s)) exchange.inserted(mesh, kRank);
+      } else if (s.x > own.x0 - kReach && s.x < own.x1 + kReach && s.y > own.y0 - kReach &&
+                 s.y < own.y1 + kReach) {
+        batch.push_back(s);
+        if (batch.size() == kBatch) flush();
+      }
+    }
+    flush();
+    state.SetIterationTime(spent.count());
+  }
+  state.counters["per_sample"] = benchmark::Counter(
+      static_cast<double>(received), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["samples"] = static_cast<double>(received) / static_cast<double>(state.iterations());
+}
+BENCHMARK(receive_sample)->UseManualTime()->Unit(benchmark::kMillisecond);
+
+void encode_samples(benchmark::State& state) {
+  Bundle bundle;
+  bundle.samples.assign(serial_samples().begin(), serial_samples().begin() + state.range(0));
+  for (auto _ : state) benchmark::DoNotOptimize(encode(bundle));
+  state.counters["per_sample"] =
+      benchmark::Counter(static_cast<double>(state.iterations() * state.range(0)),
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(encode_samples)->Arg(10)->Arg(100);
+
+void decode_samples(benchmark::State& state) {
+  Bundle bundle;
+  bundle.samples.assign(serial_samples().begin(), serial_samples().begin() + state.range(0));
+  const Bytes bytes = encode(bundle);
+  for (auto _ : state) benchmark::DoNotOptimize(decode_bundle(bytes));
+  state.counters["per_sample"] =
+      benchmark::Counter(static_cast<double>(state.iterations() * state.range(0)),
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(decode_samples)->Arg(10)->Arg(100);
+
+}  // namespace
+
+BENCHMARK_MAIN();

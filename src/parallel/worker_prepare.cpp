@@ -1,0 +1,181 @@
+// How a rank's frame begins: what it takes over from the frame before, its seeds, and the others'.
+#include <algorithm>
+#include <utility>
+
+#include "parallel/worker.h"
+
+namespace pprt {
+namespace {
+
+// Wall clock: the share of a frame's period that a rank waits for its neighbours' seeds before it goes on
+// without.
+constexpr double kSeedPatience = 0.1;
+
+// Of seeds that others tell: which one it is does not matter here.
+constexpr std::uint32_t kSomeSeed = 0;
+
+}  // namespace
+
+void Worker::prepare(const FrameOrder& order) {
+  probe_.look_from(order.camera);
+  const bool new_partition = !order.owners.empty();
+  const Carry carry = carried_into(order);
+  const Missed missed = std::exchange(missed_, {});
+  balancer_.begin_frame(carry != Carry::kAccumulate || missed.triangulation, known_before(order, missed));
+  camera_before_ = order.camera;
+  if (carry == Carry::kAccumulate && missed.triangulation) {
+    catch_up(order, missed);
+    return;
+  }
+  if (carry == Carry::kAccumulate) {
+    if (new_partition) {
+      adopt_partition(order, true);
+      send_handed_over(order);
+    }
+    report_.samples_cast = in_region_;
+    return;
+  }
+  std::vector<Sample> survivors;
+  if (carry != Carry::kNothing && !missed.cut) survivors = cast(order);
+  report_.cpu_ms.casting += clock_->lap_ms();
+  if (new_partition) adopt_partition(order, false);
+
+  begin_triangulation(order.index);
+  trace_seeds(order);
+  settle(order, survivors);
+}
+
+Balancer::Known Worker::known_before(const FrameOrder& order, const Missed& missed) const {
+  if (order.cut || missed.cut || !camera_before_) return Balancer::Known::kNothing;
+  return order.camera == *camera_before_ ? Balancer::Known::kAll : Balancer::Known::kSome;
+}
+
+void Worker::begin_triangulation(int epoch) {
+  mesh_.clear();
+  exchange_.clear();
+  epoch_ = epoch;
+  in_region_ = 0;
+}
+
+// The master has cut the image anew. The samples of tiles that go to another rank are told to it if they are
+// kept.
+void Worker::adopt_partition(const FrameOrder& order, bool keep_samples) {
+  Partition next = exchange_.partition();
+  next.owner = order.owners;
+  std::fill(next.version.begin(), next.version.end(), first_version(order.generation));
+  for (int rank = 0; keep_samples && rank < network_.size(); ++rank) {
+    std::vector<int> moved;
+    for (const int tile : mesh_.region().tiles()) {
+      if (rank != network_.rank() && next.owner[static_cast<std::size_t>(tile)] == rank)
+        moved.push_back(tile);
+    }
+    if (!moved.empty()) exchange_.introduce(mesh_, moved, rank);
+  }
+  for (std::size_t tile = 0; tile < order.tiles.size(); ++tile) {
+    const bool is_new =
+        next.owner[tile] == network_.rank() && !mesh_.region().owns_tile(static_cast<int>(tile));
+    if (is_new) balancer_.expect(static_cast<int>(tile), order.tiles[tile]);
+  }
+  exchange_.repartition(next);
+  own_region_changed();
+}
+
+// What the ranks tell each other before the first sample of a frame that keeps its triangulation but not its
+// partition.
+void Worker::send_handed_over(const FrameOrder& order) {
+  send_bundles(order, kSeedRound, false);
+  receive_bundles(order, kSeedRound);
+}
+
+std::vector<Sample> Worker::cast(const FrameOrder& order) {
+  CastSettings cast_settings;
+  cast_settings.method = order.carry == Carry::kCastVerified ? CastMethod::kVerified : CastMethod::kPaper;
+  clock_->spend(Work::kCastSample, in_region_);
+  if (cast_settings.method == CastMethod::kVerified) clock_->spend(Work::kRay, in_region_);
+  std::vector<Sample> survivors =
+      cast_samples(mesh_, order.camera, order.number, cast_settings, probe_.visible).survivors;
+  // Putting them back may take half of a frame at most; the rest is for new samples.
+  if (order.deadline_s > 0) keep_youngest(survivors, clock_->affordable(Work::kOwnSample, 0.5));
+  return survivors;
+}
+
+void Worker::trace_seeds(const FrameOrder& order) {
+  const std::vector<Vec2d>& seeds = exchange_.seeds().points;
+  constexpr std::uint32_t kCorners = 4;  // every mesh needs them, so that its hull is the image
+  for (std::uint32_t i = 0; i < seeds.size(); ++i) {
+    const bool own = mesh_.region().owns_point(seeds[i].x, seeds[i].y);
+    if (i >= kCorners && !own) continue;
+    // A foreign corner is its owner's sample, which tells it to others and counts it.
+    const int owner = exchange_.owner_of(seeds[i].x, seeds[i].y);
+    insert(trace(order, seeds[i].x, seeds[i].y), {owner, i});
+    report_.samples_new += own;
+  }
+}
+
+// Seeds cross the borders first; then each survivor goes to the rank whose tile it landed in.
+void Worker::settle(const FrameOrder& order, const std::vector<Sample>& survivors) {
+  std::vector<Sample> own;
+  std::vector<std::vector<Sample>> emigrants(static_cast<std::size_t>(network_.size()));
+  for (const Sample& s : survivors) {
+    const int owner = exchange_.owner_of(s.x, s.y);
+    (owner == network_.rank() ? own : emigrants[static_cast<std::size_t>(owner)]).push_back(s);
+  }
+  for (int rank = 0; rank < network_.size(); ++rank) {
+    if (rank == network_.rank()) continue;
+    std::vector<Sample> samples = exchange_.take_outbox(rank);
+    const auto& guests = emigrants[static_cast<std::size_t>(rank)];
+    samples.insert(samples.end(), guests.begin(), guests.end());
+    const bool peer = std::binary_search(exchange_.seed_peers().begin(), exchange_.seed_peers().end(), rank);
+    if (samples.empty() && !peer && !clock_->in_lockstep()) continue;
+    send_bundle(rank, {order.index, epoch_, kSeedRound, false, {}, {}, {}, std::move(samples)});
+  }
+  receive_seeds(order);
+  report_.cpu_ms.sampling += clock_->lap_ms();
+  for (const Sample& s : own) {
+    if (insert(s, {network_.rank(), {}})) ++report_.samples_cast;
+  }
+  report_.cpu_ms.casting += clock_->lap_ms();
+}
+
+void Worker::receive_seeds(const FrameOrder& order) {
+  const std::vector<int>& peers = exchange_.seed_peers();
+  const auto of_this_round = [&](const Inbox::Arrived& a) {
+    return a.bundle.frame_index == order.index && a.bundle.round == kSeedRound;
+  };
+  const auto awaited = [&](const Inbox::Arrived& a) {
+    return of_this_round(a) &&
+           (clock_->in_lockstep() || std::binary_search(peers.begin(), peers.end(), a.from));
+  };
+  const std::size_t expected =
+      clock_->in_lockstep() ? static_cast<std::size_t>(network_.size() - 1) : peers.size();
+  const bool has_patience = clock_->in_lockstep() || order.deadline_s == 0;
+  await([&] {
+    return inbox_.count_bundles(awaited) >= expected ||
+           (!has_patience && clock_->frame_seconds() * settings_.frames_per_second > kSeedPatience);
+  });
+  const std::vector<Inbox::Arrived> bundles = inbox_.take_bundles(of_this_round);
+  for (const Inbox::Arrived& arrived : bundles) stance_.hear(arrived.from, arrived.bundle.stance);
+  for (const Inbox::Arrived& arrived : bundles) take_in_seeds(arrived);
+  for (const Inbox::Arrived& arrived : bundles) take_in_survivors(arrived);
+}
+
+// What comes before a fresh triangulation's first round and lies elsewhere is another rank's seed.
+void Worker::take_in_seeds(const Inbox::Arrived& arrived) {
+  for (const Sample& s : arrived.bundle.samples) {
+    if (mesh_.region().owns_point(s.x, s.y)) continue;
+    ++(insert(s, {arrived.from, kSomeSeed}) ? report_.samples_received : report_.samples_known);
+  }
+}
+
+// And what lies in the own region is a survivor that landed here. Who hands it over keeps none: it is this
+// rank's to tell, to the former owner too.
+void Worker::take_in_survivors(const Inbox::Arrived& arrived) {
+  for (const Sample& s : arrived.bundle.samples) {
+    if (!mesh_.region().owns_point(s.x, s.y)) continue;
+    const bool inserted = insert(s, {network_.rank(), {}});
+    ++(inserted ? report_.samples_received : report_.samples_known);
+    report_.samples_cast += inserted;
+  }
+}
+
+}  // namespace pprt
