@@ -29,7 +29,7 @@ Sample sample_at(double x, double y) {
 }
 
 Partition equal_squares() {
-  const TileGrid grid(kSize, kSize, 16);
+  const TileGrid grid = tile_grid_for(kSize, kSize, kRanks);
   return bisect(grid, std::vector<double>(static_cast<std::size_t>(grid.tile_count()), 1.0), kRanks);
 }
 
@@ -47,36 +47,44 @@ const std::vector<Sample>& serial_samples() {
   return samples;
 }
 
-// One rank's own samples and, in batches between them, those within a few pixels of its region; only the
-// latter are timed.
-void receive_sample(benchmark::State& state) {
+// One rank's own samples and, in batches between them, those within a few pixels of its region. Timed are the
+// latter, or finding out whom the former concern.
+enum class Timed { kReceived, kOwnAnnounced };
+
+void exchange_samples(benchmark::State& state, Timed timed) {
   using Clock = std::chrono::steady_clock;
   const Partition partition = equal_squares();
   const Region region = region_of(partition, kRank);
   const PixelRect own = region.bounds();
   constexpr double kReach = 6;
   const SeedPattern seeds = seed_pattern(kSize, kSize, 1);
-  std::size_t received = 0;
+  std::size_t counted = 0;
   for (auto _ : state) {
     SampleMesh mesh(region);
     SampleExchange exchange(partition, kRank, seeds);
     std::vector<Sample> batch;
-    std::chrono::duration<double> spent(0);
+    std::chrono::duration<double> spent(0), announcing(0);
+    std::size_t own_samples = 0, received = 0;
     const auto flush = [&] {
+      const auto before = Clock::now();
+      exchange.announce(mesh);  // the own ones
       const auto began = Clock::now();
+      announcing += began - before;
       for (const Sample& s : batch) {
-        if (mesh.insert(s)) exchange.inserted(mesh, kRank + 1);
+        if (mesh.insert(s)) exchange.inserted(kRank + 1);
       }
+      exchange.announce(mesh);
       spent += Clock::now() - began;
       received += batch.size();
       batch.clear();
     };
-    for (const Vec2d p : {Vec2d(0, 0), Vec2d(kSize, 0), Vec2d(kSize, kSize), Vec2d(0, kSize)}) {
-      if (mesh.insert(sample_at(p.x, p.y))) exchange.inserted(mesh, kRank);
+    for (const Vec2d& p : {Vec2d(0, 0), Vec2d(kSize, 0), Vec2d(kSize, kSize), Vec2d(0, kSize)}) {
+      if (mesh.insert(sample_at(p.x, p.y))) exchange.inserted(kRank);
     }
     for (const Sample& s : serial_samples()) {
       if (region.owns_point(s.x, s.y)) {
-        if (mesh.insert(s)) exchange.inserted(mesh, kRank);
+        if (mesh.insert(s)) exchange.inserted(kRank);
+        ++own_samples;
       } else if (s.x > own.x0 - kReach && s.x < own.x1 + kReach && s.y > own.y0 - kReach &&
                  s.y < own.y1 + kReach) {
         batch.push_back(s);
@@ -84,13 +92,14 @@ void receive_sample(benchmark::State& state) {
       }
     }
     flush();
-    state.SetIterationTime(spent.count());
+    state.SetIterationTime(timed == Timed::kReceived ? spent.count() : announcing.count());
+    counted += timed == Timed::kReceived ? received : own_samples;
   }
   state.counters["per_sample"] = benchmark::Counter(
-      static_cast<double>(received), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
-  state.counters["samples"] = static_cast<double>(received) / static_cast<double>(state.iterations());
+      static_cast<double>(counted), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
-BENCHMARK(receive_sample)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(exchange_samples, receive_sample, Timed::kReceived)->UseManualTime();
+BENCHMARK_CAPTURE(exchange_samples, announce_own_samples, Timed::kOwnAnnounced)->UseManualTime();
 
 void encode_samples(benchmark::State& state) {
   Bundle bundle;

@@ -34,37 +34,6 @@ std::int32_t owner_at(const Partition& partition, int column, int row) {
                          static_cast<std::size_t>(column)];
 }
 
-// Per tile of the rank: a lower bound of the distance of its points to any foreign tile; 0 for foreign tiles.
-// Tiles within `d` steps (diagonals count one) that are all owned keep (d) tile widths between.
-std::vector<double> distances_inside(const Partition& partition, int rank) {
-  const TileGrid& grid = partition.grid;
-  const int columns = grid.columns(), rows = grid.rows();
-  const auto tile_index = [columns](int x, int y) {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x);
-  };
-  const auto owned = [&](int x, int y) {
-    return x < 0 || y < 0 || x >= columns || y >= rows || partition.owner[tile_index(x, y)] == rank;
-  };
-  std::vector<double> inside(partition.owner.size(), 0);
-  for (int y = 0; y < rows; ++y) {
-    for (int x = 0; x < columns; ++x) {
-      if (!owned(x, y)) continue;
-      int steps = 0;
-      const auto ring_is_owned = [&](int d) {
-        for (int i = -d; i <= d; ++i) {
-          if (!owned(x + i, y - d) || !owned(x + i, y + d) || !owned(x - d, y + i) || !owned(x + d, y + i))
-            return false;
-        }
-        return true;
-      };
-      const int most = std::max(columns, rows);
-      while (steps < most && ring_is_owned(steps + 1)) ++steps;
-      inside[tile_index(x, y)] = steps * grid.tile_size;
-    }
-  }
-  return inside;
-}
-
 // Ranks that are marked, ascending, `except` one.
 std::vector<int> members(std::span<const std::uint8_t> marked, int except) {
   std::vector<int> ranks;
@@ -98,7 +67,6 @@ SampleExchange::SampleExchange(const Partition& partition, int rank, SeedPattern
       rank_(rank),
       known_by_(partition.ranks),
       outbox_(static_cast<std::size_t>(partition.ranks)),
-      inside_by_(distances_inside(partition, rank)),
       seeds_(std::move(seeds)),
       neighbours_(ranks_beside(partition, rank)),
       touch_stamp_(static_cast<std::size_t>(partition.ranks), 0) {
@@ -107,7 +75,6 @@ SampleExchange::SampleExchange(const Partition& partition, int rank, SeedPattern
 
 void SampleExchange::repartition(const Partition& partition) {
   partition_ = partition;
-  inside_by_ = distances_inside(partition, rank_);
   neighbours_ = ranks_beside(partition, rank_);
   seeds_are_planned_ = false;
 }
@@ -182,20 +149,24 @@ void SampleExchange::note_newest(int from) {
   known_by_.add(newest, from);
 }
 
-void SampleExchange::inserted(const SampleMesh& mesh, int from) {
+void SampleExchange::inserted(int from) {
   note_newest(from);
+}
+
+void SampleExchange::announce(SampleMesh& mesh) {
+  mesh.take_new_at_border(at_border_);
   if (partition_.ranks == 1) return;
-  for (const MeshTriangle& triangle : mesh.created()) {
-    if (far_inside(triangle.circumcircle)) continue;
-    const auto is_own = [&](std::uint32_t corner) {
-      const Sample& s = mesh.samples()[corner];
-      return owner_of(s.x, s.y) == rank_;
-    };
-    if (std::none_of(triangle.corners.begin(), triangle.corners.end(), is_own)) continue;
-    touch_ranks(triangle.circumcircle);
+  const std::span<const Sample> samples = mesh.samples();
+  for (const MeshTriangle& triangle : at_border_) {
+    std::array<std::uint32_t, 3> own;
+    std::size_t count = 0;
     for (const std::uint32_t corner : triangle.corners) {
-      if (!is_own(corner)) continue;
-      for (const int rank : touched_) tell(mesh, corner, rank);
+      if (owner_of(samples[corner].x, samples[corner].y) == rank_) own[count++] = corner;
+    }
+    if (count == 0) continue;
+    touch_ranks(triangle.circumcircle);
+    for (const int rank : touched_) {
+      for (std::size_t i = 0; i < count; ++i) tell(mesh, own[i], rank);
     }
   }
 }
@@ -241,14 +212,6 @@ void SampleExchange::touch_ranks(const Circle& circle) {
       }
     }
   }
-}
-
-bool SampleExchange::far_inside(const Circle& circle) const {
-  const TileGrid& grid = partition_.grid;
-  const Vec2d& c = circle.center;
-  if (c.x < 0 || c.y < 0 || c.x > grid.width || c.y > grid.height) return false;
-  const double inside_by = inside_by_[static_cast<std::size_t>(grid.tile_at(c.x, c.y))];
-  return circle.radius_squared < inside_by * inside_by;
 }
 
 }  // namespace pprt

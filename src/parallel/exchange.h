@@ -13,7 +13,7 @@
 
 namespace pprt {
 
-// Kept in step with one rank's mesh. Each rank tells its own samples, and nobody else does: whenever a new
+// Kept in step with one rank's mesh. Each rank tells its own samples, and nobody else does: when a new
 // triangle's circumcircle meets another rank's region, that rank is told the triangle's corners that lie in
 // the own one. Once all messages have arrived, every triangle whose circumcircle meets the regions of two
 // ranks is in both their triangulations (docs/decisions/0012-owners-tell.md has the proof).
@@ -26,7 +26,7 @@ class SampleExchange {
 
   // Every successful insert is followed by exactly one of these three. `from` is the rank that the sample
   // came from, or this one.
-  void inserted(const SampleMesh& mesh, int from);               // the update rule
+  void inserted(int from);
   void seeded_here(const SampleMesh& mesh, std::uint32_t seed);  // an own seed: which triangles it will be in
                                                                  // is known before the mesh has them
   void seeded_elsewhere(int from);                               // another rank's seed
@@ -55,6 +55,9 @@ class SampleExchange {
     return partition_.owner[static_cast<std::size_t>(partition_.grid.tile_at(x, y))];
   }
 
+  // The update rule, applied to the triangles that were made since the last call and still are.
+  void announce(SampleMesh& mesh);
+
   // Samples that `rank` must be told; emptied by the call.
   std::vector<Sample> take_outbox(int rank);
 
@@ -64,13 +67,12 @@ class SampleExchange {
   void tell(const SampleMesh& mesh, std::uint32_t sample, int rank);
   void touch_ranks(
       const Circle& circle);  // fills touched_ with other ranks, and whether the own region is met
-  bool far_inside(const Circle& circle) const;
 
   Partition partition_;
   int rank_;
+  std::vector<MeshTriangle> at_border_;
   RankSets known_by_;                        // per sample of the mesh
   std::vector<std::vector<Sample>> outbox_;  // per rank
-  std::vector<double> inside_by_;  // per tile: distance in pixels that keeps a point of it from other regions
   SeedPattern seeds_;
   std::vector<std::vector<int>> told_seed_;  // per seed of the own region: ranks to tell
   bool seeds_are_planned_ = false;           // for this partition

@@ -14,7 +14,7 @@ namespace pprt {
 struct LocalBalanceSettings {
   double giving_ratio = 1.03;         // begin to give when the neighbours have so much less to pay
   double quality_ratio = 1.0;         // give to those whose quality is so much better, and
-  double cost_ratio = 1.2;            // future cost so much lower,
+  double cost_ratio = 1.4;            // future cost so much lower,
   double share = 0.3;                 // at once, this share of the difference in future cost
   double balance_weight = 0.5;        // w1: what a tile takes away, by the most that any takes away
   double communication_weight = 0.1;  // w2: share of its samples that the taker knows

@@ -12,8 +12,9 @@ using WorkUnits = std::uint64_t;
 enum class Work : std::uint8_t {
   kRay,             // a ray of any kind, its share of shading included
   kOwnSample,       // choosing a point, inserting a sample traced here, queueing its triangles
-  kReceivedSample,  // decoding and inserting another rank's sample
-  kSentSample,      // the update rule and encoding, per sample and receiver
+  kUpdateRule,      // whom an own sample concerns, where there are other ranks
+  kReceivedSample,  // decoding and inserting another rank's sample, and the update rule for it
+  kSentSample,      // encoding, per sample and receiver
   kPixel,           // reconstruction of one pixel
   kCastSample       // projecting and testing one sample of the frame before
 };
@@ -24,10 +25,12 @@ constexpr WorkUnits price(Work work) {
       return 110;
     case Work::kOwnSample:
       return 840;
+    case Work::kUpdateRule:
+      return 130;
     case Work::kReceivedSample:
-      return 600;
+      return 710;
     case Work::kSentSample:
-      return 60;
+      return 30;
     case Work::kPixel:
       return 22;
     case Work::kCastSample:

@@ -4,6 +4,37 @@
 #include <utility>
 
 namespace pprt {
+namespace {
+
+// Per tile: how many tiles at least lie between it and any that is not owned, in rows, columns or diagonals;
+// -1 for those themselves. Two sweeps over the grid, each taking over what the neighbours before found.
+std::vector<int> tiles_between(const TileGrid& grid, const std::vector<std::uint8_t>& owned) {
+  const int columns = grid.columns(), rows = grid.rows();
+  std::vector<int> between(owned.size());
+  const auto index = [columns](int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x);
+  };
+  for (std::size_t tile = 0; tile < owned.size(); ++tile)
+    between[tile] = owned[tile] != 0 ? std::max(columns, rows) : -1;
+  const auto take_over = [&](int x, int y, int dx, int dy) {
+    if (x + dx < 0 || x + dx >= columns || y + dy < 0 || y + dy >= rows) return;
+    int& here = between[index(x, y)];
+    here = std::min(here, between[index(x + dx, y + dy)] + 1);
+  };
+  for (int y = 0; y < rows; ++y) {
+    for (int x = 0; x < columns; ++x) {
+      take_over(x, y, -1, 0), take_over(x, y, -1, -1), take_over(x, y, 0, -1), take_over(x, y, 1, -1);
+    }
+  }
+  for (int y = rows - 1; y >= 0; --y) {
+    for (int x = columns - 1; x >= 0; --x) {
+      take_over(x, y, 1, 0), take_over(x, y, 1, 1), take_over(x, y, 0, 1), take_over(x, y, -1, 1);
+    }
+  }
+  return between;
+}
+
+}  // namespace
 
 Region::Region(const TileGrid& grid, std::vector<std::uint8_t> owned)
     : grid_(grid), owned_(std::move(owned)) {
@@ -19,6 +50,9 @@ Region::Region(const TileGrid& grid, std::vector<std::uint8_t> owned)
     tiles_.push_back(tile);
     pixel_count_ += rect.area();
   }
+  inside_by_.reserve(owned_.size());
+  for (const int between : tiles_between(grid, owned_))
+    inside_by_.push_back(std::max(between, 0) * grid.tile_size);
 }
 
 Region Region::whole(const TileGrid& grid) {

@@ -1,9 +1,11 @@
 // The set of tiles that one rank samples and reconstructs (paper s. 3.3).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
+#include "pipeline/refinement_weight.h"
 #include "pipeline/tile_grid.h"
 
 namespace pprt {
@@ -23,10 +25,23 @@ class Region {
   const PixelRect& bounds() const { return bounds_; }       // smallest rectangle that holds every owned pixel
   std::size_t pixel_count() const { return pixel_count_; }
 
+  // Whether a circle surely lies in the region, as far as it lies in the image.
+  bool surely_holds(const Circle& circle) const {
+    const Vec2d& c = circle.center;
+    if (!(c.x >= 0 && c.y >= 0 && c.x <= grid_.width && c.y <= grid_.height)) return false;
+    const int tile = grid_.tile_at(c.x, c.y);
+    if (!owns_tile(tile)) return false;
+    const PixelRect rect = grid_.pixels(tile);
+    const double to_side = std::min({c.x - rect.x0, rect.x1 - c.x, c.y - rect.y0, rect.y1 - c.y});
+    const double inside_by = inside_by_[static_cast<std::size_t>(tile)] + std::max(to_side, 0.0);
+    return circle.radius_squared < inside_by * inside_by;
+  }
+
  private:
   TileGrid grid_;
   std::vector<std::uint8_t> owned_;
   std::vector<int> tiles_;
+  std::vector<double> inside_by_;  // per tile: pixels that at least lie between it and any other region
   PixelRect bounds_;
   std::size_t pixel_count_ = 0;
 };

@@ -31,8 +31,8 @@ std::optional<Vec2d> SampleMesh::next_point() {
 std::span<const Sample> SampleMesh::samples() const {
   return impl_->samples();
 }
-std::span<const MeshTriangle> SampleMesh::created() const {
-  return impl_->created();
+void SampleMesh::take_new_at_border(std::vector<MeshTriangle>& triangles) {
+  impl_->take_new_at_border(triangles);
 }
 std::span<const TileWeights> SampleMesh::tile_weights() const {
   return impl_->tile_weights();
@@ -49,7 +49,7 @@ void SampleMesh::Impl::clear() {
   const auto tiles = static_cast<std::size_t>(region_.grid().tile_count());
   delaunay_.clear();
   samples_.clear();
-  created_.clear();
+  new_at_border_.clear();
   queue_.clear();
   tile_weights_.assign(tiles, {});
   region_weights_ = {};
@@ -70,7 +70,6 @@ bool SampleMesh::Impl::insert(const Sample& sample) {
   const Vec2d point(sample.x, sample.y);
   const Location at = wanted_ == point ? wanted_location_ : locate(point, face_near(point));
   wanted_.reset();
-  created_.clear();
   const std::size_t before = delaunay_.number_of_vertices();
   const Vertex vertex = delaunay_.insert({point.x, point.y}, at.type, at.face, at.index);
   if (delaunay_.number_of_vertices() == before) return false;
@@ -89,7 +88,9 @@ bool SampleMesh::Impl::insert(const Sample& sample) {
   const auto first = face;
   do {
     forget(face->info());
-    if (!delaunay_.is_infinite(face)) adopt(face);
+    if (delaunay_.is_infinite(face)) continue;
+    const TriangleShape shape = adopt(face);
+    if (!region_.surely_holds(shape.circumcircle)) new_at_border_.push_back({face, face->info().stamp});
   } while (++face != first);
   return true;
 }
@@ -110,6 +111,19 @@ std::optional<Vec2d> SampleMesh::Impl::next_point() {
   return std::nullopt;
 }
 
+void SampleMesh::Impl::take_new_at_border(std::vector<MeshTriangle>& triangles) {
+  triangles.clear();
+  for (const QueueEntry& entry : new_at_border_) {
+    const Face face = entry.face;
+    if (face->info().stamp != entry.stamp) continue;
+    const TriangleShape shape = triangle_shape(corner(face, 0), corner(face, 1), corner(face, 2));
+    triangles.push_back(
+        {shape.circumcircle,
+         {face->vertex(0)->info().sample, face->vertex(1)->info().sample, face->vertex(2)->info().sample}});
+  }
+  new_at_border_.clear();
+}
+
 SampleMesh::Impl::Location SampleMesh::Impl::locate(const Vec2d& point, Face near) const {
   Location at;
   at.face = delaunay_.locate({point.x, point.y}, at.type, at.index, near);
@@ -121,7 +135,7 @@ SampleMesh::Impl::Face SampleMesh::Impl::face_near(const Vec2d& point) const {
   return vertex == Vertex() ? Face() : vertex->face();
 }
 
-void SampleMesh::Impl::adopt(Face face) {
+TriangleShape SampleMesh::Impl::adopt(Face face) {
   const TriangleShape shape = triangle_shape(corner(face, 0), corner(face, 1), corner(face, 2));
   const VertexInfo &a = face->vertex(0)->info(), &b = face->vertex(1)->info(), &c = face->vertex(2)->info();
   const Vec2d point = refinement_point(face, shape.circumcircle.center);
@@ -135,7 +149,7 @@ void SampleMesh::Impl::adopt(Face face) {
     count(info, 1);
     if (info.weight > 0) queue_.push(info.weight, {face, info.stamp});
   }
-  created_.push_back({shape.circumcircle, {a.sample, b.sample, c.sample}});
+  return shape;
 }
 
 void SampleMesh::Impl::forget(FaceInfo& info) {
@@ -157,7 +171,6 @@ void SampleMesh::Impl::count(const FaceInfo& info, int sign) {
 void SampleMesh::Impl::rescan() {
   queue_.clear();
   wanted_.reset();
-  created_.clear();
   tile_weights_.assign(tile_weights_.size(), {});
   region_weights_ = {};
   for (auto face = delaunay_.finite_faces_begin(); face != delaunay_.finite_faces_end(); ++face) adopt(face);

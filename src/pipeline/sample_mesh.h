@@ -59,8 +59,9 @@ class SampleMesh {
 
   std::span<const Sample> samples() const;
 
-  // The triangles that the last successful insert made; valid until the next one.
-  std::span<const MeshTriangle> created() const;
+  // Replaces `triangles` by those that were inserted since the last call, still are, and may not lie wholly
+  // in the region by their circumcircle.
+  void take_new_at_border(std::vector<MeshTriangle>& triangles);
 
   // One entry per tile of the grid; zero outside the region.
   std::span<const TileWeights> tile_weights() const;

@@ -53,7 +53,7 @@ class SampleMesh::Impl {
   const Region& region() const { return region_; }
   const Delaunay& delaunay() const { return delaunay_; }
   const std::vector<Sample>& samples() const { return samples_; }
-  const std::vector<MeshTriangle>& created() const { return created_; }
+  void take_new_at_border(std::vector<MeshTriangle>& triangles);
   const std::vector<TileWeights>& tile_weights() const { return tile_weights_; }
 
  private:
@@ -69,7 +69,7 @@ class SampleMesh::Impl {
 
   Location locate(const Vec2d& point, Face near) const;
   Face face_near(const Vec2d& point) const;
-  void adopt(Face face);                       // a triangle that is new: statistics, queue, created_
+  TriangleShape adopt(Face face);              // a triangle that is new: statistics, queue
   void count(const FaceInfo& info, int sign);  // into, or out of, the statistics
   void forget(FaceInfo& info);                 // a triangle that is gone: statistics
   void rescan();                               // every triangle anew
@@ -79,7 +79,7 @@ class SampleMesh::Impl {
   Region region_;
   Delaunay delaunay_;
   std::vector<Sample> samples_;
-  std::vector<MeshTriangle> created_;
+  std::vector<QueueEntry> new_at_border_;
   std::vector<TileWeights> tile_weights_;
   TileWeights region_weights_;          // over the region's tiles
   std::vector<Vertex> latest_in_tile_;  // where to start a walk; null handles before the first

@@ -62,7 +62,7 @@ class VirtualRanks {
       for (auto n = static_cast<int>(random_() % static_cast<unsigned>(most)); n > 0; --n) {
         const auto point = v.mesh.next_point();
         if (!point) break;
-        if (v.mesh.insert(sample_of(picture_, point->x, point->y))) v.exchange.inserted(v.mesh, rank_of(v));
+        if (v.mesh.insert(sample_of(picture_, point->x, point->y))) v.exchange.inserted(rank_of(v));
       }
     }
     post();
@@ -104,6 +104,7 @@ class VirtualRanks {
         ranks_.begin());
   }
   void post() {
+    for (Virtual& v : ranks_) v.exchange.announce(v.mesh);
     for (int from = 0; from < partition_.ranks; ++from) {
       for (int to = 0; to < partition_.ranks; ++to) {
         for (const Sample& s : ranks_[static_cast<std::size_t>(from)].exchange.take_outbox(to)) {
@@ -117,7 +118,7 @@ class VirtualRanks {
     for (; count > 0; --count) {
       const auto [from, sample] = v.inbox.front();
       v.inbox.pop_front();
-      if (v.mesh.insert(sample)) v.exchange.inserted(v.mesh, from);
+      if (v.mesh.insert(sample)) v.exchange.inserted(from);
     }
   }
 

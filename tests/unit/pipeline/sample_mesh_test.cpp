@@ -1,6 +1,7 @@
 #include "pipeline/sample_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
@@ -135,16 +136,34 @@ TEST_CASE("a taken point and one outside the image are refused") {
   CHECK(mesh.samples().size() == before);
 }
 
-TEST_CASE("the created triangles are those around the new sample") {
-  SampleMesh mesh = refine(Region::whole(kGrid), disc(kGrid), 300);
-  const auto point = mesh.next_point();
-  REQUIRE(point);
-  REQUIRE(mesh.insert(sample_of(disc(kGrid), point->x, point->y)));
-  const auto newest = static_cast<std::uint32_t>(mesh.samples().size() - 1);
-  CHECK(mesh.created().size() >= 3);
-  for (const MeshTriangle& t : mesh.created()) {
-    CHECK(std::find(t.corners.begin(), t.corners.end(), newest) != t.corners.end());
+TEST_CASE("new triangles at the border are told once, while they stand") {
+  // The left half of the image.
+  std::vector<std::uint8_t> owned(static_cast<std::size_t>(kGrid.tile_count()), 0);
+  for (int tile = 0; tile < kGrid.tile_count(); ++tile) {
+    owned[static_cast<std::size_t>(tile)] = kGrid.pixels(tile).x0 < kGrid.width / 2;
   }
+  SampleMesh mesh = refine(Region(kGrid, owned), disc(kGrid), 300);
+  std::vector<MeshTriangle> told;
+  mesh.take_new_at_border(told);
+  std::set<std::array<std::uint32_t, 3>> standing, told_once;
+  const auto in_order = [](std::array<std::uint32_t, 3> t) {
+    std::sort(t.begin(), t.end());
+    return t;
+  };
+  for (const auto& t : triangles(mesh)) standing.insert(in_order(t));
+  for (const MeshTriangle& t : told) {
+    CHECK(standing.count(in_order(t.corners)) == 1);
+    CHECK(told_once.insert(in_order(t.corners)).second);
+  }
+  // Whatever crosses the middle is among them.
+  for (const auto& t : triangles(mesh)) {
+    const auto x = [&](std::size_t i) { return mesh.samples()[t[i]].x; };
+    const double left = std::min({x(0), x(1), x(2)}), right = std::max({x(0), x(1), x(2)});
+    if (left < kGrid.width / 2 && right > kGrid.width / 2) CHECK(told_once.count(in_order(t)) == 1);
+  }
+  CHECK(told.size() < standing.size());
+  mesh.take_new_at_border(told);
+  CHECK(told.empty());
 }
 
 TEST_CASE("collinear and cocircular samples do no harm") {
