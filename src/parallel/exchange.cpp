@@ -15,6 +15,12 @@ double distance_squared(const Vec2d& p, const PixelRect& rect) {
   return dx * dx + dy * dy;
 }
 
+bool meets(const Circle& circle, const Region& region) {
+  return std::any_of(region.tiles().begin(), region.tiles().end(), [&](int tile) {
+    return distance_squared(circle.center, region.grid().pixels(tile)) <= circle.radius_squared;
+  });
+}
+
 struct TileRange {
   int x0, y0, x1, y1;  // inclusive
 };
@@ -81,13 +87,15 @@ void SampleExchange::repartition(const Partition& partition) {
 
 // The update rule, applied to the triangles that all seeds together will make.
 void SampleExchange::plan_seeds() {
-  const PixelRect around = region_of(partition_, rank_).bounds();
+  const Region region = region_of(partition_, rank_);
   std::vector<std::uint8_t> is_peer(static_cast<std::size_t>(partition_.ranks), 0);
   told_seed_.assign(seeds_.points.size(), {});
   for (const MeshTriangle& triangle : seeds_.triangles) {
-    if (distance_squared(triangle.circumcircle.center, around) > triangle.circumcircle.radius_squared)
+    if (distance_squared(triangle.circumcircle.center, region.bounds()) >
+        triangle.circumcircle.radius_squared)
       continue;
-    touch_ranks(triangle.circumcircle);
+    touch_others(triangle.circumcircle);
+    const bool meets_own = meets(triangle.circumcircle, region);
     for (const std::uint32_t seed : triangle.corners) {
       const int owner = owner_of(seeds_.points[seed].x, seeds_.points[seed].y);
       if (owner == rank_) {
@@ -96,7 +104,7 @@ void SampleExchange::plan_seeds() {
           is_peer[static_cast<std::size_t>(rank)] = 1;
           if (std::find(told.begin(), told.end(), rank) == told.end()) told.push_back(rank);
         }
-      } else if (touches_own_) {
+      } else if (meets_own) {
         is_peer[static_cast<std::size_t>(owner)] = 1;
       }
     }
@@ -153,9 +161,9 @@ void SampleExchange::inserted(int from) {
   note_newest(from);
 }
 
-void SampleExchange::announce(SampleMesh& mesh) {
+std::size_t SampleExchange::announce(SampleMesh& mesh) {
   mesh.take_new_at_border(at_border_);
-  if (partition_.ranks == 1) return;
+  if (partition_.ranks == 1) return 0;
   const std::span<const Sample> samples = mesh.samples();
   for (const MeshTriangle& triangle : at_border_) {
     std::array<std::uint32_t, 3> own;
@@ -164,11 +172,12 @@ void SampleExchange::announce(SampleMesh& mesh) {
       if (owner_of(samples[corner].x, samples[corner].y) == rank_) own[count++] = corner;
     }
     if (count == 0) continue;
-    touch_ranks(triangle.circumcircle);
+    touch_others(triangle.circumcircle);
     for (const int rank : touched_) {
       for (std::size_t i = 0; i < count; ++i) tell(mesh, own[i], rank);
     }
   }
+  return at_border_.size();
 }
 
 void SampleExchange::seeded_here(const SampleMesh& mesh, std::uint32_t seed) {
@@ -191,12 +200,12 @@ void SampleExchange::tell(const SampleMesh& mesh, std::uint32_t sample, int rank
   outbox_[static_cast<std::size_t>(rank)].push_back(mesh.samples()[sample]);
 }
 
-void SampleExchange::touch_ranks(const Circle& circle) {
+void SampleExchange::touch_others(const Circle& circle) {
   const TileGrid& grid = partition_.grid;
   const TileRange range = tiles_around(grid, circle);
   ++stamp_;
+  touch_stamp_[static_cast<std::size_t>(rank_)] = stamp_;
   touched_.clear();
-  touches_own_ = false;
   for (int y = range.y0; y <= range.y1; ++y) {
     for (int x = range.x0; x <= range.x1; ++x) {
       const int tile = y * grid.columns() + x;
@@ -205,11 +214,7 @@ void SampleExchange::touch_ranks(const Circle& circle) {
       if (stamp == stamp_) continue;
       if (distance_squared(circle.center, grid.pixels(tile)) > circle.radius_squared) continue;
       stamp = stamp_;
-      if (owner == rank_) {
-        touches_own_ = true;
-      } else {
-        touched_.push_back(owner);
-      }
+      touched_.push_back(owner);
     }
   }
 }

@@ -55,8 +55,9 @@ class SampleExchange {
     return partition_.owner[static_cast<std::size_t>(partition_.grid.tile_at(x, y))];
   }
 
-  // The update rule, applied to the triangles that were made since the last call and still are.
-  void announce(SampleMesh& mesh);
+  // The update rule, applied to the triangles at the border that were made since the last call and still are:
+  // so many.
+  std::size_t announce(SampleMesh& mesh);
 
   // Samples that `rank` must be told; emptied by the call.
   std::vector<Sample> take_outbox(int rank);
@@ -65,8 +66,7 @@ class SampleExchange {
   void plan_seeds();
   void note_newest(int from);
   void tell(const SampleMesh& mesh, std::uint32_t sample, int rank);
-  void touch_ranks(
-      const Circle& circle);  // fills touched_ with other ranks, and whether the own region is met
+  void touch_others(const Circle& circle);  // fills touched_
 
   Partition partition_;
   int rank_;
@@ -81,7 +81,6 @@ class SampleExchange {
   std::vector<int> touched_;
   std::vector<std::uint32_t> touch_stamp_;  // per rank, to list each once
   std::uint32_t stamp_ = 0;
-  bool touches_own_ = false;
 };
 
 }  // namespace pprt

@@ -12,8 +12,8 @@ using WorkUnits = std::uint64_t;
 enum class Work : std::uint8_t {
   kRay,             // a ray of any kind, its share of shading included
   kOwnSample,       // choosing a point, inserting a sample traced here, queueing its triangles
-  kUpdateRule,      // whom an own sample concerns, where there are other ranks
-  kReceivedSample,  // decoding and inserting another rank's sample, and the update rule for it
+  kUpdateRule,      // whom a new triangle at the border concerns
+  kReceivedSample,  // decoding and inserting another rank's sample
   kSentSample,      // encoding, per sample and receiver
   kPixel,           // reconstruction of one pixel
   kCastSample       // projecting and testing one sample of the frame before
@@ -26,9 +26,9 @@ constexpr WorkUnits price(Work work) {
     case Work::kOwnSample:
       return 840;
     case Work::kUpdateRule:
-      return 130;
+      return 85;
     case Work::kReceivedSample:
-      return 710;
+      return 540;
     case Work::kSentSample:
       return 30;
     case Work::kPixel:

@@ -124,7 +124,7 @@ void Worker::send_bundles(const FrameOrder& order, int round, bool to_all) {
   const std::vector<TileGrant> grants = local ? give_tiles() : std::vector<TileGrant>();
   const RankProgress progress = local ? balancer_.progress(mesh_, clock_->sampling_share()) : RankProgress();
   const bool tell_progress = local && round % kPacketsPerProgress == 0;
-  exchange_.announce(mesh_);
+  clock_->spend(Work::kUpdateRule, exchange_.announce(mesh_));
   for (int rank = 0; rank < network_.size(); ++rank) {
     if (rank == network_.rank()) continue;
     std::vector<Sample> samples = exchange_.take_outbox(rank);
@@ -315,7 +315,6 @@ Sample Worker::trace(const FrameOrder& order, double x, double y) {
 bool Worker::insert(const Sample& sample, const Insertion& how) {
   const bool own = how.from == network_.rank();
   clock_->spend(own ? Work::kOwnSample : Work::kReceivedSample, 1);
-  if (own && network_.size() > 1) clock_->spend(Work::kUpdateRule, 1);
   if (!own) balancer_.received(static_cast<double>(price(Work::kReceivedSample)));
   if (!mesh_.insert(sample)) return false;
   in_region_ += mesh_.region().owns_point(sample.x, sample.y);

@@ -89,8 +89,11 @@ bool SampleMesh::Impl::insert(const Sample& sample) {
   do {
     forget(face->info());
     if (delaunay_.is_infinite(face)) continue;
-    const TriangleShape shape = adopt(face);
-    if (!region_.surely_holds(shape.circumcircle)) new_at_border_.push_back({face, face->info().stamp});
+    const Circle circle = adopt(face);
+    if (region_.surely_holds(circle)) continue;
+    const auto sample_at = [&](int i) { return face->vertex(i)->info().sample; };
+    new_at_border_.push_back(
+        {{face, face->info().stamp}, {circle, {sample_at(0), sample_at(1), sample_at(2)}}});
   } while (++face != first);
   return true;
 }
@@ -113,13 +116,8 @@ std::optional<Vec2d> SampleMesh::Impl::next_point() {
 
 void SampleMesh::Impl::take_new_at_border(std::vector<MeshTriangle>& triangles) {
   triangles.clear();
-  for (const QueueEntry& entry : new_at_border_) {
-    const Face face = entry.face;
-    if (face->info().stamp != entry.stamp) continue;
-    const TriangleShape shape = triangle_shape(corner(face, 0), corner(face, 1), corner(face, 2));
-    triangles.push_back(
-        {shape.circumcircle,
-         {face->vertex(0)->info().sample, face->vertex(1)->info().sample, face->vertex(2)->info().sample}});
+  for (const BorderEntry& b : new_at_border_) {
+    if (b.entry.face->info().stamp == b.entry.stamp) triangles.push_back(b.triangle);
   }
   new_at_border_.clear();
 }
@@ -135,7 +133,7 @@ SampleMesh::Impl::Face SampleMesh::Impl::face_near(const Vec2d& point) const {
   return vertex == Vertex() ? Face() : vertex->face();
 }
 
-TriangleShape SampleMesh::Impl::adopt(Face face) {
+Circle SampleMesh::Impl::adopt(Face face) {
   const TriangleShape shape = triangle_shape(corner(face, 0), corner(face, 1), corner(face, 2));
   const VertexInfo &a = face->vertex(0)->info(), &b = face->vertex(1)->info(), &c = face->vertex(2)->info();
   const Vec2d point = refinement_point(face, shape.circumcircle.center);
@@ -149,7 +147,7 @@ TriangleShape SampleMesh::Impl::adopt(Face face) {
     count(info, 1);
     if (info.weight > 0) queue_.push(info.weight, {face, info.stamp});
   }
-  return shape;
+  return shape.circumcircle;
 }
 
 void SampleMesh::Impl::forget(FaceInfo& info) {

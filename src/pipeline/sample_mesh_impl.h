@@ -69,7 +69,7 @@ class SampleMesh::Impl {
 
   Location locate(const Vec2d& point, Face near) const;
   Face face_near(const Vec2d& point) const;
-  TriangleShape adopt(Face face);              // a triangle that is new: statistics, queue
+  Circle adopt(Face face);                     // a triangle that is new: statistics, queue; its circumcircle
   void count(const FaceInfo& info, int sign);  // into, or out of, the statistics
   void forget(FaceInfo& info);                 // a triangle that is gone: statistics
   void rescan();                               // every triangle anew
@@ -79,7 +79,11 @@ class SampleMesh::Impl {
   Region region_;
   Delaunay delaunay_;
   std::vector<Sample> samples_;
-  std::vector<QueueEntry> new_at_border_;
+  struct BorderEntry {
+    QueueEntry entry;
+    MeshTriangle triangle;
+  };
+  std::vector<BorderEntry> new_at_border_;
   std::vector<TileWeights> tile_weights_;
   TileWeights region_weights_;          // over the region's tiles
   std::vector<Vertex> latest_in_tile_;  // where to start a walk; null handles before the first
