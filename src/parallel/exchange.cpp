@@ -73,13 +73,20 @@ SampleExchange::SampleExchange(const Partition& partition, int rank, SeedPattern
       rank_(rank),
       known_by_(partition.ranks),
       outbox_(static_cast<std::size_t>(partition.ranks)),
+      was_own_(partition.owner.size(), 0),
       seeds_(std::move(seeds)),
       neighbours_(ranks_beside(partition, rank)),
       touch_stamp_(static_cast<std::size_t>(partition.ranks), 0) {
   plan_seeds();
 }
 
-void SampleExchange::repartition(const Partition& partition) {
+void SampleExchange::repartition(SampleMesh& mesh, const Partition& partition) {
+  announce_new(mesh);
+  for (std::size_t tile = 0; tile < was_own_.size(); ++tile) {
+    if (partition_.owner[tile] == rank_) was_own_[tile] = 1;
+    if (partition.owner[tile] == rank_) was_own_[tile] = 0;
+  }
+  forwards_ = std::find(was_own_.begin(), was_own_.end(), 1) != was_own_.end();
   partition_ = partition;
   neighbours_ = ranks_beside(partition, rank_);
   seeds_are_planned_ = false;
@@ -134,6 +141,14 @@ void SampleExchange::introduce(const SampleMesh& mesh, std::span<const int> tile
   }
 }
 
+void SampleExchange::pass_on(const SampleMesh& mesh, int tile) {
+  const auto t = static_cast<std::size_t>(tile);
+  if (partition_.owner[t] == rank_) return;
+  was_own_[t] = 1;
+  forwards_ = true;
+  introduce(mesh, {&tile, 1}, partition_.owner[t]);
+}
+
 std::vector<std::uint32_t> SampleExchange::known_in_tiles(const SampleMesh& mesh, int rank) const {
   std::vector<std::uint32_t> known(partition_.owner.size(), 0);
   const std::span<const Sample> samples = mesh.samples();
@@ -147,6 +162,9 @@ std::vector<std::uint32_t> SampleExchange::known_in_tiles(const SampleMesh& mesh
 void SampleExchange::clear() {
   if (!seeds_are_planned_) plan_seeds();
   known_by_.clear();
+  std::fill(was_own_.begin(), was_own_.end(), std::uint8_t{0});
+  forwards_ = false;
+  announced_ = 0;
   for (auto& box : outbox_) box.clear();
 }
 
@@ -162,22 +180,57 @@ void SampleExchange::inserted(int from) {
 }
 
 std::size_t SampleExchange::announce(SampleMesh& mesh) {
+  announce_new(mesh);
+  return std::exchange(looked_at_, 0);
+}
+
+void SampleExchange::announce_new(SampleMesh& mesh) {
   mesh.take_new_at_border(at_border_);
-  if (partition_.ranks == 1) return 0;
-  const std::span<const Sample> samples = mesh.samples();
+  const std::size_t first_new = std::exchange(announced_, mesh.samples().size());
+  if (partition_.ranks == 1) return;
   for (const MeshTriangle& triangle : at_border_) {
-    std::array<std::uint32_t, 3> own;
-    std::size_t count = 0;
-    for (const std::uint32_t corner : triangle.corners) {
-      if (owner_of(samples[corner].x, samples[corner].y) == rank_) own[count++] = corner;
-    }
-    if (count == 0) continue;
-    touch_others(triangle.circumcircle);
-    for (const int rank : touched_) {
-      for (std::size_t i = 0; i < count; ++i) tell(mesh, own[i], rank);
+    tell_own_corners(mesh, triangle);
+    if (forwards_) forward_corners(mesh, triangle, first_new);
+  }
+  looked_at_ += at_border_.size();
+}
+
+void SampleExchange::tell_own_corners(const SampleMesh& mesh, const MeshTriangle& triangle) {
+  const std::span<const Sample> samples = mesh.samples();
+  std::array<std::uint32_t, 3> own;
+  std::size_t count = 0;
+  for (const std::uint32_t corner : triangle.corners) {
+    if (owner_of(samples[corner].x, samples[corner].y) == rank_) own[count++] = corner;
+  }
+  if (count == 0) return;
+  touch_others(triangle.circumcircle);
+  for (const int rank : touched_) {
+    for (std::size_t i = 0; i < count; ++i) tell(mesh, own[i], rank);
+  }
+}
+
+// New samples of others: their owners may have told them to this rank for the sake of a tile that is
+// another's by now.
+void SampleExchange::forward_corners(const SampleMesh& mesh, const MeshTriangle& triangle,
+                                     std::size_t first_new) {
+  const std::span<const Sample> samples = mesh.samples();
+  const auto is_others_and_new = [&](std::uint32_t corner) {
+    return corner >= first_new && owner_of(samples[corner].x, samples[corner].y) != rank_;
+  };
+  if (std::none_of(triangle.corners.begin(), triangle.corners.end(), is_others_and_new)) return;
+  const TileGrid& grid = partition_.grid;
+  const Circle& circle = triangle.circumcircle;
+  const TileRange range = tiles_around(grid, circle);
+  for (int y = range.y0; y <= range.y1; ++y) {
+    for (int x = range.x0; x <= range.x1; ++x) {
+      const int tile = y * grid.columns() + x;
+      if (was_own_[static_cast<std::size_t>(tile)] == 0) continue;
+      if (distance_squared(circle.center, grid.pixels(tile)) > circle.radius_squared) continue;
+      for (const std::uint32_t corner : triangle.corners) {
+        if (is_others_and_new(corner)) tell(mesh, corner, partition_.owner[static_cast<std::size_t>(tile)]);
+      }
     }
   }
-  return at_border_.size();
 }
 
 void SampleExchange::seeded_here(const SampleMesh& mesh, std::uint32_t seed) {

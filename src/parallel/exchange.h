@@ -15,7 +15,8 @@ namespace pprt {
 
 // Kept in step with one rank's mesh. Each rank tells its own samples, and nobody else does: when a new
 // triangle's circumcircle meets another rank's region, that rank is told the triangle's corners that lie in
-// the own one. Once all messages have arrived, every triangle whose circumcircle meets the regions of two
+// the own one. Who has given a tile away passes on what others still tell it for that tile's sake. Once all
+// messages have arrived, every triangle whose circumcircle meets the regions of two
 // ranks is in both their triangulations (docs/decisions/0012-owners-tell.md has the proof).
 class SampleExchange {
  public:
@@ -34,8 +35,14 @@ class SampleExchange {
   const Partition& partition() const { return partition_; }
   const SeedPattern& seeds() const { return seeds_; }
 
-  // Tiles have new owners; the mesh keeps its samples.
-  void repartition(const Partition& partition);
+  // Tiles have new owners; the mesh keeps its samples, and has its new region set after this call, for that
+  // makes all triangles look old: what is new is announced first. Who does not know yet goes on telling this
+  // rank what touches a tile that it no longer has: until clear() that is passed on to the new owner.
+  void repartition(SampleMesh& mesh, const Partition& partition);
+
+  // A tile was given to this rank, but it has another owner already: what has been told with the gift, and
+  // will be, is passed on as if this rank had had the tile.
+  void pass_on(const SampleMesh& mesh, int tile);
 
   // Tells `taker` every corner of the triangles whose circumcircle meets one of these tiles. Call it before
   // the tiles are the taker's.
@@ -55,8 +62,8 @@ class SampleExchange {
     return partition_.owner[static_cast<std::size_t>(partition_.grid.tile_at(x, y))];
   }
 
-  // The update rule, applied to the triangles at the border that were made since the last call and still are:
-  // so many.
+  // The update rule, applied to the triangles at the border that were made since the last call and still are.
+  // Returns how many they were, with those that repartition() has looked at.
   std::size_t announce(SampleMesh& mesh);
 
   // Samples that `rank` must be told; emptied by the call.
@@ -66,6 +73,9 @@ class SampleExchange {
   void plan_seeds();
   void note_newest(int from);
   void tell(const SampleMesh& mesh, std::uint32_t sample, int rank);
+  void announce_new(SampleMesh& mesh);
+  void tell_own_corners(const SampleMesh& mesh, const MeshTriangle& triangle);
+  void forward_corners(const SampleMesh& mesh, const MeshTriangle& triangle, std::size_t first_new);
   void touch_others(const Circle& circle);  // fills touched_
 
   Partition partition_;
@@ -73,6 +83,10 @@ class SampleExchange {
   std::vector<MeshTriangle> at_border_;
   RankSets known_by_;                        // per sample of the mesh
   std::vector<std::vector<Sample>> outbox_;  // per rank
+  std::size_t announced_ = 0;                // samples of the mesh whose triangles have been looked at
+  std::size_t looked_at_ = 0;                // triangles since the last announce()
+  std::vector<std::uint8_t> was_own_;        // per tile: given away since clear()
+  bool forwards_ = false;                    // whether there are such tiles
   SeedPattern seeds_;
   std::vector<std::vector<int>> told_seed_;  // per seed of the own region: ranks to tell
   bool seeds_are_planned_ = false;           // for this partition

@@ -183,9 +183,11 @@ void Worker::take_in(const std::vector<Inbox::Arrived>& bundles) {
   apply(grants);
   for (const Inbox::Arrived& arrived : bundles) {
     if (arrived.bundle.epoch != epoch_) continue;
+    for (const TileGrant& grant : arrived.bundle.grants) {
+      if (grant.owner == network_.rank()) exchange_.pass_on(mesh_, grant.tile);
+    }
     if (arrived.bundle.round == kSeedRound && arrived.bundle.frame_index == epoch_) {
-      take_in_seeds(arrived);  // too late to be waited for
-      take_in_survivors(arrived);
+      take_in_late_seeds(arrived);
       continue;
     }
     for (const Sample& s : arrived.bundle.samples) {
@@ -230,7 +232,7 @@ void Worker::apply(std::span<const TileGrant> grants) {
     next.version[tile] = grant.version;
   }
   if (!changed) return;
-  exchange_.repartition(next);
+  exchange_.repartition(mesh_, next);
   if (own_changed) own_region_changed();
 }
 

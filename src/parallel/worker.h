@@ -68,6 +68,7 @@ class Worker {
   void receive_seeds(const FrameOrder& order);
   void take_in_seeds(const Inbox::Arrived& arrived);
   void take_in_survivors(const Inbox::Arrived& arrived);
+  void take_in_late_seeds(const Inbox::Arrived& arrived);
 
   void sample(const FrameOrder& order);
   bool refine_once(const FrameOrder& order);

@@ -76,7 +76,7 @@ void Worker::adopt_partition(const FrameOrder& order, bool keep_samples) {
         next.owner[tile] == network_.rank() && !mesh_.region().owns_tile(static_cast<int>(tile));
     if (is_new) balancer_.expect(static_cast<int>(tile), order.tiles[tile]);
   }
-  exchange_.repartition(next);
+  exchange_.repartition(mesh_, next);
   own_region_changed();
 }
 
@@ -153,6 +153,8 @@ void Worker::receive_seeds(const FrameOrder& order) {
     return inbox_.count_bundles(awaited) >= expected ||
            (!has_patience && clock_->frame_seconds() * settings_.frames_per_second > kSeedPatience);
   });
+  // What was said before is heard before: a stance counts on the gifts that were sent ahead of it.
+  take_in(inbox_.take_bundles([&](const Inbox::Arrived& a) { return a.bundle.frame_index < order.index; }));
   const std::vector<Inbox::Arrived> bundles = inbox_.take_bundles(of_this_round);
   for (const Inbox::Arrived& arrived : bundles) stance_.hear(arrived.from, arrived.bundle.stance);
   for (const Inbox::Arrived& arrived : bundles) take_in_seeds(arrived);
@@ -175,6 +177,17 @@ void Worker::take_in_survivors(const Inbox::Arrived& arrived) {
     const bool inserted = insert(s, {network_.rank(), {}});
     ++(inserted ? report_.samples_received : report_.samples_known);
     report_.samples_cast += inserted;
+  }
+}
+
+// Seeds and survivors that were not waited for. Tiles may have changed hands since they were sent, and
+// whether the sender keeps a sample cannot be told: each goes by the update rule as if it were traced here,
+// hence also to the owner of a tile that this rank has had.
+void Worker::take_in_late_seeds(const Inbox::Arrived& arrived) {
+  for (const Sample& s : arrived.bundle.samples) {
+    const bool inserted = insert(s, {network_.rank(), {}});
+    ++(inserted ? report_.samples_received : report_.samples_known);
+    report_.samples_cast += inserted && mesh_.region().owns_point(s.x, s.y);
   }
 }
 

@@ -1,0 +1,128 @@
+// Ranks that exchange samples in one thread: messages arrive when the test wants it, tiles change hands, the
+// image is cut anew and frames begin. What they know in the end is compared with one serial triangulation.
+#pragma once
+
+#include <deque>
+#include <random>
+#include <set>
+#include <tuple>
+#include <vector>
+
+#include "parallel/exchange.h"
+#include "unit/pipeline/synthetic_image.h"
+
+namespace pprt {
+
+struct Gift {
+  int tile = 0;
+  int owner = 0;
+  std::uint64_t version = 0;
+};
+
+// What one rank sends another at a time, as a bundle does.
+struct Letter {
+  int frame = 0;       // orders that the sender had carried out; the receiver must have, too
+  int epoch = 0;       // triangulations that it had begun
+  bool seeds = false;  // and survivors that landed with the receiver
+  std::vector<Gift> gifts;
+  std::vector<Sample> samples;
+};
+
+struct ExchangingRank {
+  int rank;
+  SampleMesh mesh;
+  SampleExchange exchange;
+  std::vector<std::deque<Letter>> inbox;  // per sender, in order of sending
+  int frame = 0;
+  int epoch = 0;
+
+  ExchangingRank(const Partition& partition, int its_rank, const SeedPattern& seeds)
+      : rank(its_rank),
+        mesh(region_of(partition, its_rank)),
+        exchange(partition, its_rank, seeds),
+        inbox(static_cast<std::size_t>(partition.ranks)) {}
+};
+
+class ExchangingRanks {
+ public:
+  ExchangingRanks(const Partition& partition, unsigned seed);
+
+  // As a sequence begins: own seeds and the corners, then those of the others.
+  void seed();
+
+  // Each rank refines by a random number of samples, or not at all; most send what others must know.
+  void refine(int most);
+
+  // Some of what is under way arrives; some ranks hear of a new cut.
+  void deliver_some();
+
+  // The two, one after the other.
+  void sample_round(int most) { refine(most), deliver_some(); }
+
+  // A random rank gives some tiles along its border to one neighbour. It may hand on what it has just been
+  // given, and regions may fall apart: the exchange does not care.
+  void give_somewhere();
+
+  // The image is cut anew and all samples stay: each rank learns it at a moment of its own.
+  void cut_anew(const Partition& partition);
+
+  // The camera moves by so many pixels: samples move with what they show, some die, and all begin a
+  // triangulation with seeds and what is left. A new partition may come with it. With `seeds_late` some ranks
+  // go on before all that the others send at first has come.
+  void begin_frame(const Vec2d& shift, const Partition* partition, bool seeds_late);
+
+  // Delivers until nothing is under way and all have heard of every cut; returns the number of rounds.
+  int quieten();
+
+  const std::deque<ExchangingRank>& ranks() const { return ranks_; }
+  int repeats() const { return repeats_; }  // samples that a rank told another a second time
+  int gifts() const { return gifts_; }
+
+  // The serial triangulation of every sample that any rank has.
+  SampleMesh all_samples() const;
+
+ private:
+  std::size_t random(std::size_t below) { return random_() % below; }
+  void post(ExchangingRank& rank, const std::vector<Gift>& gifts = {}, bool seeds = false,
+            const std::vector<std::vector<Sample>>& guests = {});
+  bool take_in_one(ExchangingRank& rank, int from);
+  void hear_of_cut(ExchangingRank& rank);
+  void set_partition(ExchangingRank& rank, const Partition& partition);
+  void apply(ExchangingRank& rank, const Letter& letter);
+  void take_in_late_seeds(ExchangingRank& rank, const Letter& letter);
+  std::vector<Sample> moved_samples(const ExchangingRank& rank, const Vec2d& shift);
+  void trace_seeds(ExchangingRank& rank);
+  void take_in_seeds(ExchangingRank& rank, bool some_late);
+  void hear_everything();
+
+  Picture picture_;
+  std::mt19937 random_;
+  std::deque<ExchangingRank> ranks_;
+  std::vector<Partition> cuts_;  // in the order of their generations
+  std::set<std::tuple<int, int, int, double, double>> told_;
+  int repeats_ = 0;
+  int gifts_ = 0;
+};
+
+struct Findings {
+  int expected = 0;  // triangles of all samples that meet a region, summed over ranks
+  int unknown = 0;   // of those: with a corner that the rank does not know
+  int wrong = 0;     // triangles of a rank, meeting its region, with a sample well inside their circle
+};
+
+// A triangle of the whole triangulation whose corners a rank knows is Delaunay there as well, or one of
+// several that four cocircular samples allow.
+Findings compare_with_serial(const ExchangingRanks& run);
+
+// Samples that the owner of their tile does not have.
+int lost_samples(const ExchangingRanks& run);
+
+// Whether all ranks name the same owners.
+bool agree_on_owners(const ExchangingRanks& run);
+
+Partition random_rectangles(const TileGrid& grid, int ranks, unsigned seed);
+
+// Connected regions of ragged outline: each rank grows from a tile of its own.
+Partition random_growths(const TileGrid& grid, int ranks, unsigned seed);
+
+}  // namespace pprt
