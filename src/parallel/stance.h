@@ -13,6 +13,8 @@ struct StanceWord {
   std::uint32_t stance = 0;  // the sender's: even while it takes, odd while it gives; counts its changes
   std::uint32_t heard = 0;   // the receiver's stance as the sender knows it
   std::uint32_t taken = 0;   // how many gifts of the receiver's the sender has taken in
+
+  friend bool operator==(const StanceWord&, const StanceWord&) = default;
 };
 
 // A rank that takes must not give: the tile that joins what it is about to receive with its region might go.
@@ -64,6 +66,9 @@ class Stance {
   // Whether what was heard from the rank takes all gifts to it into account.
   bool has_counted_gifts(int rank) const { return peer(rank).given == peer(rank).given_and_counted; }
 
+  // Equal stances answer every call alike from now on.
+  friend bool operator==(const Stance&, const Stance&) = default;
+
   void hear(int rank, const StanceWord& word) {
     Peer& p = peers_[static_cast<std::size_t>(rank)];
     p.has_spoken = true;
@@ -85,6 +90,8 @@ class Stance {
     std::uint32_t given_and_counted = 0;  // of those, what it has said to have taken in
     std::uint32_t taken = 0;              // gifts from it
     bool told_taking = false;             // it may believe that this rank takes
+
+    friend bool operator==(const Peer&, const Peer&) = default;
   };
 
   const Peer& peer(int rank) const { return peers_[static_cast<std::size_t>(rank)]; }
