@@ -75,6 +75,7 @@ class WallClock final : public FrameClock {
     return span > 0 ? std::clamp((monotonic_seconds() - sampling_began_s_) / span, 0.01, 1.0) : 1;
   }
   void region_changed(std::size_t) override {}
+  int rounds_under_way(double) const override { return 0; }
   bool in_lockstep() const override { return false; }
   double lap_ms() override {
     const double now = thread_cpu_seconds(), lap = now - last_lap_s_;
@@ -102,7 +103,8 @@ class WallClock final : public FrameClock {
 class WorkClock final : public FrameClock {
  public:
   WorkClock(const SessionSettings& settings, std::size_t region_pixels)
-      : budget_(settings.frames_per_second > 0 ? settings.budget_units : 0),
+      : units_per_second_(settings.machine.units_per_second),
+        budget_(settings.frames_per_second > 0 ? settings.budget_units : 0),
         reconstruction_(price(Work::kPixel) * region_pixels) {}
 
   bool may_begin(const FrameOrder&) const override { return true; }
@@ -132,6 +134,11 @@ class WorkClock final : public FrameClock {
     return budget_ > 0 ? static_cast<double>(std::max(round_, 1)) / kRoundsPerFrame : kShareWithoutEnd;
   }
   void region_changed(std::size_t pixels) override { reconstruction_ = price(Work::kPixel) * pixels; }
+  int rounds_under_way(double seconds) const override {
+    const double round_units = budget_ > 0 ? static_cast<double>(budget_) / kRoundsPerFrame
+                                           : static_cast<double>(kUnitsPerFreeRound);
+    return static_cast<int>(std::min(seconds * units_per_second_ / round_units, 1e6));
+  }
   bool in_lockstep() const override { return true; }
   double lap_ms() override {
     const double lap = static_cast<double>(frame_units_) - lap_began_;
@@ -145,6 +152,7 @@ class WorkClock final : public FrameClock {
   }
 
  private:
+  double units_per_second_;   // of the machine that is pretended
   WorkUnits budget_;          // a frame's; 0: no rate
   WorkUnits reconstruction_;  // what it will cost
   WorkUnits frame_units_ = 0;

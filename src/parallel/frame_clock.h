@@ -42,6 +42,10 @@ class FrameClock {
   // Whether all ranks take the same packets and wait for each other's messages after each.
   virtual bool in_lockstep() const = 0;
 
+  // In lockstep: how many rounds after the one that they were sent in samples arrive that are so long under
+  // way. 0 on the wall clock, where the network itself takes its time.
+  virtual int rounds_under_way(double seconds) const = 0;
+
   // Milliseconds of this rank's CPU (work clock: units / 1e6) since the last call.
   virtual double lap_ms() = 0;
 

@@ -16,7 +16,7 @@ struct WireSample {
   std::uint8_t flags;
   std::uint8_t unused[7];
 };
-static_assert(sizeof(WireSample) == 64);
+static_assert(sizeof(WireSample) == kSampleBytes);
 
 constexpr std::uint8_t kAtInfinity = 1, kEyeDependent = 2;
 
@@ -89,6 +89,7 @@ FrameOrder decode_frame_order(std::span<const std::byte> bytes) {
 Bytes encode(const Bundle& bundle) {
   WireWriter out;
   out.put(bundle.frame_index), out.put(bundle.epoch), out.put(bundle.round), out.put(bundle.done);
+  out.put(bundle.rounds_under_way);
   out.put(bundle.progress), out.put(bundle.stance);
   out.put_all(std::span<const TileGrant>(bundle.grants));
   put_samples(out, bundle.samples);
@@ -99,6 +100,7 @@ Bundle decode_bundle(std::span<const std::byte> bytes) {
   WireReader in(bytes);
   Bundle bundle;
   in.get(bundle.frame_index), in.get(bundle.epoch), in.get(bundle.round), in.get(bundle.done);
+  in.get(bundle.rounds_under_way);
   in.get(bundle.progress), in.get(bundle.stance);
   in.get_all(bundle.grants);
   bundle.samples = get_samples(in);

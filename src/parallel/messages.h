@@ -43,8 +43,9 @@ struct Bundle {
   std::int32_t frame_index = 0;
   std::int32_t epoch = 0;  // index of the frame in which the sender's triangulation began
   std::int32_t round = 0;
-  bool done = false;      // the sender has reached its goal (frames without a rate)
-  RankProgress progress;  // of the sender
+  bool done = false;                  // the sender has reached its goal (frames without a rate)
+  std::int32_t rounds_under_way = 0;  // lockstep: the samples are the receiver\'s so many rounds later
+  RankProgress progress;              // of the sender
   StanceWord stance;
   std::vector<TileGrant> grants;  // tiles that the sender has given away
   std::vector<Sample> samples;
@@ -89,6 +90,9 @@ struct PixelMessage {
   std::vector<float> rgb;           // 3 per pixel
   std::vector<Sample> samples;      // of the region; empty unless the settings ask for them
 };
+
+// What a sample takes in a message.
+inline constexpr std::size_t kSampleBytes = 64;
 
 Bytes encode(const FrameOrder& order);
 Bytes encode(const Bundle& bundle);

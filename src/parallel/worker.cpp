@@ -59,6 +59,7 @@ Worker::Worker(Communicator& network, Inbox& inbox, const SessionSettings& setti
 void Worker::render(const FrameOrder& order) {
   report_ = {};
   frame_index_ = order.index;
+  for (UnderWay& u : under_way_) u.round -= kRoundsPerFrame;  // rounds are counted anew
   rays_before_ = probe_.counts();
   done_ = false;
   given_.clear();
@@ -125,6 +126,7 @@ void Worker::send_bundles(const FrameOrder& order, int round, bool to_all) {
   const RankProgress progress = local ? balancer_.progress(mesh_, clock_->sampling_share()) : RankProgress();
   const bool tell_progress = local && round % kPacketsPerProgress == 0;
   clock_->spend(Work::kUpdateRule, exchange_.announce(mesh_));
+  link_bytes_ = 0;
   for (int rank = 0; rank < network_.size(); ++rank) {
     if (rank == network_.rank()) continue;
     std::vector<Sample> samples = exchange_.take_outbox(rank);
@@ -133,12 +135,17 @@ void Worker::send_bundles(const FrameOrder& order, int round, bool to_all) {
     if (samples.empty() && grants.empty() && !neighbour && !to_all && !stance_.owes_word(rank) &&
         !clock_->in_lockstep())
       continue;
-    send_bundle(rank, {order.index, epoch_, round, done_, progress, {}, grants, std::move(samples)});
+    send_bundle(rank, {order.index, epoch_, round, done_, 0, progress, {}, grants, std::move(samples)});
   }
 }
 
 void Worker::send_bundle(int rank, Bundle bundle) {
   bundle.stance = stance_.tell(rank);
+  // What one rank sends in a round goes through its link one after the other.
+  link_bytes_ += static_cast<double>(bundle.samples.size() * kSampleBytes);
+  const Machine& machine = settings_.machine;
+  bundle.rounds_under_way =
+      clock_->rounds_under_way(machine.latency_s + link_bytes_ / machine.bytes_per_second);
   clock_->spend(Work::kSentSample, bundle.samples.size());
   Bytes bytes = encode(bundle);
   const std::size_t of_grants = bundle.grants.size() * sizeof(TileGrant);
@@ -155,7 +162,7 @@ void Worker::receive_bundles(const FrameOrder& order, int round) {
     };
     const auto expected = static_cast<std::size_t>(network_.size() - 1);
     await([&] { return inbox_.count_bundles(of_this_round) >= expected; });
-    take_in(inbox_.take_bundles(of_this_round));
+    take_in(arrived_by(round, inbox_.take_bundles(of_this_round)));
     return;
   }
   inbox_.pump();
@@ -164,6 +171,24 @@ void Worker::receive_bundles(const FrameOrder& order, int round) {
     return a.bundle.epoch <= epoch_ && a.bundle.frame_index <= order.index;
   };
   take_in(inbox_.take_bundles(due));
+}
+
+// Lockstep: the round's bundles, their samples replaced by those that arrive in this round, whenever they
+// were sent. What else they tell is small and is taken in at once.
+std::vector<Inbox::Arrived> Worker::arrived_by(int round, std::vector<Inbox::Arrived> bundles) {
+  for (Inbox::Arrived& a : bundles) {
+    if (a.bundle.rounds_under_way == 0) continue;
+    under_way_.push_back({a.from, round + a.bundle.rounds_under_way, std::move(a.bundle.samples)});
+    a.bundle.samples.clear();
+  }
+  for (UnderWay& u : under_way_) {
+    if (u.round > round) continue;
+    const auto bundle = std::find_if(bundles.begin(), bundles.end(),
+                                     [&](const Inbox::Arrived& a) { return a.from == u.from; });
+    bundle->bundle.samples.insert(bundle->bundle.samples.end(), u.samples.begin(), u.samples.end());
+  }
+  std::erase_if(under_way_, [round](const UnderWay& u) { return u.round <= round; });
+  return bundles;
 }
 
 // First who owns what from now on, then the samples: those that fall to new tiles are refined at once.

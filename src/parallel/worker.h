@@ -56,6 +56,13 @@ class Worker {
   void leave_out(const FrameOrder& order);
   Carry carried_into(const FrameOrder& order) const;
   void hear_gifts(const FrameOrder& order);
+  // Lockstep: samples that a slow network keeps until a later round.
+  struct UnderWay {
+    int from;
+    int round;
+    std::vector<Sample> samples;
+  };
+
   void prepare(const FrameOrder& order);
   Balancer::Known known_before(const FrameOrder& order, const Missed& missed) const;
   void catch_up(const FrameOrder& order, const Missed& missed);
@@ -77,6 +84,7 @@ class Worker {
   void send_bundles(const FrameOrder& order, int round, bool to_all);
   void send_bundle(int rank, Bundle bundle);
   void receive_bundles(const FrameOrder& order, int round);
+  std::vector<Inbox::Arrived> arrived_by(int round, std::vector<Inbox::Arrived> bundles);
   void take_in(const std::vector<Inbox::Arrived>& bundles);
   std::vector<TileGrant> give_tiles();
   void apply(std::span<const TileGrant> grants);
@@ -103,7 +111,9 @@ class Worker {
   RegionPixels pixels_;
   ReconstructionBuffers buffers_;
 
-  Missed missed_;                    // since the last frame that was not left out
+  Missed missed_;  // since the last frame that was not left out
+  std::vector<UnderWay> under_way_;
+  double link_bytes_ = 0;            // sent in this round
   std::vector<std::int32_t> given_;  // tiles given away in this frame
   std::optional<Camera> camera_before_;
   int frame_index_ = -1;

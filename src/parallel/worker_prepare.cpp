@@ -51,6 +51,7 @@ Balancer::Known Worker::known_before(const FrameOrder& order, const Missed& miss
 }
 
 void Worker::begin_triangulation(int epoch) {
+  under_way_.clear();  // of the triangulation before
   mesh_.clear();
   exchange_.clear();
   epoch_ = epoch;
@@ -127,7 +128,7 @@ void Worker::settle(const FrameOrder& order, const std::vector<Sample>& survivor
     samples.insert(samples.end(), guests.begin(), guests.end());
     const bool peer = std::binary_search(exchange_.seed_peers().begin(), exchange_.seed_peers().end(), rank);
     if (samples.empty() && !peer && !clock_->in_lockstep()) continue;
-    send_bundle(rank, {order.index, epoch_, kSeedRound, false, {}, {}, {}, std::move(samples)});
+    send_bundle(rank, {order.index, epoch_, kSeedRound, false, 0, {}, {}, {}, std::move(samples)});
   }
   receive_seeds(order);
   report_.cpu_ms.sampling += clock_->lap_ms();

@@ -17,7 +17,8 @@ void send_order(LocalNetwork& network, int index, bool end = false) {
 }
 
 void send_bundle(LocalNetwork& network, int from, int round) {
-  LocalCommunicator(network, from).send(1, Tag::kBundle, encode(Bundle{0, 0, round, false, {}, {}, {}, {}}));
+  LocalCommunicator(network, from)
+      .send(1, Tag::kBundle, encode(Bundle{0, 0, round, false, 0, {}, {}, {}, {}}));
 }
 
 }  // namespace

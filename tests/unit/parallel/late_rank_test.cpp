@@ -28,6 +28,7 @@ class SetClock final : public FrameClock {
   std::size_t affordable(Work, double) const override { return 100'000; }
   bool in_lockstep() const override { return false; }
   double lap_ms() override { return 0; }
+  int rounds_under_way(double) const override { return 0; }
   double sampling_share() const override { return 0.25; }
   void region_changed(std::size_t) override {}
   double frame_seconds() const override { return kPeriod; }

@@ -22,7 +22,7 @@ Sample some_sample(int i) {
 }
 
 Bundle some_bundle() {
-  Bundle bundle{3, 2, 19, true, {0.5, 0.25, 1e6}, {5, 8, 2}, {{4, 2, 7, {1, 2}, {3, 4}}}, {}};
+  Bundle bundle{3, 2, 19, true, 4, {0.5, 0.25, 1e6}, {5, 8, 2}, {{4, 2, 7, {1, 2}, {3, 4}}}, {}};
   for (int i = 0; i < 6; ++i) bundle.samples.push_back(some_sample(i));
   return bundle;
 }
@@ -117,6 +117,7 @@ TEST_CASE("a bundle comes back as it was sent") {
   CHECK(back.done);
   CHECK((back.progress.quality == 0.5 && back.progress.target == 0.25 && back.progress.future_cost == 1e6));
   REQUIRE(back.grants.size() == 1);
+  CHECK(back.rounds_under_way == 4);
   CHECK((back.stance.stance == 5 && back.stance.heard == 8 && back.stance.taken == 2));
   CHECK((back.grants[0].tile == 4 && back.grants[0].owner == 2 && back.grants[0].version == 7));
   CHECK((back.grants[0].now.cost == 1 && back.grants[0].last.average_weight == 4));

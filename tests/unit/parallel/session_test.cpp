@@ -278,4 +278,19 @@ TEST_CASE("an empty sequence ends at once") {
   CHECK(run.frames.empty());
 }
 
+TEST_CASE("a slow network between virtual ranks costs samples told twice, and a fast one nothing") {
+  SessionSettings settings = work_settings();
+  const auto received = [&](double latency_s) {
+    settings.machine.latency_s = latency_s;
+    const VirtualRun run = run_session(5, settings, still_or_pan(settings, 2, 2));
+    REQUIRE(run.error.empty());
+    CHECK(run.frames.back().late_ms <= 0);
+    return total(run.frames.back(), &RankReport::samples_received);
+  };
+  const std::uint64_t at_once = received(0);
+  CHECK(received(1e-6) == at_once);
+  CHECK(received(0.002) != at_once);
+  CHECK(received(10) < at_once / 2);  // what is under way when the frame ends is of no more use
+}
+
 }  // namespace pprt

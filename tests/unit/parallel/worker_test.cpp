@@ -26,6 +26,7 @@ class StillClock final : public FrameClock {
   std::size_t affordable(Work, double) const override { return 100'000; }
   bool in_lockstep() const override { return false; }
   double lap_ms() override { return 0; }
+  int rounds_under_way(double) const override { return 0; }
   double sampling_share() const override { return 0.25; }
   void region_changed(std::size_t) override {}
   double frame_seconds() const override { return kPeriod; }
@@ -144,8 +145,8 @@ TEST_CASE("a word of the frame before is heard before this frame's seeds that ca
   scene.render(Carry::kNothing);
   scene.said_to(0);
   // Rank 0 took while it sent its last bundle of frame 0, and gives when it sends its seeds of frame 1.
-  scene.send_while_tracing(0, {0, 0, 24, false, {}, {0, 0, 0}, {}, {}});
-  scene.send_while_tracing(0, {1, 1, kSeedRound, false, {}, {1, 0, 0}, {}, {}});
+  scene.send_while_tracing(0, {0, 0, 24, false, 0, {}, {0, 0, 0}, {}, {}});
+  scene.send_while_tracing(0, {1, 1, kSeedRound, false, 0, {}, {1, 0, 0}, {}, {}});
   scene.render(Carry::kNothing);
   std::uint32_t heard = 0;
   for (const Bundle& b : scene.said_to(0)) {
@@ -164,7 +165,7 @@ TEST_CASE("samples that come with a gift whose tile has gone elsewhere reach its
   std::vector<std::int32_t> owners = scene.partition().owner;
   owners[static_cast<std::size_t>(tile)] = 2;
   scene.send_while_tracing(
-      0, {0, 0, 5, false, {}, {}, {{tile, 1, 1, {}, {}}}, {scene.sample_in(tile, kMarked)}});
+      0, {0, 0, 5, false, 0, {}, {}, {{tile, 1, 1, {}, {}}}, {scene.sample_in(tile, kMarked)}});
   scene.render(Carry::kAccumulate, owners);
   CHECK(tells(scene.said_to(2), kMarked));
 }
@@ -178,7 +179,7 @@ TEST_CASE("a survivor that comes late reaches the owner of its tile, even the ra
     owners[static_cast<std::size_t>(tile)] = taker;
     scene.render(Carry::kAccumulate, owners);
     scene.said_to(taker);
-    scene.send(0, {0, 0, kSeedRound, false, {}, {}, {}, {scene.sample_in(tile, kMarked)}});
+    scene.send(0, {0, 0, kSeedRound, false, 0, {}, {}, {}, {scene.sample_in(tile, kMarked)}});
     scene.render(Carry::kAccumulate);
     CHECK(tells(scene.said_to(taker), kMarked));
   }
