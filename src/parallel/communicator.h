@@ -10,7 +10,7 @@ namespace pprt {
 
 using Bytes = std::vector<std::byte>;
 
-// What a message is; its sender, receiver and reason. docs/architecture.md tells when.
+// What a message is; its sender, receiver and reason. docs/protocol.md tells more.
 enum class Tag : int {
   kClockPing = 1,  // master -> rank, before the sequence: what time is it?
   kClockPong,      // rank -> master: its time

@@ -78,16 +78,22 @@ class Log {
     const std::lock_guard lock(mutex_);
     bundles_.push_back(std::move(bundle));
   }
+  void add(SentPixels pixels) {
+    const std::lock_guard lock(mutex_);
+    pixels_.push_back(std::move(pixels));
+  }
   void fail(int rank, const std::string& what) {
     const std::lock_guard lock(mutex_);
     error_ += "rank " + std::to_string(rank) + ": " + what + "\n";
   }
   std::vector<SentBundle> take_bundles() { return std::move(bundles_); }
+  std::vector<SentPixels> take_pixels() { return std::move(pixels_); }
   std::string error() const { return error_; }
 
  private:
   std::mutex mutex_;
   std::vector<SentBundle> bundles_;
+  std::vector<SentPixels> pixels_;
   std::string error_;
 };
 
@@ -107,6 +113,12 @@ class WatchedCommunicator final : public Communicator {
         payload = encode(bundle);
       }
       log_.add({rank(), to, std::move(bundle)});
+    }
+    if (tag == Tag::kPixels) {
+      const PixelMessage message = decode_pixels(payload);
+      SentPixels sent{rank(), message.frame_index, {}, message.given};
+      for (const TileReport& tile : message.tiles) sent.tiles.push_back(tile.tile);
+      log_.add(std::move(sent));
     }
     inner_.send(to, tag, std::move(payload));
   }
@@ -190,6 +202,7 @@ VirtualRun run_session(int ranks, const SessionSettings& settings, const CameraS
   for (int rank = 0; rank < ranks; ++rank) threads.emplace_back(rank_body, rank);
   for (std::thread& thread : threads) thread.join();
   run.bundles = log.take_bundles();
+  run.pixels = log.take_pixels();
   run.error = log.error();
   return run;
 }

@@ -36,6 +36,14 @@ struct SentBundle {
   Bundle bundle;
 };
 
+// Pixels on their way to rank 0: whose tiles they are.
+struct SentPixels {
+  int from = 0;
+  int frame_index = 0;
+  std::vector<int> tiles;           // those that the sender owns
+  std::vector<std::int32_t> given;  // and those that it has given away in this frame
+};
+
 struct Traced {
   int frame = 0;  // the how many-th camera
   double x = 0;
@@ -46,6 +54,7 @@ struct VirtualRun {
   std::vector<FinishedFrame> frames;
   std::vector<std::vector<Traced>> traced;  // per rank: the eye rays asked for
   std::vector<SentBundle> bundles;
+  std::vector<SentPixels> pixels;
   std::string error;  // of the ranks that failed; empty: none
 };
 
