@@ -126,11 +126,24 @@ void casting(benchmark::State& state) {
   View view = Tree::view();
   view.from.x += 0.05;
   const Camera next = tree().scene.camera(view);
-  const Visibility visible = [](const Vec3f&, bool) { return true; };
-  for (auto _ : state) benchmark::DoNotOptimize(cast_samples(mesh, next, 2, {}, visible));
+  for (auto _ : state) benchmark::DoNotOptimize(cast_samples(mesh, next, 2, {}));
   per_sample(state);
 }
 BENCHMARK(casting)->Arg(16000)->Unit(benchmark::kMillisecond);
+
+// Cast samples put back, in the order of their refinement. The share of insert_and_queue that this is, run in
+// turns with it, is what counts.
+void put_back(benchmark::State& state) {
+  look_up(0, 0);
+  SampleMesh mesh(whole()), next(whole());
+  refine(mesh, static_cast<std::size_t>(state.range(0)), look_up);
+  for (auto _ : state) {
+    next.clear();
+    for (const Sample& s : mesh.samples()) next.insert(s);
+  }
+  per_sample(state);
+}
+BENCHMARK(put_back)->Arg(16000)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 

@@ -126,6 +126,7 @@ void Master::order_next() {
     order.cut = request->cut;
     order.carry = carry_into(*request);
     order.camera = request->camera;
+    order.evidence = evidence_;
     if (settings_.frames_per_second > 0) {
       order.deadline_s =
           deadline_s(order.index + (settings_.clock == ClockKind::kWork ? request->left_out : 0));
@@ -158,9 +159,12 @@ Carry Master::carry_into(const FrameRequest& request) const {
       return Carry::kCastPaper;
     case CastChoice::kVerified:
       return Carry::kCastVerified;
-    default:
-      return Carry::kNothing;
+    case CastChoice::kAuto:
+      return Carry::kCastWherePaying;
+    case CastChoice::kOff:
+      break;
   }
+  return Carry::kNothing;
 }
 
 Master::Assembly Master::start_assembly(const FrameOrder& order) const {
@@ -214,7 +218,11 @@ bool Master::can_afford_to_hand_over() const {
 
 void Master::deliver(Assembly& assembly) {
   samples_delivered_ = 0;
-  for (const RankReport& r : assembly.ranks) samples_delivered_ += r.samples_in_region;
+  evidence_ = halved(evidence_);
+  for (const RankReport& r : assembly.ranks) {
+    samples_delivered_ += r.samples_in_region;
+    evidence_ += r.evidence;
+  }
   balance_globally(assembly);
   FinishedFrame frame;
   if (keeps_deadlines_) {

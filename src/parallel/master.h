@@ -125,6 +125,7 @@ class Master {
   std::vector<std::int32_t> next_owners_;  // a new partition, for the next order
   std::vector<TileEstimate> found_;        // per tile, what that partition stands on
   std::vector<double> handed_over_;        // per rank: samples it will have to take in with that partition
+  CastEvidence evidence_;                  // of the frames delivered, the latest counting most
   std::uint32_t generation_ = 0;           // of the partition ordered last
   std::uint64_t samples_delivered_ = 0;    // in the frame delivered last
   int delivered_ = 0;                      // frames

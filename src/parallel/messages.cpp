@@ -69,7 +69,8 @@ std::vector<Sample> get_samples(WireReader& in) {
 Bytes encode(const FrameOrder& order) {
   WireWriter out;
   out.put(order.end), out.put(order.index), out.put(order.number), out.put(order.cut), out.put(order.carry);
-  out.put(order.camera), out.put(order.deadline_s), out.put(order.reserve_s), out.put(order.generation);
+  out.put(order.camera), out.put(order.evidence), out.put(order.deadline_s), out.put(order.reserve_s),
+      out.put(order.generation);
   out.put_all(std::span<const std::int32_t>(order.owners));
   out.put_all(std::span<const TileEstimate>(order.tiles));
   return out.take();
@@ -79,7 +80,8 @@ FrameOrder decode_frame_order(std::span<const std::byte> bytes) {
   WireReader in(bytes);
   FrameOrder order;
   in.get(order.end), in.get(order.index), in.get(order.number), in.get(order.cut), in.get(order.carry);
-  in.get(order.camera), in.get(order.deadline_s), in.get(order.reserve_s), in.get(order.generation);
+  in.get(order.camera), in.get(order.evidence), in.get(order.deadline_s), in.get(order.reserve_s),
+      in.get(order.generation);
   in.get_all(order.owners);
   in.get_all(order.tiles);
   in.expect_end();

@@ -8,6 +8,7 @@
 #include "base/camera.h"
 #include "base/ray_counts.h"
 #include "base/vector.h"
+#include "parallel/cast_choice.h"
 #include "parallel/communicator.h"
 #include "parallel/stance.h"
 #include "parallel/tile_cost.h"
@@ -17,10 +18,11 @@ namespace pprt {
 
 // What a frame takes over from the one before.
 enum class Carry : std::uint8_t {
-  kNothing,      // first frame, a cut, or casting off
-  kAccumulate,   // the camera rests: all samples stay where they are
-  kCastPaper,    // samples cast, hidden ones guessed
-  kCastVerified  // samples cast, hidden ones found by rays
+  kNothing,         // first frame, a cut, or casting off
+  kAccumulate,      // the camera rests: all samples stay where they are
+  kCastPaper,       // samples cast, hidden ones guessed
+  kCastVerified,    // samples cast, hidden ones found by rays
+  kCastWherePaying  // the same, of those samples that the evidence speaks for
 };
 
 // Master to every rank, one frame ahead.
@@ -31,6 +33,7 @@ struct FrameOrder {
   bool cut = false;
   Carry carry = Carry::kNothing;
   Camera camera;
+  CastEvidence evidence;             // of all ranks, in frames before
   double deadline_s = 0;             // since the start of the sequence; 0: no rate
   std::uint32_t generation = 0;      // of the partition in force from this frame on
   std::vector<std::int32_t> owners;  // per tile, when that partition is a new one
@@ -71,6 +74,7 @@ struct RankReport {
   double refinement = 0;                // Q_k
   std::uint64_t triangles_in_region = 0;
   RayCounts rays;
+  CastEvidence evidence;
   StageTimes cpu_ms;
   std::uint64_t tiles_given = 0;
   std::uint64_t bytes_progress = 0;

@@ -16,7 +16,8 @@ enum class Work : std::uint8_t {
   kReceivedSample,  // decoding and inserting another rank's sample
   kSentSample,      // encoding, per sample and receiver
   kPixel,           // reconstruction of one pixel
-  kCastSample       // projecting and testing one sample of the frame before
+  kCastSample,      // projecting and testing one sample of the frame before
+  kKeptSample       // inserting one of them anew
 };
 
 constexpr WorkUnits price(Work work) {
@@ -35,6 +36,8 @@ constexpr WorkUnits price(Work work) {
       return 22;
     case Work::kCastSample:
       return 30;
+    case Work::kKeptSample:
+      return 630;
   }
   return 0;
 }

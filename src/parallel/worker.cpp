@@ -57,8 +57,10 @@ Worker::Worker(Communicator& network, Inbox& inbox, const SessionSettings& setti
 }
 
 void Worker::render(const FrameOrder& order) {
+  own_evidence_ = report_.evidence;
   report_ = {};
   frame_index_ = order.index;
+  frame_number_ = order.number;
   for (UnderWay& u : under_way_) u.round -= kRoundsPerFrame;  // rounds are counted anew
   rays_before_ = probe_.counts();
   done_ = false;
@@ -103,7 +105,13 @@ bool Worker::refine_once(const FrameOrder& order) {
   if (in_region_ >= sample_limit_) return false;
   const std::optional<Vec2d> point = mesh_.next_point();
   if (!point) return false;
-  insert(trace(order, point->x, point->y), {network_.rank(), {}});
+  const Sample sample = trace(order, point->x, point->y);
+  if (clock_->sampling_share() > 0.75) {
+    ++report_.evidence.fresh;
+    report_.evidence.fresh_error += display_error(sample.ray.color, mesh_.guess());
+    report_.evidence.fresh_rays += sample.ray.rays;
+  }
+  insert(sample, {network_.rank(), {}});
   ++report_.samples_new;
   return true;
 }
@@ -341,7 +349,7 @@ Sample Worker::trace(const FrameOrder& order, double x, double y) {
 
 bool Worker::insert(const Sample& sample, const Insertion& how) {
   const bool own = how.from == network_.rank();
-  clock_->spend(own ? Work::kOwnSample : Work::kReceivedSample, 1);
+  clock_->spend(!own ? Work::kReceivedSample : how.kept ? Work::kKeptSample : Work::kOwnSample, 1);
   if (!own) balancer_.received(static_cast<double>(price(Work::kReceivedSample)));
   if (!mesh_.insert(sample)) return false;
   in_region_ += mesh_.region().owns_point(sample.x, sample.y);

@@ -41,6 +41,7 @@ class Worker {
   struct Insertion {
     int from;                           // rank
     std::optional<std::uint32_t> seed;  // which one: known before, hence not subject to the update rule
+    bool kept = false;                  // of a frame before: its point was not chosen now
   };
 
   static constexpr int kSeedRound = 0;  // the bundles of seeds and survivors; sampling counts on from there
@@ -70,6 +71,10 @@ class Worker {
   void adopt_partition(const FrameOrder& order, bool keep_samples);
   void send_handed_over(const FrameOrder& order);
   std::vector<Sample> cast(const FrameOrder& order);
+  std::vector<Sample> cast_verified(const FrameOrder& order);
+  void try_some(const FrameOrder& order, std::vector<Sample>& survivors);
+  bool see(const Vec3f& hit, bool at_infinity);
+  bool put_back(const Sample& survivor);
   void trace_seeds(const FrameOrder& order);
   void settle(const FrameOrder& order, const std::vector<Sample>& survivors);
   void receive_seeds(const FrameOrder& order);
@@ -117,6 +122,7 @@ class Worker {
   std::vector<std::int32_t> given_;  // tiles given away in this frame
   std::optional<Camera> camera_before_;
   int frame_index_ = -1;
+  int frame_number_ = 0;
   int epoch_ = -1;  // index of the frame in which the triangulation began
   std::uint64_t next_id_ = 0;
   std::uint64_t sample_share_ = 0;  // of settings_.stop.samples
@@ -124,6 +130,7 @@ class Worker {
   std::uint64_t in_region_ = 0;     // samples of the mesh in the own region
   bool done_ = false;               // this rank's goal is reached (frames without a rate)
   std::vector<std::uint8_t> peer_done_;
+  CastEvidence own_evidence_;  // of the frame before
   RankReport report_;
   RayCounts rays_before_;
 };

@@ -11,6 +11,9 @@ namespace {
 // without.
 constexpr double kSeedPatience = 0.1;
 
+// Of a frame's time, what putting cast samples back may take.
+constexpr double kCastShare = 0.5;
+
 // Of seeds that others tell: which one it is does not matter here.
 constexpr std::uint32_t kSomeSeed = 0;
 
@@ -88,16 +91,58 @@ void Worker::send_handed_over(const FrameOrder& order) {
   receive_bundles(order, kSeedRound);
 }
 
+// Putting them back may take a share of a frame at most; the rest is for new samples.
 std::vector<Sample> Worker::cast(const FrameOrder& order) {
-  CastSettings cast_settings;
-  cast_settings.method = order.carry == Carry::kCastVerified ? CastMethod::kVerified : CastMethod::kPaper;
   clock_->spend(Work::kCastSample, in_region_);
-  if (cast_settings.method == CastMethod::kVerified) clock_->spend(Work::kRay, in_region_);
-  std::vector<Sample> survivors =
-      cast_samples(mesh_, order.camera, order.number, cast_settings, probe_.visible).survivors;
-  // Putting them back may take half of a frame at most; the rest is for new samples.
-  if (order.deadline_s > 0) keep_youngest(survivors, clock_->affordable(Work::kOwnSample, 0.5));
+  if (order.carry != Carry::kCastPaper) return cast_verified(order);
+  std::vector<Sample> survivors = cast_samples(mesh_, order.camera, order.number, {}).survivors;
+  if (order.deadline_s > 0) keep_youngest(survivors, clock_->affordable(Work::kKeptSample, kCastShare));
   return survivors;
+}
+
+std::vector<Sample> Worker::cast_verified(const FrameOrder& order) {
+  const CastSettings settings{CastMethod::kVerified, kVerifiedMaxAge, kVerifiedMaxAge};
+  auto [survivors, out_of_view, hidden, too_old, moved] =
+      cast_samples(mesh_, order.camera, order.number, settings);
+  CastLimits limits{true, kCastShare};
+  if (order.carry == Carry::kCastWherePaying) {
+    try_some(order, survivors);
+    CastEvidence evidence = order.evidence;
+    evidence += own_evidence_;
+    evidence += report_.evidence;
+    const double density =
+        static_cast<double>(in_region_) / static_cast<double>(mesh_.region().pixel_count());
+    limits = cast_limits(evidence, moved, density);
+    std::erase_if(survivors, [&](const Sample& s) {
+      return s.frame != order.number && (limits.share == 0 || (s.ray.eye_dependent && !limits.eye_dependent));
+    });
+  }
+  if (order.deadline_s > 0) keep_youngest(survivors, clock_->affordable(Work::kKeptSample, limits.share));
+  drop_hidden(survivors, [&](const Vec3f& hit, bool at_infinity) { return see(hit, at_infinity); });
+  return survivors;
+}
+
+// Whether casting pays is found out by asking a few samples: whether they are seen and, where their colour
+// depends on the eye, what it is now. Those become samples of this frame.
+void Worker::try_some(const FrameOrder& order, std::vector<Sample>& survivors) {
+  constexpr std::uint64_t kTriedOneOf = 64;
+  for (Sample& s : survivors) {
+    if (!is_one_of(s, kTriedOneOf)) continue;
+    const bool seen = see(s.ray.hit, s.ray.at_infinity);
+    ++report_.evidence.asked;
+    report_.evidence.hidden += !seen;
+    if (!seen || !s.ray.eye_dependent) continue;
+    const Color stale = s.ray.color;
+    s = trace(order, s.x, s.y);
+    ++report_.samples_new;
+    ++report_.evidence.stale;
+    report_.evidence.stale_error += display_error(stale, s.ray.color);
+  }
+}
+
+bool Worker::see(const Vec3f& hit, bool at_infinity) {
+  clock_->spend(Work::kRay, 1);
+  return probe_.visible(hit, at_infinity);
 }
 
 void Worker::trace_seeds(const FrameOrder& order) {
@@ -132,9 +177,7 @@ void Worker::settle(const FrameOrder& order, const std::vector<Sample>& survivor
   }
   receive_seeds(order);
   report_.cpu_ms.sampling += clock_->lap_ms();
-  for (const Sample& s : own) {
-    if (insert(s, {network_.rank(), {}})) ++report_.samples_cast;
-  }
+  for (const Sample& s : own) put_back(s);
   report_.cpu_ms.casting += clock_->lap_ms();
 }
 
@@ -162,6 +205,12 @@ void Worker::receive_seeds(const FrameOrder& order) {
   for (const Inbox::Arrived& arrived : bundles) take_in_survivors(arrived);
 }
 
+bool Worker::put_back(const Sample& survivor) {
+  if (!insert(survivor, {network_.rank(), {}, true})) return false;
+  report_.samples_cast += survivor.frame != frame_number_;
+  return true;
+}
+
 // What comes before a fresh triangulation's first round and lies elsewhere is another rank's seed.
 void Worker::take_in_seeds(const Inbox::Arrived& arrived) {
   for (const Sample& s : arrived.bundle.samples) {
@@ -175,9 +224,7 @@ void Worker::take_in_seeds(const Inbox::Arrived& arrived) {
 void Worker::take_in_survivors(const Inbox::Arrived& arrived) {
   for (const Sample& s : arrived.bundle.samples) {
     if (!mesh_.region().owns_point(s.x, s.y)) continue;
-    const bool inserted = insert(s, {network_.rank(), {}});
-    ++(inserted ? report_.samples_received : report_.samples_known);
-    report_.samples_cast += inserted;
+    ++(put_back(s) ? report_.samples_received : report_.samples_known);
   }
 }
 

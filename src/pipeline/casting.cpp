@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -68,10 +69,16 @@ void hide_behind_turned_triangles(const SampleMesh& mesh, std::vector<Flight>& f
   }
 }
 
+// A number that looks random, different for every id.
+std::uint64_t scattered(SampleId id) {
+  id = (id ^ (id >> 31)) * 0x9E3779B97F4A7C15u;
+  return (id ^ (id >> 29)) * 0xBF58476D1CE4E5B9u;
+}
+
 }  // namespace
 
 CastResult cast_samples(const SampleMesh& mesh, const Camera& next, int next_frame,
-                        const CastSettings& settings, const Visibility& visible) {
+                        const CastSettings& settings) {
   const std::span<const Sample> samples = mesh.samples();
   std::vector<Flight> flights;
   flights.reserve(samples.size());
@@ -82,11 +89,7 @@ CastResult cast_samples(const SampleMesh& mesh, const Camera& next, int next_fra
 
   CastResult result;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    Flight& flight = flights[i];
-    if (flight.fate == Fate::kSurvives && settings.method == CastMethod::kVerified &&
-        !visible(samples[i].ray.hit, samples[i].ray.at_infinity)) {
-      flight.fate = Fate::kHidden;
-    }
+    const Flight& flight = flights[i];
     result.out_of_view += flight.fate == Fate::kOutOfView;
     result.too_old += flight.fate == Fate::kTooOld;
     result.hidden += flight.fate == Fate::kHidden;
@@ -94,14 +97,25 @@ CastResult cast_samples(const SampleMesh& mesh, const Camera& next, int next_fra
     Sample& survivor = result.survivors.emplace_back(samples[i]);
     survivor.x = flight.point.x;
     survivor.y = flight.point.y;
+    const Vec2d way(survivor.x - samples[i].x, survivor.y - samples[i].y);
+    result.moved += std::sqrt(way.dot(way));
   }
+  if (!result.survivors.empty()) result.moved /= static_cast<double>(result.survivors.size());
   return result;
+}
+
+std::size_t drop_hidden(std::vector<Sample>& samples, const Visibility& visible) {
+  return std::erase_if(samples, [&](const Sample& s) { return !visible(s.ray.hit, s.ray.at_infinity); });
+}
+
+bool is_one_of(const Sample& sample, std::uint64_t many) {
+  return (scattered(sample.id) >> 32) % many == 0;
 }
 
 void keep_youngest(std::vector<Sample>& samples, std::size_t limit) {
   if (samples.size() <= limit) return;
   const auto younger = [](const Sample& a, const Sample& b) {
-    return a.frame != b.frame ? a.frame > b.frame : a.id < b.id;
+    return a.frame != b.frame ? a.frame > b.frame : scattered(a.id) < scattered(b.id);
   };
   std::vector<Sample> ordered = samples;
   const auto first_dropped = ordered.begin() + static_cast<std::ptrdiff_t>(limit);

@@ -28,6 +28,9 @@ bool SampleMesh::insert(const Sample& sample) {
 std::optional<Vec2d> SampleMesh::next_point() {
   return impl_->next_point();
 }
+Color SampleMesh::guess() const {
+  return impl_->guess();
+}
 std::span<const Sample> SampleMesh::samples() const {
   return impl_->samples();
 }
@@ -107,6 +110,7 @@ std::optional<Vec2d> SampleMesh::Impl::next_point() {
     const Vec2d point = refinement_point(face, center);
     const Location at = locate(point, face);
     if (at.type == Delaunay::VERTEX) continue;  // rounded onto a sample: as fine as coordinates allow
+    refined_ = face;
     wanted_ = point;
     wanted_location_ = at;
     return point;

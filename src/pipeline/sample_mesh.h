@@ -57,6 +57,10 @@ class SampleMesh {
   // refining. The caller inserts a sample there before it asks again.
   std::optional<Vec2d> next_point();
 
+  // Mean colour of the corners of the triangle that next_point() gave: the picture there before the sample.
+  // To be asked before anything is inserted.
+  Color guess() const;
+
   std::span<const Sample> samples() const;
 
   // Replaces `triangles` by those that were inserted since the last call, still are, and may not lie wholly

@@ -45,6 +45,11 @@ class SampleMesh::Impl {
   void set_region(const Region& region);
   bool insert(const Sample& sample);
   std::optional<Vec2d> next_point();
+  Color guess() const {
+    return (refined_->vertex(0)->info().color + refined_->vertex(1)->info().color +
+            refined_->vertex(2)->info().color) /
+           3.0f;
+  }
   double refinement() const {
     const auto count = static_cast<double>(region_weights_.triangles);
     return region_weights_.triangles > 0 ? region_weights_.total_weight / count : 0;
@@ -94,6 +99,7 @@ class SampleMesh::Impl {
   // The answer of next_point(), located: good until anything is inserted.
   std::optional<Vec2d> wanted_;
   Location wanted_location_;
+  Face refined_;  // whose refinement point it is
 };
 
 }  // namespace pprt

@@ -59,21 +59,38 @@ TEST_CASE("cast samples serve the next frame, the same each time") {
     CHECK(same_pictures(run, again));
     REQUIRE(run.frames.size() == 4);
     CHECK(total(run.frames[0], &RankReport::samples_cast) == 0);
-    for (std::size_t i = 1; i < 4; ++i) {
+    // Those that are verified are dropped when they are older than two frames: up to here none is.
+    const std::size_t end = cast == CastChoice::kVerified ? 3 : 4;
+    for (std::size_t i = 1; i < end; ++i) {
       const std::uint64_t cast_in = total(run.frames[i], &RankReport::samples_cast);
       const std::uint64_t before = total(run.frames[i - 1], &RankReport::samples_in_region);
       INFO("frame " << i << ": " << cast_in << " of " << before);
       // Of 128 columns three leave the picture, and a plane hides nothing; but putting samples back takes at
       // most half of each rank's frame.
-      const std::uint64_t room = kRanks * (settings.budget_units / 2 / price(Work::kOwnSample));
+      const std::uint64_t room = kRanks * (settings.budget_units / 2 / price(Work::kKeptSample));
       CHECK(cast_in > std::min(before, room) * 85 / 100);
       CHECK(cast_in <= before);
     }
   }
 }
 
+TEST_CASE("auto carries what pays, the same each time, and knows of the frames before") {
+  const SessionSettings settings = casting_settings(CastChoice::kAuto);
+  const VirtualRun run = run_session(kRanks, settings, still_or_pan(settings, 4, 3));
+  const VirtualRun again =
+      run_session(kRanks, settings, still_or_pan(settings, 4, 3), {.slow_at_random = true});
+  CHECK(run.error.empty());
+  CHECK(same_pictures(run, again));
+  REQUIRE(run.frames.size() == 4);
+  CHECK(run.frames[3].order.evidence.fresh > 0);
+  for (std::size_t i = 1; i < 4; ++i) {
+    CHECK(run.frames[i].order.carry == Carry::kCastWherePaying);
+    CHECK(total(run.frames[i], &RankReport::samples_cast) > 0);
+  }
+}
+
 TEST_CASE("frames that carry many samples are on time") {
-  for (const CastChoice cast : {CastChoice::kPaper, CastChoice::kVerified}) {
+  for (const CastChoice cast : {CastChoice::kPaper, CastChoice::kVerified, CastChoice::kAuto}) {
     const SessionSettings settings = casting_settings(cast);
     for (const FinishedFrame& frame : run_session(kRanks, settings, still_or_pan(settings, 8, 1)).frames) {
       INFO("frame " << frame.order.number << ": " << total(frame, &RankReport::samples_cast) << " cast");

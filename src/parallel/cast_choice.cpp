@@ -1,0 +1,60 @@
+#include "parallel/cast_choice.h"
+
+#include <algorithm>
+
+#include "parallel/work_units.h"
+
+namespace pprt {
+namespace {
+
+// Root mean square error of a stale colour over that of the picture where it is refined: below, a carried
+// sample is worth its time.
+constexpr double kStaleAtMost = 0.65;
+
+// Price of a carried sample that proves right over that of a fresh one.
+constexpr double kPriceAtMost = 0.9;
+
+// Where so many prove hidden, the outlines have changed, and most of a coarse picture's error is in them:
+// then time is better spent on fresh samples there.
+constexpr double kHiddenMany = 0.16;
+constexpr double kMovedFar = 2.5;  // pixels
+constexpr double kCoarse = 1;      // samples a pixel
+constexpr double kShareThen = 0.2;
+
+}  // namespace
+
+CastEvidence halved(CastEvidence e) {
+  for (double* sum :
+       {&e.asked, &e.hidden, &e.stale, &e.stale_error, &e.fresh, &e.fresh_error, &e.fresh_rays}) {
+    *sum *= 0.5;
+  }
+  return e;
+}
+
+double display_error(const Color& a, const Color& b) {
+  const auto difference = [](float p, float q) {
+    return static_cast<double>(std::clamp(p, 0.0f, 1.0f)) - static_cast<double>(std::clamp(q, 0.0f, 1.0f));
+  };
+  const Vec3d d(difference(a.x, b.x), difference(a.y, b.y), difference(a.z, b.z));
+  return d.dot(d) / 3;
+}
+
+CastLimits cast_limits(const CastEvidence& evidence, double moved, double samples_per_pixel) {
+  const CastEvidence& e = evidence;
+  CastLimits limits;
+  // Without a comparison there is no reason to trust them.
+  limits.eye_dependent = e.stale > 0 && e.fresh > 0 &&
+                         e.stale_error / e.stale <= kStaleAtMost * kStaleAtMost * e.fresh_error / e.fresh;
+  const double hidden = e.asked > 0 ? e.hidden / e.asked : 0;
+  if (hidden > kHiddenMany && moved > kMovedFar && samples_per_pixel < kCoarse) limits.share = kShareThen;
+  if (e.fresh > 0) {
+    const auto carried =
+        static_cast<double>(price(Work::kCastSample) + price(Work::kRay) + price(Work::kKeptSample));
+    const double fresh = static_cast<double>(price(Work::kOwnSample)) +
+                         static_cast<double>(price(Work::kRay)) * e.fresh_rays / e.fresh;
+    if (carried > kPriceAtMost * fresh * (1 - hidden)) limits.share = 0;
+  }
+  return limits;
+}
+
+}  // namespace pprt

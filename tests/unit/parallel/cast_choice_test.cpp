@@ -1,0 +1,76 @@
+#include "parallel/cast_choice.h"
+
+#include <catch2/catch.hpp>
+
+#include "parallel/work_units.h"
+
+namespace pprt {
+namespace {
+
+// A hundred fresh samples of seven rays each where the picture was wrong by 0.1; eight stale ones.
+CastEvidence evidence(double stale_rms) {
+  CastEvidence e;
+  e.asked = 20;
+  e.fresh = 100, e.fresh_error = 100 * 0.1 * 0.1, e.fresh_rays = 700;
+  e.stale = 8, e.stale_error = 8 * stale_rms * stale_rms;
+  return e;
+}
+
+}  // namespace
+
+TEST_CASE("display error: mean of the channels' squared differences, on the display scale") {
+  CHECK(display_error({0.5f, 0.5f, 0.5f}, {0.5f, 0.5f, 0.5f}) == 0);
+  CHECK(display_error({1, 0, 0}, {0, 0, 0}) == Approx(1.0 / 3));
+  CHECK(display_error({0.75f, 0.5f, 0}, {0.25f, 0, 0}) == Approx(0.5 / 3));
+  CHECK(display_error({5, 1, 1}, {1, 3, 1}) == 0);  // both show as white
+}
+
+TEST_CASE("colour that depends on the eye is carried where its error is below 0.65 of the picture's") {
+  CHECK(cast_limits(evidence(0.064), 1, 0.5).eye_dependent);
+  CHECK_FALSE(cast_limits(evidence(0.066), 1, 0.5).eye_dependent);
+}
+
+TEST_CASE("without a comparison no such colour is carried") {
+  CastEvidence no_stale = evidence(0.01), no_fresh = evidence(0.01);
+  no_stale.stale = 0, no_stale.stale_error = 0;
+  no_fresh.fresh = 0, no_fresh.fresh_error = 0, no_fresh.fresh_rays = 0;
+  CHECK_FALSE(cast_limits(no_stale, 1, 0.5).eye_dependent);
+  CHECK_FALSE(cast_limits(no_fresh, 1, 0.5).eye_dependent);
+  CHECK(cast_limits({}, 1, 0.5).share == 0.5);  // others are carried and tell of themselves
+}
+
+TEST_CASE("less is put back into a coarse picture that has moved far and hides much, and only there") {
+  CastEvidence e = evidence(0.01);
+  e.hidden = 4;  // of 20
+  CHECK(cast_limits(e, 5, 0.5).share == Approx(0.2));
+  CHECK(cast_limits(e, 1, 0.5).share == Approx(0.5));
+  CHECK(cast_limits(e, 5, 1.5).share == Approx(0.5));
+  e.hidden = 3;
+  CHECK(cast_limits(e, 5, 0.5).share == Approx(0.5));
+}
+
+TEST_CASE("nothing is carried where a sample that proves right costs as much as a fresh one") {
+  // 770 units for each one asked; a fresh one is 840 and 110 a ray.
+  REQUIRE(price(Work::kCastSample) + price(Work::kRay) + price(Work::kKeptSample) == 770);
+  REQUIRE(price(Work::kOwnSample) == 840);
+  CastEvidence e = evidence(0.01);
+  CHECK(cast_limits(e, 1, 0.5).share > 0);
+  e.hidden = 10;  // 1540 against 0.9 * 1610
+  CHECK(cast_limits(e, 1, 0.5).share == 0);
+  e.hidden = 9;  // 1400
+  CHECK(cast_limits(e, 1, 0.5).share > 0);
+  e.hidden = 0, e.fresh_rays = 100;  // 770 against 0.9 * 950
+  CHECK(cast_limits(e, 1, 0.5).share > 0);
+  e.hidden = 3;  // 906
+  CHECK(cast_limits(e, 1, 0.5).share == 0);
+}
+
+TEST_CASE("evidence adds up, and ages by halves without a change of its ratios") {
+  CastEvidence sum = evidence(0.04);
+  sum += evidence(0.04);
+  CHECK(sum.fresh == 200);
+  CHECK(halved(sum).stale_error == Approx(evidence(0.04).stale_error));
+  CHECK(halved(sum).fresh_rays == 700);
+}
+
+}  // namespace pprt
