@@ -47,7 +47,7 @@ struct Bundle {
   std::int32_t epoch = 0;  // index of the frame in which the sender's triangulation began
   std::int32_t round = 0;
   bool done = false;                  // the sender has reached its goal (frames without a rate)
-  std::int32_t rounds_under_way = 0;  // lockstep: the samples are the receiver\'s so many rounds later
+  std::int32_t rounds_under_way = 0;  // lockstep: the samples are the receiver's so many rounds later
   RankProgress progress;              // of the sender
   StanceWord stance;
   std::vector<TileGrant> grants;  // tiles that the sender has given away
