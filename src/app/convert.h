@@ -7,7 +7,7 @@ namespace pprt {
 
 struct ConvertOptions {
   std::string input;   // *.nff, "-" (NFF on standard input) or "spd:NAME[:SIZE]"
-  std::string output;  // *.nff or "-" (NFF on standard output)
+  std::string output;  // *.nff, *.pov or "-" (NFF on standard output)
   bool strict = false;
 };
 

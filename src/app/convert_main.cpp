@@ -9,7 +9,7 @@ int main(int argc, char** argv) {
     app.add_option("IN", options.input, "FILE.nff, - (NFF on standard input) or spd:NAME[:SIZE]")
         ->required()
         ->option_text(" ");
-    app.add_option("OUT", options.output, "FILE.nff or - (NFF on standard output)")
+    app.add_option("OUT", options.output, "FILE.nff, FILE.pov or - (NFF on standard output)")
         ->required()
         ->option_text(" ");
     app.add_flag("--strict", options.strict, "Reject what the NFF specification does not allow");

@@ -5,7 +5,9 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <ostream>
 #include <stdexcept>
+#include <streambuf>
 #include <system_error>
 
 namespace pprt {
@@ -64,10 +66,34 @@ class Descriptor {
   int fd_;
 };
 
+// Hands all bytes to a descriptor as they come; its exceptions reach the stream's user.
+class DescriptorBuffer : public std::streambuf {
+ public:
+  explicit DescriptorBuffer(Descriptor& file) : file_(file) {}
+
+ private:
+  std::streamsize xsputn(const char* bytes, std::streamsize count) override {
+    file_.write_all({bytes, static_cast<std::size_t>(count)});
+    return count;
+  }
+  int_type overflow(int_type c) override {
+    const char byte = traits_type::to_char_type(c);
+    file_.write_all({&byte, 1});
+    return c;
+  }
+
+  Descriptor& file_;
+};
+
 // Removes the file of this name when its scope is left.
 struct Removal {
   fs::path path;
   ~Removal() { ::unlink(path.c_str()); }
+};
+
+// Why a path is not written to.
+struct Refusal : std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
 
 // A name that no file in the directory has and no other thread or process asks for. It does not hold the
@@ -79,17 +105,20 @@ fs::path unused_name(const fs::path& directory) {
   }
 }
 
-void write_and_rename(const fs::path& path, std::string_view bytes) {
+void write_and_rename(const fs::path& path, const std::function<void(std::ostream&)>& write) {
   const fs::path directory = path.parent_path();
   if (!directory.empty()) fs::create_directories(directory);
   const fs::file_status found = fs::status(path);
-  if (fs::is_directory(found)) throw std::runtime_error("it is a directory");
-  if (fs::exists(found) && !fs::is_regular_file(found)) throw std::runtime_error("it is not a regular file");
+  if (fs::is_directory(found)) throw Refusal("it is a directory");
+  if (fs::exists(found) && !fs::is_regular_file(found)) throw Refusal("it is not a regular file");
 
   const fs::path temporary = unused_name(directory);
   Descriptor file(temporary, O_WRONLY | O_CREAT | O_EXCL);
   const Removal removal{temporary};  // after the rename there is nothing left to remove
-  file.write_all(bytes);
+  DescriptorBuffer buffer(file);
+  std::ostream stream(&buffer);
+  stream.exceptions(std::ios::badbit);  // throws what the buffer has thrown
+  write(stream);
   file.close();
   fs::rename(temporary, path);
 }
@@ -110,13 +139,18 @@ std::string read_whole_file(const fs::path& path) {
 }
 
 void write_whole_file(const fs::path& path, std::string_view bytes) {
+  write_whole_file(
+      path, [&](std::ostream& out) { out.write(bytes.data(), static_cast<std::streamsize>(bytes.size())); });
+}
+
+void write_whole_file(const fs::path& path, const std::function<void(std::ostream&)>& write) {
   std::string reason;
   try {
-    write_and_rename(path, bytes);
+    write_and_rename(path, write);
     return;
   } catch (const std::system_error& e) {
     reason = e.code().message();
-  } catch (const std::runtime_error& e) {
+  } catch (const Refusal& e) {
     reason = e.what();
   }
   throw std::runtime_error(fmt::format("cannot write '{}': {}", path.string(), reason));

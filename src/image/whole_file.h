@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <iosfwd>
 #include <string>
 #include <string_view>
 
@@ -19,5 +21,9 @@ std::string read_whole_file(const std::filesystem::path& path);
 // Throws std::runtime_error "cannot write 'PATH': REASON"; then the temporary file is gone and PATH is as it
 // was before.
 void write_whole_file(const std::filesystem::path& path, std::string_view bytes);
+
+// The same for what is never whole in memory: `write` is given a stream, without a buffer, to put all bytes
+// into. What it throws comes through; then PATH is as it was before.
+void write_whole_file(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
 
 }  // namespace pprt

@@ -1,21 +1,15 @@
 #include "scene/nff_writer.h"
 
-#include <array>
-#include <charconv>
-#include <concepts>
-#include <cstring>
 #include <optional>
-#include <ostream>
 #include <string_view>
 
 namespace pprt {
 namespace {
 
-// Text on its way to a stream through a buffer of its own: formatting through the stream would cost ten times
-// as much.
-class NffOutput {
+// Entities and vertices, a line each.
+class NffOutput : public TextOutput {
  public:
-  NffOutput(std::ostream& out, NumberFormat format) : out_(out), format_(format) {}
+  using TextOutput::TextOutput;
 
   // One line: the keyword, the values with a blank before each, the line's end.
   template <typename... Values>
@@ -38,57 +32,22 @@ class NffOutput {
     text("\n");
   }
 
-  // To be called at the end.
-  void flush() {
-    out_.write(buffer_.data(), static_cast<std::streamsize>(used_));
-    used_ = 0;
-  }
-
  private:
-  // The longest text written in one go: "-2.2250738585072014e-308" has 24 bytes, the longest keyword 10.
-  static constexpr std::size_t kLongestText = 32;
-
   void value(double v) {
     text(" ");
     number(v);
   }
+  void value(std::size_t v) {
+    text(" ");
+    number(v);
+  }
+  void value(int v) { value(static_cast<std::size_t>(v)); }  // of pixels
   void value(const Vec3d& v) {
     for (int i = 0; i < 3; ++i) value(v[i]);
   }
   void value(const Rgb& c) {
     for (int i = 0; i < 3; ++i) value(c[i]);
   }
-  template <std::integral Integer>
-  void value(Integer v) {
-    text(" ");
-    room();
-    used_ = std::to_chars(end(), limit(), v).ptr - buffer_.data();
-  }
-
-  void number(double v) {
-    room();
-    const std::to_chars_result result = format_ == NumberFormat::kShortest
-                                            ? std::to_chars(end(), limit(), v)
-                                            : std::to_chars(end(), limit(), v, std::chars_format::general, 6);
-    used_ = result.ptr - buffer_.data();
-  }
-
-  void text(std::string_view s) {
-    room();
-    std::memcpy(end(), s.data(), s.size());
-    used_ += s.size();
-  }
-
-  char* end() { return buffer_.data() + used_; }
-  char* limit() { return buffer_.data() + buffer_.size(); }
-  void room() {
-    if (buffer_.size() - used_ < kLongestText) flush();
-  }
-
-  std::ostream& out_;
-  NumberFormat format_;
-  std::array<char, 1 << 16> buffer_;
-  std::size_t used_ = 0;
 };
 
 void write_view(const View& view, NffOutput& out) {
@@ -103,20 +62,6 @@ void write_view(const View& view, NffOutput& out) {
 
 void write_material(const Material& m, NffOutput& out) {
   out.line("f", m.color, m.diffuse, m.specular, m.shine, m.transmittance, m.refractive_index);
-}
-
-MaterialIndex material_of(const SceneDescription& scene, PrimitiveRef ref) {
-  switch (ref.kind) {
-    case PrimitiveKind::kSphere:
-      return scene.spheres[ref.index].material;
-    case PrimitiveKind::kCone:
-      return scene.cones[ref.index].material;
-    case PrimitiveKind::kPolygon:
-      return scene.polygons[ref.index].material;
-    case PrimitiveKind::kPatch:
-      break;
-  }
-  return scene.patches[ref.index].material;
 }
 
 template <typename Vertices>

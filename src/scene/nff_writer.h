@@ -4,13 +4,9 @@
 #include <iosfwd>
 
 #include "scene/scene_description.h"
+#include "scene/text_output.h"
 
 namespace pprt {
-
-enum class NumberFormat {
-  kShortest,   // the fewest digits that read back as the same double
-  kSixDigits,  // printf's %g, as the SPD programs write
-};
 
 // Writes background, view, lights, then the objects in file order, each preceded by its material where that
 // differs from the object's before. What the scene does not give is not written, nor are unused materials.

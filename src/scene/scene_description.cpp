@@ -87,6 +87,20 @@ MaterialIndex MaterialTable::intern(std::vector<Material>& materials, const Mate
   return slots_[slot];
 }
 
+MaterialIndex material_of(const SceneDescription& scene, PrimitiveRef ref) {
+  switch (ref.kind) {
+    case PrimitiveKind::kSphere:
+      return scene.spheres[ref.index].material;
+    case PrimitiveKind::kCone:
+      return scene.cones[ref.index].material;
+    case PrimitiveKind::kPolygon:
+      return scene.polygons[ref.index].material;
+    case PrimitiveKind::kPatch:
+      break;
+  }
+  return scene.patches[ref.index].material;
+}
+
 Box3d bounds(const SceneDescription& scene) {
   Box3d box;
   for (const Sphere& s : scene.spheres) {

@@ -134,6 +134,9 @@ void add_polygon(SceneDescription& scene, std::span<const Vec3d> vertices, Mater
 void add_patch(SceneDescription& scene, std::span<const PatchVertex> vertices, MaterialIndex material,
                SourceLocation location = {});
 
+// The material of a primitive in range.
+MaterialIndex material_of(const SceneDescription& scene, PrimitiveRef ref);
+
 // Gives equal materials one index: a file with thousands of "f" lines and four distinct ones keeps four.
 class MaterialTable {
  public:

@@ -4,23 +4,16 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "base/diagnostics.h"
+#include "scene/shading_rules.h"
+#include "scene/view_frame.h"
 #include "trace/numerics.h"
 #include "trace/scene_impl.h"
 
 namespace pprt {
 namespace {
-
-// SPD's own reader gives every material this ambient reflectance; NFF has no word for it.
-constexpr double kAmbientReflectance = 0.1;
-
-// Haines' recommendation for each light and for the ambient light: sqrt(n) / (2 n) with n lights.
-double light_weight(std::size_t lights) {
-  return 0.5 / std::sqrt(static_cast<double>(std::max<std::size_t>(lights, 1)));
-}
 
 Color to_color(const Rgb& rgb) {
   return Color(rgb);
@@ -43,7 +36,7 @@ ShadingMaterial shading_material(const Material& m, double ambient_weight) {
   result.specular = static_cast<float>(m.specular);
   result.shine = has_highlight(m) ? static_cast<float>(m.shine) : 0;
   result.transmittance = static_cast<float>(m.transmittance);
-  result.refractive_index = m.refractive_index > 0 ? m.refractive_index : 1;
+  result.refractive_index = effective_refractive_index(m);
   result.lit = result.diffuse != Color(0, 0, 0) || result.shine > 0;
   return result;
 }
@@ -235,30 +228,15 @@ std::string CompiledScene::census() const {
 }
 
 Camera CompiledScene::camera(const View& view) const {
-  const auto degenerate = [&](const char* problem) {
-    reject(impl_->name, view.location, std::string("view: ") + problem);
-  };
-  if (!finite(view.from) || !finite(view.at) || !finite(view.up)) degenerate("a coordinate is not finite");
-  if (!(view.angle_degrees > 0 && view.angle_degrees < 180))
-    degenerate("the angle must lie between 0 and 180");
-  if (view.width < 1 || view.height < 1) degenerate("the resolution must be at least 1 x 1");
-  // normalized() scales first: neither huge nor tiny vectors over- or underflow.
-  const Vec3d forward = (view.at - view.from).normalized();
-  if (forward == Vec3d(0, 0, 0)) degenerate("'from' and 'at' are the same point");
-  const Vec3d up_hint = view.up.normalized();
-  const Vec3d right = forward.cross(up_hint);
-  // Less than this, and the roll is made of rounding: the cross product of unit vectors errs by 2^-52.
-  if (!(right.length2() > 0x1p-80)) degenerate("'up' is zero or parallel to the direction of view");
-
+  const ViewFrame frame = view_frame(view, impl_->name);
   Camera camera;
   camera.eye = impl_->normalisation.point(view.from);
-  camera.forward = forward;
-  camera.right = right.normalized();
-  camera.up = camera.right.cross(forward);
+  camera.forward = frame.forward;
+  camera.right = frame.right;
+  camera.up = frame.up;
   camera.width = view.width;
   camera.height = view.height;
-  const double tangent = std::tan(0.5 * view.angle_degrees * (std::numbers::pi / 180));
-  camera.slope_per_pixel = 2 * tangent / std::max(view.height - 1, 1);
+  camera.slope_per_pixel = frame.slope_per_pixel;
   return camera;
 }
 

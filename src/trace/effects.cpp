@@ -4,8 +4,8 @@
 #include <array>
 
 #include "base/diagnostics.h"
+#include "scene/shading_rules.h"
 #include "trace/inventory.h"
-#include "trace/numerics.h"
 
 namespace pprt {
 namespace {
@@ -78,10 +78,6 @@ std::string to_string(EffectSet effects) {
     list += e.name;
   }
   return list.empty() ? "none" : list;
-}
-
-bool has_highlight(const Material& material) {
-  return material.specular > 0 && material.shine > 0 && material.shine < kNoHighlightShine;
 }
 
 Inventory take_inventory(const SceneDescription& scene) {

@@ -20,7 +20,4 @@ struct Inventory {
 Inventory take_inventory(const SceneDescription& scene);
 EffectSet effects_called_for(const Inventory& inventory);
 
-// Whether a material's highlight is drawn at all.
-bool has_highlight(const Material& material);
-
 }  // namespace pprt

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/vector.h"
+#include "scene/triangulate.h"
 #include "trace/embree.h"
 #include "trace/quadrics.h"
-#include "trace/triangulate.h"
 #include "trace/user_geometry.h"
 
 namespace pprt {

@@ -41,8 +41,4 @@ inline constexpr double kVisibilityGap = 256 * kOriginRounding;
 // cosine with the geometric normal.
 inline constexpr double kGrazingCosine = 0x1p-10;
 
-// An exponent from which on a Phong highlight is narrower than half a degree: it would only sparkle. SPD
-// writes 100000 for "none".
-inline constexpr double kNoHighlightShine = 1e5;
-
 }  // namespace pprt

@@ -9,9 +9,9 @@ complain() { echo "$1"; failures=$((failures + 1)); }
 
 declare -A allowed=(
   [base]="base" [report]="base report" [scene]="base scene" [spd]="base scene spd" [parser]="base scene parser"
-  [trace]="base scene trace" [image]="base image" [pipeline]="base pipeline"
+  [trace]="base scene trace" [convert]="base scene convert" [image]="base image" [pipeline]="base pipeline"
   [layers]="base image pipeline layers" [parallel]="base image pipeline parallel"
-  [app]="base report scene spd parser trace image pipeline layers parallel app")
+  [app]="base report scene spd parser trace convert image pipeline layers parallel app")
 declare -A home=(
   [embree3]=trace [CGAL]=pipeline [mpi.h]=parallel [tao]=parser [OpenEXR]=image [png.h]=image [CLI]=app
   [nlohmann]=app [spdlog]=app)

@@ -57,6 +57,12 @@ TEST_CASE("a scene may be converted in place") {
   CHECK(read_whole_file(folder.file("a.nff")) == "f 1 1 1 1 0 0 0 1\ns 0.5 0 0 1\n");
 }
 
+TEST_CASE("a name that ends in .pov asks for POV-Ray's language") {
+  const Folder folder;
+  convert({"spd:jacks:1", folder.file("a.POV"), false});
+  CHECK(read_whole_file(folder.file("a.POV")).find("#version 3.7;") != std::string::npos);
+}
+
 TEST_CASE("a scene that is rejected leaves the older output alone") {
   const Folder folder;
   write_whole_file(folder.file("in.nff"), "s 0 0 zero 1\n");
@@ -68,7 +74,7 @@ TEST_CASE("a scene that is rejected leaves the older output alone") {
 TEST_CASE("formats that are not known are a matter of usage, told before anything is read") {
   CHECK_THROWS_AS(convert({"missing.obj", "out.nff", false}), UsageError);
   CHECK_THROWS_AS(convert({"missing", "out.nff", false}), UsageError);
-  CHECK_THROWS_AS(convert({"missing.nff", "out.pov", false}), UsageError);
+  CHECK_THROWS_AS(convert({"missing.nff", "out.mov", false}), UsageError);
   CHECK_THROWS_AS(convert({"missing.nff", "spd:tree", false}), UsageError);
   CHECK_THROWS_AS(convert({"missing.nff", "", false}), UsageError);
 }

@@ -4,6 +4,8 @@
 
 #include <catch2/catch.hpp>
 #include <csignal>
+#include <ostream>
+#include <stdexcept>
 
 #include "temporary_directory.h"
 
@@ -39,6 +41,30 @@ TEST_CASE("bytes come back as they were written, and nothing else is left") {
   CHECK(read_whole_file(directory.path() / "f") == bytes);
   write_whole_file(directory.path() / "f", "");
   CHECK(read_whole_file(directory.path() / "f").empty());
+  CHECK(directory.entries() == 1);
+}
+
+TEST_CASE("bytes may come through a stream, piece by piece") {
+  const TemporaryDirectory directory;
+  write_whole_file(directory.path() / "f",
+                   [](std::ostream& out) { out << "a" << std::string(100'000, 'b') << 'c'; });
+  CHECK(read_whole_file(directory.path() / "f") == "a" + std::string(100'000, 'b') + "c");
+  CHECK(directory.entries() == 1);
+}
+
+TEST_CASE("what the writer of a stream throws comes through, and leaves the old file and no temporary one") {
+  const TemporaryDirectory directory;
+  const fs::path path = directory.path() / "f";
+  write_whole_file(path, "old");
+  const auto write = [](std::ostream& out) {
+    out << "half";
+    throw std::invalid_argument("no more");
+  };
+  CHECK_THROWS_AS(write_whole_file(path, write), std::invalid_argument);
+  const FileSizeLimit limit(1000);
+  CHECK_THROWS_WITH(write_whole_file(path, [](std::ostream& out) { out << std::string(2000, 'x'); }),
+                    "cannot write '" + path.string() + "': File too large");
+  CHECK(read_whole_file(path) == "old");
   CHECK(directory.entries() == 1);
 }
 

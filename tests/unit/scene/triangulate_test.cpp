@@ -1,4 +1,4 @@
-#include "trace/triangulate.h"
+#include "scene/triangulate.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

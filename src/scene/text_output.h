@@ -1,0 +1,42 @@
+// Text with many numbers on its way to a stream, through a buffer of its own: formatting through the stream
+// would cost ten times as much.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <iosfwd>
+#include <string_view>
+
+namespace pprt {
+
+enum class NumberFormat {
+  kShortest,   // the fewest digits that read back as the same double
+  kSixDigits,  // printf's %g, as the SPD programs write
+};
+
+// Numbers must be finite; they look the same in every locale. A failing stream is left failed, as by
+// operator<<.
+class TextOutput {
+ public:
+  explicit TextOutput(std::ostream& out, NumberFormat format = NumberFormat::kShortest)
+      : out_(out), format_(format) {}
+
+  void text(std::string_view s);  // shorter than the buffer
+  void number(double v);
+  void number(std::size_t v);
+
+  // To be called at the end.
+  void flush();
+
+ private:
+  void room(std::size_t size) {
+    if (buffer_.size() - used_ < size) flush();
+  }
+
+  std::ostream& out_;
+  NumberFormat format_;
+  std::array<char, 1 << 16> buffer_;
+  std::size_t used_ = 0;
+};
+
+}  // namespace pprt

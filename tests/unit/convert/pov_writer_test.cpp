@@ -1,0 +1,158 @@
+#include "convert/pov_writer.h"
+
+#include <catch2/catch.hpp>
+
+#include <sstream>
+#include <string>
+
+#include "base/diagnostics.h"
+
+using namespace pprt;
+
+namespace {
+
+std::string pov(const SceneDescription& scene) {
+  std::ostringstream out;
+  write_pov(scene, out);
+  return out.str();
+}
+
+// What follows the materials.
+std::string objects(const SceneDescription& scene) {
+  const std::string text = pov(scene);
+  const std::size_t last = text.rfind("#declare Material_");
+  return text.substr(text.find("\n}\n", last) + 3);
+}
+
+// Seen from 40000 away, so that lengths are written as they are; the first material matte, the second of
+// glass.
+SceneDescription two_materials() {
+  SceneDescription scene;
+  scene.view = View{{0, 0, 40000}, {0, 0, 0}, {0, 1, 0}, 90, 0, 640, 3, {}};
+  scene.materials = {{}, {Rgb(0.5, 0.25, 1), 0.125, 0.5, 30, 0.75, 1.5}};
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("POV-Ray's text of a whole scene") {
+  SceneDescription scene = two_materials();
+  scene.background = Rgb(0.078, 0.361, 0.753);
+  scene.lights = {
+      {{-5, 5, 50}, {}, {}}, {{1, 2, 3}, Rgb(1, 0.5, 0), {}}, {{4, 5, 6}, {}, {}}, {{7, 8, 9}, {}, {}}};
+  const Vec3d triangle[] = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
+  const PatchVertex patch[] = {{{0, 0, 0}, {0, 0, 8}}, {{1, 0, 0}, {0, 0, 0}}, {{0, 1, 0}, {4, 0, 0}}};
+  add_polygon(scene, triangle, 0);
+  add_patch(scene, patch, 0);
+  add_cone(scene, {{1, 2, 3}, 0.5, {4, 5, 6}, 0.25, 0, {}});
+  add_cone(scene, {{1, 2, 3}, 0.5, {4, 5, 6}, 0.5, 0, {}});
+  add_sphere(scene, {{7, 8, 9}, 2, 1, {}});
+  CHECK(pov(scene) == R"(// Lengths are 1 times the scene's, as POV-Ray ignores hits nearer than 0.001.
+//   povray +I... +W640 +H3 -A
+#version 3.7;
+global_settings { assumed_gamma srgb max_trace_level 5 adc_bailout 0 ambient_light rgb 1 }
+background { rgb <0.078, 0.361, 0.753> }
+
+#declare Pixel = 1.9999999999999998 / max(image_height - 1, 1);
+camera {
+  perspective
+  location <0, 0, 40000>
+  direction <0, 0, -1>
+  right <1, -0, 0> * Pixel * image_width
+  up <0, 1, 0> * Pixel * image_height
+}
+
+light_source { <-5, 5, 50> rgb <0.25, 0.25, 0.25> }
+light_source { <1, 2, 3> rgb <0.25, 0.125, 0> }
+light_source { <4, 5, 6> rgb <0.25, 0.25, 0.25> }
+light_source { <7, 8, 9> rgb <0.25, 0.25, 0.25> }
+
+#declare Material_1 = texture {
+  pigment { rgb <1, 1, 1> }
+  finish { ambient 0.025 diffuse 1 }
+}
+#declare Material_2 = texture {
+  pigment { rgb <0.5, 0.25, 1> transmit 0.75 }
+  finish { ambient 0.1 diffuse 0.5 phong 0.5 phong_size 30 reflection 0.5 }
+}
+mesh {
+  triangle { <0, 0, 0>, <4, 0, 0>, <0, 4, 0> }
+  smooth_triangle { <0, 0, 0>, <0, 0, 1>, <1, 0, 0>, <0, 0, 1>, <0, 1, 0>, <1, 0, 0> } texture { Material_1 } }
+cone { <1, 2, 3>, 0.5, <4, 5, 6>, 0.25 open texture { Material_1 } }
+cylinder { <1, 2, 3>, <4, 5, 6>, 0.5 open texture { Material_1 } }
+#declare Glass = sphere { <7, 8, 9>, 2 }
+object { Glass texture { Material_2 } interior { ior 1.5 } no_shadow }
+object { Glass no_image no_reflection }
+)");
+}
+
+TEST_CASE(
+    "lengths are scaled by a power of two, so that POV-Ray's least distance is as small as a rounding") {
+  SceneDescription scene = two_materials();
+  scene.view->from = {0, 0, 3};
+  scene.view->angle_degrees = 45;
+  scene.lights = {{{100, 0, 0}, {}, {}}};
+  add_sphere(scene, {{0, 0, 0}, 1.25, 0, {}});
+  const std::string text = pov(scene);
+  CHECK(text.find("// Lengths are 8192 times") == 0);
+  CHECK(text.find("location <0, 0, 24576>") != std::string::npos);
+  CHECK(text.find("light_source { <819200, 0, 0>") != std::string::npos);
+  CHECK(objects(scene) == "sphere { <0, 0, 0>, 10240 texture { Material_1 } }\n");
+}
+
+TEST_CASE("polygons of one material in a row are one mesh, glass is one body with one interior") {
+  SceneDescription scene = two_materials();
+  const Vec3d triangle[] = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
+  add_polygon(scene, triangle, 1);
+  add_polygon(scene, triangle, 1);
+  add_polygon(scene, triangle, 0);
+  CHECK(objects(scene) == R"(#declare Glass = mesh {
+  triangle { <0, 0, 0>, <4, 0, 0>, <0, 4, 0> }
+  triangle { <0, 0, 0>, <4, 0, 0>, <0, 4, 0> } }
+object { Glass texture { Material_2 } interior { ior 1.5 } no_shadow }
+object { Glass no_image no_reflection }
+mesh {
+  triangle { <0, 0, 0>, <4, 0, 0>, <0, 4, 0> } texture { Material_1 } }
+)");
+}
+
+TEST_CASE("a concave polygon is cut into triangles that do not cover its notch") {
+  SceneDescription scene = two_materials();
+  const Vec3d arrow[] = {{0, 0, 0}, {4, 0, 0}, {1, 1, 0}, {0, 4, 0}};
+  add_polygon(scene, arrow, 0);
+  const std::string text = objects(scene);
+  CHECK(text.find("<4, 0, 0>, <1, 1, 0>") != std::string::npos);
+  CHECK(text.find("<1, 1, 0>, <0, 4, 0>") != std::string::npos);
+}
+
+TEST_CASE("a surface that lets all light through keeps a share to be lit") {
+  SceneDescription scene = two_materials();
+  scene.materials[1].transmittance = 1;
+  scene.materials[1].diffuse = 0.5;
+  const std::string text = pov(scene);
+  CHECK(text.find("transmit 0.9990234375 }") != std::string::npos);
+  CHECK(text.find("diffuse 512 ") != std::string::npos);
+}
+
+TEST_CASE("what has no extent is left out, what is one-sided is told") {
+  SceneDescription scene = two_materials();
+  const Vec3d line[] = {{0, 0, 0}, {4, 0, 0}, {8, 0, 0}};
+  add_sphere(scene, {{0, 0, 0}, 0, 0, {}});
+  add_cone(scene, {{1, 1, 1}, 1, {1, 1, 1}, 2, 0, {}});
+  add_polygon(scene, line, 0);
+  add_sphere(scene, {{0, 0, 0}, -2, 0, {}});
+  std::ostringstream out;
+  const PovLosses losses = write_pov(scene, out);
+  CHECK(losses.degenerate == 3);
+  CHECK(losses.one_sided == 1);
+  CHECK(objects(scene) == "sphere { <0, 0, 0>, 2 texture { Material_1 } }\n");
+}
+
+TEST_CASE("a scene without a view, or with one that shows nothing, is refused") {
+  SceneDescription scene = two_materials();
+  scene.name = "a.nff";
+  scene.view->up = {0, 0, 1};
+  CHECK_THROWS_WITH(pov(scene), "a.nff: error: view: 'up' is zero or parallel to the direction of view");
+  scene.view.reset();
+  CHECK_THROWS_WITH(pov(scene), "a.nff: error: the scene has no view");
+}
