@@ -9,6 +9,7 @@ find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(pegtl REQUIRED)
 find_package(embree 3.13 REQUIRED)
+find_package(assimp REQUIRED)
 find_package(MPI REQUIRED COMPONENTS C)
 
 # CGAL reports its own build type advice; ours is set already.

@@ -37,8 +37,8 @@ set(CPACK_PACKAGE_DESCRIPTION
 ranks. Every frame has a deadline: what time allows goes where the picture
 varies most, and the rest is interpolated between samples.
 .
-It reads Haines' Neutral File Format, generates the Standard Procedural
-Databases, and writes numbered OpenEXR and PNG frames.")
+It reads Haines' Neutral File Format and meshes, generates the Standard
+Procedural Databases, and writes numbered OpenEXR and PNG frames.")
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)

@@ -1,17 +1,20 @@
 #include "app/convert.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <functional>
 #include <iostream>
 #include <stdexcept>
 
 #include "app/scene_source.h"
 #include "base/diagnostics.h"
+#include "convert/mesh_reader.h"
+#include "convert/mesh_writer.h"
 #include "convert/pov_writer.h"
+#include "convert/tessellate.h"
 #include "image/whole_file.h"
 #include "scene/nff_writer.h"
 #include "spd/spd.h"
@@ -19,7 +22,8 @@
 namespace pprt {
 namespace {
 
-enum class Format { kNff, kPov };
+enum class InputFormat { kScene, kMesh };
+enum class OutputFormat { kNff, kPov, kMesh };
 
 std::string extension_of(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
@@ -28,24 +32,72 @@ std::string extension_of(const std::string& path) {
   return extension;
 }
 
-void check_input(const std::string& input) {
-  if (is_spd_name(input) || input == "-" || extension_of(input) == ".nff") return;
-  throw UsageError("cannot tell the format of input '" + input +
-                   "': it must be FILE.nff, - (NFF on standard input) or spd:NAME[:SIZE]");
+InputFormat input_format(const std::string& input) {
+  if (is_spd_name(input) || input == "-") return InputFormat::kScene;
+  const std::string extension = extension_of(input);
+  if (extension == ".nff") return InputFormat::kScene;
+  if (is_mesh_extension(extension)) return InputFormat::kMesh;
+  throw UsageError(
+      fmt::format("cannot tell the format of input '{}': it must be FILE.nff, - (NFF on standard input), "
+                  "spd:NAME[:SIZE] or a mesh such as FILE.obj",
+                  input));
 }
 
-Format output_format(const std::string& output) {
+OutputFormat output_format(const std::string& output) {
   const std::string extension = extension_of(output);
   if (!is_spd_name(output)) {
-    if (output == "-" || extension == ".nff") return Format::kNff;
-    if (extension == ".pov") return Format::kPov;
+    if (output == "-" || extension == ".nff") return OutputFormat::kNff;
+    if (extension == ".pov") return OutputFormat::kPov;
+    const std::vector<std::string>& meshes = mesh_output_extensions();
+    if (std::find(meshes.begin(), meshes.end(), extension) != meshes.end()) return OutputFormat::kMesh;
   }
-  throw UsageError("cannot tell the format of output '" + output +
-                   "': it must be FILE.nff, FILE.pov or - (NFF on standard output)");
+  throw UsageError(fmt::format(
+      "cannot tell the format of output '{}': it must be FILE.nff, - (NFF on standard output) or FILE with "
+      "one of .pov {}",
+      output, fmt::join(mesh_output_extensions(), " ")));
+}
+
+Fineness fineness(const ConvertOptions& options) {
+  Fineness result;
+  result.divisions = options.tessellate.value_or(result.divisions);
+  result.chord_error = options.chord_error;
+  return result;
 }
 
 void say(const SceneDescription& scene, const std::string& what) {
   std::cerr << scene.name << ": " << what << '\n';
+}
+
+void say_degenerate(const SceneDescription& scene, std::size_t count) {
+  if (count > 0) say(scene, fmt::format("{} objects without extent left out", count));
+}
+
+// What a scene needs to be seen and a mesh often lacks.
+void complete_view(SceneDescription& scene, UpAxis up) {
+  if (scene.view || scene.primitive_count() == 0) return;
+  scene.view = fitted_view(scene, up);
+  const bool y = up == UpAxis::kY;
+  say(scene, fmt::format("no camera: one that shows everything is added, with {} up (--up {} for the other)",
+                         y ? 'y' : 'z', y ? 'z' : 'y'));
+}
+
+void complete_lights(SceneDescription& scene) {
+  if (!scene.lights.empty()) return;
+  scene.lights.push_back(shoulder_light(scene, *scene.view));
+  say(scene, "no lights: one behind the viewer's left shoulder is added");
+}
+
+SceneDescription read(const ConvertOptions& options, InputFormat format) {
+  if (format == InputFormat::kScene) {
+    ParsedScene parsed = load_scene(options.input, {.strict = options.strict});
+    std::cerr << parsed.warnings;
+    return std::move(parsed.scene);
+  }
+  ReadMesh mesh = read_mesh(options.input);
+  for (const std::string& note : mesh.notes) say(mesh.scene, note);
+  complete_view(mesh.scene, options.up);
+  complete_lights(mesh.scene);
+  return std::move(mesh.scene);
 }
 
 void write_pov_and_tell(const SceneDescription& scene, std::ostream& out) {
@@ -54,27 +106,43 @@ void write_pov_and_tell(const SceneDescription& scene, std::ostream& out) {
     say(scene, fmt::format("{} spheres or cones of which only the inside is seen: POV-Ray shows both sides",
                            losses.one_sided));
   }
-  if (losses.degenerate > 0) say(scene, fmt::format("{} objects without extent left out", losses.degenerate));
+  say_degenerate(scene, losses.degenerate);
 }
 
-void write_to_standard_output(const SceneDescription& scene) {
-  write_nff(scene, std::cout);
-  std::cout.flush();
-  if (!std::cout) throw std::runtime_error("cannot write to standard output");
+void write_mesh_files(const SceneDescription& scene, const ConvertOptions& options) {
+  const std::filesystem::path path = options.output;
+  const WrittenMesh mesh =
+      write_mesh(scene, extension_of(options.output), path.stem().string(), fineness(options));
+  for (const MeshFile& file : mesh.files) {
+    const bool named = &file == &mesh.files.back();  // perhaps with its extension in capitals
+    write_whole_file(named ? path : path.parent_path() / file.name, file.bytes);
+  }
+  say_degenerate(scene, mesh.degenerate);
+}
+
+void write_text(const SceneDescription& scene, const ConvertOptions& options, OutputFormat format) {
+  if (options.output == "-") {
+    write_nff(scene, std::cout);
+    std::cout.flush();
+    if (!std::cout) throw std::runtime_error("cannot write to standard output");
+    return;
+  }
+  write_whole_file(options.output, [&](std::ostream& out) {
+    if (format == OutputFormat::kNff) return write_nff(scene, out);
+    write_pov_and_tell(scene, out);
+  });
 }
 
 }  // namespace
 
 void convert(const ConvertOptions& options) {
-  check_input(options.input);
-  const Format format = output_format(options.output);
-  const ParsedScene parsed = load_scene(options.input, {.strict = options.strict});
-  std::cerr << parsed.warnings;
-  if (options.output == "-") return write_to_standard_output(parsed.scene);
-  write_whole_file(options.output, [&](std::ostream& out) {
-    if (format == Format::kNff) return write_nff(parsed.scene, out);
-    write_pov_and_tell(parsed.scene, out);
-  });
+  const InputFormat from = input_format(options.input);
+  const OutputFormat to = output_format(options.output);
+  SceneDescription scene = read(options, from);
+  if (to == OutputFormat::kMesh) return write_mesh_files(scene, options);
+  if (to == OutputFormat::kPov) complete_view(scene, options.up);
+  if (options.tessellate || options.chord_error) scene = tessellated(scene, fineness(options));
+  write_text(scene, options, to);
 }
 
 }  // namespace pprt

@@ -1,6 +1,8 @@
-// pixel_rays SCENE SIZE FLAT.png SHADED.png: one ray through the centre of every pixel of a SIZE x SIZE
-// image, which is what other ray tracers do without anti-aliasing. FLAT shows the material's colour of what
-// is seen first, magenta where nothing is; SHADED the whole ray trees. Prints the number of shadow rays.
+// pixel_rays SCENE SIZE FLAT.png SHADED.png [tachyon]: one ray for every pixel of a SIZE x SIZE image,
+// through its centre, which is what POV-Ray does without anti-aliasing. Tachyon takes NFF's coordinates for
+// left-handed ones, so that its picture is mirrored, and sends rays through the pixels' upper corners. FLAT
+// shows the material's colour of what is seen first, black where nothing is; SHADED the whole ray trees.
+// Prints the number of shadow rays.
 #include <cstdlib>
 #include <iostream>
 #include <stdexcept>
@@ -16,9 +18,10 @@ namespace {
 
 using namespace pprt;
 
-const Color kNothing(1, 0, 1);
+const Color kNothing(0, 0, 0);
 
-void run(const std::string& name, int size, const std::string& flat_name, const std::string& shaded_name) {
+void run(const std::string& name, int size, const std::string& flat_name, const std::string& shaded_name,
+         bool tachyon) {
   const SceneDescription scene = is_spd_name(name) ? make_spd_scene(name) : read_nff(name).scene;
   const CompiledScene compiled = compile(scene);
   View view = scene.view.value();
@@ -28,9 +31,11 @@ void run(const std::string& name, int size, const std::string& flat_name, const 
   Image shaded(size, size);
   for (int y = 0; y < size; ++y) {
     for (int x = 0; x < size; ++x) {
-      const FirstHit hit = tracer.first_hit(x + 0.5, y + 0.5);
+      const double column = tachyon ? size - 1 - x : x + 0.5;
+      const double row = tachyon ? y : y + 0.5;
+      const FirstHit hit = tracer.first_hit(column, row);
       if (hit.material > 0) flat.at(x, y) = Color(scene.materials[hit.material - 1].color);
-      shaded.at(x, y) = tracer.trace(x + 0.5, y + 0.5).color;
+      shaded.at(x, y) = tracer.trace(column, row).color;
     }
   }
   write_image(flat_name, flat);
@@ -41,12 +46,13 @@ void run(const std::string& name, int size, const std::string& flat_name, const 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 5) {
-    std::cerr << "usage: pixel_rays SCENE SIZE FLAT.png SHADED.png\n";
+  const bool tachyon = argc == 6 && std::string(argv[5]) == "tachyon";
+  if (argc != 5 && !tachyon) {
+    std::cerr << "usage: pixel_rays SCENE SIZE FLAT.png SHADED.png [tachyon]\n";
     return 2;
   }
   try {
-    run(argv[1], std::stoi(argv[2]), argv[3], argv[4]);
+    run(argv[1], std::stoi(argv[2]), argv[3], argv[4], tachyon);
     return 0;
   } catch (const std::exception& e) {
     std::cerr << e.what() << '\n';

@@ -21,8 +21,8 @@ our_shadows=$(pixel_rays scene.nff "$size" flat.png shaded.png)
 if [[ $mode == control ]]; then
   sed -i 's/^  right /&-1 * /; 0,/^light_source/{/^light_source/d}' scene.pov
 fi
-# Quality 0 shows the plain colours of what is seen, opaque; magenta is nothing.
-sed 's/^background .*/background { rgb <1, 0, 1> }/' scene.pov >plain.pov
+# Quality 0 shows the plain colours of what is seen, opaque; nothing is black.
+sed 's/^background .*/background { rgb <0, 0, 0> }/' scene.pov >plain.pov
 render plain.pov pov_flat.png +Q0
 render scene.pov pov_shaded.png
 

@@ -43,8 +43,8 @@ TEST_CASE("every database survives the way through NFF unchanged, to the byte") 
 
 TEST_CASE("a database becomes a file, and the file the same file again") {
   const Folder folder;
-  convert({"spd:mount:3", folder.file("a.nff"), false});
-  convert({folder.file("a.nff"), folder.file("b.NFF"), true});
+  convert({"spd:mount:3", folder.file("a.nff"), false, {}, {}});
+  convert({folder.file("a.nff"), folder.file("b.NFF"), true, {}, {}});
   const std::string expected = nff(make_spd("mount", 3));
   CHECK((read_whole_file(folder.file("a.nff")) == expected));
   CHECK((read_whole_file(folder.file("b.NFF")) == expected));
@@ -53,13 +53,13 @@ TEST_CASE("a database becomes a file, and the file the same file again") {
 TEST_CASE("a scene may be converted in place") {
   const Folder folder;
   write_whole_file(folder.file("a.nff"), "# a comment\ns 0.50 0 0 1.000\n");
-  convert({folder.file("a.nff"), folder.file("a.nff"), false});
+  convert({folder.file("a.nff"), folder.file("a.nff"), false, {}, {}});
   CHECK(read_whole_file(folder.file("a.nff")) == "f 1 1 1 1 0 0 0 1\ns 0.5 0 0 1\n");
 }
 
 TEST_CASE("a name that ends in .pov asks for POV-Ray's language") {
   const Folder folder;
-  convert({"spd:jacks:1", folder.file("a.POV"), false});
+  convert({"spd:jacks:1", folder.file("a.POV"), false, {}, {}});
   CHECK(read_whole_file(folder.file("a.POV")).find("#version 3.7;") != std::string::npos);
 }
 
@@ -67,16 +67,16 @@ TEST_CASE("a scene that is rejected leaves the older output alone") {
   const Folder folder;
   write_whole_file(folder.file("in.nff"), "s 0 0 zero 1\n");
   write_whole_file(folder.file("out.nff"), "older");
-  CHECK_THROWS_AS(convert({folder.file("in.nff"), folder.file("out.nff"), false}), InputError);
+  CHECK_THROWS_AS(convert({folder.file("in.nff"), folder.file("out.nff"), false, {}, {}}), InputError);
   CHECK(read_whole_file(folder.file("out.nff")) == "older");
 }
 
 TEST_CASE("formats that are not known are a matter of usage, told before anything is read") {
-  CHECK_THROWS_AS(convert({"missing.obj", "out.nff", false}), UsageError);
-  CHECK_THROWS_AS(convert({"missing", "out.nff", false}), UsageError);
-  CHECK_THROWS_AS(convert({"missing.nff", "out.mov", false}), UsageError);
-  CHECK_THROWS_AS(convert({"missing.nff", "spd:tree", false}), UsageError);
-  CHECK_THROWS_AS(convert({"missing.nff", "", false}), UsageError);
+  CHECK_THROWS_AS(convert({"missing.png", "out.nff", false, {}, {}}), UsageError);
+  CHECK_THROWS_AS(convert({"missing", "out.nff", false, {}, {}}), UsageError);
+  CHECK_THROWS_AS(convert({"missing.nff", "out.mov", false, {}, {}}), UsageError);
+  CHECK_THROWS_AS(convert({"missing.nff", "spd:tree", false, {}, {}}), UsageError);
+  CHECK_THROWS_AS(convert({"missing.nff", "", false, {}, {}}), UsageError);
 }
 
 TEST_CASE("scenes come from the databases or from files") {

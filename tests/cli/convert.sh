@@ -1,0 +1,60 @@
+#!/usr/bin/env bash
+# pprt-convert: formats, what is added and told, errors.
+source "$(dirname "$0")/check.sh"
+
+# There and back: the digits are the same.
+run pprt-convert spd:tree:3 a.nff; expect_code 0; expect_text out ''; expect_text err ''
+run pprt-convert a.nff b.nff; expect_code 0; expect_same a.nff b.nff
+run pprt-convert - - <a.nff; expect_code 0; expect_same a.nff out
+
+# Triangles: 15 spheres of 12 N^2 and 15 cones of 8 N.
+run pprt-convert --tessellate 2 a.nff t.nff; expect_code 0
+[[ $(grep -c '^pp 3$' t.nff) -eq $((15 * (48 + 16))) ]] || complain "--tessellate 2: $(grep -c '^pp' t.nff) patches"
+[[ $(grep -c '^[sc] ' t.nff) -eq 0 ]] || complain "--tessellate 2: curved surfaces are left"
+run pprt-convert --chord-error 0.001 a.nff fine.nff; expect_code 0
+run pprt-convert --chord-error 0.1 a.nff coarse.nff; expect_code 0
+[[ $(wc -l <fine.nff) -gt $(wc -l <coarse.nff) ]] || complain "--chord-error: the smaller error is not finer"
+
+# Meshes, with the files that belong to them.
+for extension in obj ply stl glb gltf dae; do
+  run pprt-convert ball.nff "mesh/ball.$extension"; expect_code 0; expect_text err ''; expect_file "mesh/ball.$extension"
+  run pprt-convert "mesh/ball.$extension" back.nff; expect_code 0
+  [[ $(grep -c '^pp 3$' back.nff) -eq 432 ]] || complain "$command: $(grep -c '^pp' back.nff) patches came back"
+done
+expect_file mesh/ball.mtl; expect_file mesh/ball.bin
+
+# What a mesh lacks is added, and told.
+run pprt-convert mesh/ball.ply - ; expect_code 0
+expect_text err "mesh/ball.ply: no camera: one that shows everything is added, with y up (--up z for the other)
+mesh/ball.ply: no lights: one behind the viewer's left shoulder is added"
+expect_line out 'up 0 1 0'
+run pprt-convert --up z mesh/ball.ply - ; expect_code 0; expect_line out 'up 0 0 1'
+run pprt-convert mesh/ball.dae - ; expect_code 0; expect_text err ''
+pprt-convert mesh/ball.ply ply.nff 2>/dev/null
+run pprt-render ply.nff --clock work -s 16x16 -o ply.png; expect_code 0
+
+# Scenes without a view cannot be POV-Ray's: one is added.
+sed '/^[vfahru]/d' ball.nff >noview.nff
+run pprt-convert noview.nff noview.pov; expect_code 0
+expect_line err 'noview.nff: no camera: .*'; expect_line noview.pov 'camera {'
+sed 's/^s .*/s 0 0 0 -1/' ball.nff >inside.nff
+run pprt-convert inside.nff inside.pov; expect_code 0
+expect_text err "inside.nff: 1 spheres or cones of which only the inside is seen: POV-Ray shows both sides"
+
+# Errors: usage, scenes, failures.
+run pprt-convert ball.nff ball.png; expect_code 2
+expect_line err "pprt-convert: error: cannot tell the format of output 'ball.png': it must be FILE.nff, - (NFF on standard output) or FILE with one of .pov .obj .ply .stl .glb .gltf .dae"
+run pprt-convert ball.png ball.nff; expect_code 2
+expect_line err "pprt-convert: error: cannot tell the format of input 'ball.png': .*"
+run pprt-convert --tessellate 0 ball.nff x.nff; expect_code 2; expect_no_file x.nff
+run pprt-convert --chord-error 0 ball.nff x.nff; expect_code 2
+run pprt-convert --chord-error 0.1 --tessellate 3 ball.nff x.nff; expect_code 2
+run pprt-convert --up x ball.nff x.nff; expect_code 2
+run pprt-convert none.obj x.nff; expect_code 3; expect_text err "cannot read 'none.obj': No such file or directory"
+echo nonsense >bad.glb
+run pprt-convert bad.glb x.nff; expect_code 3; expect_line err 'bad.glb: error: .*'
+run pprt-convert --tessellate 1000 spd:balls:3 x.nff; expect_code 3; expect_line err '.* triangles, more than 20000000: cut them less finely'
+expect_no_file x.nff
+mkdir folder.ply
+run pprt-convert ball.nff folder.ply; expect_code 1; expect_text err "pprt-convert: error: cannot write 'folder.ply': it is a directory"
+finish

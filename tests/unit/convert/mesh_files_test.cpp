@@ -1,0 +1,202 @@
+#include <assimp/scene.h>
+
+#include <assimp/Importer.hpp>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fstream>
+#include <string>
+
+#include "../image/temporary_directory.h"
+#include "base/diagnostics.h"
+#include "convert/mesh_reader.h"
+#include "convert/mesh_writer.h"
+#include "spd/spd.h"
+
+using namespace pprt;
+
+namespace {
+
+std::string put(const TemporaryDirectory& folder, const WrittenMesh& mesh) {
+  std::string last;
+  for (const MeshFile& file : mesh.files) {
+    last = (folder.path() / file.name).string();
+    std::ofstream(last, std::ios::binary) << file.bytes;
+  }
+  return last;
+}
+
+void put(const TemporaryDirectory& folder, const std::string& name, const std::string& text) {
+  std::ofstream(folder.path() / name, std::ios::binary) << text;
+}
+
+// As Assimp alone sees a file; the scenes here have no transformed meshes.
+struct Census {
+  std::size_t triangles = 0;
+  Box3d box;
+};
+
+Census census(const std::string& path) {
+  Assimp::Importer importer;
+  const aiScene* scene = importer.ReadFile(path, 0);
+  REQUIRE(scene != nullptr);
+  Census result;
+  for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
+    const aiMesh& mesh = *scene->mMeshes[m];
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+      CHECK(mesh.mFaces[f].mNumIndices == 3);
+      ++result.triangles;
+    }
+    CHECK(mesh.mNormals != nullptr);
+    for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+      result.box.extendBy(Vec3d(mesh.mVertices[v].x, mesh.mVertices[v].y, mesh.mVertices[v].z));
+    }
+  }
+  return result;
+}
+
+void check_near(const Vec3d& a, const Vec3d& b, double tolerance) {
+  CAPTURE(a.x, a.y, a.z, b.x, b.y, b.z);
+  CHECK((a - b).length() <= tolerance);
+}
+
+// Gears: 144-cornered concave polygons, two materials, no curved surface.
+std::size_t gears_triangles(const SceneDescription& gears) {
+  std::size_t count = 0;
+  for (const Polygon& p : gears.polygons) count += p.vertex_count - 2;
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("Assimp reads back the counts and bounds of every database in every format") {
+  const TemporaryDirectory folder;
+  for (const std::string& extension : mesh_output_extensions()) {
+    for (const SpdDatabase& database : spd_databases()) {
+      CAPTURE(extension, database.name);
+      const SceneDescription scene = make_spd(database.name, 1);
+      const WrittenMesh written = write_mesh(scene, extension, "mesh", {9, {}});
+      const Census read = census(put(folder, written));
+      CHECK(read.triangles == written.triangles);
+      const Box3d whole = bounds(scene);
+      // Chords fall short of a curve by less than a hundredth of its radius, floats by far less.
+      const double tolerance = scene.spheres.empty() && scene.cones.empty() ? 1e-5 : 0.02;
+      check_near(read.box.min, whole.min, tolerance * whole.size().length());
+      check_near(read.box.max, whole.max, tolerance * whole.size().length());
+    }
+  }
+}
+
+TEST_CASE("concave polygons keep their area in triangles") {
+  const SceneDescription gears = make_spd("gears", 1);
+  CHECK(write_mesh(gears, ".ply", "mesh", {}).triangles == gears_triangles(gears));
+}
+
+TEST_CASE("what comes back through a mesh is the tessellated scene") {
+  const TemporaryDirectory folder;
+  SceneDescription scene = make_spd("mount", 3);
+  scene.lights[0].color = Rgb(1, 0.5, 0);
+  for (const std::string& extension : mesh_output_extensions()) {
+    CAPTURE(extension);
+    const ReadMesh read = read_mesh(put(folder, write_mesh(scene, extension, "mesh", {6, {}})));
+    CHECK(read.notes.empty());
+    CHECK(read.scene.polygons.size() == 128);     // the mountain is flat, facet by facet
+    CHECK(read.scene.patches.size() == 4 * 432);  // the spheres are smooth
+    for (std::size_t i = 0; i < read.scene.patches.size(); i += 100) {
+      for (const PatchVertex& v : read.scene.vertices(read.scene.patches[i])) {
+        CHECK(v.normal.length() == Approx(1).epsilon(1e-3));
+      }
+    }
+  }
+}
+
+TEST_CASE("materials, where the format has them") {
+  const TemporaryDirectory folder;
+  const SceneDescription scene = make_spd("mount", 2);
+  const auto glass = [&](const std::string& extension) {
+    const ReadMesh read = read_mesh(put(folder, write_mesh(scene, extension, "mesh", {1, {}})));
+    REQUIRE(read.scene.materials.size() == 2);
+    Material m = read.scene.materials[0];
+    if (m.transmittance == 0) m = read.scene.materials[1];
+    CHECK(m.color.x == Approx(0.1));  // colour and Kd come back as their product
+    CHECK(m.diffuse == 1);
+    CHECK(m.specular == Approx(0.1));
+    CHECK(m.transmittance == Approx(0.9));
+    CHECK(m.refractive_index == 1.5);
+    return m;
+  };
+  CHECK(glass(".obj").shine == Approx(scene.materials[0].shine));
+  CHECK(glass(".dae").shine == Approx(scene.materials[0].shine));
+  CHECK(glass(".glb").shine == 0);
+  CHECK(glass(".gltf").shine == 0);
+  for (const std::string extension : {".ply", ".stl"}) {
+    const ReadMesh read = read_mesh(put(folder, write_mesh(scene, extension, "mesh", {1, {}})));
+    CHECK(read.scene.materials == std::vector<Material>{{}});
+  }
+}
+
+TEST_CASE("camera and lights through Collada") {
+  const TemporaryDirectory folder;
+  SceneDescription scene = make_spd("tree", 1);
+  scene.view->width = 640;
+  scene.view->height = 400;
+  scene.view->angle_degrees = 30;
+  scene.lights[1].color = Rgb(1, 0.5, 0);
+  const ReadMesh read = read_mesh(put(folder, write_mesh(scene, ".dae", "mesh", {1, {}})));
+  REQUIRE(read.scene.view);
+  const View& view = *read.scene.view;
+  check_near(view.from, scene.view->from, 1e-5);
+  check_near((view.at - view.from).normalized(), (scene.view->at - scene.view->from).normalized(), 1e-6);
+  const double ratio = static_cast<double>(view.width) / view.height;
+  CHECK(ratio == Approx(1.6).epsilon(0.002));
+  // The tangents of the pictures' upper edges, half a pixel beyond the rows' centres.
+  const auto edge = [](const View& v) {
+    return std::tan(v.angle_degrees * M_PI / 360) * v.height / (v.height - 1);
+  };
+  CHECK(edge(view) == Approx(edge(*scene.view)).epsilon(0.002));
+  REQUIRE(read.scene.lights.size() == 7);
+  for (std::size_t i = 0; i < 7; ++i)
+    check_near(read.scene.lights[i].position, scene.lights[i].position, 1e-4);
+  CHECK_FALSE(read.scene.lights[0].color);
+  REQUIRE(read.scene.lights[1].color);
+  CHECK(*read.scene.lights[1].color == Rgb(1, 0.5, 0));
+}
+
+TEST_CASE("an OBJ written by hand: a quadrilateral, a mirror, what is no polygon") {
+  const TemporaryDirectory folder;
+  put(folder, "a.mtl", "newmtl red\nKd 0.5 0 0\nKs 0.25 0.25 0.25\nNs 40\nd 1\n");
+  put(folder, "a.obj",
+      "mtllib a.mtl\nv 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 9 9 9\nusemtl red\nf 1 2 3 4\nf 1 2 2\n");
+  const ReadMesh read = read_mesh((folder.path() / "a.obj").string());
+  REQUIRE(read.scene.polygons.size() == 1);
+  CHECK(read.scene.polygons[0].vertex_count == 4);
+  CHECK(read.notes == std::vector<std::string>{"1 points, lines and faces without extent left out"});
+  const Material& m = read.scene.materials[read.scene.polygons[0].material];
+  CHECK(m == Material{Rgb(0.5, 0, 0), 1, 0.25, 40, 0, 1});
+  CHECK_FALSE(read.scene.view);
+  CHECK(read.scene.lights.empty());
+}
+
+TEST_CASE("meshes that cannot be read are told with their names") {
+  const TemporaryDirectory folder;
+  const std::string missing = (folder.path() / "none.obj").string();
+  CHECK_THROWS_WITH(read_mesh(missing), "cannot read '" + missing + "': No such file or directory");
+  put(folder, "bad.ply", "ply\nformat nonsense\n");
+  CHECK_THROWS_AS(read_mesh((folder.path() / "bad.ply").string()), InputError);
+  put(folder, "points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\np 1 2 3\n");
+  CHECK_THROWS_AS(read_mesh((folder.path() / "points.obj").string()), InputError);
+}
+
+TEST_CASE("extensions that are read") {
+  for (const char* extension : {".obj", ".ply", ".stl", ".gltf", ".glb", ".dae"})
+    CHECK(is_mesh_extension(extension));
+  for (const char* extension : {".nff", ".png", "", "."}) CHECK_FALSE(is_mesh_extension(extension));
+}
+
+TEST_CASE("nothing to write is an error") {
+  SceneDescription scene;
+  scene.name = "a.nff";
+  scene.materials = {{}};
+  add_sphere(scene, {{0, 0, 0}, 0, 0, {}});
+  CHECK_THROWS_WITH(write_mesh(scene, ".ply", "mesh", {}),
+                    "a.nff: error: no object of the scene has any extent");
+}

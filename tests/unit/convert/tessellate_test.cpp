@@ -1,0 +1,166 @@
+#include "convert/tessellate.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/diagnostics.h"
+#include "spd/spd.h"
+
+using namespace pprt;
+
+namespace {
+
+struct Corners {
+  PatchVertex a, b, c;
+  Vec3d twice_area() const { return (b.position - a.position).cross(c.position - a.position); }
+};
+
+std::vector<Corners> corners(const Surface& surface) {
+  std::vector<Corners> result;
+  for (const TriangleIndices& t : surface.triangles) {
+    result.push_back({surface.vertices[t[0]], surface.vertices[t[1]], surface.vertices[t[2]]});
+  }
+  return result;
+}
+
+double area(const Surface& surface) {
+  double sum = 0;
+  for (const Corners& t : corners(surface)) sum += 0.5 * t.twice_area().length();
+  return sum;
+}
+
+// Every triangle looks where the normals of its corners point, and these are of unit length.
+void check_orientation(const Surface& surface) {
+  for (const Corners& t : corners(surface)) {
+    const Vec3d facing = t.twice_area();
+    REQUIRE(facing.length() > 0);
+    for (const PatchVertex& v : {t.a, t.b, t.c}) {
+      CHECK(facing.dot(v.normal) > 0);
+      CHECK(v.normal.length() == Approx(1));
+    }
+  }
+}
+
+// How far the triangle's plane lies inside a sphere of this radius about the origin.
+double depth(const Corners& t, double radius) {
+  return radius - t.twice_area().normalized().dot(t.a.position);
+}
+
+SceneDescription one_of_each() {
+  SceneDescription scene;
+  scene.materials = {{}, {Rgb(1, 0, 0), 1, 0, 0, 0, 1}};
+  const Vec3d triangle[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  add_polygon(scene, triangle, 1);
+  add_sphere(scene, {{0, 0, 0}, 2, 0, {}});
+  add_cone(scene, {{0, 0, 0}, 1, {0, 0, 3}, 0.5, 1, {}});
+  add_cone(scene, {{0, 0, 0}, 1, {0, 0, 3}, 0, 1, {}});
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("a sphere is six faces of N x N x 2 triangles, its vertices on the surface, looking outwards") {
+  for (const int n : {1, 2, 3, 6}) {
+    CAPTURE(n);
+    const Surface surface = tessellate(Sphere{{1, 2, 3}, 2, 0, {}}, n);
+    CHECK(surface.triangles.size() == static_cast<std::size_t>(12 * n * n));
+    for (const PatchVertex& v : surface.vertices) {
+      CHECK((v.position - Vec3d(1, 2, 3)).length() == Approx(2));
+      CHECK(((v.position - Vec3d(1, 2, 3)) / 2 - v.normal).length() < 1e-15);
+    }
+    check_orientation(surface);
+  }
+  CHECK(area(tessellate(Sphere{{0, 0, 0}, 1, 0, {}}, 1)) == Approx(8));  // a cube of edge 2/sqrt(3)
+  CHECK(area(tessellate(Sphere{{0, 0, 0}, 1, 0, {}}, 100)) == Approx(4 * M_PI).epsilon(1e-4));
+}
+
+TEST_CASE("a cone is a ring of 4N x 2 triangles with the true slanted normal, without caps") {
+  const Cone cone{{1, 1, 1}, 2, {1, 1, 4}, 0.5, 0, {}};
+  const Surface surface = tessellate(cone, 3);
+  CHECK(surface.triangles.size() == 24);
+  check_orientation(surface);
+  for (const PatchVertex& v : surface.vertices) {
+    const Vec3d radial(v.position.x - 1, v.position.y - 1, 0);
+    CHECK(radial.length() == Approx(v.position.z == 1 ? 2 : 0.5));
+    CHECK(v.normal.z == Approx(1.5 / std::hypot(1.5, 3)));  // falls by 1.5 over 3
+  }
+  const double slant = std::hypot(1.5, 3);
+  CHECK(area(tessellate(cone, 200)) == Approx(M_PI * 2.5 * slant).epsilon(1e-4));
+}
+
+TEST_CASE("the tip of a cone takes no triangles of no area") {
+  CHECK(tessellate(Cone{{0, 0, 0}, 1, {0, 1, 0}, 0, 0, {}}, 2).triangles.size() == 8);
+  CHECK(tessellate(Cone{{0, 0, 0}, 0, {0, 1, 0}, 1, 0, {}}, 2).triangles.size() == 8);
+  check_orientation(tessellate(Cone{{0, 0, 0}, 1, {1, 1, 1}, 0, 0, {}}, 2));
+}
+
+TEST_CASE("what is seen from the inside only looks inwards") {
+  const Surface sphere = tessellate(Sphere{{0, 0, 0}, -2, 0, {}}, 2);
+  check_orientation(sphere);
+  CHECK(sphere.vertices[0].normal.dot(sphere.vertices[0].position) < 0);
+  const Surface cone = tessellate(Cone{{0, 0, 0}, -1, {0, 0, 1}, -1, 0, {}}, 2);
+  check_orientation(cone);
+  CHECK(cone.vertices[0].normal.dot(cone.vertices[0].position) < 0);
+}
+
+TEST_CASE("the chord error is held, by the least N that holds it for odd N") {
+  for (const double error : {0.9, 0.3, 0.1, 0.03, 0.01, 0.001}) {
+    CAPTURE(error);
+    const Fineness fineness{1, error};
+    const Sphere sphere{{0, 0, 0}, 1, 0, {}};
+    const int n = divisions(sphere, fineness);
+    double deepest = 0;
+    for (const Corners& t : corners(tessellate(sphere, n))) deepest = std::max(deepest, depth(t, 1));
+    CHECK(deepest <= error);
+    const int coarser = n % 2 == 0 ? n - 1 : n - 2;
+    if (coarser >= 1) {
+      deepest = 0;
+      for (const Corners& t : corners(tessellate(sphere, coarser))) deepest = std::max(deepest, depth(t, 1));
+      CHECK(deepest > error);
+    }
+    const Cone cylinder{{0, 0, 0}, 1, {0, 0, 1}, 1, 0, {}};
+    const int around = divisions(cylinder, fineness);
+    CHECK(1 - std::cos(M_PI / (4 * around)) <= error * (1 + 1e-12));
+    if (around > 1) CHECK(1 - std::cos(M_PI / (4 * (around - 1))) > error);
+  }
+}
+
+TEST_CASE("each object is cut as finely as its own size needs") {
+  const Fineness fineness{1, 0.001};
+  CHECK(divisions(Sphere{{0, 0, 0}, 0.0005, 0, {}}, fineness) == 1);
+  CHECK(divisions(Sphere{{0, 0, 0}, 100, 0, {}}, fineness) >
+        divisions(Sphere{{0, 0, 0}, 1, 0, {}}, fineness));
+  CHECK(divisions(Sphere{{0, 0, 0}, 1e30, 0, {}}, fineness) == kMaxDivisions);
+  CHECK(divisions(Sphere{{0, 0, 0}, 0, 0, {}}, fineness) == 0);
+  CHECK(divisions(Cone{{0, 0, 0}, 1, {0, 0, 0}, 1, 0, {}}, fineness) == 0);
+}
+
+TEST_CASE("a tessellated scene has patches for its spheres and cones, in their places and materials") {
+  const SceneDescription scene = one_of_each();
+  const SceneDescription result = tessellated(scene, {2, {}});
+  CHECK(triangle_count(scene, {2, {}}) == 48 + 16 + 8);
+  CHECK(result.patches.size() == 48 + 16 + 8);
+  CHECK(result.polygons.size() == 1);
+  CHECK(result.spheres.empty());
+  CHECK(result.cones.empty());
+  CHECK(result.order.front() == PrimitiveRef{PrimitiveKind::kPolygon, 0});
+  CHECK(result.patches[47].material == 0);
+  CHECK(result.patches[48].material == 1);
+}
+
+TEST_CASE("SPD's own numbers: tree of size 4, cut in 6") {
+  const SceneDescription scene = make_spd("tree", 4);  // 31 spheres, 31 cones, a polygon
+  CHECK(tessellated(scene, {6, {}}).primitive_count() == 31 * (12 * 36 + 8 * 6) + 1);
+}
+
+TEST_CASE("more triangles than memory has room for are refused") {
+  SceneDescription scene = one_of_each();
+  for (int i = 0; i < 2; ++i) add_sphere(scene, {{0, 0, 0}, 1, 0, {}});
+  scene.name = "a.nff";
+  CHECK_THROWS_WITH(
+      tessellated(scene, {1000, {}}),
+      "a.nff: error: its spheres and cones would become 36012000 triangles, more than 20000000: cut "
+      "them less finely");
+}
