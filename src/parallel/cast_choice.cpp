@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "parallel/work_units.h"
+#include "pipeline/casting.h"
 
 namespace pprt {
 namespace {
@@ -10,6 +11,11 @@ namespace {
 // Root mean square error of a stale colour over that of the picture where it is refined: below, a carried
 // sample is worth its time.
 constexpr double kStaleAtMost = 0.65;
+
+// The same: below, colours are so good that they serve for longer. It is also said of a picture's other
+// samples, for its surfaces are then mostly such.
+constexpr double kGoodAtMost = 0.45;
+constexpr int kLongLife = 4;  // frames
 
 // Price of a carried sample that proves right over that of a fresh one.
 constexpr double kPriceAtMost = 0.9;
@@ -20,6 +26,12 @@ constexpr double kHiddenMany = 0.16;
 constexpr double kMovedFar = 2.5;  // pixels
 constexpr double kCoarse = 1;      // samples a pixel
 constexpr double kShareThen = 0.2;
+
+// Whether the error of stale colours is at most so many times the picture's. Without a comparison there is
+// no reason to trust them.
+bool stale_within(const CastEvidence& e, double limit) {
+  return e.stale > 0 && e.fresh > 0 && e.stale_error / e.stale <= limit * limit * e.fresh_error / e.fresh;
+}
 
 }  // namespace
 
@@ -39,12 +51,14 @@ double display_error(const Color& a, const Color& b) {
   return d.dot(d) / 3;
 }
 
+int cast_life(const CastEvidence& evidence) {
+  return stale_within(evidence, kGoodAtMost) ? kLongLife : kVerifiedMaxAge;
+}
+
 CastLimits cast_limits(const CastEvidence& evidence, double moved, double samples_per_pixel) {
   const CastEvidence& e = evidence;
   CastLimits limits;
-  // Without a comparison there is no reason to trust them.
-  limits.eye_dependent = e.stale > 0 && e.fresh > 0 &&
-                         e.stale_error / e.stale <= kStaleAtMost * kStaleAtMost * e.fresh_error / e.fresh;
+  limits.eye_dependent = stale_within(e, kStaleAtMost);
   const double hidden = e.asked > 0 ? e.hidden / e.asked : 0;
   if (hidden > kHiddenMany && moved > kMovedFar && samples_per_pixel < kCoarse) limits.share = kShareThen;
   if (e.fresh > 0) {

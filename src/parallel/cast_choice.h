@@ -34,6 +34,9 @@ struct CastLimits {
   double share = 0.5;         // of the frame's time that putting samples back may take; 0: none is carried
 };
 
+// How many frames samples live, for the next frame.
+int cast_life(const CastEvidence& evidence);
+
 // `moved`: by how much cast samples have moved, mean, pixels.
 CastLimits cast_limits(const CastEvidence& evidence, double moved, double samples_per_pixel);
 

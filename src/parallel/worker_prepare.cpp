@@ -101,14 +101,16 @@ std::vector<Sample> Worker::cast(const FrameOrder& order) {
 }
 
 std::vector<Sample> Worker::cast_verified(const FrameOrder& order) {
-  const CastSettings settings{CastMethod::kVerified, kVerifiedMaxAge, kVerifiedMaxAge};
+  const bool by_evidence = order.carry == Carry::kCastWherePaying;
+  CastEvidence evidence = order.evidence;
+  evidence += own_evidence_;
+  const int life = by_evidence ? cast_life(evidence) : kVerifiedMaxAge;
+  const CastSettings settings{CastMethod::kVerified, life, life};
   auto [survivors, out_of_view, hidden, too_old, moved] =
       cast_samples(mesh_, order.camera, order.number, settings);
   CastLimits limits{true, kCastShare};
-  if (order.carry == Carry::kCastWherePaying) {
+  if (by_evidence) {
     try_some(order, survivors);
-    CastEvidence evidence = order.evidence;
-    evidence += own_evidence_;
     evidence += report_.evidence;
     const double density =
         static_cast<double>(in_region_) / static_cast<double>(mesh_.region().pixel_count());

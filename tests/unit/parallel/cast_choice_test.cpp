@@ -39,6 +39,15 @@ TEST_CASE("without a comparison no such colour is carried") {
   CHECK(cast_limits({}, 1, 0.5).share == 0.5);  // others are carried and tell of themselves
 }
 
+TEST_CASE("samples live for four frames where stale colours are good, and for two elsewhere") {
+  CHECK(cast_life(evidence(0.044)) == 4);
+  CHECK(cast_life(evidence(0.046)) == 2);
+  CastEvidence none_stale = evidence(0.01);  // a scene without such colours
+  none_stale.stale = 0, none_stale.stale_error = 0;
+  CHECK(cast_life(none_stale) == 2);
+  CHECK(cast_life({}) == 2);
+}
+
 TEST_CASE("less is put back into a coarse picture that has moved far and hides much, and only there") {
   CastEvidence e = evidence(0.01);
   e.hidden = 4;  // of 20
