@@ -336,6 +336,8 @@ void write_paper(const PaperResults& results, const PaperOptions& options, Study
   output.write_table("frames", frames_table(results));
   output.write_table("speedup", speedup_table(runs));
   output.write_table("findings", found);
+  const Table errors = cast_errors_table(results.cast_errors);
+  output.write_table("casting-errors", errors);
   Page& page = output.page();
   page.paragraph(
       "The experiments of Reisman, Gotsman and Schuster, Interactive-Rate Animation Generation by Parallel "
@@ -362,6 +364,9 @@ void write_paper(const PaperResults& results, const PaperOptions& options, Study
                                                     "the paper. \"Kept\": where the image is cut anew "
                                                     "samples go to their new owners; the paper drops them.",
                                                     options.ranks.back()));
+  page.heading("Ways of casting judged by true error");
+  page.paragraph(cast_trial_text(cast_trial(options)));
+  page.table(errors);
   page.heading("Number of ranks (the paper's figure 8)");
   output.add_figure(
       scaling_plot(runs),

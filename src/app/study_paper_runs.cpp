@@ -310,6 +310,7 @@ PaperResults run_paper(const PaperOptions& options, const std::function<void(con
     tell(fmt::format("{}: {}x{}, {} ranks, {}: {} frames in {:.1f} s", run.experiment, run.side, run.side,
                      run.ranks, to_word(run.balance), run.frames, took.count()));
   }
+  results.cast_errors = run_cast_trial(cast_trial(options), tell);
   return results;
 }
 

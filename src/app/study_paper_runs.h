@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/study_cast_errors.h"
 #include "parallel/master.h"
 #include "report/plot.h"
 
@@ -96,6 +97,7 @@ struct PaperResults {
   Calibration calibration;
   std::vector<MeasuredRun> runs;
   std::vector<Picture> pictures;
+  std::vector<CastErrors> cast_errors;
 };
 
 // Of the smaller pictures, pixels.

@@ -12,10 +12,9 @@ namespace {
 // sample is worth its time.
 constexpr double kStaleAtMost = 0.65;
 
-// The same: below, colours are so good that they serve for longer. It is also said of a picture's other
-// samples, for its surfaces are then mostly such.
+// The same: below, colours are so good that samples serve for longer, where most are of this kind.
 constexpr double kGoodAtMost = 0.45;
-constexpr int kLongLife = 4;  // frames
+constexpr double kMost = 0.5;
 
 // Price of a carried sample that proves right over that of a fresh one.
 constexpr double kPriceAtMost = 0.9;
@@ -51,16 +50,17 @@ double display_error(const Color& a, const Color& b) {
   return d.dot(d) / 3;
 }
 
-int cast_life(const CastEvidence& evidence) {
-  return stale_within(evidence, kGoodAtMost) ? kLongLife : kVerifiedMaxAge;
+int cast_life(const CastEvidence& evidence, double eye_dependent_share) {
+  return eye_dependent_share > kMost && stale_within(evidence, kGoodAtMost) ? kLongLife : kVerifiedMaxAge;
 }
 
-CastLimits cast_limits(const CastEvidence& evidence, double moved, double samples_per_pixel) {
+CastLimits cast_limits(const CastEvidence& evidence, const CastSurvivors& survivors) {
   const CastEvidence& e = evidence;
   CastLimits limits;
   limits.eye_dependent = stale_within(e, kStaleAtMost);
   const double hidden = e.asked > 0 ? e.hidden / e.asked : 0;
-  if (hidden > kHiddenMany && moved > kMovedFar && samples_per_pixel < kCoarse) limits.share = kShareThen;
+  if (hidden > kHiddenMany && survivors.moved > kMovedFar && survivors.samples_per_pixel < kCoarse)
+    limits.share = kShareThen;
   if (e.fresh > 0) {
     const auto carried =
         static_cast<double>(price(Work::kCastSample) + price(Work::kRay) + price(Work::kKeptSample));
@@ -68,6 +68,14 @@ CastLimits cast_limits(const CastEvidence& evidence, double moved, double sample
                          static_cast<double>(price(Work::kRay)) * e.fresh_rays / e.fresh;
     if (carried > kPriceAtMost * fresh * (1 - hidden)) limits.share = 0;
   }
+  return limits;
+}
+
+// Outlines keep their samples then, and more crowd there with every frame: the mean of a pixel on an outline
+// tells less and less how much of it lies on either side. Reflections are everywhere, and all samples serve.
+CastLimits cast_limits_at_rest(const CastSurvivors& survivors) {
+  CastLimits limits;
+  limits.one_a_pixel = survivors.samples_per_pixel >= kCoarse && survivors.eye_dependent <= kMost;
   return limits;
 }
 

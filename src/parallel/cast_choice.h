@@ -32,12 +32,25 @@ double display_error(const Color& a, const Color& b);
 struct CastLimits {
   bool eye_dependent = true;  // whether samples whose colour depends on the eye are carried
   double share = 0.5;         // of the frame's time that putting samples back may take; 0: none is carried
+  bool one_a_pixel = false;   // the youngest, no others
 };
 
-// How many frames samples live, for the next frame.
-int cast_life(const CastEvidence& evidence);
+// What survives of a region's samples, as cast into the next picture.
+struct CastSurvivors {
+  double moved = 0;              // mean, pixels
+  double eye_dependent = 0;      // share whose colour depends on the eye
+  double samples_per_pixel = 0;  // before they were cast
+};
 
-// `moved`: by how much cast samples have moved, mean, pixels.
-CastLimits cast_limits(const CastEvidence& evidence, double moved, double samples_per_pixel);
+// How many frames samples live, kLongLife at most.
+int cast_life(const CastEvidence& evidence, double eye_dependent_share);
+
+CastLimits cast_limits(const CastEvidence& evidence, const CastSurvivors& survivors);
+
+// The same where the eye rests, and only the view turns or widens: then nothing is hidden, no colour changes,
+// and samples live for kLongLife.
+CastLimits cast_limits_at_rest(const CastSurvivors& survivors);
+
+inline constexpr int kLongLife = 4;  // frames
 
 }  // namespace pprt

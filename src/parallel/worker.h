@@ -70,8 +70,9 @@ class Worker {
   void begin_triangulation(int epoch);
   void adopt_partition(const FrameOrder& order, bool keep_samples);
   void send_handed_over(const FrameOrder& order);
-  std::vector<Sample> cast(const FrameOrder& order);
-  std::vector<Sample> cast_verified(const FrameOrder& order);
+  std::vector<Sample> cast(const FrameOrder& order, bool eye_rests);
+  std::vector<Sample> cast_verified(const FrameOrder& order, bool eye_rests);
+  double choose(const FrameOrder& order, CastResult& cast, bool eye_rests);
   void try_some(const FrameOrder& order, std::vector<Sample>& survivors);
   bool see(const Vec3f& hit, bool at_infinity);
   bool put_back(const Sample& survivor);

@@ -14,6 +14,9 @@ constexpr double kSeedPatience = 0.1;
 // Of a frame's time, what putting cast samples back may take.
 constexpr double kCastShare = 0.5;
 
+// How far an eye at rest may move, in a scene of size 1: what interpolating equal positions leaves.
+constexpr double kAtRest = 1e-9;
+
 // Of seeds that others tell: which one it is does not matter here.
 constexpr std::uint32_t kSomeSeed = 0;
 
@@ -25,6 +28,7 @@ void Worker::prepare(const FrameOrder& order) {
   const Carry carry = carried_into(order);
   const Missed missed = std::exchange(missed_, {});
   balancer_.begin_frame(carry != Carry::kAccumulate || missed.triangulation, known_before(order, missed));
+  const bool eye_rests = camera_before_ && (order.camera.eye - camera_before_->eye).length() <= kAtRest;
   camera_before_ = order.camera;
   if (carry == Carry::kAccumulate && missed.triangulation) {
     catch_up(order, missed);
@@ -39,7 +43,7 @@ void Worker::prepare(const FrameOrder& order) {
     return;
   }
   std::vector<Sample> survivors;
-  if (carry != Carry::kNothing && !missed.cut) survivors = cast(order);
+  if (carry != Carry::kNothing && !missed.cut) survivors = cast(order, eye_rests);
   report_.cpu_ms.casting += clock_->lap_ms();
   if (new_partition) adopt_partition(order, false);
 
@@ -92,36 +96,51 @@ void Worker::send_handed_over(const FrameOrder& order) {
 }
 
 // Putting them back may take a share of a frame at most; the rest is for new samples.
-std::vector<Sample> Worker::cast(const FrameOrder& order) {
+std::vector<Sample> Worker::cast(const FrameOrder& order, bool eye_rests) {
   clock_->spend(Work::kCastSample, in_region_);
-  if (order.carry != Carry::kCastPaper) return cast_verified(order);
+  if (order.carry != Carry::kCastPaper) return cast_verified(order, eye_rests);
   std::vector<Sample> survivors = cast_samples(mesh_, order.camera, order.number, {}).survivors;
   if (order.deadline_s > 0) keep_youngest(survivors, clock_->affordable(Work::kKeptSample, kCastShare));
   return survivors;
 }
 
-std::vector<Sample> Worker::cast_verified(const FrameOrder& order) {
-  const bool by_evidence = order.carry == Carry::kCastWherePaying;
-  CastEvidence evidence = order.evidence;
-  evidence += own_evidence_;
-  const int life = by_evidence ? cast_life(evidence) : kVerifiedMaxAge;
-  const CastSettings settings{CastMethod::kVerified, life, life};
-  auto [survivors, out_of_view, hidden, too_old, moved] =
-      cast_samples(mesh_, order.camera, order.number, settings);
-  CastLimits limits{true, kCastShare};
-  if (by_evidence) {
+std::vector<Sample> Worker::cast_verified(const FrameOrder& order, bool eye_rests) {
+  const bool by_choice = order.carry == Carry::kCastWherePaying;
+  const int life = by_choice ? kLongLife : kVerifiedMaxAge;
+  CastResult cast = cast_samples(mesh_, order.camera, order.number, {CastMethod::kVerified, life, life});
+  std::vector<Sample>& survivors = cast.survivors;
+  const double share = by_choice ? choose(order, cast, eye_rests) : kCastShare;
+  if (order.deadline_s > 0) keep_youngest(survivors, clock_->affordable(Work::kKeptSample, share));
+  if (!eye_rests) {
+    drop_hidden(survivors, [&](const Vec3f& hit, bool at_infinity) { return see(hit, at_infinity); });
+  }
+  return survivors;
+}
+
+// Drops the samples that do not pay and tells the share of the frame's time for the rest.
+double Worker::choose(const FrameOrder& order, CastResult& cast, bool eye_rests) {
+  std::vector<Sample>& survivors = cast.survivors;
+  const auto of_eye =
+      std::count_if(survivors.begin(), survivors.end(), [](const Sample& s) { return s.ray.eye_dependent; });
+  const double count = static_cast<double>(std::max<std::size_t>(survivors.size(), 1));
+  const CastSurvivors known{
+      cast.moved, static_cast<double>(of_eye) / count,
+      static_cast<double>(in_region_) / static_cast<double>(mesh_.region().pixel_count())};
+  CastLimits limits = cast_limits_at_rest(known);
+  if (!eye_rests) {
+    CastEvidence evidence = order.evidence;
+    evidence += own_evidence_;
+    const int life = cast_life(evidence, known.eye_dependent);
+    std::erase_if(survivors, [&](const Sample& s) { return order.number - s.frame > life; });
     try_some(order, survivors);
     evidence += report_.evidence;
-    const double density =
-        static_cast<double>(in_region_) / static_cast<double>(mesh_.region().pixel_count());
-    limits = cast_limits(evidence, moved, density);
-    std::erase_if(survivors, [&](const Sample& s) {
-      return s.frame != order.number && (limits.share == 0 || (s.ray.eye_dependent && !limits.eye_dependent));
-    });
+    limits = cast_limits(evidence, known);
   }
-  if (order.deadline_s > 0) keep_youngest(survivors, clock_->affordable(Work::kKeptSample, limits.share));
-  drop_hidden(survivors, [&](const Vec3f& hit, bool at_infinity) { return see(hit, at_infinity); });
-  return survivors;
+  std::erase_if(survivors, [&](const Sample& s) {
+    return s.frame != order.number && (limits.share == 0 || (s.ray.eye_dependent && !limits.eye_dependent));
+  });
+  if (limits.one_a_pixel) keep_youngest_of_pixels(survivors);
+  return limits.share;
 }
 
 // Whether casting pays is found out by asking a few samples: whether they are seen and, where their colour

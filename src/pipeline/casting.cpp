@@ -8,6 +8,8 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <unordered_map>
+#include <utility>
 
 #include "pipeline/sample_mesh_impl.h"
 
@@ -75,6 +77,10 @@ std::uint64_t scattered(SampleId id) {
   return (id ^ (id >> 29)) * 0xBF58476D1CE4E5B9u;
 }
 
+bool is_younger(const Sample& a, const Sample& b) {
+  return a.frame != b.frame ? a.frame > b.frame : scattered(a.id) < scattered(b.id);
+}
+
 }  // namespace
 
 CastResult cast_samples(const SampleMesh& mesh, const Camera& next, int next_frame,
@@ -114,13 +120,29 @@ bool is_one_of(const Sample& sample, std::uint64_t many) {
 
 void keep_youngest(std::vector<Sample>& samples, std::size_t limit) {
   if (samples.size() <= limit) return;
-  const auto younger = [](const Sample& a, const Sample& b) {
-    return a.frame != b.frame ? a.frame > b.frame : scattered(a.id) < scattered(b.id);
-  };
   std::vector<Sample> ordered = samples;
   const auto first_dropped = ordered.begin() + static_cast<std::ptrdiff_t>(limit);
-  std::nth_element(ordered.begin(), first_dropped, ordered.end(), younger);
-  std::erase_if(samples, [&](const Sample& s) { return !younger(s, *first_dropped); });
+  std::nth_element(ordered.begin(), first_dropped, ordered.end(), is_younger);
+  std::erase_if(samples, [&](const Sample& s) { return !is_younger(s, *first_dropped); });
+}
+
+void keep_youngest_of_pixels(std::vector<Sample>& samples) {
+  const auto pixel_of = [](const Sample& s) {
+    const auto x = static_cast<std::uint32_t>(std::floor(s.x)),
+               y = static_cast<std::uint32_t>(std::floor(s.y));
+    return static_cast<std::uint64_t>(y) << 32 | x;
+  };
+  std::unordered_map<std::uint64_t, const Sample*> youngest;
+  youngest.reserve(samples.size());
+  for (const Sample& s : samples) {
+    const Sample*& here = youngest[pixel_of(s)];
+    if (here == nullptr || is_younger(s, *here)) here = &s;
+  }
+  std::vector<Sample> kept;
+  for (const Sample& s : samples) {
+    if (youngest.at(pixel_of(s)) == &s) kept.push_back(s);
+  }
+  samples = std::move(kept);
 }
 
 }  // namespace pprt

@@ -54,4 +54,7 @@ bool is_one_of(const Sample& sample, std::uint64_t many);
 // nor its last. The rest keep their order.
 void keep_youngest(std::vector<Sample>& samples, std::size_t limit);
 
+// Of the samples that lie in one pixel keeps the youngest, in the same sense. The rest keep their order.
+void keep_youngest_of_pixels(std::vector<Sample>& samples);
+
 }  // namespace pprt

@@ -6,7 +6,7 @@ source "$(dirname "$0")/check.sh"
 figures=(simple-2 simple-6 casting scaling costs network)
 run pprt-study paper -o all --quick --ranks 2,6 --frames 5; expect_code 0; expect_text out ''
 expect_line err 'pprt-study: simple: 96x96, 6 ranks, combined: 5 frames in .* s'
-for file in index.html provenance.json frames.csv speedup.csv findings.csv; do expect_file "all/$file"; done
+for file in index.html provenance.json frames.csv speedup.csv casting-errors.csv findings.csv; do expect_file "all/$file"; done
 if command -v gnuplot >/dev/null; then
   for figure in "${figures[@]}"; do expect_file "all/$figure.svg"; done
   [[ $(grep -c '<svg' all/index.html) -eq ${#figures[@]} ]] || complain "not all plots are on the page"
@@ -19,6 +19,10 @@ for expected in simple:40 casting:20 scaling:60 costs:15 growth:10 repeat:5 patt
   [[ $(rows all/frames.csv "$experiment") -eq ${expected#*:} ]] ||
     complain "$(rows all/frames.csv "$experiment") rows of $experiment, not ${expected#*:}"
 done
+for scene in tree gears balls rings; do
+  [[ $(rows all/casting-errors.csv "$scene") -eq 4 ]] || complain "casting-errors.csv lacks rows of $scene"
+done
+expect_line all/findings.csv '.*Judged by true error, auto is never worse .*'
 grep -q '^# cpu: .' all/frames.csv || complain "frames.csv does not tell the processor"
 grep -q '"command": "pprt-study paper -o all --quick --ranks 2,6 --frames 5"' all/provenance.json ||
   complain "provenance.json does not tell the command: $(cat all/provenance.json)"

@@ -248,6 +248,18 @@ TEST_CASE("where the network begins to hurt") {
   CHECK(verdict(with(results, kSimple, BalanceMode::kCombined, worse), claim) == std::optional(false));
 }
 
+TEST_CASE("auto casting is within 2 % of the best in every sequence, or the finding names those where not") {
+  PaperResults results;
+  const std::string claim = "Judged by true error";
+  CHECK(verdict(results, claim) == std::nullopt);
+  results.cast_errors = {{{"tree", 1}, 0.3, {0.02, 0.03, 0.021, 0.0203}},
+                         {{"balls", 1}, 1.5, {0.03, 0.02, 0.02, 0.02}}};
+  CHECK(verdict(results, claim) == std::optional(true));
+  results.cast_errors[1].rmse.back() = 0.021;
+  CHECK(verdict(results, claim) == std::optional(false));
+  CHECK(find(findings(results), claim).why_not == "balls at speed 1, 1.5 a pixel: 1.050; ");
+}
+
 TEST_CASE("two runs are the same when every picture is") {
   PaperResults results;
   const Change hash = [](FrameMeasures& m) { m.picture_hash = std::to_string(m.frame); };

@@ -26,36 +26,47 @@ TEST_CASE("display error: mean of the channels' squared differences, on the disp
 }
 
 TEST_CASE("colour that depends on the eye is carried where its error is below 0.65 of the picture's") {
-  CHECK(cast_limits(evidence(0.064), 1, 0.5).eye_dependent);
-  CHECK_FALSE(cast_limits(evidence(0.066), 1, 0.5).eye_dependent);
+  CHECK(cast_limits(evidence(0.064), {1, 0, 0.5}).eye_dependent);
+  CHECK_FALSE(cast_limits(evidence(0.066), {1, 0, 0.5}).eye_dependent);
 }
 
 TEST_CASE("without a comparison no such colour is carried") {
   CastEvidence no_stale = evidence(0.01), no_fresh = evidence(0.01);
   no_stale.stale = 0, no_stale.stale_error = 0;
   no_fresh.fresh = 0, no_fresh.fresh_error = 0, no_fresh.fresh_rays = 0;
-  CHECK_FALSE(cast_limits(no_stale, 1, 0.5).eye_dependent);
-  CHECK_FALSE(cast_limits(no_fresh, 1, 0.5).eye_dependent);
-  CHECK(cast_limits({}, 1, 0.5).share == 0.5);  // others are carried and tell of themselves
+  CHECK_FALSE(cast_limits(no_stale, {1, 0, 0.5}).eye_dependent);
+  CHECK_FALSE(cast_limits(no_fresh, {1, 0, 0.5}).eye_dependent);
+  CHECK(cast_limits({}, {1, 0, 0.5}).share == 0.5);  // others are carried and tell of themselves
 }
 
-TEST_CASE("samples live for four frames where stale colours are good, and for two elsewhere") {
-  CHECK(cast_life(evidence(0.044)) == 4);
-  CHECK(cast_life(evidence(0.046)) == 2);
-  CastEvidence none_stale = evidence(0.01);  // a scene without such colours
-  none_stale.stale = 0, none_stale.stale_error = 0;
-  CHECK(cast_life(none_stale) == 2);
-  CHECK(cast_life({}) == 2);
+TEST_CASE(
+    "samples live for four frames where most colours depend on the eye and hold, and for two elsewhere") {
+  CHECK(cast_life(evidence(0.044), 0.6) == 4);
+  CHECK(cast_life(evidence(0.046), 0.6) == 2);
+  CHECK(cast_life(evidence(0.044), 0.4) == 2);
+  CHECK(cast_life({}, 0.6) == 2);  // nothing is known of them
+}
+
+TEST_CASE("at rest all samples serve; a fine picture of outlines takes one a pixel") {
+  for (const double eye_dependent : {0.2, 0.8}) {
+    for (const double samples_per_pixel : {0.5, 1.5}) {
+      CAPTURE(eye_dependent, samples_per_pixel);
+      const CastLimits limits = cast_limits_at_rest({5, eye_dependent, samples_per_pixel});
+      CHECK(limits.eye_dependent);
+      CHECK(limits.share == 0.5);
+      CHECK(limits.one_a_pixel == (eye_dependent < 0.5 && samples_per_pixel > 1));
+    }
+  }
 }
 
 TEST_CASE("less is put back into a coarse picture that has moved far and hides much, and only there") {
   CastEvidence e = evidence(0.01);
   e.hidden = 4;  // of 20
-  CHECK(cast_limits(e, 5, 0.5).share == Approx(0.2));
-  CHECK(cast_limits(e, 1, 0.5).share == Approx(0.5));
-  CHECK(cast_limits(e, 5, 1.5).share == Approx(0.5));
+  CHECK(cast_limits(e, {5, 0, 0.5}).share == Approx(0.2));
+  CHECK(cast_limits(e, {1, 0, 0.5}).share == Approx(0.5));
+  CHECK(cast_limits(e, {5, 0, 1.5}).share == Approx(0.5));
   e.hidden = 3;
-  CHECK(cast_limits(e, 5, 0.5).share == Approx(0.5));
+  CHECK(cast_limits(e, {5, 0, 0.5}).share == Approx(0.5));
 }
 
 TEST_CASE("nothing is carried where a sample that proves right costs as much as a fresh one") {
@@ -63,15 +74,15 @@ TEST_CASE("nothing is carried where a sample that proves right costs as much as 
   REQUIRE(price(Work::kCastSample) + price(Work::kRay) + price(Work::kKeptSample) == 770);
   REQUIRE(price(Work::kOwnSample) == 840);
   CastEvidence e = evidence(0.01);
-  CHECK(cast_limits(e, 1, 0.5).share > 0);
+  CHECK(cast_limits(e, {1, 0, 0.5}).share > 0);
   e.hidden = 10;  // 1540 against 0.9 * 1610
-  CHECK(cast_limits(e, 1, 0.5).share == 0);
+  CHECK(cast_limits(e, {1, 0, 0.5}).share == 0);
   e.hidden = 9;  // 1400
-  CHECK(cast_limits(e, 1, 0.5).share > 0);
+  CHECK(cast_limits(e, {1, 0, 0.5}).share > 0);
   e.hidden = 0, e.fresh_rays = 100;  // 770 against 0.9 * 950
-  CHECK(cast_limits(e, 1, 0.5).share > 0);
+  CHECK(cast_limits(e, {1, 0, 0.5}).share > 0);
   e.hidden = 3;  // 906
-  CHECK(cast_limits(e, 1, 0.5).share == 0);
+  CHECK(cast_limits(e, {1, 0, 0.5}).share == 0);
 }
 
 TEST_CASE("evidence adds up, and ages by halves without a change of its ratios") {

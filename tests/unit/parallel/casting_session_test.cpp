@@ -89,6 +89,27 @@ TEST_CASE("auto carries what pays, the same each time, and knows of the frames b
   }
 }
 
+TEST_CASE("where the eye rests and the view turns nothing is asked for, and samples live for four frames") {
+  const SessionSettings settings = casting_settings(CastChoice::kAuto);
+  const CameraSource turning = [&](int index) -> std::optional<FrameRequest> {
+    if (index >= 7) return std::nullopt;
+    Camera camera = camera_before_disc(settings.width, settings.height);
+    camera.slope_per_pixel *= 1 - 0.001 * index;
+    return FrameRequest{index + 1, camera, false};
+  };
+  SessionSettings traced = settings;
+  traced.report_samples = true;
+  const VirtualRun run = run_session(kRanks, traced, turning);
+  CHECK(run.error.empty());
+  REQUIRE(run.frames.size() == 7);
+  for (const FinishedFrame& frame : run.frames) {
+    for (const RankReport& r : frame.ranks) CHECK(r.evidence.asked == 0);
+  }
+  int oldest = 7;
+  for (const Sample& s : run.frames[6].samples) oldest = std::min(oldest, s.frame);
+  CHECK(oldest == 3);
+}
+
 TEST_CASE("frames that carry many samples are on time") {
   for (const CastChoice cast : {CastChoice::kPaper, CastChoice::kVerified, CastChoice::kAuto}) {
     const SessionSettings settings = casting_settings(cast);

@@ -164,6 +164,19 @@ TEST_CASE("the youngest are kept, and of one age neither the first nor the last 
   CHECK(early == Approx(500).margin(80));  // five standard deviations
 }
 
+TEST_CASE("of a pixel's samples the youngest is kept, in the order they had") {
+  std::vector<Sample> samples(4);
+  for (std::size_t i = 0; i < samples.size(); ++i) samples[i].id = i, samples[i].y = 7.5;
+  samples[0].x = 2.1, samples[0].frame = 1;
+  samples[1].x = 2.9, samples[1].frame = 2;
+  samples[2].x = 3.0, samples[2].frame = 1;
+  samples[3].x = 2.5, samples[3].frame = 1;
+  keep_youngest_of_pixels(samples);
+  REQUIRE(samples.size() == 2);
+  CHECK(samples[0].id == 1);
+  CHECK(samples[1].id == 2);
+}
+
 TEST_CASE("one of so many is drawn by id, evenly") {
   int drawn = 0;
   for (SampleId id = 0; id < 64000; ++id) {
