@@ -38,7 +38,7 @@ struct CastErrors {
 struct CastTrial {
   std::vector<CastSequence> sequences;
   std::vector<double> densities;  // samples a pixel, for each of these
-  int side = 256;                 // of the picture, pixels
+  int side = 192;                 // of the picture, pixels
   std::vector<int> judged;        // frames, increasing; the last one judged is the last one run
   int reference_side = 5;         // converged frames have the square of this of samples a pixel
   std::uint64_t seed = 1;

@@ -29,7 +29,7 @@ TEST_CASE("the full trial takes four scenes at two speeds and two densities") {
   CHECK(trial.sequences.size() == 8);
   CHECK(trial.densities.size() == 2);
   CHECK(trial.judged == std::vector{2, 5, 8, 12});
-  CHECK(trial.side == 256);
+  CHECK(trial.side == 192);
   PaperOptions quick;
   quick.quick = true;
   CHECK(cast_trial(settled(quick)).judged == std::vector{2, 5});

@@ -73,7 +73,8 @@ TEST_CASE("a quick study measures every frame of every run") {
   options = settled(options);
   std::vector<std::string> told;
   const PaperResults results = run_paper(options, [&](const std::string& run) { told.push_back(run); });
-  CHECK(told.size() == results.runs.size());
+  CHECK(told.size() == results.runs.size() + cast_trial(options).sequences.size());
+  CHECK(results.cast_errors.size() == 16);
   CHECK(results.calibration.share.at(2) == 1);
   std::size_t rows = 0;
   for (const MeasuredRun& r : results.runs) {
