@@ -58,19 +58,19 @@ void sizes(benchmark::internal::Benchmark* benchmark) {
   benchmark->Args({256, 256})->Args({1920, 1080})->Unit(benchmark::kMillisecond);
 }
 
-template <std::string (*encode)(const Image&, const Facts&)>
-void encoding(benchmark::State& state) {
+template <typename Encode>
+void encoding(benchmark::State& state, const Encode& encode) {
   const Image image = picture_for(state);
   std::size_t bytes = 0;
   for (auto _ : state) {
-    const std::string file = encode(image, {});
+    const std::string file = encode(image);
     bytes = file.size();
     benchmark::DoNotOptimize(file.data());
   }
   state.counters["file_KiB"] = static_cast<double>(bytes) / 1024;
 }
-BENCHMARK(encoding<encode_exr>)->Apply(sizes);
-BENCHMARK(encoding<encode_png>)->Apply(sizes);
+BENCHMARK_CAPTURE(encoding, exr, [](const Image& image) { return encode_exr(image); })->Apply(sizes);
+BENCHMARK_CAPTURE(encoding, png, [](const Image& image) { return encode_png(image); })->Apply(sizes);
 
 void writing_exr(benchmark::State& state) {
   const Image image = picture_for(state);
@@ -80,12 +80,30 @@ void writing_exr(benchmark::State& state) {
 }
 BENCHMARK(writing_exr)->Apply(sizes);
 
-void comparing(benchmark::State& state) {
+// `measure` of a picture and the same picture in a PNG's levels.
+template <typename Measure>
+void comparing(benchmark::State& state, const Measure& measure) {
   const Image image = picture_for(state);
   const Image other = decode_png(encode_png(image));
-  for (auto _ : state) benchmark::DoNotOptimize(difference(image, other, 0.01));
+  for (auto _ : state) benchmark::DoNotOptimize(measure(image, other));
 }
-BENCHMARK(comparing)->Apply(sizes);
+
+void sizes_to_compare(benchmark::internal::Benchmark* benchmark) {
+  benchmark->Args({512, 512})->Args({1920, 1080})->Unit(benchmark::kMillisecond);
+}
+
+BENCHMARK_CAPTURE(comparing, all_but_flip, [](const Image& a, const Image& b) {
+  return difference(a, b, 0.01).rmse;
+})->Apply(sizes_to_compare);
+BENCHMARK_CAPTURE(comparing, ssim, [](const Image& a, const Image& b) {
+  return structural_similarity(a, b);
+})->Apply(sizes_to_compare);
+BENCHMARK_CAPTURE(comparing, flip, [](const Image& a, const Image& b) {
+  return mean_flip(a, b);
+})->Apply(sizes_to_compare);
+BENCHMARK_CAPTURE(comparing, flicker, [](const Image& a, const Image& b) {
+  return flicker(a, b, a, a);
+})->Apply(sizes_to_compare);
 
 void thumbnail(benchmark::State& state) {
   const Image image = picture_for(state);

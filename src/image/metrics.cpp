@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
+
+#include "image/flip.h"
+#include "image/plane.h"
 
 namespace pprt {
 namespace {
@@ -24,13 +28,6 @@ void require_comparable(const Image& a, const Image& b) {
   }
 }
 
-// Values per pixel, row after row.
-struct Plane {
-  int width = 0;
-  int height = 0;
-  std::vector<double> values;
-};
-
 Plane luma(const Image& image) {
   Plane plane{image.width, image.height, {}};
   plane.values.reserve(image.pixels.size());
@@ -46,41 +43,13 @@ Plane product(const Plane& a, const Plane& b) {
   return result;
 }
 
-// Weights add up to 1.
-std::vector<double> gaussian_window(int side) {
-  constexpr int kLength = 11;
-  constexpr double kSigma = 1.5;
-  std::vector<double> weights(static_cast<std::size_t>(std::min(kLength, side)));
-  const double centre = 0.5 * static_cast<double>(weights.size() - 1);
-  double sum = 0;
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    const double offset = (static_cast<double>(i) - centre) / kSigma;
-    weights[i] = std::exp(-0.5 * offset * offset);
-    sum += weights[i];
-  }
-  for (double& weight : weights) weight /= sum;
-  return weights;
-}
-
-// Means over all windows that lie in the plane; turns the plane on its side.
-Plane filtered_rows_transposed(const Plane& plane) {
-  const std::vector<double> window = gaussian_window(plane.width);
-  const auto width = static_cast<std::size_t>(plane.width);
-  const auto height = static_cast<std::size_t>(plane.height);
-  const std::size_t places = width - window.size() + 1;
-  Plane result{plane.height, static_cast<int>(places), std::vector<double>(places * height)};
-  for (std::size_t y = 0; y < height; ++y) {
-    for (std::size_t x = 0; x < places; ++x) {
-      double sum = 0;
-      for (std::size_t i = 0; i < window.size(); ++i) sum += window[i] * plane.values[y * width + x + i];
-      result.values[x * height + y] = sum;
-    }
-  }
-  return result;
-}
-
+// Over all windows that lie in the plane.
 std::vector<double> window_means(const Plane& plane) {
-  return filtered_rows_transposed(filtered_rows_transposed(plane)).values;
+  constexpr int kSide = 11;
+  constexpr double kSigma = 1.5;
+  return filtered(plane, gaussian(std::min(kSide, plane.width), kSigma),
+                  gaussian(std::min(kSide, plane.height), kSigma))
+      .values;
 }
 
 double pixel_error(const Color& a, const Color& b) {
@@ -151,6 +120,39 @@ double structural_similarity(const Image& a, const Image& b) {
     sum += means * (2 * covariance + kC2) / (variance_a + variance_b + kC2);
   }
   return sum / static_cast<double>(mean_a.size());
+}
+
+double mean_flip(const Image& image, const Image& reference, double pixels_per_degree) {
+  require_comparable(image, reference);
+  if (!(pixels_per_degree >= 1 && pixels_per_degree <= 1000)) {
+    throw std::invalid_argument("FLIP is defined here for 1 to 1000 pixels per degree");
+  }
+  const std::vector<double> errors = flip::error_map(image, reference, pixels_per_degree);
+  return std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size());
+}
+
+double flicker(const Image& before, const Image& now, const Image& reference_before,
+               const Image& reference_now) {
+  require_comparable(before, reference_before);
+  require_comparable(now, reference_now);
+  require_comparable(before, now);
+  double squares = 0;
+  for (std::size_t i = 0; i < now.pixels.size(); ++i) {
+    for (int c = 0; c < 3; ++c) {
+      const double change = double{now.pixels[i][c]} - double{before.pixels[i][c]};
+      const double due = double{reference_now.pixels[i][c]} - double{reference_before.pixels[i][c]};
+      squares += (change - due) * (change - due);
+    }
+  }
+  return std::sqrt(squares / (3 * static_cast<double>(now.pixels.size())));
+}
+
+Image clamped_to_display(const Image& image) {
+  Image result = image;
+  for (Color& colour : result.pixels) {
+    for (int c = 0; c < 3; ++c) colour[c] = std::clamp(colour[c], 0.0f, 1.0f);
+  }
+  return result;
 }
 
 Image difference_picture(const Image& image, const Image& reference) {

@@ -105,6 +105,33 @@ TEST_CASE("structural similarity sees structure where the error is the same") {
   CHECK(structural_similarity(shuffled, image) == Approx(structural_similarity(image, shuffled)));
 }
 
+TEST_CASE("flicker is the change that the reference has not, by hand") {
+  Image before(2, 1, Color(0.25f));
+  Image now = before;
+  const Image dark(2, 1, Color(0.25f));
+  const Image light(2, 1, Color(0.75f));
+  CHECK(flicker(before, now, dark, dark) == 0);
+  CHECK(flicker(before, now, dark, light) == 0.5);  // what should have changed did not
+  CHECK(flicker(dark, light, dark, light) == 0);    // what should have changed did: no flicker
+  now.at(1, 0).y = 0.75f;                           // a change of 0.5 in one of six values
+  CHECK(flicker(before, now, dark, dark) == Approx(0.5 / std::sqrt(6)));
+  CHECK(flicker(now, before, dark, dark) == Approx(0.5 / std::sqrt(6)));
+  CHECK(flicker(now, now, dark, dark) == 0);  // an error that stays
+}
+
+TEST_CASE("flicker is refused for frames of different sizes") {
+  const Image small(1, 1);
+  const Image large(2, 1);
+  CHECK_THROWS_AS(flicker(small, large, small, large), std::invalid_argument);
+  CHECK_THROWS_AS(flicker(small, small, small, large), std::invalid_argument);
+}
+
+TEST_CASE("clamping leaves what a display shows") {
+  Image image(2, 1, Color(-1.0f, 0.5f, 3.0f));
+  image.at(1, 0) = Color(0, 1, 0.25f);
+  CHECK(clamped_to_display(image).pixels == std::vector<Color>{Color(0, 0.5f, 1), Color(0, 1, 0.25f)});
+}
+
 TEST_CASE("the difference picture's largest value is 1") {
   const Image reference(2, 1, Color(0.5f));
   Image image = reference;
