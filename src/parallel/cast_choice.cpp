@@ -19,12 +19,16 @@ constexpr double kMost = 0.5;
 // Price of a carried sample that proves right over that of a fresh one.
 constexpr double kPriceAtMost = 0.9;
 
-// Where so many prove hidden, the outlines have changed, and most of a coarse picture's error is in them:
-// then time is better spent on fresh samples there.
+// Where so many prove hidden, the outlines have changed: older samples tell little of them. Most of a coarse
+// picture's error is in them; then time is better spent on fresh samples there.
 constexpr double kHiddenMany = 0.16;
 constexpr double kMovedFar = 2.5;  // pixels
 constexpr double kCoarse = 1;      // samples a pixel
 constexpr double kShareThen = 0.2;
+
+double hidden_share(const CastEvidence& e) {
+  return e.asked > 0 ? e.hidden / e.asked : 0;
+}
 
 // Whether the error of stale colours is at most so many times the picture's. Without a comparison there is
 // no reason to trust them.
@@ -51,14 +55,16 @@ double display_error(const Color& a, const Color& b) {
 }
 
 int cast_life(const CastEvidence& evidence, double eye_dependent_share) {
-  return eye_dependent_share > kMost && stale_within(evidence, kGoodAtMost) ? kLongLife : kVerifiedMaxAge;
+  const bool serve_longer = eye_dependent_share > kMost && stale_within(evidence, kGoodAtMost) &&
+                            hidden_share(evidence) <= kHiddenMany;
+  return serve_longer ? kLongLife : kVerifiedMaxAge;
 }
 
 CastLimits cast_limits(const CastEvidence& evidence, const CastSurvivors& survivors) {
   const CastEvidence& e = evidence;
   CastLimits limits;
   limits.eye_dependent = stale_within(e, kStaleAtMost);
-  const double hidden = e.asked > 0 ? e.hidden / e.asked : 0;
+  const double hidden = hidden_share(e);
   if (hidden > kHiddenMany && survivors.moved > kMovedFar && survivors.samples_per_pixel < kCoarse)
     limits.share = kShareThen;
   if (e.fresh > 0) {

@@ -44,6 +44,9 @@ TEST_CASE(
   CHECK(cast_life(evidence(0.044), 0.6) == 4);
   CHECK(cast_life(evidence(0.046), 0.6) == 2);
   CHECK(cast_life(evidence(0.044), 0.4) == 2);
+  CastEvidence outlines_change = evidence(0.044);
+  outlines_change.hidden = 4;  // of 20
+  CHECK(cast_life(outlines_change, 0.6) == 2);
   CHECK(cast_life({}, 0.6) == 2);  // nothing is known of them
 }
 
