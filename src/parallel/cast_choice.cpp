@@ -20,7 +20,7 @@ constexpr double kMost = 0.5;
 constexpr double kPriceAtMost = 0.9;
 
 // Where so many prove hidden, the outlines have changed: older samples tell little of them. Most of a coarse
-// picture's error is in them; then time is better spent on fresh samples there.
+// picture's error is in them, if not in reflections; then time is better spent on fresh samples there.
 constexpr double kHiddenMany = 0.16;
 constexpr double kMovedFar = 2.5;  // pixels
 constexpr double kCoarse = 1;      // samples a pixel
@@ -65,8 +65,8 @@ CastLimits cast_limits(const CastEvidence& evidence, const CastSurvivors& surviv
   CastLimits limits;
   limits.eye_dependent = stale_within(e, kStaleAtMost);
   const double hidden = hidden_share(e);
-  if (hidden > kHiddenMany && survivors.moved > kMovedFar && survivors.samples_per_pixel < kCoarse)
-    limits.share = kShareThen;
+  const bool outlines_matter = survivors.samples_per_pixel < kCoarse && survivors.eye_dependent <= kMost;
+  if (hidden > kHiddenMany && survivors.moved > kMovedFar && outlines_matter) limits.share = kShareThen;
   if (e.fresh > 0) {
     const auto carried =
         static_cast<double>(price(Work::kCastSample) + price(Work::kRay) + price(Work::kKeptSample));

@@ -68,6 +68,7 @@ TEST_CASE("less is put back into a coarse picture that has moved far and hides m
   CHECK(cast_limits(e, {5, 0, 0.5}).share == Approx(0.2));
   CHECK(cast_limits(e, {1, 0, 0.5}).share == Approx(0.5));
   CHECK(cast_limits(e, {5, 0, 1.5}).share == Approx(0.5));
+  CHECK(cast_limits(e, {5, 0.6, 0.5}).share == Approx(0.5));
   e.hidden = 3;
   CHECK(cast_limits(e, {5, 0, 0.5}).share == Approx(0.5));
 }
