@@ -1,5 +1,6 @@
 #include "app/command_line.h"
 #include "app/exit.h"
+#include "app/study_accuracy.h"
 #include "app/study_counts.h"
 #include "app/study_paper.h"
 
@@ -57,6 +58,39 @@ CLI::App* add_paper(CLI::App& app, pprt::PaperOptions& options) {
   return command;
 }
 
+CLI::App* add_accuracy(CLI::App& app, pprt::AccuracyOptions& options) {
+  CLI::App* command = app.add_subcommand("accuracy", "What a better picture costs in time");
+  command
+      ->add_option("SCENE", options.scenes,
+                   "FILE.nff or spd:NAME[:SIZE]; default: tree, gears, balls and tetra")
+      ->type_name("");
+  command->add_option("-o,--output", options.directory, "Directory for tables, plots and index.html")
+      ->required()
+      ->type_name("DIR");
+  command->add_flag("--quick", options.quick, "Small pictures: a trial");
+  command->add_option("--size", options.size, "Of the pictures, pixels square; default: 512, or 96 if quick")
+      ->check(CLI::Range(16, 4096))
+      ->type_name("N");
+  command->add_option("--repeats", options.repeats, "Of each measurement")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str()
+      ->type_name("N");
+  command
+      ->add_option("--reference", options.reference_cells,
+                   "Converged frames have 2 N x N samples a pixel; default: 8, or 4 if quick")
+      ->check(CLI::Range(2, 64))
+      ->type_name("N");
+  command
+      ->add_option("--cache", options.cache,
+                   "Directory that keeps converged frames; default: pprt in the user's cache directory")
+      ->type_name("DIR");
+  command->add_flag("--no-cache", options.no_cache, "Neither keep converged frames nor use those kept");
+  command->add_option("--seed", options.seed, "Of the seed samples' places in the first repeat")
+      ->capture_default_str()
+      ->type_name("N");
+  return command;
+}
+
 std::string words(int argc, char** argv) {
   std::string text;
   for (int i = 0; i < argc; ++i) text += (i == 0 ? "" : " ") + std::string(argv[i]);
@@ -71,12 +105,19 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     pprt::CountsOptions counts;
     pprt::PaperOptions paper;
+    pprt::AccuracyOptions accuracy;
     add_counts(app, counts);
     const CLI::App* paper_command = add_paper(app, paper);
+    const CLI::App* accuracy_command = add_accuracy(app, accuracy);
     pprt::add_common_flags(app);
     if (!pprt::parse_command_line(app, argc, argv)) return pprt::kExitDone;
-    if (!paper_command->parsed()) return pprt::study_counts(counts) ? pprt::kExitDone : pprt::kExitFailure;
-    pprt::study_paper(paper, words(argc, argv));
+    if (paper_command->parsed()) {
+      pprt::study_paper(paper, words(argc, argv));
+    } else if (accuracy_command->parsed()) {
+      pprt::study_accuracy(accuracy, words(argc, argv));
+    } else {
+      return pprt::study_counts(counts) ? pprt::kExitDone : pprt::kExitFailure;
+    }
     return pprt::kExitDone;
   });
 }

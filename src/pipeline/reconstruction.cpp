@@ -143,14 +143,14 @@ void average_crowded_pixels(const SampleMesh& mesh, RegionPixels& pixels, Recons
 }  // namespace
 
 void reconstruct(const SampleMesh& mesh, const PixelRect& bounds, RegionPixels& pixels,
-                 ReconstructionBuffers& buffers) {
+                 ReconstructionBuffers& buffers, CrowdedPixels crowded) {
   pixels.bounds = bounds;
   pixels.colors.assign(pixels.bounds.area(), Color(0, 0, 0));
   const auto& delaunay = mesh.impl().delaunay();
   for (auto face = delaunay.finite_faces_begin(); face != delaunay.finite_faces_end(); ++face) {
     fill_triangle(corners_of(face), pixels);
   }
-  average_crowded_pixels(mesh, pixels, buffers);
+  if (crowded == CrowdedPixels::kMean) average_crowded_pixels(mesh, pixels, buffers);
 }
 
 std::vector<std::uint32_t> triangle_at_centers(const SampleMesh& mesh, const PixelRect& bounds) {

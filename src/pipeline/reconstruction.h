@@ -27,11 +27,15 @@ struct ReconstructionBuffers {
   std::vector<std::uint32_t> counts;
 };
 
+// What becomes of a pixel with more than one sample; interpolated only where a study asks what the mean is
+// worth.
+enum class CrowdedPixels : std::uint8_t { kMean, kInterpolated };
+
 // Every pixel of `bounds`, as the mesh has it: the barycentric mean of the triangle that holds its centre or,
 // when more than one sample falls in the pixel, their average. Each centre belongs to exactly one triangle,
 // also on shared edges.
 void reconstruct(const SampleMesh& mesh, const PixelRect& bounds, RegionPixels& pixels,
-                 ReconstructionBuffers& buffers);
+                 ReconstructionBuffers& buffers, CrowdedPixels crowded = CrowdedPixels::kMean);
 
 // Per pixel of `bounds`, row by row: which of triangles(mesh) holds its centre, by the same rule;
 // kNoTriangle where none does.

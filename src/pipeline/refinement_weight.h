@@ -42,14 +42,25 @@ inline float display_variance(const Color& a, const Color& b, const Color& c) {
   return (channel(a.x, b.x, c.x) + channel(a.y, b.y, c.y) + channel(a.z, b.z, c.z)) * (1.0f / 27);
 }
 
+// The reasons to refine that count: all of them, but where a study asks what each is worth. Without area and
+// variance there is no reason at all.
+struct WeightTerms {
+  bool area = true;        // Rad^2
+  bool variance = true;    // log(1.01 + 500 Var)
+  bool pixel_rule = true;  // a triangle smaller than a pixel has its variance as its only reason
+};
+
 // Weight(t) = Rad^2 log(1.01 + 500 Var), with two safeguards. Rad is at most the longest edge: a sliver on
 // the hull has a circumradius of any size. A triangle whose circle is smaller than a pixel keeps only its
 // variance as a reason (Painter and Sloan 1989): the constant 1.01 becomes 1, and a flat one has weight 0.
-inline float refinement_weight(const TriangleShape& shape, float variance) {
+inline float refinement_weight(const TriangleShape& shape, float variance, const WeightTerms& terms = {}) {
   constexpr double kPixelRadiusSquared = 0.31830988618379067;  // 1 / pi: a circle of one square pixel
+  if (!terms.area && !terms.variance) return 0;
   const double radius_squared = std::min(shape.circumcircle.radius_squared, shape.longest_edge_squared);
-  const float offset = radius_squared < kPixelRadiusSquared ? 1.0f : 1.01f;
-  return static_cast<float>(radius_squared) * std::log(offset + 500 * variance);
+  const bool small = terms.pixel_rule && radius_squared < kPixelRadiusSquared;
+  if (!terms.variance) return small ? 0.0f : static_cast<float>(radius_squared);
+  const float detail = std::log((small ? 1.0f : 1.01f) + 500 * variance);
+  return terms.area ? static_cast<float>(radius_squared) * detail : detail;
 }
 
 }  // namespace pprt

@@ -8,7 +8,8 @@
 
 namespace pprt {
 
-SampleMesh::SampleMesh(const Region& region) : impl_(std::make_unique<Impl>(region)) {}
+SampleMesh::SampleMesh(const Region& region, const WeightTerms& terms)
+    : impl_(std::make_unique<Impl>(region, terms)) {}
 SampleMesh::SampleMesh(SampleMesh&&) noexcept = default;
 SampleMesh& SampleMesh::operator=(SampleMesh&&) noexcept = default;
 SampleMesh::~SampleMesh() = default;
@@ -44,7 +45,7 @@ double SampleMesh::refinement() const {
   return impl_->refinement();
 }
 
-SampleMesh::Impl::Impl(const Region& region) : region_(region) {
+SampleMesh::Impl::Impl(const Region& region, const WeightTerms& terms) : region_(region), terms_(terms) {
   clear();
 }
 
@@ -147,7 +148,7 @@ Circle SampleMesh::Impl::adopt(Face face) {
   info.tile = region_.grid().tile_at(point.x, point.y);
   // What is refined elsewhere is weighed elsewhere.
   if (region_.owns_tile(info.tile)) {
-    info.weight = refinement_weight(shape, display_variance(a.color, b.color, c.color));
+    info.weight = refinement_weight(shape, display_variance(a.color, b.color, c.color), terms_);
     count(info, 1);
     if (info.weight > 0) queue_.push(info.weight, {face, info.stamp});
   }

@@ -36,7 +36,7 @@ class SampleMesh {
  public:
   class Impl;
 
-  explicit SampleMesh(const Region& region);
+  explicit SampleMesh(const Region& region, const WeightTerms& terms = {});
   SampleMesh(SampleMesh&&) noexcept;
   SampleMesh& operator=(SampleMesh&&) noexcept;
   ~SampleMesh();

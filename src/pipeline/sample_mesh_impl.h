@@ -39,7 +39,7 @@ class SampleMesh::Impl {
   using Face = Delaunay::Face_handle;
   using Vertex = Delaunay::Vertex_handle;
 
-  explicit Impl(const Region& region);
+  Impl(const Region& region, const WeightTerms& terms);
 
   void clear();
   void set_region(const Region& region);
@@ -82,6 +82,7 @@ class SampleMesh::Impl {
   Vec2d corner(Face face, int i) const;
 
   Region region_;
+  WeightTerms terms_;
   Delaunay delaunay_;
   std::vector<Sample> samples_;
   struct BorderEntry {

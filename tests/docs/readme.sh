@@ -7,6 +7,7 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 cp -r "$source/scenes" "$scratch"
 cd "$scratch"
+export XDG_CACHE_HOME=$scratch/cache
 awk '/^```/ { inside = ($0 == "```sh runnable"); next } inside' "$readme" >commands.sh
 [[ $(grep -c '^pprt-' commands.sh) -ge 4 ]] || { echo "the README has hardly a command to run"; exit 1; }
 bash -euxo pipefail commands.sh
