@@ -2,100 +2,190 @@
 
 #include <fmt/core.h>
 
-#include <array>
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
+#include "app/compare_figures.h"
+#include "app/compare_pictures.h"
 #include "base/diagnostics.h"
 #include "image/image_io.h"
-#include "image/metrics.h"
 
 namespace pprt {
 namespace {
 
-struct Limit {
-  const char* option;
-  const char* figure;
-  double value;
-  std::optional<double> limit;
-  bool is_upper;
+using Json = nlohmann::ordered_json;
 
-  // A limit that is not a number is always passed.
-  bool passed() const { return limit && !(is_upper ? value <= *limit : value >= *limit); }
+struct Measured {
+  PicturePair pair;
+  Figures figures;
+  std::optional<double> flicker;  // from the frame before
 };
 
-std::array<Limit, 5> limits(const CompareOptions& options, const ImageDifference& d) {
-  return {{{"--max-rmse", "rmse", d.rmse, options.max_rmse, true},
-           {"--min-psnr", "psnr", d.psnr, options.min_psnr, false},
-           {"--min-ssim", "ssim", d.ssim, options.min_ssim, false},
-           {"--max-error", "max_error", d.max_error, options.max_error, true},
-           {"--max-share", "share", d.share_over_threshold, options.max_share, true}}};
+// A figure over all frames; of a single picture, its value.
+struct Summary {
+  double mean = 0;
+  double worst = 0;
+  std::optional<int> frame;  // of the worst
+};
+
+void check(const CompareOptions& options) {
+  if (!(options.threshold >= 0)) throw UsageError("--threshold: a number that is not negative is needed");
+  if (!(options.pixels_per_degree >= 1 && options.pixels_per_degree <= 1000)) {
+    throw UsageError("--pixels-per-degree: a number from 1 to 1000 is needed");
+  }
 }
 
-void require_comparable(const CompareOptions& options, Image& image, Image& reference) {
-  if (image.width != reference.width || image.height != reference.height) {
+double flicker_between(const PicturePair& before, const LoadedPair& a, const PicturePair& now,
+                       const LoadedPair& b) {
+  if (a.image.width != b.image.width || a.image.height != b.image.height) {
     throw std::runtime_error(fmt::format("the sizes differ: '{}' has {}x{} pixels, '{}' has {}x{}",
-                                         options.image, image.width, image.height, options.reference,
-                                         reference.width, reference.height));
+                                         before.image, a.image.width, a.image.height, now.image,
+                                         b.image.width, b.image.height));
   }
-  for (const auto& [name, picture] : {std::pair{&options.image, &image}, {&options.reference, &reference}}) {
-    if (const std::size_t bad = replace_non_finite(*picture); bad > 0) {
-      throw std::runtime_error(fmt::format("'{}' has {} pixels that are not finite", *name, bad));
+  return flicker(a.image, b.image, a.reference, b.reference);
+}
+
+// Two frames are held at a time.
+std::vector<Measured> measure(const std::vector<PicturePair>& pairs, const CompareOptions& options) {
+  std::vector<Measured> all;
+  LoadedPair before;
+  for (const PicturePair& pair : pairs) {
+    LoadedPair now = load(pair, options.clamp);
+    Measured measured{pair, figures_of(now.image, now.reference, options), std::nullopt};
+    if (!all.empty()) measured.flicker = flicker_between(all.back().pair, before, pair, now);
+    if (!pair.difference.empty()) write_image(pair.difference, difference_picture(now.image, now.reference));
+    all.push_back(std::move(measured));
+    before = std::move(now);
+  }
+  return all;
+}
+
+Summary summary(const FigureKind& kind, const std::vector<Measured>& all) {
+  Summary result{0, kind.of(all.front().figures), all.front().pair.frame};
+  for (const Measured& m : all) {
+    const double value = kind.of(m.figures);
+    result.mean += value / static_cast<double>(all.size());
+    if (kind.is_worse(value, result.worst)) result.worst = value, result.frame = m.pair.frame;
+  }
+  return result;
+}
+
+// Its mean is the root of the mean square: the flicker of the whole sequence. Not a number for a single
+// frame.
+Summary flicker_summary(const std::vector<Measured>& all) {
+  Summary result{0, -1, std::nullopt};
+  for (const Measured& m : all) {
+    if (!m.flicker) continue;
+    result.mean += *m.flicker * *m.flicker / static_cast<double>(all.size() - 1);
+    if (*m.flicker > result.worst) result.worst = *m.flicker, result.frame = m.pair.frame;
+  }
+  if (all.size() < 2) result.mean = result.worst = std::numeric_limits<double>::quiet_NaN();
+  result.mean = std::sqrt(result.mean);
+  return result;
+}
+
+bool is_sequence(const std::vector<Measured>& all) {
+  return all.front().pair.frame.has_value();
+}
+
+// Of a sequence the worst frame is judged, and its flicker as a whole.
+bool judge(const std::vector<Measured>& all, const CompareOptions& options, std::ostream& complaints) {
+  bool within = true;
+  const auto hold = [&](const FigureKind& kind, double value, const std::string& where) {
+    const std::optional<double> limit = kind.passed_limit(value, options);
+    if (!limit) return;
+    within = false;
+    complaints << fmt::format("pprt-compare: {}{} is {:.6g}, the limit {} is {:g}\n", kind.key, where, value,
+                              kind.option, *limit);
+  };
+  for (const FigureKind& kind : kFigures) {
+    const Summary s = summary(kind, all);
+    hold(kind, s.worst, s.frame ? fmt::format(" of frame {}", *s.frame) : "");
+  }
+  hold(kFlicker, flicker_summary(all).mean, "");
+  return within;
+}
+
+void print_text(const std::vector<Measured>& all, const CompareOptions& options, std::ostream& out) {
+  if (is_sequence(all)) {
+    out << fmt::format("{} frames, {} to {}\n", all.size(), *all.front().pair.frame, *all.back().pair.frame)
+        << fmt::format("{:14}{:>12}{:>14}{:>8}\n", "", "mean", "worst", "frame");
+    const auto row = [&](const FigureKind& kind, const Summary& s) {
+      out << fmt::format("{:14}{:>12.6g}{:>14.6g}{:>8}\n", kind.label, s.mean, s.worst,
+                         s.frame ? std::to_string(*s.frame) : "-");
+    };
+    for (const FigureKind& kind : kFigures) row(kind, summary(kind, all));
+    row(kFlicker, flicker_summary(all));
+  } else {
+    for (const FigureKind& kind : kFigures) {
+      out << fmt::format("{:14}{:.6g}\n", kind.label, kind.of(all.front().figures));
     }
   }
+  out << fmt::format("(share: pixels with an error over {:g}; flip: at {:g} pixels per degree{})\n",
+                     options.threshold, options.pixels_per_degree,
+                     options.clamp ? "; values clamped to 0..1" : "");
 }
 
-void print_text(const ImageDifference& d, double threshold, std::ostream& out) {
-  out << fmt::format("rmse          {:.6g}\n", d.rmse) << fmt::format("psnr          {:.4g} dB\n", d.psnr)
-      << fmt::format("ssim          {:.6g}\n", d.ssim) << fmt::format("max error     {:.6g}\n", d.max_error)
-      << fmt::format("99.9 % error  {:.6g}\n", d.error_p999)
-      << fmt::format("share         {:.6g} (pixels with an error over {:g})\n", d.share_over_threshold,
-                     threshold)
-      << fmt::format("signed mean   {:.6g}\n", d.signed_mean)
-      << fmt::format("relative mse  {:.6g}\n", d.relative_mse);
-}
-
-void print_json(const CompareOptions& options, const ImageDifference& d, bool within, std::ostream& out) {
-  nlohmann::ordered_json record;
-  record["image"] = options.image;
-  record["reference"] = options.reference;
-  record["rmse"] = d.rmse;
-  record["psnr"] = d.psnr;  // null when infinite: JSON has no infinity
-  record["ssim"] = d.ssim;
-  record["max_error"] = d.max_error;
-  record["error_p999"] = d.error_p999;
+void put_conditions(const CompareOptions& options, bool within, Json& record) {
   record["threshold"] = options.threshold;
-  record["share"] = d.share_over_threshold;
-  record["signed_mean"] = d.signed_mean;
-  record["relative_mse"] = d.relative_mse;
+  record["pixels_per_degree"] = options.pixels_per_degree;
+  record["clamped"] = options.clamp;
   record["within"] = within;
-  out << record.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+}
+
+// Infinite and missing values become null: JSON has no others.
+Json record_of(const Measured& measured) {
+  Json record;
+  if (measured.pair.frame) record["record"] = "frame", record["frame"] = *measured.pair.frame;
+  record["image"] = measured.pair.image;
+  record["reference"] = measured.pair.reference;
+  for (const FigureKind& kind : kFigures) record[kind.key] = kind.of(measured.figures);
+  if (measured.flicker) record[kFlicker.key] = *measured.flicker;
+  return record;
+}
+
+Json sequence_record(const std::vector<Measured>& all, const CompareOptions& options) {
+  Json record{{"record", "sequence"}, {"image", options.image}, {"reference", options.reference}};
+  record["frames"] = all.size();
+  const auto put = [&](const FigureKind& kind, const Summary& s) {
+    Json& figure = record[kind.key] = {{"mean", s.mean}, {"worst", s.worst}};
+    figure["frame"] = s.frame ? Json(*s.frame) : Json();
+  };
+  for (const FigureKind& kind : kFigures) put(kind, summary(kind, all));
+  put(kFlicker, flicker_summary(all));
+  return record;
+}
+
+void print_json(const std::vector<Measured>& all, const CompareOptions& options, bool within,
+                std::ostream& out) {
+  const auto line = [&](const Json& record) {
+    out << record.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
+  };
+  Json last = record_of(all.front());
+  if (is_sequence(all)) {
+    for (const Measured& measured : all) line(record_of(measured));
+    last = sequence_record(all, options);
+  }
+  put_conditions(options, within, last);
+  line(last);
 }
 
 }  // namespace
 
 bool compare(const CompareOptions& options, std::ostream& out, std::ostream& complaints) {
-  if (!(options.threshold >= 0)) throw UsageError("--threshold: a number that is not negative is needed");
-  Image image = read_image(options.image);
-  Image reference = read_image(options.reference);
-  require_comparable(options, image, reference);
-  const ImageDifference d = difference(image, reference, options.threshold);
-  if (!options.difference_picture.empty()) {
-    write_image(options.difference_picture, difference_picture(image, reference));
-  }
-
-  bool within = true;
-  for (const Limit& limit : limits(options, d)) {
-    if (!limit.passed()) continue;
-    within = false;
-    complaints << fmt::format("pprt-compare: {} is {:.6g}, the limit {} is {:g}\n", limit.figure, limit.value,
-                              limit.option, *limit.limit);
-  }
+  check(options);
+  const std::vector<Measured> all = measure(pairs_to_compare(options), options);
+  const bool within = judge(all, options, complaints);
   if (options.json) {
-    print_json(options, d, within, out);
+    print_json(all, options, within, out);
   } else {
-    print_text(d, options.threshold, out);
+    print_text(all, options, out);
   }
   if (!out.flush()) throw std::runtime_error("cannot write the figures");
   return within;

@@ -1,28 +1,37 @@
-// pprt-compare: how far one picture is from another, and whether that is too far.
+// pprt-compare: how far one picture, or sequence of pictures, is from another, and whether that is too far.
 #pragma once
 
 #include <iosfwd>
 #include <optional>
 #include <string>
 
+#include "image/metrics.h"
+
 namespace pprt {
 
 struct CompareOptions {
-  std::string image;
-  std::string reference;
-  double threshold = 0.01;         // pixel errors above it count for the share; 2.55 of 255 levels
+  std::string image;        // a file, or a pattern of numbered files (image/frame_pattern.h)
+  std::string reference;    // of the same kind
+  std::string frames;       // of sequences, as --frames has it; empty: all that are there
+  double threshold = 0.01;  // pixel errors above it count for the share; 2.55 of 255 levels
+  double pixels_per_degree = kFlipPixelsPerDegree;
+  bool clamp = false;              // measure on values clamped to the display range
   std::optional<double> max_rmse;  // limits: what is not given is not checked
   std::optional<double> min_psnr;  // dB
+  std::optional<double> max_relative_mse;
   std::optional<double> min_ssim;
+  std::optional<double> max_flip;
   std::optional<double> max_error;
+  std::optional<double> max_p999;
   std::optional<double> max_share;  // 0 to 1
-  std::string difference_picture;   // file to write; empty: none
+  std::optional<double> max_flicker;
+  std::string difference_picture;  // file or pattern to write; empty: none
   bool json = false;
 };
 
-// Prints the figures to `out`, and a line to `complaints` for every limit that is passed. True: within all
-// limits. Throws UsageError (options that make no sense) and std::runtime_error (a file that cannot be read
-// or written, pictures that cannot be compared).
+// Prints the figures to `out`, and a line to `complaints` for every limit that is passed, of a sequence by
+// its worst frame. True: within all limits. Throws UsageError (options that make no sense) and
+// std::runtime_error (a file that is missing or cannot be read or written, pictures that cannot be compared).
 bool compare(const CompareOptions& options, std::ostream& out, std::ostream& complaints);
 
 }  // namespace pprt

@@ -3,11 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <optional>
 #include <utility>
 
+#include "app/number_pair.h"
 #include "app/scene_source.h"
 #include "base/diagnostics.h"
 #include "image/frame_writer.h"
@@ -24,24 +24,6 @@ constexpr int kLongestSide = 16384;  // pixels
 struct Size {
   int width, height;
 };
-struct FrameRange {
-  int first, last;
-};
-
-// Two positive integers with one of `separators` between them and nothing else.
-std::optional<std::pair<int, int>> parse_pair(const std::string& text, const std::string& separators) {
-  const std::size_t at = text.find_first_of(separators);
-  if (at == std::string::npos) return std::nullopt;
-  int a = 0, b = 0;
-  const char* begin = text.data();
-  const char* end = begin + text.size();
-  const auto first = std::from_chars(begin, begin + at, a);
-  const auto second = std::from_chars(begin + at + 1, end, b);
-  if (first.ec != std::errc() || first.ptr != begin + at || second.ec != std::errc() || second.ptr != end) {
-    return std::nullopt;
-  }
-  return std::pair(a, b);
-}
 
 std::optional<Size> requested_size(const RenderOptions& options) {
   if (options.size.empty()) return std::nullopt;
@@ -56,12 +38,7 @@ std::optional<Size> requested_size(const RenderOptions& options) {
 
 std::optional<FrameRange> requested_frames(const RenderOptions& options) {
   if (options.frames.empty()) return std::nullopt;
-  const auto pair = parse_pair(
-      options.frames + (options.frames.find('-') == std::string::npos ? "-" + options.frames : ""), "-");
-  if (!pair || pair->first < 1 || pair->second < pair->first) {
-    throw UsageError("--frames " + options.frames + ": want FIRST-LAST, counted from 1, such as 1-40");
-  }
-  return FrameRange{pair->first, pair->second};
+  return parse_frame_range(options.frames);
 }
 
 bool is_script_name(const std::string& name) {

@@ -2,7 +2,10 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <charconv>
 #include <stdexcept>
+#include <system_error>
 
 #include "base/diagnostics.h"
 
@@ -100,6 +103,31 @@ std::filesystem::path file_name(const FramePattern& pattern, int frame) {
   if (frame < 0) throw std::invalid_argument("a frame number is not negative");
   if (!pattern.digits) return pattern.before;
   return fmt::format("{}{:0{}}{}", pattern.before, frame, *pattern.digits, pattern.after);
+}
+
+// The field may stand in a directory's name, so entries are matched up to the next separator.
+std::vector<int> frames_present(const FramePattern& pattern) {
+  std::vector<int> frames;
+  if (!pattern.digits) return frames;
+  const std::filesystem::path before(pattern.before);
+  const std::string head = before.filename().string();
+  const std::string tail = pattern.after.substr(0, pattern.after.find('/'));
+  const std::filesystem::path directory = before.has_parent_path() ? before.parent_path() : ".";
+  std::error_code unreadable;  // has no frames
+  for (const auto& entry : std::filesystem::directory_iterator(directory, unreadable)) {
+    const std::string name = entry.path().filename().string();
+    if (name.size() <= head.size() + tail.size() || !name.starts_with(head) || !name.ends_with(tail))
+      continue;
+    int frame = -1;
+    const char* end = name.data() + name.size() - tail.size();
+    const auto [rest, error] = std::from_chars(name.data() + head.size(), end, frame);
+    if (error != std::errc() || rest != end || frame < 0) continue;
+    const std::filesystem::path file = file_name(pattern, frame);  // with as many digits as it should have
+    if (file.string().starts_with(pattern.before + name.substr(head.size())) && std::filesystem::exists(file))
+      frames.push_back(frame);
+  }
+  std::sort(frames.begin(), frames.end());
+  return frames;
 }
 
 }  // namespace pprt

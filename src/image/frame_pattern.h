@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace pprt {
 
@@ -27,5 +28,8 @@ FramePattern beside(const FramePattern& pattern, std::string_view name);
 
 // The name for one frame, whose number is not negative.
 std::filesystem::path file_name(const FramePattern& pattern, int frame);
+
+// Numbers of the frames whose files are there, ascending; none when the pattern has no field.
+std::vector<int> frames_present(const FramePattern& pattern);
 
 }  // namespace pprt

@@ -1,8 +1,11 @@
 #include "image/frame_pattern.h"
 
 #include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
 
 #include "base/diagnostics.h"
+#include "temporary_directory.h"
 
 using namespace pprt;
 
@@ -72,4 +75,27 @@ TEST_CASE("a pattern that makes no sense is explained") {
 
 TEST_CASE("frame numbers are not negative") {
   CHECK_THROWS_AS(name("%d.png", -1), std::invalid_argument);
+}
+
+TEST_CASE("frames that are there are found by their numbers") {
+  const TemporaryDirectory directory;
+  const auto make = [&](const char* file) {
+    const std::filesystem::path path = directory.path() / file;
+    std::filesystem::create_directories(path.parent_path());
+    std::ofstream(path) << "x";
+  };
+  const auto found = [&](const char* pattern) {
+    return frames_present(parse_frame_pattern((directory.path() / pattern).string(), FrameCount::kOne));
+  };
+  for (const char* file :
+       {"a0010.png", "a0002.png", "a12345.png", "a7.png", "a0003.exr", "a0004.depth.png", "b0005.png",
+        "a-001.png", "a+001.png", "a00x1.png", "a99999999999.png", "d1/f.png", "d3/f.png", "d2/g.png"}) {
+    make(file);
+  }
+  CHECK(found("a%04d.png") == std::vector<int>{2, 10, 12345});
+  CHECK(found("a#.png") == std::vector<int>{7, 12345});
+  CHECK(found("d%d/f.png") == std::vector<int>{1, 3});
+  CHECK(found("c%d.png").empty());
+  CHECK(found("none/%d.png").empty());
+  CHECK(found("a0010.png").empty());
 }
