@@ -8,10 +8,13 @@
 namespace pprt {
 namespace {
 
+double distance(double v, const PixelSpan& span) {
+  return std::max({span.begin - v, 0.0, v - span.end});
+}
+
 // Squared distance of a point to a rectangle; 0 inside.
 double distance_squared(const Vec2d& p, const PixelRect& rect) {
-  const double dx = std::max({rect.x0 - p.x, 0.0, p.x - rect.x1});
-  const double dy = std::max({rect.y0 - p.y, 0.0, p.y - rect.y1});
+  const double dx = distance(p.x, {rect.x0, rect.x1}), dy = distance(p.y, {rect.y0, rect.y1});
   return dx * dx + dy * dy;
 }
 
@@ -26,13 +29,10 @@ struct TileRange {
 };
 
 TileRange tiles_around(const TileGrid& grid, const Circle& circle) {
-  const auto tile = [&](double v, int count) {
-    return static_cast<int>(std::clamp(std::floor(v / grid.tile_size), 0.0, count - 1.0));
-  };
   const Vec2d& c = circle.center;
   const double radius = std::sqrt(circle.radius_squared);
-  return {tile(c.x - radius, grid.columns()), tile(c.y - radius, grid.rows()),
-          tile(c.x + radius, grid.columns()), tile(c.y + radius, grid.rows())};
+  return {grid.column_at(c.x - radius), grid.row_at(c.y - radius), grid.column_at(c.x + radius),
+          grid.row_at(c.y + radius)};
 }
 
 std::int32_t owner_at(const Partition& partition, int column, int row) {
@@ -86,7 +86,7 @@ void SampleExchange::repartition(SampleMesh& mesh, const Partition& partition) {
     if (partition_.owner[tile] == rank_) was_own_[tile] = 1;
     if (partition.owner[tile] == rank_) was_own_[tile] = 0;
   }
-  forwards_ = std::find(was_own_.begin(), was_own_.end(), 1) != was_own_.end();
+  if (std::find(was_own_.begin(), was_own_.end(), 1) != was_own_.end()) forward_from_now_on(mesh);
   partition_ = partition;
   neighbours_ = ranks_beside(partition, rank_);
   seeds_are_planned_ = false;
@@ -120,6 +120,11 @@ void SampleExchange::plan_seeds() {
   seeds_are_planned_ = true;
 }
 
+void SampleExchange::forward_from_now_on(SampleMesh& mesh) {
+  forwards_ = true;
+  mesh.note_foreign();
+}
+
 void SampleExchange::introduce(const SampleMesh& mesh, std::span<const int> tiles, int taker) {
   if (tiles.empty()) return;
   PixelRect around = partition_.grid.pixels(tiles.front());
@@ -141,11 +146,11 @@ void SampleExchange::introduce(const SampleMesh& mesh, std::span<const int> tile
   }
 }
 
-void SampleExchange::pass_on(const SampleMesh& mesh, int tile) {
+void SampleExchange::pass_on(SampleMesh& mesh, int tile) {
   const auto t = static_cast<std::size_t>(tile);
   if (partition_.owner[t] == rank_) return;
   was_own_[t] = 1;
-  forwards_ = true;
+  forward_from_now_on(mesh);
   introduce(mesh, {&tile, 1}, partition_.owner[t]);
 }
 
@@ -188,24 +193,20 @@ void SampleExchange::announce_new(SampleMesh& mesh) {
   mesh.take_new_at_border(at_border_);
   const std::size_t first_new = std::exchange(announced_, mesh.samples().size());
   if (partition_.ranks == 1) return;
-  for (const MeshTriangle& triangle : at_border_) {
+  for (const BorderTriangle& triangle : at_border_) {
     tell_own_corners(mesh, triangle);
     if (forwards_) forward_corners(mesh, triangle, first_new);
   }
   looked_at_ += at_border_.size();
 }
 
-void SampleExchange::tell_own_corners(const SampleMesh& mesh, const MeshTriangle& triangle) {
-  const std::span<const Sample> samples = mesh.samples();
-  std::array<std::uint32_t, 3> own;
-  std::size_t count = 0;
-  for (const std::uint32_t corner : triangle.corners) {
-    if (owner_of(samples[corner].x, samples[corner].y) == rank_) own[count++] = corner;
-  }
-  if (count == 0) return;
+void SampleExchange::tell_own_corners(const SampleMesh& mesh, const BorderTriangle& triangle) {
+  if (std::none_of(triangle.own.begin(), triangle.own.end(), [](bool own) { return own; })) return;
   touch_others(triangle.circumcircle);
   for (const int rank : touched_) {
-    for (std::size_t i = 0; i < count; ++i) tell(mesh, own[i], rank);
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (triangle.own[i]) tell(mesh, triangle.corners[i], rank);
+    }
   }
 }
 
@@ -260,12 +261,13 @@ void SampleExchange::touch_others(const Circle& circle) {
   touch_stamp_[static_cast<std::size_t>(rank_)] = stamp_;
   touched_.clear();
   for (int y = range.y0; y <= range.y1; ++y) {
+    const double dy = distance(circle.center.y, grid.row(y));
     for (int x = range.x0; x <= range.x1; ++x) {
-      const int tile = y * grid.columns() + x;
-      const std::int32_t owner = partition_.owner[static_cast<std::size_t>(tile)];
+      const std::int32_t owner = owner_at(partition_, x, y);
       std::uint32_t& stamp = touch_stamp_[static_cast<std::size_t>(owner)];
       if (stamp == stamp_) continue;
-      if (distance_squared(circle.center, grid.pixels(tile)) > circle.radius_squared) continue;
+      const double dx = distance(circle.center.x, grid.column(x));
+      if (dx * dx + dy * dy > circle.radius_squared) continue;
       stamp = stamp_;
       touched_.push_back(owner);
     }

@@ -42,7 +42,7 @@ class SampleExchange {
 
   // A tile was given to this rank, but it has another owner already: what has been told with the gift, and
   // will be, is passed on as if this rank had had the tile.
-  void pass_on(const SampleMesh& mesh, int tile);
+  void pass_on(SampleMesh& mesh, int tile);
 
   // Tells `taker` every corner of the triangles whose circumcircle meets one of these tiles. Call it before
   // the tiles are the taker's.
@@ -71,16 +71,17 @@ class SampleExchange {
 
  private:
   void plan_seeds();
+  void forward_from_now_on(SampleMesh& mesh);
   void note_newest(int from);
   void tell(const SampleMesh& mesh, std::uint32_t sample, int rank);
   void announce_new(SampleMesh& mesh);
-  void tell_own_corners(const SampleMesh& mesh, const MeshTriangle& triangle);
+  void tell_own_corners(const SampleMesh& mesh, const BorderTriangle& triangle);
   void forward_corners(const SampleMesh& mesh, const MeshTriangle& triangle, std::size_t first_new);
   void touch_others(const Circle& circle);  // fills touched_
 
   Partition partition_;
   int rank_;
-  std::vector<MeshTriangle> at_border_;
+  std::vector<BorderTriangle> at_border_;
   RankSets known_by_;                        // per sample of the mesh
   std::vector<std::vector<Sample>> outbox_;  // per rank
   std::size_t announced_ = 0;                // samples of the mesh whose triangles have been looked at

@@ -29,10 +29,11 @@ class Region {
   bool surely_holds(const Circle& circle) const {
     const Vec2d& c = circle.center;
     if (!(c.x >= 0 && c.y >= 0 && c.x <= grid_.width && c.y <= grid_.height)) return false;
-    const int tile = grid_.tile_at(c.x, c.y);
+    const int column = grid_.column_at(c.x), row = grid_.row_at(c.y);
+    const int tile = column + row * grid_.columns();
     if (!owns_tile(tile)) return false;
-    const PixelRect rect = grid_.pixels(tile);
-    const double to_side = std::min({c.x - rect.x0, rect.x1 - c.x, c.y - rect.y0, rect.y1 - c.y});
+    const PixelSpan x = grid_.column(column), y = grid_.row(row);
+    const double to_side = std::min({c.x - x.begin, x.end - c.x, c.y - y.begin, y.end - c.y});
     const double inside_by = inside_by_[static_cast<std::size_t>(tile)] + std::max(to_side, 0.0);
     return circle.radius_squared < inside_by * inside_by;
   }

@@ -20,6 +20,9 @@ void SampleMesh::clear() {
 void SampleMesh::set_region(const Region& region) {
   impl_->set_region(region);
 }
+void SampleMesh::note_foreign() {
+  impl_->note_foreign();
+}
 const Region& SampleMesh::region() const {
   return impl_->region();
 }
@@ -35,7 +38,7 @@ Color SampleMesh::guess() const {
 std::span<const Sample> SampleMesh::samples() const {
   return impl_->samples();
 }
-void SampleMesh::take_new_at_border(std::vector<MeshTriangle>& triangles) {
+void SampleMesh::take_new_at_border(std::vector<BorderTriangle>& triangles) {
   impl_->take_new_at_border(triangles);
 }
 std::span<const TileWeights> SampleMesh::tile_weights() const {
@@ -59,12 +62,14 @@ void SampleMesh::Impl::clear() {
   region_weights_ = {};
   latest_in_tile_.assign(tiles, Vertex());
   next_stamp_ = 1;
-  planar_ = false;
+  planar_ = notes_foreign_ = false;
   wanted_.reset();
 }
 
 void SampleMesh::Impl::set_region(const Region& region) {
   region_ = region;
+  for (auto v = delaunay_.finite_vertices_begin(); v != delaunay_.finite_vertices_end(); ++v)
+    v->info().own = region_.owns_point(v->point().x(), v->point().y());
   if (planar_) rescan();
 }
 
@@ -77,9 +82,10 @@ bool SampleMesh::Impl::insert(const Sample& sample) {
   const std::size_t before = delaunay_.number_of_vertices();
   const Vertex vertex = delaunay_.insert({point.x, point.y}, at.type, at.face, at.index);
   if (delaunay_.number_of_vertices() == before) return false;
-  vertex->info() = {static_cast<std::uint32_t>(samples_.size()), sample.ray.color};
+  const int tile = grid.tile_at(point.x, point.y);
+  vertex->info() = {static_cast<std::uint32_t>(samples_.size()), sample.ray.color, region_.owns_tile(tile)};
   samples_.push_back(sample);
-  latest_in_tile_[static_cast<std::size_t>(grid.tile_at(point.x, point.y))] = vertex;
+  latest_in_tile_[static_cast<std::size_t>(tile)] = vertex;
 
   if (delaunay_.dimension() < 2) return true;
   if (!planar_) {
@@ -93,13 +99,18 @@ bool SampleMesh::Impl::insert(const Sample& sample) {
   do {
     forget(face->info());
     if (delaunay_.is_infinite(face)) continue;
-    const Circle circle = adopt(face);
-    if (region_.surely_holds(circle)) continue;
-    const auto sample_at = [&](int i) { return face->vertex(i)->info().sample; };
-    new_at_border_.push_back(
-        {{face, face->info().stamp}, {circle, {sample_at(0), sample_at(1), sample_at(2)}}});
+    note_at_border(face, adopt(face));
   } while (++face != first);
   return true;
+}
+
+void SampleMesh::Impl::note_at_border(Face face, const Circle& circle) {
+  const auto info = [&](int i) -> const VertexInfo& { return face->vertex(i)->info(); };
+  const std::array<bool, 3> own = {info(0).own, info(1).own, info(2).own};
+  if (!own[0] && !own[1] && !own[2] && !notes_foreign_) return;
+  if (region_.surely_holds(circle)) return;
+  new_at_border_.push_back(
+      {{face, face->info().stamp}, {circle, {info(0).sample, info(1).sample, info(2).sample}, own}});
 }
 
 std::optional<Vec2d> SampleMesh::Impl::next_point() {
@@ -119,7 +130,7 @@ std::optional<Vec2d> SampleMesh::Impl::next_point() {
   return std::nullopt;
 }
 
-void SampleMesh::Impl::take_new_at_border(std::vector<MeshTriangle>& triangles) {
+void SampleMesh::Impl::take_new_at_border(std::vector<BorderTriangle>& triangles) {
   triangles.clear();
   for (const BorderEntry& b : new_at_border_) {
     if (b.entry.face->info().stamp == b.entry.stamp) triangles.push_back(b.triangle);

@@ -22,6 +22,11 @@ struct MeshTriangle {
   std::array<std::uint32_t, 3> corners;
 };
 
+// One that other regions may have to know.
+struct BorderTriangle : MeshTriangle {
+  std::array<bool, 3> own;  // per corner: whether it lies in the region
+};
+
 // Per tile of the region, over the triangles whose refinement point lies in it (paper s. 4.4:
 // LastTotalWeight, LastTotalNum).
 struct TileWeights {
@@ -63,9 +68,12 @@ class SampleMesh {
 
   std::span<const Sample> samples() const;
 
-  // Replaces `triangles` by those that were inserted since the last call, still are, and may not lie wholly
-  // in the region by their circumcircle.
-  void take_new_at_border(std::vector<MeshTriangle>& triangles);
+  // Replaces `triangles` by those that were inserted since the last call, still are, have a corner in the
+  // region, and may not lie wholly in it by their circumcircle.
+  void take_new_at_border(std::vector<BorderTriangle>& triangles);
+
+  // From now on until clear(), those without such a corner as well.
+  void note_foreign();
 
   // One entry per tile of the grid; zero outside the region.
   std::span<const TileWeights> tile_weights() const;

@@ -27,6 +27,7 @@ struct FaceInfo {
 struct VertexInfo {
   std::uint32_t sample = 0;  // index into samples()
   Color color{0, 0, 0};
+  bool own = false;  // in the region
 };
 
 class SampleMesh::Impl {
@@ -43,6 +44,7 @@ class SampleMesh::Impl {
 
   void clear();
   void set_region(const Region& region);
+  void note_foreign() { notes_foreign_ = true; }
   bool insert(const Sample& sample);
   std::optional<Vec2d> next_point();
   Color guess() const {
@@ -58,7 +60,7 @@ class SampleMesh::Impl {
   const Region& region() const { return region_; }
   const Delaunay& delaunay() const { return delaunay_; }
   const std::vector<Sample>& samples() const { return samples_; }
-  void take_new_at_border(std::vector<MeshTriangle>& triangles);
+  void take_new_at_border(std::vector<BorderTriangle>& triangles);
   const std::vector<TileWeights>& tile_weights() const { return tile_weights_; }
 
  private:
@@ -78,6 +80,7 @@ class SampleMesh::Impl {
   void count(const FaceInfo& info, int sign);  // into, or out of, the statistics
   void forget(FaceInfo& info);                 // a triangle that is gone: statistics
   void rescan();                               // every triangle anew
+  void note_at_border(Face face, const Circle& circle);
   Vec2d refinement_point(Face face, const Vec2d& circumcenter) const;
   Vec2d corner(Face face, int i) const;
 
@@ -87,7 +90,7 @@ class SampleMesh::Impl {
   std::vector<Sample> samples_;
   struct BorderEntry {
     QueueEntry entry;
-    MeshTriangle triangle;
+    BorderTriangle triangle;
   };
   std::vector<BorderEntry> new_at_border_;
   std::vector<TileWeights> tile_weights_;
@@ -96,6 +99,7 @@ class SampleMesh::Impl {
   BucketQueue<QueueEntry> queue_;
   std::uint32_t next_stamp_ = 1;
   bool planar_ = false;  // the triangulation has triangles, and they have been scanned
+  bool notes_foreign_ = false;
 
   // The answer of next_point(), located: good until anything is inserted.
   std::optional<Vec2d> wanted_;

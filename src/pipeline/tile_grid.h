@@ -6,6 +6,11 @@
 
 namespace pprt {
 
+// Half-open range of pixels along one axis.
+struct PixelSpan {
+  int begin = 0, end = 0;
+};
+
 // Half-open rectangle of pixels.
 struct PixelRect {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
@@ -34,14 +39,19 @@ class TileGrid {
   int tile_count() const { return columns_ * rows_; }
 
   // The tile that holds an image point; points on the right and lower border belong to the last tile.
-  int tile_at(double x, double y) const {
-    return std::clamp(lane(x), 0, columns_ - 1) + columns_ * std::clamp(lane(y), 0, rows_ - 1);
+  int tile_at(double x, double y) const { return column_at(x) + columns_ * row_at(y); }
+  int column_at(double x) const { return lane(x, columns_); }
+  int row_at(double y) const { return lane(y, rows_); }
+
+  // The pixels of a column or a row of tiles.
+  PixelSpan column(int column) const {
+    return {column * tile_size, std::min((column + 1) * tile_size, width)};
   }
+  PixelSpan row(int row) const { return {row * tile_size, std::min((row + 1) * tile_size, height)}; }
 
   PixelRect pixels(int tile) const {
-    const int x0 = tile % columns_ * tile_size;
-    const int y0 = tile / columns_ * tile_size;
-    return {x0, y0, std::min(x0 + tile_size, width), std::min(y0 + tile_size, height)};
+    const PixelSpan x = column(tile % columns_), y = row(tile / columns_);
+    return {x.begin, y.begin, x.end, y.end};
   }
 
   friend bool operator==(const TileGrid&, const TileGrid&) = default;
@@ -52,9 +62,11 @@ class TileGrid {
 
  private:
   // Column or row of a coordinate. From the middle of its pixel, so that the product never rounds into the
-  // next tile; a division would cost more than the rest of a triangle's bookkeeping.
-  int lane(double coordinate) const {
-    return static_cast<int>((static_cast<int>(coordinate) + 0.5) * tiles_per_pixel_);
+  // next tile; a division would cost more than the rest of a triangle's bookkeeping. Circles may reach far
+  // outside the image.
+  int lane(double coordinate, int count) const {
+    const double inside = std::clamp(coordinate, 0.0, static_cast<double>(count) * tile_size - 1);
+    return static_cast<int>((static_cast<int>(inside) + 0.5) * tiles_per_pixel_);
   }
 
   int columns_;

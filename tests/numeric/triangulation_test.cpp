@@ -101,7 +101,7 @@ TEST_CASE("a million hard points leave the triangulation whole") {
   HardPoints points;
   int refused = 0;
   std::size_t turned = 0;
-  std::vector<MeshTriangle> created;
+  std::vector<BorderTriangle> created;
   for (int i = 1; i <= kPoints; ++i) {
     if (!mesh.insert(sample_at(points.next()))) {
       ++refused;

@@ -143,7 +143,7 @@ TEST_CASE("new triangles at the border are told once, while they stand") {
     owned[static_cast<std::size_t>(tile)] = kGrid.pixels(tile).x0 < kGrid.width / 2;
   }
   SampleMesh mesh = refine(Region(kGrid, owned), disc(kGrid), 300);
-  std::vector<MeshTriangle> told;
+  std::vector<BorderTriangle> told;
   mesh.take_new_at_border(told);
   std::set<std::array<std::uint32_t, 3>> standing, told_once;
   const auto in_order = [](std::array<std::uint32_t, 3> t) {
@@ -151,9 +151,13 @@ TEST_CASE("new triangles at the border are told once, while they stand") {
     return t;
   };
   for (const auto& t : triangles(mesh)) standing.insert(in_order(t));
-  for (const MeshTriangle& t : told) {
+  for (const BorderTriangle& t : told) {
     CHECK(standing.count(in_order(t.corners)) == 1);
     CHECK(told_once.insert(in_order(t.corners)).second);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Sample& corner = mesh.samples()[t.corners[i]];
+      CHECK(t.own[i] == mesh.region().owns_point(corner.x, corner.y));
+    }
   }
   // Whatever crosses the middle is among them.
   for (const auto& t : triangles(mesh)) {
@@ -164,6 +168,24 @@ TEST_CASE("new triangles at the border are told once, while they stand") {
   CHECK(told.size() < standing.size());
   mesh.take_new_at_border(told);
   CHECK(told.empty());
+}
+
+TEST_CASE("new triangles of others' samples alone are told only when asked for") {
+  std::vector<std::uint8_t> owned(static_cast<std::size_t>(kGrid.tile_count()), 0);
+  owned[0] = 1;
+  const auto told_of_others = [&](bool ask) {
+    SampleMesh mesh{Region(kGrid, owned)};
+    if (ask) mesh.note_foreign();
+    for (const Vec2d& p : seed_points(kGrid.width, kGrid.height, 1))
+      mesh.insert(sample_of(disc(kGrid), p.x, p.y));
+    std::vector<BorderTriangle> told;
+    mesh.take_new_at_border(told);
+    CHECK(told.size() > 0);
+    return std::count_if(told.begin(), told.end(),
+                         [](const BorderTriangle& t) { return !t.own[0] && !t.own[1] && !t.own[2]; });
+  };
+  CHECK(told_of_others(false) == 0);
+  CHECK(told_of_others(true) > 0);
 }
 
 TEST_CASE("collinear and cocircular samples do no harm") {
