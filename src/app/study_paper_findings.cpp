@@ -122,7 +122,9 @@ Finding combined_settles_first(const Runs& runs, int ranks, Frames part, const c
       criterion,
       fmt::format("combined: {}; local: {} (down to {:.3f})", frame_count(fast), frame_count(slow), level),
       judge(fast < slow && fast <= within, {level, fast, slow}),
-      unmet({{fast < slow, "not before local"}, {fast <= within, "later than asked"}})};
+      unmet({{fast < slow, "not before local"},
+             {fast <= within,
+              "later than asked: what the first uneven frame teaches is in force two frames after it"}})};
 }
 
 Finding global_lags(const Runs& runs, int ranks) {
@@ -157,7 +159,7 @@ Finding combined_is_cheap(const Runs& runs, int ranks) {
           best, cuts, all_cuts, made, local),
       judge(dist <= best + 0.03 && 3 * cuts <= all_cuts && made >= 0.95 * local, {dist, best, made, local}),
       unmet({{dist <= best + 0.03, "farther from serial"},
-             {3 * cuts <= all_cuts, "cuts the image anew too often"},
+             {3 * cuts <= all_cuts, "uneven by more than the trigger, 0.2, in most frames"},
              {made >= 0.95 * local, "fewer samples"}})};
 }
 

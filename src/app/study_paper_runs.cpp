@@ -233,11 +233,11 @@ void add_network(const PaperOptions& options, const Calibration& calibration, Pa
   base.frames = std::min(base.frames, kStillFrames);
   base.ranks = options.ranks.back(), base.share = calibration.share.at(base.ranks);
   base.compare_serial = false;
-  for (const double share : {0.0, 0.0003, 0.001, 0.003, 0.01, 0.03, 0.1}) {
+  for (const double share : {0.0, 0.001, 0.01, 0.03, 0.1, 0.2, 0.4, 0.8}) {
     PaperRun& run = runs.emplace_back(base);
     run.experiment = kLatency, run.machine.latency_s = share * calibration.frame_s;
   }
-  for (const double bytes : {1e8, 1e7, 3e6, 1e6, 3e5, 1e5, 3e4}) {
+  for (const double bytes : {1e8, 1e6, 1e5, 3e4, 1e4, 3e3, 1e3}) {
     PaperRun& run = runs.emplace_back(base);
     run.experiment = kBandwidth, run.machine.bytes_per_second = bytes / calibration.frame_s;
   }

@@ -39,9 +39,27 @@ RankProgress Balancer::progress(const SampleMesh& mesh, double elapsed) {
   share_of_now_ = known_before_ == Known::kNothing ? 1 : known_before_ == Known::kAll ? 0 : elapsed;
   const double quality = mesh.refinement();
   if (quality <= 0) return {};
+  learn_cost_per_triangle(mesh);
   // The mean weight falls as the reciprocal of the samples: what it will be when the frame ends.
   const double target = target_quality(quality * elapsed);
   return {quality, target, future_cost_of_region(mesh, target)};
+}
+
+void Balancer::learn_cost_per_triangle(const SampleMesh& mesh) {
+  double cost = 0, triangles = 0;
+  for (const int tile : mesh.region().tiles()) {
+    cost += now_[static_cast<std::size_t>(tile)].cost;
+    triangles += mesh.tile_weights()[static_cast<std::size_t>(tile)].triangles;
+  }
+  cost_per_triangle_ = triangles > 0 ? cost / triangles : 0;
+}
+
+// What a tile's refinement so far has cost. One with hardly a sample, though with triangles that wait for
+// one, would else seem to cost nothing to refine; few samples fall into a small tile. The region's mean is
+// the least.
+double Balancer::cost_of(const SampleMesh& mesh, int tile) const {
+  const auto t = static_cast<std::size_t>(tile);
+  return std::max(now_[t].cost, static_cast<double>(mesh.tile_weights()[t].triangles) * cost_per_triangle_);
 }
 
 // What the tile was in the frame before gives way to what it is in this one as the frame goes on.
@@ -51,8 +69,8 @@ double Balancer::future_cost_of(const SampleMesh& mesh, int tile, double quality
   const double mean =
       weights.triangles > 0 ? weights.total_weight / static_cast<double>(weights.triangles) : 0;
   const double paid = now_[t].cost;
-  const double cost_at_1 =
-      (1 - share_of_now_) * last_[t].cost * last_[t].average_weight + share_of_now_ * paid * mean;
+  const double cost_at_1 = (1 - share_of_now_) * last_[t].cost * last_[t].average_weight +
+                           share_of_now_ * cost_of(mesh, tile) * mean;
   const double pixels = static_cast<double>(mesh.region().grid().pixels(tile).area());
   return cost_at_1 / quality - paid + pixels * static_cast<double>(price(Work::kPixel));
 }
@@ -138,12 +156,14 @@ std::vector<TileGrant> Balancer::give(const SampleMesh& mesh, SampleExchange& ex
 }
 
 std::vector<TileReport> Balancer::report(const SampleMesh& mesh) {
+  learn_cost_per_triangle(mesh);
   std::vector<TileReport> reports;
   const double received =
       received_now_ / static_cast<double>(std::max<std::size_t>(1, mesh.region().tiles().size()));
   for (const int tile : mesh.region().tiles()) {
     const auto t = static_cast<std::size_t>(tile);
     const TileWeights& weights = mesh.tile_weights()[t];
+    now_[t].cost = cost_of(mesh, tile);
     if (weights.triangles > 0)
       now_[t].average_weight = weights.total_weight / static_cast<double>(weights.triangles);
     const double pixels = static_cast<double>(mesh.region().grid().pixels(tile).area());

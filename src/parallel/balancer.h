@@ -59,6 +59,8 @@ class Balancer {
   std::vector<TileReport> report(const SampleMesh& mesh);
 
  private:
+  void learn_cost_per_triangle(const SampleMesh& mesh);
+  double cost_of(const SampleMesh& mesh, int tile) const;
   double future_cost_of(const SampleMesh& mesh, int tile, double quality) const;
   double future_cost_of_region(const SampleMesh& mesh, double quality) const;
   double load_by_neighbours(const SampleMesh& mesh, const std::vector<int>& neighbours) const;
@@ -72,6 +74,7 @@ class Balancer {
   std::vector<TileEstimate> now_;  // per tile; right for own ones
   std::vector<TileEstimate> last_;
   std::vector<RankProgress> theirs_;  // per rank, in this frame
+  double cost_per_triangle_ = 0;      // of this region in this frame, mean
   double received_now_ = 0;           // work units spent on other ranks' samples
   double received_last_ = 0;
   Known known_before_ = Known::kNothing;

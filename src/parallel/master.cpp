@@ -132,11 +132,11 @@ void Master::order_next() {
           deadline_s(order.index + (settings_.clock == ClockKind::kWork ? request->left_out : 0));
     }
     order.reserve_s = reserve_s();
-    const bool hands_over = order.carry != Carry::kNothing && settings_.keep_samples;
+    // Cast samples are put back anyhow, by whose they are now.
+    const bool hands_over = order.carry == Carry::kAccumulate && settings_.keep_samples;
     if (hands_over && !can_afford_to_hand_over()) next_owners_.clear();
     if (!next_owners_.empty()) ++generation_;
     order.owners = std::exchange(next_owners_, {});
-    if (!order.owners.empty()) order.tiles = found_;
     order.generation = generation_;
     Assembly& assembly = assemblies_.emplace(order.index, start_assembly(order)).first->second;
     // Rank 0 was away for so long that nobody can carry this order out in time.
@@ -147,7 +147,13 @@ void Master::order_next() {
   } else {
     order.end = ended_ = true;
   }
-  for (int rank = 0; rank < network_.size(); ++rank) network_.send(rank, Tag::kFrameOrder, encode(order));
+  for (int rank = 0; rank < network_.size(); ++rank) {
+    order.tiles.clear();
+    for (std::size_t tile = 0; tile < order.owners.size(); ++tile) {
+      if (order.owners[tile] == rank) order.tiles.push_back(found_[tile]);
+    }
+    network_.send(rank, Tag::kFrameOrder, encode(order));
+  }
 }
 
 Carry Master::carry_into(const FrameRequest& request) const {

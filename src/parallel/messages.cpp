@@ -18,6 +18,9 @@ struct WireSample {
 };
 static_assert(sizeof(WireSample) == kSampleBytes);
 
+// Of an image: 2^15 x 2^15 pixels in tiles of 2 x 2.
+constexpr std::size_t kMostTiles = std::size_t{1} << 28;
+
 constexpr std::uint8_t kAtInfinity = 1, kEyeDependent = 2;
 
 WireSample to_wire(const Sample& s) {
@@ -64,14 +67,36 @@ std::vector<Sample> get_samples(WireReader& in) {
   return samples;
 }
 
+std::vector<std::int32_t> get_owners(WireReader& in) {
+  std::vector<OwnerRun> runs;
+  in.get_all(runs);
+  std::vector<std::int32_t> owners;
+  for (const OwnerRun& run : runs) {
+    if (run.tiles <= 0 || owners.size() + static_cast<std::size_t>(run.tiles) > kMostTiles) {
+      throw ProtocolError("a message announces tiles that cannot be");
+    }
+    owners.insert(owners.end(), static_cast<std::size_t>(run.tiles), run.owner);
+  }
+  return owners;
+}
+
 }  // namespace
+
+std::vector<OwnerRun> owner_runs(std::span<const std::int32_t> owners) {
+  std::vector<OwnerRun> runs;
+  for (const std::int32_t owner : owners) {
+    if (runs.empty() || runs.back().owner != owner) runs.push_back({owner, 0});
+    ++runs.back().tiles;
+  }
+  return runs;
+}
 
 Bytes encode(const FrameOrder& order) {
   WireWriter out;
   out.put(order.end), out.put(order.index), out.put(order.number), out.put(order.cut), out.put(order.carry);
   out.put(order.camera), out.put(order.evidence), out.put(order.deadline_s), out.put(order.reserve_s),
       out.put(order.generation);
-  out.put_all(std::span<const std::int32_t>(order.owners));
+  out.put_all(std::span<const OwnerRun>(owner_runs(order.owners)));
   out.put_all(std::span<const TileEstimate>(order.tiles));
   return out.take();
 }
@@ -82,7 +107,7 @@ FrameOrder decode_frame_order(std::span<const std::byte> bytes) {
   in.get(order.end), in.get(order.index), in.get(order.number), in.get(order.cut), in.get(order.carry);
   in.get(order.camera), in.get(order.evidence), in.get(order.deadline_s), in.get(order.reserve_s),
       in.get(order.generation);
-  in.get_all(order.owners);
+  order.owners = get_owners(in);
   in.get_all(order.tiles);
   in.expect_end();
   return order;

@@ -37,7 +37,7 @@ struct FrameOrder {
   double deadline_s = 0;             // since the start of the sequence; 0: no rate
   std::uint32_t generation = 0;      // of the partition in force from this frame on
   std::vector<std::int32_t> owners;  // per tile, when that partition is a new one
-  std::vector<TileEstimate> tiles;   // and what each of them was found to be, for its new owner
+  std::vector<TileEstimate> tiles;   // and what those of the receiver were found to be, ascending by tile
   double reserve_s = 0;  // wall clock: what the master has seen pass between end of sampling and whole frame
 };
 
@@ -97,6 +97,13 @@ struct PixelMessage {
 
 // What a sample takes in a message.
 inline constexpr std::size_t kSampleBytes = 64;
+
+// A rank's tiles in an order, one after the other: whose, and how many.
+struct OwnerRun {
+  std::int32_t owner = 0;
+  std::int32_t tiles = 0;
+};
+std::vector<OwnerRun> owner_runs(std::span<const std::int32_t> owners);
 
 Bytes encode(const FrameOrder& order);
 Bytes encode(const Bundle& bundle);

@@ -80,7 +80,7 @@ class Bisector {
 }  // namespace
 
 TileGrid tile_grid_for(int width, int height, int ranks) {
-  constexpr double kTilesPerRank = 64;
+  constexpr double kTilesPerRank = 100;
   const double pixels = static_cast<double>(width) * height;
   const int size = static_cast<int>(std::sqrt(pixels / (kTilesPerRank * ranks)));
   return {width, height, std::clamp(size, 2, 32)};

@@ -24,7 +24,7 @@ inline std::uint64_t first_version(std::uint32_t generation) {
   return std::uint64_t{generation} << 32;
 }
 
-// Square tiles, about 64 a rank so that balancing can be fine, between 2 and 32 pixels wide.
+// Square tiles, about 100 a rank so that balancing can be fine, between 2 and 32 pixels wide.
 TileGrid tile_grid_for(int width, int height, int ranks);
 
 // Greedy recursive bisection (paper s. 4.4): each cut runs across the longer side, at the tile line that best

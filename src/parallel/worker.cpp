@@ -132,7 +132,7 @@ void Worker::send_bundles(const FrameOrder& order, int round, bool to_all) {
   const bool local = settings_.balance == BalanceMode::kLocal || settings_.balance == BalanceMode::kCombined;
   const std::vector<TileGrant> grants = local ? give_tiles() : std::vector<TileGrant>();
   const RankProgress progress = local ? balancer_.progress(mesh_, clock_->sampling_share()) : RankProgress();
-  const bool tell_progress = local && round % kPacketsPerProgress == 0;
+  const bool tell_progress = local && (clock_->in_lockstep() || round % kPacketsPerProgress == 0);
   clock_->spend(Work::kUpdateRule, exchange_.announce(mesh_));
   link_bytes_ = 0;
   for (int rank = 0; rank < network_.size(); ++rank) {
@@ -140,14 +140,16 @@ void Worker::send_bundles(const FrameOrder& order, int round, bool to_all) {
     std::vector<Sample> samples = exchange_.take_outbox(rank);
     const bool neighbour = tell_progress && std::binary_search(exchange_.neighbours().begin(),
                                                                exchange_.neighbours().end(), rank);
-    if (samples.empty() && grants.empty() && !neighbour && !to_all && !stance_.owes_word(rank) &&
-        !clock_->in_lockstep())
-      continue;
-    send_bundle(rank, {order.index, epoch_, round, done_, 0, progress, {}, grants, std::move(samples)});
+    const bool concerned =
+        !samples.empty() || !grants.empty() || neighbour || to_all || stance_.owes_word(rank);
+    if (!concerned && !clock_->in_lockstep()) continue;
+    send_bundle(rank, {order.index, epoch_, round, done_, 0, progress, {}, grants, std::move(samples)},
+                concerned);
   }
 }
 
-void Worker::send_bundle(int rank, Bundle bundle) {
+// Counted are the bytes of those that would be sent if ranks did not wait for each other, too.
+void Worker::send_bundle(int rank, Bundle bundle, bool counts) {
   bundle.stance = stance_.tell(rank);
   // What one rank sends in a round goes through its link one after the other.
   link_bytes_ += static_cast<double>(bundle.samples.size() * kSampleBytes);
@@ -157,9 +159,12 @@ void Worker::send_bundle(int rank, Bundle bundle) {
   clock_->spend(Work::kSentSample, bundle.samples.size());
   Bytes bytes = encode(bundle);
   const std::size_t of_grants = bundle.grants.size() * sizeof(TileGrant);
-  report_.bytes_progress += sizeof(RankProgress);
-  report_.bytes_balance += of_grants;
-  report_.bytes_samples += bytes.size() - sizeof(RankProgress) - of_grants;
+  if (counts) {
+    const std::size_t of_samples = bundle.samples.size() * kSampleBytes;
+    report_.bytes_samples += of_samples;
+    report_.bytes_balance += of_grants;
+    report_.bytes_progress += bytes.size() - of_samples - of_grants;
+  }
   network_.send(rank, Tag::kBundle, std::move(bytes));
 }
 
@@ -234,6 +239,11 @@ void Worker::take_in(const std::vector<Inbox::Arrived>& bundles) {
 // samples than pixels is fine enough, and its samples are too many to hand over.
 std::vector<TileGrant> Worker::give_tiles() {
   if (epoch_ != frame_index_ && in_region_ > mesh_.region().pixel_count()) return {};
+  // Where most samples were cast each tile has so many from the start that gifts cost more than they bring,
+  // but for the first ones; and a new cut costs hardly anything there, for the samples move anyhow.
+  const bool mostly_cast = epoch_ == frame_index_ && 2 * report_.samples_cast > in_region_;
+  if (mostly_cast && (settings_.balance == BalanceMode::kCombined || clock_->sampling_share() > 0.25))
+    return {};
   if (!balancer_.is_time_to_give(clock_->sampling_share()) || settings_.stop.samples > 0) return {};
   // What the taker must take in may cost it a tenth of the frame.
   const double most_samples = settings_.frames_per_second > 0
@@ -300,7 +310,8 @@ void Worker::reconstruct_and_send(const FrameOrder& order) {
   if (!clock_->in_lockstep()) message.given = given_;
   append_rgb(pixels_, grid, mesh_.region().tiles(), message.rgb);
   append_rgb(pixels_, grid, message.given, message.rgb);
-  report_.bytes_pixels = message.rgb.size() * sizeof(float) + message.tiles.size() * sizeof(TileReport);
+  report_.bytes_pixels = message.rgb.size() * sizeof(float);
+  report_.bytes_balance += message.tiles.size() * sizeof(TileReport);
   if (settings_.report_samples) message.samples = own_samples();
   message.report = finish_report();
   network_.send(0, Tag::kPixels, encode(message));
@@ -342,9 +353,14 @@ Sample Worker::trace(const FrameOrder& order, double x, double y) {
     sample.ray.color = Color(0, 0, 0);
   }
   clock_->spend(Work::kRay, sample.ray.rays);
-  balancer_.paid(mesh_.region().grid().tile_at(x, y),
-                 static_cast<double>(price(Work::kRay) * sample.ray.rays + price(Work::kOwnSample)));
+  account_for(sample);
   return sample;
+}
+
+// What the sample is worth to its tile, in estimates of what the tile will take.
+void Worker::account_for(const Sample& sample) {
+  balancer_.paid(mesh_.region().grid().tile_at(sample.x, sample.y),
+                 static_cast<double>(price(Work::kRay) * sample.ray.rays + price(Work::kOwnSample)));
 }
 
 bool Worker::insert(const Sample& sample, const Insertion& how) {

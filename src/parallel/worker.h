@@ -76,11 +76,12 @@ class Worker {
   void try_some(const FrameOrder& order, std::vector<Sample>& survivors);
   bool see(const Vec3f& hit, bool at_infinity);
   bool put_back(const Sample& survivor);
+  void account_for(const Sample& sample);
   void trace_seeds(const FrameOrder& order);
   void settle(const FrameOrder& order, const std::vector<Sample>& survivors);
-  void receive_seeds(const FrameOrder& order);
+  void receive_seeds(const FrameOrder& order, std::vector<Sample>& survivors);
   void take_in_seeds(const Inbox::Arrived& arrived);
-  void take_in_survivors(const Inbox::Arrived& arrived);
+  void take_over_survivors(const Inbox::Arrived& arrived, std::vector<Sample>& survivors) const;
   void take_in_late_seeds(const Inbox::Arrived& arrived);
 
   void sample(const FrameOrder& order);
@@ -88,7 +89,7 @@ class Worker {
   bool goal_reached() const;
   bool all_done() const;
   void send_bundles(const FrameOrder& order, int round, bool to_all);
-  void send_bundle(int rank, Bundle bundle);
+  void send_bundle(int rank, Bundle bundle, bool counts);
   void receive_bundles(const FrameOrder& order, int round);
   std::vector<Inbox::Arrived> arrived_by(int round, std::vector<Inbox::Arrived> bundles);
   void take_in(const std::vector<Inbox::Arrived>& bundles);

@@ -69,6 +69,7 @@ void Worker::begin_triangulation(int epoch) {
 // kept.
 void Worker::adopt_partition(const FrameOrder& order, bool keep_samples) {
   Partition next = exchange_.partition();
+  if (order.owners.size() != next.owner.size()) throw ProtocolError("a cut that is none of this image");
   next.owner = order.owners;
   std::fill(next.version.begin(), next.version.end(), first_version(order.generation));
   for (int rank = 0; keep_samples && rank < network_.size(); ++rank) {
@@ -79,11 +80,14 @@ void Worker::adopt_partition(const FrameOrder& order, bool keep_samples) {
     }
     if (!moved.empty()) exchange_.introduce(mesh_, moved, rank);
   }
-  for (std::size_t tile = 0; tile < order.tiles.size(); ++tile) {
-    const bool is_new =
-        next.owner[tile] == network_.rank() && !mesh_.region().owns_tile(static_cast<int>(tile));
-    if (is_new) balancer_.expect(static_cast<int>(tile), order.tiles[tile]);
+  std::size_t own = 0;
+  for (std::size_t tile = 0; tile < next.owner.size() && own < order.tiles.size(); ++tile) {
+    if (next.owner[tile] != network_.rank()) continue;
+    const TileEstimate& found = order.tiles[own++];
+    if (!mesh_.region().owns_tile(static_cast<int>(tile))) balancer_.expect(static_cast<int>(tile), found);
   }
+  report_.bytes_balance +=
+      owner_runs(order.owners).size() * sizeof(OwnerRun) + order.tiles.size() * sizeof(TileEstimate);
   exchange_.repartition(mesh_, next);
   own_region_changed();
 }
@@ -193,16 +197,18 @@ void Worker::settle(const FrameOrder& order, const std::vector<Sample>& survivor
     const auto& guests = emigrants[static_cast<std::size_t>(rank)];
     samples.insert(samples.end(), guests.begin(), guests.end());
     const bool peer = std::binary_search(exchange_.seed_peers().begin(), exchange_.seed_peers().end(), rank);
-    if (samples.empty() && !peer && !clock_->in_lockstep()) continue;
-    send_bundle(rank, {order.index, epoch_, kSeedRound, false, 0, {}, {}, {}, std::move(samples)});
+    const bool concerned = !samples.empty() || peer;
+    if (!concerned && !clock_->in_lockstep()) continue;
+    send_bundle(rank, {order.index, epoch_, kSeedRound, false, 0, {}, {}, {}, std::move(samples)}, concerned);
   }
-  receive_seeds(order);
+  receive_seeds(order, own);
   report_.cpu_ms.sampling += clock_->lap_ms();
+  if (order.deadline_s > 0) keep_youngest(own, clock_->affordable(Work::kKeptSample, kCastShare));
   for (const Sample& s : own) put_back(s);
   report_.cpu_ms.casting += clock_->lap_ms();
 }
 
-void Worker::receive_seeds(const FrameOrder& order) {
+void Worker::receive_seeds(const FrameOrder& order, std::vector<Sample>& survivors) {
   const std::vector<int>& peers = exchange_.seed_peers();
   const auto of_this_round = [&](const Inbox::Arrived& a) {
     return a.bundle.frame_index == order.index && a.bundle.round == kSeedRound;
@@ -223,11 +229,13 @@ void Worker::receive_seeds(const FrameOrder& order) {
   const std::vector<Inbox::Arrived> bundles = inbox_.take_bundles(of_this_round);
   for (const Inbox::Arrived& arrived : bundles) stance_.hear(arrived.from, arrived.bundle.stance);
   for (const Inbox::Arrived& arrived : bundles) take_in_seeds(arrived);
-  for (const Inbox::Arrived& arrived : bundles) take_in_survivors(arrived);
+  for (const Inbox::Arrived& arrived : bundles) take_over_survivors(arrived, survivors);
 }
 
+// It counts like one traced here: a tile's quality is that of all its samples, and so is what it has taken.
 bool Worker::put_back(const Sample& survivor) {
   if (!insert(survivor, {network_.rank(), {}, true})) return false;
+  account_for(survivor);
   report_.samples_cast += survivor.frame != frame_number_;
   return true;
 }
@@ -242,11 +250,9 @@ void Worker::take_in_seeds(const Inbox::Arrived& arrived) {
 
 // And what lies in the own region is a survivor that landed here. Who hands it over keeps none: it is this
 // rank's to tell, to the former owner too.
-void Worker::take_in_survivors(const Inbox::Arrived& arrived) {
-  for (const Sample& s : arrived.bundle.samples) {
-    if (!mesh_.region().owns_point(s.x, s.y)) continue;
-    ++(put_back(s) ? report_.samples_received : report_.samples_known);
-  }
+void Worker::take_over_survivors(const Inbox::Arrived& arrived, std::vector<Sample>& survivors) const {
+  std::copy_if(arrived.bundle.samples.begin(), arrived.bundle.samples.end(), std::back_inserter(survivors),
+               [&](const Sample& s) { return mesh_.region().owns_point(s.x, s.y); });
 }
 
 // Seeds and survivors that were not waited for. Tiles may have changed hands since they were sent, and

@@ -34,7 +34,7 @@ FrameOrder some_order() {
   order.camera.forward = {1, 0, 0}, order.camera.slope_per_pixel = 0.01;
   order.camera.width = 320, order.camera.height = 200;
   order.deadline_s = 1.5, order.reserve_s = 0.02;
-  order.generation = 3, order.owners = {1, 0, 1}, order.tiles = {{1, 2}, {3, 4}, {5, 6}};
+  order.generation = 3, order.owners = {1, 0, 0, 1}, order.tiles = {{1, 2}, {3, 4}, {5, 6}};
   return order;
 }
 
@@ -104,6 +104,12 @@ TEST_CASE("a frame order comes back as it was sent") {
   CHECK((back.generation == 3 && back.owners == order.owners));
   REQUIRE(back.tiles.size() == 3);
   CHECK((back.tiles[1].cost == 3 && back.tiles[1].average_weight == 4));
+  // Runs of tiles travel, not tiles.
+  FrameOrder longer = order;
+  longer.owners.insert(longer.owners.end(), 1000, 1);
+  CHECK(encode(longer).size() == encode(order).size());
+  longer.owners.push_back(2);
+  CHECK(encode(longer).size() == encode(order).size() + sizeof(OwnerRun));
   FrameOrder end;
   end.end = true;
   CHECK(decode_frame_order(encode(end)).end);

@@ -15,9 +15,9 @@ std::string page() {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-std::size_t order_bytes(std::size_t tiles) {
+std::size_t order_bytes(std::size_t runs, std::size_t tiles) {
   FrameOrder order;
-  order.owners.resize(tiles);
+  for (std::size_t i = 0; i < runs; ++i) order.owners.push_back(static_cast<std::int32_t>(i % 2));
   order.tiles.resize(tiles);
   return encode(order).size();
 }
@@ -58,9 +58,10 @@ TEST_CASE("the page's formulas are those of the encoders") {
     return text.find('`' + formula + '`') != std::string::npos;
   };
   const auto n = [](std::size_t value) { return std::to_string(value); };
-  const std::size_t order = order_bytes(0), bundle = bundle_bytes(0, 0), pixels = pixels_bytes(0, 0, 0);
+  const std::size_t order = order_bytes(0, 0), bundle = bundle_bytes(0, 0), pixels = pixels_bytes(0, 0, 0);
   CHECK(tells(n(order)));
-  CHECK(tells(n(order) + " + " + n(order_bytes(1) - order) + " T"));
+  CHECK(
+      tells(n(order) + " + " + n(order_bytes(1, 0) - order) + " r + " + n(order_bytes(0, 1) - order) + " t"));
   CHECK(tells(n(bundle) + " + " + n(bundle_bytes(1, 0) - bundle) + " g + " + n(bundle_bytes(0, 1) - bundle) +
               " s"));
   CHECK(tells(n(pixels) + " + " + n(pixels_bytes(1, 0, 0) - pixels) + " t + " +
@@ -71,8 +72,9 @@ TEST_CASE("the page's formulas are those of the encoders") {
 
 TEST_CASE("the worked example's sizes are those of the encoders") {
   const std::string text = page();
-  CHECK(2 == for_each_match(text, R"(\[order (\d+)T = (\d+)\])",
-                            [](const auto& number) { CHECK(order_bytes(number(1)) == number(2)); }));
+  CHECK(3 == for_each_match(text, R"(\[order (\d+)r (\d+)t = (\d+)\])", [](const auto& number) {
+          CHECK(order_bytes(number(1), number(2)) == number(3));
+        }));
   CHECK(16 <= for_each_match(text, R"(\[bundle (\d+)g (\d+)s = (\d+)\])", [](const auto& number) {
           CHECK(bundle_bytes(number(1), number(2)) == number(3));
         }));
