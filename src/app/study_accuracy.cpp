@@ -2,64 +2,147 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <future>
+#include <iterator>
 #include <sstream>
 #include <utility>
 
 #include "app/scene_source.h"
-#include "app/study_accuracy_curves.h"
 #include "app/study_accuracy_page.h"
+#include "app/study_accuracy_parts.h"
 #include "app/study_output.h"
 #include "base/diagnostics.h"
+#include "parser/anim_parser.h"
 #include "scene/nff_writer.h"
 
 namespace pprt {
 namespace {
 
-constexpr int kQuickSize = 96;  // pixels
+constexpr int kSequenceCells = 4;  // of a sequence's converged frames: 32 samples a pixel
+constexpr int kQuickSequenceCells = 2;
+constexpr int kMostFrames = 12;   // of a script
+constexpr int kFigureSize = 256;  // pixels
 
-void tell(const std::string& what) {
-  fmt::print(stderr, "pprt-study: {}\n", what);
-}
+// What is done to one scene, told on standard error with the time that it took.
+class Progress {
+ public:
+  explicit Progress(std::string scene) : scene_(std::move(scene)) {}
+  void tell(const std::string& what) {
+    const auto now = std::chrono::steady_clock::now();
+    const std::chrono::duration<double> passed = now - std::exchange(since_, now);
+    fmt::print(stderr, "pprt-study: {}: {}: {:.1f} s\n", scene_, what, passed.count());
+  }
 
-// A scene read, and what is measured of it.
+ private:
+  std::string scene_;
+  std::chrono::steady_clock::time_point since_ = std::chrono::steady_clock::now();
+};
+
+// A scene read, and what is needed to measure it.
 struct Stage {
+  std::string name;
   SceneDescription description;
   std::string nff;  // canonical: stands for the scene
   CompiledScene scene;
-  Camera camera;
 
-  Subject subject() const { return {scene, camera}; }
+  Camera camera(int size) const {
+    View view = *description.view;
+    view.width = view.height = size;
+    return scene.camera(view);
+  }
 };
 
-Stage make_stage(const std::string& name, int size) {
+Stage make_stage(const std::string& name) {
   SceneDescription description = load_scene(name).scene;
   if (!description.view) throw InputError(fmt::format("{}: the scene has no view", name));
-  View view = *description.view;
-  view.width = view.height = size;
   std::ostringstream nff;
   write_nff(description, nff);
   CompiledScene scene = compile(description);
-  const Camera camera = scene.camera(view);
-  return {std::move(description), nff.str(), std::move(scene), camera};
+  return {name, std::move(description), nff.str(), std::move(scene)};
 }
 
-SceneCurves measure(const std::string& name, const Stage& stage, const AccuracyOptions& options) {
-  const auto begin = std::chrono::steady_clock::now();
-  const auto passed = [&] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  };
-  const Reference reference =
-      cached_reference(stage.nff, stage.subject(), options.reference_cells, cache_directory(options));
-  tell(fmt::format("{}: converged frame, {} samples a pixel, its own rmse {:.5f}: {:.1f} s", name,
-                   reference.samples, reference.own_rmse, passed()));
-  CurveSettings settings;
-  settings.repeats = options.repeats;
+// All that is measured.
+struct Results {
+  std::vector<SceneCurves> curves, small_curves;  // those beside other renderers are smaller
+  std::vector<ForeignResult> foreign;
+  std::vector<SceneEffects> effects;
+  std::vector<NamedPicture> pictures;
+  std::vector<RatePoint> rates;
+};
+
+std::vector<RatePoint> rates_of(const Stage& stage, const Animation* script, const AccuracyOptions& options) {
+  const int size = options.size / 2;
+  const std::vector<Shot> shots = sequence_of(stage.scene, *stage.description.view, script, size,
+                                              options.quick ? kMostFrames / 2 : kMostFrames);
+  std::vector<Image> references;
+  for (const Shot& shot : shots) {
+    references.push_back(cached_reference(stage.nff, {stage.scene, shot.camera},
+                                          options.quick ? kQuickSequenceCells : kSequenceCells,
+                                          cache_directory(options))
+                             .image);
+  }
+  RateSettings settings;
+  settings.ranks = options.ranks;
   settings.seed = options.seed;
-  SceneCurves curves =
-      measure_curves(name, stage.subject(), reference, accuracy_methods(), settings, thread_cpu_seconds);
-  tell(fmt::format("{}: {} pictures: {:.1f} s", name, curves.points.size(), passed()));
-  return curves;
+  settings.units_per_second = measured_units_per_second({stage.scene, shots.front().camera});
+  if (options.quick) settings.rates = {15, 30, 60};
+  return measure_rates(stage.name, stage.scene, shots, references, settings);
+}
+
+std::string rates_setting(const AccuracyOptions& options, const Animation* script) {
+  return fmt::format(
+      "{} of {} x {} pixels on {} under the work clock, which counts work instead of seconds: a second is "
+      "what a "
+      "core of this machine does in a second, measured on each scene. So no deadline is missed for want of a "
+      "core; lateness is that of the virtual time.",
+      script ? "The frames of " + script->name : "Eight frames round the scene, with a jump in the middle,",
+      options.size / 2, options.size / 2,
+      options.ranks == 1 ? "one rank" : fmt::format("{} ranks", options.ranks));
+}
+
+// Other programs, and this one at their size.
+std::vector<ForeignResult> foreign_of(const Stage& stage, int size) {
+  return {measure_povray(stage.name, stage.description, size),
+          measure_tachyon(stage.name, stage.description, size)};
+}
+
+void measure_scene(const Stage& stage, const Animation* script, const AccuracyOptions& options,
+                   Results& results) {
+  Progress progress(stage.name);
+  const std::filesystem::path cache = cache_directory(options);
+  const Subject subject{stage.scene, stage.camera(options.size)};
+  const Reference reference = cached_reference(stage.nff, subject, options.reference_cells, cache);
+  progress.tell(fmt::format("converged frame, {} samples a pixel, its own rmse {:.5f}", reference.samples,
+                            reference.own_rmse));
+  const int small = options.size / 2;
+  const Subject small_subject{stage.scene, stage.camera(small)};
+  const Reference small_reference =
+      cached_reference(stage.nff, small_subject, options.reference_cells, cache);
+  // Other renderers go beside the curves, which CPU times allow.
+  auto foreign = std::async(std::launch::async, [&] { return foreign_of(stage, small); });
+  CurveSettings settings{options.repeats, CurveSettings().greatest_share, options.seed};
+  results.curves.push_back(
+      measure_curves(stage.name, subject, reference, accuracy_methods(), settings, thread_cpu_seconds));
+  progress.tell(fmt::format("{} pictures", results.curves.back().points.size()));
+  settings.repeats = 1;
+  const std::vector<Method> methods = {progressive_method(), uniform_method()};
+  results.small_curves.push_back(
+      measure_curves(stage.name, small_subject, small_reference, methods, settings, thread_cpu_seconds));
+  const std::vector<ForeignResult> others = foreign.get();
+  results.foreign.insert(results.foreign.end(), others.begin(), others.end());
+  progress.tell("other renderers");
+  results.effects.push_back(measure_effects(stage.name, stage.description, subject.camera, reference.image,
+                                            options.repeats, thread_cpu_seconds));
+  progress.tell("effects");
+  std::vector<NamedPicture> pictures = figure_pictures(
+      stage.name, file_word(stage.name), {stage.scene, stage.camera(std::min(options.size, kFigureSize))},
+      options.seed, thread_cpu_seconds);
+  std::move(pictures.begin(), pictures.end(), std::back_inserter(results.pictures));
+  const std::vector<RatePoint> rates = rates_of(stage, script, options);
+  results.rates.insert(results.rates.end(), rates.begin(), rates.end());
+  progress.tell("frame rates");
 }
 
 Provenance facts_of(const AccuracyOptions& options, const std::string& command_line) {
@@ -69,11 +152,54 @@ Provenance facts_of(const AccuracyOptions& options, const std::string& command_l
           {"time", "CPU time of one thread, median of the repeats"}};
 }
 
+struct Inputs {
+  std::vector<std::string> scenes;
+  std::optional<Animation> script;
+};
+
+bool is_script(const std::string& name) {
+  return std::filesystem::path(name).extension() == ".anim";
+}
+
+// A script's scene is told relative to the script.
+std::string scene_of(const Animation& script, const std::string& script_path) {
+  const std::string& scene = *script.scene;
+  if (scene.starts_with("spd:")) return scene;
+  return (std::filesystem::path(script_path).parent_path() / scene).string();
+}
+
+Inputs read_inputs(const AccuracyOptions& options) {
+  Inputs inputs;
+  std::string script_path;
+  for (const std::string& name : options.inputs) {
+    if (!is_script(name)) {
+      inputs.scenes.push_back(name);
+      continue;
+    }
+    if (inputs.script) throw UsageError("there can be one animation script only");
+    inputs.script = read_animation(name).animation;
+    script_path = name;
+  }
+  if (inputs.scenes.empty()) {
+    inputs.scenes = inputs.script && inputs.script->scene
+                        ? std::vector{scene_of(*inputs.script, script_path)}
+                        : std::vector<std::string>{"spd:tree", "spd:gears", "spd:balls", "spd:tetra"};
+  }
+  return inputs;
+}
+
+void answer(const Inputs& inputs, const Animation* script, const AccuracyOptions& options) {
+  for (const std::string& name : inputs.scenes) {
+    const std::vector<RatePoint> points = rates_of(make_stage(name), script, options);
+    if (options.want_rmse) fmt::print("{}\n", plan(name, points, {options.want_rmse, {}}));
+    if (options.want_fps) fmt::print("{}\n", plan(name, points, {{}, options.want_fps}));
+  }
+}
+
 }  // namespace
 
 AccuracyOptions settled(AccuracyOptions options) {
-  constexpr int kSize = 512, kCells = 8, kQuickCells = 4;
-  if (options.scenes.empty()) options.scenes = {"spd:tree", "spd:gears", "spd:balls", "spd:tetra"};
+  constexpr int kSize = 512, kQuickSize = 96, kCells = 8, kQuickCells = 4;
   if (options.size == 0) options.size = options.quick ? kQuickSize : kSize;
   if (options.reference_cells == 0) options.reference_cells = options.quick ? kQuickCells : kCells;
   return options;
@@ -86,12 +212,21 @@ std::filesystem::path cache_directory(const AccuracyOptions& options) {
 
 void study_accuracy(const AccuracyOptions& asked, const std::string& command_line) {
   const AccuracyOptions options = settled(asked);
-  StudyOutput output(options.directory, "What accuracy costs in time", facts_of(options, command_line));
-  std::vector<SceneCurves> scenes;
-  for (const std::string& name : options.scenes) {
-    scenes.push_back(measure(name, make_stage(name, options.size), options));
+  const Inputs inputs = read_inputs(options);
+  const Animation* script = inputs.script ? &*inputs.script : nullptr;
+  if (options.want_rmse || options.want_fps) {
+    answer(inputs, script, options);
+    if (options.directory.empty()) return;
   }
-  write_curves(scenes, output);
+  if (options.directory.empty()) throw UsageError("--output is required");
+  StudyOutput output(options.directory, "What accuracy costs in time", facts_of(options, command_line));
+  Results results;
+  for (const std::string& name : inputs.scenes) measure_scene(make_stage(name), script, options, results);
+  write_curves(results.curves, output);
+  write_figures(results.pictures, output);
+  write_foreign(results.foreign, results.small_curves, options.size / 2, output);
+  write_effects(results.effects, output);
+  write_rates(results.rates, rates_setting(options, script), output);
   output.finish();
 }
 

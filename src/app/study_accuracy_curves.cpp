@@ -13,15 +13,6 @@
 namespace pprt {
 namespace {
 
-double rmse_of(const Image& image, const Image& reference) {
-  double sum = 0;
-  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-    const Color d = image.pixels[i] - reference.pixels[i];
-    sum += static_cast<double>(d.x * d.x + d.y * d.y + d.z * d.z);
-  }
-  return std::sqrt(sum / (3 * static_cast<double>(image.pixels.size())));
-}
-
 CurvePoint judged(const std::string& method, int repeat, Rendering&& rendering, const Image& reference) {
   constexpr double kThreshold = 1;  // the share of pixels beyond is not asked for
   replace_non_finite(rendering.image);

@@ -148,4 +148,13 @@ Image clamped(Image image) {
   return image;
 }
 
+double rmse_of(const Image& image, const Image& reference) {
+  double sum = 0;
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    const Color d = image.pixels[i] - reference.pixels[i];
+    sum += static_cast<double>(d.x * d.x + d.y * d.y + d.z * d.z);
+  }
+  return std::sqrt(sum / (3 * static_cast<double>(image.pixels.size())));
+}
+
 }  // namespace pprt

@@ -28,6 +28,9 @@ Reference cached_reference(const std::string& scene_nff, const Subject& subject,
 // $XDG_CACHE_HOME/pprt, or ~/.cache/pprt; empty when neither variable is set.
 std::filesystem::path default_cache_directory();
 
+// Root mean square of the differences over all channels of all pixels. Both of the same size.
+double rmse_of(const Image& image, const Image& reference);
+
 // Every channel held to [0, 1].
 Image clamped(Image image);
 

@@ -61,11 +61,11 @@ CLI::App* add_paper(CLI::App& app, pprt::PaperOptions& options) {
 CLI::App* add_accuracy(CLI::App& app, pprt::AccuracyOptions& options) {
   CLI::App* command = app.add_subcommand("accuracy", "What a better picture costs in time");
   command
-      ->add_option("SCENE", options.scenes,
-                   "FILE.nff or spd:NAME[:SIZE]; default: tree, gears, balls and tetra")
+      ->add_option("SCENE", options.inputs,
+                   "FILE.nff or spd:NAME[:SIZE], and a FILE.anim for the sequence at fixed rates; default: "
+                   "tree, gears, balls and tetra")
       ->type_name("");
   command->add_option("-o,--output", options.directory, "Directory for tables, plots and index.html")
-      ->required()
       ->type_name("DIR");
   command->add_flag("--quick", options.quick, "Small pictures: a trial");
   command->add_option("--size", options.size, "Of the pictures, pixels square; default: 512, or 96 if quick")
@@ -85,6 +85,18 @@ CLI::App* add_accuracy(CLI::App& app, pprt::AccuracyOptions& options) {
                    "Directory that keeps converged frames; default: pprt in the user's cache directory")
       ->type_name("DIR");
   command->add_flag("--no-cache", options.no_cache, "Neither keep converged frames nor use those kept");
+  command->add_option("--ranks", options.ranks, "Of the sequences at fixed rates")
+      ->check(CLI::Range(1, 512))
+      ->capture_default_str()
+      ->type_name("N");
+  command
+      ->add_option("--want-rmse", options.want_rmse,
+                   "Answer at which rate frames have this error; without -o measure nothing else")
+      ->check(CLI::PositiveNumber)
+      ->type_name("E");
+  command->add_option("--want-fps", options.want_fps, "Answer which error frames have at this rate")
+      ->check(CLI::PositiveNumber)
+      ->type_name("F");
   command->add_option("--seed", options.seed, "Of the seed samples' places in the first repeat")
       ->capture_default_str()
       ->type_name("N");

@@ -33,6 +33,10 @@ void StudyOutput::write_table(const std::string& name, const Table& table) const
   write_whole_file(directory_ / (name + ".csv"), to_csv(table, provenance_));
 }
 
+void StudyOutput::write_picture(const std::string& file, std::string_view bytes) const {
+  write_whole_file(directory_ / file, bytes);
+}
+
 void StudyOutput::add_figure(const Plot& plot, std::string_view caption) {
   if (missing_.empty()) {
     try {

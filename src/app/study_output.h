@@ -23,6 +23,8 @@ class StudyOutput {
 
   void write_table(const std::string& name, const Table& table) const;  // NAME.csv
 
+  void write_picture(const std::string& file, std::string_view bytes) const;
+
   // NAME.svg, and on the page. Without gnuplot the page says what is missing.
   void add_figure(const Plot& plot, std::string_view caption);
 

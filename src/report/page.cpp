@@ -21,6 +21,7 @@ figcaption { font-size: 0.85rem; color: #555; }
 div.gallery { display: flex; flex-wrap: wrap; gap: 1rem; } div.gallery figure { margin: 0; width: 18.5rem; }
 div.gallery img { width: 100%; }
 figure img { max-width: 100%; image-rendering: pixelated; border: 1px solid #ddd; }
+pre { background: #f6f6f6; padding: 0.6rem 0.9rem; font-size: 0.8rem; overflow-x: auto; }
 p.note { background: #fff4dd; border-left: 4px solid #e69f00; padding: 0.5rem 1rem; }
 )css";
 
@@ -98,6 +99,10 @@ void Page::paragraph(std::string_view text) {
 
 void Page::note(std::string_view text) {
   body_ += fmt::format("<p class=\"note\">{}</p>\n", escape_html(text));
+}
+
+void Page::listing(std::string_view text) {
+  body_ += fmt::format("<pre>{}</pre>\n", escape_html(text));
 }
 
 void Page::table(const Table& table) {

@@ -21,7 +21,8 @@ class Page {
 
   void heading(std::string_view text);
   void paragraph(std::string_view text);
-  void note(std::string_view text);  // stands out: something is missing
+  void note(std::string_view text);     // stands out: something is missing
+  void listing(std::string_view text);  // in lines of their own, letters of one width
   void table(const Table& table);
   void figure(std::string_view svg, std::string_view caption);
   void picture(std::string_view png, std::string_view caption);

@@ -252,7 +252,8 @@ CompiledScene compile(const SceneDescription& scene, const CompileOptions& optio
   impl->options = options;
   impl->inventory = take_inventory(scene);
   impl->effects = chosen_effects(impl->inventory, options);
-  impl->kernel = kernel_for(impl->effects, options.count_as_published);
+  impl->kernel =
+      kernel_for(options.general_kernel ? EffectSet::all() : impl->effects, options.count_as_published);
   impl->normalisation = normalising(box);
   impl->background = to_color(scene.background.value_or(Rgb(0, 0, 0)));
 

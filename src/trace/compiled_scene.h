@@ -23,6 +23,9 @@ struct CompileOptions {
   // Counting as Haines' tables do: every hit on T > 0 spawns a reflection ray even where Ks = 0, and rays are
   // followed to the full depth whatever their weight.
   bool count_as_published = false;
+  // Follow rays with the kernel for all effects, whatever the scene calls for: to measure what the special
+  // ones gain. Pictures are the same.
+  bool general_kernel = false;
 };
 
 // Immutable once compiled; any number of Tracers may read it. Coordinates inside are recentred and rescaled,

@@ -1,0 +1,261 @@
+#include "app/study_accuracy_rates.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <ctime>
+#include <exception>
+#include <iterator>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+#include "app/study_accuracy_reference.h"
+#include "app/study_accuracy_verdicts.h"
+#include "app/study_cast_errors.h"
+#include "app/tracer_probe.h"
+#include "parallel/virtual_ranks.h"
+#include "parallel/work_units.h"
+
+namespace pprt {
+namespace {
+
+// The vector turned about a unit axis (Rodrigues).
+Vec3d turned(const Vec3d& v, const Vec3d& axis, double degrees) {
+  const double angle = degrees * M_PI / 180;
+  return v * std::cos(angle) + axis.cross(v) * std::sin(angle) + axis * (axis.dot(v) * (1 - std::cos(angle)));
+}
+
+SessionSettings session_settings(const RateSettings& settings, const Camera& camera, CastChoice cast,
+                                 double fps) {
+  SessionSettings s;
+  s.width = camera.width;
+  s.height = camera.height;
+  s.clock = ClockKind::kWork;
+  s.machine = cluster_machine();
+  s.machine.units_per_second = settings.units_per_second;
+  s.frames_per_second = fps;
+  s.budget_units = static_cast<std::uint64_t>(settings.units_per_second / fps);
+  s.cast = cast;
+  s.seed = settings.seed;
+  return s;
+}
+
+struct Told {
+  std::vector<Image> pictures;
+  std::vector<double> late_ms;
+  double samples = 0;  // of all frames
+};
+
+Told play(const CompiledScene& scene, const std::vector<Shot>& shots, int ranks,
+          const SessionSettings& settings) {
+  std::vector<Tracer> tracers(static_cast<std::size_t>(ranks), Tracer(scene, Camera()));
+  Told told;
+  run_virtual_ranks(
+      ranks, settings, [&](int rank) { return probe_of(tracers[static_cast<std::size_t>(rank)]); },
+      [&](int index) -> std::optional<FrameRequest> {
+        if (index >= static_cast<int>(shots.size())) return std::nullopt;
+        const Shot& shot = shots[static_cast<std::size_t>(index)];
+        return FrameRequest{index + 1, shot.camera, shot.cut};
+      },
+      [&](FinishedFrame&& frame) {
+        told.pictures.push_back(clamped(std::move(frame.image)));
+        // Told for a processor of the work clock's default speed.
+        told.late_ms.push_back(frame.late_ms * kWorkUnitsPerSecond / settings.machine.units_per_second);
+        for (const RankReport& r : frame.ranks) told.samples += static_cast<double>(r.samples_in_region);
+      });
+  return told;
+}
+
+RatePoint measure(const std::string& name, const CompiledScene& scene, const std::vector<Shot>& shots,
+                  const std::vector<Image>& references, const RateSettings& settings, CastChoice cast,
+                  double fps) {
+  const Camera& camera = shots.front().camera;
+  Told told = play(scene, shots, settings.ranks, session_settings(settings, camera, cast, fps));
+  RatePoint point;
+  point.scene = name, point.cast = cast, point.fps = fps;
+  judge_sequence(shots, told.pictures, references, point);
+  const double frames = static_cast<double>(shots.size());
+  point.samples = told.samples / (frames * camera.width * camera.height);
+  std::sort(told.late_ms.begin(), told.late_ms.end());
+  const auto quantile = [&](double q) {
+    return told.late_ms[static_cast<std::size_t>(q * static_cast<double>(told.late_ms.size() - 1))];
+  };
+  point.late_p50_ms = quantile(0.5), point.late_p95_ms = quantile(0.95), point.late_max_ms = quantile(1);
+  point.on_time = static_cast<double>(std::count_if(told.late_ms.begin(), told.late_ms.end(),
+                                                    [](double ms) { return ms <= 0; })) /
+                  frames;
+  return point;
+}
+
+Image change(const Image& from, const Image& to) {
+  Image difference = to;
+  for (std::size_t i = 0; i < from.pixels.size(); ++i) difference.pixels[i] -= from.pixels[i];
+  return difference;
+}
+
+// Until the first frame from `cut` on whose error is at most `enough`.
+double frames_until(const std::vector<double>& errors, std::size_t cut, double enough) {
+  std::size_t i = cut;
+  while (i < errors.size() && errors[i] > enough) ++i;
+  return static_cast<double>(i - cut);
+}
+
+double mean_of(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double v : values) sum += v;
+  return values.empty() ? 0 : sum / static_cast<double>(values.size());
+}
+
+// y where x is on the polyline through (x, y) by increasing x, in logarithms; NaN outside.
+double interpolated(const std::vector<std::pair<double, double>>& line, double x) {
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const auto& [x0, y0] = line[i - 1];
+    const auto& [x1, y1] = line[i];
+    if (x < std::min(x0, x1) || x > std::max(x0, x1)) continue;
+    if (x0 == x1) return y0;
+    return y0 * std::pow(y1 / y0, std::log(x / x0) / std::log(x1 / x0));
+  }
+  return kNoValue;
+}
+
+}  // namespace
+
+std::vector<Shot> sequence_of(const CompiledScene& scene, const View& view, const Animation* script, int size,
+                              int most) {
+  constexpr int kFrames = 8;
+  constexpr double kStep = 2, kJump = 120;  // degrees
+  View base = view;
+  base.width = base.height = size;
+  std::vector<Shot> shots;
+  const int frames = std::min(most, script ? script->frames : kFrames);
+  for (int frame = 1; frame <= frames; ++frame) {
+    if (script) {
+      shots.push_back({scene.camera(view_at(*script, frame, base)), cut_before(*script, frame)});
+      continue;
+    }
+    const bool second = frame > kFrames / 2;
+    View here = base;
+    const Vec3d axis = view.up / std::sqrt(view.up.dot(view.up));
+    here.from = view.at + turned(view.from - view.at, axis, kStep * (frame - 1) + (second ? kJump : 0));
+    shots.push_back({scene.camera(here), frame == kFrames / 2 + 1});
+  }
+  return shots;
+}
+
+double measured_units_per_second(const Subject& subject) {
+  constexpr double kUnits = 2e8;
+  RateSettings settings;
+  settings.units_per_second = kUnits;
+  const SessionSettings session = session_settings(settings, subject.camera, CastChoice::kOff, 1);
+  const std::clock_t begin = std::clock();
+  play(subject.scene, {{subject.camera, false}}, 1, session);
+  return kUnits * CLOCKS_PER_SEC / static_cast<double>(std::max<std::clock_t>(1, std::clock() - begin));
+}
+
+std::vector<RatePoint> measure_rates(const std::string& name, const CompiledScene& scene,
+                                     const std::vector<Shot>& shots, const std::vector<Image>& references,
+                                     const RateSettings& settings) {
+  const std::size_t ways = settings.casts.size();
+  std::vector<RatePoint> points(ways * settings.rates.size());
+  std::atomic<std::size_t> next = 0;
+  std::mutex failing;
+  std::exception_ptr failure;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < points.size(); i = next++) {
+      try {
+        points[i] = measure(name, scene, shots, references, settings, settings.casts[i % ways],
+                            settings.rates[i / ways]);
+      } catch (...) {
+        const std::lock_guard lock(failing);
+        failure = std::current_exception();
+        next = points.size();
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> workers(std::max(1u, std::thread::hardware_concurrency()));
+    for (std::jthread& worker : workers) worker = std::jthread(work);
+  }
+  if (failure) std::rethrow_exception(failure);
+  return points;
+}
+
+void judge_sequence(const std::vector<Shot>& shots, const std::vector<Image>& pictures,
+                    const std::vector<Image>& references, RatePoint& point) {
+  if (pictures.size() != shots.size() || references.size() != shots.size() || shots.empty()) {
+    throw std::invalid_argument("a sequence needs a picture and a reference for every frame");
+  }
+  std::vector<double> errors, after_cut, others, recovery;
+  double wrong = 0, own = 0;
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    errors.push_back(rmse_of(pictures[i], references[i]));
+    if (i == 0 || shots[i].cut) {
+      after_cut.push_back(errors[i]);
+      continue;
+    }
+    others.push_back(errors[i]);
+    const Image expected = change(references[i - 1], references[i]);
+    const Image still(expected.width, expected.height);
+    wrong += std::pow(rmse_of(change(pictures[i - 1], pictures[i]), expected), 2);
+    own += std::pow(rmse_of(expected, still), 2);
+  }
+  const double enough = 1.1 * spread_of(others.empty() ? errors : others).median;
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    if (i == 0 || shots[i].cut) recovery.push_back(frames_until(errors, i, enough));
+  }
+  point.rmse = mean_of(errors);
+  point.rmse_after_cut = mean_of(after_cut);
+  point.recovery = mean_of(recovery);
+  point.flicker = own > 0 ? std::sqrt(wrong / own) : kNoValue;
+}
+
+std::string plan(const std::string& scene, const std::vector<RatePoint>& points, const Wish& wish) {
+  std::vector<std::pair<double, double>> line;  // rate, error
+  for (const RatePoint& p : points) {
+    if (p.scene == scene && p.cast == CastChoice::kAuto) line.emplace_back(p.fps, p.rmse);
+  }
+  if (line.empty()) throw std::invalid_argument("nothing was measured of " + scene);
+  std::sort(line.begin(), line.end());
+  const auto& [slowest, least] = line.front();
+  const auto& [fastest, most] = line.back();
+  if (wish.fps) {
+    const double rmse = interpolated(line, *wish.fps);
+    if (!std::isnan(rmse))
+      return fmt::format("{}: at {:g} frames/s the RMSE will be about {:.4f}.", scene, *wish.fps, rmse);
+    return *wish.fps < slowest ? fmt::format("{}: below {:g} frames/s the RMSE will be {:.4f} or less.",
+                                             scene, slowest, least)
+                               : fmt::format("{}: above {:g} frames/s the RMSE will be {:.4f} or more.",
+                                             scene, fastest, most);
+  }
+  const double wanted = wish.rmse.value_or(0);
+  if (wanted >= most)
+    return fmt::format("{}: an RMSE of {:g} is kept at {:g} frames/s and more.", scene, wanted, fastest);
+  if (wanted < least) {
+    return fmt::format("{}: an RMSE of {:g} needs less than {:g} frame/s, at which it is {:.4f}.", scene,
+                       wanted, slowest, least);
+  }
+  // The fastest rate that still has it.
+  std::reverse(line.begin(), line.end());
+  for (auto& [x, y] : line) std::swap(x, y);
+  return fmt::format("{}: an RMSE of {:g} can be had at about {:.3g} frames/s.", scene, wanted,
+                     interpolated(line, wanted));
+}
+
+Table rates_table(const std::vector<RatePoint>& points) {
+  Table table{{"scene", "cast", "frames/s", "rmse", "rmse after a cut", "frames to recover", "flicker",
+               "samples a pixel", "on time", "late p50 ms", "late p95 ms", "late max ms"},
+              {},
+              {}};
+  for (const RatePoint& p : points) {
+    table.rows.push_back({p.scene, std::string(to_word(p.cast)), p.fps, p.rmse, p.rmse_after_cut, p.recovery,
+                          p.flicker, p.samples, p.on_time, p.late_p50_ms, p.late_p95_ms, p.late_max_ms});
+  }
+  return table;
+}
+
+}  // namespace pprt

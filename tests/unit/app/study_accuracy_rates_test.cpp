@@ -1,0 +1,142 @@
+// Errors at a fixed rate, the planner, effects and other renderers of the accuracy study.
+#include "app/study_accuracy_rates.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "app/study_accuracy_effects.h"
+#include "app/study_accuracy_foreign.h"
+#include "app/study_accuracy_pictures.h"
+#include "app/study_accuracy_reference.h"
+#include "image/image_io.h"
+#include "spd/spd.h"
+
+using namespace pprt;
+
+namespace {
+
+std::vector<Image> greys(const std::vector<float>& levels) {
+  std::vector<Image> images;
+  for (const float v : levels) images.emplace_back(2, 2, Color(v, v, v));
+  return images;
+}
+
+std::vector<RatePoint> halving_with_time() {
+  std::vector<RatePoint> points;
+  for (const double fps : {1.0, 4.0, 16.0}) {
+    RatePoint& p = points.emplace_back();
+    p.scene = "s", p.cast = CastChoice::kAuto, p.fps = fps, p.rmse = 0.01 * std::sqrt(fps);
+  }
+  return points;
+}
+
+}  // namespace
+
+TEST_CASE("a sequence's figures follow from its pictures") {
+  std::vector<Shot> shots(6);
+  shots[3].cut = true;
+  const std::vector<Image> truth = greys({0.1f, 0.2f, 0.3f, 0.8f, 0.7f, 0.6f});
+  RatePoint same;
+  judge_sequence(shots, truth, truth, same);
+  CHECK(same.rmse == 0);
+  CHECK(same.rmse_after_cut == 0);
+  CHECK(same.recovery == 0);
+  CHECK(same.flicker == 0);
+  // Errors .04 .02 .01 | .08 .02 .01: changes are wrong by .02 .01 | .06 .01 where the reference's are .1
+  // each.
+  RatePoint point;
+  judge_sequence(shots, greys({0.14f, 0.22f, 0.31f, 0.88f, 0.72f, 0.61f}), truth, point);
+  CHECK(point.rmse == Approx(0.18 / 6).epsilon(1e-4));
+  CHECK(point.rmse_after_cut == Approx(0.06).epsilon(1e-4));
+  CHECK(point.recovery == Approx(2));  // the median of the others is .015: .02 is too much
+  CHECK(point.flicker == Approx(std::sqrt((0.0004 + 0.0001 + 0.0036 + 0.0001) / 0.04)).epsilon(1e-3));
+  CHECK_THROWS_AS(judge_sequence(shots, greys({0.1f}), truth, point), std::invalid_argument);
+}
+
+TEST_CASE("the planner answers one from the other") {
+  const std::vector<RatePoint> points = halving_with_time();
+  CHECK(plan("s", points, {{}, 4.0}) == "s: at 4 frames/s the RMSE will be about 0.0200.");
+  CHECK(plan("s", points, {{}, 9.0}) == "s: at 9 frames/s the RMSE will be about 0.0300.");
+  CHECK(plan("s", points, {0.03, {}}) == "s: an RMSE of 0.03 can be had at about 9 frames/s.");
+  CHECK(plan("s", points, {0.001, {}}) ==
+        "s: an RMSE of 0.001 needs less than 1 frame/s, at which it is 0.0100.");
+  CHECK(plan("s", points, {0.5, {}}) == "s: an RMSE of 0.5 is kept at 16 frames/s and more.");
+  CHECK(plan("s", points, {{}, 99.0}) == "s: above 16 frames/s the RMSE will be 0.0400 or more.");
+  CHECK(plan("s", points, {{}, 0.5}) == "s: below 1 frames/s the RMSE will be 0.0100 or less.");
+  CHECK_THROWS_AS(plan("t", points, {0.5, {}}), std::invalid_argument);
+}
+
+TEST_CASE("more time a frame makes better frames, and the work clock's deadlines hold") {
+  const SceneDescription tree = make_spd("tree", 4);
+  const CompiledScene scene = compile(tree);
+  const std::vector<Shot> shots = sequence_of(scene, *tree.view, nullptr, 64, 3);
+  REQUIRE(shots.size() == 3);
+  CHECK_FALSE(shots[0].camera == shots[1].camera);
+  std::vector<Image> references;
+  for (const Shot& shot : shots) references.push_back(converged_reference({scene, shot.camera}, 2).image);
+  RateSettings settings;
+  settings.rates = {50, 800};
+  settings.casts = {CastChoice::kOff, CastChoice::kAuto};
+  const std::vector<RatePoint> points = measure_rates("tree", scene, shots, references, settings);
+  REQUIRE(points.size() == 4);
+  CHECK(points[0].rmse < 0.8 * points[2].rmse);
+  CHECK(points[0].samples > points[2].samples);
+  for (const RatePoint& p : points) {
+    CHECK(p.on_time == 1);
+    CHECK(p.late_max_ms <= 0);
+    CHECK(p.late_max_ms > -1000 / p.fps);
+  }
+}
+
+TEST_CASE("leaving an effect out is seen in rays and errors; the general kernel shows the same") {
+  const SceneDescription balls = make_spd("balls", 1);
+  const CompiledScene scene = compile(balls);
+  View view = *balls.view;
+  view.width = view.height = 48;
+  const Camera camera = scene.camera(view);
+  const SceneEffects effects = measure_effects(
+      "balls", balls, camera, converged_reference({scene, camera}, 4).image, 1, thread_cpu_seconds);
+  const EffectCost& whole = effects.costs.front();
+  CHECK(whole.time_ratio == 1);
+  REQUIRE(effects.costs.size() == 6);
+  for (const EffectCost& c : effects.costs) {
+    CAPTURE(c.variant);
+    if (c.variant == "the general kernel") {
+      CHECK(c.rmse == whole.rmse);
+      CHECK(c.rays_per_eye == whole.rays_per_eye);
+    } else if (c.variant != whole.variant) {
+      CHECK(c.rmse > 2 * whole.rmse);
+      CHECK(c.rays_per_eye <= whole.rays_per_eye);
+    }
+  }
+  CHECK(effects.costs[4].variant == "without any");
+  CHECK(effects.costs[4].rays_per_eye == 1);
+  CHECK(effects.census.find("reflection") != std::string::npos);
+}
+
+TEST_CASE("a thousand samples are shown in four pictures") {
+  const SceneDescription tree = make_spd("tree", 4);
+  const CompiledScene scene = compile(tree);
+  View view = *tree.view;
+  view.width = view.height = 64;
+  const auto pictures = figure_pictures("spd:tree:4", file_word("spd:tree:4"), {scene, scene.camera(view)}, 1,
+                                        thread_cpu_seconds);
+  REQUIRE(pictures.size() == 4);
+  CHECK(pictures[0].name == "spd-tree-4-complexity.png");
+  CHECK(pictures[1].caption == "spd:tree:4: 1000 samples");
+  for (const NamedPicture& p : pictures) CHECK(decode_png(p.png).width >= 64);
+  // The background, at the corner, is cheaper than the tree, and lighter.
+  const Image map = decode_png(pictures[0].png);
+  CHECK(map.at(1, 1).x > map.at(32, 40).x);
+}
+
+TEST_CASE("what Tachyon cannot show is told") {
+  CHECK(tachyon_defect(make_spd("tree", 2)) == "it shows cones as cylinders");
+  CHECK(tachyon_defect(make_spd("gears", 1)) == "it cuts concave polygons as if they were convex");
+  for (const char* name : {"balls", "mount", "rings", "tetra", "teapot", "jacks"}) {
+    CAPTURE(name);
+    CHECK(tachyon_defect(make_spd(name, 2)).empty());
+  }
+}
