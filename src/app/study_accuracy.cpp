@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kSequenceCells = 4;  // of a sequence's converged frames: 32 samples a pixel
 constexpr int kQuickSequenceCells = 2;
-constexpr int kMostFrames = 12;   // of a script
+constexpr int kMostFrames = 8;    // of a script
 constexpr int kFigureSize = 256;  // pixels
 
 // What is done to one scene, told on standard error with the time that it took.
@@ -72,8 +72,14 @@ struct Results {
   std::vector<RatePoint> rates;
 };
 
+// Of the pictures of sequences. The planner's are as large as was asked for.
+int sequence_size(const AccuracyOptions& options) {
+  if (options.directory.empty()) return options.size;
+  return options.quick ? options.size / 2 : options.size / 4;
+}
+
 std::vector<RatePoint> rates_of(const Stage& stage, const Animation* script, const AccuracyOptions& options) {
-  const int size = options.size / 2;
+  const int size = sequence_size(options);
   const std::vector<Shot> shots = sequence_of(stage.scene, *stage.description.view, script, size,
                                               options.quick ? kMostFrames / 2 : kMostFrames);
   std::vector<Image> references;
@@ -87,7 +93,7 @@ std::vector<RatePoint> rates_of(const Stage& stage, const Animation* script, con
   settings.ranks = options.ranks;
   settings.seed = options.seed;
   settings.units_per_second = measured_units_per_second({stage.scene, shots.front().camera});
-  if (options.quick) settings.rates = {15, 30, 60};
+  if (options.quick) settings.rates = {60, 120, 240};
   return measure_rates(stage.name, stage.scene, shots, references, settings);
 }
 
@@ -97,7 +103,7 @@ std::string rates_setting(const AccuracyOptions& options, const Animation* scrip
       "what a "
       "core of this machine does in a second, measured on each scene. So no deadline is missed for want of a "
       "core; lateness is that of the virtual time.",
-      script ? "The frames of " + script->name : "Eight frames round the scene, with a jump in the middle,",
+      script ? "The frames of " + script->name : "Six frames round the scene, with a jump in the middle,",
       options.size / 2, options.size / 2,
       options.ranks == 1 ? "one rank" : fmt::format("{} ranks", options.ranks));
 }
@@ -191,6 +197,7 @@ Inputs read_inputs(const AccuracyOptions& options) {
 void answer(const Inputs& inputs, const Animation* script, const AccuracyOptions& options) {
   for (const std::string& name : inputs.scenes) {
     const std::vector<RatePoint> points = rates_of(make_stage(name), script, options);
+    fmt::print(stderr, "pprt-study: {}: {}\n", name, rates_setting(options, script));
     if (options.want_rmse) fmt::print("{}\n", plan(name, points, {options.want_rmse, {}}));
     if (options.want_fps) fmt::print("{}\n", plan(name, points, {{}, options.want_fps}));
   }
@@ -199,8 +206,10 @@ void answer(const Inputs& inputs, const Animation* script, const AccuracyOptions
 }  // namespace
 
 AccuracyOptions settled(AccuracyOptions options) {
-  constexpr int kSize = 512, kQuickSize = 96, kCells = 8, kQuickCells = 4;
-  if (options.size == 0) options.size = options.quick ? kQuickSize : kSize;
+  constexpr int kSize = 512, kQuickSize = 96, kPlannedSize = 128, kCells = 8, kQuickCells = 4;
+  if (options.size == 0) {
+    options.size = options.quick ? kQuickSize : options.directory.empty() ? kPlannedSize : kSize;
+  }
   if (options.reference_cells == 0) options.reference_cells = options.quick ? kQuickCells : kCells;
   return options;
 }
@@ -214,11 +223,10 @@ void study_accuracy(const AccuracyOptions& asked, const std::string& command_lin
   const AccuracyOptions options = settled(asked);
   const Inputs inputs = read_inputs(options);
   const Animation* script = inputs.script ? &*inputs.script : nullptr;
-  if (options.want_rmse || options.want_fps) {
-    answer(inputs, script, options);
-    if (options.directory.empty()) return;
-  }
-  if (options.directory.empty()) throw UsageError("--output is required");
+  const bool asked_something = options.want_rmse || options.want_fps;
+  if (options.directory.empty() && !asked_something) throw UsageError("--output is required");
+  if (asked_something) answer(inputs, script, options);
+  if (options.directory.empty()) return;
   StudyOutput output(options.directory, "What accuracy costs in time", facts_of(options, command_line));
   Results results;
   for (const std::string& name : inputs.scenes) measure_scene(make_stage(name), script, options, results);

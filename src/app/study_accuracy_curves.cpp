@@ -16,7 +16,7 @@ namespace {
 CurvePoint judged(const std::string& method, int repeat, Rendering&& rendering, const Image& reference) {
   constexpr double kThreshold = 1;  // the share of pixels beyond is not asked for
   replace_non_finite(rendering.image);
-  const Image shown = clamped(std::move(rendering.image));
+  const Image shown = clamped_to_display(rendering.image);
   CurvePoint point;
   point.method = method;
   point.repeat = repeat;
@@ -27,6 +27,7 @@ CurvePoint judged(const std::string& method, int repeat, Rendering&& rendering, 
   if (repeat == 0 && (method == kProgressive || method == kUniform)) {
     const ImageDifference d = difference(shown, reference, kThreshold);
     point.ssim = d.ssim;
+    point.flip = mean_flip(shown, reference);
     point.error_p999 = d.error_p999;
     point.signed_mean = d.signed_mean;
   }

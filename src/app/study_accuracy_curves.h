@@ -22,6 +22,7 @@ struct CurvePoint {
   double rmse = 0;
   // Of the progressive and the uniform method in the first repeat: telling them takes longer than rendering.
   double ssim = kNoValue;
+  double flip = kNoValue;
   double error_p999 = kNoValue;
   double signed_mean = kNoValue;
   bool exhausted = false;

@@ -69,6 +69,22 @@ Panel ratio_panel(const SceneCurves& scene) {
   return panel;
 }
 
+Panel perceived_panel(const SceneCurves& scene) {
+  Panel panel{scene.scene, {kTime.label, 10}, {"FLIP, 1 - SSIM", 10}, {}, PanelKind::kCurves};
+  for (const char* method : {kProgressive, kUniform}) {
+    Curve flip{fmt::format("{}, FLIP", method), {}, CurveStyle::kLine};
+    Curve ssim{fmt::format("{}, SSIM", method), {}, CurveStyle::kMarkedLine};
+    for (const CurvePoint& p : curve_of(scene, method, 0)) {
+      flip.points.push_back({kTime.factor * p.share, p.flip});
+      ssim.points.push_back({kTime.factor * p.share, 1 - p.ssim});
+    }
+    flip.colour = ssim.colour = static_cast<int>(panel.curves.size() / 2);
+    panel.curves.push_back(std::move(flip));
+    panel.curves.push_back(std::move(ssim));
+  }
+  return panel;
+}
+
 template <typename MakePanel>
 void add_plot(const std::string& name, const char* caption, const std::vector<SceneCurves>& scenes,
               StudyOutput& output, const MakePanel& make_panel) {
@@ -143,6 +159,10 @@ void write_curves(const std::vector<SceneCurves>& scenes, StudyOutput& output) {
            [](const SceneCurves& s) {
              return curves_panel(s, kSamples, {kProgressive, kUniform});
            });
+  add_plot(
+      "perceived",
+      "What the eye is shown: mean FLIP (67 pixels per degree) and 1 - SSIM against CPU time, first repeat.",
+      scenes, output, perceived_panel);
   page.heading("What each part of the method is worth");
   add_plot("ablations", "Progressive, and with a part of it taken out.", scenes, output,
            [](const SceneCurves& s) { return curves_panel(s, kTime, ablations(s)); });

@@ -18,6 +18,7 @@
 #include "app/study_accuracy_verdicts.h"
 #include "app/study_cast_errors.h"
 #include "app/tracer_probe.h"
+#include "image/metrics.h"
 #include "parallel/virtual_ranks.h"
 #include "parallel/work_units.h"
 
@@ -63,7 +64,7 @@ Told play(const CompiledScene& scene, const std::vector<Shot>& shots, int ranks,
         return FrameRequest{index + 1, shot.camera, shot.cut};
       },
       [&](FinishedFrame&& frame) {
-        told.pictures.push_back(clamped(std::move(frame.image)));
+        told.pictures.push_back(clamped_to_display(frame.image));
         // Told for a processor of the work clock's default speed.
         told.late_ms.push_back(frame.late_ms * kWorkUnitsPerSecond / settings.machine.units_per_second);
         for (const RankReport& r : frame.ranks) told.samples += static_cast<double>(r.samples_in_region);
@@ -90,12 +91,6 @@ RatePoint measure(const std::string& name, const CompiledScene& scene, const std
                                                     [](double ms) { return ms <= 0; })) /
                   frames;
   return point;
-}
-
-Image change(const Image& from, const Image& to) {
-  Image difference = to;
-  for (std::size_t i = 0; i < from.pixels.size(); ++i) difference.pixels[i] -= from.pixels[i];
-  return difference;
 }
 
 // Until the first frame from `cut` on whose error is at most `enough`.
@@ -127,7 +122,7 @@ double interpolated(const std::vector<std::pair<double, double>>& line, double x
 
 std::vector<Shot> sequence_of(const CompiledScene& scene, const View& view, const Animation* script, int size,
                               int most) {
-  constexpr int kFrames = 8;
+  constexpr int kFrames = 6;
   constexpr double kStep = 2, kJump = 120;  // degrees
   View base = view;
   base.width = base.height = size;
@@ -199,10 +194,8 @@ void judge_sequence(const std::vector<Shot>& shots, const std::vector<Image>& pi
       continue;
     }
     others.push_back(errors[i]);
-    const Image expected = change(references[i - 1], references[i]);
-    const Image still(expected.width, expected.height);
-    wrong += std::pow(rmse_of(change(pictures[i - 1], pictures[i]), expected), 2);
-    own += std::pow(rmse_of(expected, still), 2);
+    wrong += std::pow(flicker(pictures[i - 1], pictures[i], references[i - 1], references[i]), 2);
+    own += std::pow(rmse_of(references[i - 1], references[i]), 2);
   }
   const double enough = 1.1 * spread_of(others.empty() ? errors : others).median;
   for (std::size_t i = 0; i < shots.size(); ++i) {

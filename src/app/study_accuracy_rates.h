@@ -19,7 +19,7 @@ struct Shot {
   bool cut = false;  // nothing leads from the frame before to it
 };
 
-// The script's frames, the first `most` of them; without a script eight that go round the scene's target by
+// The script's frames, the first `most` of them; without a script six that go round the scene's target by
 // two degrees a frame, with a jump in the middle. Pictures of size x size pixels.
 std::vector<Shot> sequence_of(const CompiledScene& scene, const View& view, const Animation* script, int size,
                               int most);

@@ -143,11 +143,6 @@ std::filesystem::path default_cache_directory() {
   return {};
 }
 
-Image clamped(Image image) {
-  std::transform(image.pixels.begin(), image.pixels.end(), image.pixels.begin(), displayed);
-  return image;
-}
-
 double rmse_of(const Image& image, const Image& reference) {
   double sum = 0;
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {

@@ -31,7 +31,4 @@ std::filesystem::path default_cache_directory();
 // Root mean square of the differences over all channels of all pixels. Both of the same size.
 double rmse_of(const Image& image, const Image& reference);
 
-// Every channel held to [0, 1].
-Image clamped(Image image);
-
 }  // namespace pprt

@@ -212,13 +212,13 @@ Table comparisons_table(const std::vector<SceneCurves>& scenes) {
 
 Table points_table(const std::vector<SceneCurves>& scenes) {
   Table table{{"scene", "method", "repeat", "samples a pixel", "cpu s", "share of one sample a pixel", "rmse",
-               "ssim", "error of 99.9 %", "signed mean", "exhausted"},
+               "ssim", "flip", "error of 99.9 %", "signed mean", "exhausted"},
               {},
               {}};
   for (const SceneCurves& scene : scenes) {
     for (const CurvePoint& p : scene.points) {
       table.rows.push_back({scene.scene, p.method, std::int64_t{p.repeat + 1}, p.samples, p.seconds, p.share,
-                            p.rmse, p.ssim, p.error_p999, p.signed_mean,
+                            p.rmse, p.ssim, p.flip, p.error_p999, p.signed_mean,
                             std::string(p.exhausted ? "yes" : "no")});
     }
   }

@@ -14,20 +14,51 @@ for method in progressive uniform control 'area only' 'variance only' 'no pixel 
     [[ $(grep -c "^$scene,$method,2," all/curves.csv) -ge 3 ]] || complain "curves.csv lacks the $method of $scene"
   done
 done
-[[ $(find kept -type f | wc -l) -eq 2 ]] || complain "not two converged frames are kept"
+[[ $(find kept -type f | wc -l) -ge 4 ]] || complain "converged frames are not kept"
 ! grep -qE '<(script|link)|src="[^d]' all/index.html || complain "the page needs other files"
 if command -v gnuplot >/dev/null; then
   for figure in ratios error-time error-samples ablations; do expect_file "all/$figure.svg"; done
 fi
 
+for file in renderers.csv effects.csv rates.csv spd-tree-4-complexity.png spd-balls-1-triangulation.png; do
+  expect_file "all/$file"
+done
+[[ $(grep -c '^spd:tree:4,auto,' all/rates.csv) -eq 3 ]] || complain "rates.csv lacks rates of the tree"
+grep -q '^spd:balls:1,without reflection,' all/effects.csv || complain "effects.csv lacks the balls without reflection"
+grep -q '^spd:tree:4,Tachyon,absent: it shows cones as cylinders,' all/renderers.csv || complain "Tachyon's cones are not told"
+if command -v povray >/dev/null; then
+  grep -q '^spd:tree:4,POV-Ray,"plain, 1 x 1 samples",' all/renderers.csv || complain "POV-Ray was not run"
+fi
+
+# Without other programs they are reported as absent, and plots are left out.
+mkdir bare && ln -s "$(command -v pprt-study)" bare
+run env PATH="$PWD/bare" pprt-study accuracy spd:balls:1 -o alone --quick --size 32 --repeats 1 --no-cache; expect_code 0
+grep -q '^spd:balls:1,POV-Ray,absent: povray is not installed,' alone/renderers.csv || complain "POV-Ray's absence is not told"
+grep -q '^spd:balls:1,Tachyon,absent: tachyon is not installed,' alone/renderers.csv || complain "Tachyon's absence is not told"
+
+# The planner.
+cat >turn.anim <<'SCRIPT'
+animation {
+  scene "spd:tree:4"
+  frames 3
+  camera { key 1 { from <4, 0, 2> at <0, 0, 1> up <0, 0, 1> angle 45 } key 3 { from <3.9, 0.8, 2> } }
+}
+SCRIPT
+run pprt-study accuracy turn.anim --quick --size 32 --no-cache --want-fps 100; expect_code 0
+expect_line out 'spd:tree:4: at 100 frames/s the RMSE will be about 0\.0.*'
+run pprt-study accuracy turn.anim --quick --size 32 --no-cache --want-rmse 0.9; expect_code 0
+expect_line out 'spd:tree:4: an RMSE of 0.9 is kept at 240 frames/s and more.'
+run pprt-study accuracy turn.anim turn.anim --want-fps 4; expect_code 2
+
 # Kept frames are used: the same file, untouched. Without a cache nothing is kept.
 touch -d '2001-01-01' kept/*
 run pprt-study accuracy spd:tree:4 -o again --quick --size 48 --repeats 1 --cache kept; expect_code 0
 [[ -z $(find kept -type f -newermt '2001-01-02') ]] || complain "a converged frame was made again"
-XDG_CACHE_HOME=$PWD/home run pprt-study accuracy spd:tree:4 -o again --quick --size 48 --repeats 1 --no-cache; expect_code 0
+export XDG_CACHE_HOME=$PWD/home
+run pprt-study accuracy turn.anim --quick --size 32 --no-cache --want-fps 100; expect_code 0
 expect_no_file home
-XDG_CACHE_HOME=$PWD/home run pprt-study accuracy spd:tree:4 -o again --quick --size 48 --repeats 1; expect_code 0
-[[ $(find home/pprt -type f | wc -l) -eq 1 ]] || complain "the user's cache directory holds no converged frame"
+run pprt-study accuracy turn.anim --quick --size 32 --want-fps 100; expect_code 0
+[[ $(find home/pprt -type f | wc -l) -ge 2 ]] || complain "the user's cache directory holds no converged frame"
 
 # Refused.
 run pprt-study accuracy spd:tree:4; expect_code 2; expect_line err '.*--output is required.*'
