@@ -3,6 +3,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "parallel/exchange.h"
 #include "parallel/messages.h"
 #include "parallel/partition.h"
+#include "pipeline/reconstruction.h"
 
 namespace {
 
@@ -48,8 +50,19 @@ const std::vector<Sample>& serial_samples() {
 }
 
 // One rank's own samples and, in batches between them, those within a few pixels of its region. Timed are the
-// latter, or the update rule by triangle that it looks at.
-enum class Timed { kReceived, kUpdateRule };
+// latter, the update rule by triangle that it looks at, or how much longer the region's reconstruction takes
+// with all of them.
+enum class Timed { kReceived, kUpdateRule, kReconstruction };
+
+double reconstruction_seconds(const SampleMesh& mesh) {
+  RegionPixels pixels;
+  ReconstructionBuffers buffers;
+  constexpr int kRepeats = 20;
+  reconstruct(mesh, mesh.region().bounds(), pixels, buffers);
+  const auto began = std::chrono::steady_clock::now();
+  for (int i = 0; i < kRepeats; ++i) reconstruct(mesh, mesh.region().bounds(), pixels, buffers);
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count() / kRepeats;
+}
 
 void exchange_samples(benchmark::State& state, Timed timed) {
   using Clock = std::chrono::steady_clock;
@@ -90,14 +103,23 @@ void exchange_samples(benchmark::State& state, Timed timed) {
       }
     }
     flush();
-    state.SetIterationTime(timed == Timed::kReceived ? spent.count() : announcing.count());
-    counted += timed == Timed::kReceived ? received : triangles;
+    double seconds = timed == Timed::kReceived ? spent.count() : announcing.count();
+    if (timed == Timed::kReconstruction) {
+      SampleMesh own_alone(region);
+      for (const Sample& s : mesh.samples()) {
+        if (region.owns_point(s.x, s.y)) own_alone.insert(s);
+      }
+      seconds = std::max(reconstruction_seconds(mesh) - reconstruction_seconds(own_alone), 1e-9);
+    }
+    state.SetIterationTime(seconds);
+    counted += timed == Timed::kUpdateRule ? triangles : received;
   }
   state.counters["each"] = benchmark::Counter(static_cast<double>(counted),
                                               benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 BENCHMARK_CAPTURE(exchange_samples, receive_sample, Timed::kReceived)->UseManualTime();
 BENCHMARK_CAPTURE(exchange_samples, update_rule, Timed::kUpdateRule)->UseManualTime();
+BENCHMARK_CAPTURE(exchange_samples, reconstruction, Timed::kReconstruction)->UseManualTime()->Iterations(20);
 
 void encode_samples(benchmark::State& state) {
   Bundle bundle;

@@ -115,9 +115,10 @@ void reconstruction(benchmark::State& state) {
   refine(mesh, static_cast<std::size_t>(state.range(0)), look_up);
   RegionPixels pixels;
   ReconstructionBuffers buffers;
-  for (auto _ : state) reconstruct(mesh, mesh.region().bounds(), pixels, buffers);
+  for (auto _ : state)
+    reconstruct(mesh, mesh.region().bounds(), pixels, buffers, static_cast<PixelRule>(state.range(1)));
 }
-BENCHMARK(reconstruction)->Arg(4000)->Arg(16000)->Arg(64000)->Unit(benchmark::kMillisecond);
+BENCHMARK(reconstruction)->ArgsProduct({{4000, 16000, 64000}, {1, 2}})->Unit(benchmark::kMillisecond);
 
 void casting(benchmark::State& state) {
   SampleMesh mesh(whole());

@@ -103,6 +103,12 @@ void add_run_options(CLI::App& app, RenderOptions& o) {
       ->capture_default_str()
       ->type_name("WHETHER")
       ->group(group);
+  app.add_option("--pixels", o.pixels,
+                 "What a pixel with samples shows: area, mean (of its samples) or center (of the pixel)")
+      ->check(CLI::IsMember({"area", "mean", "center"}))
+      ->capture_default_str()
+      ->type_name("RULE")
+      ->group(group);
   app.add_option("--seed", o.seed, "Of the pattern that every frame starts from")
       ->check(count_from(0))
       ->capture_default_str()

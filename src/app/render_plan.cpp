@@ -141,6 +141,11 @@ BalanceMode balance_mode(const std::string& word) {
   return word == "global" ? BalanceMode::kGlobal : BalanceMode::kCombined;
 }
 
+PixelRule pixel_rule(const std::string& word) {
+  if (word == "center") return PixelRule::kCenter;
+  return word == "mean" ? PixelRule::kMean : PixelRule::kArea;
+}
+
 double frame_rate(const RenderOptions& options, const Sources& sources) {
   if (options.fps) return *options.fps;
   return sources.script ? sources.script->animation.fps : 0;
@@ -159,6 +164,7 @@ SessionSettings settle(const RenderOptions& options, const View& view, double fp
   settings.balance = balance_mode(options.balance);
   settings.cast = cast_choice(options.cast);
   settings.keep_samples = options.keep_samples == "on";
+  settings.pixel_rule = pixel_rule(options.pixels);
   settings.seed = options.seed;
   const std::vector<Layer> layers = requested_layers(options);
   settings.report_samples =

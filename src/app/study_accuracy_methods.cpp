@@ -102,11 +102,11 @@ void run_uniform(const Subject& subject, const CurveRange& range, const SecondsC
 // The samples of one picture on their triangulation.
 class MeshPainter {
  public:
-  MeshPainter(const Subject& subject, const WeightTerms& terms, CrowdedPixels crowded)
+  MeshPainter(const Subject& subject, const WeightTerms& terms, PixelRule rule)
       : camera_(subject.camera),
         tracer_(subject.scene, subject.camera),
         mesh_(Region::whole({camera_.width, camera_.height, kTilePixels}), terms),
-        crowded_(crowded) {}
+        rule_(rule) {}
 
   void add(const Vec2d& point) {
     Sample sample;
@@ -132,7 +132,7 @@ class MeshPainter {
   double density() const { return samples_per_pixel(static_cast<double>(mesh_.samples().size()), camera_); }
 
   Image picture() {
-    reconstruct(mesh_, mesh_.region().bounds(), pixels_, buffers_, crowded_);
+    reconstruct(mesh_, mesh_.region().bounds(), pixels_, buffers_, rule_);
     Image image(camera_.width, camera_.height);
     image.pixels = pixels_.colors;
     return image;
@@ -142,19 +142,19 @@ class MeshPainter {
   Camera camera_;
   Tracer tracer_;
   SampleMesh mesh_;
-  CrowdedPixels crowded_;
+  PixelRule rule_;
   RegionPixels pixels_;
   ReconstructionBuffers buffers_;
 };
 
 // One refinement, looked at on its way: a picture's time is that of all sampling before it, and its own
 // reconstruction.
-void run_refinement(const WeightTerms& terms, CrowdedPixels crowded, const Subject& subject,
-                    const CurveRange& range, const SecondsClock& clock, const RenderingSink& sink) {
+void run_refinement(const WeightTerms& terms, PixelRule rule, const Subject& subject, const CurveRange& range,
+                    const SecondsClock& clock, const RenderingSink& sink) {
   const Camera& camera = subject.camera;
   const double pixels = static_cast<double>(camera.width) * camera.height;
   double sampling = 0, begin = clock();
-  MeshPainter painter(subject, terms, crowded);
+  MeshPainter painter(subject, terms, rule);
   for (const Vec2d& point : seed_points(camera.width, camera.height, range.seed)) painter.add(point);
   for (const double density : range.densities) {
     if (density < painter.density()) continue;
@@ -171,12 +171,11 @@ void run_refinement(const WeightTerms& terms, CrowdedPixels crowded, const Subje
 }
 
 Method refinement(std::string name, std::string description, const WeightTerms& terms,
-                  CrowdedPixels crowded = CrowdedPixels::kMean) {
-  return {std::move(name), std::move(description),
-          [terms, crowded](const Subject& subject, const CurveRange& range, const SecondsClock& clock,
-                           const RenderingSink& sink) {
-            run_refinement(terms, crowded, subject, range, clock, sink);
-          }};
+                  PixelRule rule = PixelRule::kArea) {
+  return {
+      std::move(name), std::move(description),
+      [terms, rule](const Subject& subject, const CurveRange& range, const SecondsClock& clock,
+                    const RenderingSink& sink) { run_refinement(terms, rule, subject, range, clock, sink); }};
 }
 
 void run_stratified(const Subject& subject, const CurveRange& range, const SecondsClock& clock,
@@ -188,7 +187,7 @@ void run_stratified(const Subject& subject, const CurveRange& range, const Secon
     std::mt19937_64 random(range.seed);
     const auto jitter = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
     const double begin = clock();
-    MeshPainter painter(subject, {false, false, false}, CrowdedPixels::kMean);
+    MeshPainter painter(subject, {false, false, false}, PixelRule::kArea);
     for (const Vec2d& corner : {Vec2d(0, 0), Vec2d(w, 0), Vec2d(w, h), Vec2d(0, h)}) painter.add(corner);
     for (int y = 0; y < size.height; ++y) {
       for (int x = 0; x < size.width; ++x) {
@@ -230,8 +229,11 @@ std::vector<Method> accuracy_methods() {
                      {false, true, true}),
           refinement("no pixel rule", "progressive, flat triangles below a pixel refined like others",
                      {true, true, false}),
-          refinement("no average", "progressive, pixels with several samples interpolated like others", {},
-                     CrowdedPixels::kInterpolated),
+          refinement("mean of samples",
+                     "progressive, a pixel with several samples shows their mean: the paper's rule", {},
+                     PixelRule::kMean),
+          refinement("pixel centers", "progressive, every pixel shows the interpolation at its centre", {},
+                     PixelRule::kCenter),
           {"stratified random", "no queue: a jittered grid, triangulated and reconstructed alike",
            run_stratified}};
 }

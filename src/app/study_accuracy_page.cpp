@@ -127,12 +127,9 @@ void write_verdicts(const std::vector<SceneCurves>& scenes, StudyOutput& output)
   page.heading("Progressive against uniform at equal time");
   page.paragraph(
       "Errors of the progressive picture over those of the uniform one that takes as much CPU time of one "
-      "thread "
-      "with the same tracing kernel. Below 1 progressive is better. Times are shares of what one sample a "
-      "pixel "
-      "takes, its picture included, so that below some share neither has a picture to show. Of each method "
-      "the "
-      "best picture counts that the time allows.");
+      "thread with the same tracing kernel. Below 1 progressive is better. Times are shares of what one "
+      "sample a pixel takes, its picture included, so that below some share neither has a picture to show. "
+      "Of each method the best picture counts that the time allows.");
   page.table(ratio_table(scenes));
   for (const SceneCurves& s : scenes) {
     page.paragraph(fmt::format("{}: {} {}", s.scene, to_sentence(break_even(s, kProgressive), "Progressive"),
@@ -175,15 +172,14 @@ void write_curves(const std::vector<SceneCurves>& scenes, StudyOutput& output) {
   page.heading("Times at equal error");
   page.paragraph(
       "Time for the error that the uniform sampler has after so long, over the uniform sampler's; below 1 "
-      "the "
-      "method gets there sooner. A dash: it has no picture that coarse, or none that good within the range.");
+      "the method gets there sooner. A dash: it has no picture that coarse, or none that good within the "
+      "range.");
   page.table(equal_error_table(scenes));
   page.heading("What errors are measured against");
   page.paragraph(
       "Converged frames of two independent halves, each one sample at a random place of every cell of a grid "
-      "in "
-      "every pixel; samples clamped to the display's range, then the mean over the pixel. Their own error is "
-      "half of what the halves differ by.");
+      "in every pixel; samples clamped to the display's range, then the mean over the pixel. Their own error "
+      "is half of what the halves differ by.");
   page.table(references_table(scenes));
   output.write_table("curves", points_table(scenes));
   output.write_table("comparisons", comparisons_table(scenes));

@@ -112,11 +112,9 @@ void write_effects(const std::vector<SceneEffects>& scenes, StudyOutput& output)
   page.heading("What effects cost, and what their absence costs");
   page.paragraph(
       "CPU time of one sample a pixel over that of the whole scene, and the error of a picture of eight "
-      "samples "
-      "a pixel against the converged frame: the first row's is that of so few samples alone. Only those "
-      "effects "
-      "are simulated that a scene calls for; the general kernel follows the same rays with all of them at "
-      "hand.");
+      "samples a pixel against the converged frame: the first row's is that of so few samples alone. Only "
+      "those effects are simulated that a scene calls for; the general kernel follows the same rays with all "
+      "of them at hand.");
   page.table(effects_table(scenes));
   output.write_table("effects", effects_table(scenes));
   page.paragraph("What the scenes call for:");

@@ -228,10 +228,8 @@ Table cast_errors_table(const std::vector<CastErrors>& errors) {
 std::string cast_trial_text(const CastTrial& trial) {
   return fmt::format(
       "Root mean square errors on the display scale, means over frames {} of each sequence, against frames "
-      "of {} "
-      "samples a pixel; {}x{} pixels, one rank. At speed 1 the eye turns by 4 degrees a frame and closes in "
-      "by "
-      "1.5 %. A frame's work is what makes so many samples a pixel when none is carried.",
+      "of {} samples a pixel; {}x{} pixels, one rank. At speed 1 the eye turns by 4 degrees a frame and "
+      "closes in by 1.5 %. A frame's work is what makes so many samples a pixel when none is carried.",
       fmt::join(trial.judged, ", "), trial.reference_side * trial.reference_side, trial.side, trial.side);
 }
 

@@ -16,8 +16,10 @@ constexpr double kStaleAtMost = 0.65;
 constexpr double kGoodAtMost = 0.45;
 constexpr double kMost = 0.5;
 
-// Price of a carried sample that proves right over that of a fresh one.
+// Price of a carried sample that proves right over that of a fresh one. In a coarse picture that has moved
+// little a carried one is worth more than another: it lies where an outline still is.
 constexpr double kPriceAtMost = 0.9;
+constexpr double kPriceAtMostOnOutlines = 1.1;
 
 // Where so many prove hidden, the outlines have changed: older samples tell little of them. Most of a coarse
 // picture's error is in them, if not in reflections; then time is better spent on fresh samples there.
@@ -66,13 +68,15 @@ CastLimits cast_limits(const CastEvidence& evidence, const CastSurvivors& surviv
   limits.eye_dependent = stale_within(e, kStaleAtMost);
   const double hidden = hidden_share(e);
   const bool outlines_matter = survivors.samples_per_pixel < kCoarse && survivors.eye_dependent <= kMost;
-  if (hidden > kHiddenMany && survivors.moved > kMovedFar && outlines_matter) limits.share = kShareThen;
+  const bool moved_far = survivors.moved > kMovedFar;
+  if (hidden > kHiddenMany && moved_far && outlines_matter) limits.share = kShareThen;
   if (e.fresh > 0) {
     const auto carried =
         static_cast<double>(price(Work::kCastSample) + price(Work::kRay) + price(Work::kKeptSample));
     const double fresh = static_cast<double>(price(Work::kOwnSample)) +
                          static_cast<double>(price(Work::kRay)) * e.fresh_rays / e.fresh;
-    if (carried > kPriceAtMost * fresh * (1 - hidden)) limits.share = 0;
+    const double at_most = outlines_matter && !moved_far ? kPriceAtMostOnOutlines : kPriceAtMost;
+    if (carried > at_most * fresh * (1 - hidden)) limits.share = 0;
   }
   return limits;
 }

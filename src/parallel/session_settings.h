@@ -5,6 +5,7 @@
 
 #include "parallel/communicator.h"
 #include "parallel/machine.h"
+#include "pipeline/reconstruction.h"
 
 namespace pprt {
 
@@ -42,6 +43,7 @@ struct SessionSettings {
   BalanceMode balance = BalanceMode::kCombined;
   CastChoice cast = CastChoice::kAuto;
   bool keep_samples = true;  // when the image is cut anew: hand samples over, or drop them as the paper does
+  PixelRule pixel_rule = PixelRule::kArea;
   std::uint64_t seed = 1;
   bool report_samples = false;  // every sample of a frame comes to the master with the pixels
   Machine machine;              // of the work clock

@@ -11,13 +11,13 @@ using WorkUnits = std::uint64_t;
 
 enum class Work : std::uint8_t {
   kRay,             // a ray of any kind, its share of shading included
-  kOwnSample,       // choosing a point, inserting a sample traced here, queueing its triangles
+  kOwnSample,       // choosing a point, inserting a sample traced here, queueing and painting its triangles
   kUpdateRule,      // whom a new triangle at the border concerns
-  kReceivedSample,  // decoding and inserting another rank's sample
+  kReceivedSample,  // decoding and inserting another rank's sample, painting its triangles
   kSentSample,      // encoding, per sample and receiver
-  kPixel,           // reconstruction of one pixel
+  kPixel,           // of reconstruction: what a pixel costs beside the triangles
   kCastSample,      // projecting and testing one sample of the frame before
-  kKeptSample       // inserting one of them anew
+  kKeptSample       // inserting one of them anew, queueing and painting its triangles
 };
 
 constexpr WorkUnits price(Work work) {
@@ -25,19 +25,19 @@ constexpr WorkUnits price(Work work) {
     case Work::kRay:
       return 110;
     case Work::kOwnSample:
-      return 840;
+      return 705;
     case Work::kUpdateRule:
-      return 85;
+      return 110;
     case Work::kReceivedSample:
-      return 540;
+      return 580;
     case Work::kSentSample:
-      return 30;
+      return 20;
     case Work::kPixel:
-      return 22;
+      return 5;
     case Work::kCastSample:
-      return 30;
+      return 20;
     case Work::kKeptSample:
-      return 630;
+      return 805;
   }
   return 0;
 }

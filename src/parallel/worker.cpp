@@ -299,7 +299,7 @@ void Worker::reconstruct_and_send(const FrameOrder& order) {
   const TileGrid& grid = mesh_.region().grid();
   PixelRect bounds = mesh_.region().bounds();
   for (const int tile : given_) bounds = united(bounds, grid.pixels(tile));
-  reconstruct(mesh_, bounds, pixels_, buffers_);
+  reconstruct(mesh_, bounds, pixels_, buffers_, settings_.pixel_rule);
   clock_->spend(Work::kPixel, mesh_.region().pixel_count());
   report_.cpu_ms.reconstruction = clock_->lap_ms();
 

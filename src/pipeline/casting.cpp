@@ -54,14 +54,13 @@ Flight fly(const Sample& sample, const SampleMesh& mesh, const Camera& next, int
 // and any other at nearly its distance (paper s. 4.2). "Nearly": within one part in a hundred.
 void hide_behind_turned_triangles(const SampleMesh& mesh, std::vector<Flight>& flights) {
   constexpr double kNearly = 0.99;
-  const auto& delaunay = mesh.impl().delaunay();
-  for (auto face = delaunay.finite_faces_begin(); face != delaunay.finite_faces_end(); ++face) {
-    const std::array<Flight*, 3> corner = {&flights[face->vertex(0)->info().sample],
-                                           &flights[face->vertex(1)->info().sample],
-                                           &flights[face->vertex(2)->info().sample]};
+  for (const Delaunay::Triangle& t : mesh.impl().delaunay().triangles()) {
+    if (!t.is_finite()) continue;
+    const std::array<Flight*, 3> corner = {&flights[t.corners[0]], &flights[t.corners[1]],
+                                           &flights[t.corners[2]]};
     if (!corner[0]->projected || !corner[1]->projected || !corner[2]->projected) continue;
     const Vec2d ab = corner[1]->point - corner[0]->point, ac = corner[2]->point - corner[0]->point;
-    // CGAL's corners are counter-clockwise, so a triangle that keeps its sense has a positive cross product.
+    // Corners are counter-clockwise, so a triangle that keeps its sense has a positive cross product.
     if (ab.x * ac.y - ab.y * ac.x > 0) continue;
     const double farthest = std::max({corner[0]->distance, corner[1]->distance, corner[2]->distance});
     for (Flight* flight : corner) {
@@ -89,9 +88,7 @@ CastResult cast_samples(const SampleMesh& mesh, const Camera& next, int next_fra
   std::vector<Flight> flights;
   flights.reserve(samples.size());
   for (const Sample& sample : samples) flights.push_back(fly(sample, mesh, next, next_frame, settings));
-  if (settings.method == CastMethod::kPaper && mesh.impl().delaunay().dimension() == 2) {
-    hide_behind_turned_triangles(mesh, flights);
-  }
+  if (settings.method == CastMethod::kPaper) hide_behind_turned_triangles(mesh, flights);
 
   CastResult result;
   for (std::size_t i = 0; i < samples.size(); ++i) {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <bit>
 #include <utility>
 
 #include "pipeline/sample_mesh_impl.h"
@@ -15,42 +15,98 @@ struct Corner {
   Color color;
 };
 
-// Where an edge crosses a row of pixel centres. The ends are taken in one fixed order, so that the two
-// triangles at an edge compute the same number to the last bit and every centre falls to exactly one of them.
-double crossing(const Corner& a, const Corner& b, double y) {
-  const bool ordered = a.y < b.y || (a.y == b.y && a.x < b.x);
-  const Corner& low = ordered ? a : b;
-  const Corner& high = ordered ? b : a;
-  return low.x + (y - low.y) * ((high.x - low.x) / (high.y - low.y));
+// The largest whole number not above a coordinate, and the smallest not below it: without a call, which is
+// what the standard functions cost on the baseline instruction set.
+int floor_to_int(double v) {
+  const int towards_zero = static_cast<int>(v);
+  return towards_zero - (v < towards_zero ? 1 : 0);
+}
+int ceil_to_int(double v) {
+  const int towards_zero = static_cast<int>(v);
+  return towards_zero + (v > towards_zero ? 1 : 0);
 }
 
 // The first pixel whose centre is at or beyond a coordinate.
 int first_center(double coordinate) {
-  return static_cast<int>(std::ceil(coordinate - 0.5));
+  return ceil_to_int(coordinate - 0.5);
 }
+
+// Where a triangle lies along a row.
+struct Extent {
+  double left, right;
+};
+
+// A triangle's edges, as functions of y. An edge's ends are taken in one fixed order, so that the two
+// triangles at it compute the same crossings to the last bit: they neither overlap nor leave gaps.
+class Outline {
+ public:
+  explicit Outline(const std::array<Corner, 3>& corner)
+      : top_(corner[0]), middle_(corner[1]), bottom_(corner[2]) {
+    const auto swap_if_later = [](End& a, End& b) {
+      if (b.y < a.y || (b.y == a.y && b.x < a.x)) std::swap(a, b);
+    };
+    swap_if_later(top_, middle_);
+    swap_if_later(middle_, bottom_);
+    swap_if_later(top_, middle_);
+    const auto [left, right] = std::minmax({top_.x, middle_.x, bottom_.x});
+    left_ = left, right_ = right;
+  }
+
+  double top() const { return top_.y; }
+  double bottom() const { return bottom_.y; }
+  double left() const { return left_; }
+  double right() const { return right_; }
+
+  // To be called before the first at(), once the triangle is known to matter.
+  void prepare() {
+    whole_ = slope(top_, bottom_);
+    upper_ = slope(top_, middle_);
+    lower_ = slope(middle_, bottom_);
+  }
+
+  // Needs top() <= y < bottom().
+  Extent at(double y) const {
+    const double a = top_.x + (y - top_.y) * whole_;
+    const double b = y < middle_.y ? top_.x + (y - top_.y) * upper_ : middle_.x + (y - middle_.y) * lower_;
+    return {std::min(a, b), std::max(a, b)};
+  }
+
+ private:
+  struct End {
+    double x, y;
+    End(const Corner& corner) : x(corner.x), y(corner.y) {}
+  };
+
+  // Horizontal edges are never asked for.
+  static double slope(const End& from, const End& to) { return (to.x - from.x) / (to.y - from.y); }
+
+  End top_, middle_, bottom_;
+  double left_, right_;
+  double whole_ = 0, upper_ = 0, lower_ = 0;
+};
 
 // Linear over one triangle: colour = c0 + a (c1 - c0) + b (c2 - c0) with barycentric a, b held to [0, 1], so
 // that a constant stays exactly constant and rounding in slivers never leaves the corners' range by more than
 // itself.
 class LinearPatch {
  public:
-  LinearPatch(const Corner& c0, const Corner& c1, const Corner& c2)
-      : origin_(c0), to_1_(c1.color - c0.color), to_2_(c2.color - c0.color) {
-    const double x1 = c1.x - c0.x, y1 = c1.y - c0.y, x2 = c2.x - c0.x, y2 = c2.y - c0.y;
+  explicit LinearPatch(const std::array<Corner, 3>& corner)
+      : origin_(corner[0]),
+        to_1_(corner[1].color - corner[0].color),
+        to_2_(corner[2].color - corner[0].color) {
+    const double x1 = corner[1].x - origin_.x, y1 = corner[1].y - origin_.y;
+    const double x2 = corner[2].x - origin_.x, y2 = corner[2].y - origin_.y;
     const double cross = x1 * y2 - y1 * x2;
     const double scale = cross != 0 ? 1 / cross : 0;
     ax_ = y2 * scale, ay_ = -x2 * scale;
     bx_ = -y1 * scale, by_ = x1 * scale;
   }
 
-  void fill(int x0, int x1, double y, Color* row) const {
-    const double dy = y - origin_.y;
-    for (int x = x0; x < x1; ++x) {
-      const double dx = x + 0.5 - origin_.x;
-      const auto a = std::clamp(static_cast<float>(ax_ * dx + ay_ * dy), 0.0f, 1.0f);
-      const auto b = std::clamp(static_cast<float>(bx_ * dx + by_ * dy), 0.0f, 1.0f);
-      row[x] = origin_.color + to_1_ * a + to_2_ * b;
-    }
+  Color at(double x, double y) const {
+    const double dx = x - origin_.x, dy = y - origin_.y;
+    const auto a = std::clamp(static_cast<float>(ax_ * dx + ay_ * dy), 0.0f, 1.0f);
+    const auto b = std::clamp(static_cast<float>(bx_ * dx + by_ * dy), 0.0f, 1.0f);
+    return origin_.color + to_1_ * a + to_2_ * b;
   }
 
  private:
@@ -59,41 +115,23 @@ class LinearPatch {
   double ax_, ay_, bx_, by_;
 };
 
-// Rows of pixels, half-open.
-struct Rows {
-  int top = 0, bottom = 0;
-};
-
-// Those within `bounds` whose centres a triangle may hold: none when it lies between centres or beside the
-// bounds.
-Rows rows_of(const std::array<Corner, 3>& corner, const PixelRect& bounds) {
-  const auto [min_y, max_y] = std::minmax({corner[0].y, corner[1].y, corner[2].y});
-  const Rows rows{std::max(first_center(min_y), bounds.y0), std::min(first_center(max_y), bounds.y1)};
-  if (rows.top >= rows.bottom) return {};
-  const auto [min_x, max_x] = std::minmax({corner[0].x, corner[1].x, corner[2].x});
-  if (std::max(first_center(min_x), bounds.x0) >= std::min(first_center(max_x), bounds.x1)) return {};
-  return rows;
+std::array<Corner, 3> corners_of(const Delaunay::Triangle& triangle, const SampleMesh::Impl& mesh) {
+  const auto corner = [&](std::size_t i) {
+    const Delaunay::Index index = triangle.corners[i];
+    const Vec2d& point = mesh.delaunay().points()[index];
+    return Corner{point.x, point.y, mesh.corners()[index].color};
+  };
+  return {corner(0), corner(1), corner(2)};
 }
 
-// Calls fill(row, left, right) for the pixel centres of one triangle: in each row those in [left, right).
-template <typename Fill>
-void for_each_span(const std::array<Corner, 3>& corner, const Rows& rows, const PixelRect& bounds,
-                   const Fill& fill) {
-  for (int row = rows.top; row < rows.bottom; ++row) {
-    const double y = row + 0.5;
-    // Exactly two of the three edges cross the row: those whose ends lie on different sides of it.
-    std::array<double, 2> ends{};
-    std::size_t found = 0;
-    for (std::size_t i = 0; i < 3 && found < 2; ++i) {
-      const Corner& a = corner[i];
-      const Corner& b = corner[(i + 1) % 3];
-      if ((a.y <= y) != (b.y <= y)) ends[found++] = crossing(a, b, y);
-    }
-    if (found < 2) continue;
-    const int left = std::max(first_center(std::min(ends[0], ends[1])), bounds.x0);
-    const int right = std::min(first_center(std::max(ends[0], ends[1])), bounds.x1);
-    if (left < right) fill(row, left, right);
-  }
+// Whether a triangle surely lies beside the bounds.
+bool misses(const Delaunay::Triangle& triangle, const SampleMesh::Impl& mesh, const PixelRect& bounds) {
+  const Vec2d* points = mesh.delaunay().points().data();
+  const auto& [a, b, c] = triangle.corners;
+  return std::max({points[a].x, points[b].x, points[c].x}) < bounds.x0 ||
+         std::max({points[a].y, points[b].y, points[c].y}) < bounds.y0 ||
+         std::min({points[a].x, points[b].x, points[c].x}) > bounds.x1 ||
+         std::min({points[a].y, points[b].y, points[c].y}) > bounds.y1;
 }
 
 // Where a row of the bounds begins, as if its first pixel were number 0.
@@ -101,68 +139,196 @@ std::ptrdiff_t row_start(const PixelRect& bounds, int row) {
   return static_cast<std::ptrdiff_t>(row - bounds.y0) * bounds.width() - bounds.x0;
 }
 
-template <typename Face>
-std::array<Corner, 3> corners_of(const Face& face) {
-  std::array<Corner, 3> corner;
-  for (int i = 0; i < 3; ++i) {
-    const auto& vertex = *face->vertex(i);
-    corner[static_cast<std::size_t>(i)] = {vertex.point().x(), vertex.point().y(), vertex.info().color};
+// Calls fill(row, left, right) for the pixel centres of one triangle: in each row those in [left, right).
+template <typename Fill>
+void for_each_span(const std::array<Corner, 3>& corner, const PixelRect& bounds, const Fill& fill) {
+  Outline outline(corner);
+  const int top = std::max(first_center(outline.top()), bounds.y0);
+  const int bottom = std::min(first_center(outline.bottom()), bounds.y1);
+  if (top >= bottom) return;
+  outline.prepare();
+  for (int row = top; row < bottom; ++row) {
+    const Extent extent = outline.at(row + 0.5);
+    const int left = std::max(first_center(extent.left), bounds.x0);
+    const int right = std::min(first_center(extent.right), bounds.x1);
+    if (left < right) fill(row, left, right);
   }
-  return corner;
 }
 
-void fill_triangle(const std::array<Corner, 3>& corner, RegionPixels& pixels) {
-  const Rows rows = rows_of(corner, pixels.bounds);
-  if (rows.top >= rows.bottom) return;
-  const LinearPatch patch(corner[0], corner[1], corner[2]);
-  for_each_span(corner, rows, pixels.bounds, [&](int row, int left, int right) {
-    patch.fill(left, right, row + 0.5, pixels.colors.data() + row_start(pixels.bounds, row));
-  });
+// Whether in a tile the mean over a pixel's area is worth its time: an eighth of a sample a pixel, or a
+// quarter of a triangle. Below, as much time spent on more samples lessens the error more.
+bool is_crowded(const TileWeights& weights, const PixelRect& tile) {
+  return 2 * weights.triangles >= static_cast<std::int64_t>(tile.area());
 }
 
-// The average rule: where more than one sample falls in a pixel, their mean replaces the interpolation.
-void average_crowded_pixels(const SampleMesh& mesh, RegionPixels& pixels, ReconstructionBuffers& buffers) {
-  const PixelRect& bounds = pixels.bounds;
-  buffers.sums.assign(pixels.colors.size(), Color(0, 0, 0));
-  buffers.counts.assign(pixels.colors.size(), 0);
+// One triangle after another.
+class Painter {
+ public:
+  Painter(RegionPixels& pixels, ReconstructionBuffers& buffers, PixelRule rule)
+      : pixels_(pixels), bounds_(pixels.bounds), buffers_(buffers), rule_(rule) {}
+
+  void gather(const SampleMesh::Impl& mesh);
+  void paint(const std::array<Corner, 3>& corner);
+  void finish();
+
+ private:
+  // Of a row's lines for the mean over a pixel's area. Along a line the mean is exact.
+  static constexpr int kLines = 4;
+
+  std::size_t words_per_row() const { return (static_cast<std::size_t>(bounds_.width()) + 63) / 64; }
+  void fill(const LinearPatch& patch, int row, const Extent& extent);
+  void add_lines(const Outline& outline, const LinearPatch& patch, int row);
+  bool holds_sample_between(int row, int left, int right) const;
+  void add_line(const LinearPatch& patch, int row, double y, const Extent& extent);
+
+  RegionPixels& pixels_;
+  const PixelRect bounds_;
+  ReconstructionBuffers& buffers_;
+  PixelRule rule_;
+};
+
+// Which pixels hold samples, and of what colour.
+void Painter::gather(const SampleMesh::Impl& mesh) {
+  ReconstructionBuffers& b = buffers_;
+  b.pixels.clear();
+  b.holds_sample.assign(words_per_row() * static_cast<std::size_t>(bounds_.height()), 0);
+  for (auto* colors : {&b.base, &b.sum}) colors->resize(bounds_.area());
+  b.count.resize(bounds_.area());
   const TileGrid& grid = mesh.region().grid();
-  for (const Sample& sample : mesh.samples()) {
-    const int x = std::min(static_cast<int>(sample.x), grid.width - 1);
-    const int y = std::min(static_cast<int>(sample.y), grid.height - 1);
-    if (x < bounds.x0 || x >= bounds.x1 || y < bounds.y0 || y >= bounds.y1) continue;
-    const std::size_t i = static_cast<std::size_t>(y - bounds.y0) * static_cast<std::size_t>(bounds.width()) +
-                          static_cast<std::size_t>(x - bounds.x0);
-    buffers.sums[i] += sample.ray.color;
-    ++buffers.counts[i];
+  std::vector<bool> crowded(static_cast<std::size_t>(grid.tile_count()), true);
+  for (std::size_t tile = 0; rule_ == PixelRule::kArea && tile < crowded.size(); ++tile)
+    crowded[tile] = is_crowded(mesh.tile_weights()[tile], grid.pixels(static_cast<int>(tile)));
+  const auto& points = mesh.delaunay().points();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const int x = std::min(static_cast<int>(points[i].x), grid.width - 1);
+    const int y = std::min(static_cast<int>(points[i].y), grid.height - 1);
+    if (x < bounds_.x0 || x >= bounds_.x1 || y < bounds_.y0 || y >= bounds_.y1) continue;
+    if (!crowded[static_cast<std::size_t>(grid.tile_at(points[i].x, points[i].y))]) continue;
+    const auto pixel = static_cast<std::size_t>(row_start(bounds_, y) + x);
+    const auto column = static_cast<std::size_t>(x - bounds_.x0);
+    std::uint64_t& word =
+        b.holds_sample[static_cast<std::size_t>(y - bounds_.y0) * words_per_row() + column / 64];
+    const std::uint64_t bit = std::uint64_t{1} << (column % 64);
+    const Color& color = mesh.corners()[i].color;
+    if ((word & bit) == 0) {
+      word |= bit;
+      b.pixels.push_back(static_cast<std::uint32_t>(pixel));
+      b.base[pixel] = color;
+      b.sum[pixel] = Color(0, 0, 0);
+      b.count[pixel] = 1;
+    } else {
+      ++b.count[pixel];
+      if (rule_ == PixelRule::kMean) b.sum[pixel] += color - b.base[pixel];
+    }
   }
-  for (std::size_t i = 0; i < pixels.colors.size(); ++i) {
-    if (buffers.counts[i] > 1) pixels.colors[i] = buffers.sums[i] / static_cast<float>(buffers.counts[i]);
+}
+
+void Painter::paint(const std::array<Corner, 3>& corner) {
+  Outline outline(corner);
+  const bool area = rule_ == PixelRule::kArea;
+  // Rows that the triangle touches or, where only centres count, whose centres it may hold.
+  const int top = std::max(area ? floor_to_int(outline.top()) : first_center(outline.top()), bounds_.y0);
+  const int bottom =
+      std::min(area ? ceil_to_int(outline.bottom()) : first_center(outline.bottom()), bounds_.y1);
+  if (top >= bottom) return;
+  outline.prepare();
+  const LinearPatch patch(corner);
+  for (int row = top; row < bottom; ++row) {
+    const double center = row + 0.5;
+    if (outline.top() <= center && center < outline.bottom()) fill(patch, row, outline.at(center));
+    if (rule_ == PixelRule::kArea) add_lines(outline, patch, row);
+  }
+}
+
+// Evaluates the ends of a span and goes from one to the other: as exact, and needs no care in between.
+void Painter::fill(const LinearPatch& patch, int row, const Extent& extent) {
+  const int left = std::max(first_center(extent.left), bounds_.x0);
+  const int last = std::min(first_center(extent.right), bounds_.x1) - 1;
+  if (left > last) return;
+  Color* pixel = pixels_.colors.data() + row_start(bounds_, row);
+  const Color first = patch.at(left + 0.5, row + 0.5);
+  pixel[left] = first;
+  if (left == last) return;
+  const Color way = patch.at(last + 0.5, row + 0.5) - first;
+  const float step = 1.0f / static_cast<float>(last - left);
+  for (int x = left + 1; x <= last; ++x) pixel[x] = first + way * (static_cast<float>(x - left) * step);
+}
+
+bool Painter::holds_sample_between(int row, int left, int right) const {
+  const std::uint64_t* words =
+      buffers_.holds_sample.data() + static_cast<std::size_t>(row - bounds_.y0) * words_per_row();
+  const int first = left / 64, last = right / 64;
+  const std::uint64_t from = ~std::uint64_t{0} << (left % 64), to = ~std::uint64_t{0} >> (63 - right % 64);
+  if (first == last) return (words[first] & from & to) != 0;
+  if ((words[first] & from) != 0 || (words[last] & to) != 0) return true;
+  return std::any_of(words + first + 1, words + last, [](std::uint64_t word) { return word != 0; });
+}
+
+void Painter::add_lines(const Outline& outline, const LinearPatch& patch, int row) {
+  const int left = std::max(floor_to_int(outline.left()), bounds_.x0) - bounds_.x0;
+  const int right = std::min(floor_to_int(outline.right()), bounds_.x1 - 1) - bounds_.x0;
+  if (left > right || !holds_sample_between(row, left, right)) return;
+  for (int line = 0; line < kLines; ++line) {
+    const double y = row + (line + 0.5) / kLines;
+    if (outline.top() <= y && y < outline.bottom()) add_line(patch, row, y, outline.at(y));
+  }
+}
+
+void Painter::add_line(const LinearPatch& patch, int row, double y, const Extent& extent) {
+  const int left = std::max(floor_to_int(extent.left), bounds_.x0) - bounds_.x0;
+  const int right = std::min(floor_to_int(extent.right), bounds_.x1 - 1) - bounds_.x0;
+  const std::uint64_t* words =
+      buffers_.holds_sample.data() + static_cast<std::size_t>(row - bounds_.y0) * words_per_row();
+  for (int first = left; first <= right; first = (first / 64 + 1) * 64) {
+    std::uint64_t word = words[first / 64] & ~std::uint64_t{0} << (first % 64);
+    for (; word != 0; word &= word - 1) {
+      const int column = first / 64 * 64 + std::countr_zero(word);
+      if (column > right) return;
+      const int x = bounds_.x0 + column;
+      const double from = std::max<double>(extent.left, x), to = std::min<double>(extent.right, x + 1);
+      if (!(from < to)) continue;
+      const auto pixel = static_cast<std::size_t>(row_start(bounds_, row) + x);
+      const Color difference = patch.at(0.5 * (from + to), y) - buffers_.base[pixel];
+      buffers_.sum[pixel] += difference * static_cast<float>((to - from) / kLines);
+    }
+  }
+}
+
+void Painter::finish() {
+  for (const std::uint32_t pixel : buffers_.pixels) {
+    const std::uint32_t samples = buffers_.count[pixel];
+    if (rule_ == PixelRule::kArea) {
+      pixels_.colors[pixel] = buffers_.base[pixel] + buffers_.sum[pixel];
+    } else if (rule_ == PixelRule::kMean && samples > 1) {
+      pixels_.colors[pixel] = buffers_.base[pixel] + buffers_.sum[pixel] / static_cast<float>(samples);
+    }
   }
 }
 
 }  // namespace
 
 void reconstruct(const SampleMesh& mesh, const PixelRect& bounds, RegionPixels& pixels,
-                 ReconstructionBuffers& buffers, CrowdedPixels crowded) {
+                 ReconstructionBuffers& buffers, PixelRule rule) {
   pixels.bounds = bounds;
   pixels.colors.assign(pixels.bounds.area(), Color(0, 0, 0));
-  const auto& delaunay = mesh.impl().delaunay();
-  for (auto face = delaunay.finite_faces_begin(); face != delaunay.finite_faces_end(); ++face) {
-    fill_triangle(corners_of(face), pixels);
+  Painter painter(pixels, buffers, rule);
+  painter.gather(mesh.impl());
+  for (const Delaunay::Triangle& t : mesh.impl().delaunay().triangles()) {
+    if (t.is_finite() && !misses(t, mesh.impl(), bounds)) painter.paint(corners_of(t, mesh.impl()));
   }
-  if (crowded == CrowdedPixels::kMean) average_crowded_pixels(mesh, pixels, buffers);
+  painter.finish();
 }
 
 std::vector<std::uint32_t> triangle_at_centers(const SampleMesh& mesh, const PixelRect& bounds) {
   std::vector<std::uint32_t> result(bounds.area(), kNoTriangle);
-  const auto& delaunay = mesh.impl().delaunay();
   std::uint32_t number = 0;
-  for (auto face = delaunay.finite_faces_begin(); face != delaunay.finite_faces_end(); ++face, ++number) {
-    const std::array<Corner, 3> corner = corners_of(face);
-    for_each_span(corner, rows_of(corner, bounds), bounds, [&](int row, int left, int right) {
+  for (const Delaunay::Triangle& t : mesh.impl().delaunay().triangles()) {
+    if (!t.is_finite()) continue;
+    for_each_span(corners_of(t, mesh.impl()), bounds, [&](int row, int left, int right) {
       std::uint32_t* pixel = result.data() + row_start(bounds, row);
       std::fill(pixel + left, pixel + right, number);
     });
+    ++number;
   }
   return result;
 }

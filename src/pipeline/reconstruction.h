@@ -21,21 +21,28 @@ struct RegionPixels {
   }
 };
 
-// Storage that lives from frame to frame.
-struct ReconstructionBuffers {
-  std::vector<Color> sums;  // of the samples in each pixel of the bounds
-  std::vector<std::uint32_t> counts;
+// What a pixel that holds samples shows. One that holds none shows the interpolation at its centre.
+enum class PixelRule : std::uint8_t {
+  kCenter,  // the interpolation at its centre as well
+  kMean,    // as the paper has it: where there is more than one sample, their mean
+  kArea     // the interpolation's mean over the pixel's area
 };
 
-// What becomes of a pixel with more than one sample; interpolated only where a study asks what the mean is
-// worth.
-enum class CrowdedPixels : std::uint8_t { kMean, kInterpolated };
+// Storage that lives from frame to frame. Pixels are numbered row by row within the bounds; those that hold
+// no sample have no meaning in `base`, `sum` and `count`.
+struct ReconstructionBuffers {
+  std::vector<std::uint64_t> holds_sample;  // a bit a pixel, each row beginning a new word
+  std::vector<std::uint32_t> pixels;        // those that hold samples, in the order of their first
+  std::vector<Color> base;                  // the first sample's colour
+  std::vector<Color> sum;                   // over samples or area, of differences from the base
+  std::vector<std::uint32_t> count;         // of samples
+};
 
-// Every pixel of `bounds`, as the mesh has it: the barycentric mean of the triangle that holds its centre or,
-// when more than one sample falls in the pixel, their average. Each centre belongs to exactly one triangle,
-// also on shared edges.
+// Every pixel of `bounds`, as the mesh has it: the barycentric mean of the triangle that holds its centre,
+// and what the rule says where there are samples. Each centre belongs to exactly one triangle, also on shared
+// edges.
 void reconstruct(const SampleMesh& mesh, const PixelRect& bounds, RegionPixels& pixels,
-                 ReconstructionBuffers& buffers, CrowdedPixels crowded = CrowdedPixels::kMean);
+                 ReconstructionBuffers& buffers, PixelRule rule = PixelRule::kArea);
 
 // Per pixel of `bounds`, row by row: which of triangles(mesh) holds its centre, by the same rule;
 // kNoTriangle where none does.

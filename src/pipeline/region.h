@@ -32,9 +32,11 @@ class Region {
     const int column = grid_.column_at(c.x), row = grid_.row_at(c.y);
     const int tile = column + row * grid_.columns();
     if (!owns_tile(tile)) return false;
+    const double beyond_tile = inside_by_[static_cast<std::size_t>(tile)];
+    if (circle.radius_squared < beyond_tile * beyond_tile) return true;
     const PixelSpan x = grid_.column(column), y = grid_.row(row);
     const double to_side = std::min({c.x - x.begin, x.end - c.x, c.y - y.begin, y.end - c.y});
-    const double inside_by = inside_by_[static_cast<std::size_t>(tile)] + std::max(to_side, 0.0);
+    const double inside_by = beyond_tile + std::max(to_side, 0.0);
     return circle.radius_squared < inside_by * inside_by;
   }
 

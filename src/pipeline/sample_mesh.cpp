@@ -7,6 +7,41 @@
 #include "pipeline/sample_mesh_impl.h"
 
 namespace pprt {
+namespace {
+
+bool is_inside(const Vec2d& point, const TileGrid& image) {
+  return point.x >= 0 && point.x <= image.width && point.y >= 0 && point.y <= image.height;
+}
+
+// Where the way to a circumcentre outside the image leaves it. From the centroid, which is inside both image
+// and circumcircle: every point of the way is inside the circle too, so a sample there does destroy the
+// triangle.
+Vec2d exit_towards(const Vec2d& circumcenter, const std::array<Vec2d, 3>& corners, const TileGrid& image) {
+  const double width = image.width, height = image.height;
+  const Vec2d start = (corners[0] + corners[1] + corners[2]) / 3.0;
+  const Vec2d way = circumcenter - start;
+  double share = 1;
+  Vec2d exit = circumcenter;
+  const auto meet = [&](double from, double step, double border, int axis) {
+    const double t = (border - from) / step;
+    if (!(t < share)) return;
+    share = t;
+    exit = start + way * t;
+    exit[axis] = border;  // exactly, so that points on a border are exactly collinear and make no slivers
+  };
+  if (circumcenter.x < 0) meet(start.x, way.x, 0, 0);
+  if (circumcenter.x > width) meet(start.x, way.x, width, 0);
+  if (circumcenter.y < 0) meet(start.y, way.y, 0, 1);
+  if (circumcenter.y > height) meet(start.y, way.y, height, 1);
+  return {std::clamp(exit.x, 0.0, width), std::clamp(exit.y, 0.0, height)};
+}
+
+Vec2d refinement_point(const std::array<Vec2d, 3>& corners, const Vec2d& circumcenter,
+                       const TileGrid& image) {
+  return is_inside(circumcenter, image) ? circumcenter : exit_towards(circumcenter, corners, image);
+}
+
+}  // namespace
 
 SampleMesh::SampleMesh(const Region& region, const WeightTerms& terms)
     : impl_(std::make_unique<Impl>(region, terms)) {}
@@ -56,75 +91,86 @@ void SampleMesh::Impl::clear() {
   const auto tiles = static_cast<std::size_t>(region_.grid().tile_count());
   delaunay_.clear();
   samples_.clear();
+  corners_.clear();
+  tallies_.clear();
   new_at_border_.clear();
   queue_.clear();
   tile_weights_.assign(tiles, {});
   region_weights_ = {};
-  latest_in_tile_.assign(tiles, Vertex());
+  latest_in_tile_.assign(tiles, Delaunay::kNowhere);
   next_stamp_ = 1;
-  planar_ = notes_foreign_ = false;
+  notes_foreign_ = false;
   wanted_.reset();
 }
 
 void SampleMesh::Impl::set_region(const Region& region) {
   region_ = region;
-  for (auto v = delaunay_.finite_vertices_begin(); v != delaunay_.finite_vertices_end(); ++v)
-    v->info().own = region_.owns_point(v->point().x(), v->point().y());
-  if (planar_) rescan();
+  for (std::size_t i = 0; i < samples_.size(); ++i)
+    corners_[i].own = region_.owns_point(samples_[i].x, samples_[i].y);
+  rescan();
 }
 
 bool SampleMesh::Impl::insert(const Sample& sample) {
   const TileGrid& grid = region_.grid();
-  if (!(sample.x >= 0 && sample.x <= grid.width && sample.y >= 0 && sample.y <= grid.height)) return false;
   const Vec2d point(sample.x, sample.y);
-  const Location at = wanted_ == point ? wanted_location_ : locate(point, face_near(point));
-  wanted_.reset();
-  const std::size_t before = delaunay_.number_of_vertices();
-  const Vertex vertex = delaunay_.insert({point.x, point.y}, at.type, at.face, at.index);
-  if (delaunay_.number_of_vertices() == before) return false;
+  if (!is_inside(point, grid)) return false;
   const int tile = grid.tile_at(point.x, point.y);
-  vertex->info() = {static_cast<std::uint32_t>(samples_.size()), sample.ray.color, region_.owns_tile(tile)};
+  const bool was_planar = delaunay_.is_planar();
+  if (!triangulate(point, tile)) return false;
   samples_.push_back(sample);
-  latest_in_tile_[static_cast<std::size_t>(tile)] = vertex;
-
-  if (delaunay_.dimension() < 2) return true;
-  if (!planar_) {
-    planar_ = true;
+  corners_.push_back({sample.ray.color, region_.owns_tile(tile)});
+  if (was_planar) {
+    admit();
+  } else if (delaunay_.is_planar()) {
     rescan();
-    return true;
   }
-  // Exactly the triangles around the new vertex are new, and the objects of all that died are among them.
-  auto face = delaunay_.incident_faces(vertex);
-  const auto first = face;
-  do {
-    forget(face->info());
-    if (delaunay_.is_infinite(face)) continue;
-    note_at_border(face, adopt(face));
-  } while (++face != first);
   return true;
 }
 
-void SampleMesh::Impl::note_at_border(Face face, const Circle& circle) {
-  const auto info = [&](int i) -> const VertexInfo& { return face->vertex(i)->info(); };
-  const std::array<bool, 3> own = {info(0).own, info(1).own, info(2).own};
+bool SampleMesh::Impl::triangulate(const Vec2d& point, int tile) {
+  const bool is_wanted = wanted_ == point;
+  wanted_.reset();
+  if (!delaunay_.is_planar()) return delaunay_.insert_before_planar(point);
+  Index& latest = latest_in_tile_[static_cast<std::size_t>(tile)];
+  Index at = refined_;
+  if (!is_wanted || !delaunay_.surely_holds(refined_, point)) {
+    at = delaunay_.locate(point, latest == Delaunay::kNowhere ? 0 : latest);
+    if (at == Delaunay::kNowhere) return false;
+  }
+  delaunay_.insert(point, at);
+  latest = at;
+  return true;
+}
+
+void SampleMesh::Impl::admit() {
+  tallies_.resize(delaunay_.triangles().size());
+  for (const Index t : delaunay_.new_triangles()) {
+    forget(tallies_[t]);
+    if (delaunay_.triangles()[t].is_finite()) note_at_border(t, adopt(t));
+  }
+}
+
+void SampleMesh::Impl::note_at_border(Index triangle, const Circle& circle) {
+  const auto& corners = delaunay_.triangles()[triangle].corners;
+  const std::array<bool, 3> own = {corners_[corners[0]].own, corners_[corners[1]].own,
+                                   corners_[corners[2]].own};
   if (!own[0] && !own[1] && !own[2] && !notes_foreign_) return;
   if (region_.surely_holds(circle)) return;
-  new_at_border_.push_back(
-      {{face, face->info().stamp}, {circle, {info(0).sample, info(1).sample, info(2).sample}, own}});
+  new_at_border_.push_back({{triangle, tallies_[triangle].stamp}, {circle, corners, own}});
 }
 
 std::optional<Vec2d> SampleMesh::Impl::next_point() {
   while (const std::optional<QueueEntry> entry = queue_.pop()) {
-    const Face face = entry->face;
-    if (face->info().stamp != entry->stamp) continue;  // destroyed since it was queued
-    const Vec2d center =
-        triangle_shape(corner(face, 0), corner(face, 1), corner(face, 2)).circumcircle.center;
-    const Vec2d point = refinement_point(face, center);
-    const Location at = locate(point, face);
-    if (at.type == Delaunay::VERTEX) continue;  // rounded onto a sample: as fine as coordinates allow
-    refined_ = face;
+    if (!lives(*entry)) continue;  // destroyed since it was queued
+    const Points corners = points(entry->triangle);
+    const Vec2d center = triangle_shape(corners[0], corners[1], corners[2]).circumcircle.center;
+    const Vec2d point = refinement_point(corners, center, region_.grid());
+    // Rounded onto a sample it is as fine as coordinates allow.
+    if (!delaunay_.surely_holds(entry->triangle, point) &&
+        delaunay_.locate(point, entry->triangle) == Delaunay::kNowhere)
+      continue;
+    refined_ = entry->triangle;
     wanted_ = point;
-    wanted_location_ = at;
     return point;
   }
   return std::nullopt;
@@ -133,52 +179,49 @@ std::optional<Vec2d> SampleMesh::Impl::next_point() {
 void SampleMesh::Impl::take_new_at_border(std::vector<BorderTriangle>& triangles) {
   triangles.clear();
   for (const BorderEntry& b : new_at_border_) {
-    if (b.entry.face->info().stamp == b.entry.stamp) triangles.push_back(b.triangle);
+    if (lives(b.entry)) triangles.push_back(b.triangle);
   }
   new_at_border_.clear();
 }
 
-SampleMesh::Impl::Location SampleMesh::Impl::locate(const Vec2d& point, Face near) const {
-  Location at;
-  at.face = delaunay_.locate({point.x, point.y}, at.type, at.index, near);
-  return at;
+SampleMesh::Impl::Points SampleMesh::Impl::points(Index triangle) const {
+  const auto& [a, b, c] = delaunay_.triangles()[triangle].corners;
+  const Vec2d* points = delaunay_.points().data();
+  return {points[a], points[b], points[c]};
 }
 
-SampleMesh::Impl::Face SampleMesh::Impl::face_near(const Vec2d& point) const {
-  const Vertex vertex = latest_in_tile_[static_cast<std::size_t>(region_.grid().tile_at(point.x, point.y))];
-  return vertex == Vertex() ? Face() : vertex->face();
-}
+Circle SampleMesh::Impl::adopt(Index triangle) {
+  const Points corners = points(triangle);
+  const TriangleShape shape = triangle_shape(corners[0], corners[1], corners[2]);
+  const Vec2d point = refinement_point(corners, shape.circumcircle.center, region_.grid());
 
-Circle SampleMesh::Impl::adopt(Face face) {
-  const TriangleShape shape = triangle_shape(corner(face, 0), corner(face, 1), corner(face, 2));
-  const VertexInfo &a = face->vertex(0)->info(), &b = face->vertex(1)->info(), &c = face->vertex(2)->info();
-  const Vec2d point = refinement_point(face, shape.circumcircle.center);
-
-  FaceInfo& info = face->info();
-  info.stamp = next_stamp_++;
-  info.tile = region_.grid().tile_at(point.x, point.y);
+  Tally& tally = tallies_[triangle];
+  tally.stamp = next_stamp_++;
+  tally.tile = region_.grid().tile_at(point.x, point.y);
   // What is refined elsewhere is weighed elsewhere.
-  if (region_.owns_tile(info.tile)) {
-    info.weight = refinement_weight(shape, display_variance(a.color, b.color, c.color), terms_);
-    count(info, 1);
-    if (info.weight > 0) queue_.push(info.weight, {face, info.stamp});
+  if (region_.owns_tile(tally.tile)) {
+    const auto& [a, b, c] = delaunay_.triangles()[triangle].corners;
+    const float variance = display_variance(corners_[a].color, corners_[b].color, corners_[c].color);
+    tally.weight = refinement_weight(shape, variance, terms_);
+    count(tally, 1);
+    if (tally.weight > 0) queue_.push(tally.weight, {triangle, tally.stamp});
   }
   return shape.circumcircle;
 }
 
-void SampleMesh::Impl::forget(FaceInfo& info) {
-  if (info.stamp == 0) return;
-  if (region_.owns_tile(info.tile)) count(info, -1);
-  info.stamp = 0;
+void SampleMesh::Impl::forget(Tally& tally) {
+  if (tally.stamp == 0) return;
+  if (region_.owns_tile(tally.tile)) count(tally, -1);
+  tally.stamp = 0;
 }
 
-void SampleMesh::Impl::count(const FaceInfo& info, int sign) {
+void SampleMesh::Impl::count(const Tally& tally, int sign) {
   const auto change = [&](TileWeights& weights) {
     weights.triangles += sign;
     // The last triangle takes the rounding of the running sum with it.
-    weights.total_weight = weights.triangles == 0 ? 0 : weights.total_weight + sign * info.weight;
+    weights.total_weight = weights.triangles == 0 ? 0 : weights.total_weight + sign * tally.weight;
   };
-  change(tile_weights_[static_cast<std::size_t>(info.tile)]);
+  change(tile_weights_[static_cast<std::size_t>(tally.tile)]);
   change(region_weights_);
 }
 
@@ -187,44 +230,17 @@ void SampleMesh::Impl::rescan() {
   wanted_.reset();
   tile_weights_.assign(tile_weights_.size(), {});
   region_weights_ = {};
-  for (auto face = delaunay_.finite_faces_begin(); face != delaunay_.finite_faces_end(); ++face) adopt(face);
-}
-
-Vec2d SampleMesh::Impl::refinement_point(Face face, const Vec2d& circumcenter) const {
-  const double width = region_.grid().width, height = region_.grid().height;
-  const auto inside = [](double v, double limit) { return v >= 0 && v <= limit; };
-  if (inside(circumcenter.x, width) && inside(circumcenter.y, height)) return circumcenter;
-  // From the centroid, which is inside both image and circumcircle, towards the circumcentre: every point of
-  // the way is inside the circle too, so a sample there does destroy the triangle.
-  const Vec2d start = (corner(face, 0) + corner(face, 1) + corner(face, 2)) / 3.0;
-  const Vec2d way = circumcenter - start;
-  double share = 1;
-  Vec2d exit = circumcenter;
-  const auto meet = [&](double from, double step, double border, int axis) {
-    const double t = (border - from) / step;
-    if (!(t < share)) return;
-    share = t;
-    exit = start + way * t;
-    exit[axis] = border;  // exactly, so that points on a border are exactly collinear and make no slivers
-  };
-  if (circumcenter.x < 0) meet(start.x, way.x, 0, 0);
-  if (circumcenter.x > width) meet(start.x, way.x, width, 0);
-  if (circumcenter.y < 0) meet(start.y, way.y, 0, 1);
-  if (circumcenter.y > height) meet(start.y, way.y, height, 1);
-  return {std::clamp(exit.x, 0.0, width), std::clamp(exit.y, 0.0, height)};
-}
-
-Vec2d SampleMesh::Impl::corner(Face face, int i) const {
-  const auto& p = face->vertex(i)->point();
-  return {p.x(), p.y()};
+  const auto& triangles = delaunay_.triangles();
+  tallies_.assign(triangles.size(), {});
+  for (Index t = 0; t < triangles.size(); ++t) {
+    if (triangles[t].is_finite()) adopt(t);
+  }
 }
 
 std::vector<std::array<std::uint32_t, 3>> triangles(const SampleMesh& mesh) {
   std::vector<std::array<std::uint32_t, 3>> result;
-  const auto& delaunay = mesh.impl().delaunay();
-  for (auto face = delaunay.finite_faces_begin(); face != delaunay.finite_faces_end(); ++face) {
-    result.push_back(
-        {face->vertex(0)->info().sample, face->vertex(1)->info().sample, face->vertex(2)->info().sample});
+  for (const Delaunay::Triangle& t : mesh.impl().delaunay().triangles()) {
+    if (t.is_finite()) result.push_back(t.corners);
   }
   return result;
 }

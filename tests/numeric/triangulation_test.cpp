@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "cgal_oracle.h"
 #include "pipeline/sample_mesh.h"
 
 namespace pprt {
@@ -118,6 +119,13 @@ TEST_CASE("a million hard points leave the triangulation whole") {
   CHECK(mesh.samples().size() + static_cast<std::size_t>(refused) == 4u + kPoints);
   CHECK(refused > kPoints / 8);
   check_tiling(mesh);
+
+  std::vector<Vec2d> accepted;
+  for (const Sample& s : mesh.samples()) accepted.emplace_back(s.x, s.y);
+  std::set<TriangleKey> ours;
+  for (const auto& t : triangles(mesh))
+    ours.insert(triangle_key({accepted[t[0]], accepted[t[1]], accepted[t[2]]}));
+  CHECK((ours == cgal_triangles(accepted)));
 }
 
 }  // namespace pprt

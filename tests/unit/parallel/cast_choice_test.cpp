@@ -74,18 +74,25 @@ TEST_CASE("less is put back into a coarse picture that has moved far and hides m
 }
 
 TEST_CASE("nothing is carried where a sample that proves right costs as much as a fresh one") {
-  // 770 units for each one asked; a fresh one is 840 and 110 a ray.
-  REQUIRE(price(Work::kCastSample) + price(Work::kRay) + price(Work::kKeptSample) == 770);
-  REQUIRE(price(Work::kOwnSample) == 840);
+  // 935 units for each one asked; a fresh one is 705 and 110 a ray.
+  REQUIRE(price(Work::kCastSample) + price(Work::kRay) + price(Work::kKeptSample) == 935);
+  REQUIRE(price(Work::kOwnSample) == 705);
+  const CastSurvivors fine = {1, 0, 1.5};
   CastEvidence e = evidence(0.01);
+  CHECK(cast_limits(e, fine).share > 0);
+  e.hidden = 8;  // 1558 against 0.9 * 1475
+  CHECK(cast_limits(e, fine).share == 0);
+  e.hidden = 5;  // 1247
+  CHECK(cast_limits(e, fine).share > 0);
+  e.hidden = 0, e.fresh_rays = 400;  // 935 against 0.9 * 1145
+  CHECK(cast_limits(e, fine).share > 0);
+  e.hidden = 3;  // 1100
+  CHECK(cast_limits(e, fine).share == 0);
+  // A coarse picture that has moved little pays a tenth more than a fresh one costs: 1260.
   CHECK(cast_limits(e, {1, 0, 0.5}).share > 0);
-  e.hidden = 10;  // 1540 against 0.9 * 1610
-  CHECK(cast_limits(e, {1, 0, 0.5}).share == 0);
-  e.hidden = 9;  // 1400
-  CHECK(cast_limits(e, {1, 0, 0.5}).share > 0);
-  e.hidden = 0, e.fresh_rays = 100;  // 770 against 0.9 * 950
-  CHECK(cast_limits(e, {1, 0, 0.5}).share > 0);
-  e.hidden = 3;  // 906
+  CHECK(cast_limits(e, {1, 0.6, 0.5}).share == 0);
+  CHECK(cast_limits(e, {5, 0, 0.5}).share == 0);
+  e.hidden = 6;  // 1336
   CHECK(cast_limits(e, {1, 0, 0.5}).share == 0);
 }
 

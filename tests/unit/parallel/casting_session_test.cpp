@@ -76,9 +76,9 @@ TEST_CASE("cast samples serve the next frame, the same each time") {
 
 TEST_CASE("auto carries what pays, the same each time, and knows of the frames before") {
   const SessionSettings settings = casting_settings(CastChoice::kAuto);
-  const VirtualRun run = run_session(kRanks, settings, still_or_pan(settings, 4, 3));
+  const VirtualRun run = run_session(kRanks, settings, still_or_pan(settings, 4, 3), {.more_rays = 4});
   const VirtualRun again =
-      run_session(kRanks, settings, still_or_pan(settings, 4, 3), {.slow_at_random = true});
+      run_session(kRanks, settings, still_or_pan(settings, 4, 3), {.slow_at_random = true, .more_rays = 4});
   CHECK(run.error.empty());
   CHECK(same_pictures(run, again));
   REQUIRE(run.frames.size() == 4);
@@ -99,7 +99,7 @@ TEST_CASE("where the eye rests and the view turns nothing is asked for, and samp
   };
   SessionSettings traced = settings;
   traced.report_samples = true;
-  const VirtualRun run = run_session(kRanks, traced, turning);
+  const VirtualRun run = run_session(kRanks, traced, turning, {.more_rays = 9});
   CHECK(run.error.empty());
   REQUIRE(run.frames.size() == 7);
   for (const FinishedFrame& frame : run.frames) {

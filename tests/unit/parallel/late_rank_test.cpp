@@ -6,40 +6,13 @@
 
 #include "parallel/local_communicator.h"
 #include "parallel/worker.h"
+#include "set_clock.h"
 #include "virtual_run.h"
 
 namespace pprt {
 namespace {
 
 constexpr double kPeriod = 0.25;
-
-// Wall time as far as a worker can tell: so many packets a frame, no patience with what has not come.
-class SetClock final : public FrameClock {
- public:
-  explicit SetClock(const double& now) : now_(now) {}
-
-  bool may_begin(const FrameOrder&) const override { return true; }
-  void begin_frame(const FrameOrder&) override { packets_ = 0; }
-  void spend(Work, std::uint64_t) override {}
-  void begin_packet() override { left_ = 40, ++packets_; }
-  bool packet_over() override { return left_-- == 0; }
-  bool sampling_over() override { return packets_ >= 6; }
-  void end_frame() override {}
-  std::size_t affordable(Work, double) const override { return 100'000; }
-  bool in_lockstep() const override { return false; }
-  double lap_ms() override { return 0; }
-  int rounds_under_way(double) const override { return 0; }
-  double sampling_share() const override { return 0.25; }
-  void region_changed(std::size_t) override {}
-  double frame_seconds() const override { return kPeriod; }
-  double sampling_end_seconds() const override { return now_; }
-  double sequence_seconds() const override { return now_; }
-
- private:
-  const double& now_;
-  int packets_ = 0;
-  int left_ = 0;
-};
 
 // What one order brings about: the camera's place, and what is carried over.
 struct Step {
@@ -60,7 +33,7 @@ class Pair {
         pictures_.try_emplace(pixels.frame_index, partition_.grid).first->second.paste(message.from, pixels);
       }));
       workers_.push_back(std::make_unique<Worker>(*communicators_[r], *inboxes_[r], settings_, partition_,
-                                                  probe(r), std::make_unique<SetClock>(now_)));
+                                                  probe(r), std::make_unique<SetClock>(40, kPeriod, now_)));
     }
   }
 

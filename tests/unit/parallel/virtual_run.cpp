@@ -50,7 +50,7 @@ class DiscTracer {
     RaySample sample;
     sample.hit = Vec3f(hit);
     sample.color = in_disc ? Color(0.9f, 0.7f, 0.2f) : Color(0.1f, 0.1f, 0.3f);
-    sample.rays = in_disc ? 4 : 1;
+    sample.rays = (in_disc ? 4u : 1u) + static_cast<std::uint32_t>(conditions_.more_rays);
     counts_.shadow += sample.rays - 1;
     if (conditions_.no_number_every > 0 &&
         traced_.size() % static_cast<std::size_t>(conditions_.no_number_every) == 0) {

@@ -20,6 +20,7 @@ CameraSource still_or_pan(const SessionSettings& settings, int frames, double sh
 struct Conditions {
   double period = 0;              // of a pattern of discs all over the plane, scene units; 0: one disc
   bool slow_at_random = false;    // the probe sleeps now and then: threads run in another order
+  int more_rays = 0;              // of every eye ray, beside those of the picture
   int no_number_every = 0;        // every so many eye rays of a rank give no number; 0: none
   bool drop_samples = false;      // bundles arrive empty
   bool arrive_at_random = false;  // what has arrived is not seen at every look

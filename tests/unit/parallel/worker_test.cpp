@@ -6,37 +6,14 @@
 #include <set>
 
 #include "parallel/local_communicator.h"
+#include "set_clock.h"
 #include "virtual_run.h"
 
 namespace pprt {
 namespace {
 
 constexpr double kPeriod = 0.25;
-
-// Wall time that stands still: so many packets a frame, no patience with what has not come.
-class StillClock final : public FrameClock {
- public:
-  bool may_begin(const FrameOrder&) const override { return true; }
-  void begin_frame(const FrameOrder&) override { packets_ = 0; }
-  void spend(Work, std::uint64_t) override {}
-  void begin_packet() override { left_ = 20, ++packets_; }
-  bool packet_over() override { return left_-- == 0; }
-  bool sampling_over() override { return packets_ >= 6; }
-  void end_frame() override {}
-  std::size_t affordable(Work, double) const override { return 100'000; }
-  bool in_lockstep() const override { return false; }
-  double lap_ms() override { return 0; }
-  int rounds_under_way(double) const override { return 0; }
-  double sampling_share() const override { return 0.25; }
-  void region_changed(std::size_t) override {}
-  double frame_seconds() const override { return kPeriod; }
-  double sampling_end_seconds() const override { return 0; }
-  double sequence_seconds() const override { return 0; }
-
- private:
-  int packets_ = 0;
-  int left_ = 0;
-};
+constexpr double kNow = 0;  // all the time
 
 // Three ranks; the middle third of the image is rank 1's, which is real.
 class Scene {
@@ -47,7 +24,7 @@ class Scene {
     }
     inbox_ = std::make_unique<Inbox>(*communicators_[1], [](const Message&) {});
     worker_ = std::make_unique<Worker>(*communicators_[1], *inbox_, settings_, partition_, probe(),
-                                       std::make_unique<StillClock>());
+                                       std::make_unique<SetClock>(20, kPeriod, kNow));
   }
 
   void render(Carry carry, const std::vector<std::int32_t>& owners = {}) {

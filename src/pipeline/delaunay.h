@@ -1,0 +1,85 @@
+// The Delaunay triangulation of points that come one by one: exact, compact, in arrays that keep their
+// storage.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/vector.h"
+
+namespace pprt {
+
+// Points are numbered in the order of insertion, triangles by the slot that holds them. Outside every edge of
+// the convex hull stands a triangle whose third corner is kInfinite, so that each triangle has three
+// neighbours. Bowyer's and Watson's insertion (1981) over exact predicates. Of cocircular points the
+// triangulation is the one that Devillers and Teillaud's perturbation (2003) chooses, whatever their order of
+// insertion: two ranks that know the same points hold the same triangles.
+class Delaunay {
+ public:
+  using Index = std::uint32_t;
+
+  static constexpr Index kInfinite = ~Index{0};
+  static constexpr Index kNowhere = ~Index{0};  // no triangle
+
+  // A side is a triangle and one of its edges, 4 * triangle + edge; edge i lies opposite corner i.
+  using Side = std::uint32_t;
+
+  struct Triangle {
+    std::array<Index, 3> corners;  // counter-clockwise; kInfinite only as the last
+    std::array<Side, 3> across;    // the sides of the neighbours
+
+    bool is_finite() const { return corners[2] != kInfinite; }
+  };
+
+  // Forgets all points; keeps the storage.
+  void clear();
+
+  // Whether there are triangles: three points that are not collinear.
+  bool is_planar() const { return !triangles_.empty(); }
+
+  const std::vector<Vec2d>& points() const { return points_; }
+
+  // Every slot holds a triangle, finite or not.
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+
+  // Some triangle whose circumcircle holds the point, found by walking from slot `from`: where an insertion
+  // begins. kNowhere when the point is there already. Needs is_planar().
+  Index locate(const Vec2d& point, Index from) const;
+
+  // The same, where a triangle is supposed to be the answer: true only if its circle strictly holds the
+  // point, which then is no corner of any triangle.
+  bool surely_holds(Index triangle, const Vec2d& point) const;
+
+  // Adds a point that locate() or surely_holds() found new. The slots of all triangles that it destroyed are
+  // among new_triangles(), which holds exactly the triangles around it.
+  void insert(const Vec2d& point, Index at);
+  std::span<const Index> new_triangles() const { return created_; }
+
+  // Adds a point while there are no triangles, false when it is there already. When it is the first off the
+  // line, all triangles are new.
+  bool insert_before_planar(const Vec2d& point);
+
+ private:
+  // An edge of the hole that an insertion makes, counter-clockwise around it.
+  struct Edge {
+    Index from, to;
+    Side beyond;
+  };
+
+  bool destroys(const Vec2d& point, const Triangle& triangle) const;
+  void dig(const Vec2d& point, Index at);
+  void fill(Index point);
+  void span_first_triangle(Index a, Index b, Index c);
+
+  std::vector<Vec2d> points_;
+  std::vector<Triangle> triangles_;
+  std::vector<Side> to_cross_;  // sides of the hole that dig() has not looked across yet
+  std::vector<Edge> rim_;       // of the hole
+  std::vector<Index> created_;
+};
+
+}  // namespace pprt
