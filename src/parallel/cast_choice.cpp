@@ -28,6 +28,9 @@ constexpr double kMovedFar = 2.5;  // pixels
 constexpr double kCoarse = 1;      // samples a pixel
 constexpr double kShareThen = 0.2;
 
+// Samples a pixel beyond which the picture lacks nothing that a carried sample could add, but its error.
+constexpr double kPlenty = 4;
+
 double hidden_share(const CastEvidence& e) {
   return e.asked > 0 ? e.hidden / e.asked : 0;
 }
@@ -78,6 +81,7 @@ CastLimits cast_limits(const CastEvidence& evidence, const CastSurvivors& surviv
     const double at_most = outlines_matter && !moved_far ? kPriceAtMostOnOutlines : kPriceAtMost;
     if (carried > at_most * fresh * (1 - hidden)) limits.share = 0;
   }
+  if (survivors.samples_per_pixel > kPlenty) limits.share = 0;
   return limits;
 }
 

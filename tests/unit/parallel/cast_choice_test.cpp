@@ -96,6 +96,11 @@ TEST_CASE("nothing is carried where a sample that proves right costs as much as 
   CHECK(cast_limits(e, {1, 0, 0.5}).share == 0);
 }
 
+TEST_CASE("nothing is carried where there are plenty of samples anyway") {
+  CHECK(cast_limits(evidence(0.01), {1, 0, 3.5}).share > 0);
+  CHECK(cast_limits(evidence(0.01), {1, 0, 4.5}).share == 0);
+}
+
 TEST_CASE("evidence adds up, and ages by halves without a change of its ratios") {
   CastEvidence sum = evidence(0.04);
   sum += evidence(0.04);
