@@ -25,7 +25,8 @@ get_property(compressed_files GLOBAL PROPERTY PPRT_COMPRESSED)
 add_custom_target(compressed_documents ALL DEPENDS ${compressed_files})
 
 install(FILES README.md LICENSE cmake/debian/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(FILES docs/architecture.md docs/numerics.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)
+file(GLOB guides CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/*.md)
+install(FILES ${guides} DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)
 install(DIRECTORY docs/images docs/decisions DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)
 install(DIRECTORY scenes/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples)
 

@@ -28,14 +28,16 @@ CLI::Validator number_between(double least, double most) {
       "");
 }
 
-// Whole numbers from `least`; a minus sign would wrap round.
-CLI::Validator count_from(std::uint64_t least) {
+// Whole numbers; a minus sign would wrap round.
+CLI::Validator count_from(std::uint64_t least, std::uint64_t most = ~std::uint64_t{0}) {
   return CLI::Validator(
-      [least](std::string& text) -> std::string {
+      [least, most](std::string& text) -> std::string {
         std::uint64_t value = 0;
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (error == std::errc() && end == text.data() + text.size() && value >= least) return {};
-        return "value " + text + " is not a whole number from " + std::to_string(least);
+        const bool whole = error == std::errc() && end == text.data() + text.size();
+        if (whole && value >= least && value <= most) return {};
+        return "value " + text + " is not a whole number from " + std::to_string(least) +
+               (most < ~std::uint64_t{0} ? " to " + std::to_string(most) : "");
       },
       "");
 }
@@ -65,7 +67,7 @@ void add_positionals(CLI::App& app, RenderOptions& o) {
 void add_run_options(CLI::App& app, RenderOptions& o) {
   const std::string group = "Run";
   app.add_option("--np", o.ranks, "Ranks (also -np N, as in mpirun); starts mpirun itself when more than one")
-      ->check(CLI::Range(1, 4096))
+      ->check(count_from(1, 4096))
       ->capture_default_str()
       ->type_name("N")
       ->group(group);
@@ -157,7 +159,7 @@ void add_image_options(CLI::App& app, RenderOptions& o) {
 void add_effect_options(CLI::App& app, RenderOptions& o) {
   const std::string group = "Effects";
   app.add_option("--max-depth", o.max_depth, "Longest chain of rays; an eye ray has depth 1")
-      ->check(CLI::Range(1, 64))
+      ->check(count_from(1, 64))
       ->capture_default_str()
       ->type_name("N")
       ->group(group);
