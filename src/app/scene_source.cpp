@@ -48,12 +48,15 @@ std::string meant_by(const std::string& name) {
 
 }  // namespace
 
+std::string hint_at_meant(const std::string& name) {
+  const std::string meant = meant_by(name);
+  return meant.empty() ? "" : "; did you mean '" + meant + "'?";
+}
+
 void require_file(const std::string& path) {
   std::error_code unknown;  // then reading will tell
   if (std::filesystem::exists(path, unknown) || unknown) return;
-  const std::string meant = meant_by(path);
-  throw InputError("cannot read '" + path + "': No such file or directory" +
-                   (meant.empty() ? "" : "; did you mean '" + meant + "'?"));
+  throw InputError("cannot read '" + path + "': No such file or directory" + hint_at_meant(path));
 }
 
 std::vector<std::string> generated_scenes() {
