@@ -68,6 +68,7 @@ std::vector<std::string> mpirun_command(int ranks, const std::string& hostfile, 
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   dup2(standard_error, STDERR_FILENO);
   std::vector<char*> words;
+  words.reserve(command.size() + 1);
   for (std::string& word : command) words.push_back(word.data());
   words.push_back(nullptr);
   execvp(words[0], words.data());
