@@ -25,9 +25,28 @@ get_property(compressed_files GLOBAL PROPERTY PPRT_COMPRESSED)
 add_custom_target(compressed_documents ALL DEPENDS ${compressed_files})
 
 install(FILES README.md LICENSE cmake/debian/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(FILES docs/architecture.md docs/numerics.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)
+file(GLOB guides CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/*.md)
+install(FILES ${guides} DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)
 install(DIRECTORY docs/images docs/decisions DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)
 install(DIRECTORY scenes/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples)
+
+# The programs tell their own completion; the folders are those in which Debian's shells look.
+function(pprt_completion program shell file directory)
+  set(script ${PROJECT_BINARY_DIR}/completion/${shell}/${file})
+  add_custom_command(OUTPUT ${script}
+    COMMAND ${CMAKE_COMMAND} -E make_directory ${PROJECT_BINARY_DIR}/completion/${shell}
+    COMMAND ${program} --completion ${shell} > ${script}
+    DEPENDS ${program} VERBATIM)
+  set_property(GLOBAL APPEND PROPERTY PPRT_COMPLETION ${script})
+  install(FILES ${script} DESTINATION ${CMAKE_INSTALL_DATADIR}/${directory})
+endfunction()
+foreach(program pprt-render pprt-convert pprt-compare pprt-study)
+  pprt_completion(${program} bash ${program} bash-completion/completions)
+  pprt_completion(${program} zsh _${program} zsh/vendor-completions)
+  pprt_completion(${program} fish ${program}.fish fish/vendor_completions.d)
+endforeach()
+get_property(completion_files GLOBAL PROPERTY PPRT_COMPLETION)
+add_custom_target(completion_scripts ALL DEPENDS ${completion_files})
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "The pprt authors <pprt@packages.debian.org>")
@@ -46,5 +65,6 @@ set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS openmpi-bin)  # pprt-render starts mpirun
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS gnuplot-nox)  # pprt-study has it draw plots
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS ffmpeg)  # pprt-render --film
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 include(CPack)

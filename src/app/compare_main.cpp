@@ -9,14 +9,14 @@ namespace {
 
 // A limit of the figure that `what` names.
 void add_limit(CLI::App& app, const char* name, std::optional<double>& limit, const char* what) {
-  app.add_option(name, limit, what)->type_name("X");
+  app.add_option(name, limit, what)->type_name("X")->group("Limits, beyond which the exit code is 1");
 }
 
 void add_options(CLI::App& app, pprt::CompareOptions& options) {
   app.add_option("A", options.image, "The picture, EXR or PNG, or a sequence such as out/%04d.png")
       ->required()
-      ->type_name("");
-  app.add_option("B", options.reference, "The reference to compare it with")->required()->type_name("");
+      ->type_name("FILE");
+  app.add_option("B", options.reference, "The reference to compare it with")->required()->type_name("FILE");
   app.add_option("--frames", options.frames, "Compare only frames A to B of the sequences")->type_name("A-B");
   app.add_flag("--clamp", options.clamp, "Compare what a display shows: values clamped to 0..1");
   app.add_option("--threshold", options.threshold, "Error above which a pixel counts for the share")

@@ -39,8 +39,8 @@ InputFormat input_format(const std::string& input) {
   if (is_mesh_extension(extension)) return InputFormat::kMesh;
   throw UsageError(
       fmt::format("cannot tell the format of input '{}': it must be FILE.nff, - (NFF on standard input), "
-                  "spd:NAME[:SIZE] or a mesh such as FILE.obj",
-                  input));
+                  "spd:NAME[:SIZE] or a mesh such as FILE.obj{}",
+                  input, hint_at_meant(input)));
 }
 
 OutputFormat output_format(const std::string& output) {
@@ -93,6 +93,7 @@ SceneDescription read(const ConvertOptions& options, InputFormat format) {
     std::cerr << parsed.warnings;
     return std::move(parsed.scene);
   }
+  require_file(options.input);
   ReadMesh mesh = read_mesh(options.input);
   for (const std::string& note : mesh.notes) say(mesh.scene, note);
   complete_view(mesh.scene, options.up);

@@ -4,6 +4,7 @@
 #include <future>
 #include <utility>
 
+#include "app/film.h"
 #include "base/diagnostics.h"
 #include "image/contact_sheet.h"
 #include "image/metrics.h"
@@ -64,6 +65,7 @@ void require_new_files(const RenderOptions& options, const RenderPlan& plan) {
     for (const FramePattern& file : files_of_a_frame(plan)) files.push_back(file_name(file, frame.number));
   }
   if (!options.contact_sheet.empty()) files.emplace_back(options.contact_sheet);
+  if (!options.film.empty()) files.emplace_back(options.film);
   for (const std::filesystem::path& file : files) {
     if (!std::filesystem::exists(file)) continue;
     throw UsageError(file.string() + " is there already; --overwrite replaces it, --resume goes on after it");
@@ -83,14 +85,17 @@ void require_references(const RenderPlan& plan) {
 void check_files(const RenderOptions& options, const RenderPlan& plan) {
   require_new_files(options, plan);
   require_references(plan);
+  if (!options.film.empty()) require_ffmpeg();
 }
 
 FrameRecorder::FrameRecorder(const RenderOptions& options, const RenderPlan& plan, const CompiledScene& scene,
-                             const std::string& key, const Json& run)
+                             const std::string& key, const Json& run, Progress& progress)
     : scene_(scene),
       has_rate_(plan.settings.frames_per_second > 0),
       where_(names_of(options)),
       contact_sheet_(options.contact_sheet),
+      film_(options.film),
+      film_rate_(plan.film_rate),
       first_output_(plan.outputs.front()),
       layers_(plan.layers),
       reference_(plan.reference),
@@ -99,9 +104,10 @@ FrameRecorder::FrameRecorder(const RenderOptions& options, const RenderPlan& pla
       finished_before_(frames_in(manifest_, plan)),
       written_(finished_before_),
       writer_(plan.outputs, {.overwrite = true}),
-      progress_(progress_kind(options.progress), static_cast<int>(plan.frames.size()),
-                static_cast<int>(finished_before_.size()), plan.settings.frames_per_second,
-                options.progress == "none") {
+      progress_(progress) {
+  progress_.begin({.frames = static_cast<int>(plan.frames.size()),
+                   .there = static_cast<int>(finished_before_.size()),
+                   .frames_per_second = plan.settings.frames_per_second});
   if (options.compare_serial) serial_.emplace(scene, plan.settings);
   ledger_.write(run);
 }
@@ -168,11 +174,19 @@ void FrameRecorder::write_contact_sheet() const {
   write_image(contact_sheet_, contact_sheet(thumbnails, layout));
 }
 
+void FrameRecorder::make_film() const {
+  if (film_.empty() || written_.empty()) return;
+  std::vector<std::filesystem::path> pictures;
+  for (const int frame : written_) pictures.push_back(file_name(first_output_, frame));
+  write_film(film_, pictures, film_rate_);
+}
+
 void FrameRecorder::finish(bool stopped) {
   try {
     writer_.finish();
     note_written(writer_.take_finished());
     write_contact_sheet();
+    make_film();
     if (serial_) serial_->catch_up();
     ledger_.finish();
     ledger_.write(totals_.summary(has_rate_));

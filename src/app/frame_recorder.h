@@ -21,9 +21,9 @@ namespace pprt {
 class FrameRecorder {
  public:
   // `key` stands for scene and options in the manifest; `run` is the ledger's first record.
-  // The scene must outlive the recorder.
+  // Scene and progress must outlive the recorder.
   FrameRecorder(const RenderOptions& options, const RenderPlan& plan, const CompiledScene& scene,
-                const std::string& key, const Json& run);
+                const std::string& key, const Json& run, Progress& progress);
 
   // Whether an earlier run has finished the frame (--resume).
   bool finished_before(int frame) const { return finished_before_.count(frame) != 0; }
@@ -36,7 +36,7 @@ class FrameRecorder {
   void status() const;  // from any thread
   const RunTotals& totals() const { return totals_; }
 
-  // Waits for the last file, writes the contact sheet and the summary; throws what kept a frame from being
+  // Waits for the last file, writes contact sheet, film and summary; throws what kept a frame from being
   // written.
   void finish(bool stopped);
 
@@ -45,11 +45,14 @@ class FrameRecorder {
   std::vector<Measurement> measurements_of(const FinishedFrame& frame);
   void note_written(const std::vector<WrittenFrame>& frames);
   void write_contact_sheet() const;
+  void make_film() const;
 
   const CompiledScene& scene_;
   bool has_rate_;
   std::string where_;
   std::filesystem::path contact_sheet_;  // empty: none
+  std::filesystem::path film_;           // empty: none
+  double film_rate_;                     // frames/s
   FramePattern first_output_;
   std::vector<Layer> layers_;
   std::optional<FramePattern> reference_;
@@ -60,11 +63,12 @@ class FrameRecorder {
   std::set<int> written_;  // frames whose files are whole, those of earlier runs too
   FrameWriter writer_;
   mutable std::mutex mutex_;  // guards what follows
-  Progress progress_;
+  Progress& progress_;
   RunTotals totals_;
 };
 
-// Throws UsageError when an output is there already and may not be replaced, or a reference is not there.
+// Throws UsageError when an output is there already and may not be replaced, or a reference is not there, and
+// std::runtime_error when a film is wanted and there is no ffmpeg.
 void check_files(const RenderOptions& options, const RenderPlan& plan);
 
 }  // namespace pprt

@@ -68,6 +68,7 @@ std::vector<std::string> mpirun_command(int ranks, const std::string& hostfile, 
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   dup2(standard_error, STDERR_FILENO);
   std::vector<char*> words;
+  words.reserve(command.size() + 1);
   for (std::string& word : command) words.push_back(word.data());
   words.push_back(nullptr);
   execvp(words[0], words.data());
@@ -87,12 +88,14 @@ void show(std::string_view text) {
 }
 
 // Hands on what mpirun and the ranks say until they end.
-MpirunMessages relay(int from) {
+MpirunMessages relay(int from, const std::function<void(std::string_view)>& overhear) {
   MpirunMessages messages;
   std::array<char, 4096> piece{};
   for (ssize_t count = 0; (count = read(from, piece.data(), piece.size())) != 0;) {
     if (count > 0) {
-      show(messages.take({piece.data(), static_cast<std::size_t>(count)}));
+      const std::string said = messages.take({piece.data(), static_cast<std::size_t>(count)});
+      show(said);
+      overhear(said);
     } else if (errno != EINTR) {
       throw_errno("cannot read from mpirun");
     }
@@ -111,7 +114,8 @@ int wait_for(pid_t child) {
 
 }  // namespace
 
-int run_under_mpirun(int ranks, const std::string& hostfile, char** argv) {
+int run_under_mpirun(int ranks, const std::string& hostfile, char** argv,
+                     const std::function<void(std::string_view)>& overhear) {
   std::vector<std::string> command = mpirun_command(ranks, hostfile, argv);
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw_errno("cannot start mpirun");
@@ -121,7 +125,7 @@ int run_under_mpirun(int ranks, const std::string& hostfile, char** argv) {
   close(ends[1]);
   mpirun_pid = child;
   pass_signals_on();
-  const MpirunMessages messages = relay(ends[0]);
+  const MpirunMessages messages = relay(ends[0], overhear);
   const int code = wait_for(child);
   close(ends[0]);
   // A run that was to stop may fail at that; what mpirun makes of being ended itself says nothing.

@@ -152,13 +152,14 @@ Prepared prepare(const RenderOptions& options) {
 }
 
 // `told` becomes true once the other ranks know what to do.
-int run_frames(Communicator& network, const RenderOptions& options, const Prepared& prepared, bool& told) {
+int run_frames(Communicator& network, const RenderOptions& options, const Prepared& prepared,
+               Progress& progress, bool& told) {
   const std::string nff = nff_text(prepared.plan.scene);
   const RenderPlan& plan = prepared.plan;
   const std::string scene_hash = content_hash(nff);
   const Json run = run_record(options, plan, network.size(), prepared.scene, scene_hash);
   FrameRecorder recorder(options, plan, prepared.scene, run_key(options, plan, network.size(), scene_hash),
-                         run);
+                         run, progress);
   const CameraSource source =
       camera_source(frame_requests(plan, prepared.scene, network.size(), recorder), recorder);
 
@@ -178,13 +179,14 @@ int run_frames(Communicator& network, const RenderOptions& options, const Prepar
     recorder.finish(stop_requested().has_value());
   } catch (const std::exception& e) {
     fmt::print(stderr, "pprt-render: error: {}\n", e.what());
+    progress.fail(e.what());
     return kExitFailure;
   }
   if (options.census) print_rays(recorder.totals());
   return stop_requested() ? 128 + *stop_requested() : kExitDone;
 }
 
-int master_rank(Communicator& network, const RenderOptions& options, bool& told) {
+int master_rank(Communicator& network, const RenderOptions& options, Progress& progress, bool& told) {
   try {
     const Prepared prepared = prepare(options);
     // A census alone renders nothing.
@@ -194,7 +196,7 @@ int master_rank(Communicator& network, const RenderOptions& options, bool& told)
       return kExitDone;
     }
     check_files(options, prepared.plan);
-    return run_frames(network, options, prepared, told);
+    return run_frames(network, options, prepared, progress, told);
   } catch (...) {
     if (!told) {
       Bytes nothing = encode(RenderJob{});
@@ -226,15 +228,16 @@ int worker_rank(Communicator& network) {
 
 // No exception may pass ranks that others wait for: what keeps the master from beginning ends all ranks in
 // order, what comes later ends them at once.
-int run_mpi_rank(const RenderOptions& options, int argc, char** argv) {
+int run_mpi_rank(const RenderOptions& options, Progress& progress, int argc, char** argv) {
   MpiCommunicator network(argc, argv);
   set_up_log(options.log, network.rank());
   bool told = false;
   try {
-    return network.rank() == 0 ? master_rank(network, options, told) : worker_rank(network);
+    return network.rank() == 0 ? master_rank(network, options, progress, told) : worker_rank(network);
   } catch (const std::exception& e) {
     if (network.rank() == 0 && !told) throw;
     fmt::print(stderr, "pprt-render: rank {}: error: {}\n", network.rank(), e.what());
+    progress.fail(e.what());
     network.abort_all(kExitFailure);
   }
 }
@@ -249,22 +252,39 @@ void keep_freed_memory() {
   mallopt(M_TRIM_THRESHOLD, kBytes);
 }
 
-}  // namespace
-
-int render(const RenderOptions& options, const std::string& config, int argc, char** argv) {
-  check_usage(options);
-  if (options.write_config) {
-    if (launcher_rank() == 0) std::cout << config;
-    return kExitDone;
-  }
+int run(const RenderOptions& options, Progress& progress, int argc, char** argv) {
   keep_freed_memory();
-  if (started_by_mpi_launcher()) return run_mpi_rank(options, argc, argv);
-  if (options.ranks > 1) return run_under_mpirun(options.ranks, options.hostfile, argv);
+  if (started_by_mpi_launcher()) return run_mpi_rank(options, progress, argc, argv);
+  if (options.ranks > 1) {
+    return run_under_mpirun(options.ranks, options.hostfile, argv,
+                            [&](std::string_view said) { progress.overhear(said); });
+  }
   set_up_log(options.log, 0);
   LocalNetwork alone(1);
   LocalCommunicator network(alone, 0);
   bool told = false;
-  return master_rank(network, options, told);
+  return master_rank(network, options, progress, told);
+}
+
+}  // namespace
+
+int render(const RenderOptions& options, const std::string& config, int argc, char** argv) {
+  // Of the ranks of a launcher the first alone speaks.
+  Progress progress(launcher_rank() == 0 ? progress_kind(options.progress) : ProgressKind::kNone,
+                    options.progress == "none");
+  try {
+    check_usage(options);
+    if (options.write_config) {
+      if (launcher_rank() == 0) std::cout << config;
+      return kExitDone;
+    }
+    const int code = run(options, progress, argc, argv);
+    progress.close(code);
+    return code;
+  } catch (const std::exception& e) {
+    progress.fail(e.what());
+    throw;
+  }
 }
 
 }  // namespace pprt

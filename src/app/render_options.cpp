@@ -1,14 +1,15 @@
 #include "app/render_options.h"
 
-#include <cstdio>
-#include <sstream>
-
 #include <charconv>
 #include <cstdint>
+#include <cstdio>
 #include <sstream>
 #include <system_error>
 
 #include "app/command_line.h"
+#include "app/option_words.h"
+#include "app/scene_source.h"
+#include "layers/layer.h"
 #include "trace/effects.h"
 
 namespace pprt {
@@ -27,32 +28,46 @@ CLI::Validator number_between(double least, double most) {
       "");
 }
 
-// Whole numbers from `least`; a minus sign would wrap round.
-CLI::Validator count_from(std::uint64_t least) {
+// Whole numbers; a minus sign would wrap round.
+CLI::Validator count_from(std::uint64_t least, std::uint64_t most = ~std::uint64_t{0}) {
   return CLI::Validator(
-      [least](std::string& text) -> std::string {
+      [least, most](std::string& text) -> std::string {
         std::uint64_t value = 0;
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (error == std::errc() && end == text.data() + text.size() && value >= least) return {};
-        return "value " + text + " is not a whole number from " + std::to_string(least);
+        const bool whole = error == std::errc() && end == text.data() + text.size();
+        if (whole && value >= least && value <= most) return {};
+        return "value " + text + " is not a whole number from " + std::to_string(least) +
+               (most < ~std::uint64_t{0} ? " to " + std::to_string(most) : "");
       },
       "");
 }
 
+std::vector<std::string> layer_words() {
+  std::vector<std::string> words = {"all"};
+  for (const Layer layer : kAllLayers) words.emplace_back(name_of(layer));
+  return words;
+}
+
+std::vector<std::string> effect_words() {
+  std::vector<std::string> words = {"auto", "all", "none"};
+  for (const Effect effect : every_effect()) words.emplace_back(name(effect));
+  return words;
+}
+
 void add_positionals(CLI::App& app, RenderOptions& o) {
-  app.add_option("SCENE", o.input,
-                 "FILE.nff, - (standard input), spd:NAME[:SIZE], or a script that names its scene")
-      ->required()
-      ->type_name("");
+  auto* scene = app.add_option(
+      "SCENE", o.input, "FILE.nff, - (standard input), spd:NAME[:SIZE], or a script that names its scene");
+  scene->required()->type_name("");
+  take_path_or(*scene, generated_scenes());
   app.add_option("SCRIPT", o.script,
                  "Animation script, FILE.anim; without one a still from the scene's own view")
-      ->type_name("");
+      ->type_name("FILE");
 }
 
 void add_run_options(CLI::App& app, RenderOptions& o) {
   const std::string group = "Run";
   app.add_option("--np", o.ranks, "Ranks (also -np N, as in mpirun); starts mpirun itself when more than one")
-      ->check(CLI::Range(1, 4096))
+      ->check(count_from(1, 4096))
       ->capture_default_str()
       ->type_name("N")
       ->group(group);
@@ -64,51 +79,43 @@ void add_run_options(CLI::App& app, RenderOptions& o) {
       ->check(number_between(0, 1000))
       ->type_name("F")
       ->group(group);
-  app.add_option("--clock", o.clock,
-                 "wall: real time; work: counted work, the same result on any machine and load")
-      ->check(CLI::IsMember({"wall", "work"}))
-      ->capture_default_str()
-      ->type_name("CLOCK")
-      ->group(group);
-  app.add_option("--budget", o.budget, "Work clock: work units per rank and frame (default: 50000000 / fps)")
+  auto* clock = app.add_option(
+      "--clock", o.clock, "Real time, or counted work: the same result on any machine and under any load");
+  clock->capture_default_str()->group(group);
+  take_one_of(*clock, {"wall", "work"});
+  app.add_option("--budget", o.budget,
+                 "Units of work for each rank and frame, with --clock work (default: 50000000 / fps)")
       ->check(count_from(1))
       ->type_name("N")
       ->group(group);
-  app.add_option("--time", o.time, "Without a rate: stop a frame after so many seconds")
+  app.add_option("--time", o.time, "Stop a frame after so many seconds; without a rate")
       ->check(number_between(1e-3, 1e9))
       ->type_name("S")
       ->group(group);
-  app.add_option("--samples", o.samples, "Without a rate: stop a frame at so many samples")
+  app.add_option("--samples", o.samples, "Stop a frame at so many samples; without a rate")
       ->check(count_from(1))
       ->type_name("N")
       ->group(group);
   app.add_option("--quality", o.quality,
-                 "Without a rate: stop a frame at this mean triangle weight (default: 0.005)")
+                 "Stop a frame at this mean triangle weight; without a rate (default: 0.005)")
       ->check(number_between(1e-12, 1e12))
       ->type_name("Q")
       ->group(group);
-  app.add_option("--balance", o.balance, "Load balancing among ranks: none, local, global or combined")
-      ->check(CLI::IsMember({"none", "local", "global", "combined"}))
-      ->capture_default_str()
-      ->type_name("MODE")
-      ->group(group);
-  app.add_option("--cast", o.cast, "Samples carried to the next frame: off, paper, verified or auto")
-      ->check(CLI::IsMember({"off", "paper", "verified", "auto"}))
-      ->capture_default_str()
-      ->type_name("WAY")
-      ->group(group);
-  app.add_option("--keep-samples", o.keep_samples,
-                 "When the image is cut anew: on hands samples over, off drops them")
-      ->check(CLI::IsMember({"on", "off"}))
-      ->capture_default_str()
-      ->type_name("WHETHER")
-      ->group(group);
-  app.add_option("--pixels", o.pixels,
-                 "What a pixel with samples shows: area, mean (of its samples) or center (of the pixel)")
-      ->check(CLI::IsMember({"area", "mean", "center"}))
-      ->capture_default_str()
-      ->type_name("RULE")
-      ->group(group);
+  auto* balance = app.add_option("--balance", o.balance, "Load balancing among ranks");
+  balance->capture_default_str()->group(group);
+  take_one_of(*balance, {"none", "local", "global", "combined"});
+  auto* cast = app.add_option("--cast", o.cast, "Which samples are carried to the next frame");
+  cast->capture_default_str()->group(group);
+  take_one_of(*cast, {"off", "paper", "verified", "auto"});
+  auto* keep = app.add_option(
+      "--keep-samples", o.keep_samples,
+      "What becomes of samples when the image is cut anew: on hands them over, off drops them");
+  keep->capture_default_str()->group(group);
+  take_one_of(*keep, {"on", "off"});
+  auto* pixels = app.add_option("--pixels", o.pixels,
+                                "What pixels with samples show: their area's mean, the samples', the center");
+  pixels->capture_default_str()->group(group);
+  take_one_of(*pixels, {"area", "mean", "center"});
   app.add_option("--seed", o.seed, "Of the pattern that every frame starts from")
       ->check(count_from(0))
       ->capture_default_str()
@@ -123,7 +130,7 @@ void add_image_options(CLI::App& app, RenderOptions& o) {
       ->group(group);
   app.add_option(
          "-o,--output", o.outputs,
-         "File name with %04d or #### for the frame number, .exr or .png; may be given twice (default: " +
+         "File names, with %04d or #### for the frame number, .exr or .png; may be given twice (default: " +
              std::string(kDefaultOutput) + ")")
       ->type_name("PATTERN")
       ->type_size(1)
@@ -132,14 +139,17 @@ void add_image_options(CLI::App& app, RenderOptions& o) {
       ->allow_extra_args(false)
       ->group(group);
   app.add_option("--frames", o.frames, "Render only frames A to B")->type_name("A-B")->group(group);
-  app.add_option(
-         "--layers", o.layers,
-         "What shows how a frame came about, as EXR channels and PNG pictures: all, or some of samples, "
-         "triangulation, regions, age, density, cost, confidence, depth, normal, id")
-      ->type_name("LIST")
-      ->group(group);
+  auto* layers = app.add_option(
+      "--layers", o.layers,
+      "What shows how a frame came about, as EXR channels and PNG pictures: all, or some of samples, "
+      "triangulation, regions, age, density, cost, confidence, depth, normal, id");
+  layers->type_name("LIST")->group(group);
+  take_some_of(*layers, layer_words());
   app.add_option("--contact-sheet", o.contact_sheet,
                  "Put thumbnails of the finished frames on one picture, .exr or .png")
+      ->type_name("FILE")
+      ->group(group);
+  app.add_option("--film", o.film, "Make a film of the finished frames, .mp4 or .mkv (needs ffmpeg)")
       ->type_name("FILE")
       ->group(group);
   auto* overwrite =
@@ -153,16 +163,15 @@ void add_image_options(CLI::App& app, RenderOptions& o) {
 void add_effect_options(CLI::App& app, RenderOptions& o) {
   const std::string group = "Effects";
   app.add_option("--max-depth", o.max_depth, "Longest chain of rays; an eye ray has depth 1")
-      ->check(CLI::Range(1, 64))
+      ->check(count_from(1, 64))
       ->capture_default_str()
       ->type_name("N")
       ->group(group);
-  app.add_option("--effects", o.effects,
-                 "auto (what the scene calls for), all, none, or some of shadows, highlights, reflection, "
-                 "refraction, smooth-normals")
-      ->capture_default_str()
-      ->type_name("LIST")
-      ->group(group);
+  auto* effects = app.add_option("--effects", o.effects,
+                                 "Which effects are simulated: auto (what the scene calls for), all, none, "
+                                 "or some of shadows, highlights, reflection, refraction, smooth-normals");
+  effects->capture_default_str()->type_name("LIST")->group(group);
+  take_some_of(*effects, effect_words());
   app.add_flag("--cull", o.cull, "Opaque surfaces are visible from the front only")->group(group);
   app.add_flag("--census", o.census,
                "Print what effects the scene calls for and why, and with frames the rays of each")
@@ -181,17 +190,14 @@ void add_report_options(CLI::App& app, RenderOptions& o) {
   app.add_flag("--compare-serial", o.compare_serial,
                "Measure each frame's sample pattern against the serial one of as many samples")
       ->group(group);
-  app.add_option("--progress", o.progress, "tty, json or none (auto: tty on a terminal)")
-      ->check(CLI::IsMember({"auto", "tty", "json", "none"}))
-      ->capture_default_str()
-      ->type_name("HOW")
-      ->group(group);
-  app.add_option("--log", o.log,
-                 "Tell what is done on standard error: trace, debug, info, warning, error or off")
-      ->check(CLI::IsMember({"trace", "debug", "info", "warning", "error", "off"}))
-      ->capture_default_str()
-      ->type_name("LEVEL")
-      ->group(group);
+  auto* progress = app.add_option("--progress", o.progress,
+                                  "What is told while frames are made: a line that is rewritten, or a JSON "
+                                  "object a frame; auto: tty on a terminal");
+  progress->capture_default_str()->group(group);
+  take_one_of(*progress, {"auto", "tty", "json", "none"});
+  auto* log = app.add_option("--log", o.log, "Tell what is done on standard error");
+  log->capture_default_str()->group(group);
+  take_one_of(*log, {"trace", "debug", "info", "warning", "error", "off"});
   app.set_config("--config", "", "Read options from a file")->type_name("FILE")->group(group);
   app.get_config_formatter_base()->comment(';');  // '#' stands in file name patterns
   app.allow_config_extras(CLI::config_extras_mode::error);

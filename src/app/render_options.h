@@ -36,6 +36,7 @@ struct RenderOptions {
   std::string frames;                // "A-B"; empty: all
   std::string layers;                // names with commas between them; empty: none
   std::string contact_sheet;         // picture of all frames; empty: none
+  std::string film;                  // of all frames; empty: none
   bool overwrite = false;
   bool resume = false;
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "app/film.h"
 #include "app/number_pair.h"
 #include "app/scene_source.h"
 #include "base/diagnostics.h"
@@ -64,7 +65,10 @@ Sources read_sources(const RenderOptions& options) {
   Sources sources;
   const bool only_script = options.script.empty() && is_script_name(options.input);
   const std::string script = only_script ? options.input : options.script;
-  if (!script.empty()) sources.script = read_animation(script);
+  if (!script.empty()) {
+    require_file(script);
+    sources.script = read_animation(script);
+  }
   const std::string scene = only_script ? scene_of_script(sources.script->animation, script) : options.input;
   sources.scene = load_scene(scene, {.strict = options.strict});
   return sources;
@@ -151,6 +155,13 @@ double frame_rate(const RenderOptions& options, const Sources& sources) {
   return sources.script ? sources.script->animation.fps : 0;
 }
 
+// A film runs at the rate of the frames, without one at the script's own, and else at the customary one.
+double film_rate(double fps, const Sources& sources) {
+  constexpr double kCustomary = 25;
+  if (fps > 0) return fps;
+  return sources.script && sources.script->animation.fps > 0 ? sources.script->animation.fps : kCustomary;
+}
+
 std::vector<Layer> requested_layers(const RenderOptions& options) {
   return options.layers.empty() ? std::vector<Layer>() : parse_layers(options.layers);
 }
@@ -223,6 +234,7 @@ void check_usage(const RenderOptions& options) {
   if (!sheet.empty() && sheet.extension() != ".png" && sheet.extension() != ".exr") {
     throw UsageError("--contact-sheet " + sheet.string() + ": want a name that ends in .png or .exr");
   }
+  if (!options.film.empty()) require_film_name(options.film);
   requested_size(options);
   requested_frames(options);
   compile_options(options);
@@ -252,6 +264,7 @@ RenderPlan plan_render(const RenderOptions& options) {
   plan.layers = requested_layers(options);
   plan.reference = parse_reference(options);
   plan.settings = settle(options, base, frame_rate(options, sources));
+  plan.film_rate = film_rate(plan.settings.frames_per_second, sources);
   plan.compile = compile_options(options);
   plan.warnings = sources.scene.warnings + (sources.script ? sources.script->warnings : "");
   plan.scene = std::move(sources.scene.scene);

@@ -31,6 +31,7 @@ struct RenderPlan {
   std::vector<FramePattern> outputs;
   std::vector<Layer> layers;
   std::optional<FramePattern> reference;
+  double film_rate = 25;  // frames/s
   SessionSettings settings;
   CompileOptions compile;
   std::string warnings;  // of scene and script, for people

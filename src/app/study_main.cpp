@@ -1,5 +1,7 @@
 #include "app/command_line.h"
 #include "app/exit.h"
+#include "app/option_words.h"
+#include "app/scene_source.h"
 #include "app/study_accuracy.h"
 #include "app/study_counts.h"
 #include "app/study_paper.h"
@@ -8,11 +10,11 @@ namespace {
 
 CLI::App* add_counts(CLI::App& app, pprt::CountsOptions& options) {
   CLI::App* command = app.add_subcommand("counts", "Rays by kind against Haines' published table");
-  command
-      ->add_option("SCENE", options.scenes,
-                   "FILE.nff, - (standard input) or spd:NAME[:SIZE]; default: the "
-                   "seven published")
-      ->type_name("");
+  auto* scenes =
+      command->add_option("SCENE", options.scenes,
+                          "FILE.nff, - (standard input) or spd:NAME[:SIZE]; default: the seven published");
+  scenes->type_name("");
+  pprt::take_path_or(*scenes, pprt::generated_scenes());
   command->add_option("--tolerance", options.tolerance_percent, "Greatest difference that passes, in percent")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str()
@@ -43,9 +45,9 @@ CLI::App* add_paper(CLI::App& app, pprt::PaperOptions& options) {
                    "Render the first N frames of each sequence; default: 40, or 6 if quick")
       ->check(CLI::Range(5, 40))
       ->type_name("N");
-  command->add_option("--machine", options.machine, "Speed of processors and network: cluster or sp2")
-      ->capture_default_str()
-      ->type_name("NAME");
+  auto* machine = command->add_option("--machine", options.machine, "Speed of processors and network");
+  machine->capture_default_str();
+  pprt::take_one_of(*machine, {"cluster", "sp2"});
   command->add_option("--latency", options.latency_us, "Of the network, microseconds; default: the machine's")
       ->check(CLI::NonNegativeNumber)
       ->type_name("US");
@@ -60,11 +62,12 @@ CLI::App* add_paper(CLI::App& app, pprt::PaperOptions& options) {
 
 CLI::App* add_accuracy(CLI::App& app, pprt::AccuracyOptions& options) {
   CLI::App* command = app.add_subcommand("accuracy", "What a better picture costs in time");
-  command
-      ->add_option("SCENE", options.inputs,
-                   "FILE.nff or spd:NAME[:SIZE], and a FILE.anim for the sequence at fixed rates; default: "
-                   "tree, gears, balls and tetra")
-      ->type_name("");
+  auto* scenes = command->add_option(
+      "SCENE", options.inputs,
+      "FILE.nff or spd:NAME[:SIZE], and a FILE.anim for the sequence at fixed rates; default: tree, gears, "
+      "balls and tetra");
+  scenes->type_name("");
+  pprt::take_path_or(*scenes, pprt::generated_scenes());
   command->add_option("-o,--output", options.directory, "Directory for tables, plots and index.html")
       ->type_name("DIR");
   command->add_flag("--quick", options.quick, "Small pictures: a trial");

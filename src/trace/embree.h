@@ -1,7 +1,12 @@
-// Embree's handles as owners, and its errors as exceptions.
+// Embree 3 or 4: its handles as owners, its rays, and its errors as exceptions. What the two versions do not
+// share stands here alone.
 #pragma once
 
+#if PPRT_EMBREE_MAJOR >= 4
+#include <embree4/rtcore.h>
+#else
 #include <embree3/rtcore.h>
+#endif
 
 #include <memory>
 #include <stdexcept>
@@ -42,5 +47,31 @@ inline void check_embree(const EmbreeDevice& device, const char* doing) {
       std::string("Embree: ") + doing + ": " +
       (error == RTC_ERROR_OUT_OF_MEMORY ? "out of memory" : "error " + std::to_string(error)));
 }
+
+// Sends rays into a scene, one after the other. Embree 3 wants a context for them; 4 makes its own.
+class RaySender {
+ public:
+#if PPRT_EMBREE_MAJOR >= 4
+  void intersect(const EmbreeScene& scene, RTCRayHit& found) {
+    rtcIntersect1(scene.get(), &found);
+  }
+  void occluded(const EmbreeScene& scene, RTCRay& ray) {
+    rtcOccluded1(scene.get(), &ray);
+  }
+#else
+  RaySender() {
+    rtcInitIntersectContext(&context_);
+  }
+  void intersect(const EmbreeScene& scene, RTCRayHit& found) {
+    rtcIntersect1(scene.get(), &context_, &found);
+  }
+  void occluded(const EmbreeScene& scene, RTCRay& ray) {
+    rtcOccluded1(scene.get(), &context_, &ray);
+  }
+
+ private:
+  RTCIntersectContext context_;
+#endif
+};
 
 }  // namespace pprt

@@ -30,12 +30,12 @@ void set_ray(RTCRay& ray, const Vec3f& origin, const Vec3f& direction, float len
   ray.flags = 0;
 }
 
-bool intersect(const CompiledScene::Impl& scene, RTCIntersectContext& context, const Vec3f& origin,
+bool intersect(const CompiledScene::Impl& scene, RaySender& sender, const Vec3f& origin,
                const Vec3f& direction, RTCRayHit& found) {
   set_ray(found.ray, origin, direction, kInfinity);
   found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(scene.embree.get(), &context, &found);
+  sender.intersect(scene.embree, found);
   return found.hit.geomID != RTC_INVALID_GEOMETRY_ID;
 }
 
@@ -111,14 +111,12 @@ bool refracted(const Vec3d& direction, const Vec3d& normal, double index_ratio, 
 template <unsigned kEffects, bool kPublished>
 class RayTree {
  public:
-  RayTree(const CompiledScene::Impl& scene, RayCounts& counts) : scene_(scene), counts_(counts) {
-    rtcInitIntersectContext(&context_);
-  }
+  RayTree(const CompiledScene::Impl& scene, RayCounts& counts) : scene_(scene), counts_(counts) {}
 
   void follow_eye_ray(const Vec3f& origin, const Vec3f& direction, RaySample& sample) {
     ++counts_.primary;
     RTCRayHit found;
-    if (!intersect(scene_, context_, origin, direction, found)) {
+    if (!intersect(scene_, sender_, origin, direction, found)) {
       sample.color = scene_.background;
       sample.hit = direction;
       sample.at_infinity = true;
@@ -146,14 +144,14 @@ class RayTree {
     ++counts_.shadow;
     RTCRay ray;
     set_ray(ray, origin, Vec3f(direction), static_cast<float>(length));
-    rtcOccluded1(scene_.embree.get(), &context_, &ray);
+    sender_.occluded(scene_.embree, ray);
     return ray.tfar < 0;
   }
 
   Color follow(const Vec3d& origin, const Vec3d& direction, int depth) {
     const Vec3f d(direction);
     RTCRayHit found;
-    if (!intersect(scene_, context_, Vec3f(origin), d, found)) return scene_.background;
+    if (!intersect(scene_, sender_, Vec3f(origin), d, found)) return scene_.background;
     const Vec3d exact(d);
     return shade(surface_at<kSmooth>(scene_, found, exact), exact, depth);
   }
@@ -227,7 +225,7 @@ class RayTree {
 
   const CompiledScene::Impl& scene_;
   RayCounts& counts_;
-  RTCIntersectContext context_;
+  RaySender sender_;
 };
 
 template <unsigned kEffects, bool kPublished>
@@ -253,10 +251,9 @@ Kernel kernel_for(EffectSet effects, bool published) {
 
 std::optional<VisibleSurface> visible_surface(const CompiledScene::Impl& scene, const Vec3f& origin,
                                               const Vec3f& direction) {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+  RaySender sender;
   RTCRayHit found;
-  if (!intersect(scene, context, origin, direction, found)) return std::nullopt;
+  if (!intersect(scene, sender, origin, direction, found)) return std::nullopt;
   const bool smooth = scene.effects.has(Effect::kSmoothNormals);
   const Surface surface = smooth ? surface_at<true>(scene, found, Vec3d(direction))
                                  : surface_at<false>(scene, found, Vec3d(direction));
@@ -266,11 +263,10 @@ std::optional<VisibleSurface> visible_surface(const CompiledScene::Impl& scene, 
 }
 
 bool occluded(const CompiledScene::Impl& scene, const Vec3f& origin, const Vec3f& direction, float length) {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+  RaySender sender;
   RTCRay ray;
   set_ray(ray, origin, direction, length);
-  rtcOccluded1(scene.embree.get(), &context, &ray);
+  sender.occluded(scene.embree, ray);
   return ray.tfar < 0;
 }
 

@@ -57,4 +57,7 @@ run pprt-convert --tessellate 1000 spd:balls:3 x.nff; expect_code 3; expect_line
 expect_no_file x.nff
 mkdir folder.ply
 run pprt-convert ball.nff folder.ply; expect_code 1; expect_text err "pprt-convert: error: cannot write 'folder.ply': it is a directory"
+run pprt-convert teapot:3 x.nff; expect_code 2
+expect_text err "pprt-convert: error: cannot tell the format of input 'teapot:3': it must be FILE.nff, - (NFF on standard input), spd:NAME[:SIZE] or a mesh such as FILE.obj; did you mean 'spd:teapot:3'?
+try 'pprt-convert --help'"
 finish

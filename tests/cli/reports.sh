@@ -40,12 +40,45 @@ expect_line out 'rays traced: 300 primary, .* 0 refraction, 0 visibility'
 
 run pprt-render ball.nff --samples 50 -o p.png --progress none; expect_code 0; expect_text err ''; expect_text out ''
 run pprt-render ball.nff --samples 50 -o q.png --progress json; expect_code 0; expect_text out ''
-expect_line err '{"event":"frame","frame":1,.*}'
-expect_line err '{"event":"done","done":1,"there":0,"frames":1}'
+expect_line err '{"event":"frame","frame":1,"done":1,"there":0,"frames":1,.*,"worst_late_ms":.*,"samples_per_frame":.*,"frames_per_second":.*,"seconds_left":0.0}'
+
+# However a run ends, one object tells it, and it is the last one.
+expect_end() {
+  [[ $(grep -Ec '^\{"event":"(done|stopped|failed)"' err) -eq 1 ]] || complain "'$command': not one end: $(cat err)"
+  expect_text <(grep '^{' err | tail -n 1) "$1"
+}
+expect_end '{"event":"done","done":1,"there":0,"frames":1}'
+for np in 1 2; do
+  more=(--clock work --budget 400000 --progress json -np $np)
+  run pprt-render ball.anim "${more[@]}" --frames 1-2 -o $np/%d.png; expect_code 0
+  expect_end '{"event":"done","done":2,"there":0,"frames":2}'
+  run pprt-render ball.anim "${more[@]}" --frames 1-3 -o $np/%d.png --resume; expect_code 0
+  expect_end '{"event":"done","done":1,"there":2,"frames":3}'
+  run pprt-render ball.anim "${more[@]}" --frames 1-3 -o $np/%d.png; expect_code 2
+  expect_end "{\"event\":\"failed\",\"error\":\"$np/1.png is there already; --overwrite replaces it, --resume goes on after it\"}"
+  run pprt-render none.nff "${more[@]}"; expect_code 3
+  expect_end "{\"event\":\"failed\",\"error\":\"cannot read 'none.nff': No such file or directory\"}"
+  run pprt-render ball.nff "${more[@]}" --fps 4 -o q.png --overwrite --contact-sheet ref.exr/sheet.png; expect_code 1
+  expect_end '{"event":"failed","done":1,"there":0,"frames":1,"error":"cannot write '"'ref.exr/sheet.png'"': Not a directory"}'
+done
+run pprt-render ball.nff --progress json --layers foo; expect_code 2
+expect_line err '{"event":"failed","error":"--layers foo: .*"}'
+
+# Of a killed rank the launcher tells.
+sed 's/frames 12/frames 60000/; s/key 12/key 60000/' ball.anim >long.anim
+pprt-render long.anim --clock work --budget 1000000 -np 2 -o long/%05d.png --progress json >out 2>err &
+pid=$! command='a run of which a rank is killed' code=0
+for ((i = 0; i < 600 && $(find long -name '*.png' 2>/dev/null | wc -l) < 2; ++i)); do sleep 0.1; done
+kill -KILL "$(pgrep -P "$(pgrep -P $pid)" | tail -n 1)"
+wait $pid || code=$?
+expect_code 1
+expect_line err '{"event":"failed","error":"rank [01] on .* was ended by signal 9 .*"}'
+[[ $(grep -Ec '^\{"event":"(done|stopped|failed)"' err) -eq 1 ]] || complain "'$command': not one end: $(tail -n 3 err)"
 
 # A terminal at the launcher's end is one for rank 0.
 for np in 1 2; do
-  script -qec "pprt-render ball.nff --samples 50 -o tty.png --overwrite -np $np" typescript >out 2>err </dev/null
-  grep -q $'\r''frame 1 of 1 ' out || complain "no progress on a terminal with $np ranks: $(cat out)"
+  script -qec "pprt-render ball.anim --frames 1-2 --clock work -o tty/%d.png --overwrite -np $np" typescript >out 2>err </dev/null
+  tr '\r' '\n' <out | grep -q 'frame 2 of 2  [0-9.]* of 4/s  worst [0-9]* ms early  [0-9,]* samples a frame  0:00 left' ||
+    complain "no progress on a terminal with $np ranks: $(cat -v out)"
 done
 finish

@@ -6,6 +6,15 @@ run pprt-render none.nff; expect_code 3; expect_text out ''
 expect_text err "cannot read 'none.nff': No such file or directory"
 run pprt-render ball.nff none.anim; expect_code 3
 expect_text err "cannot read 'none.anim': No such file or directory"
+# What was probably meant.
+run pprt-render bal.nff; expect_code 3; expect_text err "cannot read 'bal.nff': No such file or directory; did you mean 'ball.nff'?"
+run pprt-render ./bal.anim; expect_code 3; expect_text err "cannot read './bal.anim': No such file or directory; did you mean './ball.anim'?"
+for name in teapot spd-teapot sdp:teapot; do
+  run pprt-render $name:5; expect_code 3
+  expect_text err "cannot read '$name:5': No such file or directory; did you mean 'spd:teapot:5'?"
+done
+run pprt-render spd:teapt; expect_code 3
+expect_text err "spd:teapt: error: no procedural database has the name 'teapt'; did you mean 'teapot'? (there are: tree balls gears mount rings tetra teapot jacks lattice)"
 run pprt-render spd:bush; expect_code 3
 expect_text err "spd:bush: error: no procedural database has the name 'bush' (there are: tree balls gears mount rings tetra teapot jacks lattice)"
 

@@ -49,7 +49,7 @@ grep -q 'The plot is missing: gnuplot is not installed' bare/index.html || compl
 # Refused.
 run pprt-study paper; expect_code 2; expect_line err '.*--output is required.*'
 run pprt-study paper -o x --machine sp3; expect_code 2
-expect_line err 'pprt-study: error: --machine sp3: want cluster or sp2'; expect_no_file x
+expect_line err "pprt-study: error: --machine: 'sp3' is none of cluster, sp2; did you mean 'sp2'?"; expect_no_file x
 run pprt-study paper -o x --frames 2; expect_code 2; expect_no_file x
 touch file
 run pprt-study paper -o file/x --quick; expect_code 1; expect_line err "pprt-study: error: cannot write 'file/x/provenance.json': .*"

@@ -3,10 +3,10 @@
 source "$(dirname "$0")/check.sh"
 
 run pprt-render; expect_usage "SCENE is required"
-run pprt-render --bogus ball.nff; expect_usage "The following argument was not expected: --bogus"
-run pprt-render ball.nff ball.anim third; expect_usage "The following argument was not expected: third"
-run pprt-render ball.nff --np 0; expect_usage "--np: Value 0 not in range 1 to 4096"
-run pprt-render ball.nff --clock sun; expect_usage "--clock: sun not in {wall,work}"
+run pprt-render --bogus ball.nff; expect_usage "there is no option --bogus"
+run pprt-render ball.nff ball.anim third; expect_usage "'third' is one argument too many"
+run pprt-render ball.nff --np 0; expect_usage "--np: value 0 is not a whole number from 1 to 4096"
+run pprt-render ball.nff --clock sun; expect_usage "--clock: 'sun' is none of wall, work"
 run pprt-render ball.nff --resume --overwrite; expect_usage "--overwrite excludes --resume"
 run pprt-render ball.nff --budget 5; expect_usage "--budget counts work: it needs --clock work"
 run pprt-render ball.nff --budget 5 --clock work; expect_usage "--budget needs a frame rate (--fps)"
@@ -24,6 +24,17 @@ run pprt-render ball.nff --contact-sheet x.jpg
 expect_usage "--contact-sheet x.jpg: want a name that ends in .png or .exr"
 run pprt-render ball.nff --effects caustics
 expect_usage "unknown effect 'caustics'; there are shadows,highlights,reflection,refraction,smooth-normals, and the words all and none"
+# What was probably meant.
+run pprt-render ball.nff --frmaes 1-3; expect_usage "there is no option --frmaes; did you mean '--frames'?"
+run pprt-render --layer=samples ball.nff; expect_usage "there is no option --layer; did you mean '--layers'?"
+run pprt-render --ovrewrite; expect_usage "there is no option --ovrewrite; did you mean '--overwrite'?"
+run pprt-render ball.nff --cast verfied; expect_usage "--cast: 'verfied' is none of off, paper, verified, auto; did you mean 'verified'?"
+run pprt-render ball.nff --effects shadow
+expect_usage "unknown effect 'shadow'; there are shadows,highlights,reflection,refraction,smooth-normals, and the words all and none; did you mean 'shadows'?"
+run pprt-study acuracy -o x; expect_code 2
+expect_text err "pprt-study: error: there is no subcommand 'acuracy'; did you mean 'accuracy'?"$'\n'"try 'pprt-study --help'"
+run pprt-study paper --qick -o x; expect_code 2
+expect_text err "pprt-study: error: there is no option --qick; did you mean '--quick'?"$'\n'"try 'pprt-study --help'"
 run pprt-render --config none.ini; expect_usage "none.ini was not readable (missing?)"
 
 run pprt-render --version; expect_code 0; expect_line out 'pprt-render [0-9]*\.[0-9]*\.[0-9]*'; expect_text err ''

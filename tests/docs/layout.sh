@@ -13,7 +13,7 @@ declare -A allowed=(
   [layers]="base image pipeline layers" [parallel]="base image pipeline parallel"
   [app]="base report scene spd parser trace convert image pipeline layers parallel app")
 declare -A home=(
-  [embree3]=trace [CGAL]=pipeline [mpi.h]=parallel [tao]=parser [assimp]=convert [OpenEXR]=image [png.h]=image [CLI]=app
+  [embree3]=trace [embree4]=trace [CGAL]=pipeline [mpi.h]=parallel [tao]=parser [assimp]=convert [OpenEXR]=image [png.h]=image [CLI]=app
   [nlohmann]=app [spdlog]=app)
 
 seen=0

@@ -8,7 +8,7 @@ for way in own hand; do
   if [[ $way == own ]]; then
     pprt-render broken.nff -np 4 -o broken.png 2>told || code=$?
   else
-    mpirun_by_hand --quiet -np 4 pprt-render broken.nff -o broken.png 2>told || code=$?
+    mpirun_by_hand -np 4 pprt-render broken.nff -o broken.png 2>told || code=$?
   fi
   [[ $code == 3 ]] || { cat told >&2; fail "a broken scene ended with code $code instead of 3 ($way)"; }
   [[ $(grep -c 'broken.nff:[0-9]*:[0-9]*: error' told) == 1 ]] ||
@@ -17,7 +17,7 @@ for way in own hand; do
 done
 # Every rank meets a command line that makes no sense; one speaks.
 code=0
-mpirun_by_hand --quiet -np 3 pprt-render broken.nff --bogus 2>told || code=$?
+mpirun_by_hand -np 3 pprt-render broken.nff --bogus 2>told || code=$?
 [[ $code == 2 && $(grep -c -- --bogus told) == 1 ]] || { cat told >&2; fail "a usage error ended with code $code"; }
 for what in --help --write-config; do
   mpirun_by_hand -np 3 pprt-render broken.nff $what >told || fail "$what failed"

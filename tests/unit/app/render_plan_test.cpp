@@ -9,7 +9,7 @@
 namespace pprt {
 namespace {
 
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 constexpr const char* kScript =
     "animation { frames 10 fps 4 resolution <64, 48>\n"

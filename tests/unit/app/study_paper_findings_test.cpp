@@ -53,10 +53,10 @@ PaperResults as_in_the_paper() {
   return results;
 }
 
-const Finding& find(const std::vector<Finding>& all, const std::string& claim) {
+const Finding& find(const std::vector<Finding>& all, std::string_view claim) {
   const auto found = std::find_if(
       all.begin(), all.end(), [&](const Finding& f) { return f.claim.compare(0, claim.size(), claim) == 0; });
-  if (found == all.end()) throw std::runtime_error("no finding: " + claim);
+  if (found == all.end()) throw std::runtime_error("no finding: " + std::string(claim));
   return *found;
 }
 

@@ -1,0 +1,59 @@
+#!/usr/bin/env bash
+# --film: the frames as a film, by ffmpeg.
+source "$(dirname "$0")/check.sh"
+work=(--clock work --budget 400000)
+
+run pprt-render ball.nff --film x.avi; expect_usage "--film x.avi: want a name that ends in .mp4 or .mkv"
+
+# Without ffmpeg nothing is begun.
+mkdir only
+ln -s "$(command -v pprt-render)" only
+PATH=$PWD/only run pprt-render ball.anim "${work[@]}" -o f/%d.png --film f.mp4; expect_code 1
+expect_text err "pprt-render: error: --film needs ffmpeg, which is not on the PATH (package ffmpeg)"
+expect_no_file f
+
+# One that fails is told of; the frames are there, the film is not, nor anything of it.
+mkdir broken
+printf '#!/bin/sh\ncase "$*" in *-version) exit 0 ;; esac\necho "no room" >&2\nexit 3\n' >broken/ffmpeg
+chmod +x broken/ffmpeg
+PATH=$PWD/broken:$PATH run pprt-render ball.anim "${work[@]}" --frames 1-2 -o g/%d.png --film g/film.mp4; expect_code 1
+expect_line err 'no room'
+expect_line err "pprt-render: error: cannot write 'g/film.mp4': ffmpeg ended with code 3"
+expect_text <(ls g) "$(printf '%s\n' 1.png 2.png manifest.ndjson)"
+
+command -v ffmpeg ffprobe >/dev/null || { echo 'ffmpeg is not installed: films are not checked'; finish; exit; }
+film_facts() {
+  ffprobe -v error -count_frames -select_streams v -of csv=p=0 \
+    -show_entries stream=codec_name,width,height,r_frame_rate,nb_read_frames "$1"
+}
+for np in 1 2; do
+  run pprt-render ball.anim "${work[@]}" -np $np --frames 1-6 -s 33x24 -o h$np/%d.exr --film films/$np.mp4; expect_code 0
+  # An odd width gets a black line.
+  expect_text <(film_facts films/$np.mp4) h264,34,24,4/1,6
+done
+expect_text <(ls films) "$(printf '%s\n' 1.mp4 2.mp4)"
+
+# The film shows the frames, in their order.
+run pprt-render ball.anim "${work[@]}" -s 96x64 -o k/%d.png --film k.mkv; expect_code 0
+ffmpeg -v error -i k.mkv -start_number 1 film_%d.png
+for frame in 1 7 12; do
+  run pprt-compare film_$frame.png k/$frame.png --max-rmse 0.03; expect_code 0
+done
+run pprt-compare film_1.png k/7.png --max-rmse 0.03; expect_code 1
+
+# It holds frames of earlier runs too, and is not replaced unasked.
+run pprt-render ball.anim "${work[@]}" -s 96x64 --frames 3-3 -o k/%d.png --film k.mkv
+expect_usage "k/3.png is there already; --overwrite replaces it, --resume goes on after it"
+run pprt-render ball.anim "${work[@]}" --frames 3-3 -o n/%d.png --film k.mkv
+expect_usage "k.mkv is there already; --overwrite replaces it, --resume goes on after it"
+rm k/5.png
+run pprt-render ball.anim "${work[@]}" -s 96x64 -o k/%d.png --film k.mkv --resume; expect_code 0
+expect_line err 'done: 1 of 12 frames (11 were there already) .*'
+expect_text <(film_facts k.mkv | cut -d, -f1-4) h264,96,64,4/1
+[[ $(film_facts k.mkv | cut -d, -f5) -eq 12 ]] || complain "the film has $(film_facts k.mkv) frames, not 12"
+# A still has no rate of its own.
+run pprt-render ball.nff "${work[@]}" --fps 0 --samples 300 -o s.png --film s.mp4
+expect_usage "--budget needs a frame rate (--fps)"
+run pprt-render ball.nff --samples 300 -o s.png --film s.mp4; expect_code 0
+expect_text <(film_facts s.mp4) h264,16,16,25/1,1
+finish
