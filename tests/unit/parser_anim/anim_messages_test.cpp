@@ -214,5 +214,17 @@ TEST_CASE("a file that is not there") {
                     "cannot read '/nonexistent/a.anim': No such file or directory");
 }
 
+// Whatever a value was made from, what is said of it later needs its place.
+TEST_CASE("a field whose value is unknown and that has no effect is told of both") {
+  const std::string camera = "animation { camera { spline linear key 1 { bias ";
+  for (const char* value :
+       {"X", "(X * 2)", "-X", "X - 1", "1 / 0", "abs(X)", "sqrt(-1)", "what(1)", "<X, 1>", "1e99 * 1e99"}) {
+    CAPTURE(value);
+    const std::string text = report(camera + value + " } } }");
+    CHECK(text.starts_with("a.anim:1:"));
+    CHECK(text.find("warning: 'bias' has no effect: the spline is not tcb\n") != std::string::npos);
+  }
+}
+
 }  // namespace
 }  // namespace pprt
