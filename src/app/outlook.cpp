@@ -132,7 +132,8 @@ std::string check_outlook(const RenderPlan& plan, const CompiledScene& scene) {
   if (plan.scene.lights.empty()) {
     warnings += name + ": warning: the scene has no light: its objects show in ambient light alone\n";
   }
-  if (!seen.varied) {
+  const View& view = plan.script_frames.front().view;
+  if (!seen.varied && view.width * view.height > 1) {
     warnings +=
         name + ": warning: the picture is of one colour throughout: a single surface fills the view\n";
   }

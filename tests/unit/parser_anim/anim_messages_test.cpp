@@ -28,7 +28,7 @@ TEST_CASE("a report has file, line, column, the line and a caret, and every prob
         R"(a.anim:2:3: error: unknown word 'frmes'; did you mean 'frames'?
       frmes 40
       ^
-a.anim:3:7: error: 'fps' is above 0 and at most 1000, not -4
+a.anim:3:7: error: 'fps' is from 0.001 to 1000, not -4
       fps -4
           ^
 a.anim:5:24: error: expected '>' at the end of the vector, found 'at'
@@ -81,8 +81,9 @@ TEST_CASE("problems of the animation") {
       {"frames 1e7", "a.anim:1:19: error: 'frames' is a whole number from 1 to 1000000, not 10000000"},
       {"frames <1,2>", "a.anim:1:19: error: 'frames' is a number, not a vector"},
       {"frames 1 frames 2", "a.anim:1:21: error: 'frames' is given twice"},
-      {"fps 0", "a.anim:1:16: error: 'fps' is above 0 and at most 1000, not 0"},
-      {"fps 1001", "a.anim:1:16: error: 'fps' is above 0 and at most 1000, not 1001"},
+      {"fps 0", "a.anim:1:16: error: 'fps' is from 0.001 to 1000, not 0"},
+      {"fps 0.0009", "a.anim:1:16: error: 'fps' is from 0.001 to 1000, not 0.0009"},
+      {"fps 1001", "a.anim:1:16: error: 'fps' is from 0.001 to 1000, not 1001"},
       {"fps <1,2,3>", "a.anim:1:16: error: 'fps' is a number, not a vector"},
       {"fps 4 fps 4", "a.anim:1:18: error: 'fps' is given twice"},
       {"resolution 256", "a.anim:1:23: error: 'resolution' is a vector of two: <width, height>"},
