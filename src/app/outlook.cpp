@@ -18,7 +18,9 @@ constexpr double kMostRays = 0x1p22;  // of all frames: some seconds
 using Level = std::array<int, 3>;     // of red, green and blue in a PNG
 
 Level level_of(const Color& color) {
-  const auto level = [](float v) { return v > 0 ? static_cast<int>(255 * std::min(v, 1.0f) + 0.5f) : 0; };
+  const auto level = [](float v) {
+    return v > 0 ? static_cast<int>(std::lround(255 * std::min(v, 1.0f))) : 0;
+  };
   return {level(color.x), level(color.y), level(color.z)};
 }
 

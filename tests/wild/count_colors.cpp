@@ -1,5 +1,6 @@
 // count_colors PICTURE...: how many different colours each holds, by the levels of a PNG.
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <set>
@@ -11,7 +12,9 @@ int main(int argc, char** argv) {
     for (int i = 1; i < argc; ++i) {
       std::set<std::array<int, 3>> colors;
       for (const pprt::Color& c : pprt::read_image(argv[i]).pixels) {
-        const auto level = [](float v) { return v > 0 ? static_cast<int>(255 * (v < 1 ? v : 1) + 0.5f) : 0; };
+        const auto level = [](float v) {
+          return v > 0 ? static_cast<int>(std::lround(255 * (v < 1 ? v : 1))) : 0;
+        };
         colors.insert({level(c.x), level(c.y), level(c.z)});
       }
       std::printf("%zu\n", colors.size());
