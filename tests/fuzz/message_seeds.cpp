@@ -1,4 +1,5 @@
-// message_seeds DIRECTORY: a message of each kind for fuzz_messages to begin with, as the encoders make them now.
+// message_seeds DIRECTORY: a message of each kind for fuzz_messages to begin with, as the encoders make them
+// now.
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
