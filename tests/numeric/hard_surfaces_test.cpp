@@ -122,10 +122,10 @@ TEST_CASE("cylinders and cones: along the axis, onto the tip, needles and discs"
 
 TEST_CASE("polygons and patches: grazed, concave, with corners that say nothing") {
   const SceneDescription front = stage({0, 1, 8}, {0, 0, 0}, 40);
-  const auto polygon = [](std::vector<Vec3d> corners, MaterialIndex material = 0) -> Objects {
+  const auto polygon = [](const std::vector<Vec3d>& corners, MaterialIndex material = 0) -> Objects {
     return [=](SceneDescription& s) { add_polygon(s, corners, material); };
   };
-  const auto patch = [](std::array<PatchVertex, 3> corners, MaterialIndex material = 0) -> Objects {
+  const auto patch = [](const std::array<PatchVertex, 3>& corners, MaterialIndex material = 0) -> Objects {
     return [=](SceneDescription& s) { add_patch(s, corners, material); };
   };
   std::vector<Vec3d> comb;
