@@ -30,8 +30,8 @@ bool finite(const Vec3d& v) {
 }
 
 // Where the compiled space has its origin, about which floats are finest: the middle of the scene, unless
-// nearly all of the scene is empty or one thing, and the rest is smaller than a float's step there. Then in
-// the midst of the objects, the small ones weighing most: the mean of their middles by 1 / size^2.
+// nearly all of the scene is empty or one thing, and floats are coarse for the rest of it. Then in the midst
+// of the objects, the small ones weighing most: the mean of their middles by 1 / size^2.
 Vec3d origin_for(const SceneDescription& scene, const Box3d& box) {
   constexpr double kSmallDetail = 0x1p-14;  // of the scene's size
   const double whole = (box.max - box.min).length();
