@@ -14,6 +14,7 @@
 #include "app/frame_recorder.h"
 #include "app/launch.h"
 #include "app/log.h"
+#include "app/outlook.h"
 #include "app/render_job.h"
 #include "app/render_plan.h"
 #include "app/stop_signals.h"
@@ -196,6 +197,7 @@ int master_rank(Communicator& network, const RenderOptions& options, Progress& p
       return kExitDone;
     }
     check_files(options, prepared.plan);
+    std::cerr << check_outlook(prepared.plan, prepared.scene);
     return run_frames(network, options, prepared, progress, told);
   } catch (...) {
     if (!told) {

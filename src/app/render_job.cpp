@@ -27,6 +27,8 @@ RenderJob decode_job(const Bytes& bytes) {
   job.settings = decode_settings(settings);
   in.get(job.compile.max_depth), in.get(job.compile.cull);
   in.get(restricted), in.get(effects);
+  if ((effects & ~EffectSet::all().bits()) != 0)
+    throw ProtocolError("a message holds effects that there are not");
   if (restricted) job.compile.effects = EffectSet(effects);
   in.get(job.scene_nff);
   in.expect_end();

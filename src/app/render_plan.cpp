@@ -244,6 +244,10 @@ void check_usage(const RenderOptions& options) {
   if (options.compare_serial && options.stats.empty()) {
     throw UsageError("--compare-serial tells the ledger: it needs --stats");
   }
+  if (options.fps && *options.fps > 0 && *options.fps < kLeastFramesPerSecond) {
+    throw UsageError(fmt::format("--fps {:g}: want 0, for no rate, or at least {:g}", *options.fps,
+                                 kLeastFramesPerSecond));
+  }
   if (options.budget && options.clock != "work")
     throw UsageError("--budget counts work: it needs --clock work");
 }

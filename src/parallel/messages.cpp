@@ -18,8 +18,9 @@ struct WireSample {
 };
 static_assert(sizeof(WireSample) == kSampleBytes);
 
-// Of an image: 2^15 x 2^15 pixels in tiles of 2 x 2.
-constexpr std::size_t kMostTiles = std::size_t{1} << 28;
+// Of an image of 2^14 x 2^14 pixels: tiles have 32 pixels a side, or are some hundred a rank, and there are
+// at most 4096 ranks. A message of a few bytes must not take more memory than this many.
+constexpr std::size_t kMostTiles = std::size_t{1} << 22;
 
 constexpr std::uint8_t kAtInfinity = 1, kEyeDependent = 2;
 
@@ -104,7 +105,8 @@ Bytes encode(const FrameOrder& order) {
 FrameOrder decode_frame_order(std::span<const std::byte> bytes) {
   WireReader in(bytes);
   FrameOrder order;
-  in.get(order.end), in.get(order.index), in.get(order.number), in.get(order.cut), in.get(order.carry);
+  in.get(order.end), in.get(order.index), in.get(order.number), in.get(order.cut),
+      in.get(order.carry, Carry::kCastWherePaying);
   in.get(order.camera), in.get(order.evidence), in.get(order.deadline_s), in.get(order.reserve_s),
       in.get(order.generation);
   order.owners = get_owners(in);

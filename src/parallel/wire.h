@@ -49,14 +49,31 @@ class WireWriter {
   Bytes bytes_;
 };
 
-// Throws ProtocolError when the bytes end too soon.
+// Throws ProtocolError when the bytes end too soon, or hold a value that its type has not.
 class WireReader {
  public:
   explicit WireReader(std::span<const std::byte> bytes) : rest_(bytes) {}
 
   template <typename T>
-  requires std::is_trivially_copyable_v<T>
-  void get(T& value) { copy_out(&value, sizeof value); }
+  requires(std::is_trivially_copyable_v<T> && !std::is_enum_v<T>) void get(T& value) {
+    copy_out(&value, sizeof value);
+  }
+  void get(bool& value) {
+    std::uint8_t byte = 0;
+    get(byte);
+    if (byte > 1) throw ProtocolError("a message holds neither yes nor no");
+    value = byte != 0;
+  }
+  // One of an enumeration that ends with `last`.
+  template <typename E>
+  requires std::is_enum_v<E>
+  void get(E& value, E last) {
+    std::underlying_type_t<E> number = 0;
+    get(number);
+    if (number > static_cast<std::underlying_type_t<E>>(last))
+      throw ProtocolError("a message holds a choice that there is not");
+    value = static_cast<E>(number);
+  }
   void get(Vec3d& v) { get(v.x), get(v.y), get(v.z); }
   void get(Color& c) { get(c.x), get(c.y), get(c.z); }
   void get(Camera& c) {

@@ -39,10 +39,11 @@ void interpret_frames(const Value& value, Animation& animation, Problems& proble
 void interpret_fps(const Value& value, Animation& animation, Problems& problems) {
   const std::optional<double> fps = number(value, "fps", problems);
   if (!fps) return;
-  if (*fps > 0 && *fps <= kMostFps) {
+  if (*fps >= kLeastFramesPerSecond && *fps <= kMostFps) {
     animation.fps = *fps;
   } else {
-    problems.error(value.place, fmt::format("'fps' is above 0 and at most {}, not {}", kMostFps, *fps));
+    problems.error(value.place,
+                   fmt::format("'fps' is from {} to {}, not {}", kLeastFramesPerSecond, kMostFps, *fps));
   }
 }
 

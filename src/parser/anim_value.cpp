@@ -36,7 +36,7 @@ const char* kind_of(const Value& value) {
 
 Value problem(const char* place, std::string message, Problems& problems) {
   problems.error(place, std::move(message));
-  return {};
+  return {.place = place};
 }
 
 // Numbers beyond the limit are refused, so that nothing made from them later overflows.
@@ -97,7 +97,7 @@ double applied(Operation operation, double a, double b) {
 }  // namespace
 
 Value calculate(Operation operation, const Value& a, const Value& b, const char* place, Problems& problems) {
-  if (!a.known() || !b.known()) return {};
+  if (!a.known() || !b.known()) return {.place = a.place};
   if (!fits(operation, a, b)) {
     const bool vectors = a.size > 1 && b.size > 1 && a.size != b.size;
     return problem(
@@ -140,7 +140,7 @@ Value call_function(std::string_view name, std::span<const Value> arguments, con
                    problems);
   }
   for (const Value& argument : arguments) {
-    if (!argument.known()) return {};
+    if (!argument.known()) return {.place = place};
     if (argument.size != 1)
       return problem(argument.place, fmt::format("'{}' is of numbers, not vectors", name), problems);
   }

@@ -14,7 +14,7 @@ namespace pprt::anim {
 struct Value {
   int size = 0;
   std::array<double, 3> c{0, 0, 0};  // unused components are 0
-  const char* place = nullptr;       // where it begins in the text
+  const char* place = nullptr;       // where it begins in the text, of unknown ones too
 
   bool known() const { return size > 0; }
 };

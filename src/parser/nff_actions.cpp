@@ -250,6 +250,18 @@ void SceneBuilder::add_light() {
   scene_.lights.push_back(light);
 }
 
+// Within the colour anything but a number is a mistake, behind it the name of a texture.
+void SceneBuilder::fill_tail(std::string_view tail) {
+  constexpr std::string_view kBlank = " \t\f\v";
+  tail.remove_prefix(tail.find_first_not_of(kBlank));
+  if (count_ < 3) {
+    const std::string_view token = tail.substr(0, tail.find_first_of(kBlank));
+    throw ParseFailure{token.data(), fmt::format("expected a number for {} in the colour of 'f', found {}",
+                                                 count_ == 1 ? "green" : "blue", quoted(token))};
+  }
+  deviation(Deviation::kFillTail, tail.data());
+}
+
 void SceneBuilder::set_material() {
   constexpr Material kDefault;
   constexpr std::size_t kNumbers = 8;
@@ -261,7 +273,12 @@ void SceneBuilder::set_material() {
                                     kDefault.shine,
                                     kDefault.transmittance,
                                     kDefault.refractive_index};
-  if (count_ < kNumbers) deviation(Deviation::kFillShort, entity_.data());
+  if (count_ < 3) {
+    deviation(Deviation::kFillGrey, entity_.data());
+    for (; count_ < 3; ++count_) numbers_[count_] = numbers_[count_ - 1];
+  } else if (count_ < kNumbers) {
+    deviation(Deviation::kFillShort, entity_.data());
+  }
   if (count_ > kNumbers) deviation(Deviation::kFillLong, entity_.data());
   for (; count_ < kNumbers; ++count_) numbers_[count_] = missing[count_];
   Material material{color(), numbers_[3], numbers_[4], numbers_[5], numbers_[6], numbers_[7]};

@@ -52,6 +52,7 @@ class SceneBuilder {
   void color_name(std::string_view name);
   void set_background();
   void add_light();
+  void fill_tail(std::string_view tail);
   void set_material();
   void add_sphere();
   void add_cone();
@@ -198,13 +199,7 @@ struct action<grammar::light> : without_text<&SceneBuilder::add_light> {};
 template <>
 struct action<grammar::fill_keyword> : with_text<&SceneBuilder::begin_entity> {};
 template <>
-struct action<grammar::fill_tail> {
-  template <typename Input>
-  static void apply(const Input& in, SceneBuilder& builder) {
-    const std::string_view tail(in.begin(), in.size());
-    builder.deviation(Deviation::kFillTail, in.begin() + tail.find_first_not_of(" \t\f\v"));
-  }
-};
+struct action<grammar::fill_tail> : with_text<&SceneBuilder::fill_tail> {};
 template <>
 struct action<grammar::fill> : without_text<&SceneBuilder::set_material> {};
 

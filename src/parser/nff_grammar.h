@@ -140,11 +140,14 @@ struct light_z : field {};
 struct light_keyword : keyword<'l'> {};
 struct light : seq<light_keyword, light_x, light_y, light_z, more_numbers> {};
 
-// f r g b Kd Ks Shine T ior, and whatever a dialect adds on the same line (the name of a texture).
+// f r g b Kd Ks Shine T ior, or only the first of them, and whatever a dialect adds on the same line (the
+// name of a texture).
 struct rest_of_line : star<sor<inline_blank, block_comment, token>> {};
 struct fill_tail : seq<star<inline_blank>, not_at<sor<token_end, entity_begin>>, rest_of_line> {};
+struct fill_value : sor<color_name, number> {};
+struct fill_color : seq<gap, fill_value> {};
 struct fill_keyword : keyword<'f'> {};
-struct fill : seq<fill_keyword, color, more_numbers, opt<fill_tail>> {};
+struct fill : seq<fill_keyword, fill_color, more_numbers, opt<fill_tail>> {};
 
 struct sphere_x : field {};
 struct sphere_y : field {};

@@ -18,6 +18,8 @@ inline constexpr const char* expected<grammar::view_value> = "a number for the v
 template <>
 inline constexpr const char* expected<grammar::color_value> = "a number or a colour name for the colour";
 template <>
+inline constexpr const char* expected<grammar::fill_value> = expected<grammar::color_value>;
+template <>
 inline constexpr const char* expected<grammar::color_green> = "a number for green in the colour";
 template <>
 inline constexpr const char* expected<grammar::color_blue> = "a number for blue in the colour";
@@ -86,6 +88,7 @@ enum class Deviation {
   kBackgroundRepeated,
   kColorName,
   kLightIntensity,
+  kFillGrey,
   kFillShort,
   kFillLong,
   kFillTail,
@@ -134,6 +137,9 @@ constexpr DeviationText text_of(Deviation deviation) {
       return {"a colour name belongs to MTV's dialect, not to NFF", nullptr};
     case Deviation::kLightIntensity:
       return {"'l' with 7 numbers is not NFF", "read as x y z intensity r g b"};
+    case Deviation::kFillGrey:
+      return {"'f' has fewer than the 3 numbers of a colour",
+              "the last one stands for those missing; Kd 1, Ks 0, Shine 0, T 0, index 1"};
     case Deviation::kFillShort:
       return {"'f' has fewer than 8 numbers",
               "those missing are taken from Kd 1, Ks 0, Shine 0, T 0, index 1"};

@@ -39,12 +39,15 @@ struct CameraKey {
   SourceLocation location;
 };
 
+// A frame lasts a quarter of an hour at most: one without end could not be waited for.
+inline constexpr double kLeastFramesPerSecond = 0.001;
+
 // Invariant (after validation): keys are sorted by frame, strictly; the first one has cut = hold = false.
 struct Animation {
   std::string name;                  // file name, for messages
   std::optional<std::string> scene;  // as written: spd:..., or a path relative to the script
   int frames = 1;
-  double fps = 0;  // 0: not given
+  double fps = 0;  // 0: not given; otherwise from kLeastFramesPerSecond
   std::optional<int> width, height;
   SplineKind spline = SplineKind::kTcb;
   std::vector<CameraKey> keys;  // empty: the scene's own view throughout

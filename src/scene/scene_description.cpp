@@ -101,18 +101,34 @@ MaterialIndex material_of(const SceneDescription& scene, PrimitiveRef ref) {
   return scene.patches[ref.index].material;
 }
 
+Box3d bounds(const SceneDescription& scene, PrimitiveRef ref) {
+  Box3d box;
+  switch (ref.kind) {
+    case PrimitiveKind::kSphere: {
+      const Sphere& s = scene.spheres[ref.index];
+      extend_by_disc(box, s.center, Vec3d(std::abs(s.radius)));
+      break;
+    }
+    case PrimitiveKind::kCone: {
+      const Cone& c = scene.cones[ref.index];
+      const Vec3d axis = (c.apex - c.base).normalized();
+      extend_by_disc(box, c.base, disc_half_extent(axis, c.base_radius));
+      extend_by_disc(box, c.apex, disc_half_extent(axis, c.apex_radius));
+      break;
+    }
+    case PrimitiveKind::kPolygon:
+      for (const Vec3d& v : scene.vertices(scene.polygons[ref.index])) box.extendBy(v);
+      break;
+    case PrimitiveKind::kPatch:
+      for (const PatchVertex& v : scene.vertices(scene.patches[ref.index])) box.extendBy(v.position);
+      break;
+  }
+  return box;
+}
+
 Box3d bounds(const SceneDescription& scene) {
   Box3d box;
-  for (const Sphere& s : scene.spheres) {
-    extend_by_disc(box, s.center, Vec3d(std::abs(s.radius)));
-  }
-  for (const Cone& c : scene.cones) {
-    const Vec3d axis = (c.apex - c.base).normalized();
-    extend_by_disc(box, c.base, disc_half_extent(axis, c.base_radius));
-    extend_by_disc(box, c.apex, disc_half_extent(axis, c.apex_radius));
-  }
-  for (const Vec3d& v : scene.polygon_vertices) box.extendBy(v);
-  for (const PatchVertex& v : scene.patch_vertices) box.extendBy(v.position);
+  for (const PrimitiveRef ref : scene.order) box.extendBy(bounds(scene, ref));
   return box;
 }
 

@@ -148,7 +148,10 @@ class MaterialTable {
   std::size_t used_ = 0;
 };
 
-// Axis-parallel box of all primitives (cones and spheres exactly); empty when there are none.
+// Axis-parallel box of a primitive in range, exact for cones and spheres too.
+Box3d bounds(const SceneDescription& scene, PrimitiveRef ref);
+
+// The same of all primitives; empty when there are none.
 Box3d bounds(const SceneDescription& scene);
 
 }  // namespace pprt

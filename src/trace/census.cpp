@@ -66,7 +66,12 @@ std::string census_text(const CompiledScene::Impl& scene) {
   std::string text;
   text += fmt::format("scene       {}\n", scene.name);
   text += fmt::format("primitives  {}\n", primitives(scene));
-  text += fmt::format("materials   {} in use\n", scene.inventory.materials);
+  text += fmt::format("materials   {} in use", scene.inventory.materials);
+  if (const std::size_t n = scene.inventory.brightening; n > 0) {
+    text +=
+        fmt::format("; {} with Ks + T above 1, brighter than what is seen in {}", n, n == 1 ? "it" : "them");
+  }
+  text += '\n';
   text += fmt::format("lights      {}\n", scene.inventory.lights);
   text += "effects\n";
   for (Effect effect : every_effect()) text += effect_line(effect, scene);

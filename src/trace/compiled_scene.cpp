@@ -29,6 +29,34 @@ bool finite(const Vec3d& v) {
   throw InputError(place + ": error: " + problem);
 }
 
+// Where the compiled space has its origin, about which floats are finest: the middle of the scene, unless
+// nearly all of the scene is empty or one thing, and floats are coarse for the rest of it. Then in the midst
+// of the objects, the small ones weighing most: the mean of their middles by 1 / size^2.
+Vec3d origin_for(const SceneDescription& scene, const Box3d& box) {
+  constexpr double kSmallDetail = 0x1p-14;  // of the scene's size
+  const double whole = (box.max - box.min).length();
+  double weights = 0, objects = 0;
+  Vec3d sum(0, 0, 0);  // of middles relative to the box's
+  const Vec3d middle = box.min * 0.5 + box.max * 0.5;
+  for (const PrimitiveRef ref : scene.order) {
+    const Box3d own = bounds(scene, ref);
+    const double size = (own.max - own.min).length() / whole;
+    if (!(size > 1e-12)) continue;
+    ++objects;
+    weights += 1 / (size * size);
+    sum += (own.min * 0.5 + own.max * 0.5 - middle) * (1 / (size * size));
+  }
+  const double typical = std::sqrt(objects / weights);
+  return typical < kSmallDetail ? middle + sum * (1 / weights) : middle;
+}
+
+// Of the sphere about the origin that holds the normalised box.
+double radius_about_origin(const Normalisation& map, const Box3d& box) {
+  const Vec3d low = map.point(box.min), high = map.point(box.max);
+  const auto farther = [](double a, double b) { return std::max(std::abs(a), std::abs(b)); };
+  return Vec3d(farther(low.x, high.x), farther(low.y, high.y), farther(low.z, high.z)).length();
+}
+
 ShadingMaterial shading_material(const Material& m, double ambient_weight) {
   ShadingMaterial result;
   result.ambient = to_color(m.color * (kAmbientReflectance * ambient_weight));
@@ -254,7 +282,8 @@ CompiledScene compile(const SceneDescription& scene, const CompileOptions& optio
   impl->effects = chosen_effects(impl->inventory, options);
   impl->kernel =
       kernel_for(options.general_kernel ? EffectSet::all() : impl->effects, options.count_as_published);
-  impl->normalisation = normalising(box);
+  impl->normalisation = normalising(box, origin_for(scene, box));
+  impl->radius = radius_about_origin(impl->normalisation, box) * (1 + 0x1p-20);
   impl->background = to_color(scene.background.value_or(Rgb(0, 0, 0)));
 
   const double weight = light_weight(scene.lights.size());

@@ -95,6 +95,7 @@ Inventory take_inventory(const SceneDescription& scene) {
     if (material.specular > 0) ++inventory.reflecting;
     if (has_highlight(material)) ++inventory.highlighting;
     if (material.transmittance > 0) ++inventory.transmitting;
+    if (std::max(material.specular, 0.0) + std::max(material.transmittance, 0.0) > 1) ++inventory.brightening;
   }
   return inventory;
 }

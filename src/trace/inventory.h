@@ -15,6 +15,7 @@ struct Inventory {
   std::size_t reflecting = 0;    // materials in use with Ks > 0
   std::size_t highlighting = 0;  // and with a highlight wide enough to be seen
   std::size_t transmitting = 0;  // materials in use with T > 0
+  std::size_t brightening = 0;   // and with Ks + T > 1: what they show is brighter than what they see
 };
 
 Inventory take_inventory(const SceneDescription& scene);

@@ -59,7 +59,6 @@ Surface surface_at(const CompiledScene::Impl& scene, const RTCRayHit& found, con
   };
 
   Surface surface;
-  surface.offset = kQuadricOffset;
   SurfacePoint point;
   const Mesh* mesh = nullptr;
   if (const auto* spheres = std::get_if<std::vector<SphereRecord>>(&part.shape)) {
@@ -72,6 +71,7 @@ Surface surface_at(const CompiledScene::Impl& scene, const RTCRayHit& found, con
     surface.offset = mesh->facets[primitive].offset;
   }
   surface.position = point.position;
+  if (!mesh) surface.offset = quadric_offset(sum_of_coordinates(point.position));
   surface.entering = point.normal.dot(direction) < 0;
   surface.normal = surface.entering ? point.normal : -point.normal;
   surface.shading = surface.normal;

@@ -43,7 +43,8 @@ std::size_t Mesh::add(std::span<const Vec3d> polygon, std::span<const Vec3f> ver
     const double twice_area = std::sqrt(normal.dot(normal));
     if (!(twice_area > 0)) continue;
     const double longest = std::sqrt(std::max({(b - a).length2(), (c - b).length2(), (a - c).length2()}));
-    offset = std::max(offset, static_cast<float>(triangle_offset(longest, twice_area)));
+    const double reach = std::max({sum_of_coordinates(a), sum_of_coordinates(b), sum_of_coordinates(c)});
+    offset = std::max(offset, static_cast<float>(triangle_offset(longest, twice_area, reach)));
     triangles.push_back({first_vertex + corner[0], first_vertex + corner[1], first_vertex + corner[2]});
     facets.push_back({Vec3f(normal * (1 / twice_area)), 0});
   }

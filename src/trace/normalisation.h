@@ -8,7 +8,7 @@
 
 namespace pprt {
 
-// Recentres and rescales so that a box fits the unit cube about the origin. The scale is a power of two, so
+// Recentres and rescales so that a box's largest extent lies in (0.5, 1]. The scale is a power of two, so
 // that it rounds nothing; only the recentring can, by half a unit in the last place of a double.
 struct Normalisation {
   Vec3d center{0, 0, 0};
@@ -18,10 +18,10 @@ struct Normalisation {
   double length(double l) const { return l * scale; }
 };
 
-// `box` is finite and not empty. A box of no size keeps the scale 1.
-inline Normalisation normalising(const Box3d& box) {
+// `box` is finite and not empty, `center` a point in it: the new origin. A box of no size keeps the scale 1.
+inline Normalisation normalising(const Box3d& box, const Vec3d& center) {
   Normalisation result;
-  result.center = box.min * 0.5 + box.max * 0.5;
+  result.center = center;
   const Vec3d size = box.max - box.min;
   const double largest = std::max({size.x, size.y, size.z});
   if (largest > 0) {
@@ -30,6 +30,10 @@ inline Normalisation normalising(const Box3d& box) {
     result.scale = std::ldexp(1.0, mantissa == 0.5 ? 1 - exponent : -exponent);
   }
   return result;
+}
+
+inline Normalisation normalising(const Box3d& box) {
+  return normalising(box, box.min * 0.5 + box.max * 0.5);
 }
 
 }  // namespace pprt

@@ -60,6 +60,7 @@ class CompiledScene::Impl {
   Kernel kernel = nullptr;
 
   Normalisation normalisation;
+  double radius = 1;  // of a sphere about the origin that holds the compiled scene
   Color background{0, 0, 0};
   std::vector<ShadingMaterial> materials;
   std::vector<ShadingLight> lights;

@@ -11,8 +11,8 @@ namespace {
 
 // Where a ray from an eye outside the scene may start: on the sphere about the scene, so that a far eye costs
 // no digits when the origin is rounded to float.
-double distance_to_scene(const Vec3d& eye, const Vec3d& direction) {
-  return std::max(0.0, -eye.dot(direction) - kSceneRadius);
+double distance_to_scene(const CompiledScene::Impl& scene, const Vec3d& eye, const Vec3d& direction) {
+  return std::max(0.0, -eye.dot(direction) - scene.radius);
 }
 
 }  // namespace
@@ -21,7 +21,7 @@ Tracer::Tracer(const CompiledScene& scene, const Camera& camera) : scene_(scene)
 
 RaySample Tracer::trace(double x, double y) {
   const Vec3d direction = unit(ray_direction(camera_, x, y));
-  const Vec3d origin = camera_.eye + direction * distance_to_scene(camera_.eye, direction);
+  const Vec3d origin = camera_.eye + direction * distance_to_scene(scene_.impl(), camera_.eye, direction);
   RaySample sample;
   scene_.impl().kernel(scene_.impl(), Vec3f(origin), Vec3f(direction), sample, counts_);
   return sample;
@@ -29,7 +29,7 @@ RaySample Tracer::trace(double x, double y) {
 
 FirstHit Tracer::first_hit(double x, double y) const {
   const Vec3d direction = unit(ray_direction(camera_, x, y));
-  const Vec3d origin = camera_.eye + direction * distance_to_scene(camera_.eye, direction);
+  const Vec3d origin = camera_.eye + direction * distance_to_scene(scene_.impl(), camera_.eye, direction);
   const std::optional<VisibleSurface> surface =
       visible_surface(scene_.impl(), Vec3f(origin), Vec3f(direction));
   if (!surface) return {};
@@ -43,11 +43,11 @@ bool Tracer::visible(const Vec3f& hit, bool at_infinity) {
   const Vec3d to_hit = at_infinity ? Vec3d(hit) : Vec3d(hit) - camera_.eye;
   const double distance = std::sqrt(to_hit.dot(to_hit));
   const Vec3d direction = to_hit * (1 / distance);
-  const double start = distance_to_scene(camera_.eye, direction);
-  const double length =
-      at_infinity ? std::numeric_limits<double>::infinity() : distance - start - kVisibilityGap;
-  if (!(length > 0)) return true;
+  const double start = distance_to_scene(scene_.impl(), camera_.eye, direction);
   const Vec3d origin = camera_.eye + direction * start;
+  const double gap = visibility_gap(std::max(sum_of_coordinates(Vec3d(hit)), sum_of_coordinates(origin)));
+  const double length = at_infinity ? std::numeric_limits<double>::infinity() : distance - start - gap;
+  if (!(length > 0)) return true;
   return !occluded(scene_.impl(), Vec3f(origin), Vec3f(direction), static_cast<float>(length));
 }
 

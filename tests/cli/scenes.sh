@@ -33,6 +33,17 @@ sed '/^[vfahru]/d; /^f /d' ball.nff >noview.nff
 run pprt-render noview.nff; expect_code 3
 expect_text err "noview.nff: error: the scene has no view ('v' ...) and no script gives a camera: nothing can be seen"
 
+# Nothing to see: said before anything is written.
+sed 's/^at .*/at 0 0 9/' ball.nff >behind.nff
+for np in 1 2; do
+  run pprt-render -np $np behind.nff -o blank.png --stats blank.ndjson; expect_code 3
+  expect_text err "behind.nff: error: nothing is to be seen: all objects lie behind the eye"
+  expect_no_file blank.png; expect_no_file blank.ndjson; expect_no_file manifest.ndjson
+done
+sed '/^[lbf] /d' ball.nff >dark.nff
+run pprt-render dark.nff --clock work -o dark.png; expect_code 0; expect_file dark.png
+expect_line err 'dark.nff: warning: the scene has no light: its objects show in ambient light alone'
+
 sed 's/at <0, 0, 0>/at <0, 0, 5>/; s/angle 45/angle 190/' ball.anim >bad.anim
 run pprt-render bad.anim; expect_code 3; expect_line err 'bad.anim:[0-9]*:[0-9]*: error: .*'; expect_line err ' *^'
 grep -v scene ball.anim >noscene.anim

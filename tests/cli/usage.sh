@@ -10,6 +10,7 @@ run pprt-render ball.nff --clock sun; expect_usage "--clock: 'sun' is none of wa
 run pprt-render ball.nff --resume --overwrite; expect_usage "--overwrite excludes --resume"
 run pprt-render ball.nff --budget 5; expect_usage "--budget counts work: it needs --clock work"
 run pprt-render ball.nff --budget 5 --clock work; expect_usage "--budget needs a frame rate (--fps)"
+run pprt-render ball.nff --fps 1e-308; expect_usage "--fps 1e-308: want 0, for no rate, or at least 0.001"
 run pprt-render ball.nff --fps 4 --samples 10
 expect_usage "--time, --samples and --quality end frames without a rate, but the rate is 4 frames/s; --fps 0 turns it off"
 for size in 1e9x1 0x5 16x 99999x2; do

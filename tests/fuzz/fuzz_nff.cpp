@@ -1,19 +1,31 @@
-// libFuzzer's entry point for the NFF reader: whatever the bytes, a scene or an InputError.
+// libFuzzer entry: whatever the bytes, a scene or an InputError; and a scene that was read is read again, the
+// same, from the canonical text that the ranks are sent.
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
+#include <optional>
+#include <sstream>
+#include <string>
 #include <string_view>
 
 #include "base/diagnostics.h"
 #include "parser/nff_parser.h"
+#include "scene/nff_writer.h"
 
 namespace {
 
-void read(std::string_view text, const pprt::NffOptions& options) {
+std::optional<pprt::SceneDescription> read(std::string_view text, const pprt::NffOptions& options) {
   try {
-    pprt::parse_nff(text, "fuzz.nff", options);
+    return pprt::parse_nff(text, "fuzz.nff", options).scene;
   } catch (const pprt::InputError&) {
-    // The text is no scene, and that has been said: as it should be.
+    return std::nullopt;  // no scene, and that has been said: as it should be
   }
+}
+
+std::string canonical(const pprt::SceneDescription& scene) {
+  std::ostringstream text;
+  pprt::write_nff(scene, text);
+  return std::move(text).str();
 }
 
 }  // namespace
@@ -21,8 +33,13 @@ void read(std::string_view text, const pprt::NffOptions& options) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   pprt::NffOptions options;
-  read(text, options);
+  const auto scene = read(text, options);
+  if (scene) {
+    const std::string sent = canonical(*scene);
+    const auto received = sent.empty() ? scene : read(sent, options);
+    if (!received || canonical(*received) != sent) std::abort();
+  }
   options.strict = true;
-  read(text, options);
+  if (read(text, options) && !scene) std::abort();  // strict reading accepts no more
   return 0;
 }

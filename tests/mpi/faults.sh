@@ -8,8 +8,10 @@
 #   killed          the whole run is killed, TIMES times at random moments
 #   full            the disk is full
 #   read-only       the directory cannot be written to
+#   slow-network    two of four ranks are on another host, 5 to 10 ms away; 5 of 1000 packets are lost
+#   bad-network     the same, 40 to 60 ms away, and 10 of 1000 are lost
 #
-# Ends with 77 where the machine does not let a test mount a file system of its own.
+# Ends with 77 where the machine does not let a test mount a file system, or make a network, of its own.
 source "$(dirname "$0")/lib.sh"
 fault=$1 times=${2:-10}
 script=$here/moving.anim
@@ -71,6 +73,17 @@ expect_equal() {
 counted=(pprt-render spd:tree:5 "$script" -np 3 --clock work --budget 6000000 --progress none)
 undisturbed() { "${counted[@]}" -o 'reference/%04d.png'; }
 
+# In the ledger, in the order of the script, each once.
+expect_every_frame_told() {
+  grep -o '"record":"frame","frame":[0-9]*' ledger.ndjson | grep -o '[0-9]*$' | cmp - <(seq $frames) ||
+    fail "the ledger does not tell of every frame in its turn"
+}
+
+# Of the ledger, a frame a line: how late it came, ms, and which ranks were, between commas.
+late_frames() {
+  sed -n 's/.*"late_ms":\([-0-9.e]*\),"late_ranks":\[\([0-9,]*\)\].*/\1 ,\2,/p' ledger.ndjson
+}
+
 stand_still() {
   local rank=$1 run code=0 process
   pprt-render spd:tree:5 "$script" -np 4 --progress none -o 'out/%04d.png' --stats ledger.ndjson &
@@ -84,26 +97,54 @@ stand_still() {
   [[ $code == 0 ]] || fail "the run ended with code $code"
   expect_frames out png $frames
   expect_whole out
-  # In the order of the script, each once.
-  grep -o '"record":"frame","frame":[0-9]*' ledger.ndjson | grep -o '[0-9]*$' | cmp - <(seq $frames) ||
-    fail "the ledger does not tell of every frame in its turn"
-  # Frame by frame: whether the rank was late, and how late the frame.
-  sed -n 's/.*"late_ms":\([-0-9.e]*\),"late_ranks":\[\([0-9,]*\)\].*/\1 ,\2,/p' ledger.ndjson >late
+  expect_every_frame_told
+  late_frames >late
+  # How many frames lack its pixels, after how many from the first of these a whole one comes, how late the latest is.
   awk -v rank=",$rank," '
-    index($2, rank) { ++missed; last = NR }
+    index($2, rank) { ++missed; if (!first) first = NR }
+    first && !back && !index($2, rank) { back = NR - first }
     { if (NR == 1 || $1 > most) most = $1 }
-    END { printf "%d %d %.1f\n", missed, last, most }' late
+    END { printf "%d %d %.1f\n", missed, back, most }' late
+}
+
+# A host "far" beside this one: a network namespace at the other end of slow_wire, which mpirun enters where it would
+# use ssh. Leaves the hostfile "hosts".
+make_network() {
+  local delay=$1 jitter=$2 loss=$3
+  ip link set lo up
+  unshare --net --uts sleep 600 &
+  far=$!
+  slow_wire near far "$delay" "$jitter" "$loss" >wire.log 2>&1 &
+  wire=$!
+  trap 'kill $wire $far; rm -rf "$work"' EXIT
+  for ((i = 0; i < 100; ++i)); do
+    if grep -q ready wire.log && ip link set far netns $far 2>/dev/null; then break; fi
+    kill -0 $wire 2>/dev/null || exit 77
+    sleep 0.05
+  done
+  inside="nsenter --target $far --net --uts --"
+  $inside hostname far
+  ip addr add 10.83.0.1/24 dev near
+  ip link set near up
+  $inside ip link set lo up
+  $inside ip addr add 10.83.0.2/24 dev far
+  $inside ip link set far up
+  printf '#!/bin/sh\nshift\nexec %s sh -c "$*"\n' "$inside" >agent
+  chmod +x agent
+  printf '%s slots=2\n' 10.83.0.1 10.83.0.2 >hosts
+  export OMPI_MCA_plm_rsh_agent=$work/agent OMPI_MCA_btl_tcp_if_include=10.83.0.0/24 OMPI_MCA_oob_tcp_if_include=10.83.0.0/24
 }
 
 case $fault in
   stopped | stopped-master)
     rank=$([[ $fault == stopped ]] && echo 2 || echo 0)
     figures=$(stand_still "$rank")
-    read -r missed last most <<<"$figures"
+    read -r missed back most <<<"$figures"
     [[ $missed -gt 0 ]] || fail "the ledger does not name rank $rank"
-    [[ $last -lt $frames ]] || fail "rank $rank has not come back"
+    # Two seconds are eight frames; the picture is whole again within two.
+    [[ $back -gt 0 && $back -le 10 ]] || fail "rank $rank is not back within two frames (0: never): $back"
     report "rank $rank of 4 stood still for 2 s at 4 frames/s" \
-      "all $frames frames; $missed without its pixels, and whole again; the latest $most ms after its deadline"
+      "all $frames frames; $missed without its pixels, whole again $back frames after the first of these; the latest $most ms after its deadline"
     ;;
   lost)
     undisturbed
@@ -188,6 +229,41 @@ case $fault in
     others=$(find disk -type f ! -name '????.png' ! -name '*manifest.ndjson')
     [[ -z $others ]] || fail "$others lies about"
     report "$done" "exit 1 and a message; $(find disk/out -name '????.png' | wc -l) frames in place, all whole"
+    ;;
+  slow-network | bad-network)
+    if [[ -z ${PPRT_OWN_NETWORK:-} ]]; then
+      namespace=(unshare --net --mount)
+      if [[ $(id -u) != 0 ]]; then namespace=(unshare --map-root-user --net --mount); fi
+      [[ -c /dev/net/tun ]] && command -v ip >/dev/null && "${namespace[@]}" true 2>/dev/null || exit 77
+      PPRT_OWN_NETWORK=1 "${namespace[@]}" bash "$here/faults.sh" "$fault"
+      exit
+    fi
+    distance=(5 5 5) most_late=500
+    if [[ $fault == bad-network ]]; then distance=(40 20 10) most_late=1500; fi
+    counted=(pprt-render spd:tree:5 "$script" -np 4 --clock work --budget 6000000 --frames 1-4 --progress none)
+    make_network "${distance[@]}"
+    undisturbed
+    # Counted time: the network makes no difference to the result.
+    "${counted[@]}" --hostfile hosts -o 'out/%04d.png'
+    expect_frames out png 4
+    expect_equal out
+    # Real time: every frame, in its turn.
+    frames=16
+    pprt-render spd:tree:5 "$script" -np 4 --hostfile hosts --frames 1-$frames --progress none -o 'real/%04d.png' \
+      --stats ledger.ndjson
+    expect_frames real png $frames
+    expect_whole real
+    expect_every_frame_told
+    packets=$(ip -s link show near | awk '/RX:/ { getline; print $2 }')
+    [[ $packets -gt 1000 ]] || fail "only $packets packets have come from the other host"
+    # The first frame waits for all ranks.
+    figures=$(late_frames | awk 'NR > 1 { n += $2 != ",,"; if (NR == 2 || $1 > most) most = $1 }
+      END { printf "%d %.1f", n, most }')
+    read -r lacking most <<<"$figures"
+    awk -v most="$most" -v bound=$most_late 'BEGIN { exit !(most < bound) }' ||
+      fail "a frame came $most ms after its deadline"
+    report "2 of 4 ranks are ${distance[0]} to $((distance[0] + distance[1])) ms away, ${distance[2]} of 1000 packets lost" \
+      "4 frames of counted work as undisturbed, bit for bit; all $frames frames at 4 frames/s, $lacking without all pixels; the latest $most ms after its deadline"
     ;;
   *) fail "there is no fault '$fault'" ;;
 esac

@@ -1,5 +1,7 @@
 // The renderer's pictures against those of a brute-force tracer in long double.
+#include <fmt/format.h>
 #include <array>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -9,6 +11,7 @@
 
 #include "oracle.h"
 #include "pictures.h"
+#include "report.h"
 #include "spd/spd.h"
 #include "test_scenes.h"
 
@@ -93,12 +96,19 @@ SceneDescription heap(unsigned seed) {
 constexpr double kShareOfEdges = 0.001;
 
 TEST_CASE("pictures of the SPD scenes are those of the oracle") {
-  const std::string name = GENERATE("tree:4", "balls:2", "gears:1", "rings:1", "mount:3", "lattice:1",
-                                    "jacks:2", "tetra:3", "teapot:2");
-  const SceneDescription scene = make_spd_scene("spd:" + name);
-  const double share = share_different(traced_picture(scene, 96), oracle_picture(scene, 96));
-  CAPTURE(name, share);
-  CHECK(share <= kShareOfEdges);
+  Worst worst;
+  for (const SceneDescription& scene : spd_scenes()) {
+    const double share = share_different(traced_picture(scene, 96), oracle_picture(scene, 96));
+    CAPTURE(scene.name, share);
+    CHECK(share <= kShareOfEdges);
+    worst.add(share, scene.name);
+  }
+  report("pictures of nine SPD scenes at 96 x 96 against a brute-force tracer in long double",
+         "0.1 % of pixels off by more than 1/255",
+         "a ray may pass an edge on the other side: a float direction leads 1e-7 of the scene aside, each "
+         "bounce "
+         "off a curved mirror some ten times that",
+         worst.percent());
 }
 
 // What SPD lacks: cones that taper, patches that transmit, surfaces seen from inside alone, coloured lights.
@@ -110,4 +120,6 @@ TEST_CASE("pictures of random heaps of everything are those of the oracle") {
     sum += share_different(traced_picture(scene, 48), oracle_picture(scene, 48));
   }
   CHECK(sum / kHeaps <= kShareOfEdges);  // measured: 0
+  report("30 random heaps of all primitives and materials, likewise at 48 x 48", "0.1 %", "as above",
+         fmt::format("{:.2g} %", 100 * sum / kHeaps));
 }

@@ -1,9 +1,13 @@
 // Materials and lights at the ends of their ranges give colours that are numbers.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <initializer_list>
 
+#include "oracle.h"
 #include "pictures.h"
+#include "report.h"
 #include "test_scenes.h"
 
 using namespace pprt;
@@ -34,15 +38,22 @@ int not_numbers(const SceneDescription& scene) {
 }  // namespace
 
 TEST_CASE("materials at the ends of their ranges give finite colours") {
+  int pictures = 0, wrong = 0;
   for (const double shine : {0.0, 1e-30, 1.0, 99999.0, 100000.0, 1e30}) {
     for (const double index : {0.0, -1.0, 1e-30, 1e-9, 1.0, 1.5, 1e9, 1e30}) {
       for (const double transmittance : {0.0, 1.0}) {
         const Material material{{1, 1, 1}, 1, 1, shine, transmittance, index};
         CAPTURE(shine, index, transmittance);
-        CHECK(not_numbers(four_kinds(material, {{0, 0, 100}, {3, 4, 5}})) == 0);
+        const int found = not_numbers(four_kinds(material, {{0, 0, 100}, {3, 4, 5}}));
+        CHECK(found == 0);
+        ++pictures, wrong += found;
       }
     }
   }
+  report(
+      fmt::format("{} materials at the ends of their ranges: Shine 0 to 1e30, index -1 to 1e30, Ks = T = 1",
+                  pictures),
+      "every colour a number, none negative", "", wrong == 0 ? "so" : fmt::format("{} pixels", wrong));
 }
 
 TEST_CASE("lights in the plane, on the surface, at the eye and far off give finite colours") {
@@ -56,8 +67,58 @@ TEST_CASE("lights in the plane, on the surface, at the eye and far off give fini
                           {-2, 0, 1},    // on the patch
                           {0, 0, 1e30},  // far off
                           {0, 1e150, 0}};
+  int wrong = 0;
   for (const Vec3d& light : lights) {
     CAPTURE(light.x, light.y, light.z);
-    CHECK(not_numbers(four_kinds(material, {light})) == 0);
+    const int found = not_numbers(four_kinds(material, {light}));
+    CHECK(found == 0);
+    wrong += found;
   }
+  report("lights in the plane, on four kinds of surface, at the eye, at a tip, 1e150 away",
+         "every colour a number, none negative", "", wrong == 0 ? "so" : fmt::format("{} pixels", wrong));
+}
+
+// At the critical angle the refracted ray grazes the surface, and a rounding decides whether there is one:
+// the ring of these pixels may differ, as edges may.
+TEST_CASE("shading at its limits is that of the oracle") {
+  struct Case {
+    const char* name;
+    Material material;
+    Vec3d light;
+    Vec3d eye;
+  };
+  const Material matte, glossy{{0.9, 0.8, 0.7}, 0.5, 0.5, 99999, 0, 1},
+      dull{{0.9, 0.8, 0.7}, 0.5, 0.5, 0, 0, 1};
+  const auto glass = [](double index) { return Material{{1, 1, 1}, 0.1, 0.2, 20, 0.7, index}; };
+  const Vec3d above(4, 5, 6), front(0, -8, 5);
+  const Case cases[] = {{"light in the plane", matte, {100, 0, 0}, front},
+                        {"light grazing", matte, {50, 0, 1e-4}, front},
+                        {"light grazing a sphere's top", matte, {0, 50, 1.99}, front},
+                        {"light at the eye", matte, front, front},
+                        {"light 1e9 away", matte, {1e9, 2e9, 3e9}, front},
+                        {"Shine 99999", glossy, above, front},
+                        {"Shine 0", dull, above, front},
+                        {"index 0", glass(0), above, front},
+                        {"index 1", glass(1), above, front},
+                        {"index 0.7", glass(0.7), above, front},
+                        {"index 1.0000001", glass(1.0000001), above, front},
+                        {"index 5", glass(5), above, front},
+                        {"total reflection, from within", glass(1.5), above, {0, 0.1, 1.1}},
+                        {"total reflection, from below", glass(1.5), above, {0, -3, -0.5}},
+                        {"Ks + T = 2", {{1, 1, 1}, 1, 1, 10, 1, 1.3}, above, front}};
+  Worst worst;
+  for (const Case& c : cases) {
+    SceneDescription scene = four_kinds(c.material, {c.light});
+    scene.background = Rgb(0.2, 0.3, 0.4);
+    scene.view = view_from(c.eye, {0, 0, 0.7}, 45);
+    scene.view->up = {0, 0, 1};
+    const double share = share_different(traced_picture(scene, 96), oracle_picture(scene, 96));
+    CAPTURE(c.name, share);
+    CHECK(share <= 0.001);
+    worst.add(share, c.name);
+  }
+  report(
+      "15 pictures with grazing and far lights, indices from 0 to 5, the critical angle, Ks + T = 2, against "
+      "long double",
+      "0.1 %", "as above", worst.percent());
 }

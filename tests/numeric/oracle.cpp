@@ -117,20 +117,23 @@ void consider(const Ray& ray, Real t, const Vec& outwards, bool inside_only, Mat
   hit = {t, at(ray, t), outwards, outwards, material};
 }
 
+// From where the ray passes the centre, half the chord either way.
 void meet(const Sphere& sphere, const Ray& ray, Hit& hit) {
   const Vec center(sphere.center);
-  const Vec way = ray.origin - center;
-  const Real half_b = way.dot(ray.direction);
+  const Real middle = (center - ray.origin).dot(ray.direction);
+  const Vec aside = at(ray, middle) - center;
   const Real radius = std::abs(static_cast<Real>(sphere.radius));
-  const Real discriminant = half_b * half_b - way.dot(way) + radius * radius;
-  if (!(discriminant >= 0)) return;
+  const Real half_chord2 = (radius - std::sqrt(aside.dot(aside))) * (radius + std::sqrt(aside.dot(aside)));
+  if (!(half_chord2 >= 0)) return;
   for (const Real sign : {-1, 1}) {
-    const Real t = -half_b + sign * std::sqrt(discriminant);
+    const Real t = middle + sign * std::sqrt(half_chord2);
     consider(ray, t, unit(at(ray, t) - center), sphere.radius < 0, sphere.material, hit);
   }
 }
 
-// In cylindrical coordinates about the axis: the distance from it is a linear function of the height.
+// In cylindrical coordinates about the axis: the distance from it is a linear function of the height. The
+// squares would cancel far from the cone, and far above a flat one: the ray is taken from where it comes
+// near.
 void meet(const Cone& cone, const Ray& ray, Hit& hit) {
   const Vec base(cone.base), apex(cone.apex);
   const Real length = std::sqrt((apex - base).dot(apex - base));
@@ -138,8 +141,12 @@ void meet(const Cone& cone, const Ray& ray, Hit& hit) {
   const Real r0 = std::abs(static_cast<Real>(cone.base_radius));
   const Real growth = (std::abs(static_cast<Real>(cone.apex_radius)) - r0) / length;
 
-  const Real rise = ray.direction.dot(axis), height = (ray.origin - base).dot(axis);
-  const Vec across = ray.direction - axis * rise, aside = ray.origin - base - axis * height;
+  const Real rise = ray.direction.dot(axis);
+  const bool flat = std::abs(growth) > 1 && std::abs(rise) > 1e-3L;
+  const Real start = flat ? (base - ray.origin).dot(axis) / rise : (base - ray.origin).dot(ray.direction);
+  const Vec from_base = at(ray, start) - base;
+  const Real height = flat ? 0 : from_base.dot(axis);
+  const Vec across = ray.direction - axis * rise, aside = from_base - axis * height;
   const Real radius = r0 + growth * height, widening = growth * rise;
   const Real a = across.dot(across) - widening * widening;
   const Real half_b = across.dot(aside) - widening * radius;
@@ -150,8 +157,8 @@ void meet(const Cone& cone, const Ray& ray, Hit& hit) {
   for (const Real t : {sum / a, c / sum}) {
     const Real h = height + t * rise;
     if (!(h >= 0 && h <= length)) continue;  // also where a or sum is 0
-    const Vec from_axis = at(ray, t) - base - axis * h;
-    consider(ray, t, unit(unit(from_axis) - axis * growth), cone.base_radius < 0, cone.material, hit);
+    const Vec from_axis = aside + across * t;
+    consider(ray, start + t, unit(unit(from_axis) - axis * growth), cone.base_radius < 0, cone.material, hit);
   }
 }
 

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
+#include "spd/spd.h"
 #include "trace/compiled_scene.h"
 
 namespace pprt::test {
@@ -20,6 +22,16 @@ inline std::vector<Rgb> traced_picture(const SceneDescription& scene, int size) 
     for (int x = 0; x < size; ++x) picture.emplace_back(tracer.trace(x + 0.5, y + 0.5).color);
   }
   return picture;
+}
+
+// One of each database, small enough for brute force.
+inline std::vector<SceneDescription> spd_scenes() {
+  std::vector<SceneDescription> scenes;
+  for (const char* name : {"tree:4", "balls:2", "gears:1", "rings:1", "mount:3", "lattice:1", "jacks:2",
+                           "tetra:3", "teapot:2"}) {
+    scenes.push_back(make_spd_scene(std::string("spd:") + name));
+  }
+  return scenes;
 }
 
 // Share of pixels that differ by more than one display step of 1/255 in some channel; no number differs.

@@ -1,4 +1,6 @@
 // Rays inside a closed mesh stay inside, wherever the mesh lies.
+#include <fmt/format.h>
+
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -7,6 +9,7 @@
 #include <random>
 #include <vector>
 
+#include "report.h"
 #include "test_scenes.h"
 #include "trace/compiled_scene.h"
 
@@ -15,7 +18,7 @@ using namespace pprt::test;
 
 namespace {
 
-constexpr int kRays = 100'000;
+const int kRays = trials(100'000);
 
 using Random = std::mt19937;
 
@@ -114,27 +117,62 @@ int misses(const SceneDescription& scene, const Vec3d& middle, Aim aim) {
 }  // namespace
 
 TEST_CASE("no ray from inside a closed mesh misses it") {
+  int missed = 0;
   for (const SceneDescription& scene : {ball(Material()), box(Material())}) {
     for (const double offset : {0.0, 1e3, 1e6}) {
       CAPTURE(scene.polygons.size(), offset);
       const Vec3d by(offset, -offset, offset);
       const SceneDescription there = moved(scene, by, 1);
-      CHECK(misses(there, by, Aim::kAnywhere) == 0);
-      CHECK(misses(there, by, Aim::kSides) == 0);
+      const int anywhere = misses(there, by, Aim::kAnywhere), sides = misses(there, by, Aim::kSides);
+      CHECK(anywhere == 0);
+      CHECK(sides == 0);
+      missed += anywhere + sides;
     }
   }
+  report(fmt::format(
+             "rays from inside two closed meshes at 0, 1e3 and 1e6, anywhere and at sides of facets: {} each",
+             kRays),
+         "no miss", "Embree's robust test gives both triangles at a side the same answer",
+         missed == 0 ? "none" : fmt::format("{}", missed));
 }
 
 // Embree's robust test gives both triangles at a side the same answer to the last bit, but the sides around
 // a corner round each on its own: none of its triangles may hold the ray. Measured: at most 96 of 100,000.
+// Quadrangles whose corners lie in no plane are cut into triangles, which share their sides with the
+// neighbours.
+TEST_CASE("no ray from inside a closed mesh of facets that are not flat misses it") {
+  SceneDescription scene = ball(Material());
+  const auto displaced = [](const Vec3d& p) {  // the same wherever it occurs
+    return p * (1 + 0.02 * std::sin(40 * p.x + 70 * p.y + 90 * p.z));
+  };
+  for (Vec3d& p : scene.polygon_vertices) p = displaced(p);
+  int missed = 0;
+  for (const double offset : {0.0, 1e6}) {
+    const Vec3d by(offset, -offset, offset);
+    missed += misses(moved(scene, by, 1), by, Aim::kAnywhere) + misses(moved(scene, by, 1), by, Aim::kSides);
+  }
+  CHECK(missed == 0);
+  report(fmt::format("the same in a ball whose quadrangles are not flat, at 0 and 1e6: {} rays each", kRays),
+         "no miss", "a polygon is cut into triangles that share its sides with its neighbours'",
+         missed == 0 ? "none" : fmt::format("{}", missed));
+}
+
 TEST_CASE("of rays aimed at the very corners of a closed mesh at most two in a thousand miss it") {
+  Worst worst;
   for (const SceneDescription& scene : {ball(Material()), box(Material())}) {
     for (const double offset : {0.0, 1e3, 1e6}) {
       CAPTURE(scene.polygons.size(), offset);
       const Vec3d by(offset, -offset, offset);
-      CHECK(misses(moved(scene, by, 1), by, Aim::kCorners) <= kRays / 500);
+      const int missed = misses(moved(scene, by, 1), by, Aim::kCorners);
+      CHECK(missed <= kRays / 500);
+      worst.add(static_cast<double>(missed) / kRays, scene.polygons.size() > 1000 ? "ball" : "box");
     }
   }
+  report("the same aimed at corners, within a rounding to float", "0.2 % miss",
+         "the sides around a corner round each on its own: Embree's robust test closes sides, not corners. A "
+         "ray "
+         "that is not aimed comes that close to one of a thousand corners less than once in 1e11",
+         worst.percent());
 }
 
 TEST_CASE("a mesh that lacks a facet is not closed") {
@@ -146,6 +184,7 @@ TEST_CASE("a mesh that lacks a facet is not closed") {
 
 // Mirrors: four reflections more, each off the inside. Light and background would show at once.
 TEST_CASE("nothing from outside comes into a closed mesh of mirrors") {
+  int all = 0;
   const Material mirror{.color = {1, 1, 1}, .diffuse = 1, .specular = 1};
   for (SceneDescription scene : {ball(mirror), box(mirror)}) {
     scene.lights = {{{30, 10, 20}, {}, {}}, {{-3, -1, 2}, {}, {}}};
@@ -158,6 +197,9 @@ TEST_CASE("nothing from outside comes into a closed mesh of mirrors") {
                   [&](const RaySample& sample) { leaks += !(sample.color.x <= most); });
       CAPTURE(scene.polygons.size(), offset);
       CHECK(leaks == 0);
+      all += leaks;
     }
   }
+  report(fmt::format("light from outside closed mirrors, {} rays of five bounces each", kRays),
+         "none comes in", "offsets above", all == 0 ? "none" : fmt::format("{}", all));
 }

@@ -30,6 +30,12 @@ TEST_CASE("a job cut short anywhere is refused") {
   }
 }
 
+TEST_CASE("a job that asks for an effect that there is not is refused") {
+  RenderJob job;
+  job.compile.effects = EffectSet(EffectSet::all().bits() + 1);
+  CHECK_THROWS_AS(decode_job(encode(job)), ProtocolError);
+}
+
 TEST_CASE("a content's hash is FNV-1a of 64 bits") {
   CHECK(content_hash("") == "cbf29ce484222325");
   CHECK(content_hash("a") == "af63dc4c8601ec8c");

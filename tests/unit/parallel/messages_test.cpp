@@ -56,6 +56,8 @@ SessionSettings some_settings() {
   settings.frames_per_second = 4, settings.budget_units = 12345;
   settings.stop = {1.5, 678, 0.01};
   settings.cast = CastChoice::kVerified, settings.seed = 99;
+  settings.balance = BalanceMode::kLocal, settings.keep_samples = false, settings.report_samples = true;
+  settings.machine.latency_s = 1e-3;
   return settings;
 }
 
@@ -160,7 +162,8 @@ TEST_CASE("settings come back as they were sent") {
   CHECK((back.width == 123 && back.height == 45 && back.clock == ClockKind::kWork));
   CHECK((back.frames_per_second == 4 && back.budget_units == 12345 && back.seed == 99));
   CHECK((back.stop.seconds == 1.5 && back.stop.samples == 678 && back.stop.quality == 0.01));
-  CHECK(back.cast == CastChoice::kVerified);
+  CHECK((back.cast == CastChoice::kVerified && back.balance == BalanceMode::kLocal));
+  CHECK((!back.keep_samples && back.report_samples && back.machine.latency_s == 1e-3));
 }
 
 TEST_CASE("a message cut short anywhere is refused") {
@@ -174,6 +177,40 @@ TEST_CASE("a message with more than it should hold is refused") {
   check_one_too_many(encode(some_order()), kDecodeOrder);
   check_one_too_many(encode(some_bundle()), kDecodeBundle);
   check_one_too_many(encode(some_pixels()), kDecodePixels);
+}
+
+TEST_CASE("a value that its type has not is refused") {
+  const auto with = [](Bytes bytes, std::size_t at, unsigned value) {
+    bytes[at] = static_cast<std::byte>(value);
+    return bytes;
+  };
+  const Bytes order = encode(some_order()), bundle = encode(some_bundle());
+  CHECK_THROWS_AS(decode_frame_order(with(order, 0, 2)), ProtocolError);   // end
+  CHECK_THROWS_AS(decode_frame_order(with(order, 9, 2)), ProtocolError);   // cut
+  CHECK_THROWS_AS(decode_frame_order(with(order, 10, 5)), ProtocolError);  // carry
+  CHECK(decode_frame_order(with(order, 10, 4)).carry == Carry::kCastWherePaying);
+  CHECK_THROWS_AS(decode_bundle(with(bundle, 12, 255)), ProtocolError);  // done
+  const Bytes settings = encode(some_settings());
+  CHECK_THROWS_AS(decode_settings(with(settings, 8, 2)), ProtocolError);   // clock
+  CHECK_THROWS_AS(decode_settings(with(settings, 49, 4)), ProtocolError);  // balance
+  CHECK_THROWS_AS(decode_settings(with(settings, 50, 4)), ProtocolError);  // cast
+  CHECK_THROWS_AS(decode_settings(with(settings, 51, 2)), ProtocolError);  // keep_samples
+}
+
+TEST_CASE("runs of more tiles than an image has are refused") {
+  FrameOrder order = some_order();
+  order.owners.clear(), order.tiles.clear();
+  Bytes bytes = encode(order);
+  const std::size_t counts = 2 * sizeof(std::uint64_t);
+  for (const std::int32_t tiles : {0, -1, std::numeric_limits<std::int32_t>::max(), 1 << 28}) {
+    WireWriter runs;
+    runs.put_all<OwnerRun>(std::vector<OwnerRun>{{0, tiles}});
+    runs.put(std::uint64_t{0});
+    Bytes hostile(bytes.begin(), bytes.end() - static_cast<std::ptrdiff_t>(counts));
+    const Bytes end = runs.take();
+    hostile.insert(hostile.end(), end.begin(), end.end());
+    CHECK_THROWS_AS(decode_frame_order(hostile), ProtocolError);
+  }
 }
 
 TEST_CASE("a count that a message cannot hold takes no memory") {

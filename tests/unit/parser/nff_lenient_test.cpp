@@ -92,6 +92,9 @@ TEST_CASE("a lenient reading says once what it made of a departure") {
       {"f 1 1 1 0.5\n",
        "1:1: warning: 'f' has fewer than 8 numbers: those missing are taken from Kd 1, Ks 0, Shine 0, T 0, "
        "index 1"},
+      {"f 0.5 0.2\n",
+       "1:1: warning: 'f' has fewer than the 3 numbers of a colour: the last one stands for those missing; "
+       "Kd 1, Ks 0, Shine 0, T 0, index 1"},
       {"f 1 1 1 1 0 0 0 1 0.2\n",
        "1:1: warning: 'f' has more than 8 numbers: those after the 8th are ignored"},
       {"f 1 1 1 1 0 0 0 1 earth.jpg 2\n",
@@ -144,6 +147,9 @@ TEST_CASE("fill lines of the dialects") {
   CHECK(material("f blue .7 .2 3 0 1.5") == Material{{0, 0, 1}, 0.7, 0.2, 3, 0, 1.5});
   CHECK(material("f blue") == Material{{0, 0, 1}, 1, 0, 0, 0, 1});
   CHECK(material("f .5 1 0 .7 .2 3") == Material{{0.5, 1, 0}, 0.7, 0.2, 3, 0, 1});
+  CHECK(material("f .5") == Material{{0.5, 0.5, 0.5}, 1, 0, 0, 0, 1});
+  CHECK(material("f .5 1") == Material{{0.5, 1, 1}, 1, 0, 0, 0, 1});
+  CHECK(material("f .5 1 0") == Material{{0.5, 1, 0}, 1, 0, 0, 0, 1});
   CHECK(material("f .5 1 0 .7 .2 3 0 1.5 9 9") == Material{{0.5, 1, 0}, 0.7, 0.2, 3, 0, 1.5});
   CHECK(material("f .5 1 0 .7 .2 3 0 1.5 s.jpg c.jpg 3") == Material{{0.5, 1, 0}, 0.7, 0.2, 3, 0, 1.5});
   CHECK(material("f .5 1 0 .7\n.2 3 0 0") == Material{{0.5, 1, 0}, 0.7, 0.2, 3, 0, 0});

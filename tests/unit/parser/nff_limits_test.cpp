@@ -1,9 +1,11 @@
 // Hostile and broken texts: limits, truncation, mutation.
 #include <catch2/catch.hpp>
+#include <filesystem>
 #include <random>
 #include <string>
 
 #include "nff_sample.h"
+#include "parser/text_input.h"
 
 namespace pprt {
 namespace {
@@ -98,6 +100,21 @@ TEST_CASE("a scene cut off at any byte is read or rejected") {
     CHECK(survives(kSample.substr(0, length), {}));
     CHECK(survives(kSample.substr(0, length), strict()));
   }
+}
+
+TEST_CASE("every scene of the wild, cut off at any byte, is read or rejected") {
+  int scenes = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::string(PPRT_SOURCE_DIR) + "/tests/wild")) {
+    if (entry.path().extension() != ".nff") continue;
+    const std::string text = read_text(entry.path().string(), 1 << 20);
+    CAPTURE(entry.path().string());
+    for (std::size_t length = 0; length <= text.size(); ++length) {
+      if (!survives(text.substr(0, length), {})) FAIL_CHECK("cut off at byte " << length);
+    }
+    ++scenes;
+  }
+  CHECK(scenes > 100);
 }
 
 TEST_CASE("a scene with random bytes changed is read or rejected") {

@@ -141,4 +141,15 @@ TEST_CASE("files that cannot be read") {
   CHECK(read_report("/") == "cannot read '/': Is a directory");
 }
 
+TEST_CASE("a word within the colour of a fill is a mistake, not a texture") {
+  CHECK(report("f 1 O.5 0 1 0 0 0 1\n") ==
+        "t.nff:1:5: error: expected a number for green in the colour of 'f', found 'O.5'\n"
+        "    f 1 O.5 0 1 0 0 0 1\n"
+        "        ^");
+  CHECK(report("f 1 1 none\n") ==
+        "t.nff:1:7: error: expected a number for blue in the colour of 'f', found 'none'\n"
+        "    f 1 1 none\n"
+        "          ^");
+}
+
 }  // namespace pprt

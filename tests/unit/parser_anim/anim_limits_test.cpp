@@ -1,7 +1,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <filesystem>
 #include <random>
 
+#include "parser/text_input.h"
 #include "unit/parser_anim/script.h"
 
 namespace pprt {
@@ -26,6 +28,19 @@ void check_survives(std::string_view text) {
 TEST_CASE("a script cut off at any byte is rejected or read") {
   const std::string_view text(kExample);
   for (std::size_t size = 0; size <= text.size(); ++size) check_survives(text.substr(0, size));
+}
+
+TEST_CASE("every script that comes with the project, cut off at any byte, is rejected or read") {
+  int scripts = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(PPRT_SOURCE_DIR) + "/scenes")) {
+    if (entry.path().extension() != ".anim") continue;
+    const std::string text = read_text(entry.path().string(), 1 << 20);
+    CAPTURE(entry.path().string());
+    for (std::size_t size = 0; size <= text.size(); ++size)
+      check_survives(std::string_view(text).substr(0, size));
+    ++scripts;
+  }
+  CHECK(scripts > 5);
 }
 
 TEST_CASE("scripts with bytes changed, dropped and doubled are rejected or read") {

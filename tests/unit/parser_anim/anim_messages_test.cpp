@@ -28,7 +28,7 @@ TEST_CASE("a report has file, line, column, the line and a caret, and every prob
         R"(a.anim:2:3: error: unknown word 'frmes'; did you mean 'frames'?
       frmes 40
       ^
-a.anim:3:7: error: 'fps' is above 0 and at most 1000, not -4
+a.anim:3:7: error: 'fps' is from 0.001 to 1000, not -4
       fps -4
           ^
 a.anim:5:24: error: expected '>' at the end of the vector, found 'at'
@@ -81,8 +81,9 @@ TEST_CASE("problems of the animation") {
       {"frames 1e7", "a.anim:1:19: error: 'frames' is a whole number from 1 to 1000000, not 10000000"},
       {"frames <1,2>", "a.anim:1:19: error: 'frames' is a number, not a vector"},
       {"frames 1 frames 2", "a.anim:1:21: error: 'frames' is given twice"},
-      {"fps 0", "a.anim:1:16: error: 'fps' is above 0 and at most 1000, not 0"},
-      {"fps 1001", "a.anim:1:16: error: 'fps' is above 0 and at most 1000, not 1001"},
+      {"fps 0", "a.anim:1:16: error: 'fps' is from 0.001 to 1000, not 0"},
+      {"fps 0.0009", "a.anim:1:16: error: 'fps' is from 0.001 to 1000, not 0.0009"},
+      {"fps 1001", "a.anim:1:16: error: 'fps' is from 0.001 to 1000, not 1001"},
       {"fps <1,2,3>", "a.anim:1:16: error: 'fps' is a number, not a vector"},
       {"fps 4 fps 4", "a.anim:1:18: error: 'fps' is given twice"},
       {"resolution 256", "a.anim:1:23: error: 'resolution' is a vector of two: <width, height>"},
@@ -212,6 +213,18 @@ TEST_CASE("an unknown name is compared with those declared") {
 TEST_CASE("a file that is not there") {
   CHECK_THROWS_WITH(read_animation("/nonexistent/a.anim"),
                     "cannot read '/nonexistent/a.anim': No such file or directory");
+}
+
+// Whatever a value was made from, what is said of it later needs its place.
+TEST_CASE("a field whose value is unknown and that has no effect is told of both") {
+  const std::string camera = "animation { camera { spline linear key 1 { bias ";
+  for (const char* value :
+       {"X", "(X * 2)", "-X", "X - 1", "1 / 0", "abs(X)", "sqrt(-1)", "what(1)", "<X, 1>", "1e99 * 1e99"}) {
+    CAPTURE(value);
+    const std::string text = report(camera + value + " } } }");
+    CHECK(text.starts_with("a.anim:1:"));
+    CHECK(text.find("warning: 'bias' has no effect: the spline is not tcb\n") != std::string::npos);
+  }
 }
 
 }  // namespace

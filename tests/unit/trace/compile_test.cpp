@@ -59,6 +59,16 @@ TEST_CASE("objects without extent are left out and told of") {
   CHECK_FALSE(look(compiled, *scene.view).at_infinity);
 }
 
+TEST_CASE("materials that give more light than they get are counted in the census") {
+  SceneDescription scene = scene_with(Material{.color = {1, 1, 1}, .specular = 0.6, .transmittance = 0.5});
+  add_square(scene, 1, 0);
+  CHECK_THAT(
+      compile(scene).census(),
+      Catch::Contains("materials   1 in use; 1 with Ks + T above 1, brighter than what is seen in it\n"));
+  scene.materials[0].transmittance = 0.4;
+  CHECK_THAT(compile(scene).census(), Catch::Contains("materials   1 in use\n"));
+}
+
 TEST_CASE("the census counts what is there and names nothing else") {
   SceneDescription scene = scene_with(Material());
   add_square(scene, 1, 0);

@@ -1,10 +1,13 @@
 // Rays that leave a surface must not find it again. Every scene here is such that no point can shade another;
 // so whatever the lights, a picture with shadows equals one without, ray by ray.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <random>
 
+#include "report.h"
 #include "test_scenes.h"
 
 using namespace pprt;
@@ -25,6 +28,15 @@ void add_lights(SceneDescription& scene, double distance) {
   }
 }
 
+// Of all shadow rays, for the report.
+int returned = 0;
+
+void report_leaving(const std::string& what, std::uint64_t rays) {
+  report(fmt::format("{} rays leave {}", rays, what), "none finds it again", "offsets above",
+         returned == 0 ? "none" : fmt::format("{} pixels", returned));
+  returned = 0;
+}
+
 // Shadow rays traced; requires that none was stopped.
 std::uint64_t check_no_shadow(SceneDescription scene, const View& view, double light_distance = 50) {
   scene.lights.clear();
@@ -43,17 +55,19 @@ std::uint64_t check_no_shadow(SceneDescription scene, const View& view, double l
     }
   }
   CHECK(differing == 0);
+  returned += differing;
   return a.counts().shadow;
 }
 
 // Pictures of the scene from around it until enough rays have left it.
-void check_around(const SceneDescription& scene, double distance) {
+std::uint64_t check_around(const SceneDescription& scene, double distance) {
   std::uint64_t rays = 0;
-  for (int i = 0; rays < 100000; ++i) {
-    REQUIRE(i < 40);
+  for (int i = 0; rays < static_cast<std::uint64_t>(trials(100'000)); ++i) {
+    REQUIRE(i < trials(40));
     const Vec3d from(std::cos(i), std::sin(i), std::sin(2.3 * i));
     rays += check_no_shadow(scene, view_from(from.normalized() * distance, {0, 0, 0}, 25));
   }
+  return rays;
 }
 
 SceneDescription matte() {
@@ -63,6 +77,7 @@ SceneDescription matte() {
 }  // namespace
 
 TEST_CASE("rays leave a sphere, whatever its size in the scene") {
+  std::uint64_t rays = 0;
   for (const double radius : {1.0, 0.01, 1e-4}) {
     SceneDescription scene = matte();
     add_sphere(scene, {{0, 0, 0}, radius, 0, {}});
@@ -70,17 +85,22 @@ TEST_CASE("rays leave a sphere, whatever its size in the scene") {
       add_sphere(scene, {{1000 * radius, 1000 * radius, 1000 * radius}, 1e-3 * radius, 0, {}});
     }
     CAPTURE(radius);
-    check_around(scene, 5 * radius);
+    rays += check_around(scene, 5 * radius);
   }
+  report_leaving("a sphere, of a share of the scene down to 1e-7", rays);
 }
 
 TEST_CASE("rays leave the inside of a sphere") {
   SceneDescription scene = matte();
   add_sphere(scene, {{0, 0, 0}, 1, 0, {}});
   std::uint64_t rays = 0;
-  for (int i = 0; i < 3; ++i)
-    rays += check_no_shadow(scene, view_from({0.1, 0.2, 0.3 * i}, {1, 1.0 * i, 0}, 90), 0.9);
+  for (int i = 0; i < trials(3); ++i) {
+    const double turn = i % 10, height = 0.06 * (i % 15);
+    rays +=
+        check_no_shadow(scene, view_from({0.1, 0.2, height}, {std::cos(turn), std::sin(turn), 0}, 90), 0.9);
+  }
   CHECK(rays > 100000);
+  report_leaving("the inside of a sphere", rays);
 }
 
 TEST_CASE("rays leave cylinders and cones") {
@@ -89,19 +109,22 @@ TEST_CASE("rays leave cylinders and cones") {
   SceneDescription cone = matte();
   add_cone(cone, {{0, 0, -2}, 1, {0, 0, 2}, 0, 0, {}});
   // Seen from its sides only: through the open ends the inside would be seen, which does lie in shadow.
+  std::uint64_t all = 0;
   for (const SceneDescription& scene : {cylinder, cone}) {
     std::uint64_t rays = 0;
-    for (int i = 0; i < 12; ++i) {
+    for (int i = 0; i < trials(12); ++i) {
       rays += check_no_shadow(scene, view_from({6 * std::cos(i), 6 * std::sin(i), 0.5}, {0, 0, 0}, 18), 40);
     }
     CHECK(rays > 100000);
+    all += rays;
   }
+  report_leaving("a cylinder, and a cone", all);
 }
 
 TEST_CASE("rays leave polygons, slender and concave ones too") {
   SceneDescription square = matte();
   add_square(square, 1, 0);
-  check_around(square, 4);
+  std::uint64_t rays = check_around(square, 4);
 
   SceneDescription star = matte();
   std::vector<Vec3d> corners;
@@ -111,13 +134,16 @@ TEST_CASE("rays leave polygons, slender and concave ones too") {
                          radius * std::sin(i * std::numbers::pi / 72), 0);
   }
   add_polygon(star, corners, 0);
-  check_around(star, 4);
+  rays += check_around(star, 4);
 
   SceneDescription strip = matte();
   add_polygon(strip, std::vector<Vec3d>{{-1, -0.01, 0}, {1, -0.01, 0.3}, {1, 0.01, 0.3}, {-1, 0.01, 0}}, 0);
-  std::uint64_t rays = 0;
-  for (int i = 0; i < 30; ++i) rays += check_no_shadow(strip, view_from({0, 0.1 * i, 1}, {0, 0, 0.15}, 10));
-  CHECK(rays > 20000);
+  std::uint64_t of_strip = 0;
+  for (int i = 0; i < trials(30); ++i) {
+    of_strip += check_no_shadow(strip, view_from({0, 3.0 * i / trials(30), 1}, {0, 0, 0.15}, 10));
+  }
+  CHECK(of_strip > 20000);
+  report_leaving("polygons, slender and concave ones among them", rays + of_strip);
 }
 
 TEST_CASE("rays leave triangles of any shape in any plane") {
@@ -125,7 +151,7 @@ TEST_CASE("rays leave triangles of any shape in any plane") {
   std::uniform_real_distribution<double> u(-1, 1);
   const auto point = [&] { return Vec3d(u(engine), u(engine), u(engine)); };
   std::uint64_t rays = 0;
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < trials(20); ++i) {
     const Vec3d a = point(), b = point(), c = a + (b - a) * 0.4 + point() * (i % 2 ? 1 : 0.05);
     SceneDescription scene = matte();
     add_polygon(scene, std::vector<Vec3d>{a, b, c}, 0);
@@ -135,6 +161,7 @@ TEST_CASE("rays leave triangles of any shape in any plane") {
     rays += check_no_shadow(scene, view);
   }
   CHECK(rays > 100000);
+  report_leaving("triangles of any shape in any plane", rays);
 }
 
 TEST_CASE("rays leave a patch") {
@@ -144,5 +171,5 @@ TEST_CASE("rays leave a patch") {
   const Vec3d normal = (b - a).cross(c - a);
   const PatchVertex corners[] = {{a, normal}, {b, normal}, {c, normal}};
   add_patch(scene, corners, 0);
-  check_around(scene, 4);
+  report_leaving("a patch", check_around(scene, 4));
 }

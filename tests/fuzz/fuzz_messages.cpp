@@ -1,0 +1,45 @@
+// libFuzzer entry: any bytes are one of the ranks' messages or a ProtocolError, and a message that was read
+// is written and read again as the same. The first byte says which message the others are taken for.
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <span>
+
+#include "parallel/messages.h"
+#include "parallel/session_settings.h"
+
+namespace {
+
+template <typename Decode>
+void there_and_back(std::span<const std::byte> bytes, Decode decode) {
+  pprt::Bytes once;
+  try {
+    once = encode(decode(bytes));
+  } catch (const pprt::ProtocolError&) {
+    return;  // no such message, and that has been said: as it should be
+  }
+  if (encode(decode(once)) != once) std::abort();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  const auto bytes = std::as_bytes(std::span(data, size)).subspan(1);
+  switch (data[0] % 4) {
+    case 0:
+      there_and_back(bytes, pprt::decode_frame_order);
+      break;
+    case 1:
+      there_and_back(bytes, pprt::decode_bundle);
+      break;
+    case 2:
+      there_and_back(bytes, pprt::decode_pixels);
+      break;
+    default:
+      there_and_back(bytes, [](std::span<const std::byte> b) {
+        return pprt::decode_settings(pprt::Bytes(b.begin(), b.end()));
+      });
+  }
+  return 0;
+}
