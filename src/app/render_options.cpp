@@ -112,10 +112,6 @@ void add_run_options(CLI::App& app, RenderOptions& o) {
       "What becomes of samples when the image is cut anew: on hands them over, off drops them");
   keep->capture_default_str()->group(group);
   take_one_of(*keep, {"on", "off"});
-  auto* pixels = app.add_option("--pixels", o.pixels,
-                                "What pixels with samples show: their area's mean, the samples', the center");
-  pixels->capture_default_str()->group(group);
-  take_one_of(*pixels, {"area", "mean", "center"});
   app.add_option("--seed", o.seed, "Of the pattern that every frame starts from")
       ->check(count_from(0))
       ->capture_default_str()
@@ -138,6 +134,9 @@ void add_image_options(CLI::App& app, RenderOptions& o) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->allow_extra_args(false)
       ->group(group);
+  auto* pixels = app.add_option("--pixels", o.pixels, "What a pixel that holds samples shows");
+  pixels->capture_default_str()->group(group);
+  take_one_of(*pixels, {"area", "mean", "center"});
   app.add_option("--frames", o.frames, "Render only frames A to B")->type_name("A-B")->group(group);
   auto* layers = app.add_option(
       "--layers", o.layers,
