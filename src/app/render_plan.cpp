@@ -209,6 +209,7 @@ std::vector<FramePattern> parse_outputs(const RenderOptions& options, FrameCount
   const std::vector<std::string> names =
       options.outputs.empty() ? std::vector<std::string>{kDefaultOutput} : options.outputs;
   std::vector<FramePattern> outputs;
+  outputs.reserve(names.size());
   for (const std::string& name : names) outputs.push_back(parse_frame_pattern(name, count));
   return outputs;
 }
