@@ -70,6 +70,7 @@ struct Results {
   std::vector<SceneEffects> effects;
   std::vector<NamedPicture> pictures;
   std::vector<RatePoint> rates;
+  std::vector<Punctuality> punctuality;
 };
 
 // Of the pictures of sequences. The planner's are as large as was asked for.
@@ -78,33 +79,41 @@ int sequence_size(const AccuracyOptions& options) {
   return options.quick ? options.size / 2 : options.size / 4;
 }
 
-std::vector<RatePoint> rates_of(const Stage& stage, const Animation* script, const AccuracyOptions& options) {
-  const int size = sequence_size(options);
-  const std::vector<Shot> shots = sequence_of(stage.scene, *stage.description.view, script, size,
-                                              options.quick ? kMostFrames / 2 : kMostFrames);
+// A sequence with what it is judged by, and the rates to try.
+struct Sequence {
+  std::vector<Shot> shots;
   std::vector<Image> references;
-  for (const Shot& shot : shots) {
-    references.push_back(cached_reference(stage.nff, {stage.scene, shot.camera},
-                                          options.quick ? kQuickSequenceCells : kSequenceCells,
-                                          cache_directory(options))
-                             .image);
-  }
   RateSettings settings;
+};
+
+Sequence make_sequence(const Stage& stage, const Animation* script, const AccuracyOptions& options) {
+  Sequence sequence;
+  sequence.shots = sequence_of(stage.scene, *stage.description.view, script, sequence_size(options),
+                               options.quick ? kMostFrames / 2 : kMostFrames);
+  for (const Shot& shot : sequence.shots) {
+    sequence.references.push_back(cached_reference(stage.nff, {stage.scene, shot.camera},
+                                                   options.quick ? kQuickSequenceCells : kSequenceCells,
+                                                   cache_directory(options))
+                                      .image);
+  }
+  RateSettings& settings = sequence.settings;
   settings.ranks = options.ranks;
   settings.seed = options.seed;
-  settings.units_per_second = measured_units_per_second({stage.scene, shots.front().camera});
+  settings.units_per_second = measured_units_per_second({stage.scene, sequence.shots.front().camera});
   if (options.quick) settings.rates = {60, 120, 240};
-  return measure_rates(stage.name, stage.scene, shots, references, settings);
+  return sequence;
+}
+
+std::vector<RatePoint> rates_of(const Stage& stage, const Sequence& s) {
+  return measure_rates(stage.name, stage.scene, s.shots, s.references, s.settings);
 }
 
 std::string rates_setting(const AccuracyOptions& options, const Animation* script) {
   return fmt::format(
       "{} of {} x {} pixels on {} under the work clock, which counts work instead of seconds: a second is "
-      "what a "
-      "core of this machine does in a second, measured on each scene. So no deadline is missed for want of a "
-      "core; lateness is that of the virtual time.",
+      "what a core of this machine does in a second, measured on each scene.",
       script ? "The frames of " + script->name : "Six frames round the scene, with a jump in the middle,",
-      options.size / 2, options.size / 2,
+      sequence_size(options), sequence_size(options),
       options.ranks == 1 ? "one rank" : fmt::format("{} ranks", options.ranks));
 }
 
@@ -146,9 +155,14 @@ void measure_scene(const Stage& stage, const Animation* script, const AccuracyOp
       stage.name, file_word(stage.name), {stage.scene, stage.camera(std::min(options.size, kFigureSize))},
       options.seed, thread_cpu_seconds);
   std::move(pictures.begin(), pictures.end(), std::back_inserter(results.pictures));
-  const std::vector<RatePoint> rates = rates_of(stage, script, options);
+  const Sequence sequence = make_sequence(stage, script, options);
+  const std::vector<RatePoint> rates = rates_of(stage, sequence);
   results.rates.insert(results.rates.end(), rates.begin(), rates.end());
   progress.tell("frame rates");
+  const std::vector<Punctuality> punctuality =
+      measure_punctuality(stage.name, stage.scene, sequence.shots, sequence.references, sequence.settings);
+  results.punctuality.insert(results.punctuality.end(), punctuality.begin(), punctuality.end());
+  progress.tell("deadlines");
 }
 
 Provenance facts_of(const AccuracyOptions& options, const std::string& command_line) {
@@ -196,7 +210,8 @@ Inputs read_inputs(const AccuracyOptions& options) {
 
 void answer(const Inputs& inputs, const Animation* script, const AccuracyOptions& options) {
   for (const std::string& name : inputs.scenes) {
-    const std::vector<RatePoint> points = rates_of(make_stage(name), script, options);
+    const Stage stage = make_stage(name);
+    const std::vector<RatePoint> points = rates_of(stage, make_sequence(stage, script, options));
     fmt::print(stderr, "pprt-study: {}: {}\n", name, rates_setting(options, script));
     if (options.want_rmse) fmt::print("{}\n", plan(name, points, {options.want_rmse, {}}));
     if (options.want_fps) fmt::print("{}\n", plan(name, points, {{}, options.want_fps}));
@@ -235,6 +250,7 @@ void study_accuracy(const AccuracyOptions& asked, const std::string& command_lin
   write_foreign(results.foreign, results.small_curves, options.size / 2, output);
   write_effects(results.effects, output);
   write_rates(results.rates, rates_setting(options, script), output);
+  write_punctuality(results.punctuality, output);
   output.finish();
 }
 

@@ -136,4 +136,17 @@ void write_rates(const std::vector<RatePoint>& points, const std::string& settin
   output.write_table("rates", rates_table(points));
 }
 
+void write_punctuality(const std::vector<Punctuality>& points, StudyOutput& output) {
+  Page& page = output.page();
+  page.heading("Deadlines in real time");
+  page.paragraph(
+      "The same sequences, again and again for two seconds at least, on this machine as it was then: how "
+      "many "
+      "frames were there by their deadline, and how late they were (below 0: early). Errors and samples "
+      "beside "
+      "those of the work clock tell how far its second is this machine's.");
+  page.table(punctuality_table(points));
+  output.write_table("punctuality", punctuality_table(points));
+}
+
 }  // namespace pprt

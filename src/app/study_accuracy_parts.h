@@ -22,5 +22,6 @@ void write_effects(const std::vector<SceneEffects>& scenes, StudyOutput& output)
 
 // `setting` tells ranks, clock and sequence in a sentence.
 void write_rates(const std::vector<RatePoint>& points, const std::string& setting, StudyOutput& output);
+void write_punctuality(const std::vector<Punctuality>& points, StudyOutput& output);
 
 }  // namespace pprt

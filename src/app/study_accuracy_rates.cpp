@@ -20,7 +20,6 @@
 #include "app/tracer_probe.h"
 #include "image/metrics.h"
 #include "parallel/virtual_ranks.h"
-#include "parallel/work_units.h"
 
 namespace pprt {
 namespace {
@@ -65,8 +64,7 @@ Told play(const CompiledScene& scene, const std::vector<Shot>& shots, int ranks,
       },
       [&](FinishedFrame&& frame) {
         told.pictures.push_back(clamped_to_display(frame.image));
-        // Told for a processor of the work clock's default speed.
-        told.late_ms.push_back(frame.late_ms * kWorkUnitsPerSecond / settings.machine.units_per_second);
+        told.late_ms.push_back(frame.late_ms);
         for (const RankReport& r : frame.ranks) told.samples += static_cast<double>(r.samples_in_region);
       });
   return told;
@@ -82,14 +80,41 @@ RatePoint measure(const std::string& name, const CompiledScene& scene, const std
   judge_sequence(shots, told.pictures, references, point);
   const double frames = static_cast<double>(shots.size());
   point.samples = told.samples / (frames * camera.width * camera.height);
-  std::sort(told.late_ms.begin(), told.late_ms.end());
+  return point;
+}
+
+Punctuality measure_in_real_time(const std::string& name, const CompiledScene& scene,
+                                 const std::vector<Shot>& shots, const std::vector<Image>& references,
+                                 const RateSettings& settings, double fps) {
+  constexpr double kSeconds = 2;
+  const Camera& camera = shots.front().camera;
+  const auto rounds =
+      static_cast<std::size_t>(std::max(1.0, std::ceil(kSeconds * fps / static_cast<double>(shots.size()))));
+  std::vector<Shot> played;
+  for (std::size_t round = 0; round < rounds; ++round) {
+    played.insert(played.end(), shots.begin(), shots.end());
+    played[round * shots.size()].cut = true;
+  }
+  SessionSettings session = session_settings(settings, camera, CastChoice::kAuto, fps);
+  session.clock = ClockKind::kWall;
+  Told told = play(scene, played, settings.ranks, session);
+
+  Punctuality point;
+  point.scene = name, point.fps = fps, point.ranks = settings.ranks;
+  point.frames = static_cast<int>(told.pictures.size());
+  for (std::size_t i = 0; i < told.pictures.size(); ++i)
+    point.rmse += rmse_of(told.pictures[i], references[i % shots.size()]) / point.frames;
+  point.samples = told.samples / (static_cast<double>(point.frames) * camera.width * camera.height);
+  std::vector<double>& late = told.late_ms;
+  std::sort(late.begin(), late.end());
   const auto quantile = [&](double q) {
-    return told.late_ms[static_cast<std::size_t>(q * static_cast<double>(told.late_ms.size() - 1))];
+    return late[static_cast<std::size_t>(std::ceil(q * static_cast<double>(late.size() - 1)))];
   };
-  point.late_p50_ms = quantile(0.5), point.late_p95_ms = quantile(0.95), point.late_max_ms = quantile(1);
-  point.on_time = static_cast<double>(std::count_if(told.late_ms.begin(), told.late_ms.end(),
-                                                    [](double ms) { return ms <= 0; })) /
-                  frames;
+  point.late_p50_ms = quantile(0.5), point.late_p95_ms = quantile(0.95), point.late_p99_ms = quantile(0.99);
+  point.late_max_ms = late.back();
+  point.on_time =
+      static_cast<double>(std::count_if(late.begin(), late.end(), [](double ms) { return ms <= 0; })) /
+      point.frames;
   return point;
 }
 
@@ -180,6 +205,16 @@ std::vector<RatePoint> measure_rates(const std::string& name, const CompiledScen
   return points;
 }
 
+std::vector<Punctuality> measure_punctuality(const std::string& name, const CompiledScene& scene,
+                                             const std::vector<Shot>& shots,
+                                             const std::vector<Image>& references,
+                                             const RateSettings& settings) {
+  std::vector<Punctuality> points;
+  for (const double fps : settings.rates)
+    points.push_back(measure_in_real_time(name, scene, shots, references, settings, fps));
+  return points;
+}
+
 void judge_sequence(const std::vector<Shot>& shots, const std::vector<Image>& pictures,
                     const std::vector<Image>& references, RatePoint& point) {
   if (pictures.size() != shots.size() || references.size() != shots.size() || shots.empty()) {
@@ -241,12 +276,25 @@ std::string plan(const std::string& scene, const std::vector<RatePoint>& points,
 
 Table rates_table(const std::vector<RatePoint>& points) {
   Table table{{"scene", "cast", "frames/s", "rmse", "rmse after a cut", "frames to recover", "flicker",
-               "samples a pixel", "on time", "late p50 ms", "late p95 ms", "late max ms"},
+               "samples a pixel"},
               {},
               {}};
   for (const RatePoint& p : points) {
     table.rows.push_back({p.scene, std::string(to_word(p.cast)), p.fps, p.rmse, p.rmse_after_cut, p.recovery,
-                          p.flicker, p.samples, p.on_time, p.late_p50_ms, p.late_p95_ms, p.late_max_ms});
+                          p.flicker, p.samples});
+  }
+  return table;
+}
+
+Table punctuality_table(const std::vector<Punctuality>& points) {
+  Table table{{"scene", "frames/s", "ranks", "frames", "on time", "late p50 ms", "late p95 ms", "late p99 ms",
+               "late max ms", "rmse", "samples a pixel"},
+              {},
+              {}};
+  for (const Punctuality& p : points) {
+    table.rows.push_back({p.scene, p.fps, static_cast<double>(p.ranks), static_cast<double>(p.frames),
+                          p.on_time, p.late_p50_ms, p.late_p95_ms, p.late_p99_ms, p.late_max_ms, p.rmse,
+                          p.samples});
   }
   return table;
 }

@@ -43,8 +43,18 @@ struct RatePoint {
   double recovery = 0;        // frames after a cut until the error is within 10 % of the other frames' median
   double flicker = 0;         // error of the change from frame to frame over the reference's own change
   double samples = 0;         // a pixel and frame
-  double on_time = 1;         // share of the frames
-  double late_p50_ms = 0, late_p95_ms = 0, late_max_ms = 0;
+};
+
+// A sequence at one rate in real time, --cast auto.
+struct Punctuality {
+  std::string scene;
+  double fps = 1;
+  int ranks = 1;
+  int frames = 0;
+  double on_time = 1;                                                         // share of the frames
+  double late_p50_ms = 0, late_p95_ms = 0, late_p99_ms = 0, late_max_ms = 0;  // below 0: early
+  double rmse = 0;                                                            // mean over the frames
+  double samples = 0;                                                         // a pixel and frame
 };
 
 // Work units that a rank does in a second of this machine's CPU on this scene.
@@ -54,6 +64,13 @@ double measured_units_per_second(const Subject& subject);
 std::vector<RatePoint> measure_rates(const std::string& name, const CompiledScene& scene,
                                      const std::vector<Shot>& shots, const std::vector<Image>& references,
                                      const RateSettings& settings);
+
+// In real time on this machine, one rate after the other, the sequence again and again for two seconds at
+// least.
+std::vector<Punctuality> measure_punctuality(const std::string& name, const CompiledScene& scene,
+                                             const std::vector<Shot>& shots,
+                                             const std::vector<Image>& references,
+                                             const RateSettings& settings);
 
 // A sequence's figures from its frames' pictures.
 void judge_sequence(const std::vector<Shot>& shots, const std::vector<Image>& pictures,
@@ -69,5 +86,6 @@ struct Wish {
 std::string plan(const std::string& scene, const std::vector<RatePoint>& points, const Wish& wish);
 
 Table rates_table(const std::vector<RatePoint>& points);
+Table punctuality_table(const std::vector<Punctuality>& points);
 
 }  // namespace pprt

@@ -20,10 +20,11 @@ if command -v gnuplot >/dev/null; then
   for figure in ratios error-time error-samples ablations; do expect_file "all/$figure.svg"; done
 fi
 
-for file in renderers.csv effects.csv rates.csv spd-tree-4-complexity.png spd-balls-1-triangulation.png; do
+for file in renderers.csv effects.csv rates.csv punctuality.csv spd-tree-4-complexity.png spd-balls-1-triangulation.png; do
   expect_file "all/$file"
 done
 [[ $(grep -c '^spd:tree:4,auto,' all/rates.csv) -eq 3 ]] || complain "rates.csv lacks rates of the tree"
+[[ $(grep -cE '^spd:tree:4,(60|120|240),1,' all/punctuality.csv) -eq 3 ]] || complain "punctuality.csv lacks rates of the tree"
 grep -q '^spd:balls:1,without reflection,' all/effects.csv || complain "effects.csv lacks the balls without reflection"
 grep -q '^spd:tree:4,Tachyon,absent: it shows cones as cylinders,' all/renderers.csv || complain "Tachyon's cones are not told"
 if command -v povray >/dev/null; then
