@@ -87,7 +87,7 @@ TEST_CASE("size: the options' before the script's before the scene's") {
   CHECK(plan_render(options).frames[3].view.height == 100);
 }
 
-TEST_CASE("rate: the options' before the script's; 0 turns it off") {
+TEST_CASE("rate: the options' before the script's, and 0 turns it off") {
   const Files files;
   RenderOptions options = scripted(files);
   CHECK(plan_render(options).settings.frames_per_second == 4);
@@ -109,7 +109,7 @@ TEST_CASE("a stop rule that is given replaces the still's quality") {
   CHECK(plan_render(options).settings.stop.quality == 0.5);
 }
 
-TEST_CASE("frames: all, a range, or one; cuts stay where they are") {
+TEST_CASE("frames: all, a range, or one, and cuts stay where they are") {
   const Files files;
   RenderOptions options = scripted(files);
   RenderPlan plan = plan_render(options);

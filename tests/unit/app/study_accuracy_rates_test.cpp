@@ -106,7 +106,7 @@ TEST_CASE("in real time every frame of the repeated sequence is told of, with it
   CHECK(p.samples > 0.1);
 }
 
-TEST_CASE("leaving an effect out is seen in rays and errors; the general kernel shows the same") {
+TEST_CASE("leaving an effect out is seen in rays and errors, and the general kernel shows the same") {
   const SceneDescription balls = make_spd("balls", 1);
   const CompiledScene scene = compile(balls);
   View view = *balls.view;

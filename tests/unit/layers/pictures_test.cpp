@@ -86,7 +86,7 @@ TEST_CASE("depth is light near by, black where nothing is") {
   CHECK(depth_picture(std::vector<FirstHit>(4), 4, 1).at(0, 0) == kBlack);
 }
 
-TEST_CASE("normals are colours; ids tell materials and primitives apart") {
+TEST_CASE("normals are colours, and ids tell materials and primitives apart") {
   const std::vector<FirstHit> hits = {hit(1, {-1, 0, 1}, 1, 1), hit(1, {0, 0, 1}, 2, 1),
                                       hit(1, {0, 0, 1}, 2, 2), FirstHit()};
   const Image normals = normal_picture(hits, 4, 1);

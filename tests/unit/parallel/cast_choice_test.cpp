@@ -50,7 +50,7 @@ TEST_CASE(
   CHECK(cast_life({}, 0.6) == 2);  // nothing is known of them
 }
 
-TEST_CASE("at rest all samples serve; a fine picture of outlines takes one a pixel") {
+TEST_CASE("at rest all samples serve, but a fine picture of outlines takes one a pixel") {
   for (const double eye_dependent : {0.2, 0.8}) {
     for (const double samples_per_pixel : {0.5, 1.5}) {
       CAPTURE(eye_dependent, samples_per_pixel);

@@ -122,7 +122,7 @@ TEST_CASE("without frames the animation ends with its last key, whole") {
   CHECK(parsed("animation { }").frames == 1);
 }
 
-TEST_CASE("what a key does not give stays as in the key before; the first key's is the scene's") {
+TEST_CASE("what a key does not give stays as in the key before, and the first key's is the scene's") {
   const Animation a = camera(
       "key 1 { at <0,0,0> tension 1 ease_in 0.5 } key 2 { from <1,1,1> } hold 3 key 4 { tension 0 angle 20 } "
       "cut 5 { up <1,0,0> }");
@@ -141,7 +141,7 @@ TEST_CASE("what a key does not give stays as in the key before; the first key's 
   CHECK(a.keys[4].ease_in == 0);
 }
 
-TEST_CASE("splines have their names; tcb is the default") {
+TEST_CASE("splines have their names, and tcb is the default") {
   CHECK(camera("").spline == SplineKind::kTcb);
   CHECK(camera("spline tcb").spline == SplineKind::kTcb);
   CHECK(camera("spline linear").spline == SplineKind::kLinear);

@@ -39,7 +39,7 @@ TEST_CASE("normals of patches are interpolated unless the effect is ruled out") 
   CHECK(Tracer(flat, flat.camera(view)).first_hit(32, 32).normal.x == 0);
 }
 
-TEST_CASE("primitives have their place in the file, over all kinds; materials theirs") {
+TEST_CASE("primitives have their place in the file, over all kinds, and materials theirs") {
   SceneDescription scene = scene_with(Material());
   scene.materials.push_back({.color = {1, 0, 0}});
   add_square(scene, 50, -5);                  // the first: 1
