@@ -59,9 +59,10 @@ expect_offer bash 'behind a colon' 'teapot tetra' "$colons"
 
 if command -v fish >/dev/null; then
   while IFS='|' read -r line words; do
-    # Where any word may stand, it offers files.
+    # Where any word may stand, it offers files; and since version 4 words that only hold what was typed.
     [[ -n $words ]] || continue
-    offered=$(HOME=$PWD fish --no-config -c "source ${line%% *}.fish; complete -C '$line'" | cut -f1 | grep -v '/$' | one_line)
+    offered=$(HOME=$PWD fish --no-config -c "source ${line%% *}.fish; complete -C '$line'" | cut -f1 | grep -v '/$' |
+      grep -e "^${line##* }" | one_line)
     expect_offer fish "$line" "$words" "$offered"
   done < <(cases | grep -v '^pprt-study |')
 else
