@@ -9,6 +9,8 @@ struct Machine {
   double units_per_second = kWorkUnitsPerSecond;  // of one processor
   double latency_s = 2e-6;                        // from the end of sending to the beginning of receiving
   double bytes_per_second = 12.5e9;               // of one rank's way into the network, and of its way out
+
+  friend bool operator==(const Machine&, const Machine&) = default;
 };
 
 // A present-day cluster: each rank has a core like the one that the prices were measured on, and a share of

@@ -65,10 +65,9 @@ struct StageTimes {
 
 // What a rank did for one frame.
 struct RankReport {
-  std::uint64_t samples_new = 0;   // traced in this frame
-  std::uint64_t samples_cast = 0;  // of those in the region at its end, carried from frames before
-  std::uint64_t samples_received =
-      0;  // traced by other ranks in this frame and inserted; cast ones count as cast
+  std::uint64_t samples_new = 0;        // traced in this frame
+  std::uint64_t samples_cast = 0;       // of those in the region at its end, carried from frames before
+  std::uint64_t samples_received = 0;   // traced by other ranks in this frame; cast ones count as cast
   std::uint64_t samples_known = 0;      // received although already known
   std::uint64_t samples_in_region = 0;  // at the end
   std::uint64_t non_finite = 0;         // colours that were no numbers

@@ -4,11 +4,14 @@
 
 namespace pprt {
 
+static_assert(sizeof(SessionSettings) == 104, "what is added to the settings must be sent as well");
+
 Bytes encode(const SessionSettings& settings) {
   WireWriter out;
   out.put(settings.width), out.put(settings.height), out.put(settings.clock);
   out.put(settings.frames_per_second), out.put(settings.budget_units), out.put(settings.stop);
-  out.put(settings.balance), out.put(settings.cast), out.put(settings.keep_samples), out.put(settings.seed);
+  out.put(settings.balance), out.put(settings.cast), out.put(settings.keep_samples);
+  out.put(settings.pixel_rule), out.put(settings.seed);
   out.put(settings.report_samples), out.put(settings.machine);
   return out.take();
 }
@@ -19,7 +22,7 @@ SessionSettings decode_settings(const Bytes& bytes) {
   in.get(settings.width), in.get(settings.height), in.get(settings.clock, ClockKind::kWork);
   in.get(settings.frames_per_second), in.get(settings.budget_units), in.get(settings.stop);
   in.get(settings.balance, BalanceMode::kCombined), in.get(settings.cast, CastChoice::kAuto);
-  in.get(settings.keep_samples), in.get(settings.seed);
+  in.get(settings.keep_samples), in.get(settings.pixel_rule, PixelRule::kArea), in.get(settings.seed);
   in.get(settings.report_samples), in.get(settings.machine);
   in.expect_end();
   return settings;

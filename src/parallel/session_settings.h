@@ -31,6 +31,8 @@ struct StopRules {
   double seconds = 0;         // wall clock: elapsed; work clock: work units / kWorkUnitsPerSecond
   std::uint64_t samples = 0;  // in the whole image; each rank takes the share of its pixels
   double quality = 0;         // mean weight of a rank's triangles (refinement), smaller is better
+
+  friend bool operator==(const StopRules&, const StopRules&) = default;
 };
 
 struct SessionSettings {
@@ -47,6 +49,8 @@ struct SessionSettings {
   std::uint64_t seed = 1;
   bool report_samples = false;  // every sample of a frame comes to the master with the pixels
   Machine machine;              // of the work clock
+
+  friend bool operator==(const SessionSettings&, const SessionSettings&) = default;
 };
 
 // For the master's broadcast.
