@@ -155,8 +155,8 @@ void for_each_span(const std::array<Corner, 3>& corner, const PixelRect& bounds,
   }
 }
 
-// Whether in a tile the mean over a pixel's area is worth its time: an eighth of a sample a pixel, or a
-// quarter of a triangle. Below, as much time spent on more samples lessens the error more.
+// Whether in a tile the mean over a pixel's area is worth its time: from a quarter of a sample a pixel on,
+// or half a triangle. Below, as much time spent on more samples lessens the error more.
 bool is_crowded(const TileWeights& weights, const PixelRect& tile) {
   return 2 * weights.triangles >= static_cast<std::int64_t>(tile.area());
 }
@@ -191,6 +191,7 @@ class Painter {
 void Painter::gather(const SampleMesh::Impl& mesh) {
   ReconstructionBuffers& b = buffers_;
   b.pixels.clear();
+  if (rule_ == PixelRule::kCenter) return;
   b.holds_sample.assign(words_per_row() * static_cast<std::size_t>(bounds_.height()), 0);
   for (auto* colors : {&b.base, &b.sum}) colors->resize(bounds_.area());
   b.count.resize(bounds_.area());
@@ -236,7 +237,7 @@ void Painter::paint(const std::array<Corner, 3>& corner) {
   for (int row = top; row < bottom; ++row) {
     const double center = row + 0.5;
     if (outline.top() <= center && center < outline.bottom()) fill(patch, row, outline.at(center));
-    if (rule_ == PixelRule::kArea) add_lines(outline, patch, row);
+    if (area) add_lines(outline, patch, row);
   }
 }
 
@@ -299,7 +300,7 @@ void Painter::finish() {
     const std::uint32_t samples = buffers_.count[pixel];
     if (rule_ == PixelRule::kArea) {
       pixels_.colors[pixel] = buffers_.base[pixel] + buffers_.sum[pixel];
-    } else if (rule_ == PixelRule::kMean && samples > 1) {
+    } else if (samples > 1) {
       pixels_.colors[pixel] = buffers_.base[pixel] + buffers_.sum[pixel] / static_cast<float>(samples);
     }
   }
