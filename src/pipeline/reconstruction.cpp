@@ -155,12 +155,6 @@ void for_each_span(const std::array<Corner, 3>& corner, const PixelRect& bounds,
   }
 }
 
-// Whether in a tile the mean over a pixel's area is worth its time: from a quarter of a sample a pixel on,
-// or half a triangle. Below, as much time spent on more samples lessens the error more.
-bool is_crowded(const TileWeights& weights, const PixelRect& tile) {
-  return 2 * weights.triangles >= static_cast<std::int64_t>(tile.area());
-}
-
 // One triangle after another.
 class Painter {
  public:
@@ -176,9 +170,10 @@ class Painter {
   static constexpr int kLines = 4;
 
   std::size_t words_per_row() const { return (static_cast<std::size_t>(bounds_.width()) + 63) / 64; }
+  void add_sample(int x, int y, const Color& color);
   void fill(const LinearPatch& patch, int row, const Extent& extent);
   void add_lines(const Outline& outline, const LinearPatch& patch, int row);
-  bool holds_sample_between(int row, int left, int right) const;
+  bool several_between(int row, int left, int right) const;
   void add_line(const LinearPatch& patch, int row, double y, const Extent& extent);
 
   RegionPixels& pixels_;
@@ -187,41 +182,44 @@ class Painter {
   PixelRule rule_;
 };
 
-// Which pixels hold samples, and of what colour.
+// Which pixels hold several samples, and of what colours.
 void Painter::gather(const SampleMesh::Impl& mesh) {
   ReconstructionBuffers& b = buffers_;
   b.pixels.clear();
   if (rule_ == PixelRule::kCenter) return;
-  b.holds_sample.assign(words_per_row() * static_cast<std::size_t>(bounds_.height()), 0);
+  for (auto* bits : {&b.holds_one, &b.holds_several})
+    bits->assign(words_per_row() * static_cast<std::size_t>(bounds_.height()), 0);
   for (auto* colors : {&b.base, &b.sum}) colors->resize(bounds_.area());
   b.count.resize(bounds_.area());
   const TileGrid& grid = mesh.region().grid();
-  std::vector<bool> crowded(static_cast<std::size_t>(grid.tile_count()), true);
-  for (std::size_t tile = 0; rule_ == PixelRule::kArea && tile < crowded.size(); ++tile)
-    crowded[tile] = is_crowded(mesh.tile_weights()[tile], grid.pixels(static_cast<int>(tile)));
   const auto& points = mesh.delaunay().points();
   for (std::size_t i = 0; i < points.size(); ++i) {
     const int x = std::min(static_cast<int>(points[i].x), grid.width - 1);
     const int y = std::min(static_cast<int>(points[i].y), grid.height - 1);
     if (x < bounds_.x0 || x >= bounds_.x1 || y < bounds_.y0 || y >= bounds_.y1) continue;
-    if (!crowded[static_cast<std::size_t>(grid.tile_at(points[i].x, points[i].y))]) continue;
-    const auto pixel = static_cast<std::size_t>(row_start(bounds_, y) + x);
-    const auto column = static_cast<std::size_t>(x - bounds_.x0);
-    std::uint64_t& word =
-        b.holds_sample[static_cast<std::size_t>(y - bounds_.y0) * words_per_row() + column / 64];
-    const std::uint64_t bit = std::uint64_t{1} << (column % 64);
-    const Color& color = mesh.corners()[i].color;
-    if ((word & bit) == 0) {
-      word |= bit;
-      b.pixels.push_back(static_cast<std::uint32_t>(pixel));
-      b.base[pixel] = color;
-      b.sum[pixel] = Color(0, 0, 0);
-      b.count[pixel] = 1;
-    } else {
-      ++b.count[pixel];
-      if (rule_ == PixelRule::kMean) b.sum[pixel] += color - b.base[pixel];
-    }
+    add_sample(x, y, mesh.corners()[i].color);
   }
+}
+
+void Painter::add_sample(int x, int y, const Color& color) {
+  ReconstructionBuffers& b = buffers_;
+  const auto pixel = static_cast<std::size_t>(row_start(bounds_, y) + x);
+  const auto column = static_cast<std::size_t>(x - bounds_.x0);
+  const std::size_t word = static_cast<std::size_t>(y - bounds_.y0) * words_per_row() + column / 64;
+  const std::uint64_t bit = std::uint64_t{1} << (column % 64);
+  if ((b.holds_one[word] & bit) == 0) {
+    b.holds_one[word] |= bit;
+    b.base[pixel] = color;
+    return;
+  }
+  if ((b.holds_several[word] & bit) == 0) {
+    b.holds_several[word] |= bit;
+    b.pixels.push_back(static_cast<std::uint32_t>(pixel));
+    b.sum[pixel] = Color(0, 0, 0);
+    b.count[pixel] = 1;
+  }
+  ++b.count[pixel];
+  if (rule_ == PixelRule::kMean) b.sum[pixel] += color - b.base[pixel];
 }
 
 void Painter::paint(const std::array<Corner, 3>& corner) {
@@ -255,9 +253,9 @@ void Painter::fill(const LinearPatch& patch, int row, const Extent& extent) {
   for (int x = left + 1; x <= last; ++x) pixel[x] = first + way * (static_cast<float>(x - left) * step);
 }
 
-bool Painter::holds_sample_between(int row, int left, int right) const {
+bool Painter::several_between(int row, int left, int right) const {
   const std::uint64_t* words =
-      buffers_.holds_sample.data() + static_cast<std::size_t>(row - bounds_.y0) * words_per_row();
+      buffers_.holds_several.data() + static_cast<std::size_t>(row - bounds_.y0) * words_per_row();
   const int first = left / 64, last = right / 64;
   const std::uint64_t from = ~std::uint64_t{0} << (left % 64), to = ~std::uint64_t{0} >> (63 - right % 64);
   if (first == last) return (words[first] & from & to) != 0;
@@ -268,7 +266,7 @@ bool Painter::holds_sample_between(int row, int left, int right) const {
 void Painter::add_lines(const Outline& outline, const LinearPatch& patch, int row) {
   const int left = std::max(floor_to_int(outline.left()), bounds_.x0) - bounds_.x0;
   const int right = std::min(floor_to_int(outline.right()), bounds_.x1 - 1) - bounds_.x0;
-  if (left > right || !holds_sample_between(row, left, right)) return;
+  if (left > right || !several_between(row, left, right)) return;
   for (int line = 0; line < kLines; ++line) {
     const double y = row + (line + 0.5) / kLines;
     if (outline.top() <= y && y < outline.bottom()) add_line(patch, row, y, outline.at(y));
@@ -279,7 +277,7 @@ void Painter::add_line(const LinearPatch& patch, int row, double y, const Extent
   const int left = std::max(floor_to_int(extent.left), bounds_.x0) - bounds_.x0;
   const int right = std::min(floor_to_int(extent.right), bounds_.x1 - 1) - bounds_.x0;
   const std::uint64_t* words =
-      buffers_.holds_sample.data() + static_cast<std::size_t>(row - bounds_.y0) * words_per_row();
+      buffers_.holds_several.data() + static_cast<std::size_t>(row - bounds_.y0) * words_per_row();
   for (int first = left; first <= right; first = (first / 64 + 1) * 64) {
     std::uint64_t word = words[first / 64] & ~std::uint64_t{0} << (first % 64);
     for (; word != 0; word &= word - 1) {
@@ -297,12 +295,8 @@ void Painter::add_line(const LinearPatch& patch, int row, double y, const Extent
 
 void Painter::finish() {
   for (const std::uint32_t pixel : buffers_.pixels) {
-    const std::uint32_t samples = buffers_.count[pixel];
-    if (rule_ == PixelRule::kArea) {
-      pixels_.colors[pixel] = buffers_.base[pixel] + buffers_.sum[pixel];
-    } else if (samples > 1) {
-      pixels_.colors[pixel] = buffers_.base[pixel] + buffers_.sum[pixel] / static_cast<float>(samples);
-    }
+    const float share = rule_ == PixelRule::kArea ? 1.0f : 1.0f / static_cast<float>(buffers_.count[pixel]);
+    pixels_.colors[pixel] = buffers_.base[pixel] + buffers_.sum[pixel] * share;
   }
 }
 

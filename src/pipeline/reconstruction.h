@@ -21,21 +21,21 @@ struct RegionPixels {
   }
 };
 
-// What a pixel that holds samples shows. One that holds none shows the interpolation at its centre.
+// What a pixel that holds several samples shows. Others show the interpolation at their centre.
 enum class PixelRule : std::uint8_t {
   kCenter,  // the interpolation at its centre as well
-  kMean,    // as the paper has it: where there is more than one sample, their mean
+  kMean,    // the samples' mean: the paper's rule
   kArea     // the interpolation's mean over the pixel's area
 };
 
-// Storage that lives from frame to frame. Pixels are numbered row by row within the bounds; those that hold
-// no sample have no meaning in `base`, `sum` and `count`.
+// Storage that lives from frame to frame. Pixels are numbered row by row within the bounds; `base` has a
+// meaning for those that hold a sample, `sum` and `count` for those that hold several.
 struct ReconstructionBuffers {
-  std::vector<std::uint64_t> holds_sample;  // a bit a pixel, each row beginning a new word
-  std::vector<std::uint32_t> pixels;        // those that hold samples, in the order of their first
-  std::vector<Color> base;                  // the first sample's colour
-  std::vector<Color> sum;                   // over samples or area, of differences from the base
-  std::vector<std::uint32_t> count;         // of samples
+  std::vector<std::uint64_t> holds_one, holds_several;  // a bit a pixel, each row beginning a new word
+  std::vector<std::uint32_t> pixels;                    // those that hold several, in the order of the second
+  std::vector<Color> base;                              // the first sample's colour
+  std::vector<Color> sum;                               // over samples or area, of differences from the base
+  std::vector<std::uint32_t> count;                     // of samples
 };
 
 // Every pixel of `bounds`, as the mesh has it: the barycentric mean of the triangle that holds its centre,

@@ -73,8 +73,8 @@ TEST_CASE("a constant stays exactly constant by every rule, however crowded its 
 }
 
 TEST_CASE("a linear picture is linear by area as well") {
-  SampleMesh mesh = refine(Region::whole(kGrid), kLinear, 6000);
-  REQUIRE(mesh.samples().size() * 2 > mesh.region().pixel_count());
+  SampleMesh mesh = refine(Region::whole(kGrid), kLinear, 20000);
+  REQUIRE(mesh.samples().size() > mesh.region().pixel_count());
   const RegionPixels pixels = rebuild(mesh);
   for (int y = 0; y < kGrid.height; ++y) {
     for (int x = 0; x < kGrid.width; ++x) {
@@ -85,7 +85,7 @@ TEST_CASE("a linear picture is linear by area as well") {
   }
 }
 
-TEST_CASE("a pixel that holds samples shows the interpolation's mean over its area") {
+TEST_CASE("a pixel that holds several samples shows the interpolation's mean over its area") {
   // Columns of samples, so that the picture depends on x alone; two of them lie in every pixel.
   std::vector<std::pair<double, double>> columns;
   for (int i = 0; i <= 200; ++i) columns.emplace_back(0.5 * i, (i * 7919 % 101) / 100.0);
@@ -105,6 +105,16 @@ TEST_CASE("a pixel that holds samples shows the interpolation's mean over its ar
   }
   CHECK(nearest < 0.2);
   CHECK(std::abs(center.at(50, 30).x - mean_between(columns, 50, 51)) > 0.01);
+}
+
+TEST_CASE("a pixel that holds one sample shows the interpolation at its centre by every rule") {
+  SampleMesh mesh = refine(
+      Region::whole(kGrid), [](double, double) { return Color(0, 0, 0); }, 0);
+  mesh.insert(sample_of([](double, double) { return Color(1, 1, 1); }, 40.1, 20.2));
+  const float center = rebuild(mesh, PixelRule::kCenter).at(40, 20).x;
+  CHECK((center > 0.5F && center < 1));
+  for (const PixelRule rule : {PixelRule::kMean, PixelRule::kArea})
+    CHECK(rebuild(mesh, rule).at(40, 20).x == center);
 }
 
 TEST_CASE("a pixel with several samples shows their average by the paper's rule") {
