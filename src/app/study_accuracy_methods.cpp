@@ -121,6 +121,8 @@ class MeshPainter {
   Stop refine_until(double samples, const SecondsClock& clock, double end_s) {
     constexpr int kSamplesPerLook = 256;  // at the clock, which costs as much as a sample
     for (int i = 1; static_cast<double>(mesh_.samples().size()) < samples; ++i) {
+      if (i % kSamplesPerLook == 1)
+        mesh_.expect_growth(samples / static_cast<double>(mesh_.samples().size()));
       if (i % kSamplesPerLook == 0 && clock() > end_s) return Stop::kTime;
       const std::optional<Vec2d> point = mesh_.next_point();
       if (!point) return Stop::kExhausted;

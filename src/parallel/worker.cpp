@@ -84,6 +84,7 @@ void Worker::render(const FrameOrder& order) {
 
 void Worker::sample(const FrameOrder& order) {
   const bool free = order.deadline_s == 0;
+  const std::size_t begin = mesh_.samples().size();
   for (int round = kSeedRound + 1;; ++round) {
     clock_->begin_packet();
     bool idle = false, traced = false;
@@ -96,8 +97,18 @@ void Worker::sample(const FrameOrder& order) {
     send_bundles(order, round, done_ != was_done);
     receive_bundles(order, round);
     if (clock_->sampling_over() || (free && all_done())) return;
+    // Where samples have a fixed price, an order that makes them faster has nothing to give.
+    if (!free && !clock_->in_lockstep()) mesh_.expect_growth(growth_since(begin));
     if (idle && !traced && !clock_->in_lockstep()) await_news();
   }
+}
+
+// How many times as many samples the frame is going to have as there are now: what came since `begin` goes
+// on coming.
+double Worker::growth_since(std::size_t begin) const {
+  const double share = clock_->sampling_share();
+  const auto now = static_cast<double>(mesh_.samples().size());
+  return 1 + (1 - static_cast<double>(begin) / now) * (1 - share) / share;
 }
 
 // Traces one sample where it is wanted most; false when nothing is.

@@ -85,6 +85,7 @@ class Worker {
   void take_in_late_seeds(const Inbox::Arrived& arrived);
 
   void sample(const FrameOrder& order);
+  double growth_since(std::size_t begin) const;
   bool refine_once(const FrameOrder& order);
   bool goal_reached() const;
   bool all_done() const;

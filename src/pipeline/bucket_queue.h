@@ -1,24 +1,40 @@
 // A priority queue for refinement: buckets of nearly equal weight instead of an exact order.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
 namespace pprt {
 
 // Sixteen buckets an octave, so the entry popped weighs at least 1/1.0625 of the heaviest; newest first
-// inside a bucket. Push and pop in constant time. Weights are positive, finite floats.
+// inside a bucket. Above a floor, one bucket an octave: what is sure to be popped needs no finer order, and
+// newest first then means that one neighbourhood is dealt with after the other. Push and pop in constant
+// time. Weights are positive, finite floats.
 template <typename Entry>
 class BucketQueue {
  public:
   BucketQueue() : buckets_(kBuckets) {}
 
+  // For entries to come. Infinity, as at first: nothing lies above it.
+  void set_floor(float weight) { floor_ = fine_bucket(weight); }
+
+  // Whether an entry above the floor waits.
+  bool is_above_floor() const { return summary_ != 0 && top() > floor_; }
+
+  // The least that an entry of the bucket which is popped next may weigh; 0 when there is none.
+  float level() const {
+    return summary_ == 0 ? 0 : std::bit_cast<float>(static_cast<std::uint32_t>(top() << kDroppedBits));
+  }
+
   void push(float weight, const Entry& entry) {
-    const std::size_t bucket = std::bit_cast<std::uint32_t>(weight) >> kDroppedBits;
+    std::size_t bucket = fine_bucket(weight);
+    if (bucket >= floor_) bucket = std::max(bucket / kPerOctave * kPerOctave, floor_);
     buckets_[bucket].push_back(entry);
     words_[bucket / 64] |= std::uint64_t{1} << (bucket % 64);
     summary_ |= std::uint64_t{1} << (bucket / 64);
@@ -26,8 +42,7 @@ class BucketQueue {
 
   std::optional<Entry> pop() {
     if (summary_ == 0) return std::nullopt;
-    const auto word = static_cast<std::size_t>(63 - std::countl_zero(summary_));
-    const std::size_t bucket = word * 64 + static_cast<std::size_t>(63 - std::countl_zero(words_[word]));
+    const std::size_t bucket = top();
     const Entry entry = buckets_[bucket].back();
     buckets_[bucket].pop_back();
     if (buckets_[bucket].empty()) retire(bucket);
@@ -37,23 +52,33 @@ class BucketQueue {
   // Forgets every entry; keeps the storage.
   void clear() {
     while (summary_ != 0) {
-      const auto word = static_cast<std::size_t>(63 - std::countl_zero(summary_));
-      const std::size_t bucket = word * 64 + static_cast<std::size_t>(63 - std::countl_zero(words_[word]));
+      const std::size_t bucket = top();
       buckets_[bucket].clear();
       retire(bucket);
     }
   }
 
  private:
-  static constexpr int kDroppedBits =
-      19;  // of a float's 23 mantissa bits: four are left, sixteen steps an octave
-  static constexpr std::size_t kBuckets = 4096;
+  // Of a float's 23 mantissa bits four are left.
+  static constexpr int kDroppedBits = 19;
+  static constexpr std::size_t kPerOctave = 16, kBuckets = 4096;
+
+  static std::size_t fine_bucket(float weight) {
+    return std::bit_cast<std::uint32_t>(weight) >> kDroppedBits;
+  }
+
+  // The highest bucket that is not empty.
+  std::size_t top() const {
+    const auto word = static_cast<std::size_t>(63 - std::countl_zero(summary_));
+    return word * 64 + static_cast<std::size_t>(63 - std::countl_zero(words_[word]));
+  }
 
   void retire(std::size_t bucket) {
     words_[bucket / 64] &= ~(std::uint64_t{1} << (bucket % 64));
     if (words_[bucket / 64] == 0) summary_ &= ~(std::uint64_t{1} << (bucket / 64));
   }
 
+  std::size_t floor_ = fine_bucket(std::numeric_limits<float>::infinity());
   std::vector<std::vector<Entry>> buckets_;
   std::array<std::uint64_t, kBuckets / 64> words_{};  // a bit per non-empty bucket
   std::uint64_t summary_ = 0;                         // a bit per non-empty word

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "pipeline/sample_mesh_impl.h"
@@ -67,6 +68,9 @@ bool SampleMesh::insert(const Sample& sample) {
 std::optional<Vec2d> SampleMesh::next_point() {
   return impl_->next_point();
 }
+void SampleMesh::expect_growth(double factor) {
+  impl_->expect_growth(factor);
+}
 Color SampleMesh::guess() const {
   return impl_->guess();
 }
@@ -95,6 +99,7 @@ void SampleMesh::Impl::clear() {
   tallies_.clear();
   new_at_border_.clear();
   queue_.clear();
+  queue_.set_floor(std::numeric_limits<float>::infinity());
   tile_weights_.assign(tiles, {});
   region_weights_ = {};
   latest_in_tile_.assign(tiles, Delaunay::kNowhere);
@@ -182,6 +187,15 @@ void SampleMesh::Impl::take_new_at_border(std::vector<BorderTriangle>& triangles
     if (lives(b.entry)) triangles.push_back(b.triangle);
   }
   new_at_border_.clear();
+}
+
+// The heaviest weight falls with the samples' power of about 1.35; what a power of 1.2 comes down to is
+// surely refined. No new floor before the old one is reached: only there does the queue tell how far
+// refinement is.
+void SampleMesh::Impl::expect_growth(double factor) {
+  constexpr double kSurePower = 1.2;
+  if (queue_.is_above_floor()) return;
+  queue_.set_floor(queue_.level() / static_cast<float>(std::pow(std::max(1.0, factor), kSurePower)));
 }
 
 SampleMesh::Impl::Points SampleMesh::Impl::points(Index triangle) const {

@@ -62,6 +62,11 @@ class SampleMesh {
   // refining. The caller inserts a sample there before it asks again.
   std::optional<Vec2d> next_point();
 
+  // There are going to be so many times as many samples as now: what that many surely refine is refined an
+  // octave of weight at a time, one neighbourhood after the other, which is faster than the heaviest first.
+  // To be told again and again on the way, so that the end is fine. Holds until clear().
+  void expect_growth(double factor);
+
   // Mean colour of the corners of the triangle that next_point() gave: the picture there before the sample.
   // To be asked before anything is inserted.
   Color guess() const;

@@ -29,6 +29,7 @@ class SampleMesh::Impl {
   void note_foreign() { notes_foreign_ = true; }
   bool insert(const Sample& sample);
   std::optional<Vec2d> next_point();
+  void expect_growth(double factor);
   Color guess() const {
     const auto& [a, b, c] = delaunay_.triangles()[refined_].corners;
     return (corners_[a].color + corners_[b].color + corners_[c].color) / 3.0f;

@@ -4,8 +4,11 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <functional>
+#include <numeric>
 #include <random>
 #include <set>
+#include <vector>
 
 #include "pipeline/bucket_queue.h"
 #include "synthetic_image.h"
@@ -123,6 +126,60 @@ TEST_CASE("refinement falls as samples come") {
   const SampleMesh few = refine(Region::whole(kGrid), disc(kGrid), 200);
   const SampleMesh many = refine(Region::whole(kGrid), disc(kGrid), 2000);
   CHECK(many.refinement() < 0.25 * few.refinement());
+}
+
+// Mean over the heaviest twentieth of the triangles.
+float heaviest_weights(const SampleMesh& mesh) {
+  std::vector<float> weights;
+  for (const auto& [a, b, c] : triangles(mesh)) {
+    const Sample &p = mesh.samples()[a], &q = mesh.samples()[b], &r = mesh.samples()[c];
+    const TriangleShape shape = triangle_shape({p.x, p.y}, {q.x, q.y}, {r.x, r.y});
+    weights.push_back(refinement_weight(shape, display_variance(p.ray.color, q.ray.color, r.ray.color)));
+  }
+  std::sort(weights.begin(), weights.end(), std::greater<>());
+  const auto few = static_cast<std::ptrdiff_t>(weights.size() / 20);
+  return std::accumulate(weights.begin(), weights.begin() + few, 0.0F) / static_cast<float>(few);
+}
+
+using Tell = std::function<void(SampleMesh&, std::size_t wanted)>;
+
+SampleMesh refine_told(const Tell& tell, std::size_t wanted) {
+  SampleMesh mesh = refine(Region::whole(kGrid), disc(kGrid), 100);
+  while (mesh.samples().size() < wanted) {
+    tell(mesh, wanted);
+    const auto point = mesh.next_point();
+    REQUIRE(point);
+    mesh.insert(sample_of(disc(kGrid), point->x, point->y));
+  }
+  return mesh;
+}
+
+TEST_CASE("whoever tells how many samples there will be gets nearly as fine a pattern, by shorter ways") {
+  struct Pattern {
+    float coarse = 0;
+    double way = 0;
+  };
+  // Over several ends: where in an octave refinement ends is chance.
+  const auto pattern = [](const Tell& tell) {
+    Pattern sum;
+    for (const std::size_t wanted : {1500, 1700, 2000, 2300, 2600, 3000}) {
+      const SampleMesh mesh = refine_told(tell, wanted);
+      sum.coarse += heaviest_weights(mesh);
+      for (std::size_t i = wanted / 2; i < wanted; ++i) {
+        const Sample &a = mesh.samples()[i - 1], &b = mesh.samples()[i];
+        sum.way += std::hypot(a.x - b.x, a.y - b.y);
+      }
+    }
+    return sum;
+  };
+  const Pattern heaviest_first = pattern([](SampleMesh&, std::size_t) {});
+  const Pattern told = pattern([](SampleMesh& mesh, std::size_t wanted) {
+    mesh.expect_growth(static_cast<double>(wanted) / static_cast<double>(mesh.samples().size()));
+  });
+  const Pattern told_wrongly = pattern([](SampleMesh& mesh, std::size_t) { mesh.expect_growth(1e6); });
+  CHECK(told.way < 0.9 * heaviest_first.way);
+  CHECK(told.coarse < 1.1F * heaviest_first.coarse);
+  CHECK(told_wrongly.coarse > 1.15F * heaviest_first.coarse);
 }
 
 TEST_CASE("a taken point and one outside the image are refused") {
@@ -245,6 +302,21 @@ TEST_CASE("the bucket queue pops within a sixteenth of the heaviest") {
   }
   queue.clear();
   CHECK_FALSE(queue.pop());
+}
+
+TEST_CASE("above its floor the bucket queue pops the newest of an octave, and nothing below before it") {
+  BucketQueue<float> queue;
+  queue.set_floor(5);
+  CHECK(queue.level() == 0);
+  // Octaves from 16 and 8; from 4 only what is not below the floor, and the rest by sixteenths.
+  const std::vector<float> newest_first = {17, 31, 9, 15, 8, 5.5F, 7, 5, 4.9F, 4.5F, 4, 1};
+  for (auto w = newest_first.rbegin(); w != newest_first.rend(); ++w) queue.push(*w, *w);
+  for (const float weight : newest_first) {
+    CHECK(queue.is_above_floor() == (weight > 7));  // in the floor's own bucket is not above it
+    CHECK(queue.level() <= weight);
+    CHECK(queue.level() > weight / 2);
+    CHECK(queue.pop() == weight);
+  }
 }
 
 }  // namespace pprt
