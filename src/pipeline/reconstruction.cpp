@@ -7,6 +7,15 @@
 
 #include "pipeline/sample_mesh_impl.h"
 
+// Four lines of doubles fill a register of AVX2: a clone of the function is for hosts that have it, with the
+// same results to the bit (docs/decisions/0003-instruction-sets.md). Flat, so that what it calls is cloned
+// too.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define PPRT_CLONED_FOR_WIDE_REGISTERS [[gnu::flatten, gnu::target_clones("default", "arch=x86-64-v3")]]
+#else
+#define PPRT_CLONED_FOR_WIDE_REGISTERS
+#endif
+
 namespace pprt {
 namespace {
 
@@ -31,25 +40,50 @@ int first_center(double coordinate) {
   return ceil_to_int(coordinate - 0.5);
 }
 
-// Where a triangle lies along a row.
+// Lines of a row for the mean over a pixel's area, dealt with at once. Along a line the mean is exact.
+constexpr int kLines = 4;
+using PerLine = float __attribute__((vector_size(kLines * sizeof(float))));
+using ExactPerLine = double __attribute__((vector_size(kLines * sizeof(double))));
+constexpr PerLine kLineOffsets = {0.125F, 0.375F, 0.625F, 0.875F};  // from the row's beginning
+
+PerLine least(const PerLine& a, const PerLine& b) {
+  return a < b ? a : b;
+}
+PerLine greatest(const PerLine& a, const PerLine& b) {
+  return a > b ? a : b;
+}
+float sum(const PerLine& v) {
+  return (v[0] + v[1]) + (v[2] + v[3]);
+}
+PerLine on_all(float value) {
+  return PerLine{} + value;
+}
+
+// Where a triangle lies along a line.
 struct Extent {
   double left, right;
+};
+
+struct ExtentPerLine {
+  PerLine left, right;
 };
 
 // A triangle's edges, as functions of y. An edge's ends are taken in one fixed order, so that the two
 // triangles at it compute the same crossings to the last bit: they neither overlap nor leave gaps.
 class Outline {
  public:
-  explicit Outline(const std::array<Corner, 3>& corner)
-      : top_(corner[0]), middle_(corner[1]), bottom_(corner[2]) {
-    const auto swap_if_later = [](End& a, End& b) {
-      if (b.y < a.y || (b.y == a.y && b.x < a.x)) std::swap(a, b);
-    };
-    swap_if_later(top_, middle_);
-    swap_if_later(middle_, bottom_);
-    swap_if_later(top_, middle_);
-    const auto [left, right] = std::minmax({top_.x, middle_.x, bottom_.x});
-    left_ = left, right_ = right;
+  explicit Outline(const std::array<Corner, 3>& corner) {
+    // Without a branch, for corners come in any order. Of two on one level either may be the upper: the edge
+    // between them is never asked for. 3 and 4 cannot be.
+    static constexpr std::array<std::array<std::uint8_t, 3>, 8> kDownwards = {
+        {{0, 1, 2}, {1, 0, 2}, {0, 2, 1}, {0, 1, 2}, {0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
+    const unsigned order = static_cast<unsigned>(corner[1].y < corner[0].y) |
+                           static_cast<unsigned>(corner[2].y < corner[1].y) << 1 |
+                           static_cast<unsigned>(corner[2].y < corner[0].y) << 2;
+    const auto& [top, middle, bottom] = kDownwards[order];
+    top_ = corner[top], middle_ = corner[middle], bottom_ = corner[bottom];
+    left_ = std::min({top_.x, middle_.x, bottom_.x});
+    right_ = std::max({top_.x, middle_.x, bottom_.x});
   }
 
   double top() const { return top_.y; }
@@ -71,9 +105,22 @@ class Outline {
     return {std::min(a, b), std::max(a, b)};
   }
 
+  // Along the lines of a pixel row, of no length where they miss the triangle. Coordinates begin at a column,
+  // so that float has digits to spare.
+  ExtentPerLine along(int row, int column) const {
+    const ExactPerLine y = __builtin_convertvector(kLineOffsets, ExactPerLine) + row, below_top = y - top_.y;
+    const ExactPerLine a = top_.x + below_top * whole_;
+    const ExactPerLine b = y < middle_.y ? top_.x + below_top * upper_ : middle_.x + (y - middle_.y) * lower_;
+    const auto meets = (y >= top_.y) & (y < bottom_.y);
+    const ExactPerLine begin = ExactPerLine{} + column;
+    return {__builtin_convertvector(meets ? (a < b ? a : b) - begin : ExactPerLine{}, PerLine),
+            __builtin_convertvector(meets ? (a < b ? b : a) - begin : ExactPerLine{}, PerLine)};
+  }
+
  private:
   struct End {
-    double x, y;
+    double x = 0, y = 0;
+    End() = default;
     End(const Corner& corner) : x(corner.x), y(corner.y) {}
   };
 
@@ -108,6 +155,30 @@ class LinearPatch {
     const auto b = std::clamp(static_cast<float>(bx_ * dx + by_ * dy), 0.0f, 1.0f);
     return origin_.color + to_1_ * a + to_2_ * b;
   }
+
+  // The same along the lines of a pixel row, their coordinates beginning at a column.
+  class OnLines {
+   public:
+    OnLines(const LinearPatch& patch, int row, int column) : patch_(patch) {
+      const double dx = column - patch.origin_.x, dy = row - patch.origin_.y;
+      a_ = static_cast<float>(patch.ax_ * dx + patch.ay_ * dy) + static_cast<float>(patch.ay_) * kLineOffsets;
+      b_ = static_cast<float>(patch.bx_ * dx + patch.by_ * dy) + static_cast<float>(patch.by_) * kLineOffsets;
+    }
+
+    // The integral of the difference from `base` over parts of the lines that are so long about x.
+    Color integral(const PerLine& x, const PerLine& length, const Color& base) const {
+      const auto share = [&](const PerLine& at_column, double slope) {
+        const PerLine v = at_column + static_cast<float>(slope) * x;
+        return sum(greatest(PerLine{}, least(v, on_all(1))) * length);
+      };
+      return (patch_.origin_.color - base) * sum(length) + patch_.to_1_ * share(a_, patch_.ax_) +
+             patch_.to_2_ * share(b_, patch_.bx_);
+    }
+
+   private:
+    const LinearPatch& patch_;
+    PerLine a_, b_;  // barycentric, at the column
+  };
 
  private:
   Corner origin_;
@@ -166,15 +237,11 @@ class Painter {
   void finish();
 
  private:
-  // Of a row's lines for the mean over a pixel's area. Along a line the mean is exact.
-  static constexpr int kLines = 4;
-
   std::size_t words_per_row() const { return (static_cast<std::size_t>(bounds_.width()) + 63) / 64; }
   void add_sample(int x, int y, const Color& color);
   void fill(const LinearPatch& patch, int row, const Extent& extent);
   void add_lines(const Outline& outline, const LinearPatch& patch, int row);
   bool several_between(int row, int left, int right) const;
-  void add_line(const LinearPatch& patch, int row, double y, const Extent& extent);
 
   RegionPixels& pixels_;
   const PixelRect bounds_;
@@ -267,15 +334,8 @@ void Painter::add_lines(const Outline& outline, const LinearPatch& patch, int ro
   const int left = std::max(floor_to_int(outline.left()), bounds_.x0) - bounds_.x0;
   const int right = std::min(floor_to_int(outline.right()), bounds_.x1 - 1) - bounds_.x0;
   if (left > right || !several_between(row, left, right)) return;
-  for (int line = 0; line < kLines; ++line) {
-    const double y = row + (line + 0.5) / kLines;
-    if (outline.top() <= y && y < outline.bottom()) add_line(patch, row, y, outline.at(y));
-  }
-}
-
-void Painter::add_line(const LinearPatch& patch, int row, double y, const Extent& extent) {
-  const int left = std::max(floor_to_int(extent.left), bounds_.x0) - bounds_.x0;
-  const int right = std::min(floor_to_int(extent.right), bounds_.x1 - 1) - bounds_.x0;
+  const ExtentPerLine extents = outline.along(row, bounds_.x0 + left);
+  const LinearPatch::OnLines plane(patch, row, bounds_.x0 + left);
   const std::uint64_t* words =
       buffers_.holds_several.data() + static_cast<std::size_t>(row - bounds_.y0) * words_per_row();
   for (int first = left; first <= right; first = (first / 64 + 1) * 64) {
@@ -283,12 +343,12 @@ void Painter::add_line(const LinearPatch& patch, int row, double y, const Extent
     for (; word != 0; word &= word - 1) {
       const int column = first / 64 * 64 + std::countr_zero(word);
       if (column > right) return;
-      const int x = bounds_.x0 + column;
-      const double from = std::max<double>(extent.left, x), to = std::min<double>(extent.right, x + 1);
-      if (!(from < to)) continue;
-      const auto pixel = static_cast<std::size_t>(row_start(bounds_, row) + x);
-      const Color difference = patch.at(0.5 * (from + to), y) - buffers_.base[pixel];
-      buffers_.sum[pixel] += difference * static_cast<float>((to - from) / kLines);
+      const auto begin = static_cast<float>(column - left);
+      const PerLine from = greatest(extents.left, on_all(begin)),
+                    to = least(extents.right, on_all(begin + 1));
+      const PerLine length = greatest(to - from, PerLine{}) * (1.0f / kLines);
+      const auto pixel = static_cast<std::size_t>(row_start(bounds_, row) + bounds_.x0 + column);
+      buffers_.sum[pixel] += plane.integral(0.5f * (from + to), length, buffers_.base[pixel]);
     }
   }
 }
@@ -302,6 +362,7 @@ void Painter::finish() {
 
 }  // namespace
 
+PPRT_CLONED_FOR_WIDE_REGISTERS
 void reconstruct(const SampleMesh& mesh, const PixelRect& bounds, RegionPixels& pixels,
                  ReconstructionBuffers& buffers, PixelRule rule) {
   pixels.bounds = bounds;
