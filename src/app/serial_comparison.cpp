@@ -1,12 +1,10 @@
 #include "app/serial_comparison.h"
 
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <exception>
 #include <utility>
 
 #include "app/tracer_probe.h"
+#include "base/thread_priority.h"
 #include "parallel/serial_pattern.h"
 
 namespace pprt {
@@ -14,12 +12,6 @@ namespace {
 
 std::size_t bytes_of(const std::vector<Sample>& samples) {
   return samples.size() * sizeof(Sample);
-}
-
-// On Linux a priority is a thread's own.
-void take_lowest_priority() {
-  constexpr int kLowest = 19;
-  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kLowest);
 }
 
 }  // namespace

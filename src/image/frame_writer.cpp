@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/thread_priority.h"
+
 namespace pprt {
 namespace {
 
@@ -19,7 +21,9 @@ bool holds_channels(const FramePattern& output) {
 }
 
 FrameWriter::FrameWriter(std::vector<FramePattern> outputs, FrameWriterOptions options)
-    : outputs_(std::move(outputs)), options_(options), thread_([this] { run(); }) {}
+    : outputs_(std::move(outputs)),
+      options_(options),
+      at_lowest_priority_([this] { run(Priority::kLowest); }) {}
 
 FrameWriter::~FrameWriter() {
   stop();
@@ -33,8 +37,12 @@ void FrameWriter::submit(FrameToWrite frame) {
     room_.wait(lock, [&] { return bytes_ == 0 || bytes_ + size <= options_.memory_bound; });
     bytes_ += size;
     waiting_.push_back(std::move(frame));
+    if (!is_behind_ && bytes_ > options_.memory_bound / 8) {
+      is_behind_ = true;
+      at_usual_priority_ = std::thread([this] { run(Priority::kUsual); });
+    }
   }
-  work_.notify_one();
+  work_.notify_all();
 }
 
 std::vector<WrittenFrame> FrameWriter::take_finished() {
@@ -58,15 +66,19 @@ void FrameWriter::stop() {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
   }
-  work_.notify_one();
-  if (thread_.joinable()) thread_.join();
+  work_.notify_all();
+  for (std::thread* thread : {&at_lowest_priority_, &at_usual_priority_}) {
+    if (thread->joinable()) thread->join();
+  }
 }
 
-void FrameWriter::run() {
+void FrameWriter::run(Priority priority) {
+  if (priority == Priority::kLowest) take_lowest_priority();
   std::unique_lock lock(mutex_);
+  const auto is_replaced = [&] { return priority == Priority::kLowest && is_behind_; };
   for (;;) {
-    work_.wait(lock, [&] { return stopping_ || !waiting_.empty(); });
-    if (waiting_.empty()) return;
+    work_.wait(lock, [&] { return stopping_ || !waiting_.empty() || is_replaced(); });
+    if (waiting_.empty() || is_replaced()) return;
     FrameToWrite frame = std::move(waiting_.front());
     waiting_.pop_front();
 

@@ -43,7 +43,9 @@ struct FrameWriterOptions {
 // Whether an output holds layers in itself, as channels, rather than beside it.
 bool holds_channels(const FramePattern& output);
 
-// Writes frames in the order in which they are submitted, in a thread of its own. The first error is kept
+// Writes frames in the order in which they are submitted, beside the frame loop: in a thread of the lowest
+// priority until an eighth of the memory bound waits, then, as that is not enough, in one of the usual
+// priority (the frame under way when they change may be whole after the next). The first error is kept
 // until it is asked for; a frame that cannot be written does not keep later ones from being tried, as its
 // reason may be its own. submit, take_finished and error may be called from any thread.
 class FrameWriter {
@@ -69,7 +71,8 @@ class FrameWriter {
   void finish();
 
  private:
-  void run();
+  enum class Priority : std::uint8_t { kLowest, kUsual };
+  void run(Priority priority);
   WrittenFrame write(const FrameToWrite& frame) const;
   void stop();
 
@@ -80,13 +83,17 @@ class FrameWriter {
   std::condition_variable work_;
   std::condition_variable room_;
   std::deque<FrameToWrite> waiting_;
-  std::size_t bytes_ = 0;  // of pixels, waiting and being written
+  std::size_t bytes_ = 0;   // of pixels, waiting and being written
+  bool is_behind_ = false;  // the thread of the lowest priority has left the rest to the other
   bool stopping_ = false;
   std::vector<WrittenFrame> finished_;
   std::exception_ptr first_error_;
   std::string first_error_text_;
 
-  std::thread thread_;  // last: it uses all of the above
+  // Last: they use all of the above. A thread inherits its priority, and may not raise it: that of the usual
+  // one is begun by whoever submits.
+  std::thread at_lowest_priority_;
+  std::thread at_usual_priority_;
 };
 
 }  // namespace pprt
