@@ -42,14 +42,15 @@ class WallClock final : public FrameClock {
   void begin_frame(const FrameOrder& order) override {
     frame_began_s_ = monotonic_seconds();
     sampling_began_s_ = 0;
-    // What this rank needs itself, a quarter more for luck; or what the master has seen, which holds the
-    // slowest rank, the network and the assembly as well.
-    const double reserve = std::max(order.reserve_s, 1.25 * after_sampling_s_.get());
-    stop_s_ = order.deadline_s > 0 ? start_s_ + order.deadline_s - reserve : 0;
+    deadline_s_ = order.deadline_s > 0 ? start_s_ + order.deadline_s : 0;
+    reserve_s_ = order.reserve_s;
+    set_stop();
   }
   void spend(Work, std::uint64_t) override {}
-  void begin_packet() override {
-    left_in_packet_ = kSamplesPerPacket;
+  void begin_packet(std::uint64_t samples) override {
+    left_in_packet_ = ranks_per_core_ > 1 ? kSamplesOfAShortTurn : kSamplesPerPacket;
+    size_ = static_cast<double>(samples) + region_size_;
+    set_stop();
     if (sampling_began_s_ == 0) sampling_began_s_ = monotonic_seconds();
     // With more ranks than cores, short turns keep every rank near its deadline.
     if (ranks_per_core_ > 1) sched_yield();
@@ -59,11 +60,8 @@ class WallClock final : public FrameClock {
     return (left_in_packet_ & 7) == 0 && sampling_over();
   }
   bool sampling_over() override { return stop_s_ > 0 && monotonic_seconds() >= stop_s_; }
-  void end_frame() override {
-    if (stop_s_ <= 0) return;
-    // A rank that stood still for longer than a frame has not worked that long: it learns nothing from it.
-    const double took_s = monotonic_seconds() - std::max(stop_s_, sampling_began_s_);
-    if (took_s <= period_s_) after_sampling_s_.add(took_s);
+  void end_frame(double reconstruction_ms) override {
+    reconstruction_s_per_size_.add(1e-3 * reconstruction_ms / size_);
   }
   std::size_t affordable(Work work, double share) const override {
     const double seconds = 1e-9 * static_cast<double>(price(work)) * ranks_per_core_;
@@ -74,7 +72,9 @@ class WallClock final : public FrameClock {
     const double span = stop_s_ - sampling_began_s_;
     return span > 0 ? std::clamp((monotonic_seconds() - sampling_began_s_) / span, 0.01, 1.0) : 1;
   }
-  void region_changed(std::size_t) override {}
+  void region_changed(std::size_t pixels) override {
+    region_size_ = static_cast<double>(pixels) / kPixelsPerSample;
+  }
   int rounds_under_way(double) const override { return 0; }
   bool in_lockstep() const override { return false; }
   double lap_ms() override {
@@ -87,15 +87,30 @@ class WallClock final : public FrameClock {
   double sequence_seconds() const override { return monotonic_seconds() - start_s_; }
 
  private:
-  static constexpr int kSamplesPerPacket = 48;
+  static constexpr int kSamplesPerPacket = 128, kSamplesOfAShortTurn = 48;
+  static constexpr double kPixelsPerSample = 64;  // that take as long to reconstruct
+
+  void set_stop() { stop_s_ = deadline_s_ > 0 ? deadline_s_ - left_for_the_rest() : 0; }
+
+  // After sampling: this rank's own reconstruction beside those of the ranks that share its core, a quarter
+  // more for luck, and what else the master has seen to pass until a frame is whole. A picture whose
+  // reconstruction fills the frame is fine enough.
+  double left_for_the_rest() const {
+    const double reconstruction_s = reconstruction_s_per_size_.get() * size_ * ranks_per_core_;
+    return std::clamp(reserve_s_ + 1.25 * reconstruction_s, 0.04 * period_s_, period_s_);
+  }
 
   double start_s_;
   double period_s_;
   double ranks_per_core_;
   double frame_began_s_ = 0;
+  double deadline_s_ = 0;        // 0: no rate
+  double reserve_s_ = 0;         // for what follows reconstruction
   double stop_s_ = 0;            // when sampling must stop; 0: no rate
   double sampling_began_s_ = 0;  // of this frame; 0: not yet
-  RecentMaximum after_sampling_s_;
+  double size_ = 1;              // of what is to be reconstructed, in samples
+  double region_size_ = 0;       // what the region's pixels add to it
+  RecentMaximum reconstruction_s_per_size_;
   int left_in_packet_ = 0;
   double last_lap_s_ = thread_cpu_seconds();
 };
@@ -113,7 +128,7 @@ class WorkClock final : public FrameClock {
     round_ = 0;
   }
   void spend(Work work, std::uint64_t count) override { frame_units_ += price(work) * count; }
-  void begin_packet() override {
+  void begin_packet(std::uint64_t) override {
     ++round_;
     // Besides reconstruction, a round's worth is kept for what the last exchange brings.
     const WorkUnits kept = reconstruction_ + budget_ / kRoundsPerFrame;
@@ -123,7 +138,7 @@ class WorkClock final : public FrameClock {
   }
   bool packet_over() override { return frame_units_ >= round_end_; }
   bool sampling_over() override { return budget_ > 0 && round_ >= kRoundsPerFrame; }
-  void end_frame() override {
+  void end_frame(double) override {
     sequence_units_ += frame_units_;
     lap_began_ -= static_cast<double>(frame_units_);
   }

@@ -26,15 +26,17 @@ class FrameClock {
   // Counts work (a no-op for wall time: it passes by itself).
   virtual void spend(Work work, std::uint64_t count) = 0;
 
-  // Sampling goes in packets with an exchange of messages after each.
-  virtual void begin_packet() = 0;
+  // Sampling goes in packets with an exchange of messages after each. `samples`: of the region so far, which
+  // reconstruction will have to deal with.
+  virtual void begin_packet(std::uint64_t samples) = 0;
   virtual bool packet_over() = 0;
 
   // With a rate: whether what must follow needs the rest of the frame's time. Without: never.
   virtual bool sampling_over() = 0;
 
-  // Tells how long the frame took after sampling, so that the next frames leave enough.
-  virtual void end_frame() = 0;
+  // The frame is sent. What its reconstruction took of this rank's CPU, in milliseconds as lap_ms() has it,
+  // tells what the next frames must leave.
+  virtual void end_frame(double reconstruction_ms) = 0;
 
   // With a rate: how often a piece of work fits into a share of one frame's time.
   virtual std::size_t affordable(Work work, double share) const = 0;

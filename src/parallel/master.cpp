@@ -14,7 +14,7 @@ namespace pprt {
 namespace {
 
 // The share of a period that follows sampling, before any frame has shown it.
-constexpr double kFirstGuess = 0.2;
+constexpr double kFirstGuess = 0.35;
 
 // How many frames may be ordered and not yet delivered.
 constexpr std::size_t kMostIncompleteFrames = 4;
@@ -31,9 +31,7 @@ Master::Master(Communicator& network, const SessionSettings& settings, const Par
       sink_(std::move(sink)),
       now_(std::move(now)),
       keeps_deadlines_(settings.clock == ClockKind::kWall && settings.frames_per_second > 0),
-      shown_(partition.grid) {
-  if (settings.frames_per_second > 0) after_sampling_s_.push_back(kFirstGuess / settings.frames_per_second);
-}
+      shown_(partition.grid) {}
 
 bool Master::may_begin(int index) const {
   if (delivered_ >= index) return true;
@@ -76,7 +74,7 @@ void Master::handle(const Message& message) {
   assembly.ranks[rank] = pixels.report;
   assembly.tiles[rank] = pixels.tiles;
   assembly.samples.insert(assembly.samples.end(), pixels.samples.begin(), pixels.samples.end());
-  assembly.last_arrival_s = sequence_s();
+  assembly.after_sampling_s = std::max(assembly.after_sampling_s, after_sampling_s(pixels.report));
   --assembly.missing;
   while (!assemblies_.empty() && assemblies_.begin()->second.missing == 0) deliver_first();
 }
@@ -89,9 +87,7 @@ void Master::handle_overdue(int from, const PixelMessage& pixels) {
   }
   shown_.paste(from, pixels);
   ++overdue_pixels_;
-  if (sequence_s() < deadline_s(pixels.frame_index + 1)) {
-    learn_reserve(sequence_s() - pixels.report.sampling_ended_s);
-  }
+  if (sequence_s() < deadline_s(pixels.frame_index + 1)) learn_reserve(after_sampling_s(pixels.report));
 }
 
 void Master::keep_deadlines() {
@@ -234,7 +230,7 @@ void Master::deliver(Assembly& assembly) {
   if (keeps_deadlines_) {
     if (assembly.missing > 0) frame.stale_tiles = assembly.picture.fill_gaps(shown_);
     shown_ = assembly.picture;
-    learn_reserve(assembly);
+    learn_reserve(assembly.after_sampling_s);
   }
   ++delivered_;
   frame.order = std::move(assembly.order);
@@ -266,15 +262,13 @@ void Master::tell_when(FinishedFrame& frame) const {
   }
 }
 
-// From the first rank's end of sampling to the last pixels that came. Of a frame without late ranks that is
-// what it needed; one with late ranks needed more, which handle_overdue() learns.
-void Master::learn_reserve(const Assembly& assembly) {
-  double first_end_s = std::numeric_limits<double>::infinity();
-  for (std::size_t rank = 0; rank < assembly.ranks.size(); ++rank) {
-    if (assembly.has_come[rank] != 0)
-      first_end_s = std::min(first_end_s, assembly.ranks[rank].sampling_ended_s);
-  }
-  if (first_end_s < assembly.last_arrival_s) learn_reserve(assembly.last_arrival_s - first_end_s);
+// What has passed, now that a rank's pixels are here, since it had to end sampling, but for what
+// reconstruction takes where all ranks of a core are at it: that grows with their samples, and a rank leaves
+// room for it itself. Of a frame without late ranks it is what the frame needed; one with late ranks needed
+// more, which handle_overdue() learns.
+double Master::after_sampling_s(const RankReport& report) const {
+  const double reconstruction_s = 1e-3 * report.cpu_ms.reconstruction * ranks_per_core_;
+  return std::max(0.0, sequence_s() - report.sampling_ended_s - reconstruction_s);
 }
 
 void Master::learn_reserve(double after_sampling_s) {
@@ -283,18 +277,16 @@ void Master::learn_reserve(double after_sampling_s) {
   if (after_sampling_s_.size() > kRemembered) after_sampling_s_.pop_front();
 }
 
-// What to leave between the end of sampling and the deadline: the worst of the last frames (and, for the
-// first ones, of a careful guess) and seven tenths more, for ranks that share cores are not punctual; and
-// what four frames of growth will add: an order goes out before the two frames ahead of it are whole, and
-// where samples accumulate every reconstruction takes longer. At least a twenty-fifth of the period; at most
-// seven tenths, so that some sampling remains.
+// What ranks leave, besides their own reconstruction, between the end of sampling and the deadline: the worst
+// of the last frames and a quarter more; seven tenths where ranks share cores, for those are not punctual. At
+// most seven tenths of the period, so that some sampling remains.
 double Master::reserve_s() const {
   if (settings_.frames_per_second <= 0) return 0;
   const double period = 1 / settings_.frames_per_second;
+  if (after_sampling_s_.empty()) return kFirstGuess * period;
   const double worst = *std::max_element(after_sampling_s_.begin(), after_sampling_s_.end());
-  const double span = static_cast<double>(after_sampling_s_.size());
-  const double growth = std::max(0.0, (after_sampling_s_.back() - after_sampling_s_.front()) / span);
-  return std::clamp(1.7 * worst + 4 * growth + 0.001, 0.04 * period, 0.7 * period);
+  const double careful = ranks_per_core_ > 1 ? 1.7 * worst + 0.001 : 1.25 * worst + 0.0005;
+  return std::clamp(careful, 0.0, 0.7 * period);
 }
 
 }  // namespace pprt

@@ -89,7 +89,7 @@ class Master {
     std::vector<std::uint8_t> has_come;          // per rank: its pixels
     std::vector<Sample> samples;
     int missing = 0;                        // ranks whose pixels have not come
-    double last_arrival_s = 0;              // of those that have
+    double after_sampling_s = 0;            // the longest of those that have, besides reconstruction
     std::optional<double> overdue_since_s;  // seen by rank 0, which may have been away at the deadline
   };
 
@@ -104,7 +104,7 @@ class Master {
   void tell_when(FinishedFrame& frame) const;
   void balance_globally(const Assembly& assembly);
   bool can_afford_to_hand_over() const;
-  void learn_reserve(const Assembly& assembly);
+  double after_sampling_s(const RankReport& report) const;
   void learn_reserve(double after_sampling_s);
   double reserve_s() const;
   double deadline_s(int index) const { return (index + 1) / settings_.frames_per_second; }
@@ -133,7 +133,7 @@ class Master {
   bool ended_ = false;
   int next_index_ = 0;
   double start_s_ = 0;
-  std::deque<double> after_sampling_s_;  // of the last frames: end of sampling to whole frame
+  std::deque<double> after_sampling_s_;  // of the last frames: between sampling and whole frame
 };
 
 }  // namespace pprt

@@ -86,7 +86,7 @@ void Worker::sample(const FrameOrder& order) {
   const bool free = order.deadline_s == 0;
   const std::size_t begin = mesh_.samples().size();
   for (int round = kSeedRound + 1;; ++round) {
-    clock_->begin_packet();
+    clock_->begin_packet(in_region_);
     bool idle = false, traced = false;
     while (!idle && !clock_->packet_over()) {
       idle = (free && goal_reached()) || !refine_once(order);
@@ -326,7 +326,7 @@ void Worker::reconstruct_and_send(const FrameOrder& order) {
   if (settings_.report_samples) message.samples = own_samples();
   message.report = finish_report();
   network_.send(0, Tag::kPixels, encode(message));
-  clock_->end_frame();
+  clock_->end_frame(message.report.cpu_ms.reconstruction);
 }
 
 std::vector<Sample> Worker::own_samples() const {

@@ -37,10 +37,11 @@ class Stage {
     master_.keep_deadlines();
   }
 
-  void send(int rank, int frame, double sampling_ended_s = 0) {
+  void send(int rank, int frame, double sampling_ended_s = 0, double reconstruction_ms = 0) {
     PixelMessage message;
     message.frame_index = frame;
     message.report.sampling_ended_s = sampling_ended_s;
+    message.report.cpu_ms.reconstruction = reconstruction_ms;
     message.report.samples_in_region = 10;
     for (int tile = 0; tile < partition_.grid.tile_count(); ++tile) {
       if (partition_.owner[static_cast<std::size_t>(tile)] != rank) continue;
@@ -288,20 +289,26 @@ TEST_CASE("a late rank teaches the reserve what it needs, one that stood still n
     REQUIRE(stage.delivered.size() == 3);
     stage.at(3 * kPeriod + came_s);
     stage.send(2, 2, 3 * kPeriod - 0.02);
-    stage.orders();
-    // What was assumed before the first frame is forgotten after twelve.
-    for (int frame = 3; frame < 13; ++frame) {
-      stage.begin();
-      const double deadline = (frame + 1) * kPeriod;
-      stage.at(deadline - 0.01);
-      stage.send_all(frame, deadline - 0.02);
-    }
     stage.begin();
     return stage.orders().back().reserve_s;
   };
   const double soon = reserve_after(0.02), still = reserve_after(2);
   CHECK(soon == Approx(1.7 * 0.04 + 0.001).margin(0.002));
   CHECK(still == Approx(1.7 * 0.01 + 0.001).margin(0.002));
+}
+
+TEST_CASE("the reserve in an order leaves out reconstruction, for which each rank leaves room itself") {
+  const auto reserve_after = [](double reconstruction_ms) {
+    Stage stage;
+    stage.begin();
+    stage.at(kPeriod - 0.01);
+    for (int rank = 0; rank < kRanks; ++rank) stage.send(rank, 0, kPeriod - 0.05, reconstruction_ms);
+    REQUIRE(stage.delivered.size() == 1);
+    stage.begin();
+    return stage.orders().back().reserve_s;
+  };
+  CHECK(reserve_after(0) == Approx(1.7 * 0.04 + 0.001));
+  CHECK(reserve_after(2) == Approx(1.7 * (0.04 - 16 * 0.002) + 0.001));  // sixteen ranks share a core
 }
 
 }  // namespace pprt

@@ -14,10 +14,10 @@ class SetClock final : public FrameClock {
   bool may_begin(const FrameOrder&) const override { return true; }
   void begin_frame(const FrameOrder&) override { packets_ = 0; }
   void spend(Work, std::uint64_t) override {}
-  void begin_packet() override { left_ = samples_per_packet_, ++packets_; }
+  void begin_packet(std::uint64_t) override { left_ = samples_per_packet_, ++packets_; }
   bool packet_over() override { return left_-- == 0; }
   bool sampling_over() override { return packets_ >= 6; }
-  void end_frame() override {}
+  void end_frame(double) override {}
   std::size_t affordable(Work, double) const override { return 100'000; }
   bool in_lockstep() const override { return false; }
   double lap_ms() override { return 0; }

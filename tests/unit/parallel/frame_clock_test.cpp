@@ -1,0 +1,65 @@
+#include "parallel/frame_clock.h"
+
+#include <catch2/catch.hpp>
+
+namespace pprt {
+namespace {
+
+constexpr double kPeriod = 0.1;
+constexpr std::size_t kPixels = 64 * 1000;  // as long to reconstruct as 1000 samples
+
+// A clock of a sequence that began now, in its frame 0, whose deadline is a second away.
+std::unique_ptr<FrameClock> clock_in_a_frame(double reserve_s) {
+  SessionSettings settings;
+  settings.clock = ClockKind::kWall;
+  settings.frames_per_second = 1 / kPeriod;
+  std::unique_ptr<FrameClock> clock = make_frame_clock(settings, monotonic_seconds(), kPixels, 1);
+  clock->region_changed(kPixels);
+  FrameOrder order;
+  order.deadline_s = 1;
+  order.reserve_s = reserve_s;
+  clock->begin_frame(order);
+  return clock;
+}
+
+// How long before the deadline sampling ends with so many samples.
+double left_with(FrameClock& clock, std::uint64_t samples) {
+  clock.begin_packet(samples);
+  return 1 - clock.sampling_end_seconds();
+}
+
+TEST_CASE("sampling leaves time for the reconstruction of as many samples as there are") {
+  const auto clock = clock_in_a_frame(0.01);
+  CHECK(left_with(*clock, 500) == Approx(0.01));  // nothing is known of it yet
+  left_with(*clock, 3000);
+  clock->end_frame(8);  // milliseconds, for 3000 samples and the pixels
+  const double per_sample = 0.008 / (3000 + 1000);
+  CHECK(left_with(*clock, 0) == Approx(0.01 + 1.25 * per_sample * 1000));
+  CHECK(left_with(*clock, 9000) == Approx(0.01 + 1.25 * per_sample * 10000));
+}
+
+TEST_CASE(
+    "a picture whose reconstruction fills the frame gets no further samples, and no more is left than a "
+    "frame") {
+  const auto clock = clock_in_a_frame(0);
+  left_with(*clock, 9000);
+  clock->end_frame(50);
+  CHECK(left_with(*clock, 13000) == Approx(1.25 * 0.07));
+  CHECK(left_with(*clock, 19000) == Approx(kPeriod));
+  CHECK(left_with(*clock, 1000000) == Approx(kPeriod));
+}
+
+TEST_CASE("of the last eight reconstructions the slowest counts") {
+  const auto clock = clock_in_a_frame(0);
+  const auto left_after = [&](double reconstruction_ms) {
+    left_with(*clock, 9000);
+    clock->end_frame(reconstruction_ms);
+    return left_with(*clock, 9000);
+  };
+  CHECK(left_after(40) == Approx(1.25 * 0.04));
+  for (int frame = 0; frame < 7; ++frame) CHECK(left_after(10) == Approx(1.25 * 0.04));
+  CHECK(left_after(10) == Approx(1.25 * 0.01));
+}
+
+}  // namespace
+}  // namespace pprt
