@@ -22,8 +22,9 @@ namespace {
 
 constexpr int kSequenceCells = 4;  // of a sequence's converged frames: 32 samples a pixel
 constexpr int kQuickSequenceCells = 2;
-constexpr int kMostFrames = 8;    // of a script
-constexpr int kFigureSize = 256;  // pixels
+constexpr int kMostFrames = 8;             // of a script
+constexpr int kMostFramesInRealTime = 40;  // where a rate is asked for
+constexpr int kFigureSize = 256;           // pixels
 
 // What is done to one scene, told on standard error with the time that it took.
 class Progress {
@@ -86,10 +87,11 @@ struct Sequence {
   RateSettings settings;
 };
 
-Sequence make_sequence(const Stage& stage, const Animation* script, const AccuracyOptions& options) {
+Sequence make_sequence(const Stage& stage, const Animation* script, const AccuracyOptions& options,
+                       int most_frames) {
   Sequence sequence;
   sequence.shots = sequence_of(stage.scene, *stage.description.view, script, sequence_size(options),
-                               options.quick ? kMostFrames / 2 : kMostFrames);
+                               options.quick ? most_frames / 2 : most_frames);
   for (const Shot& shot : sequence.shots) {
     sequence.references.push_back(cached_reference(stage.nff, {stage.scene, shot.camera},
                                                    options.quick ? kQuickSequenceCells : kSequenceCells,
@@ -155,7 +157,7 @@ void measure_scene(const Stage& stage, const Animation* script, const AccuracyOp
       stage.name, file_word(stage.name), {stage.scene, stage.camera(std::min(options.size, kFigureSize))},
       options.seed, thread_cpu_seconds);
   std::move(pictures.begin(), pictures.end(), std::back_inserter(results.pictures));
-  const Sequence sequence = make_sequence(stage, script, options);
+  const Sequence sequence = make_sequence(stage, script, options, kMostFrames);
   const std::vector<RatePoint> rates = rates_of(stage, sequence);
   results.rates.insert(results.rates.end(), rates.begin(), rates.end());
   progress.tell("frame rates");
@@ -211,10 +213,18 @@ Inputs read_inputs(const AccuracyOptions& options) {
 void answer(const Inputs& inputs, const Animation* script, const AccuracyOptions& options) {
   for (const std::string& name : inputs.scenes) {
     const Stage stage = make_stage(name);
-    const std::vector<RatePoint> points = rates_of(stage, make_sequence(stage, script, options));
+    const std::vector<RatePoint> points = rates_of(stage, make_sequence(stage, script, options, kMostFrames));
     fmt::print(stderr, "pprt-study: {}: {}\n", name, rates_setting(options, script));
     if (options.want_rmse) fmt::print("{}\n", plan(name, points, {options.want_rmse, {}}));
-    if (options.want_fps) fmt::print("{}\n", plan(name, points, {{}, options.want_fps}));
+    if (options.want_fps) {
+      fmt::print("{}\n", plan(name, points, {{}, options.want_fps}));
+      const Sequence s = make_sequence(stage, script, options, kMostFramesInRealTime);
+      const auto at = [&](CastChoice cast) {
+        return measure_in_real_time(name, stage.scene, s.shots, s.references, s.settings, cast,
+                                    *options.want_fps);
+      };
+      fmt::print("{}\n", plan_in_real_time(at(CastChoice::kAuto), at(CastChoice::kOff)));
+    }
   }
 }
 

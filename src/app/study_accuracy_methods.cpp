@@ -221,6 +221,22 @@ Method uniform_method() {
           run_uniform};
 }
 
+Image uniform_picture_in(double seconds, const Subject& subject, const SecondsClock& clock) {
+  // Each trial tells the next what a sample takes.
+  constexpr int kTrials = 3;
+  constexpr double kFirst = 0.05;  // samples a pixel
+  double density = kFirst;
+  Image image;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    Tracer tracer(subject.scene, subject.camera);
+    const double begin = clock();
+    image = uniform_picture(tracer, subject.camera, grid_size(subject.camera, density));
+    const double taken = std::max(clock() - begin, 1e-9);
+    if (trial + 1 < kTrials) density *= seconds / taken;
+  }
+  return image;
+}
+
 std::vector<Method> accuracy_methods() {
   return {progressive_method(),
           uniform_method(),

@@ -60,6 +60,9 @@ Method progressive_method();
 // the pixels. More: each pixel is the mean over its area, k x k supersampling where m and n are multiples.
 Method uniform_method();
 
+// The picture of a uniform grid whose tracing and picture take about so much of the clock's time.
+Image uniform_picture_in(double seconds, const Subject& subject, const SecondsClock& clock);
+
 // Both, the uniform one once more as a control under another name, and progressive with a part of it taken
 // out.
 std::vector<Method> accuracy_methods();

@@ -144,7 +144,8 @@ void write_punctuality(const std::vector<Punctuality>& points, StudyOutput& outp
       "many "
       "frames were there by their deadline, and how late they were (below 0: early). Errors and samples "
       "beside "
-      "those of the work clock tell how far its second is this machine's.");
+      "those of the work clock tell how far its second is this machine's. Beside them the error of a uniform "
+      "grid of samples that takes all of the ranks' time, nothing lost to meeting deadlines.");
   page.table(punctuality_table(points));
   output.write_table("punctuality", punctuality_table(points));
 }

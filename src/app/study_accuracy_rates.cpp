@@ -83,41 +83,6 @@ RatePoint measure(const std::string& name, const CompiledScene& scene, const std
   return point;
 }
 
-Punctuality measure_in_real_time(const std::string& name, const CompiledScene& scene,
-                                 const std::vector<Shot>& shots, const std::vector<Image>& references,
-                                 const RateSettings& settings, double fps) {
-  constexpr double kSeconds = 2;
-  const Camera& camera = shots.front().camera;
-  const auto rounds =
-      static_cast<std::size_t>(std::max(1.0, std::ceil(kSeconds * fps / static_cast<double>(shots.size()))));
-  std::vector<Shot> played;
-  for (std::size_t round = 0; round < rounds; ++round) {
-    played.insert(played.end(), shots.begin(), shots.end());
-    played[round * shots.size()].cut = true;
-  }
-  SessionSettings session = session_settings(settings, camera, CastChoice::kAuto, fps);
-  session.clock = ClockKind::kWall;
-  Told told = play(scene, played, settings.ranks, session);
-
-  Punctuality point;
-  point.scene = name, point.fps = fps, point.ranks = settings.ranks;
-  point.frames = static_cast<int>(told.pictures.size());
-  for (std::size_t i = 0; i < told.pictures.size(); ++i)
-    point.rmse += rmse_of(told.pictures[i], references[i % shots.size()]) / point.frames;
-  point.samples = told.samples / (static_cast<double>(point.frames) * camera.width * camera.height);
-  std::vector<double>& late = told.late_ms;
-  std::sort(late.begin(), late.end());
-  const auto quantile = [&](double q) {
-    return late[static_cast<std::size_t>(std::ceil(q * static_cast<double>(late.size() - 1)))];
-  };
-  point.late_p50_ms = quantile(0.5), point.late_p95_ms = quantile(0.95), point.late_p99_ms = quantile(0.99);
-  point.late_max_ms = late.back();
-  point.on_time =
-      static_cast<double>(std::count_if(late.begin(), late.end(), [](double ms) { return ms <= 0; })) /
-      point.frames;
-  return point;
-}
-
 // Until the first frame from `cut` on whose error is at most `enough`.
 double frames_until(const std::vector<double>& errors, std::size_t cut, double enough) {
   std::size_t i = cut;
@@ -205,13 +170,54 @@ std::vector<RatePoint> measure_rates(const std::string& name, const CompiledScen
   return points;
 }
 
+Punctuality measure_in_real_time(const std::string& name, const CompiledScene& scene,
+                                 const std::vector<Shot>& shots, const std::vector<Image>& references,
+                                 const RateSettings& settings, CastChoice cast, double fps) {
+  constexpr double kSeconds = 2;
+  const Camera& camera = shots.front().camera;
+  const auto rounds =
+      static_cast<std::size_t>(std::max(1.0, std::ceil(kSeconds * fps / static_cast<double>(shots.size()))));
+  std::vector<Shot> played;
+  for (std::size_t round = 0; round < rounds; ++round) {
+    played.insert(played.end(), shots.begin(), shots.end());
+    played[round * shots.size()].cut = true;
+  }
+  SessionSettings session = session_settings(settings, camera, cast, fps);
+  session.clock = ClockKind::kWall;
+  Told told = play(scene, played, settings.ranks, session);
+
+  Punctuality point;
+  point.scene = name, point.cast = cast, point.fps = fps, point.ranks = settings.ranks;
+  point.frames = static_cast<int>(told.pictures.size());
+  for (std::size_t i = 0; i < told.pictures.size(); ++i)
+    point.rmse += rmse_of(told.pictures[i], references[i % shots.size()]) / point.frames;
+  point.samples = told.samples / (static_cast<double>(point.frames) * camera.width * camera.height);
+  std::vector<double>& late = told.late_ms;
+  std::sort(late.begin(), late.end());
+  const auto quantile = [&](double q) {
+    return late[static_cast<std::size_t>(std::ceil(q * static_cast<double>(late.size() - 1)))];
+  };
+  point.late_p50_ms = quantile(0.5), point.late_p95_ms = quantile(0.95), point.late_p99_ms = quantile(0.99);
+  point.late_max_ms = late.back();
+  point.on_time =
+      static_cast<double>(std::count_if(late.begin(), late.end(), [](double ms) { return ms <= 0; })) /
+      point.frames;
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    const Image uniform =
+        uniform_picture_in(settings.ranks / fps, {scene, shots[i].camera}, thread_cpu_seconds);
+    point.uniform_rmse +=
+        rmse_of(clamped_to_display(uniform), references[i]) / static_cast<double>(shots.size());
+  }
+  return point;
+}
+
 std::vector<Punctuality> measure_punctuality(const std::string& name, const CompiledScene& scene,
                                              const std::vector<Shot>& shots,
                                              const std::vector<Image>& references,
                                              const RateSettings& settings) {
   std::vector<Punctuality> points;
   for (const double fps : settings.rates)
-    points.push_back(measure_in_real_time(name, scene, shots, references, settings, fps));
+    points.push_back(measure_in_real_time(name, scene, shots, references, settings, CastChoice::kAuto, fps));
   return points;
 }
 
@@ -274,6 +280,17 @@ std::string plan(const std::string& scene, const std::vector<RatePoint>& points,
                      interpolated(line, wanted));
 }
 
+std::string plan_in_real_time(const Punctuality& with, const Punctuality& without) {
+  return fmt::format(
+      "{}: in real time {:.0f} of {} frames were on time on {}, the latest {:.1f} ms {}; RMSE {:.4f}, which "
+      "is "
+      "{:.2f} of that without casting and {:.2f} of what uniform sampling has in all of their time.",
+      with.scene, with.on_time * with.frames, with.frames,
+      with.ranks == 1 ? "one rank" : fmt::format("{} ranks", with.ranks), std::abs(with.late_max_ms),
+      with.late_max_ms > 0 ? "late" : "early", with.rmse, with.rmse / without.rmse,
+      with.rmse / with.uniform_rmse);
+}
+
 Table rates_table(const std::vector<RatePoint>& points) {
   Table table{{"scene", "cast", "frames/s", "rmse", "rmse after a cut", "frames to recover", "flicker",
                "samples a pixel"},
@@ -288,13 +305,13 @@ Table rates_table(const std::vector<RatePoint>& points) {
 
 Table punctuality_table(const std::vector<Punctuality>& points) {
   Table table{{"scene", "frames/s", "ranks", "frames", "on time", "late p50 ms", "late p95 ms", "late p99 ms",
-               "late max ms", "rmse", "samples a pixel"},
+               "late max ms", "rmse", "uniform rmse", "samples a pixel"},
               {},
               {}};
   for (const Punctuality& p : points) {
     table.rows.push_back({p.scene, p.fps, static_cast<double>(p.ranks), static_cast<double>(p.frames),
                           p.on_time, p.late_p50_ms, p.late_p95_ms, p.late_p99_ms, p.late_max_ms, p.rmse,
-                          p.samples});
+                          p.uniform_rmse, p.samples});
   }
   return table;
 }

@@ -45,9 +45,10 @@ struct RatePoint {
   double samples = 0;         // a pixel and frame
 };
 
-// A sequence at one rate in real time, --cast auto.
+// A sequence at one rate in real time.
 struct Punctuality {
   std::string scene;
+  CastChoice cast = CastChoice::kAuto;
   double fps = 1;
   int ranks = 1;
   int frames = 0;
@@ -55,6 +56,7 @@ struct Punctuality {
   double late_p50_ms = 0, late_p95_ms = 0, late_p99_ms = 0, late_max_ms = 0;  // below 0: early
   double rmse = 0;                                                            // mean over the frames
   double samples = 0;                                                         // a pixel and frame
+  double uniform_rmse = 0;  // of uniform grids that have the ranks' whole time, as if they lost none of it
 };
 
 // Work units that a rank does in a second of this machine's CPU on this scene.
@@ -75,6 +77,14 @@ std::vector<Punctuality> measure_punctuality(const std::string& name, const Comp
 // A sequence's figures from its frames' pictures.
 void judge_sequence(const std::vector<Shot>& shots, const std::vector<Image>& pictures,
                     const std::vector<Image>& references, RatePoint& point);
+
+// The same at one rate only, and by one way of casting.
+Punctuality measure_in_real_time(const std::string& name, const CompiledScene& scene,
+                                 const std::vector<Shot>& shots, const std::vector<Image>& references,
+                                 const RateSettings& settings, CastChoice cast, double fps);
+
+// In a sentence what a sequence did in real time, `without` casting beside it.
+std::string plan_in_real_time(const Punctuality& with, const Punctuality& without);
 
 // What is wanted of a sequence: one of the two.
 struct Wish {
