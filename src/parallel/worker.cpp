@@ -87,6 +87,7 @@ void Worker::sample(const FrameOrder& order) {
   const std::size_t begin = mesh_.samples().size();
   for (int round = kSeedRound + 1;; ++round) {
     clock_->begin_packet(in_region_);
+    measures_fresh_ = clock_->sampling_share() > 0.75;
     bool idle = false, traced = false;
     while (!idle && !clock_->packet_over()) {
       idle = (free && goal_reached()) || !refine_once(order);
@@ -117,7 +118,7 @@ bool Worker::refine_once(const FrameOrder& order) {
   const std::optional<Vec2d> point = mesh_.next_point();
   if (!point) return false;
   const Sample sample = trace(order, point->x, point->y);
-  if (clock_->sampling_share() > 0.75) {
+  if (measures_fresh_) {
     ++report_.evidence.fresh;
     report_.evidence.fresh_error += display_error(sample.ray.color, mesh_.guess());
     report_.evidence.fresh_rays += sample.ray.rays;

@@ -75,6 +75,7 @@ class Worker {
   double choose(const FrameOrder& order, CastResult& cast, bool eye_rests);
   void try_some(const FrameOrder& order, std::vector<Sample>& survivors);
   bool see(const Vec3f& hit, bool at_infinity);
+  void look_for_messages();
   bool put_back(const Sample& survivor);
   void account_for(const Sample& sample);
   void trace_seeds(const FrameOrder& order);
@@ -128,9 +129,11 @@ class Worker {
   int frame_number_ = 0;
   int epoch_ = -1;  // index of the frame in which the triangulation began
   std::uint64_t next_id_ = 0;
+  unsigned prepared_ = 0;           // samples that were looked at before frames began; wraps
   std::uint64_t sample_share_ = 0;  // of settings_.stop.samples
   std::uint64_t sample_limit_ = 0;  // beyond which more samples serve nothing
   std::uint64_t in_region_ = 0;     // samples of the mesh in the own region
+  bool measures_fresh_ = false;     // evidence is taken from the last quarter of the sampling time
   bool done_ = false;               // this rank's goal is reached (frames without a rate)
   std::vector<std::uint8_t> peer_done_;
   CastEvidence own_evidence_;  // of the frame before

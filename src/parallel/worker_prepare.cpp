@@ -166,8 +166,15 @@ void Worker::try_some(const FrameOrder& order, std::vector<Sample>& survivors) {
 }
 
 bool Worker::see(const Vec3f& hit, bool at_infinity) {
+  look_for_messages();
   clock_->spend(Work::kRay, 1);
   return probe_.visible(hit, at_infinity);
+}
+
+// On rank 0 the frame before may become whole, or due, while this one is prepared.
+void Worker::look_for_messages() {
+  constexpr unsigned kSamplesPerLook = 128;
+  if (++prepared_ % kSamplesPerLook == 0) inbox_.pump();
 }
 
 void Worker::trace_seeds(const FrameOrder& order) {
@@ -234,6 +241,7 @@ void Worker::receive_seeds(const FrameOrder& order, std::vector<Sample>& survivo
 
 // It counts like one traced here: a tile's quality is that of all its samples, and so is what it has taken.
 bool Worker::put_back(const Sample& survivor) {
+  look_for_messages();
   if (!insert(survivor, {network_.rank(), {}, true})) return false;
   account_for(survivor);
   report_.samples_cast += survivor.frame != frame_number_;
