@@ -8,12 +8,12 @@
 namespace pprt {
 namespace {
 
-// Root mean square error of a stale colour over that of the picture where it is refined: below, a carried
-// sample is worth its time.
-constexpr double kStaleAtMost = 0.65;
+// Root mean square error of a stale colour over that of the picture in the triangles that are refined: below,
+// a carried sample is worth its time.
+constexpr double kStaleAtMost = 1.1;
 
 // The same: below, colours are so good that samples serve for longer, where most are of this kind.
-constexpr double kGoodAtMost = 0.45;
+constexpr double kGoodAtMost = 0.65;
 constexpr double kMost = 0.5;
 
 // Price of a carried sample that proves right over that of a fresh one. In a coarse picture that has moved
@@ -38,14 +38,15 @@ double hidden_share(const CastEvidence& e) {
 // Whether the error of stale colours is at most so many times the picture's. Without a comparison there is
 // no reason to trust them.
 bool stale_within(const CastEvidence& e, double limit) {
-  return e.stale > 0 && e.fresh > 0 && e.stale_error / e.stale <= limit * limit * e.fresh_error / e.fresh;
+  return e.stale > 0 && e.fresh_area > 0 &&
+         e.stale_error / e.stale <= limit * limit * e.fresh_error / e.fresh_area;
 }
 
 }  // namespace
 
 CastEvidence halved(CastEvidence e) {
-  for (double* sum :
-       {&e.asked, &e.hidden, &e.stale, &e.stale_error, &e.fresh, &e.fresh_error, &e.fresh_rays}) {
+  for (double* sum : {&e.asked, &e.hidden, &e.stale, &e.stale_error, &e.fresh, &e.fresh_error, &e.fresh_area,
+                      &e.fresh_rays}) {
     *sum *= 0.5;
   }
   return e;

@@ -13,13 +13,16 @@ struct CastEvidence {
   double stale = 0;  // of those seen, the ones whose colour depends on the eye: traced anew
   double stale_error = 0;
   double fresh = 0;        // samples traced in the last quarter of a frame
-  double fresh_error = 0;  // of the picture there before them
+  double fresh_area = 0;   // of the triangles that they refined, square pixels
+  double fresh_error = 0;  // of the picture there before them, each times that area: a stale colour is wrong
+                           // over all that it stands for, the picture along its outlines
   double fresh_rays = 0;
 };
 
 inline CastEvidence& operator+=(CastEvidence& a, const CastEvidence& b) {
   a.asked += b.asked, a.hidden += b.hidden, a.stale += b.stale, a.stale_error += b.stale_error;
   a.fresh += b.fresh, a.fresh_error += b.fresh_error, a.fresh_rays += b.fresh_rays;
+  a.fresh_area += b.fresh_area;
   return a;
 }
 

@@ -119,8 +119,10 @@ bool Worker::refine_once(const FrameOrder& order) {
   if (!point) return false;
   const Sample sample = trace(order, point->x, point->y);
   if (measures_fresh_) {
+    const SampleMesh::Guess guess = mesh_.guess();
     ++report_.evidence.fresh;
-    report_.evidence.fresh_error += display_error(sample.ray.color, mesh_.guess());
+    report_.evidence.fresh_error += guess.area * display_error(sample.ray.color, guess.color);
+    report_.evidence.fresh_area += guess.area;
     report_.evidence.fresh_rays += sample.ray.rays;
   }
   insert(sample, {network_.rank(), {}});

@@ -71,7 +71,7 @@ std::optional<Vec2d> SampleMesh::next_point() {
 void SampleMesh::expect_growth(double factor) {
   impl_->expect_growth(factor);
 }
-Color SampleMesh::guess() const {
+SampleMesh::Guess SampleMesh::guess() const {
   return impl_->guess();
 }
 std::span<const Sample> SampleMesh::samples() const {
@@ -196,6 +196,14 @@ void SampleMesh::Impl::expect_growth(double factor) {
   constexpr double kSurePower = 1.2;
   if (queue_.is_above_floor()) return;
   queue_.set_floor(queue_.level() / static_cast<float>(std::pow(std::max(1.0, factor), kSurePower)));
+}
+
+SampleMesh::Guess SampleMesh::Impl::guess() const {
+  const auto& [a, b, c] = delaunay_.triangles()[refined_].corners;
+  const Points corners = points(refined_);
+  const Vec2d ab = corners[1] - corners[0], ac = corners[2] - corners[0];
+  return {(corners_[a].color + corners_[b].color + corners_[c].color) / 3.0f,
+          0.5 * (ab.x * ac.y - ab.y * ac.x)};
 }
 
 SampleMesh::Impl::Points SampleMesh::Impl::points(Index triangle) const {

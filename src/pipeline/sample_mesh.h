@@ -67,9 +67,13 @@ class SampleMesh {
   // To be told again and again on the way, so that the end is fine. Holds until clear().
   void expect_growth(double factor);
 
-  // Mean colour of the corners of the triangle that next_point() gave: the picture there before the sample.
-  // To be asked before anything is inserted.
-  Color guess() const;
+  // Of the triangle that next_point() refines, before the sample is inserted: the mean colour of its corners,
+  // which is what the picture shows there, and its area in square pixels.
+  struct Guess {
+    Color color;
+    double area;
+  };
+  Guess guess() const;
 
   std::span<const Sample> samples() const;
 

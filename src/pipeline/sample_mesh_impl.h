@@ -30,10 +30,7 @@ class SampleMesh::Impl {
   bool insert(const Sample& sample);
   std::optional<Vec2d> next_point();
   void expect_growth(double factor);
-  Color guess() const {
-    const auto& [a, b, c] = delaunay_.triangles()[refined_].corners;
-    return (corners_[a].color + corners_[b].color + corners_[c].color) / 3.0f;
-  }
+  Guess guess() const;
   double refinement() const {
     const auto count = static_cast<double>(region_weights_.triangles);
     return region_weights_.triangles > 0 ? region_weights_.total_weight / count : 0;
