@@ -44,6 +44,7 @@ class WallClock final : public FrameClock {
     sampling_began_s_ = 0;
     deadline_s_ = order.deadline_s > 0 ? start_s_ + order.deadline_s : 0;
     reserve_s_ = order.reserve_s;
+    most_left_ = order.carry == Carry::kAccumulate ? 1 : 0.7;
     set_stop();
   }
   void spend(Work, std::uint64_t) override {}
@@ -93,11 +94,11 @@ class WallClock final : public FrameClock {
   void set_stop() { stop_s_ = deadline_s_ > 0 ? deadline_s_ - left_for_the_rest() : 0; }
 
   // After sampling: this rank's own reconstruction beside those of the ranks that share its core, a quarter
-  // more for luck, and what else the master has seen to pass until a frame is whole. A picture whose
-  // reconstruction fills the frame is fine enough.
+  // more for luck, and what else the master has seen to pass until a frame is whole. A resting picture whose
+  // reconstruction fills the frame is fine enough; a new one gets some samples, whatever that takes.
   double left_for_the_rest() const {
     const double reconstruction_s = reconstruction_s_per_size_.get() * size_ * ranks_per_core_;
-    return std::clamp(reserve_s_ + 1.25 * reconstruction_s, 0.04 * period_s_, period_s_);
+    return std::clamp(reserve_s_ + 1.25 * reconstruction_s, 0.04 * period_s_, most_left_ * period_s_);
   }
 
   double start_s_;
@@ -106,6 +107,7 @@ class WallClock final : public FrameClock {
   double frame_began_s_ = 0;
   double deadline_s_ = 0;        // 0: no rate
   double reserve_s_ = 0;         // for what follows reconstruction
+  double most_left_ = 1;         // of the period, for all that follows sampling
   double stop_s_ = 0;            // when sampling must stop; 0: no rate
   double sampling_began_s_ = 0;  // of this frame; 0: not yet
   double size_ = 1;              // of what is to be reconstructed, in samples

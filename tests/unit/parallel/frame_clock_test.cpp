@@ -9,7 +9,7 @@ constexpr double kPeriod = 0.1;
 constexpr std::size_t kPixels = 64 * 1000;  // as long to reconstruct as 1000 samples
 
 // A clock of a sequence that began now, in its frame 0, whose deadline is a second away.
-std::unique_ptr<FrameClock> clock_in_a_frame(double reserve_s) {
+std::unique_ptr<FrameClock> clock_in_a_frame(double reserve_s, Carry carry = Carry::kNothing) {
   SessionSettings settings;
   settings.clock = ClockKind::kWall;
   settings.frames_per_second = 1 / kPeriod;
@@ -17,6 +17,7 @@ std::unique_ptr<FrameClock> clock_in_a_frame(double reserve_s) {
   clock->region_changed(kPixels);
   FrameOrder order;
   order.deadline_s = 1;
+  order.carry = carry;
   order.reserve_s = reserve_s;
   clock->begin_frame(order);
   return clock;
@@ -38,15 +39,15 @@ TEST_CASE("sampling leaves time for the reconstruction of as many samples as the
   CHECK(left_with(*clock, 9000) == Approx(0.01 + 1.25 * per_sample * 10000));
 }
 
-TEST_CASE(
-    "a picture whose reconstruction fills the frame gets no further samples, and no more is left than a "
-    "frame") {
-  const auto clock = clock_in_a_frame(0);
-  left_with(*clock, 9000);
-  clock->end_frame(50);
-  CHECK(left_with(*clock, 13000) == Approx(1.25 * 0.07));
-  CHECK(left_with(*clock, 19000) == Approx(kPeriod));
-  CHECK(left_with(*clock, 1000000) == Approx(kPeriod));
+TEST_CASE("a resting picture whose reconstruction fills the frame gets no further samples, a new one some") {
+  for (const bool rests : {true, false}) {
+    const auto clock = clock_in_a_frame(0, rests ? Carry::kAccumulate : Carry::kNothing);
+    left_with(*clock, 9000);
+    clock->end_frame(50);
+    CHECK(left_with(*clock, 10000) == Approx(1.25 * 0.055));
+    for (const std::uint64_t samples : {19000, 1000000})
+      CHECK(left_with(*clock, samples) == Approx(rests ? kPeriod : 0.7 * kPeriod));
+  }
 }
 
 TEST_CASE("of the last eight reconstructions the slowest counts") {
