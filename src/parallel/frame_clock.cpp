@@ -44,7 +44,7 @@ class WallClock final : public FrameClock {
     sampling_began_s_ = 0;
     deadline_s_ = order.deadline_s > 0 ? start_s_ + order.deadline_s : 0;
     reserve_s_ = order.reserve_s;
-    most_left_ = order.carry == Carry::kAccumulate ? 1 : 0.7;
+    most_left_ = order.carry == Carry::kAccumulate ? 1 : kMostLeftOfANewPicture;
     set_stop();
   }
   void spend(Work, std::uint64_t) override {}
@@ -90,6 +90,7 @@ class WallClock final : public FrameClock {
  private:
   static constexpr int kSamplesPerPacket = 128, kSamplesOfAShortTurn = 48;
   static constexpr double kPixelsPerSample = 64;  // that take as long to reconstruct
+  static constexpr double kMostLeftOfANewPicture = 0.7;
 
   void set_stop() { stop_s_ = deadline_s_ > 0 ? deadline_s_ - left_for_the_rest() : 0; }
 

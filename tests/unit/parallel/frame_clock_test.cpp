@@ -9,11 +9,13 @@ constexpr double kPeriod = 0.1;
 constexpr std::size_t kPixels = 64 * 1000;  // as long to reconstruct as 1000 samples
 
 // A clock of a sequence that began now, in its frame 0, whose deadline is a second away.
-std::unique_ptr<FrameClock> clock_in_a_frame(double reserve_s, Carry carry = Carry::kNothing) {
+std::unique_ptr<FrameClock> clock_in_a_frame(double reserve_s, Carry carry = Carry::kNothing,
+                                             double ranks_per_core = 1) {
   SessionSettings settings;
   settings.clock = ClockKind::kWall;
   settings.frames_per_second = 1 / kPeriod;
-  std::unique_ptr<FrameClock> clock = make_frame_clock(settings, monotonic_seconds(), kPixels, 1);
+  std::unique_ptr<FrameClock> clock =
+      make_frame_clock(settings, monotonic_seconds(), kPixels, ranks_per_core);
   clock->region_changed(kPixels);
   FrameOrder order;
   order.deadline_s = 1;
@@ -37,6 +39,13 @@ TEST_CASE("sampling leaves time for the reconstruction of as many samples as the
   const double per_sample = 0.008 / (3000 + 1000);
   CHECK(left_with(*clock, 0) == Approx(0.01 + 1.25 * per_sample * 1000));
   CHECK(left_with(*clock, 9000) == Approx(0.01 + 1.25 * per_sample * 10000));
+}
+
+TEST_CASE("ranks that share a core leave time for each other's reconstruction") {
+  const auto clock = clock_in_a_frame(0, Carry::kNothing, 16);
+  left_with(*clock, 3000);
+  clock->end_frame(1);
+  CHECK(left_with(*clock, 3000) == Approx(1.25 * 16 * 0.001));
 }
 
 TEST_CASE("a resting picture whose reconstruction fills the frame gets no further samples, a new one some") {
