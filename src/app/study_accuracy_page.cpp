@@ -130,12 +130,11 @@ void write_verdicts(const std::vector<SceneCurves>& scenes, StudyOutput& output)
       "thread with the same tracing kernel. Below 1 progressive is better. Times are shares of what one "
       "sample a pixel takes, its picture included, so that below some share neither has a picture to show. "
       "Of each method the best picture counts that the time allows.");
-  page.table(ratio_table(scenes));
+  output.add_table("ratios", ratio_table(scenes));
   for (const SceneCurves& s : scenes) {
     page.paragraph(fmt::format("{}: {} {}", s.scene, to_sentence(break_even(s, kProgressive), "Progressive"),
                                losses(s)));
   }
-  output.write_table("ratios", ratio_table(scenes));
 }
 
 }  // namespace

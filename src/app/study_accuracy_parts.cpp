@@ -103,8 +103,7 @@ void write_foreign(const std::vector<ForeignResult>& results, const std::vector<
   Plot plot{"renderers", {}, 2};
   for (const SceneCurves& scene : own) plot.panels.push_back(foreign_panel(scene, results));
   output.add_figure(plot, "Error against time, each in its own terms.");
-  page.table(foreign_table(results));
-  output.write_table("renderers", foreign_table(results));
+  output.add_table("renderers", foreign_table(results));
 }
 
 void write_effects(const std::vector<SceneEffects>& scenes, StudyOutput& output) {
@@ -115,8 +114,7 @@ void write_effects(const std::vector<SceneEffects>& scenes, StudyOutput& output)
       "samples a pixel against the converged frame: the first row's is that of so few samples alone. Only "
       "those effects are simulated that a scene calls for; the general kernel follows the same rays with all "
       "of them at hand.");
-  page.table(effects_table(scenes));
-  output.write_table("effects", effects_table(scenes));
+  output.add_table("effects", effects_table(scenes));
   page.paragraph("What the scenes call for:");
   for (const SceneEffects& scene : scenes) page.listing(scene.census);
 }
@@ -132,8 +130,7 @@ void write_rates(const std::vector<RatePoint>& points, const std::string& settin
   add_rates_plot("flicker",
                  "Flicker: error of the change from frame to frame over the reference's own change.", "ratio",
                  &RatePoint::flicker, points, output);
-  page.table(rates_table(points));
-  output.write_table("rates", rates_table(points));
+  output.add_table("rates", rates_table(points));
 }
 
 void write_punctuality(const std::vector<Punctuality>& points, StudyOutput& output) {
@@ -141,13 +138,11 @@ void write_punctuality(const std::vector<Punctuality>& points, StudyOutput& outp
   page.heading("Deadlines in real time");
   page.paragraph(
       "The same sequences, again and again for two seconds at least, on this machine as it was then: how "
-      "many "
-      "frames were there by their deadline, and how late they were (below 0: early). Errors and samples "
-      "beside "
-      "those of the work clock tell how far its second is this machine's. Beside them the error of a uniform "
+      "many frames were there by their deadline, and how late they were (below 0: early). Errors and samples "
+      "beside those of the work clock tell how far its second is this machine's. Beside them the error of a "
+      "uniform "
       "grid of samples that takes all of the ranks' time, nothing lost to meeting deadlines.");
-  page.table(punctuality_table(points));
-  output.write_table("punctuality", punctuality_table(points));
+  output.add_table("punctuality", punctuality_table(points));
 }
 
 }  // namespace pprt

@@ -33,6 +33,11 @@ void StudyOutput::write_table(const std::string& name, const Table& table) const
   write_whole_file(directory_ / (name + ".csv"), to_csv(table, provenance_));
 }
 
+void StudyOutput::add_table(const std::string& name, const Table& table) {
+  page_.table(table);
+  write_table(name, table);
+}
+
 void StudyOutput::write_picture(const std::string& file, std::string_view bytes) const {
   write_whole_file(directory_ / file, bytes);
 }

@@ -22,6 +22,7 @@ class StudyOutput {
   Page& page() { return page_; }
 
   void write_table(const std::string& name, const Table& table) const;  // NAME.csv
+  void add_table(const std::string& name, const Table& table);          // the same, and on the page
 
   void write_picture(const std::string& file, std::string_view bytes) const;
 
