@@ -16,8 +16,14 @@ constexpr double kStaleAtMost = 1.1;
 constexpr double kGoodAtMost = 0.65;
 constexpr double kMost = 0.5;
 
-// Price of a carried sample that proves right over that of a fresh one. In a coarse picture that has moved
-// little a carried one is worth more than another: it lies where an outline still is.
+// What a carried sample that proves right costs over what a fresh one does, both measured: where all may be
+// carried, and where colours that depend on the eye may not, or there are none. The rest then is dull, or its
+// outlines want their samples elsewhere.
+constexpr double kCostAtMost = 0.8;
+constexpr double kCostAtMostOfSome = 0.35;
+
+// The same by the table of prices, where work has no other. In a coarse picture that has moved little a
+// carried one is worth more than another: it lies where an outline still is.
 constexpr double kPriceAtMost = 0.9;
 constexpr double kPriceAtMostOnOutlines = 1.1;
 
@@ -42,11 +48,29 @@ bool stale_within(const CastEvidence& e, double limit) {
          e.stale_error / e.stale <= limit * limit * e.fresh_error / e.fresh_area;
 }
 
+// Whether a carried sample is so much cheaper than a fresh one that it pays for the hidden ones as well. By
+// what both cost; nothing is carried before that is known.
+bool is_cheap(const CastEvidence& e, bool all_serve) {
+  if (e.asked == 0 || e.kept == 0) return false;
+  const double carried = e.asked_ms / e.asked + e.kept_ms / e.kept, fresh = e.fresh_ms / e.fresh;
+  return carried <= (all_serve ? kCostAtMost : kCostAtMostOfSome) * fresh * (1 - hidden_share(e));
+}
+
+// The same by the table of prices.
+bool is_cheap_by_table(const CastEvidence& e, bool on_outlines) {
+  if (e.fresh == 0) return true;
+  const auto carried =
+      static_cast<double>(price(Work::kCastSample) + price(Work::kRay) + price(Work::kKeptSample));
+  const double fresh = static_cast<double>(price(Work::kOwnSample)) +
+                       static_cast<double>(price(Work::kRay)) * e.fresh_rays / e.fresh;
+  return carried <= (on_outlines ? kPriceAtMostOnOutlines : kPriceAtMost) * fresh * (1 - hidden_share(e));
+}
+
 }  // namespace
 
 CastEvidence halved(CastEvidence e) {
   for (double* sum : {&e.asked, &e.hidden, &e.stale, &e.stale_error, &e.fresh, &e.fresh_error, &e.fresh_area,
-                      &e.fresh_rays}) {
+                      &e.fresh_rays, &e.fresh_ms, &e.asked_ms, &e.kept, &e.kept_ms}) {
     *sum *= 0.5;
   }
   return e;
@@ -74,14 +98,9 @@ CastLimits cast_limits(const CastEvidence& evidence, const CastSurvivors& surviv
   const bool outlines_matter = survivors.samples_per_pixel < kCoarse && survivors.eye_dependent <= kMost;
   const bool moved_far = survivors.moved > kMovedFar;
   if (hidden > kHiddenMany && moved_far && outlines_matter) limits.share = kShareThen;
-  if (e.fresh > 0) {
-    const auto carried =
-        static_cast<double>(price(Work::kCastSample) + price(Work::kRay) + price(Work::kKeptSample));
-    const double fresh = static_cast<double>(price(Work::kOwnSample)) +
-                         static_cast<double>(price(Work::kRay)) * e.fresh_rays / e.fresh;
-    const double at_most = outlines_matter && !moved_far ? kPriceAtMostOnOutlines : kPriceAtMost;
-    if (carried > at_most * fresh * (1 - hidden)) limits.share = 0;
-  }
+  const bool cheap = e.fresh_ms > 0 ? is_cheap(e, limits.eye_dependent)
+                                    : is_cheap_by_table(e, outlines_matter && !moved_far);
+  if (!cheap) limits.share = 0;
   if (survivors.samples_per_pixel > kPlenty) limits.share = 0;
   return limits;
 }

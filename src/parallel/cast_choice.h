@@ -17,12 +17,18 @@ struct CastEvidence {
   double fresh_error = 0;  // of the picture there before them, each times that area: a stale colour is wrong
                            // over all that it stands for, the picture along its outlines
   double fresh_rays = 0;
+  // What they cost, in milliseconds of CPU; nothing where work has fixed prices.
+  double fresh_ms = 0;  // of the fresh: choosing, tracing, inserting, telling others
+  double asked_ms = 0;  // of those asked: the ray alone
+  double kept = 0;      // samples put back
+  double kept_ms = 0;   // a ray not included
 };
 
 inline CastEvidence& operator+=(CastEvidence& a, const CastEvidence& b) {
   a.asked += b.asked, a.hidden += b.hidden, a.stale += b.stale, a.stale_error += b.stale_error;
   a.fresh += b.fresh, a.fresh_error += b.fresh_error, a.fresh_rays += b.fresh_rays;
   a.fresh_area += b.fresh_area;
+  a.fresh_ms += b.fresh_ms, a.asked_ms += b.asked_ms, a.kept += b.kept, a.kept_ms += b.kept_ms;
   return a;
 }
 

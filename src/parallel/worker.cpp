@@ -76,7 +76,9 @@ void Worker::render(const FrameOrder& order) {
   clock_->lap_ms();
   prepare(order);
   sample(order);
-  report_.cpu_ms.sampling += clock_->lap_ms();
+  const double lap = clock_->lap_ms();
+  report_.cpu_ms.sampling += lap;
+  if (measures_fresh_ && !clock_->in_lockstep()) report_.evidence.fresh_ms = lap;
   reconstruct_and_send(order);
 }
 
@@ -85,9 +87,11 @@ void Worker::render(const FrameOrder& order) {
 void Worker::sample(const FrameOrder& order) {
   const bool free = order.deadline_s == 0;
   const std::size_t begin = mesh_.samples().size();
+  measures_fresh_ = false;
   for (int round = kSeedRound + 1;; ++round) {
     clock_->begin_packet(in_region_);
-    measures_fresh_ = clock_->sampling_share() > 0.75;
+    const bool measured = std::exchange(measures_fresh_, clock_->sampling_share() > 0.75);
+    if (measures_fresh_ && !measured) report_.cpu_ms.sampling += clock_->lap_ms();
     bool idle = false, traced = false;
     while (!idle && !clock_->packet_over()) {
       idle = (free && goal_reached()) || !refine_once(order);

@@ -72,8 +72,13 @@ class Worker {
   void send_handed_over(const FrameOrder& order);
   std::vector<Sample> cast(const FrameOrder& order, bool eye_rests);
   std::vector<Sample> cast_verified(const FrameOrder& order, bool eye_rests);
-  double choose(const FrameOrder& order, CastResult& cast, bool eye_rests);
-  void try_some(const FrameOrder& order, std::vector<Sample>& survivors);
+  std::vector<Sample> cast_where_paying(const FrameOrder& order);
+  std::vector<Sample> cast_at_rest(const FrameOrder& order);
+  CastResult cast_into(const FrameOrder& order, const CastSettings& settings);
+  CastSurvivors known_of(const CastResult& cast) const;
+  void drop_hidden_of(std::vector<Sample>& survivors);
+  std::vector<Sample> try_some(const FrameOrder& order, const std::vector<Sample>& survivors);
+  void keep_affordable(const FrameOrder& order, double share, std::vector<Sample>& survivors) const;
   bool see(const Vec3f& hit, bool at_infinity);
   void look_for_messages();
   bool put_back(const Sample& survivor);

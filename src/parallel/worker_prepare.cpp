@@ -1,5 +1,6 @@
 // How a rank's frame begins: what it takes over from the frame before, its seeds, and the others'.
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 #include "parallel/worker.h"
@@ -17,8 +18,20 @@ constexpr double kCastShare = 0.5;
 // How far an eye at rest may move, in a scene of size 1: what interpolating equal positions leaves.
 constexpr double kAtRest = 1e-9;
 
+// Of the samples that may be carried some are cast before the others, to know how they fare, and one in eight
+// of those is tried: one in 64 of all, fewer of so many that a few hundred tell as much.
+constexpr std::uint64_t kDrawnForEachTried = 8;
+std::uint64_t tried_one_of(std::uint64_t samples) {
+  constexpr std::uint64_t kAtLeast = 64, kEnough = 512;
+  return std::max(kAtLeast, std::bit_ceil(samples / kEnough));
+}
+
 // Of seeds that others tell: which one it is does not matter here.
 constexpr std::uint32_t kSomeSeed = 0;
+
+CastSettings verified(int life) {
+  return {CastMethod::kVerified, life, life};
+}
 
 }  // namespace
 
@@ -99,70 +112,98 @@ void Worker::send_handed_over(const FrameOrder& order) {
   receive_bundles(order, kSeedRound);
 }
 
-// Putting them back may take a share of a frame at most; the rest is for new samples.
 std::vector<Sample> Worker::cast(const FrameOrder& order, bool eye_rests) {
-  clock_->spend(Work::kCastSample, in_region_);
-  if (order.carry != Carry::kCastPaper) return cast_verified(order, eye_rests);
-  std::vector<Sample> survivors = cast_samples(mesh_, order.camera, order.number, {}).survivors;
-  if (order.deadline_s > 0) keep_youngest(survivors, clock_->affordable(Work::kKeptSample, kCastShare));
+  if (order.carry == Carry::kCastWherePaying)
+    return eye_rests ? cast_at_rest(order) : cast_where_paying(order);
+  const bool by_paper = order.carry == Carry::kCastPaper;
+  std::vector<Sample> survivors =
+      cast_into(order, by_paper ? CastSettings() : verified(kVerifiedMaxAge)).survivors;
+  keep_affordable(order, kCastShare, survivors);
+  if (!by_paper && !eye_rests) drop_hidden_of(survivors);
   return survivors;
 }
 
-std::vector<Sample> Worker::cast_verified(const FrameOrder& order, bool eye_rests) {
-  const bool by_choice = order.carry == Carry::kCastWherePaying;
-  const int life = by_choice ? kLongLife : kVerifiedMaxAge;
-  CastResult cast = cast_samples(mesh_, order.camera, order.number, {CastMethod::kVerified, life, life});
-  std::vector<Sample>& survivors = cast.survivors;
-  const double share = by_choice ? choose(order, cast, eye_rests) : kCastShare;
+CastResult Worker::cast_into(const FrameOrder& order, const CastSettings& settings) {
+  clock_->spend(Work::kCastSample, in_region_ / settings.one_of);
+  return cast_samples(mesh_, order.camera, order.number, settings);
+}
+
+// Putting them back may take a share of a frame at most; the rest is for new samples.
+void Worker::keep_affordable(const FrameOrder& order, double share, std::vector<Sample>& survivors) const {
   if (order.deadline_s > 0) keep_youngest(survivors, clock_->affordable(Work::kKeptSample, share));
-  if (!eye_rests) {
-    drop_hidden(survivors, [&](const Vec3f& hit, bool at_infinity) { return see(hit, at_infinity); });
-  }
+}
+
+void Worker::drop_hidden_of(std::vector<Sample>& survivors) {
+  drop_hidden(survivors, [&](const Vec3f& hit, bool at_infinity) { return see(hit, at_infinity); });
+}
+
+CastSurvivors Worker::known_of(const CastResult& cast) const {
+  const auto of_eye = std::count_if(cast.survivors.begin(), cast.survivors.end(),
+                                    [](const Sample& s) { return s.ray.eye_dependent; });
+  const double count = static_cast<double>(std::max<std::size_t>(cast.survivors.size(), 1));
+  return {cast.moved, static_cast<double>(of_eye) / count,
+          static_cast<double>(in_region_) / static_cast<double>(mesh_.region().pixel_count())};
+}
+
+std::vector<Sample> Worker::cast_at_rest(const FrameOrder& order) {
+  CastResult cast = cast_into(order, verified(kLongLife));
+  const CastLimits limits = cast_limits_at_rest(known_of(cast));
+  if (limits.one_a_pixel) keep_youngest_of_pixels(cast.survivors);
+  keep_affordable(order, limits.share, cast.survivors);
+  return std::move(cast.survivors);
+}
+
+// Whether casting pays is found out from a few samples before the others are touched: where it does not, it
+// costs next to nothing.
+std::vector<Sample> Worker::cast_where_paying(const FrameOrder& order) {
+  const std::uint64_t tried_of = tried_one_of(in_region_);
+  CastSettings settings = verified(kLongLife);
+  settings.one_of = tried_of / kDrawnForEachTried;
+  CastResult drawn = cast_into(order, settings);
+  const CastSurvivors known = known_of(drawn);
+  CastEvidence evidence = order.evidence;
+  evidence += own_evidence_;
+  const int life = cast_life(evidence, known.eye_dependent);
+  std::erase_if(drawn.survivors,
+                [&](const Sample& s) { return order.number - s.frame > life || !is_one_of(s, tried_of); });
+  std::vector<Sample> tried = try_some(order, drawn.survivors);
+  evidence += report_.evidence;
+  const CastLimits limits = cast_limits(evidence, known);
+  if (limits.share == 0) return tried;
+
+  settings = verified(life);
+  if (!limits.eye_dependent) settings.max_age_eye_dependent = 0;
+  std::vector<Sample> survivors = cast_into(order, settings).survivors;
+  std::erase_if(survivors, [&](const Sample& s) { return is_one_of(s, tried_of); });
+  keep_affordable(order, limits.share, survivors);
+  drop_hidden_of(survivors);
+  survivors.insert(survivors.end(), tried.begin(), tried.end());
   return survivors;
 }
 
-// Drops the samples that do not pay and tells the share of the frame's time for the rest.
-double Worker::choose(const FrameOrder& order, CastResult& cast, bool eye_rests) {
-  std::vector<Sample>& survivors = cast.survivors;
-  const auto of_eye =
-      std::count_if(survivors.begin(), survivors.end(), [](const Sample& s) { return s.ray.eye_dependent; });
-  const double count = static_cast<double>(std::max<std::size_t>(survivors.size(), 1));
-  const CastSurvivors known{
-      cast.moved, static_cast<double>(of_eye) / count,
-      static_cast<double>(in_region_) / static_cast<double>(mesh_.region().pixel_count())};
-  CastLimits limits = cast_limits_at_rest(known);
-  if (!eye_rests) {
-    CastEvidence evidence = order.evidence;
-    evidence += own_evidence_;
-    const int life = cast_life(evidence, known.eye_dependent);
-    std::erase_if(survivors, [&](const Sample& s) { return order.number - s.frame > life; });
-    try_some(order, survivors);
-    evidence += report_.evidence;
-    limits = cast_limits(evidence, known);
+// Asks for each whether it is seen; where its colour depends on the eye, it is traced anew and becomes a
+// sample of this frame. Returns those that are right.
+std::vector<Sample> Worker::try_some(const FrameOrder& order, const std::vector<Sample>& survivors) {
+  report_.cpu_ms.casting += clock_->lap_ms();
+  std::vector<Sample> tried;
+  for (const Sample& s : survivors) {
+    if (see(s.ray.hit, s.ray.at_infinity)) tried.push_back(s);
   }
-  std::erase_if(survivors, [&](const Sample& s) {
-    return s.frame != order.number && (limits.share == 0 || (s.ray.eye_dependent && !limits.eye_dependent));
-  });
-  if (limits.one_a_pixel) keep_youngest_of_pixels(survivors);
-  return limits.share;
-}
-
-// Whether casting pays is found out by asking a few samples: whether they are seen and, where their colour
-// depends on the eye, what it is now. Those become samples of this frame.
-void Worker::try_some(const FrameOrder& order, std::vector<Sample>& survivors) {
-  constexpr std::uint64_t kTriedOneOf = 64;
-  for (Sample& s : survivors) {
-    if (!is_one_of(s, kTriedOneOf)) continue;
-    const bool seen = see(s.ray.hit, s.ray.at_infinity);
-    ++report_.evidence.asked;
-    report_.evidence.hidden += !seen;
-    if (!seen || !s.ray.eye_dependent) continue;
+  CastEvidence& evidence = report_.evidence;
+  evidence.asked += static_cast<double>(survivors.size());
+  evidence.hidden += static_cast<double>(survivors.size() - tried.size());
+  const double lap = clock_->lap_ms();
+  evidence.asked_ms += lap;
+  report_.cpu_ms.casting += lap;
+  for (Sample& s : tried) {
+    if (!s.ray.eye_dependent) continue;
     const Color stale = s.ray.color;
     s = trace(order, s.x, s.y);
     ++report_.samples_new;
-    ++report_.evidence.stale;
-    report_.evidence.stale_error += display_error(stale, s.ray.color);
+    ++evidence.stale;
+    evidence.stale_error += display_error(stale, s.ray.color);
   }
+  return tried;
 }
 
 bool Worker::see(const Vec3f& hit, bool at_infinity) {
@@ -210,9 +251,12 @@ void Worker::settle(const FrameOrder& order, const std::vector<Sample>& survivor
   }
   receive_seeds(order, own);
   report_.cpu_ms.sampling += clock_->lap_ms();
-  if (order.deadline_s > 0) keep_youngest(own, clock_->affordable(Work::kKeptSample, kCastShare));
+  keep_affordable(order, kCastShare, own);
   for (const Sample& s : own) put_back(s);
-  report_.cpu_ms.casting += clock_->lap_ms();
+  const double lap = clock_->lap_ms();
+  report_.cpu_ms.casting += lap;
+  report_.evidence.kept += static_cast<double>(own.size());
+  report_.evidence.kept_ms += lap;
 }
 
 void Worker::receive_seeds(const FrameOrder& order, std::vector<Sample>& survivors) {

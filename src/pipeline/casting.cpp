@@ -84,24 +84,29 @@ bool is_younger(const Sample& a, const Sample& b) {
 
 CastResult cast_samples(const SampleMesh& mesh, const Camera& next, int next_frame,
                         const CastSettings& settings) {
-  const std::span<const Sample> samples = mesh.samples();
-  std::vector<Flight> flights;
-  flights.reserve(samples.size());
-  for (const Sample& sample : samples) flights.push_back(fly(sample, mesh, next, next_frame, settings));
-  if (settings.method == CastMethod::kPaper) hide_behind_turned_triangles(mesh, flights);
-
   CastResult result;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const Flight& flight = flights[i];
+  const auto land = [&](const Sample& sample, const Flight& flight) {
     result.out_of_view += flight.fate == Fate::kOutOfView;
     result.too_old += flight.fate == Fate::kTooOld;
     result.hidden += flight.fate == Fate::kHidden;
-    if (flight.fate != Fate::kSurvives) continue;
-    Sample& survivor = result.survivors.emplace_back(samples[i]);
+    if (flight.fate != Fate::kSurvives) return;
+    Sample& survivor = result.survivors.emplace_back(sample);
     survivor.x = flight.point.x;
     survivor.y = flight.point.y;
-    const Vec2d way(survivor.x - samples[i].x, survivor.y - samples[i].y);
+    const Vec2d way(survivor.x - sample.x, survivor.y - sample.y);
     result.moved += std::sqrt(way.dot(way));
+  };
+  const std::span<const Sample> samples = mesh.samples();
+  const auto flight_of = [&](const Sample& s) { return fly(s, mesh, next, next_frame, settings); };
+  if (settings.method == CastMethod::kPaper) {
+    std::vector<Flight> flights(samples.size());
+    std::transform(samples.begin(), samples.end(), flights.begin(), flight_of);
+    hide_behind_turned_triangles(mesh, flights);
+    for (std::size_t i = 0; i < samples.size(); ++i) land(samples[i], flights[i]);
+  } else {
+    for (const Sample& s : samples) {
+      if (is_one_of(s, settings.one_of)) land(s, flight_of(s));
+    }
   }
   if (!result.survivors.empty()) result.moved /= static_cast<double>(result.survivors.size());
   return result;

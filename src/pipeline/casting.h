@@ -23,6 +23,8 @@ struct CastSettings {
   // The same for colour that depends on the eye (highlight, reflection, refraction): stale when the eye
   // moves.
   int max_age_eye_dependent = 2;
+  // kVerified: of the samples one in so many, drawn by is_one_of(). The orientation test needs them all.
+  std::uint64_t one_of = 1;
 };
 
 // Of samples that are verified, how old they may be: outlines have moved, and older ones tell little of them

@@ -105,6 +105,36 @@ TEST_CASE("nothing is carried where a sample that proves right costs as much as 
   CHECK(cast_limits(e, {1, 0, 0.5}).share == 0);
 }
 
+TEST_CASE("what samples were measured to cost decides, and the table of prices no more") {
+  // By the table a fresh sample costs 1475 units and a carried one 935; here 0.8 ms for a hundred of them.
+  CastEvidence e = evidence(0.01);
+  e.asked_ms = 0.2 * 20 / 100, e.kept = 1000, e.kept_ms = 0.6 * 1000 / 100;
+  const auto carries = [&e](double fresh_ms) {
+    e.fresh_ms = fresh_ms;
+    return cast_limits(e, {1, 0, 0.5}).share > 0;
+  };
+  CHECK(carries(1.01));
+  CHECK_FALSE(carries(0.99));
+  e.hidden = 10;  // of 20: each that proves right is paid for twice
+  CHECK(carries(2.01));
+  CHECK_FALSE(carries(1.99));
+  // Where colours that depend on the eye are no good, the others must be cheaper.
+  e.hidden = 0, e.stale_error = 8;
+  CHECK(carries(2.3));
+  CHECK_FALSE(carries(2.2));
+}
+
+TEST_CASE("nothing is carried before it is known what that costs") {
+  CastEvidence e = evidence(0.01);
+  e.asked_ms = 0.01, e.kept = 10, e.kept_ms = 0.01, e.fresh_ms = 1;
+  CHECK(cast_limits(e, {1, 0, 0.5}).share > 0);
+  CastEvidence none_asked = e, none_kept = e;
+  none_asked.asked = 0, none_asked.asked_ms = 0;
+  none_kept.kept = 0, none_kept.kept_ms = 0;
+  CHECK(cast_limits(none_asked, {1, 0, 0.5}).share == 0);
+  CHECK(cast_limits(none_kept, {1, 0, 0.5}).share == 0);
+}
+
 TEST_CASE("nothing is carried where there are plenty of samples anyway") {
   CHECK(cast_limits(evidence(0.01), {1, 0, 3.5}).share > 0);
   CHECK(cast_limits(evidence(0.01), {1, 0, 4.5}).share == 0);

@@ -89,6 +89,21 @@ TEST_CASE("auto carries what pays, the same each time, and knows of the frames b
   }
 }
 
+TEST_CASE("where casting does not pay it costs a few samples, not all") {
+  // Rays are cheap: one carried sample costs 935 units, and a fresh one 815.
+  const auto casting_ms = [](CastChoice cast) {
+    double sum = 0;
+    const SessionSettings settings = casting_settings(cast);
+    const VirtualRun run = run_session(kRanks, settings, still_or_pan(settings, 6, 3));
+    CHECK(run.error.empty());
+    for (const RankReport& r : run.frames.at(5).ranks) sum += r.cpu_ms.casting;
+    return sum;
+  };
+  const double by_choice = casting_ms(CastChoice::kAuto), of_all = casting_ms(CastChoice::kVerified);
+  CHECK(by_choice > 0);
+  CHECK(by_choice < 0.05 * of_all);
+}
+
 TEST_CASE("where the eye rests and the view turns nothing is asked for, and samples live for four frames") {
   const SessionSettings settings = casting_settings(CastChoice::kAuto);
   const CameraSource turning = [&](int index) -> std::optional<FrameRequest> {

@@ -187,6 +187,27 @@ TEST_CASE("one of so many is drawn by id, evenly") {
   CHECK(drawn == Approx(1000).margin(160));
 }
 
+TEST_CASE("where one in so many is cast, it is those drawn by id that survive, as if all were cast") {
+  const SampleMesh seen = seen_by(straight(), 1);
+  SampleMesh mesh(Region::whole(kGrid));
+  for (Sample s : seen.samples()) {
+    s.id = mesh.samples().size();
+    mesh.insert(s);
+  }
+  CastSettings settings{CastMethod::kVerified, 8, 2};
+  const CastResult all = cast_samples(mesh, straight(), 2, settings);
+  settings.one_of = 4;
+  const CastResult drawn = cast_samples(mesh, straight(), 2, settings);
+  std::vector<SampleId> expected, found;
+  for (const Sample& s : all.survivors) {
+    if (is_one_of(s, 4)) expected.push_back(s.id);
+  }
+  for (const Sample& s : drawn.survivors) found.push_back(s.id);
+  CHECK(found == expected);
+  CHECK_FALSE(found.empty());
+  CHECK(found.size() < all.survivors.size() / 2);
+}
+
 TEST_CASE("only the region's own samples are cast") {
   std::vector<std::uint8_t> owned(16, 0);
   owned[5] = 1;
