@@ -151,8 +151,8 @@ class LinearPatch {
 
   Color at(double x, double y) const {
     const double dx = x - origin_.x, dy = y - origin_.y;
-    const auto a = std::clamp(static_cast<float>(ax_ * dx + ay_ * dy), 0.0f, 1.0f);
-    const auto b = std::clamp(static_cast<float>(bx_ * dx + by_ * dy), 0.0f, 1.0f);
+    const float a = held_to_unit(static_cast<float>(ax_ * dx + ay_ * dy));
+    const float b = held_to_unit(static_cast<float>(bx_ * dx + by_ * dy));
     return origin_.color + to_1_ * a + to_2_ * b;
   }
 

@@ -32,11 +32,17 @@ inline TriangleShape triangle_shape(const Vec2d& a, const Vec2d& b, const Vec2d&
   return {{a + to_center, to_center.dot(to_center)}, std::max({ab2, ac2, bc2})};
 }
 
+// Held to [0, 1], by value: std::clamp goes by reference, hence by branches, which noise makes dear.
+inline float held_to_unit(float v) {
+  const float from_below = v > 0 ? v : 0;
+  return from_below < 1 ? from_below : 1;
+}
+
 // Mean over the channels of the variance of three intensities on the display scale [0, 1]. The variance of
 // three numbers is a ninth of the sum of their squared differences.
 inline float display_variance(const Color& a, const Color& b, const Color& c) {
   const auto channel = [](float p, float q, float r) {
-    p = std::clamp(p, 0.0f, 1.0f), q = std::clamp(q, 0.0f, 1.0f), r = std::clamp(r, 0.0f, 1.0f);
+    p = held_to_unit(p), q = held_to_unit(q), r = held_to_unit(r);
     return (p - q) * (p - q) + (q - r) * (q - r) + (r - p) * (r - p);
   };
   return (channel(a.x, b.x, c.x) + channel(a.y, b.y, c.y) + channel(a.z, b.z, c.z)) * (1.0f / 27);

@@ -24,6 +24,7 @@ class Region {
   const std::vector<int>& tiles() const { return tiles_; }  // ascending
   const PixelRect& bounds() const { return bounds_; }       // smallest rectangle that holds every owned pixel
   std::size_t pixel_count() const { return pixel_count_; }
+  bool is_whole() const { return tiles_.size() == owned_.size(); }  // no border to any other
 
   // Whether a circle surely lies in the region, as far as it lies in the image.
   bool surely_holds(const Circle& circle) const {

@@ -156,6 +156,7 @@ void SampleMesh::Impl::admit() {
 }
 
 void SampleMesh::Impl::note_at_border(Index triangle, const Circle& circle) {
+  if (region_.is_whole()) return;
   const auto& corners = delaunay_.triangles()[triangle].corners;
   const std::array<bool, 3> own = {corners_[corners[0]].own, corners_[corners[1]].own,
                                    corners_[corners[2]].own};

@@ -227,6 +227,13 @@ TEST_CASE("new triangles at the border are told once, while they stand") {
   CHECK(told.empty());
 }
 
+TEST_CASE("a region that is the whole image has no border: not even where circles reach beyond the image") {
+  SampleMesh mesh = refine(Region::whole(kGrid), disc(kGrid), 300);
+  std::vector<BorderTriangle> told;
+  mesh.take_new_at_border(told);
+  CHECK(told.empty());
+}
+
 TEST_CASE("new triangles of others' samples alone are told only when asked for") {
   std::vector<std::uint8_t> owned(static_cast<std::size_t>(kGrid.tile_count()), 0);
   owned[0] = 1;
