@@ -1,6 +1,10 @@
 #include "parallel/cast_choice.h"
 
+#include <array>
+#include <bit>
 #include <catch2/catch.hpp>
+#include <cstddef>
+#include <numeric>
 
 #include "parallel/work_units.h"
 
@@ -138,6 +142,19 @@ TEST_CASE("nothing is carried before it is known what that costs") {
 TEST_CASE("nothing is carried where there are plenty of samples anyway") {
   CHECK(cast_limits(evidence(0.01), {1, 0, 3.5}).share > 0);
   CHECK(cast_limits(evidence(0.01), {1, 0, 4.5}).share == 0);
+}
+
+TEST_CASE("every sum of the evidence adds up and ages by halves") {
+  std::array<double, sizeof(CastEvidence) / sizeof(double)> sums{};
+  std::iota(sums.begin(), sums.end(), 1);
+  CastEvidence both = std::bit_cast<CastEvidence>(sums);
+  both += std::bit_cast<CastEvidence>(sums);
+  const auto doubled = std::bit_cast<decltype(sums)>(both);
+  const auto halves = std::bit_cast<decltype(sums)>(halved(std::bit_cast<CastEvidence>(sums)));
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    CHECK(doubled[i] == 2 * sums[i]);
+    CHECK(halves[i] == sums[i] / 2);
+  }
 }
 
 TEST_CASE("evidence adds up, and ages by halves without a change of its ratios") {

@@ -104,6 +104,23 @@ TEST_CASE("where casting does not pay it costs a few samples, not all") {
   CHECK(by_choice < 0.05 * of_all);
 }
 
+TEST_CASE("in real time ranks measure what samples cost, and nowhere else") {
+  for (const ClockKind clock : {ClockKind::kWall, ClockKind::kWork}) {
+    SessionSettings settings = casting_settings(CastChoice::kAuto);
+    settings.clock = clock;
+    const VirtualRun run = run_session(kRanks, settings, still_or_pan(settings, 5, 3));
+    CHECK(run.error.empty());
+    CastEvidence all;
+    for (const FinishedFrame& frame : run.frames) {
+      for (const RankReport& r : frame.ranks) all += r.evidence;
+    }
+    CHECK(all.asked_ms > 0);
+    CHECK(all.kept > 0);
+    CHECK(all.kept_ms > 0);
+    CHECK((all.fresh_ms > 0) == (clock == ClockKind::kWall));
+  }
+}
+
 TEST_CASE("where the eye rests and the view turns nothing is asked for, and samples live for four frames") {
   const SessionSettings settings = casting_settings(CastChoice::kAuto);
   const CameraSource turning = [&](int index) -> std::optional<FrameRequest> {
