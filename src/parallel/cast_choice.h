@@ -17,8 +17,9 @@ struct CastEvidence {
   double fresh_error = 0;  // of the picture there before them, each times that area: a stale colour is wrong
                            // over all that it stands for, the picture along its outlines
   double fresh_rays = 0;
-  // What they cost, in milliseconds of CPU; nothing where work has fixed prices.
-  double fresh_ms = 0;  // of the fresh: choosing, tracing, inserting, telling others
+  // What they cost, in milliseconds as FrameClock::lap_ms() has them.
+  double fresh_ms = 0;  // of the fresh: choosing, tracing, inserting, telling others; where work has fixed
+                        // prices it stays 0, and the table of prices decides
   double asked_ms = 0;  // of those asked: the ray alone
   double kept = 0;      // samples put back
   double kept_ms = 0;   // a ray not included
