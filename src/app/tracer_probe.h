@@ -11,7 +11,8 @@ inline Probe probe_of(Tracer& tracer) {
   return {[&tracer](const Camera& camera) { tracer.set_camera(camera); },
           [&tracer](double x, double y) { return tracer.trace(x, y); },
           [&tracer](const Vec3f& hit, bool at_infinity) { return tracer.visible(hit, at_infinity); },
-          [&tracer] { return tracer.counts(); }};
+          [&tracer] { return tracer.counts(); },
+          [&tracer](std::uint32_t primitive, ImageShape& shape) { tracer.view(primitive, shape); }};
 }
 
 }  // namespace pprt

@@ -2,9 +2,11 @@
 // point.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 
 #include "base/camera.h"
+#include "base/image_shape.h"
 #include "base/ray_counts.h"
 #include "base/ray_sample.h"
 
@@ -16,6 +18,8 @@ struct Probe {
   std::function<bool(const Vec3f& hit, bool at_infinity)>
       visible;                        // whether nothing hides a hit point from the eye
   std::function<RayCounts()> counts;  // since the beginning
+  std::function<void(std::uint32_t primitive, ImageShape& shape)> view =
+      {};  // what a primitive of a RaySample looks like, into `shape`; empty where nobody knows
 };
 
 }  // namespace pprt

@@ -13,8 +13,9 @@ struct WireSample {
   float hit[3];
   std::int32_t frame;
   std::uint32_t rays;
+  std::uint32_t primitive;
   std::uint8_t flags;
-  std::uint8_t unused[7];
+  std::uint8_t unused[3];
 };
 static_assert(sizeof(WireSample) == kSampleBytes);
 
@@ -34,6 +35,7 @@ WireSample to_wire(const Sample& s) {
       {r.hit.x, r.hit.y, r.hit.z},
       s.frame,
       r.rays,
+      r.primitive,
       static_cast<std::uint8_t>((r.at_infinity ? kAtInfinity : 0) | (r.eye_dependent ? kEyeDependent : 0)),
       {}};
 }
@@ -49,6 +51,7 @@ Sample from_wire(const WireSample& w) {
   s.ray.at_infinity = (w.flags & kAtInfinity) != 0;
   s.ray.eye_dependent = (w.flags & kEyeDependent) != 0;
   s.ray.rays = w.rays;
+  s.ray.primitive = w.primitive;
   return s;
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/camera.h"
 #include "base/first_hit.h"
+#include "base/image_shape.h"
 #include "base/ray_counts.h"
 #include "base/ray_sample.h"
 #include "base/vector.h"
@@ -75,6 +76,9 @@ class Tracer {
 
   // Whether nothing lies between the eye and a hit point of a former frame (compiled space).
   bool visible(const Vec3f& hit, bool at_infinity);
+
+  // What a primitive of a RaySample looks like through the camera, into `shape`, whose storage is kept.
+  void view(std::uint32_t primitive, ImageShape& shape) const;
 
   const RayCounts& counts() const { return counts_; }
 

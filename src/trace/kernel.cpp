@@ -127,6 +127,7 @@ class RayTree {
     const Surface surface = surface_at<kSmooth>(scene_, found, d);
     const ShadingMaterial& material = *surface.material;
     sample.hit = Vec3f(surface.position);
+    sample.primitive = scene_.parts[found.hit.geomID].primitives[found.hit.primID] + 1;
     sample.eye_dependent = ((kHighlights || kReflection) && material.specular > 0) ||
                            (kRefraction && material.transmittance > 0);
     sample.color = shade(surface, d, 1);

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "trace/compiled_scene.h"
+#include "trace/image_shape.h"
 #include "trace/numerics.h"
 #include "trace/scene_impl.h"
 
@@ -49,6 +50,10 @@ bool Tracer::visible(const Vec3f& hit, bool at_infinity) {
   const double length = at_infinity ? std::numeric_limits<double>::infinity() : distance - start - gap;
   if (!(length > 0)) return true;
   return !occluded(scene_.impl(), Vec3f(origin), Vec3f(direction), static_cast<float>(length));
+}
+
+void Tracer::view(std::uint32_t primitive, ImageShape& shape) const {
+  view_primitive(scene_.impl(), primitive, camera_, shape);
 }
 
 }  // namespace pprt

@@ -1,0 +1,180 @@
+#include "trace/image_shape.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "trace/scene_impl.h"
+
+namespace pprt {
+namespace {
+
+// A quadric's constant term, over what it is made of: below this the eye is inside, or so near the surface
+// that rounding decides.
+constexpr double kLeastClearance = 1e-9;
+
+// A facet's volume with the eye, over the lengths of the ways to its corners: below this rounding decides
+// which side is seen.
+constexpr double kLeastVolume = 1e-14;
+
+// The direction of the eye ray (camera.h) as a form: its product with a vector, and its own square.
+class EyeRay {
+ public:
+  explicit EyeRay(const Camera& camera)
+      : origin_(ray_direction(camera, 0, 0)),
+        per_x_(camera.right * camera.slope_per_pixel),
+        per_y_(camera.up * -camera.slope_per_pixel) {}
+
+  LinearForm dot(const Vec3d& v) const { return {origin_.dot(v), per_x_.dot(v), per_y_.dot(v)}; }
+
+  QuadraticForm squared() const { return squared(origin_, per_x_, per_y_); }
+
+  // Of the cross product with a vector.
+  QuadraticForm cross_squared(const Vec3d& v) const {
+    return squared(origin_.cross(v), per_x_.cross(v), per_y_.cross(v));
+  }
+
+ private:
+  static QuadraticForm squared(const Vec3d& origin, const Vec3d& per_x, const Vec3d& per_y) {
+    return {origin.dot(origin), 2 * origin.dot(per_x), 2 * origin.dot(per_y),
+            per_x.dot(per_x),   2 * per_x.dot(per_y),  per_y.dot(per_y)};
+  }
+
+  Vec3d origin_, per_x_, per_y_;
+};
+
+LinearForm scaled(const LinearForm& f, double by) {
+  return {f.constant * by, f.per_x * by, f.per_y * by};
+}
+
+QuadraticForm scaled(const QuadraticForm& f, double by) {
+  return {f.constant * by, f.per_x * by, f.per_y * by, f.per_xx * by, f.per_xy * by, f.per_yy * by};
+}
+
+QuadraticForm difference(const QuadraticForm& f, const QuadraticForm& g) {
+  return {f.constant - g.constant, f.per_x - g.per_x,   f.per_y - g.per_y,
+          f.per_xx - g.per_xx,     f.per_xy - g.per_xy, f.per_yy - g.per_yy};
+}
+
+QuadraticForm square(const LinearForm& f) {
+  return {f.constant * f.constant, 2 * f.constant * f.per_x, 2 * f.constant * f.per_y,
+          f.per_x * f.per_x,       2 * f.per_x * f.per_y,    f.per_y * f.per_y};
+}
+
+// Solves c n^2 + 2 b n + a = 0 for the nearness n, where c is positive if the eye is outside; `size` is what
+// c is the difference of. False where that is not clear.
+bool solve(const QuadraticForm& a, const LinearForm& b, double c, double size, ImageQuadric& seen) {
+  if (!(c > kLeastClearance * size)) return false;
+  seen.middle = scaled(b, 1 / c);
+  seen.discriminant = difference(square(seen.middle), scaled(a, 1 / c));
+  return true;
+}
+
+// Equations as in quadrics.h with the ray d / n from the eye, times n^2.
+bool view(const SphereRecord& sphere, const Camera& camera, ImageQuadric& seen) {
+  const EyeRay ray(camera);
+  const Vec3d from_center = camera.eye - sphere.center;
+  const double distance2 = from_center.dot(from_center);
+  seen.has_ends = false;
+  return solve(ray.squared(), ray.dot(from_center), distance2 - sphere.radius * sphere.radius, distance2,
+               seen);
+}
+
+bool view(const ConeRecord& cone, const Camera& camera, ImageQuadric& seen) {
+  const EyeRay ray(camera);
+  const Vec3d from_base = camera.eye - cone.base;
+  const Vec3d aside = from_base.cross(cone.axis);
+  const double length2 = cone.axis.dot(cone.axis), height = from_base.dot(cone.axis);
+  const double radius = cone.base_radius * length2 + cone.radius_change * height;
+  const double aside2 = length2 * aside.dot(aside);
+  const LinearForm growth = ray.dot(cone.axis * cone.radius_change);
+  seen.has_ends = true;
+  seen.along = ray.dot(cone.axis);
+  seen.height = height;
+  seen.top = length2;
+  // (d x axis) . aside = d . (axis x aside)
+  const Vec3d b = cone.axis.cross(aside) * length2 - cone.axis * (cone.radius_change * radius);
+  return solve(difference(scaled(ray.cross_squared(cone.axis), length2), square(growth)), ray.dot(b),
+               aside2 - radius * radius, aside2 + radius * radius, seen);
+}
+
+// Edges are the planes through the eye and two corners: no division, so corners may lie behind the eye. Empty
+// where the facet is seen edge-on.
+std::optional<ImageFacet> view(const std::array<Vec3d, 3>& corners, const Camera& camera) {
+  const EyeRay ray(camera);
+  const Vec3d a = corners[0] - camera.eye, b = corners[1] - camera.eye, c = corners[2] - camera.eye;
+  const double volume = a.dot(b.cross(c)), size = std::fabs(volume);
+  const double largest2 = a.dot(a) * b.dot(b) * c.dot(c);
+  if (!(size * size > kLeastVolume * kLeastVolume * largest2)) return std::nullopt;
+  const double side = volume < 0 ? -1 : 1;
+  ImageFacet facet;
+  facet.edges = {ray.dot(b.cross(c) * side), ray.dot(c.cross(a) * side), ray.dot(a.cross(b) * side)};
+  // The normal, of a length that makes the plane normal . p = 1.
+  facet.nearness = ray.dot((b.cross(c) + c.cross(a) + a.cross(b)) * (side / size));
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  ImageBounds& box = facet.bounds;
+  box = {kInfinity, kInfinity, -kInfinity, -kInfinity};
+  for (const Vec3d& corner : {a, b, c}) {
+    const std::optional<Vec2d> point = project(camera, corner);
+    if (!point) {
+      box = {-kInfinity, -kInfinity, kInfinity, kInfinity};
+      break;
+    }
+    const auto x = static_cast<float>(point->x), y = static_cast<float>(point->y);
+    box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x), std::max(box.y1, y)};
+  }
+  return facet;
+}
+
+bool is_seen(const Facet& facet, const Vec3d& from_eye, Sides sides) {
+  if (sides == Sides::kBoth) return true;
+  const bool front = Vec3d(facet.normal).dot(from_eye) < 0;
+  return front == (sides == Sides::kFront);
+}
+
+void view(const ScenePart& part, std::size_t first, std::size_t last, const Camera& camera,
+          ImageShape& shape) {
+  shape.quadric.front = part.sides != Sides::kBack;
+  shape.quadric.back = part.sides != Sides::kFront;
+  bool known = true;
+  if (const auto* spheres = std::get_if<std::vector<SphereRecord>>(&part.shape)) {
+    shape.kind = ImageShape::Kind::kQuadric;
+    known = view((*spheres)[first], camera, shape.quadric);
+  } else if (const auto* cones = std::get_if<std::vector<ConeRecord>>(&part.shape)) {
+    shape.kind = ImageShape::Kind::kQuadric;
+    known = view((*cones)[first], camera, shape.quadric);
+  } else {
+    shape.kind = ImageShape::Kind::kFacets;
+    const Mesh& mesh = std::get<Mesh>(part.shape);
+    for (std::size_t i = first; i < last; ++i) {
+      const auto& [a, b, c] = mesh.triangles[i];
+      if (!is_seen(mesh.facets[i], Vec3d(mesh.vertices[a]) - camera.eye, part.sides)) continue;
+      if (const auto facet =
+              view({Vec3d(mesh.vertices[a]), Vec3d(mesh.vertices[b]), Vec3d(mesh.vertices[c])}, camera)) {
+        shape.facets.push_back(*facet);
+      }
+    }
+  }
+  if (!known) shape.kind = ImageShape::Kind::kUnknown;
+}
+
+}  // namespace
+
+void view_primitive(const CompiledScene::Impl& scene, std::uint32_t primitive, const Camera& camera,
+                    ImageShape& shape) {
+  shape.kind = ImageShape::Kind::kUnknown;
+  shape.facets.clear();
+  for (const ScenePart& part : scene.parts) {
+    // Within a part primitives come in the description's order.
+    const auto [first, last] =
+        std::equal_range(part.primitives.begin(), part.primitives.end(), primitive - 1);
+    if (first == last) continue;
+    view(part, static_cast<std::size_t>(first - part.primitives.begin()),
+         static_cast<std::size_t>(last - part.primitives.begin()), camera, shape);
+    return;
+  }
+}
+
+}  // namespace pprt
