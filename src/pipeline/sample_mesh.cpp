@@ -65,6 +65,12 @@ const Region& SampleMesh::region() const {
 bool SampleMesh::insert(const Sample& sample) {
   return impl_->insert(sample);
 }
+void SampleMesh::begin_many() {
+  impl_->begin_many();
+}
+void SampleMesh::end_many() {
+  impl_->end_many();
+}
 std::optional<Vec2d> SampleMesh::next_point() {
   return impl_->next_point();
 }
@@ -73,6 +79,9 @@ void SampleMesh::expect_growth(double factor) {
 }
 SampleMesh::Guess SampleMesh::guess() const {
   return impl_->guess();
+}
+SampleMesh::Guess SampleMesh::guess_beside_edge(std::uint32_t primitive) const {
+  return impl_->guess_beside_edge(primitive);
 }
 std::span<const Sample> SampleMesh::samples() const {
   return impl_->samples();
@@ -103,8 +112,10 @@ void SampleMesh::Impl::clear() {
   tile_weights_.assign(tiles, {});
   region_weights_ = {};
   latest_in_tile_.assign(tiles, Delaunay::kNowhere);
+  latest_in_cell_.assign(cell_of({0.0 + region_.grid().width, 0.0 + region_.grid().height}) + 1,
+                         Delaunay::kNowhere);
   next_stamp_ = 1;
-  notes_foreign_ = false;
+  notes_foreign_ = inserts_many_ = false;
   wanted_.reset();
 }
 
@@ -123,7 +134,7 @@ bool SampleMesh::Impl::insert(const Sample& sample) {
   const bool was_planar = delaunay_.is_planar();
   if (!triangulate(point, tile)) return false;
   samples_.push_back(sample);
-  corners_.push_back({sample.ray.color, region_.owns_tile(tile)});
+  corners_.push_back({sample.ray.color, sample.ray.primitive, region_.owns_tile(tile)});
   if (was_planar) {
     admit();
   } else if (delaunay_.is_planar()) {
@@ -136,14 +147,16 @@ bool SampleMesh::Impl::triangulate(const Vec2d& point, int tile) {
   const bool is_wanted = wanted_ == point;
   wanted_.reset();
   if (!delaunay_.is_planar()) return delaunay_.insert_before_planar(point);
-  Index& latest = latest_in_tile_[static_cast<std::size_t>(tile)];
+  Index& in_tile = latest_in_tile_[static_cast<std::size_t>(tile)];
+  Index& in_cell = latest_in_cell_[cell_of(point)];
   Index at = refined_;
   if (!is_wanted || !delaunay_.surely_holds(refined_, point)) {
-    at = delaunay_.locate(point, latest == Delaunay::kNowhere ? 0 : latest);
+    const Index from = in_cell != Delaunay::kNowhere ? in_cell : in_tile;
+    at = delaunay_.locate(point, from == Delaunay::kNowhere ? 0 : from);
     if (at == Delaunay::kNowhere) return false;
   }
   delaunay_.insert(point, at);
-  latest = at;
+  in_tile = in_cell = at;
   return true;
 }
 
@@ -151,7 +164,14 @@ void SampleMesh::Impl::admit() {
   tallies_.resize(delaunay_.triangles().size());
   for (const Index t : delaunay_.new_triangles()) {
     forget(tallies_[t]);
-    if (delaunay_.triangles()[t].is_finite()) note_at_border(t, adopt(t));
+    if (!inserts_many_ && delaunay_.triangles()[t].is_finite()) note_at_border(t, adopt(t));
+  }
+}
+
+void SampleMesh::Impl::end_many() {
+  inserts_many_ = false;
+  for (Index t = 0; t < tallies_.size(); ++t) {
+    if (tallies_[t].stamp == 0 && delaunay_.triangles()[t].is_finite()) note_at_border(t, adopt(t));
   }
 }
 
@@ -205,6 +225,20 @@ SampleMesh::Guess SampleMesh::Impl::guess() const {
   const Vec2d ab = corners[1] - corners[0], ac = corners[2] - corners[0];
   return {(corners_[a].color + corners_[b].color + corners_[c].color) / 3.0f,
           0.5 * (ab.x * ac.y - ab.y * ac.x)};
+}
+
+SampleMesh::Guess SampleMesh::Impl::guess_beside_edge(std::uint32_t primitive) const {
+  Guess result = guess();
+  if (result.area > kLargestWithEdge) return result;
+  Color sum(0, 0, 0);
+  int count = 0;
+  for (const Index corner : delaunay_.triangles()[refined_].corners) {
+    if (corners_[corner].primitive != primitive) continue;
+    sum += corners_[corner].color;
+    ++count;
+  }
+  if (count > 0) result.color += (sum / static_cast<float>(count) - result.color) * kEdgeShare;
+  return result;
 }
 
 SampleMesh::Impl::Points SampleMesh::Impl::points(Index triangle) const {

@@ -16,6 +16,13 @@
 
 namespace pprt {
 
+// Where a picture shows primitives' edges (PixelRule::kEdges). Of a larger triangle, in square pixels, the
+// primitives of its corners tell too little.
+inline constexpr double kLargestWithEdge = 6;
+// How much of the colour of what belongs to a primitive is that of the corners on it; the rest is all
+// corners' mean, for what lies between them may be hidden by a primitive that no corner is on.
+inline constexpr float kEdgeShare = 0.75F;
+
 // A Delaunay triangle. Corners index SampleMesh::samples().
 struct MeshTriangle {
   Circle circumcircle;
@@ -57,6 +64,11 @@ class SampleMesh {
   // Expected O(1) near the samples inserted last or near the point next_point() gave.
   bool insert(const Sample& sample);
 
+  // Between these, insert() only triangulates, and nothing else is asked: the triangles that are left are
+  // weighed at the end. For many samples at once.
+  void begin_many();
+  void end_many();
+
   // Where the next sample is wanted most: the circumcentre of the heaviest triangle of the region or, when
   // that lies outside the image, the point where the way to it leaves the image. Empty when nothing is worth
   // refining. The caller inserts a sample there before it asks again.
@@ -67,13 +79,15 @@ class SampleMesh {
   // To be told again and again on the way, so that the end is fine. Holds until clear().
   void expect_growth(double factor);
 
-  // Of the triangle that next_point() refines, before the sample is inserted: the mean colour of its corners,
-  // which is what the picture shows there, and its area in square pixels.
+  // Of the triangle that next_point() refines, before the sample is inserted: what the picture shows there,
+  // and its area in square pixels. That is the mean colour of its corners or, where a picture shows edges, of
+  // those on the primitive that the sample has found.
   struct Guess {
     Color color;
     double area;
   };
   Guess guess() const;
+  Guess guess_beside_edge(std::uint32_t primitive) const;
 
   std::span<const Sample> samples() const;
 

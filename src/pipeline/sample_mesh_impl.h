@@ -19,7 +19,8 @@ class SampleMesh::Impl {
   // What refinement and reconstruction need of a sample, beside its point.
   struct Corner {
     Color color{0, 0, 0};
-    bool own = false;  // in the region
+    std::uint32_t primitive = 0;  // as in RaySample
+    bool own = false;             // in the region
   };
 
   Impl(const Region& region, const WeightTerms& terms);
@@ -28,9 +29,12 @@ class SampleMesh::Impl {
   void set_region(const Region& region);
   void note_foreign() { notes_foreign_ = true; }
   bool insert(const Sample& sample);
+  void begin_many() { inserts_many_ = true; }
+  void end_many();
   std::optional<Vec2d> next_point();
   void expect_growth(double factor);
   Guess guess() const;
+  Guess guess_beside_edge(std::uint32_t primitive) const;
   double refinement() const {
     const auto count = static_cast<double>(region_weights_.triangles);
     return region_weights_.triangles > 0 ? region_weights_.total_weight / count : 0;
@@ -56,12 +60,18 @@ class SampleMesh::Impl {
     Index triangle;
     std::uint32_t stamp;
   };
+  static constexpr int kCellPixels = 8;
   struct BorderEntry {
     QueueEntry entry;
     BorderTriangle triangle;
   };
 
   bool lives(const QueueEntry& entry) const { return tallies_[entry.triangle].stamp == entry.stamp; }
+  std::size_t cell_of(const Vec2d& point) const {
+    const int columns = region_.grid().width / kCellPixels + 1;
+    return static_cast<std::size_t>(static_cast<int>(point.y) / kCellPixels * columns +
+                                    static_cast<int>(point.x) / kCellPixels);
+  }
   bool triangulate(const Vec2d& point, int tile);  // false where a sample is already
   void admit();                                    // the triangles that an insertion made
   Circle adopt(Index triangle);                    // one that is new: statistics, queue; its circumcircle
@@ -79,11 +89,13 @@ class SampleMesh::Impl {
   std::vector<Tally> tallies_;   // one per slot
   std::vector<BorderEntry> new_at_border_;
   std::vector<TileWeights> tile_weights_;
-  TileWeights region_weights_;         // over the region's tiles
-  std::vector<Index> latest_in_tile_;  // a triangle to start a walk from; kNowhere before the first
+  TileWeights region_weights_;  // over the region's tiles
+  // Triangles to start a walk from, by tile and by cell of eight pixels; kNowhere before the first.
+  std::vector<Index> latest_in_tile_, latest_in_cell_;
   BucketQueue<QueueEntry> queue_;
   std::uint32_t next_stamp_ = 1;
   bool notes_foreign_ = false;
+  bool inserts_many_ = false;
 
   // The answer of next_point(), and whose it is: good until anything is inserted.
   std::optional<Vec2d> wanted_;

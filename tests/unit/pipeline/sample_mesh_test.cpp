@@ -252,6 +252,73 @@ TEST_CASE("new triangles of others' samples alone are told only when asked for")
   CHECK(told_of_others(true) > 0);
 }
 
+TEST_CASE("many samples at once make the mesh that they make one by one") {
+  std::vector<std::uint8_t> owned(static_cast<std::size_t>(kGrid.tile_count()), 0);
+  for (int tile = 0; tile < kGrid.tile_count(); tile += 2) owned[static_cast<std::size_t>(tile)] = 1;
+  const Region region(kGrid, owned);
+  const SampleMesh before = refine(region, disc(kGrid), 400);
+  const auto in_order = [](std::array<std::uint32_t, 3> t) {
+    std::sort(t.begin(), t.end());
+    return t;
+  };
+  struct Result {
+    std::set<std::array<std::uint32_t, 3>> triangles, told;
+    std::vector<TileWeights> weights;
+    double refinement;
+    std::set<std::pair<double, double>> wanted;
+  };
+  const auto result_of = [&](bool at_once) {
+    SampleMesh mesh(region);
+    std::vector<BorderTriangle> told;
+    std::size_t i = 0;
+    for (; i < 100; ++i) mesh.insert(before.samples()[i]);
+    mesh.take_new_at_border(told);
+    if (at_once) mesh.begin_many();
+    for (; i < before.samples().size(); ++i) mesh.insert(before.samples()[i]);
+    if (at_once) mesh.end_many();
+    Result result;
+    for (const auto& t : triangles(mesh)) result.triangles.insert(in_order(t));
+    mesh.take_new_at_border(told);
+    for (const BorderTriangle& t : told) result.told.insert(in_order(t.corners));
+    result.weights.assign(mesh.tile_weights().begin(), mesh.tile_weights().end());
+    result.refinement = mesh.refinement();
+    while (const auto point = mesh.next_point()) result.wanted.insert({point->x, point->y});
+    return result;
+  };
+  const Result singly = result_of(false), at_once = result_of(true);
+  CHECK(at_once.triangles == singly.triangles);
+  CHECK(at_once.told == singly.told);
+  CHECK(at_once.wanted == singly.wanted);
+  CHECK(singly.wanted.size() > 100);
+  CHECK(at_once.refinement == Approx(singly.refinement));
+  for (std::size_t i = 0; i < singly.weights.size(); ++i) {
+    CHECK(at_once.weights[i].triangles == singly.weights[i].triangles);
+    CHECK(at_once.weights[i].total_weight == Approx(singly.weights[i].total_weight).margin(1e-6));
+  }
+}
+
+TEST_CASE("what is shown beside an edge is the colour of the same primitive's corners, in small triangles") {
+  // A triangle of corners on the primitives 1, 2, 2, whose circumcentre is wanted.
+  const auto guess = [](double size, std::uint32_t primitive) {
+    SampleMesh mesh(Region::whole({64, 64, 32}));
+    const std::array<Vec2d, 3> corners = {{{10, 10}, {10 + size, 10}, {10, 10 + size}}};
+    for (std::size_t i = 0; i < 3; ++i) {
+      Sample sample;
+      sample.x = corners[i].x, sample.y = corners[i].y;
+      sample.ray.primitive = i == 0 ? 1 : 2;
+      sample.ray.color = i == 0 ? Color(0, 0, 0) : Color(0.9f, 0.9f, 0.9f);
+      mesh.insert(sample);
+    }
+    REQUIRE(mesh.next_point());
+    CHECK(mesh.guess().color.x == Approx(0.6));
+    return mesh.guess_beside_edge(primitive).color.x;
+  };
+  CHECK(guess(2, 1) == Approx(0.15));  // three quarters of black, a quarter of the mean
+  CHECK(guess(2, 2) == Approx(0.825));
+  CHECK(guess(2, 3) == Approx(0.6));  // another primitive: the mean
+  CHECK(guess(9, 1) == Approx(0.6));  // too large
+}
+
 TEST_CASE("collinear and cocircular samples do no harm") {
   SampleMesh mesh(Region::whole(kGrid));
   for (int x = 0; x <= 128; x += 8) mesh.insert(sample_of(disc(kGrid), x, 48));  // a line: no triangle yet
