@@ -6,6 +6,7 @@
 #include <benchmark/benchmark.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -39,18 +40,28 @@ Tree& tree() {
   return instance;
 }
 
-// The pixel's colour, from a table that fits a cache: its misses must not count as the triangulation's.
+// The pixel's colour and primitive, from a table that fits a cache: its misses must not count as the
+// triangulation's.
 RaySample look_up(double x, double y) {
-  static const std::vector<Color> table = [] {
-    std::vector<Color> colors;
+  struct Entry {
+    Color color;
+    std::uint32_t primitive;
+  };
+  static const std::vector<Entry> table = [] {
+    std::vector<Entry> entries;
     for (int j = 0; j < kSize; ++j) {
-      for (int i = 0; i < kSize; ++i) colors.push_back(tree().tracer.trace(i + 0.5, j + 0.5).color);
+      for (int i = 0; i < kSize; ++i) {
+        const RaySample sample = tree().tracer.trace(i + 0.5, j + 0.5);
+        entries.push_back({sample.color, sample.primitive});
+      }
     }
-    return colors;
+    return entries;
   }();
   const int i = std::min(static_cast<int>(x), kSize - 1), j = std::min(static_cast<int>(y), kSize - 1);
+  const Entry& entry = table[static_cast<std::size_t>(j) * kSize + static_cast<std::size_t>(i)];
   RaySample sample;
-  sample.color = table[static_cast<std::size_t>(j) * kSize + static_cast<std::size_t>(i)];
+  sample.color = entry.color;
+  sample.primitive = entry.primitive;
   return sample;
 }
 
@@ -115,10 +126,15 @@ void reconstruction(benchmark::State& state) {
   refine(mesh, static_cast<std::size_t>(state.range(0)), look_up);
   RegionPixels pixels;
   ReconstructionBuffers buffers;
-  for (auto _ : state)
-    reconstruct(mesh, mesh.region().bounds(), pixels, buffers, static_cast<PixelRule>(state.range(1)));
+  ViewedPrimitives viewed(
+      [](std::uint32_t primitive, ImageShape& shape) { tree().tracer.view(primitive, shape); });
+  for (auto _ : state) {
+    viewed.forget();  // as in every frame that moves
+    reconstruct(mesh, mesh.region().bounds(), pixels, buffers, static_cast<PixelRule>(state.range(1)),
+                &viewed);
+  }
 }
-BENCHMARK(reconstruction)->ArgsProduct({{4000, 16000, 64000}, {1, 2}})->Unit(benchmark::kMillisecond);
+BENCHMARK(reconstruction)->ArgsProduct({{4000, 16000, 64000}, {1, 2, 3}})->Unit(benchmark::kMillisecond);
 
 void casting(benchmark::State& state) {
   SampleMesh mesh(whole());
@@ -140,7 +156,9 @@ void put_back(benchmark::State& state) {
   refine(mesh, static_cast<std::size_t>(state.range(0)), look_up);
   for (auto _ : state) {
     next.clear();
+    next.begin_many();
     for (const Sample& s : mesh.samples()) next.insert(s);
+    next.end_many();
   }
   per_sample(state);
 }

@@ -134,9 +134,9 @@ void add_image_options(CLI::App& app, RenderOptions& o) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->allow_extra_args(false)
       ->group(group);
-  auto* pixels = app.add_option("--pixels", o.pixels, "What a pixel that holds several samples shows");
+  auto* pixels = app.add_option("--pixels", o.pixels, "What a pixel with several samples or an edge shows");
   pixels->capture_default_str()->group(group);
-  take_one_of(*pixels, {"area", "mean", "center"});
+  take_one_of(*pixels, {"edges", "area", "mean", "center"});
   app.add_option("--frames", o.frames, "Render only frames A to B")->type_name("A-B")->group(group);
   auto* layers = app.add_option(
       "--layers", o.layers,

@@ -28,7 +28,7 @@ struct RenderOptions {
   std::string balance = "combined";
   std::string cast = "auto";
   std::string keep_samples = "on";
-  std::string pixels = "area";
+  std::string pixels = "edges";
   std::uint64_t seed = 1;
 
   std::string size;                  // "WxH"; empty: the script's or the scene's

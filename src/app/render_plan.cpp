@@ -147,7 +147,8 @@ BalanceMode balance_mode(const std::string& word) {
 
 PixelRule pixel_rule(const std::string& word) {
   if (word == "center") return PixelRule::kCenter;
-  return word == "mean" ? PixelRule::kMean : PixelRule::kArea;
+  if (word == "mean") return PixelRule::kMean;
+  return word == "area" ? PixelRule::kArea : PixelRule::kEdges;
 }
 
 double frame_rate(const RenderOptions& options, const Sources& sources) {

@@ -106,7 +106,8 @@ class MeshPainter {
       : camera_(subject.camera),
         tracer_(subject.scene, subject.camera),
         mesh_(Region::whole({camera_.width, camera_.height, kTilePixels}), terms),
-        rule_(rule) {}
+        rule_(rule),
+        viewed_([this](std::uint32_t primitive, ImageShape& shape) { tracer_.view(primitive, shape); }) {}
 
   void add(const Vec2d& point) {
     Sample sample;
@@ -134,7 +135,8 @@ class MeshPainter {
   double density() const { return samples_per_pixel(static_cast<double>(mesh_.samples().size()), camera_); }
 
   Image picture() {
-    reconstruct(mesh_, mesh_.region().bounds(), pixels_, buffers_, rule_);
+    viewed_.forget();  // as every frame must
+    reconstruct(mesh_, mesh_.region().bounds(), pixels_, buffers_, rule_, &viewed_);
     Image image(camera_.width, camera_.height);
     image.pixels = pixels_.colors;
     return image;
@@ -145,6 +147,7 @@ class MeshPainter {
   Tracer tracer_;
   SampleMesh mesh_;
   PixelRule rule_;
+  ViewedPrimitives viewed_;
   RegionPixels pixels_;
   ReconstructionBuffers buffers_;
 };
@@ -173,7 +176,7 @@ void run_refinement(const WeightTerms& terms, PixelRule rule, const Subject& sub
 }
 
 Method refinement(std::string name, std::string description, const WeightTerms& terms,
-                  PixelRule rule = PixelRule::kArea) {
+                  PixelRule rule = PixelRule::kEdges) {
   return {
       std::move(name), std::move(description),
       [terms, rule](const Subject& subject, const CurveRange& range, const SecondsClock& clock,
@@ -189,7 +192,7 @@ void run_stratified(const Subject& subject, const CurveRange& range, const Secon
     std::mt19937_64 random(range.seed);
     const auto jitter = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
     const double begin = clock();
-    MeshPainter painter(subject, {false, false, false}, PixelRule::kArea);
+    MeshPainter painter(subject, {false, false, false}, PixelRule::kEdges);
     for (const Vec2d& corner : {Vec2d(0, 0), Vec2d(w, 0), Vec2d(w, h), Vec2d(0, h)}) painter.add(corner);
     for (int y = 0; y < size.height; ++y) {
       for (int x = 0; x < size.width; ++x) {
@@ -247,6 +250,9 @@ std::vector<Method> accuracy_methods() {
                      {false, true, true}),
           refinement("no pixel rule", "progressive, flat triangles below a pixel refined like others",
                      {true, true, false}),
+          refinement("pixel area",
+                     "progressive, a pixel with several samples shows the interpolation's mean over its area",
+                     {}, PixelRule::kArea),
           refinement("mean of samples",
                      "progressive, a pixel with several samples shows their mean: the paper's rule", {},
                      PixelRule::kMean),

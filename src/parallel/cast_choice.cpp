@@ -20,9 +20,9 @@ constexpr double kMost = 0.5;
 // carried, and where colours that depend on the eye may not, or there are none. The rest then is dull, or its
 // outlines want their samples elsewhere.
 constexpr double kCostAtMost = 0.8;
-constexpr double kCostAtMostOfSome = 0.35;
+constexpr double kCostAtMostOfSome = 0.25;
 
-// The same by the table of prices, where work has no other. In a coarse picture that has moved little a
+// The same by the table of prices, where work has no other. In a picture of outlines that has moved little a
 // carried one is worth more than another: it lies where an outline still is.
 constexpr double kPriceAtMost = 0.9;
 constexpr double kPriceAtMostOnOutlines = 1.1;
@@ -99,7 +99,7 @@ CastLimits cast_limits(const CastEvidence& evidence, const CastSurvivors& surviv
   const bool moved_far = survivors.moved > kMovedFar;
   if (hidden > kHiddenMany && moved_far && outlines_matter) limits.share = kShareThen;
   const bool cheap = e.fresh_ms > 0 ? is_cheap(e, limits.eye_dependent)
-                                    : is_cheap_by_table(e, outlines_matter && !moved_far);
+                                    : is_cheap_by_table(e, survivors.eye_dependent <= kMost && !moved_far);
   if (!cheap) limits.share = 0;
   if (survivors.samples_per_pixel > kPlenty) limits.share = 0;
   return limits;

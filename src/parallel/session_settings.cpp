@@ -22,7 +22,7 @@ SessionSettings decode_settings(const Bytes& bytes) {
   in.get(settings.width), in.get(settings.height), in.get(settings.clock, ClockKind::kWork);
   in.get(settings.frames_per_second), in.get(settings.budget_units), in.get(settings.stop);
   in.get(settings.balance, BalanceMode::kCombined), in.get(settings.cast, CastChoice::kAuto);
-  in.get(settings.keep_samples), in.get(settings.pixel_rule, PixelRule::kArea), in.get(settings.seed);
+  in.get(settings.keep_samples), in.get(settings.pixel_rule, PixelRule::kEdges), in.get(settings.seed);
   in.get(settings.report_samples), in.get(settings.machine);
   in.expect_end();
   return settings;

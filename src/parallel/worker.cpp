@@ -52,6 +52,7 @@ Worker::Worker(Communicator& network, Inbox& inbox, const SessionSettings& setti
       exchange_(partition, network.rank(), seed_pattern(settings.width, settings.height, settings.seed)),
       balancer_(network.rank(), network.size(), partition.grid.tile_count()),
       stance_(network.size()),
+      viewed_(probe_.view),
       peer_done_(static_cast<std::size_t>(network.size()), 0) {
   own_region_changed();
 }
@@ -123,7 +124,9 @@ bool Worker::refine_once(const FrameOrder& order) {
   if (!point) return false;
   const Sample sample = trace(order, point->x, point->y);
   if (measures_fresh_) {
-    const SampleMesh::Guess guess = mesh_.guess();
+    const SampleMesh::Guess guess = settings_.pixel_rule == PixelRule::kEdges
+                                        ? mesh_.guess_beside_edge(sample.ray.primitive)
+                                        : mesh_.guess();
     ++report_.evidence.fresh;
     report_.evidence.fresh_error += guess.area * display_error(sample.ray.color, guess.color);
     report_.evidence.fresh_area += guess.area;
@@ -317,7 +320,7 @@ void Worker::reconstruct_and_send(const FrameOrder& order) {
   const TileGrid& grid = mesh_.region().grid();
   PixelRect bounds = mesh_.region().bounds();
   for (const int tile : given_) bounds = united(bounds, grid.pixels(tile));
-  reconstruct(mesh_, bounds, pixels_, buffers_, settings_.pixel_rule);
+  reconstruct(mesh_, bounds, pixels_, buffers_, settings_.pixel_rule, probe_.view ? &viewed_ : nullptr);
   clock_->spend(Work::kPixel, mesh_.region().pixel_count());
   report_.cpu_ms.reconstruction = clock_->lap_ms();
 

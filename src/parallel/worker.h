@@ -124,6 +124,7 @@ class Worker {
   Stance stance_;
   RegionPixels pixels_;
   ReconstructionBuffers buffers_;
+  ViewedPrimitives viewed_;  // from camera_before_
 
   Missed missed_;  // since the last frame that was not left out
   std::vector<UnderWay> under_way_;

@@ -42,6 +42,7 @@ void Worker::prepare(const FrameOrder& order) {
   const Missed missed = std::exchange(missed_, {});
   balancer_.begin_frame(carry != Carry::kAccumulate || missed.triangulation, known_before(order, missed));
   const bool eye_rests = camera_before_ && (order.camera.eye - camera_before_->eye).length() <= kAtRest;
+  if (!camera_before_ || *camera_before_ != order.camera) viewed_.forget();
   camera_before_ = order.camera;
   if (carry == Carry::kAccumulate && missed.triangulation) {
     catch_up(order, missed);
@@ -252,7 +253,9 @@ void Worker::settle(const FrameOrder& order, const std::vector<Sample>& survivor
   receive_seeds(order, own);
   report_.cpu_ms.sampling += clock_->lap_ms();
   keep_affordable(order, kCastShare, own);
+  mesh_.begin_many();
   for (const Sample& s : own) put_back(s);
+  mesh_.end_many();
   const double lap = clock_->lap_ms();
   report_.cpu_ms.casting += lap;
   report_.evidence.kept += static_cast<double>(own.size());

@@ -5,7 +5,9 @@
 #include <bit>
 #include <utility>
 
+#include "pipeline/edge_patch.h"
 #include "pipeline/sample_mesh_impl.h"
+#include "pipeline/scan_conversion.h"
 
 // Four lines of doubles fill a register of AVX2: a clone of the function is for hosts that have it, with the
 // same results to the bit (docs/decisions/0003-instruction-sets.md). Flat, so that what it calls is cloned
@@ -19,173 +21,6 @@
 namespace pprt {
 namespace {
 
-struct Corner {
-  double x, y;
-  Color color;
-};
-
-// The largest whole number not above a coordinate, and the smallest not below it: without a call, which is
-// what the standard functions cost on the baseline instruction set.
-int floor_to_int(double v) {
-  const int towards_zero = static_cast<int>(v);
-  return towards_zero - (v < towards_zero ? 1 : 0);
-}
-int ceil_to_int(double v) {
-  const int towards_zero = static_cast<int>(v);
-  return towards_zero + (v > towards_zero ? 1 : 0);
-}
-
-// The first pixel whose centre is at or beyond a coordinate.
-int first_center(double coordinate) {
-  return ceil_to_int(coordinate - 0.5);
-}
-
-// Lines of a row for the mean over a pixel's area, dealt with at once. Along a line the mean is exact.
-constexpr int kLines = 4;
-using PerLine = float __attribute__((vector_size(kLines * sizeof(float))));
-using ExactPerLine = double __attribute__((vector_size(kLines * sizeof(double))));
-constexpr PerLine kLineOffsets = {0.125F, 0.375F, 0.625F, 0.875F};  // from the row's beginning
-
-PerLine least(const PerLine& a, const PerLine& b) {
-  return a < b ? a : b;
-}
-PerLine greatest(const PerLine& a, const PerLine& b) {
-  return a > b ? a : b;
-}
-float sum(const PerLine& v) {
-  return (v[0] + v[1]) + (v[2] + v[3]);
-}
-PerLine on_all(float value) {
-  return PerLine{} + value;
-}
-
-// Where a triangle lies along a line.
-struct Extent {
-  double left, right;
-};
-
-struct ExtentPerLine {
-  PerLine left, right;
-};
-
-// A triangle's edges, as functions of y. An edge's ends are taken in one fixed order, so that the two
-// triangles at it compute the same crossings to the last bit: they neither overlap nor leave gaps.
-class Outline {
- public:
-  explicit Outline(const std::array<Corner, 3>& corner) {
-    // Without a branch, for corners come in any order. Of two on one level either may be the upper: the edge
-    // between them is never asked for. 3 and 4 cannot be.
-    static constexpr std::array<std::array<std::uint8_t, 3>, 8> kDownwards = {
-        {{0, 1, 2}, {1, 0, 2}, {0, 2, 1}, {0, 1, 2}, {0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
-    const unsigned order = static_cast<unsigned>(corner[1].y < corner[0].y) |
-                           static_cast<unsigned>(corner[2].y < corner[1].y) << 1 |
-                           static_cast<unsigned>(corner[2].y < corner[0].y) << 2;
-    const auto& [top, middle, bottom] = kDownwards[order];
-    top_ = corner[top], middle_ = corner[middle], bottom_ = corner[bottom];
-    left_ = std::min({top_.x, middle_.x, bottom_.x});
-    right_ = std::max({top_.x, middle_.x, bottom_.x});
-  }
-
-  double top() const { return top_.y; }
-  double bottom() const { return bottom_.y; }
-  double left() const { return left_; }
-  double right() const { return right_; }
-
-  // To be called before the first at(), once the triangle is known to matter.
-  void prepare() {
-    whole_ = slope(top_, bottom_);
-    upper_ = slope(top_, middle_);
-    lower_ = slope(middle_, bottom_);
-  }
-
-  // Needs top() <= y < bottom().
-  Extent at(double y) const {
-    const double a = top_.x + (y - top_.y) * whole_;
-    const double b = y < middle_.y ? top_.x + (y - top_.y) * upper_ : middle_.x + (y - middle_.y) * lower_;
-    return {std::min(a, b), std::max(a, b)};
-  }
-
-  // Along the lines of a pixel row, of no length where they miss the triangle. Coordinates begin at a column,
-  // so that float has digits to spare.
-  ExtentPerLine along(int row, int column) const {
-    const ExactPerLine y = __builtin_convertvector(kLineOffsets, ExactPerLine) + row, below_top = y - top_.y;
-    const ExactPerLine a = top_.x + below_top * whole_;
-    const ExactPerLine b = y < middle_.y ? top_.x + below_top * upper_ : middle_.x + (y - middle_.y) * lower_;
-    const auto meets = (y >= top_.y) & (y < bottom_.y);
-    const ExactPerLine begin = ExactPerLine{} + column;
-    return {__builtin_convertvector(meets ? (a < b ? a : b) - begin : ExactPerLine{}, PerLine),
-            __builtin_convertvector(meets ? (a < b ? b : a) - begin : ExactPerLine{}, PerLine)};
-  }
-
- private:
-  struct End {
-    double x = 0, y = 0;
-    End() = default;
-    End(const Corner& corner) : x(corner.x), y(corner.y) {}
-  };
-
-  // Horizontal edges are never asked for.
-  static double slope(const End& from, const End& to) { return (to.x - from.x) / (to.y - from.y); }
-
-  End top_, middle_, bottom_;
-  double left_, right_;
-  double whole_ = 0, upper_ = 0, lower_ = 0;
-};
-
-// Linear over one triangle: colour = c0 + a (c1 - c0) + b (c2 - c0) with barycentric a, b held to [0, 1], so
-// that a constant stays exactly constant and rounding in slivers never leaves the corners' range by more than
-// itself.
-class LinearPatch {
- public:
-  explicit LinearPatch(const std::array<Corner, 3>& corner)
-      : origin_(corner[0]),
-        to_1_(corner[1].color - corner[0].color),
-        to_2_(corner[2].color - corner[0].color) {
-    const double x1 = corner[1].x - origin_.x, y1 = corner[1].y - origin_.y;
-    const double x2 = corner[2].x - origin_.x, y2 = corner[2].y - origin_.y;
-    const double cross = x1 * y2 - y1 * x2;
-    const double scale = cross != 0 ? 1 / cross : 0;
-    ax_ = y2 * scale, ay_ = -x2 * scale;
-    bx_ = -y1 * scale, by_ = x1 * scale;
-  }
-
-  Color at(double x, double y) const {
-    const double dx = x - origin_.x, dy = y - origin_.y;
-    const float a = held_to_unit(static_cast<float>(ax_ * dx + ay_ * dy));
-    const float b = held_to_unit(static_cast<float>(bx_ * dx + by_ * dy));
-    return origin_.color + to_1_ * a + to_2_ * b;
-  }
-
-  // The same along the lines of a pixel row, their coordinates beginning at a column.
-  class OnLines {
-   public:
-    OnLines(const LinearPatch& patch, int row, int column) : patch_(patch) {
-      const double dx = column - patch.origin_.x, dy = row - patch.origin_.y;
-      a_ = static_cast<float>(patch.ax_ * dx + patch.ay_ * dy) + static_cast<float>(patch.ay_) * kLineOffsets;
-      b_ = static_cast<float>(patch.bx_ * dx + patch.by_ * dy) + static_cast<float>(patch.by_) * kLineOffsets;
-    }
-
-    // The integral of the difference from `base` over parts of the lines that are so long about x.
-    Color integral(const PerLine& x, const PerLine& length, const Color& base) const {
-      const auto share = [&](const PerLine& at_column, double slope) {
-        const PerLine v = at_column + static_cast<float>(slope) * x;
-        return sum(greatest(PerLine{}, least(v, on_all(1))) * length);
-      };
-      return (patch_.origin_.color - base) * sum(length) + patch_.to_1_ * share(a_, patch_.ax_) +
-             patch_.to_2_ * share(b_, patch_.bx_);
-    }
-
-   private:
-    const LinearPatch& patch_;
-    PerLine a_, b_;  // barycentric, at the column
-  };
-
- private:
-  Corner origin_;
-  Color to_1_, to_2_;
-  double ax_, ay_, bx_, by_;
-};
-
 std::array<Corner, 3> corners_of(const Delaunay::Triangle& triangle, const SampleMesh::Impl& mesh) {
   const auto corner = [&](std::size_t i) {
     const Delaunay::Index index = triangle.corners[i];
@@ -193,6 +28,40 @@ std::array<Corner, 3> corners_of(const Delaunay::Triangle& triangle, const Sampl
     return Corner{point.x, point.y, mesh.corners()[index].color};
   };
   return {corner(0), corner(1), corner(2)};
+}
+
+std::array<std::uint32_t, 3> primitives_of(const Delaunay::Triangle& triangle, const SampleMesh::Impl& mesh) {
+  const auto& [a, b, c] = triangle.corners;
+  const auto& corners = mesh.corners();
+  return {corners[a].primitive, corners[b].primitive, corners[c].primitive};
+}
+
+// Whether a triangle has corners on different primitives, of colours that tell, and is small enough for them
+// to tell of all of it.
+bool may_show_edge(const Delaunay::Triangle& triangle, const SampleMesh::Impl& mesh) {
+  constexpr float kLeastVariance = 3e-4F;
+  const auto& [a, b, c] = triangle.corners;
+  const auto& corners = mesh.corners();
+  if (corners[a].primitive == corners[b].primitive && corners[b].primitive == corners[c].primitive)
+    return false;
+  if (!(display_variance(corners[a].color, corners[b].color, corners[c].color) > kLeastVariance))
+    return false;
+  const auto& points = mesh.delaunay().points();
+  const Vec2d ab = points[b] - points[a], ac = points[c] - points[a];
+  if (ab.x * ac.y - ab.y * ac.x > 2 * kLargestWithEdge) return false;
+  // Nor a sliver right across the image, of which each pixel would be looked at.
+  constexpr double kLongest = 16;  // pixels
+  return std::max({ab.dot(ab), ac.dot(ac), (ab - ac).dot(ab - ac)}) <= kLongest * kLongest;
+}
+
+// Whether every pixel lies in some triangle: as with the image's corners for the first samples, which all
+// frames begin with.
+bool covers_image(const SampleMesh::Impl& mesh) {
+  const TileGrid& grid = mesh.region().grid();
+  const double width = grid.width, height = grid.height;
+  const auto& points = mesh.delaunay().points();
+  const std::array<Vec2d, 4> corners = {{{0, 0}, {width, 0}, {width, height}, {0, height}}};
+  return points.size() > corners.size() && std::equal(corners.begin(), corners.end(), points.begin());
 }
 
 // Whether a triangle surely lies beside the bounds.
@@ -234,13 +103,32 @@ class Painter {
 
   void gather(const SampleMesh::Impl& mesh);
   void paint(const std::array<Corner, 3>& corner);
+  void paint_edge(const std::array<Corner, 3>& corner, const EdgePatch& edge);
   void finish();
 
  private:
   std::size_t words_per_row() const { return (static_cast<std::size_t>(bounds_.width()) + 63) / 64; }
+
+  // Where the buffers have a pixel.
+  struct PixelPlace {
+    std::size_t pixel, word;
+    std::uint64_t bit;
+  };
+  PixelPlace place_of(int x, int y) const {
+    const auto column = static_cast<std::size_t>(x - bounds_.x0);
+    return {static_cast<std::size_t>(row_start(bounds_, y) + x),
+            static_cast<std::size_t>(y - bounds_.y0) * words_per_row() + column / 64,
+            std::uint64_t{1} << (column % 64)};
+  }
+
+  void add_edge_lines(const ExtentPerLine& extents, const EdgePatch& edge, int row, int left, int right);
   void add_sample(int x, int y, const Color& color);
   void fill(const LinearPatch& patch, int row, const Extent& extent);
   void add_lines(const Outline& outline, const LinearPatch& patch, int row);
+  void show_by_area(int row, const Extent& extent, const EdgePatch& edge);
+  void show_by_area(const PixelPlace& place, const Color& color);
+  void start_sum(const PixelPlace& place);
+  bool takes_area() const { return rule_ == PixelRule::kArea || rule_ == PixelRule::kEdges; }
   bool several_between(int row, int left, int right) const;
 
   RegionPixels& pixels_;
@@ -270,28 +158,20 @@ void Painter::gather(const SampleMesh::Impl& mesh) {
 
 void Painter::add_sample(int x, int y, const Color& color) {
   ReconstructionBuffers& b = buffers_;
-  const auto pixel = static_cast<std::size_t>(row_start(bounds_, y) + x);
-  const auto column = static_cast<std::size_t>(x - bounds_.x0);
-  const std::size_t word = static_cast<std::size_t>(y - bounds_.y0) * words_per_row() + column / 64;
-  const std::uint64_t bit = std::uint64_t{1} << (column % 64);
-  if ((b.holds_one[word] & bit) == 0) {
-    b.holds_one[word] |= bit;
-    b.base[pixel] = color;
+  const PixelPlace place = place_of(x, y);
+  if ((b.holds_one[place.word] & place.bit) == 0) {
+    b.holds_one[place.word] |= place.bit;
+    b.base[place.pixel] = color;
     return;
   }
-  if ((b.holds_several[word] & bit) == 0) {
-    b.holds_several[word] |= bit;
-    b.pixels.push_back(static_cast<std::uint32_t>(pixel));
-    b.sum[pixel] = Color(0, 0, 0);
-    b.count[pixel] = 1;
-  }
-  ++b.count[pixel];
-  if (rule_ == PixelRule::kMean) b.sum[pixel] += color - b.base[pixel];
+  if ((b.holds_several[place.word] & place.bit) == 0) start_sum(place);
+  ++b.count[place.pixel];
+  if (rule_ == PixelRule::kMean) b.sum[place.pixel] += color - b.base[place.pixel];
 }
 
 void Painter::paint(const std::array<Corner, 3>& corner) {
   Outline outline(corner);
-  const bool area = rule_ == PixelRule::kArea;
+  const bool area = takes_area();
   // Rows that the triangle touches or, where only centres count, whose centres it may hold.
   const int top = std::max(area ? floor_to_int(outline.top()) : first_center(outline.top()), bounds_.y0);
   const int bottom =
@@ -353,9 +233,61 @@ void Painter::add_lines(const Outline& outline, const LinearPatch& patch, int ro
   }
 }
 
+// As paint(), of a triangle with edges of primitives in it: the pixels that it touches are shown by area.
+void Painter::paint_edge(const std::array<Corner, 3>& corner, const EdgePatch& edge) {
+  Outline outline(corner);
+  const int top = std::max(floor_to_int(outline.top()), bounds_.y0);
+  const int bottom = std::min(ceil_to_int(outline.bottom()), bounds_.y1);
+  const int left = std::max(floor_to_int(outline.left()), bounds_.x0);
+  const int right = std::min(ceil_to_int(outline.right()), bounds_.x1);
+  if (top >= bottom || left >= right) return;
+  outline.prepare();
+  for (int row = top; row < bottom; ++row) {
+    add_edge_lines(outline.along(row, left), edge, row, left, right);
+    const double center = row + 0.5;
+    if (outline.top() <= center && center < outline.bottom()) show_by_area(row, outline.at(center), edge);
+  }
+}
+
+void Painter::add_edge_lines(const ExtentPerLine& extents, const EdgePatch& edge, int row, int left,
+                             int right) {
+  for (int x = left; x < right; ++x) {
+    const auto begin = static_cast<float>(x - left);
+    const PerLine from = greatest(extents.left, on_all(begin)), to = least(extents.right, on_all(begin + 1));
+    const PerLine length = greatest(to - from, PerLine{}) * (1.0f / kLines);
+    if (sum(length) == 0) continue;
+    const PixelPlace place = place_of(x, row);
+    show_by_area(place, edge.beyond());
+    buffers_.sum[place.pixel] += edge.integral(row, left, from, to, length, buffers_.base[place.pixel]);
+  }
+}
+
+// The pixels whose centres it holds: a thin triangle may have them between its lines.
+void Painter::show_by_area(int row, const Extent& extent, const EdgePatch& edge) {
+  const int left = std::max(first_center(extent.left), bounds_.x0);
+  const int right = std::min(first_center(extent.right), bounds_.x1);
+  for (int x = left; x < right; ++x) show_by_area(place_of(x, row), edge.beyond());
+}
+
+// From now on, a pixel of about this colour.
+void Painter::show_by_area(const PixelPlace& place, const Color& color) {
+  ReconstructionBuffers& b = buffers_;
+  if ((b.holds_several[place.word] & place.bit) != 0) return;
+  if ((b.holds_one[place.word] & place.bit) == 0) b.base[place.pixel] = color;
+  start_sum(place);
+}
+
+void Painter::start_sum(const PixelPlace& place) {
+  ReconstructionBuffers& b = buffers_;
+  b.holds_several[place.word] |= place.bit;
+  b.pixels.push_back(static_cast<std::uint32_t>(place.pixel));
+  b.sum[place.pixel] = Color(0, 0, 0);
+  b.count[place.pixel] = 1;
+}
+
 void Painter::finish() {
   for (const std::uint32_t pixel : buffers_.pixels) {
-    const float share = rule_ == PixelRule::kArea ? 1.0f : 1.0f / static_cast<float>(buffers_.count[pixel]);
+    const float share = takes_area() ? 1.0f : 1.0f / static_cast<float>(buffers_.count[pixel]);
     pixels_.colors[pixel] = buffers_.base[pixel] + buffers_.sum[pixel] * share;
   }
 }
@@ -364,13 +296,32 @@ void Painter::finish() {
 
 PPRT_CLONED_FOR_WIDE_REGISTERS
 void reconstruct(const SampleMesh& mesh, const PixelRect& bounds, RegionPixels& pixels,
-                 ReconstructionBuffers& buffers, PixelRule rule) {
+                 ReconstructionBuffers& buffers, PixelRule rule, ViewedPrimitives* viewed) {
   pixels.bounds = bounds;
-  pixels.colors.assign(pixels.bounds.area(), Color(0, 0, 0));
+  const SampleMesh::Impl& impl = mesh.impl();
+  if (covers_image(impl)) {
+    pixels.colors.resize(pixels.bounds.area());
+  } else {
+    pixels.colors.assign(pixels.bounds.area(), Color(0, 0, 0));
+  }
+  const auto& triangles = impl.delaunay().triangles();
   Painter painter(pixels, buffers, rule);
-  painter.gather(mesh.impl());
-  for (const Delaunay::Triangle& t : mesh.impl().delaunay().triangles()) {
-    if (t.is_finite() && !misses(t, mesh.impl(), bounds)) painter.paint(corners_of(t, mesh.impl()));
+  painter.gather(impl);
+  // Those with edges first: they decide which pixels the others show by area.
+  buffers.has_edge.assign(triangles.size(), 0);
+  EdgePatch edge;
+  for (std::size_t i = 0; rule == PixelRule::kEdges && viewed && i < triangles.size(); ++i) {
+    const Delaunay::Triangle& t = triangles[i];
+    if (!t.is_finite() || !may_show_edge(t, impl) || misses(t, impl, bounds)) continue;
+    const std::array<Corner, 3> corners = corners_of(t, impl);
+    if (!edge.set(corners, primitives_of(t, impl), *viewed)) continue;
+    buffers.has_edge[i] = 1;
+    painter.paint_edge(corners, edge);
+  }
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const Delaunay::Triangle& t = triangles[i];
+    if (t.is_finite() && buffers.has_edge[i] == 0 && !misses(t, impl, bounds))
+      painter.paint(corners_of(t, impl));
   }
   painter.finish();
 }

@@ -7,6 +7,7 @@
 
 #include "base/vector.h"
 #include "pipeline/sample_mesh.h"
+#include "pipeline/viewed_primitives.h"
 
 namespace pprt {
 
@@ -25,7 +26,8 @@ struct RegionPixels {
 enum class PixelRule : std::uint8_t {
   kCenter,  // the interpolation at its centre as well
   kMean,    // the samples' mean: the paper's rule
-  kArea     // the interpolation's mean over the pixel's area
+  kArea,    // the interpolation's mean over the pixel's area
+  kEdges    // the same, and small triangles with corners on different primitives show each where it is seen
 };
 
 // Storage that lives from frame to frame. Pixels are numbered row by row within the bounds; `base` has a
@@ -36,13 +38,15 @@ struct ReconstructionBuffers {
   std::vector<Color> base;                              // the first sample's colour
   std::vector<Color> sum;                               // over samples or area, of differences from the base
   std::vector<std::uint32_t> count;                     // of samples
+  std::vector<std::uint8_t> has_edge;                   // per triangle of the mesh: 1 if of a primitive
 };
 
 // Every pixel of `bounds`, as the mesh has it: the barycentric mean of the triangle that holds its centre,
 // and what the rule says where there are samples. Each centre belongs to exactly one triangle, also on shared
-// edges.
+// edges. `viewed`, of the same eye as the samples, is asked under kEdges alone.
 void reconstruct(const SampleMesh& mesh, const PixelRect& bounds, RegionPixels& pixels,
-                 ReconstructionBuffers& buffers, PixelRule rule = PixelRule::kArea);
+                 ReconstructionBuffers& buffers, PixelRule rule = PixelRule::kArea,
+                 ViewedPrimitives* viewed = nullptr);
 
 // Per pixel of `bounds`, row by row: which of triangles(mesh) holds its centre, by the same rule;
 // kNoTriangle where none does.

@@ -90,7 +90,7 @@ TEST_CASE("nothing is carried where a sample that proves right costs as much as 
   // 935 units for each one asked; a fresh one is 705 and 110 a ray.
   REQUIRE(price(Work::kCastSample) + price(Work::kRay) + price(Work::kKeptSample) == 935);
   REQUIRE(price(Work::kOwnSample) == 705);
-  const CastSurvivors fine = {1, 0, 1.5};
+  const CastSurvivors fine = {5, 0, 1.5};
   CastEvidence e = evidence(0.01);
   CHECK(cast_limits(e, fine).share > 0);
   e.hidden = 8;  // 1558 against 0.9 * 1475
@@ -101,8 +101,9 @@ TEST_CASE("nothing is carried where a sample that proves right costs as much as 
   CHECK(cast_limits(e, fine).share > 0);
   e.hidden = 3;  // 1100
   CHECK(cast_limits(e, fine).share == 0);
-  // A coarse picture that has moved little pays a tenth more than a fresh one costs: 1260.
+  // A picture of outlines that has moved little pays a tenth more than a fresh one costs: 1260.
   CHECK(cast_limits(e, {1, 0, 0.5}).share > 0);
+  CHECK(cast_limits(e, {1, 0, 1.5}).share > 0);
   CHECK(cast_limits(e, {1, 0.6, 0.5}).share == 0);
   CHECK(cast_limits(e, {5, 0, 0.5}).share == 0);
   e.hidden = 6;  // 1336
@@ -124,8 +125,8 @@ TEST_CASE("what samples were measured to cost decides, and the table of prices n
   CHECK_FALSE(carries(1.99));
   // Where colours that depend on the eye are no good, the others must be cheaper.
   e.hidden = 0, e.stale_error = 8;
-  CHECK(carries(2.3));
-  CHECK_FALSE(carries(2.2));
+  CHECK(carries(3.3));
+  CHECK_FALSE(carries(3.1));
 }
 
 TEST_CASE("nothing is carried before it is known what that costs") {

@@ -1,0 +1,200 @@
+// Reconstruction with primitives' edges where they are (PixelRule::kEdges).
+#include <algorithm>
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+#include "pipeline/reconstruction.h"
+#include "synthetic_image.h"
+
+namespace pprt {
+namespace {
+
+const TileGrid kGrid{100, 60, 16};
+
+// A picture of three things: a band on a ball in front of a wall, each of one colour. As primitives: 1 the
+// band, which is all that lies left of a slanted line, 2 the ball, 3 the wall.
+constexpr LinearForm kLeftOfBand = {37.3, -1, 0.31};
+constexpr double kBallX = 55.2, kBallY = 28.7, kBallRadius = 21.4;
+
+std::uint32_t primitive_at(double x, double y) {
+  if (kLeftOfBand.at(x, y) >= 0) return 1;
+  return std::hypot(x - kBallX, y - kBallY) <= kBallRadius ? 2 : 3;
+}
+
+Color color_of(std::uint32_t primitive) {
+  return primitive == 1   ? Color(0.9f, 0.8f, 0.1f)
+         : primitive == 2 ? Color(0.3f, 0.1f, 0.6f)
+                          : Color(0, 0.5f, 0);
+}
+
+ImageFacet facet(const LinearForm& edge, double nearness) {
+  constexpr float kFar = 1e9F;
+  return {{edge, {1, 0, 0}, {1, 0, 0}}, {nearness, 0, 0}, {-kFar, -kFar, kFar, kFar}};
+}
+
+void view(std::uint32_t primitive, ImageShape& shape) {
+  shape.facets.clear();
+  shape.kind = ImageShape::Kind::kFacets;
+  if (primitive == 1) shape.facets = {facet(kLeftOfBand, 3)};
+  if (primitive == 3) shape.facets = {facet({1, 0, 0}, 1)};
+  if (primitive != 2) return;
+  shape.kind = ImageShape::Kind::kQuadric;
+  // The nearness 2 and a little more in its middle: between wall and band everywhere.
+  constexpr double kDepth = 1e-6;
+  shape.quadric.discriminant = {kDepth * (kBallRadius * kBallRadius - kBallX * kBallX - kBallY * kBallY),
+                                kDepth * 2 * kBallX,
+                                kDepth * 2 * kBallY,
+                                -kDepth,
+                                0,
+                                -kDepth};
+  shape.quadric.middle = {-2, 0, 0};
+}
+
+SampleMesh mesh_of(int refinements) {
+  SampleMesh mesh(Region::whole(kGrid));
+  const auto add = [&](double x, double y) {
+    Sample sample;
+    sample.x = x, sample.y = y;
+    sample.ray.primitive = primitive_at(x, y);
+    sample.ray.color = color_of(sample.ray.primitive);
+    mesh.insert(sample);
+  };
+  for (const Vec2d& p : seed_points(kGrid.width, kGrid.height, 5)) add(p.x, p.y);
+  for (int i = 0; i < refinements; ++i) {
+    const auto point = mesh.next_point();
+    if (!point) break;
+    add(point->x, point->y);
+  }
+  return mesh;
+}
+
+RegionPixels rebuild(const SampleMesh& mesh, PixelRule rule, const ViewedPrimitives::View& of = view) {
+  RegionPixels pixels;
+  ReconstructionBuffers buffers;
+  ViewedPrimitives viewed(of);
+  reconstruct(mesh, mesh.region().bounds(), pixels, buffers, rule, &viewed);
+  return pixels;
+}
+
+// Root mean square against the mean over each pixel.
+double error_of(const RegionPixels& pixels) {
+  constexpr int kSide = 16;
+  double sum = 0;
+  for (int y = 0; y < kGrid.height; ++y) {
+    for (int x = 0; x < kGrid.width; ++x) {
+      Color truth(0, 0, 0);
+      for (int i = 0; i < kSide * kSide; ++i)
+        truth += color_of(primitive_at(x + (i % kSide + 0.5) / kSide, y + (i / kSide + 0.5) / kSide));
+      const Color d = pixels.at(x, y) - truth * (1.0f / (kSide * kSide));
+      sum += d.dot(d);
+    }
+  }
+  return std::sqrt(sum / (3.0 * kGrid.width * kGrid.height));
+}
+
+float largest_difference(const RegionPixels& a, const RegionPixels& b) {
+  float largest = 0;
+  for (std::size_t i = 0; i < a.colors.size(); ++i) {
+    const Color d = a.colors[i] - b.colors[i];
+    largest = std::max({largest, std::abs(d.x), std::abs(d.y), std::abs(d.z)});
+  }
+  return largest;
+}
+
+}  // namespace
+
+TEST_CASE("where primitives are known their edges are where they belong") {
+  for (const int refinements : {600, 1500}) {
+    const SampleMesh mesh = mesh_of(refinements);
+    const double area = error_of(rebuild(mesh, PixelRule::kArea));
+    const double edges = error_of(rebuild(mesh, PixelRule::kEdges));
+    CHECK(edges < 0.5 * area);
+    // Shapes a pixel beside where they are seen do not pass.
+    const auto beside = [](std::uint32_t primitive, ImageShape& shape) {
+      view(primitive, shape);
+      for (ImageFacet& f : shape.facets) f.edges[0].constant += 1;
+      shape.quadric.discriminant.constant += 2e-6 * kBallRadius;
+    };
+    CHECK(error_of(rebuild(mesh, PixelRule::kEdges, beside)) > 2 * edges);
+  }
+}
+
+TEST_CASE("where no primitive is known, or all samples are of one, edges change nothing") {
+  const SampleMesh mesh = mesh_of(800);
+  const RegionPixels area = rebuild(mesh, PixelRule::kArea);
+  const auto nobody_knows = [](std::uint32_t, ImageShape& shape) { shape.kind = ImageShape::Kind::kUnknown; };
+  CHECK(largest_difference(rebuild(mesh, PixelRule::kEdges, nobody_knows), area) == 0);
+  RegionPixels without;
+  ReconstructionBuffers buffers;
+  reconstruct(mesh, mesh.region().bounds(), without, buffers, PixelRule::kEdges);
+  CHECK(largest_difference(without, area) == 0);
+  SampleMesh of_one(mesh.region());
+  for (Sample s : mesh.samples()) {
+    s.ray.primitive = 1;
+    of_one.insert(s);
+  }
+  CHECK(largest_difference(rebuild(of_one, PixelRule::kEdges), rebuild(of_one, PixelRule::kArea)) == 0);
+  CHECK(largest_difference(rebuild(mesh, PixelRule::kEdges), area) > 0.1f);
+}
+
+TEST_CASE("no pixel is left out between edges, thin triangles through centres included") {
+  SampleMesh mesh(Region::whole(kGrid));
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> unit(0, 1);
+  const auto add = [&](double x, double y) {
+    Sample sample;
+    sample.x = x, sample.y = y;
+    sample.ray.primitive = static_cast<std::uint32_t>(random() % 5);  // 0: the background; 4: not seen at all
+    const auto v = static_cast<float>(0.5 + 0.5 * unit(random));
+    sample.ray.color = Color(v, 1.5f - v, v);
+    mesh.insert(sample);
+  };
+  for (const Vec2d& p : seed_points(kGrid.width, kGrid.height, 5)) add(p.x, p.y);
+  for (int row = 5; row < 55; row += 7) {  // two rows of samples on either side of a row's centres
+    for (int i = 0; i < 300; ++i) add(100 * unit(random), row + 0.5 + (i % 2 == 0 ? 0.04 : -0.04));
+  }
+  const RegionPixels pixels = rebuild(mesh, PixelRule::kEdges);
+  const auto [least, greatest] = std::minmax_element(
+      pixels.colors.begin(), pixels.colors.end(), [](const Color& a, const Color& b) { return a.x < b.x; });
+  CHECK(least->x > 0.5f - 1e-4f);
+  CHECK(greatest->x < 1 + 1e-4f);
+}
+
+TEST_CASE("a part of the image shows the same edges") {
+  const SampleMesh whole = mesh_of(1500);
+  std::vector<std::uint8_t> owned(static_cast<std::size_t>(kGrid.tile_count()), 0);
+  for (const int tile : {9, 10, 16, 17, 18}) owned[static_cast<std::size_t>(tile)] = 1;
+  SampleMesh part(Region(kGrid, owned));
+  for (const Sample& s : whole.samples()) part.insert(s);
+  const RegionPixels expected = rebuild(whole, PixelRule::kEdges), pixels = rebuild(part, PixelRule::kEdges);
+  float largest = 0;
+  for (const int tile : part.region().tiles()) {
+    const PixelRect rect = kGrid.pixels(tile);
+    for (int y = rect.y0; y < rect.y1; ++y) {
+      for (int x = rect.x0; x < rect.x1; ++x)
+        largest = std::max(largest, std::abs(pixels.at(x, y).x - expected.at(x, y).x));
+    }
+  }
+  CHECK(largest < 1e-5f);  // triangles add up in another order
+}
+
+TEST_CASE("shapes are asked for once until the eye moves") {
+  int asked = 0;
+  ViewedPrimitives viewed([&](std::uint32_t, ImageShape& shape) {
+    ++asked;
+    shape.kind = ImageShape::Kind::kFacets;
+    shape.facets.assign(2, facet({1, 0, 0}, 1));
+  });
+  const auto first = viewed.find(7), other = viewed.find(3);
+  CHECK(viewed.find(7) == first);
+  CHECK(first != other);
+  CHECK(asked == 2);
+  viewed.forget();
+  viewed.find(7);
+  CHECK(asked == 3);
+}
+
+}  // namespace pprt
