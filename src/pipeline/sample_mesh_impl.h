@@ -60,7 +60,7 @@ class SampleMesh::Impl {
     Index triangle;
     std::uint32_t stamp;
   };
-  static constexpr int kCellPixels = 8;
+  static constexpr std::size_t kCellPixels = 8;
   struct BorderEntry {
     QueueEntry entry;
     BorderTriangle triangle;
@@ -68,9 +68,10 @@ class SampleMesh::Impl {
 
   bool lives(const QueueEntry& entry) const { return tallies_[entry.triangle].stamp == entry.stamp; }
   std::size_t cell_of(const Vec2d& point) const {
-    const int columns = region_.grid().width / kCellPixels + 1;
-    return static_cast<std::size_t>(static_cast<int>(point.y) / kCellPixels * columns +
-                                    static_cast<int>(point.x) / kCellPixels);
+    const auto column = static_cast<std::size_t>(point.x) / kCellPixels;
+    const auto row = static_cast<std::size_t>(point.y) / kCellPixels;
+    const auto columns = static_cast<std::size_t>(region_.grid().width) / kCellPixels + 1;
+    return row * columns + column;
   }
   bool triangulate(const Vec2d& point, int tile);  // false where a sample is already
   void admit();                                    // the triangles that an insertion made

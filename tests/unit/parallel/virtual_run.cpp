@@ -33,12 +33,39 @@ class DiscTracer {
               }
             },
             [this](double x, double y) { return trace(x, y); }, [](const Vec3f&, bool) { return true; },
-            [this] { return counts_; }};
+            [this] { return counts_; },
+            conditions_.tells_shapes ? [this](std::uint32_t p, ImageShape& shape) { view(p, shape); }
+                                     : std::function<void(std::uint32_t, ImageShape&)>()};
   }
 
   std::vector<Traced> take_traced() { return std::move(traced_); }
 
  private:
+  // The disc as a quadric that is a little nearer than the plane, which is all that there is besides.
+  void view(std::uint32_t primitive, ImageShape& shape) const {
+    const Vec3d origin = camera_.eye + ray_direction(camera_, 0, 0) * kPlaneDistance;
+    const double step = camera_.slope_per_pixel * kPlaneDistance;  // x to the right, y downwards
+    shape = {};
+    if (primitive == 1) {
+      shape.kind = ImageShape::Kind::kQuadric;
+      const double per_x = camera_.right.x * step, per_y = -camera_.up.y * step;
+      constexpr double kDepth = 1e-6;
+      shape.quadric.discriminant = {
+          kDepth * (kDiscRadius * kDiscRadius - origin.x * origin.x - origin.y * origin.y),
+          kDepth * -2 * origin.x * per_x,
+          kDepth * -2 * origin.y * per_y,
+          kDepth * -per_x * per_x,
+          0,
+          kDepth * -per_y * per_y};
+      shape.quadric.middle = {-2 / kPlaneDistance, 0, 0};
+    } else {
+      constexpr float kFar = 1e9F;
+      shape.kind = ImageShape::Kind::kFacets;
+      shape.facets = {
+          {{{{1, 0, 0}, {1, 0, 0}, {1, 0, 0}}}, {1 / kPlaneDistance, 0, 0}, {-kFar, -kFar, kFar, kFar}}};
+    }
+  }
+
   RaySample trace(double x, double y) {
     traced_.push_back({frame_, x, y});
     ++counts_.primary;
@@ -50,6 +77,7 @@ class DiscTracer {
     RaySample sample;
     sample.hit = Vec3f(hit);
     sample.color = in_disc ? Color(0.9f, 0.7f, 0.2f) : Color(0.1f, 0.1f, 0.3f);
+    sample.primitive = in_disc ? 1 : 2;
     sample.rays = (in_disc ? 4u : 1u) + static_cast<std::uint32_t>(conditions_.more_rays);
     counts_.shadow += sample.rays - 1;
     if (conditions_.no_number_every > 0 &&

@@ -19,6 +19,7 @@ CameraSource still_or_pan(const SessionSettings& settings, int frames, double sh
 // The scene, and what is done to a run that it must bear or that it must show.
 struct Conditions {
   double period = 0;              // of a pattern of discs all over the plane, scene units; 0: one disc
+  bool tells_shapes = false;      // the disc and the plane are primitives whose shapes are known
   bool slow_at_random = false;    // the probe sleeps now and then: threads run in another order
   int more_rays = 0;              // of every eye ray, beside those of the picture
   int no_number_every = 0;        // every so many eye rays of a rank give no number; 0: none

@@ -86,8 +86,10 @@ double error_of(const RegionPixels& pixels) {
   for (int y = 0; y < kGrid.height; ++y) {
     for (int x = 0; x < kGrid.width; ++x) {
       Color truth(0, 0, 0);
-      for (int i = 0; i < kSide * kSide; ++i)
-        truth += color_of(primitive_at(x + (i % kSide + 0.5) / kSide, y + (i / kSide + 0.5) / kSide));
+      for (int j = 0; j < kSide; ++j) {
+        for (int i = 0; i < kSide; ++i)
+          truth += color_of(primitive_at(x + (i + 0.5) / kSide, y + (j + 0.5) / kSide));
+      }
       const Color d = pixels.at(x, y) - truth * (1.0f / (kSide * kSide));
       sum += d.dot(d);
     }
