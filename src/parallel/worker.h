@@ -71,7 +71,6 @@ class Worker {
   void adopt_partition(const FrameOrder& order, bool keep_samples);
   void send_handed_over(const FrameOrder& order);
   std::vector<Sample> cast(const FrameOrder& order, bool eye_rests);
-  std::vector<Sample> cast_verified(const FrameOrder& order, bool eye_rests);
   std::vector<Sample> cast_where_paying(const FrameOrder& order);
   std::vector<Sample> cast_at_rest(const FrameOrder& order);
   CastResult cast_into(const FrameOrder& order, const CastSettings& settings);
