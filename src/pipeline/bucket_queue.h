@@ -49,6 +49,13 @@ class BucketQueue {
     return entry;
   }
 
+  // What is popped that many pops later unless something is pushed; nothing where another bucket holds it.
+  const Entry* ahead(std::size_t pops) const {
+    if (summary_ == 0) return nullptr;
+    const std::vector<Entry>& bucket = buckets_[top()];
+    return bucket.size() > pops ? &bucket[bucket.size() - 1 - pops] : nullptr;
+  }
+
   // Forgets every entry; keeps the storage.
   void clear() {
     while (summary_ != 0) {

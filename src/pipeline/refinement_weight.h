@@ -2,9 +2,12 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
+#include <bit>
+#include <cstdint>
+#include <type_traits>
 
 #include "base/vector.h"
+#include "pipeline/lanes.h"
 
 namespace pprt {
 
@@ -56,17 +59,37 @@ struct WeightTerms {
   bool pixel_rule = true;  // a triangle smaller than a pixel has its variance as its only reason
 };
 
+// The natural logarithm of a positive, normal float or of four, to 4e-7 of itself; of 1 exactly 0. The
+// polynomial is the minimax one (Remez) for log(1 + f) / f over [sqrt(1/2), sqrt(2)] - 1.
+template <class Number>
+Number fast_logarithm(const Number& x) {
+  using Bits = std::conditional_t<std::is_same_v<Number, float>, std::int32_t, LaneBits>;
+  constexpr std::int32_t kRootOfHalf = 0x3f3504f3;
+  const Bits bits = std::bit_cast<Bits>(x), exponent = (bits - kRootOfHalf) >> 23;
+  const Number f = std::bit_cast<Number>(bits - (exponent << 23)) - 1;
+  const Number high = 0.199001655F + f * (-0.172508298F + f * (0.162225803F + f * -0.10106895F));
+  const Number all = 0.999999945F + f * (-0.500003651F + f * (0.333350589F + f * (-0.249699091F + f * high)));
+  return f * all + as_numbers<Number>(exponent) * 0.693147181F;
+}
+
 // Weight(t) = Rad^2 log(1.01 + 500 Var), with two safeguards. Rad is at most the longest edge: a sliver on
 // the hull has a circumradius of any size. A triangle whose circle is smaller than a pixel keeps only its
-// variance as a reason (Painter and Sloan 1989): the constant 1.01 becomes 1, and a flat one has weight 0.
+// variance as a reason (Painter and Sloan 1989): the constant 1.01 becomes 1, and a flat one has weight 0. Of
+// one triangle or of four, by the square of Rad in square pixels, and Var.
+template <class Number>
+Number refinement_weight(const Number& size_squared, const Number& variance, const WeightTerms& terms = {}) {
+  constexpr float kPixelSizeSquared = 0.318309886F;  // 1 / pi: a circle of one square pixel
+  const Number nothing{};
+  if (!terms.area && !terms.variance) return nothing;
+  const auto small = size_squared < (terms.pixel_rule ? kPixelSizeSquared : 0);
+  if (!terms.variance) return small ? nothing : size_squared;
+  const Number detail = fast_logarithm((small ? nothing + 1 : nothing + 1.01F) + 500 * variance);
+  return terms.area ? size_squared * detail : detail;
+}
+
 inline float refinement_weight(const TriangleShape& shape, float variance, const WeightTerms& terms = {}) {
-  constexpr double kPixelRadiusSquared = 0.31830988618379067;  // 1 / pi: a circle of one square pixel
-  if (!terms.area && !terms.variance) return 0;
-  const double radius_squared = std::min(shape.circumcircle.radius_squared, shape.longest_edge_squared);
-  const bool small = terms.pixel_rule && radius_squared < kPixelRadiusSquared;
-  if (!terms.variance) return small ? 0.0f : static_cast<float>(radius_squared);
-  const float detail = std::log((small ? 1.0f : 1.01f) + 500 * variance);
-  return terms.area ? static_cast<float>(radius_squared) * detail : detail;
+  const double size_squared = std::min(shape.circumcircle.radius_squared, shape.longest_edge_squared);
+  return refinement_weight(static_cast<float>(size_squared), variance, terms);
 }
 
 }  // namespace pprt

@@ -37,11 +37,6 @@ Vec2d exit_towards(const Vec2d& circumcenter, const std::array<Vec2d, 3>& corner
   return {std::clamp(exit.x, 0.0, width), std::clamp(exit.y, 0.0, height)};
 }
 
-Vec2d refinement_point(const std::array<Vec2d, 3>& corners, const Vec2d& circumcenter,
-                       const TileGrid& image) {
-  return is_inside(circumcenter, image) ? circumcenter : exit_towards(circumcenter, corners, image);
-}
-
 }  // namespace
 
 SampleMesh::SampleMesh(const Region& region, const WeightTerms& terms)
@@ -105,12 +100,10 @@ void SampleMesh::Impl::clear() {
   delaunay_.clear();
   samples_.clear();
   corners_.clear();
-  tallies_.clear();
   new_at_border_.clear();
   queue_.clear();
   queue_.set_floor(std::numeric_limits<float>::infinity());
   tile_weights_.assign(tiles, {});
-  region_weights_ = {};
   latest_in_tile_.assign(tiles, Delaunay::kNowhere);
   latest_in_cell_.assign(cell_of({0.0 + region_.grid().width, 0.0 + region_.grid().height}) + 1,
                          Delaunay::kNowhere);
@@ -161,36 +154,81 @@ bool SampleMesh::Impl::triangulate(const Vec2d& point, int tile) {
 }
 
 void SampleMesh::Impl::admit() {
-  tallies_.resize(delaunay_.triangles().size());
-  for (const Index t : delaunay_.new_triangles()) {
-    forget(tallies_[t]);
-    if (!inserts_many_ && delaunay_.triangles()[t].is_finite()) note_at_border(t, adopt(t));
+  const std::span<const Index> triangles = delaunay_.new_triangles();
+  for (const Index t : triangles) forget(delaunay_.note(t));
+  if (inserts_many_) return;
+  weigh_new();
+  for (std::size_t k = 0; k < triangles.size(); ++k) {
+    if (!delaunay_.triangles()[triangles[k]].is_finite()) continue;
+    adopt(triangles[k], weights_[k]);
+    note_at_border(triangles[k]);
+  }
+}
+
+// Four at once. Their corners stand around the one that they share, so differences of colour serve two each.
+void SampleMesh::Impl::weigh_new() {
+  const std::span<const Index> around = delaunay_.around_new(), triangles = delaunay_.new_triangles();
+  const std::size_t count = around.size(), padded = (count + kLanes - 1) / kLanes * kLanes;
+  const auto shown = [&](Index corner) {
+    return least(greatest(corners_[corner].channels(), Floats{}), Floats{1, 1, 1, 0});
+  };
+  const Floats center = shown(static_cast<Index>(corners_.size() - 1));
+  shown_.resize(padded + kLanes), weights_.resize(padded);
+  for (std::size_t k = 0; k < count; ++k)
+    shown_[k] = around[k] == Delaunay::kInfinite ? center : shown(around[k]);
+  shown_[count] = shown_[0];
+  const auto squared_differences = [&](std::size_t k, auto&& other) {
+    const auto square = [](const Floats& v) { return v * v; };
+    Floats a = square(shown_[k] - other(k)), b = square(shown_[k + 1] - other(k + 1)),
+           c = square(shown_[k + 2] - other(k + 2)), d = square(shown_[k + 3] - other(k + 3));
+    transpose(a, b, c, d);
+    return a + b + c;
+  };
+  const auto to_center = [&](std::size_t k) {
+    return squared_differences(k, [&](std::size_t) { return center; });
+  };
+  Floats next = to_center(0);
+  for (std::size_t k = 0; k < count; k += kLanes) {
+    const Floats here = next;
+    next = to_center(k + kLanes);
+    const Floats after = __builtin_shufflevector(here, next, 1, 2, 3, 4);
+    const Floats between = squared_differences(k, [&](std::size_t i) { return shown_[i + 1]; });
+    const Floats variance = (here + after + between) * (1.0F / 27);
+    Floats size_squared{};
+    for (std::size_t i = 0; i < kLanes && k + i < count; ++i)
+      size_squared[i] = delaunay_.triangles()[triangles[k + i]].circle.size_squared;
+    store(refinement_weight(size_squared, variance, terms_), &weights_[k]);
   }
 }
 
 void SampleMesh::Impl::end_many() {
   inserts_many_ = false;
-  for (Index t = 0; t < tallies_.size(); ++t) {
-    if (tallies_[t].stamp == 0 && delaunay_.triangles()[t].is_finite()) note_at_border(t, adopt(t));
+  for (Index t = 0; t < delaunay_.triangles().size(); ++t) {
+    if (delaunay_.note(t).stamp != 0 || !delaunay_.triangles()[t].is_finite()) continue;
+    adopt(t);
+    note_at_border(t);
   }
 }
 
-void SampleMesh::Impl::note_at_border(Index triangle, const Circle& circle) {
+void SampleMesh::Impl::note_at_border(Index triangle) {
   if (region_.is_whole()) return;
   const auto& corners = delaunay_.triangles()[triangle].corners;
   const std::array<bool, 3> own = {corners_[corners[0]].own, corners_[corners[1]].own,
                                    corners_[corners[2]].own};
   if (!own[0] && !own[1] && !own[2] && !notes_foreign_) return;
+  const Circle circle{delaunay_.circumcenter(triangle),
+                      delaunay_.triangles()[triangle].circle.radius_squared()};
   if (region_.surely_holds(circle)) return;
-  new_at_border_.push_back({{triangle, tallies_[triangle].stamp}, {circle, corners, own}});
+  new_at_border_.push_back({{triangle, delaunay_.note(triangle).stamp}, {circle, corners, own}});
 }
 
 std::optional<Vec2d> SampleMesh::Impl::next_point() {
+  constexpr std::size_t kAhead = 4;
   while (const std::optional<QueueEntry> entry = queue_.pop()) {
+    if (const QueueEntry* soon = queue_.ahead(kAhead))
+      __builtin_prefetch(&delaunay_.triangles()[soon->triangle]);
     if (!lives(*entry)) continue;  // destroyed since it was queued
-    const Points corners = points(entry->triangle);
-    const Vec2d center = triangle_shape(corners[0], corners[1], corners[2]).circumcircle.center;
-    const Vec2d point = refinement_point(corners, center, region_.grid());
+    const Vec2d point = refinement_point(entry->triangle);
     // Rounded onto a sample it is as fine as coordinates allow.
     if (!delaunay_.surely_holds(entry->triangle, point) &&
         delaunay_.locate(point, entry->triangle) == Delaunay::kNowhere)
@@ -241,29 +279,35 @@ SampleMesh::Guess SampleMesh::Impl::guess_beside_edge(std::uint32_t primitive) c
   return result;
 }
 
+Vec2d SampleMesh::Impl::refinement_point(Index triangle) const {
+  const Vec2d center = delaunay_.circumcenter(triangle);
+  return is_inside(center, region_.grid()) ? center : exit_towards(center, points(triangle), region_.grid());
+}
+
 SampleMesh::Impl::Points SampleMesh::Impl::points(Index triangle) const {
   const auto& [a, b, c] = delaunay_.triangles()[triangle].corners;
   const Vec2d* points = delaunay_.points().data();
   return {points[a], points[b], points[c]};
 }
 
-Circle SampleMesh::Impl::adopt(Index triangle) {
-  const Points corners = points(triangle);
-  const TriangleShape shape = triangle_shape(corners[0], corners[1], corners[2]);
-  const Vec2d point = refinement_point(corners, shape.circumcircle.center, region_.grid());
+void SampleMesh::Impl::adopt(Index triangle) {
+  const Delaunay::Triangle& t = delaunay_.triangles()[triangle];
+  const auto& [a, b, c] = t.corners;
+  const float variance = display_variance(corners_[a].color, corners_[b].color, corners_[c].color);
+  adopt(triangle, refinement_weight(t.circle.size_squared, variance, terms_));
+}
 
-  Tally& tally = tallies_[triangle];
+void SampleMesh::Impl::adopt(Index triangle, float weight) {
+  const Vec2d point = refinement_point(triangle);
+  Tally& tally = delaunay_.note(triangle);
   tally.stamp = next_stamp_++;
   tally.tile = region_.grid().tile_at(point.x, point.y);
   // What is refined elsewhere is weighed elsewhere.
   if (region_.owns_tile(tally.tile)) {
-    const auto& [a, b, c] = delaunay_.triangles()[triangle].corners;
-    const float variance = display_variance(corners_[a].color, corners_[b].color, corners_[c].color);
-    tally.weight = refinement_weight(shape, variance, terms_);
+    tally.weight = weight;
     count(tally, 1);
-    if (tally.weight > 0) queue_.push(tally.weight, {triangle, tally.stamp});
+    if (weight > 0) queue_.push(weight, {triangle, tally.stamp});
   }
-  return shape.circumcircle;
 }
 
 void SampleMesh::Impl::forget(Tally& tally) {
@@ -273,22 +317,27 @@ void SampleMesh::Impl::forget(Tally& tally) {
 }
 
 void SampleMesh::Impl::count(const Tally& tally, int sign) {
-  const auto change = [&](TileWeights& weights) {
-    weights.triangles += sign;
-    // The last triangle takes the rounding of the running sum with it.
-    weights.total_weight = weights.triangles == 0 ? 0 : weights.total_weight + sign * tally.weight;
-  };
-  change(tile_weights_[static_cast<std::size_t>(tally.tile)]);
-  change(region_weights_);
+  TileWeights& weights = tile_weights_[static_cast<std::size_t>(tally.tile)];
+  weights.triangles += sign;
+  // The last triangle takes the rounding of the running sum with it.
+  weights.total_weight = weights.triangles == 0 ? 0 : weights.total_weight + sign * tally.weight;
+}
+
+double SampleMesh::Impl::refinement() const {
+  TileWeights all;
+  for (const TileWeights& tile : tile_weights_) {
+    all.triangles += tile.triangles;
+    all.total_weight += tile.total_weight;
+  }
+  return all.triangles > 0 ? all.total_weight / static_cast<double>(all.triangles) : 0;
 }
 
 void SampleMesh::Impl::rescan() {
   queue_.clear();
   wanted_.reset();
   tile_weights_.assign(tile_weights_.size(), {});
-  region_weights_ = {};
   const auto& triangles = delaunay_.triangles();
-  tallies_.assign(triangles.size(), {});
+  for (Index t = 0; t < triangles.size(); ++t) delaunay_.note(t) = {};
   for (Index t = 0; t < triangles.size(); ++t) {
     if (triangles[t].is_finite()) adopt(t);
   }

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "pipeline/bucket_queue.h"
 #include "pipeline/delaunay.h"
+#include "pipeline/lanes.h"
 #include "pipeline/sample_mesh.h"
 
 namespace pprt {
@@ -21,7 +23,11 @@ class SampleMesh::Impl {
     Color color{0, 0, 0};
     std::uint32_t primitive = 0;  // as in RaySample
     bool own = false;             // in the region
+
+    Floats channels() const { return channels_before_more(this); }
   };
+
+  static_assert(offsetof(Corner, primitive) == sizeof(Color));
 
   Impl(const Region& region, const WeightTerms& terms);
 
@@ -35,10 +41,7 @@ class SampleMesh::Impl {
   void expect_growth(double factor);
   Guess guess() const;
   Guess guess_beside_edge(std::uint32_t primitive) const;
-  double refinement() const {
-    const auto count = static_cast<double>(region_weights_.triangles);
-    return region_weights_.triangles > 0 ? region_weights_.total_weight / count : 0;
-  }
+  double refinement() const;
 
   const Region& region() const { return region_; }
   const Delaunay& delaunay() const { return delaunay_; }
@@ -48,13 +51,9 @@ class SampleMesh::Impl {
   const std::vector<TileWeights>& tile_weights() const { return tile_weights_; }
 
  private:
-  // What the mesh remembers of a triangle while it lives. Its slot then holds another: a new stamp tells them
-  // apart, and stamp 0 is a slot whose triangle was never weighed.
-  struct Tally {
-    std::uint32_t stamp = 0;
-    float weight = 0;
-    std::int32_t tile = 0;
-  };
+  // The note of a triangle in the statistics. Its slot then holds another: a new stamp tells them apart, and
+  // stamp 0 is a slot whose triangle was never weighed.
+  using Tally = Delaunay::Note;
   using Points = std::array<Vec2d, 3>;
   struct QueueEntry {
     Index triangle;
@@ -66,7 +65,9 @@ class SampleMesh::Impl {
     BorderTriangle triangle;
   };
 
-  bool lives(const QueueEntry& entry) const { return tallies_[entry.triangle].stamp == entry.stamp; }
+  bool lives(const QueueEntry& entry) const {
+    return delaunay_.triangles()[entry.triangle].note.stamp == entry.stamp;
+  }
   std::size_t cell_of(const Vec2d& point) const {
     const auto column = static_cast<std::size_t>(point.x) / kCellPixels;
     const auto row = static_cast<std::size_t>(point.y) / kCellPixels;
@@ -75,11 +76,14 @@ class SampleMesh::Impl {
   }
   bool triangulate(const Vec2d& point, int tile);  // false where a sample is already
   void admit();                                    // the triangles that an insertion made
-  Circle adopt(Index triangle);                    // one that is new: statistics, queue; its circumcircle
+  void weigh_new();                                // them, into weights_
+  void adopt(Index triangle);                      // one that is new: weight, statistics, queue
+  void adopt(Index triangle, float weight);        // the same of known weight
   void count(const Tally& tally, int sign);        // into, or out of, the statistics
   void forget(Tally& tally);                       // a triangle that is gone: statistics
   void rescan();                                   // every triangle anew
-  void note_at_border(Index triangle, const Circle& circle);
+  void note_at_border(Index triangle);
+  Vec2d refinement_point(Index triangle) const;
   Points points(Index triangle) const;  // of its corners
 
   Region region_;
@@ -87,13 +91,13 @@ class SampleMesh::Impl {
   Delaunay delaunay_;
   std::vector<Sample> samples_;
   std::vector<Corner> corners_;  // one per sample
-  std::vector<Tally> tallies_;   // one per slot
   std::vector<BorderEntry> new_at_border_;
   std::vector<TileWeights> tile_weights_;
-  TileWeights region_weights_;  // over the region's tiles
   // Triangles to start a walk from, by tile and by cell of eight pixels; kNowhere before the first.
   std::vector<Index> latest_in_tile_, latest_in_cell_;
   BucketQueue<QueueEntry> queue_;
+  std::vector<float> weights_;  // of the new triangles
+  std::vector<Floats> shown_;   // scratch of weigh_new()
   std::uint32_t next_stamp_ = 1;
   bool notes_foreign_ = false;
   bool inserts_many_ = false;

@@ -115,6 +115,34 @@ TEST_CASE("the triangulation holds after every single insertion") {
   }
 }
 
+TEST_CASE("what a circle tells of a point is what exact arithmetic does") {
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> angle(0, 6.283185307179586), share(0, 1);
+  std::vector<Vec2d> far_off = random_points(random, 400);
+  for (Vec2d& p : far_off) p = p * 1e-3 + Vec2d(32000, 31000);
+  int told = 0, asked = 0;
+  for (const auto& points :
+       {random_points(random, 400), grid_points(16), circle_points(), fan_points(), far_off}) {
+    const Delaunay delaunay = triangulation(points);
+    for (Delaunay::Index i = 0; i < delaunay.triangles().size(); ++i) {
+      const Delaunay::Triangle& t = delaunay.triangles()[i];
+      if (!t.is_finite()) continue;
+      const auto corner = [&](std::size_t c) { return delaunay.points()[t.corners[c]]; };
+      for (int trial = 0; trial < 20; ++trial) {
+        // Upon the circle as far as rounding allows; one in four somewhere around it.
+        const double turn = angle(random), away = trial % 4 == 0 ? 2 * share(random) : 1;
+        const Vec2d p = delaunay.circumcenter(i) +
+                        Vec2d(std::cos(turn), std::sin(turn)) * (away * std::sqrt(t.circle.radius_squared()));
+        const int side = side_of_circle(t.circle, p - corner(2));
+        const int exact = exact_in_circle(corner(0), corner(1), corner(2), p);
+        if (side != 0) REQUIRE(side == exact);
+        if (away != 1) told += side != 0, ++asked;
+      }
+    }
+  }
+  CHECK(told > 0.9 * asked);
+}
+
 TEST_CASE("points on a line wait for the first beside it") {
   Delaunay delaunay;
   for (const double x : {3.0, 1.0, 2.0, 9.0, 4.0}) CHECK(insert(delaunay, {x, 2 * x}));

@@ -350,11 +350,42 @@ TEST_CASE("weight follows the paper's formula above a pixel and variance alone b
   CHECK(refinement_weight(tiny, 0.02) == Approx(0.0625 * std::log(1 + 10)));
 }
 
+TEST_CASE("the logarithm of weights keeps to its bound, one or four at once") {
+  std::mt19937 random(23);
+  std::uniform_real_distribution<float> variance(0, 1);
+  CHECK(fast_logarithm(1.0f) == 0);
+  double worst = 0;
+  for (int i = 0; i < 100'000; ++i) {
+    Floats x{};
+    for (int lane = 0; lane < kLanes; ++lane)
+      x[lane] = 1 + 500 * variance(random) * std::pow(variance(random), 8.0f);
+    const Floats four = fast_logarithm(x);
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const double exact = std::log(static_cast<double>(x[lane]));
+      REQUIRE(four[lane] == fast_logarithm(float{x[lane]}));
+      if (exact > 0) worst = std::max(worst, std::abs(four[lane] / exact - 1));
+    }
+  }
+  CHECK(worst < 4e-7);
+}
+
 TEST_CASE("display variance clamps and averages channels") {
   const Color black(0, 0, 0), bright(9, 1, 0);
   CHECK(display_variance(black, black, black) == 0);
   // Red and green: (0, 0, 1) has variance 2/9; blue has none.
   CHECK(display_variance(black, black, bright) == Approx(2 * (2.0 / 9) / 3));
+}
+
+TEST_CASE("the bucket queue knows what it pops later") {
+  BucketQueue<int> queue;
+  CHECK_FALSE(queue.ahead(0));
+  for (const int entry : {1, 2, 3}) queue.push(1, entry);
+  queue.push(0.1f, 4);
+  REQUIRE(queue.ahead(2));
+  CHECK(*queue.ahead(2) == 1);
+  CHECK_FALSE(queue.ahead(3));  // another bucket's
+  CHECK(queue.pop() == 3);
+  CHECK(*queue.ahead(0) == 2);
 }
 
 TEST_CASE("the bucket queue pops within a sixteenth of the heaviest") {

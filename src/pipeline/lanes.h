@@ -1,0 +1,88 @@
+// Four numbers dealt with at once.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+
+#include "base/vector.h"
+
+// Four doubles fill a register of AVX2: a clone of the function is for hosts that have it, with the same
+// results to the bit (docs/decisions/0003-instruction-sets.md). Flat, so that what it calls is cloned too.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define PPRT_CLONED_FOR_WIDE_REGISTERS [[gnu::flatten, gnu::target_clones("default", "arch=x86-64-v3")]]
+#else
+#define PPRT_CLONED_FOR_WIDE_REGISTERS
+#endif
+
+namespace pprt {
+
+inline constexpr int kLanes = 4;
+using Floats = float __attribute__((vector_size(kLanes * sizeof(float))));
+using Doubles = double __attribute__((vector_size(kLanes * sizeof(double))));
+using LaneBits = std::int32_t __attribute__((vector_size(kLanes * sizeof(std::int32_t))));
+
+// Whole numbers as floats: one, or four.
+template <class Number, class Whole>
+Number as_numbers(const Whole& whole) {
+  if constexpr (std::is_same_v<Number, float>) {
+    return static_cast<float>(whole);
+  } else {
+    return __builtin_convertvector(whole, Number);
+  }
+}
+
+template <class Lanes, class From>
+Lanes load(const From* from) {
+  Lanes v;
+  std::memcpy(&v, from, sizeof v);
+  return v;
+}
+template <class Lanes, class To>
+void store(const Lanes& v, To* to) {
+  std::memcpy(to, &v, sizeof v);
+}
+
+template <class Lanes>
+Lanes least(const Lanes& a, const Lanes& b) {
+  return a < b ? a : b;
+}
+template <class Lanes>
+Lanes greatest(const Lanes& a, const Lanes& b) {
+  return a > b ? a : b;
+}
+template <class Lanes>
+Lanes size(const Lanes& a) {
+  return a < 0 ? -a : a;
+}
+
+// The three channels of a colour that four more bytes follow in memory; the last lane is 0.
+inline Floats channels_before_more(const void* color) {
+  return std::bit_cast<Floats>(std::bit_cast<LaneBits>(load<Floats>(color)) & LaneBits{-1, -1, -1, 0});
+}
+inline void store_channels(const Floats& channels, Color& color) {
+  std::memcpy(static_cast<void*>(&color), &channels, sizeof color);
+}
+
+// Of a comparison's answers.
+inline bool any(const LaneBits& lanes) {
+  using Halves = std::int64_t __attribute__((vector_size(sizeof(LaneBits))));
+  const auto halves = std::bit_cast<Halves>(lanes);
+  return (halves[0] | halves[1]) != 0;
+}
+
+// Rows become columns.
+template <class Lanes>
+void transpose(Lanes& a, Lanes& b, Lanes& c, Lanes& d) {
+  const Lanes ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5),
+              ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+  const Lanes cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5),
+              cd_high = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+  a = __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5);
+  b = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
+  c = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
+  d = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
+}
+
+}  // namespace pprt
