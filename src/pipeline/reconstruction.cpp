@@ -6,17 +6,9 @@
 #include <utility>
 
 #include "pipeline/edge_patch.h"
+#include "pipeline/lanes.h"
 #include "pipeline/sample_mesh_impl.h"
 #include "pipeline/scan_conversion.h"
-
-// Four lines of doubles fill a register of AVX2: a clone of the function is for hosts that have it, with the
-// same results to the bit (docs/decisions/0003-instruction-sets.md). Flat, so that what it calls is cloned
-// too.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define PPRT_CLONED_FOR_WIDE_REGISTERS [[gnu::flatten, gnu::target_clones("default", "arch=x86-64-v3")]]
-#else
-#define PPRT_CLONED_FOR_WIDE_REGISTERS
-#endif
 
 namespace pprt {
 namespace {
@@ -25,7 +17,7 @@ std::array<Corner, 3> corners_of(const Delaunay::Triangle& triangle, const Sampl
   const auto corner = [&](std::size_t i) {
     const Delaunay::Index index = triangle.corners[i];
     const Vec2d& point = mesh.delaunay().points()[index];
-    return Corner{point.x, point.y, mesh.corners()[index].color};
+    return Corner{point.x, point.y, mesh.corners()[index].channels()};
   };
   return {corner(0), corner(1), corner(2)};
 }
@@ -64,19 +56,46 @@ bool covers_image(const SampleMesh::Impl& mesh) {
   return points.size() > corners.size() && std::equal(corners.begin(), corners.end(), points.begin());
 }
 
-// Whether a triangle surely lies beside the bounds.
-bool misses(const Delaunay::Triangle& triangle, const SampleMesh::Impl& mesh, const PixelRect& bounds) {
-  const Vec2d* points = mesh.delaunay().points().data();
-  const auto& [a, b, c] = triangle.corners;
-  return std::max({points[a].x, points[b].x, points[c].x}) < bounds.x0 ||
-         std::max({points[a].y, points[b].y, points[c].y}) < bounds.y0 ||
-         std::min({points[a].x, points[b].x, points[c].x}) > bounds.x1 ||
-         std::min({points[a].y, points[b].y, points[c].y}) > bounds.y1;
-}
+// Which triangles surely lie beside the bounds: none if these are the image.
+class Beside {
+ public:
+  Beside(const SampleMesh::Impl& mesh, const PixelRect& bounds)
+      : points_(mesh.delaunay().points().data()),
+        bounds_(bounds),
+        is_image_(bounds.width() == mesh.region().grid().width &&
+                  bounds.height() == mesh.region().grid().height) {}
+
+  bool operator()(const Delaunay::Triangle& triangle) const {
+    if (is_image_) return false;
+    const auto& [a, b, c] = triangle.corners;
+    return std::max({points_[a].x, points_[b].x, points_[c].x}) < bounds_.x0 ||
+           std::max({points_[a].y, points_[b].y, points_[c].y}) < bounds_.y0 ||
+           std::min({points_[a].x, points_[b].x, points_[c].x}) > bounds_.x1 ||
+           std::min({points_[a].y, points_[b].y, points_[c].y}) > bounds_.y1;
+  }
+
+ private:
+  const Vec2d* points_;
+  PixelRect bounds_;
+  bool is_image_;
+};
 
 // Where a row of the bounds begins, as if its first pixel were number 0.
 std::ptrdiff_t row_start(const PixelRect& bounds, int row) {
   return static_cast<std::ptrdiff_t>(row - bounds.y0) * bounds.width() - bounds.x0;
+}
+
+// In four rows, the pixels whose centres a triangle holds.
+struct Spans {
+  LaneBits left, last;  // none where last < left
+};
+
+Spans spans_at(const Outline& outline, int first_row, const PixelRect& bounds) {
+  const ExactExtents extents = outline.at(kCenterOffsets + first_row);
+  const LaneBits row = LaneBits{0, 1, 2, 3} + first_row;
+  const LaneBits last = least(first_centers(extents.right), LaneBits{} + bounds.x1) - 1;
+  const auto is_inside = (row >= bounds.y0) & (row < bounds.y1);
+  return {greatest(first_centers(extents.left), LaneBits{} + bounds.x0), is_inside ? last : LaneBits{} - 1};
 }
 
 // Calls fill(row, left, right) for the pixel centres of one triangle: in each row those in [left, right).
@@ -87,11 +106,11 @@ void for_each_span(const std::array<Corner, 3>& corner, const PixelRect& bounds,
   const int bottom = std::min(first_center(outline.bottom()), bounds.y1);
   if (top >= bottom) return;
   outline.prepare();
-  for (int row = top; row < bottom; ++row) {
-    const Extent extent = outline.at(row + 0.5);
-    const int left = std::max(first_center(extent.left), bounds.x0);
-    const int right = std::min(first_center(extent.right), bounds.x1);
-    if (left < right) fill(row, left, right);
+  for (int row = top; row < bottom; row += kLanes) {
+    const Spans spans = spans_at(outline, row, bounds);
+    for (int i = 0; i < kLanes; ++i) {
+      if (spans.left[i] <= spans.last[i]) fill(row + i, spans.left[i], spans.last[i] + 1);
+    }
   }
 }
 
@@ -122,12 +141,17 @@ class Painter {
   }
 
   void add_edge_lines(const ExtentPerLine& extents, const EdgePatch& edge, int row, int left, int right);
-  void add_sample(int x, int y, const Color& color);
-  void fill(const LinearPatch& patch, int row, const Extent& extent);
+  void add_sample(int x, int y, const Floats& color);
+  void fill(const LinearPatch& patch, int first_row, const Spans& spans);
   void add_lines(const Outline& outline, const LinearPatch& patch, int row);
   void show_by_area(int row, const Extent& extent, const EdgePatch& edge);
-  void show_by_area(const PixelPlace& place, const Color& color);
+  void show_by_area(const PixelPlace& place, const Floats& color);
   void start_sum(const PixelPlace& place);
+  Floats base_of(std::size_t pixel) const { return load<Floats>(buffers_.sums[pixel].base); }
+  Floats differences_of(std::size_t pixel) const { return load<Floats>(buffers_.sums[pixel].differences); }
+  void add_difference(std::size_t pixel, const Floats& color) {
+    store(differences_of(pixel) + color, buffers_.sums[pixel].differences);
+  }
   bool takes_area() const { return rule_ == PixelRule::kArea || rule_ == PixelRule::kEdges; }
   bool several_between(int row, int left, int right) const;
 
@@ -144,29 +168,28 @@ void Painter::gather(const SampleMesh::Impl& mesh) {
   if (rule_ == PixelRule::kCenter) return;
   for (auto* bits : {&b.holds_one, &b.holds_several})
     bits->assign(words_per_row() * static_cast<std::size_t>(bounds_.height()), 0);
-  for (auto* colors : {&b.base, &b.sum}) colors->resize(bounds_.area());
-  b.count.resize(bounds_.area());
+  b.sums.resize(bounds_.area());
   const TileGrid& grid = mesh.region().grid();
   const auto& points = mesh.delaunay().points();
   for (std::size_t i = 0; i < points.size(); ++i) {
     const int x = std::min(static_cast<int>(points[i].x), grid.width - 1);
     const int y = std::min(static_cast<int>(points[i].y), grid.height - 1);
     if (x < bounds_.x0 || x >= bounds_.x1 || y < bounds_.y0 || y >= bounds_.y1) continue;
-    add_sample(x, y, mesh.corners()[i].color);
+    add_sample(x, y, mesh.corners()[i].channels());
   }
 }
 
-void Painter::add_sample(int x, int y, const Color& color) {
+void Painter::add_sample(int x, int y, const Floats& color) {
   ReconstructionBuffers& b = buffers_;
   const PixelPlace place = place_of(x, y);
   if ((b.holds_one[place.word] & place.bit) == 0) {
     b.holds_one[place.word] |= place.bit;
-    b.base[place.pixel] = color;
+    store(color, b.sums[place.pixel].base);
     return;
   }
   if ((b.holds_several[place.word] & place.bit) == 0) start_sum(place);
-  ++b.count[place.pixel];
-  if (rule_ == PixelRule::kMean) b.sum[place.pixel] += color - b.base[place.pixel];
+  if (rule_ == PixelRule::kMean)
+    add_difference(place.pixel, color - base_of(place.pixel) + Floats{0, 0, 0, 1});
 }
 
 void Painter::paint(const std::array<Corner, 3>& corner) {
@@ -179,25 +202,31 @@ void Painter::paint(const std::array<Corner, 3>& corner) {
   if (top >= bottom) return;
   outline.prepare();
   const LinearPatch patch(corner);
-  for (int row = top; row < bottom; ++row) {
-    const double center = row + 0.5;
-    if (outline.top() <= center && center < outline.bottom()) fill(patch, row, outline.at(center));
-    if (area) add_lines(outline, patch, row);
-  }
+  for (int row = top; row < bottom; row += kLanes) fill(patch, row, spans_at(outline, row, bounds_));
+  if (!area) return;
+  for (int row = top; row < bottom; ++row) add_lines(outline, patch, row);
 }
 
-// Evaluates the ends of a span and goes from one to the other: as exact, and needs no care in between.
-void Painter::fill(const LinearPatch& patch, int row, const Extent& extent) {
-  const int left = std::max(first_center(extent.left), bounds_.x0);
-  const int last = std::min(first_center(extent.right), bounds_.x1) - 1;
-  if (left > last) return;
-  Color* pixel = pixels_.colors.data() + row_start(bounds_, row);
-  const Color first = patch.at(left + 0.5, row + 0.5);
-  pixel[left] = first;
-  if (left == last) return;
-  const Color way = patch.at(last + 0.5, row + 0.5) - first;
-  const float step = 1.0f / static_cast<float>(last - left);
-  for (int x = left + 1; x <= last; ++x) pixel[x] = first + way * (static_cast<float>(x - left) * step);
+// Evaluates the ends of spans and goes from one to the other: as exact, and needs no care in between.
+void Painter::fill(const LinearPatch& patch, int first_row, const Spans& spans) {
+  if (!any(spans.left <= spans.last)) return;
+  auto [r, g, b] = patch.at_centers(spans.left, first_row);
+  const auto [r_last, g_last, b_last] = patch.at_centers(spans.last, first_row);
+  const LaneBits steps = spans.last - spans.left;
+  const Floats share = 1 / __builtin_convertvector(steps > 0 ? steps : LaneBits{} + 1, Floats);
+  Floats r_step = (r_last - r) * share, g_step = (g_last - g) * share, b_step = (b_last - b) * share;
+  std::array<Floats, kLanes> first, step;
+  Floats none{}, none_either{};
+  transpose(r, g, b, none);
+  transpose(r_step, g_step, b_step, none_either);
+  first = {r, g, b, none}, step = {r_step, g_step, b_step, none_either};
+  for (int i = 0; i < kLanes; ++i) {
+    if (steps[i] < 0) continue;
+    Color* pixel = pixels_.colors.data() + row_start(bounds_, first_row + i) + spans.left[i];
+    for (int x = 0; x <= steps[i]; ++x) {
+      store_channels(first[i] + step[i] * static_cast<float>(x), pixel[x]);
+    }
+  }
 }
 
 bool Painter::several_between(int row, int left, int right) const {
@@ -228,7 +257,7 @@ void Painter::add_lines(const Outline& outline, const LinearPatch& patch, int ro
                     to = least(extents.right, on_all(begin + 1));
       const PerLine length = greatest(to - from, PerLine{}) * (1.0f / kLines);
       const auto pixel = static_cast<std::size_t>(row_start(bounds_, row) + bounds_.x0 + column);
-      buffers_.sum[pixel] += plane.integral(0.5f * (from + to), length, buffers_.base[pixel]);
+      add_difference(pixel, plane.integral(0.5f * (from + to), length, base_of(pixel)));
     }
   }
 }
@@ -258,7 +287,7 @@ void Painter::add_edge_lines(const ExtentPerLine& extents, const EdgePatch& edge
     if (sum(length) == 0) continue;
     const PixelPlace place = place_of(x, row);
     show_by_area(place, edge.beyond());
-    buffers_.sum[place.pixel] += edge.integral(row, left, from, to, length, buffers_.base[place.pixel]);
+    add_difference(place.pixel, edge.integral(row, left, from, to, length, base_of(place.pixel)));
   }
 }
 
@@ -270,10 +299,10 @@ void Painter::show_by_area(int row, const Extent& extent, const EdgePatch& edge)
 }
 
 // From now on, a pixel of about this colour.
-void Painter::show_by_area(const PixelPlace& place, const Color& color) {
+void Painter::show_by_area(const PixelPlace& place, const Floats& color) {
   ReconstructionBuffers& b = buffers_;
   if ((b.holds_several[place.word] & place.bit) != 0) return;
-  if ((b.holds_one[place.word] & place.bit) == 0) b.base[place.pixel] = color;
+  if ((b.holds_one[place.word] & place.bit) == 0) store(color, b.sums[place.pixel].base);
   start_sum(place);
 }
 
@@ -281,14 +310,14 @@ void Painter::start_sum(const PixelPlace& place) {
   ReconstructionBuffers& b = buffers_;
   b.holds_several[place.word] |= place.bit;
   b.pixels.push_back(static_cast<std::uint32_t>(place.pixel));
-  b.sum[place.pixel] = Color(0, 0, 0);
-  b.count[place.pixel] = 1;
+  store(Floats{0, 0, 0, 1}, b.sums[place.pixel].differences);
 }
 
 void Painter::finish() {
   for (const std::uint32_t pixel : buffers_.pixels) {
-    const float share = takes_area() ? 1.0f : 1.0f / static_cast<float>(buffers_.count[pixel]);
-    pixels_.colors[pixel] = buffers_.base[pixel] + buffers_.sum[pixel] * share;
+    const Floats differences = differences_of(pixel);
+    const float share = takes_area() ? 1.0f : 1.0f / differences[3];
+    store_channels(base_of(pixel) + differences * share, pixels_.colors[pixel]);
   }
 }
 
@@ -305,6 +334,7 @@ void reconstruct(const SampleMesh& mesh, const PixelRect& bounds, RegionPixels& 
     pixels.colors.assign(pixels.bounds.area(), Color(0, 0, 0));
   }
   const auto& triangles = impl.delaunay().triangles();
+  const Beside is_beside(impl, bounds);
   Painter painter(pixels, buffers, rule);
   painter.gather(impl);
   // Those with edges first: they decide which pixels the others show by area.
@@ -312,7 +342,7 @@ void reconstruct(const SampleMesh& mesh, const PixelRect& bounds, RegionPixels& 
   EdgePatch edge;
   for (std::size_t i = 0; rule == PixelRule::kEdges && viewed && i < triangles.size(); ++i) {
     const Delaunay::Triangle& t = triangles[i];
-    if (!t.is_finite() || !may_show_edge(t, impl) || misses(t, impl, bounds)) continue;
+    if (!t.is_finite() || !may_show_edge(t, impl) || is_beside(t)) continue;
     const std::array<Corner, 3> corners = corners_of(t, impl);
     if (!edge.set(corners, primitives_of(t, impl), *viewed)) continue;
     buffers.has_edge[i] = 1;
@@ -320,8 +350,7 @@ void reconstruct(const SampleMesh& mesh, const PixelRect& bounds, RegionPixels& 
   }
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const Delaunay::Triangle& t = triangles[i];
-    if (t.is_finite() && buffers.has_edge[i] == 0 && !misses(t, impl, bounds))
-      painter.paint(corners_of(t, impl));
+    if (t.is_finite() && buffers.has_edge[i] == 0 && !is_beside(t)) painter.paint(corners_of(t, impl));
   }
   painter.finish();
 }

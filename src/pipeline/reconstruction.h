@@ -30,15 +30,20 @@ enum class PixelRule : std::uint8_t {
   kEdges    // the same, and small triangles with corners on different primitives show each where it is seen
 };
 
-// Storage that lives from frame to frame. Pixels are numbered row by row within the bounds; `base` has a
-// meaning for those that hold a sample, `sum` and `count` for those that hold several.
+// A pixel that holds several samples or an edge. The fourth lanes pad; that of the sum counts samples where
+// their mean is shown.
+struct alignas(16) PixelSum {
+  float base[4];         // the first sample's colour
+  float differences[4];  // from it, summed over samples or area
+};
+
+// Storage that lives from frame to frame. Pixels are numbered row by row within the bounds; `sums` has a
+// meaning for those that hold a sample, the differences for those that hold several.
 struct ReconstructionBuffers {
   std::vector<std::uint64_t> holds_one, holds_several;  // a bit a pixel, each row beginning a new word
   std::vector<std::uint32_t> pixels;                    // those that hold several, in the order of the second
-  std::vector<Color> base;                              // the first sample's colour
-  std::vector<Color> sum;                               // over samples or area, of differences from the base
-  std::vector<std::uint32_t> count;                     // of samples
-  std::vector<std::uint8_t> has_edge;                   // per triangle of the mesh: 1 if of a primitive
+  std::vector<PixelSum> sums;
+  std::vector<std::uint8_t> has_edge;  // per triangle of the mesh: 1 if of a primitive
 };
 
 // Every pixel of `bounds`, as the mesh has it: the barycentric mean of the triangle that holds its centre,

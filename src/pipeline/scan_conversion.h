@@ -7,13 +7,14 @@
 #include <cstdint>
 
 #include "base/vector.h"
+#include "pipeline/lanes.h"
 #include "pipeline/refinement_weight.h"
 
 namespace pprt {
 
 struct Corner {
   double x, y;
-  Color color;
+  Floats color;  // channels()
 };
 
 // The largest whole number not above a coordinate, and the smallest not below it: without a call, which is
@@ -33,22 +34,16 @@ inline int first_center(double coordinate) {
 }
 
 // Lines of a row for the mean over a pixel's area, dealt with at once. Along a line the mean is exact.
-inline constexpr int kLines = 4;
-using PerLine = float __attribute__((vector_size(kLines * sizeof(float))));
-using ExactPerLine = double __attribute__((vector_size(kLines * sizeof(double))));
-inline constexpr PerLine kLineOffsets = {0.125F, 0.375F, 0.625F, 0.875F};  // from the row's beginning
+inline constexpr int kLines = kLanes;
+using PerLine = Floats;
+inline constexpr Floats kLineOffsets = {0.125F, 0.375F, 0.625F, 0.875F};  // from the row's beginning
+inline constexpr Doubles kCenterOffsets = {0.5, 1.5, 2.5, 3.5};           // of four rows, from the first's
 
-inline PerLine least(const PerLine& a, const PerLine& b) {
-  return a < b ? a : b;
-}
-inline PerLine greatest(const PerLine& a, const PerLine& b) {
-  return a > b ? a : b;
-}
-inline float sum(const PerLine& v) {
+inline float sum(const Floats& v) {
   return (v[0] + v[1]) + (v[2] + v[3]);
 }
-inline PerLine on_all(float value) {
-  return PerLine{} + value;
+inline Floats on_all(float value) {
+  return Floats{} + value;
 }
 
 // Where a triangle lies along a line.
@@ -59,6 +54,17 @@ struct Extent {
 struct ExtentPerLine {
   PerLine left, right;
 };
+struct ExactExtents {
+  Doubles left, right;
+};
+
+// first_center() of four.
+inline LaneBits first_centers(const Doubles& coordinates) {
+  const Doubles v = coordinates - 0.5;
+  const LaneBits towards_zero = __builtin_convertvector(v, LaneBits);
+  const auto is_above = v > __builtin_convertvector(towards_zero, Doubles);  // -1 where it is
+  return towards_zero - __builtin_convertvector(is_above, LaneBits);
+}
 
 // A triangle's edges, as functions of y. An edge's ends are taken in one fixed order, so that the two
 // triangles at it compute the same crossings to the last bit: they neither overlap nor leave gaps.
@@ -101,16 +107,20 @@ class Outline {
     return {std::min(a, b), std::max(a, b)};
   }
 
-  // Along the lines of a pixel row, of no length where they miss the triangle. Coordinates begin at a column,
-  // so that float has digits to spare.
-  ExtentPerLine along(int row, int column) const {
-    const ExactPerLine y = __builtin_convertvector(kLineOffsets, ExactPerLine) + row, below_top = y - top_.y;
-    const ExactPerLine a = top_.x + below_top * whole_;
-    const ExactPerLine b = y < middle_.y ? top_.x + below_top * upper_ : middle_.x + (y - middle_.y) * lower_;
+  // At four levels, of no length where they miss the triangle.
+  ExactExtents at(const Doubles& y) const {
+    const Doubles below_top = y - top_.y;
+    const Doubles a = top_.x + below_top * whole_;
+    const Doubles b = y < middle_.y ? top_.x + below_top * upper_ : middle_.x + (y - middle_.y) * lower_;
     const auto meets = (y >= top_.y) & (y < bottom_.y);
-    const ExactPerLine begin = ExactPerLine{} + column;
-    return {__builtin_convertvector(meets ? (a < b ? a : b) - begin : ExactPerLine{}, PerLine),
-            __builtin_convertvector(meets ? (a < b ? b : a) - begin : ExactPerLine{}, PerLine)};
+    return {meets ? least(a, b) : Doubles{}, meets ? greatest(a, b) : Doubles{}};
+  }
+
+  // Along the lines of a pixel row. Coordinates begin at a column, so that float has digits to spare.
+  ExtentPerLine along(int row, int column) const {
+    const ExactExtents exact = at(__builtin_convertvector(kLineOffsets, Doubles) + row);
+    const auto from_column = [&](const Doubles& x) { return __builtin_convertvector(x - column, PerLine); };
+    return {from_column(exact.left), from_column(exact.right)};
   }
 
  private:
@@ -145,11 +155,17 @@ class LinearPatch {
     bx_ = -y1 * scale, by_ = x1 * scale;
   }
 
-  Color at(double x, double y) const {
-    const double dx = x - origin_.x, dy = y - origin_.y;
-    const float a = held_to_unit(static_cast<float>(ax_ * dx + ay_ * dy));
-    const float b = held_to_unit(static_cast<float>(bx_ * dx + by_ * dy));
-    return origin_.color + to_1_ * a + to_2_ * b;
+  // At the centres of a pixel in each of four rows: red, green and blue.
+  std::array<Floats, 3> at_centers(const LaneBits& column, int first_row) const {
+    const Doubles dx = __builtin_convertvector(column, Doubles) + (0.5 - origin_.x);
+    const Doubles dy = kCenterOffsets + (first_row - origin_.y);
+    const auto share = [&](double per_x, double per_y) {
+      const Floats v = __builtin_convertvector(per_x * dx + per_y * dy, Floats);
+      return greatest(Floats{}, least(v, on_all(1)));
+    };
+    const Floats a = share(ax_, ay_), b = share(bx_, by_);
+    const auto channel = [&](int i) { return origin_.color[i] + to_1_[i] * a + to_2_[i] * b; };
+    return {channel(0), channel(1), channel(2)};
   }
 
   // The same along the lines of a pixel row, their coordinates beginning at a column.
@@ -162,7 +178,7 @@ class LinearPatch {
     }
 
     // The integral of the difference from `base` over parts of the lines that are so long about x.
-    Color integral(const PerLine& x, const PerLine& length, const Color& base) const {
+    Floats integral(const PerLine& x, const PerLine& length, const Floats& base) const {
       const auto share = [&](const PerLine& at_column, double slope) {
         const PerLine v = at_column + static_cast<float>(slope) * x;
         return sum(greatest(PerLine{}, least(v, on_all(1))) * length);
@@ -178,7 +194,7 @@ class LinearPatch {
 
  private:
   Corner origin_;
-  Color to_1_, to_2_;
+  Floats to_1_, to_2_;
   double ax_, ay_, bx_, by_;
 };
 

@@ -190,13 +190,79 @@ TEST_CASE("shapes are asked for once until the eye moves") {
     shape.kind = ImageShape::Kind::kFacets;
     shape.facets.assign(2, facet({1, 0, 0}, 1));
   });
-  const auto first = viewed.find(7), other = viewed.find(3);
-  CHECK(viewed.find(7) == first);
+  const auto first = viewed.find(7, {0, 0}), other = viewed.find(3, {0, 0});
+  CHECK(viewed.find(7, {0, 0}) == first);
   CHECK(first != other);
   CHECK(asked == 2);
   viewed.forget();
-  viewed.find(7);
+  viewed.find(7, {0, 0});
   CHECK(asked == 3);
+}
+
+TEST_CASE("a primitive that nobody knows is of unknown shape, whatever its number") {
+  int asked = 0;
+  ViewedPrimitives viewed([&](std::uint32_t primitive, ImageShape& shape) {
+    ++asked;
+    view(primitive, shape);
+    if (primitive > 3) shape.kind = ImageShape::Kind::kUnknown;
+  });
+  const auto kind_of = [&](std::uint32_t primitive) {
+    return viewed.shape(viewed.find(primitive, {0, 0})).kind;
+  };
+  CHECK(kind_of(~std::uint32_t{0}) == ImageShape::Kind::kUnknown);  // 16 GB of places, if they were kept
+  CHECK(kind_of(2) == ImageShape::Kind::kQuadric);
+  CHECK(kind_of(1) == ImageShape::Kind::kFacets);
+  CHECK(kind_of(2) == ImageShape::Kind::kQuadric);
+  CHECK(asked == 3);
+}
+
+TEST_CASE("of a shape's facets those are visited that a rectangle meets") {
+  ViewedPrimitives viewed([&](std::uint32_t primitive, ImageShape& shape) {
+    shape.kind = ImageShape::Kind::kFacets;
+    shape.facets.clear();
+    for (std::uint32_t i = 0; i < primitive; ++i) {
+      const auto x = static_cast<float>(i);
+      shape.facets.push_back(facet({1, 0, 0}, 100 * primitive + i));
+      shape.facets.back().bounds = {x, 0, x + 1, 10};
+    }
+  });
+  const auto few = viewed.find(3, {0, 0}), many = viewed.find(11, {0, 0});
+  const auto visited = [&](ViewedPrimitives::Place place, const ImageBounds& rectangle) {
+    std::vector<float> found;
+    viewed.for_each_facet(viewed.shape(place), rectangle,
+                          [&](const NearFacet& f) { found.push_back(f.nearness.constant); });
+    return found;
+  };
+  CHECK(visited(many, {2.5f, 1, 5.5f, 2}) == std::vector<float>{1102, 1103, 1104, 1105});
+  CHECK(visited(many, {9.5f, 1, 50, 2}) == std::vector<float>{1109, 1110});
+  CHECK(visited(few, {0, -3, 50, 0}) == std::vector<float>{300, 301, 302});
+  CHECK(visited(few, {0, 11, 50, 12}).empty());
+  CHECK(visited(few, {4, 1, 50, 12}).empty());
+}
+
+TEST_CASE("far from where a shape was met its outline is in place") {
+  constexpr double kRadius = 1400, kCenter = 1500;
+  const double scale = 1 / (kRadius * kRadius);  // as the forms of a sphere are of the size of 1
+  ImageQuadric disc;
+  disc.discriminant = {scale * (kRadius * kRadius - 2 * kCenter * kCenter),
+                       scale * 2 * kCenter,
+                       scale * 2 * kCenter,
+                       -scale,
+                       0,
+                       -scale};
+  const Vec2d met(kCenter - kRadius, kCenter);  // at its left end
+  const NearQuadratic near = NearQuadric(disc, met).discriminant;
+  double farthest = 0;
+  for (int degrees = 0; degrees < 360; ++degrees) {
+    const double turn = degrees * 0.017453292519943295;
+    const Vec2d outline(kCenter + kRadius * std::cos(turn), kCenter + kRadius * std::sin(turn));
+    const auto x = static_cast<float>(outline.x - met.x), y = static_cast<float>(outline.y - met.y);
+    const float value = near.constant + x * (near.per_x + near.per_xx * x + near.per_xy * y) +
+                        y * (near.per_y + near.per_yy * y);
+    const double slope = 2 * scale * kRadius;  // of the discriminant, across the outline
+    farthest = std::max(farthest, std::abs(value / slope));
+  }
+  CHECK(farthest < std::ldexp(4 * kRadius, -21));
 }
 
 }  // namespace pprt
