@@ -116,6 +116,8 @@ class MeshPainter {
     mesh_.insert(sample);
   }
 
+  void clear() { mesh_.clear(); }
+
   enum class Stop : std::uint8_t { kSamples, kTime, kExhausted };
 
   // Until there are so many samples, the clock shows `end_s`, or nothing is left to refine.
@@ -137,8 +139,9 @@ class MeshPainter {
   Image picture() {
     viewed_.forget();  // as every frame must
     reconstruct(mesh_, mesh_.region().bounds(), pixels_, buffers_, rule_, &viewed_);
-    Image image(camera_.width, camera_.height);
-    image.pixels = pixels_.colors;
+    Image image;
+    image.width = camera_.width, image.height = camera_.height;
+    image.pixels = std::move(pixels_.colors);
     return image;
   }
 
@@ -153,14 +156,21 @@ class MeshPainter {
 };
 
 // One refinement, looked at on its way: a picture's time is that of all sampling before it, and its own
-// reconstruction.
+// reconstruction. It is made twice, and the second time counts: the frames of a sequence find the storage
+// that those before them have left.
 void run_refinement(const WeightTerms& terms, PixelRule rule, const Subject& subject, const CurveRange& range,
                     const SecondsClock& clock, const RenderingSink& sink) {
   const Camera& camera = subject.camera;
   const double pixels = static_cast<double>(camera.width) * camera.height;
-  double sampling = 0, begin = clock();
+  const std::vector<Vec2d> seeds = seed_points(camera.width, camera.height, range.seed);
   MeshPainter painter(subject, terms, rule);
-  for (const Vec2d& point : seed_points(camera.width, camera.height, range.seed)) painter.add(point);
+  for (const Vec2d& point : seeds) painter.add(point);
+  painter.refine_until(range.densities.back() * pixels, clock, clock() + range.limit_s);
+  painter.picture();
+  painter.clear();
+
+  double sampling = 0, begin = clock();
+  for (const Vec2d& point : seeds) painter.add(point);
   for (const double density : range.densities) {
     if (density < painter.density()) continue;
     const auto stop = painter.refine_until(density * pixels, clock, begin + range.limit_s - sampling);
