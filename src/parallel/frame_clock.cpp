@@ -89,7 +89,7 @@ class WallClock final : public FrameClock {
 
  private:
   static constexpr int kSamplesPerPacket = 128, kSamplesOfAShortTurn = 48;
-  static constexpr double kPixelsPerSample = 64;  // that take as long to reconstruct
+  static constexpr double kPixelsPerSample = 8;  // that take as long to reconstruct where edges are shown
   static constexpr double kMostLeftOfANewPicture = 0.7;
 
   void set_stop() { stop_s_ = deadline_s_ > 0 ? deadline_s_ - left_for_the_rest() : 0; }

@@ -6,7 +6,7 @@ namespace pprt {
 namespace {
 
 constexpr double kPeriod = 0.1;
-constexpr std::size_t kPixels = 64 * 1000;  // as long to reconstruct as 1000 samples
+constexpr std::size_t kPixels = 8 * 1000;  // as long to reconstruct as 1000 samples
 
 // A clock of a sequence that began now, in its frame 0, whose deadline is a second away.
 std::unique_ptr<FrameClock> clock_in_a_frame(double reserve_s, Carry carry = Carry::kNothing,
