@@ -27,8 +27,6 @@ struct QuadraticForm {
 // A rectangle of image points, pixels.
 struct ImageBounds {
   float x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-
-  bool meets(const ImageBounds& o) const { return x0 <= o.x1 && o.x0 <= x1 && y0 <= o.y1 && o.y0 <= y1; }
 };
 
 // Nearness is one over the depth along the direction of view; 0 at infinity.
