@@ -64,18 +64,21 @@ inline PerPoint nearness(const NearFacet& f, const PerPoint& x, const PerPoint& 
   return covered ? value(f.nearness, x, y) : PerPoint{};
 }
 
-// Whether one of a facet's edges parts it from a triangle, whose corners are in three of the lanes.
-inline bool misses(const NearFacet& facet, const Floats& x, const Floats& y) {
+// Whether one of a facet's edges parts it from all that lies within `margin` pixels, along the axes, of a
+// triangle, whose corners are in three of the lanes.
+inline bool misses(const NearFacet& facet, const Floats& x, const Floats& y, float margin) {
   return std::any_of(facet.edges.begin(), facet.edges.end(), [&](const NearLinear& edge) {
-    return !any(edge.constant + edge.per_x * x + edge.per_y * y >= 0);
+    const float reach = margin * (std::abs(edge.per_x) + std::abs(edge.per_y));
+    return !any(edge.constant + edge.per_x * x + edge.per_y * y >= -reach);
   });
 }
 
 class EdgePatch {
  public:
-  // Of the corners' primitives; false where one has no known shape, or all are the same.
+  // Of the corners' primitives; false where one has no known shape, or all are the same. To be asked for
+  // points within `margin` pixels, along the axes, of the triangle.
   bool set(const std::array<Corner, 3>& corners, const std::array<std::uint32_t, 3>& primitives,
-           ViewedPrimitives& viewed);
+           ViewedPrimitives& viewed, float margin);
 
   // What is shown where no primitive of the corners is: the background, if a corner has met it.
   const Floats& beyond() const { return beyond_; }
@@ -84,6 +87,10 @@ class EdgePatch {
   // the ends `from` and `to`, counted from `column`; each of them at most a pixel.
   Floats integral(int row, int column, const PerLine& from, const PerLine& to, const PerLine& length,
                   const Floats& base) const;
+
+  // Of two pixels side by side, whose centres the triangle holds: what they show but for the share of the
+  // interpolation.
+  std::array<Floats, 2> at_pixels(int row, int column) const;
 
  private:
   // A primitive of the corners.
@@ -95,19 +102,19 @@ class EdgePatch {
   };
 
   void add_side(const Floats& color, const ViewedPrimitives::Shape& shape,
-                const std::array<Corner, 3>& corners, const ViewedPrimitives& viewed);
+                const std::array<Corner, 3>& corners, const ViewedPrimitives& viewed, float margin);
   PerPoint nearness(const Side& side, const PerPoint& x, const PerPoint& y) const;
   std::array<PerPoint, 3> shares(const PerPoint& x, const PerPoint& y, const PerPoint& weight) const;
 
   Vec2d origin_{0, 0};
   std::array<Side, 3> sides_;
   std::size_t side_count_ = 0;
-  Floats beyond_{};
+  Floats beyond_{}, share_of_all_{};
   std::vector<const NearFacet*> facets_;  // that may cover some of the triangle
 };
 
 inline bool EdgePatch::set(const std::array<Corner, 3>& corners, const std::array<std::uint32_t, 3>& p,
-                           ViewedPrimitives& viewed) {
+                           ViewedPrimitives& viewed, float margin) {
   if (p[0] == p[1] && p[1] == p[2]) return false;
   std::array<ViewedPrimitives::Place, 3> places{};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -119,7 +126,8 @@ inline bool EdgePatch::set(const std::array<Corner, 3>& corners, const std::arra
   side_count_ = 0;
   facets_.clear();
   const Floats between = (corners[0].color + corners[1].color + corners[2].color) * (1.0F / 3);
-  const auto shown = [&](const Floats& c) { return c * kEdgeShare + between * (1 - kEdgeShare); };
+  share_of_all_ = between * (1 - kEdgeShare);
+  const auto shown = [&](const Floats& c) { return c * kEdgeShare + share_of_all_; };
   beyond_ = between;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t next = (i + 1) % 3, last = (i + 2) % 3;
@@ -129,14 +137,15 @@ inline bool EdgePatch::set(const std::array<Corner, 3>& corners, const std::arra
     if (p[i] == 0) {
       beyond_ = color;
     } else {
-      add_side(color, viewed.shape(places[i]), corners, viewed);
+      add_side(color, viewed.shape(places[i]), corners, viewed, margin);
     }
   }
   return true;
 }
 
 inline void EdgePatch::add_side(const Floats& color, const ViewedPrimitives::Shape& shape,
-                                const std::array<Corner, 3>& corners, const ViewedPrimitives& viewed) {
+                                const std::array<Corner, 3>& corners, const ViewedPrimitives& viewed,
+                                float margin) {
   Side& side = sides_[side_count_++];
   side.color = color;
   side.shape = &shape;
@@ -146,15 +155,15 @@ inline void EdgePatch::add_side(const Floats& color, const ViewedPrimitives::Sha
   if (shape.kind == ImageShape::Kind::kFacets) {
     const auto [x0, x1] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
     const auto [y0, y1] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
-    const ImageBounds bounds = {static_cast<float>(x0), static_cast<float>(y0), static_cast<float>(x1),
-                                static_cast<float>(y1)};
+    const ImageBounds bounds = {static_cast<float>(x0) - margin, static_cast<float>(y0) - margin,
+                                static_cast<float>(x1) + margin, static_cast<float>(y1) + margin};
     const auto per_corner = [&](double Corner::*coordinate, double origin) {
       const auto from_origin = [&](int i) { return static_cast<float>(corners[i].*coordinate - origin); };
       return Floats{from_origin(0), from_origin(1), from_origin(2), from_origin(2)};
     };
     const Floats x = per_corner(&Corner::x, shape.origin.x), y = per_corner(&Corner::y, shape.origin.y);
     viewed.for_each_facet(shape, bounds, [&](const NearFacet& f) {
-      if (!misses(f, x, y)) facets_.push_back(&f);
+      if (!misses(f, x, y, margin)) facets_.push_back(&f);
     });
   }
   side.last = facets_.size();
@@ -196,6 +205,22 @@ inline Floats EdgePatch::integral(int row, int column, const PerLine& from, cons
   Floats integral = (beyond_ - base) * sum(length);
   for (std::size_t i = 0; i < side_count_; ++i) integral += (sides_[i].color - beyond_) * sum_of(found[i]);
   return integral;
+}
+
+// Four points a pixel, no two on one line or column.
+inline std::array<Floats, 2> EdgePatch::at_pixels(int row, int column) const {
+  constexpr PerPoint kColumns = {0.125F, 0.625F, 0.375F, 0.875F, 1.125F, 1.625F, 1.375F, 1.875F};
+  constexpr PerPoint kRows = {0.375F, 0.125F, 0.875F, 0.625F, 0.375F, 0.125F, 0.875F, 0.625F};
+  const PerPoint x = kColumns + static_cast<float>(column - origin_.x);
+  const PerPoint y = kRows + static_cast<float>(row - origin_.y);
+  const std::array<PerPoint, 3> found = shares(x, y, PerPoint{} + 0.25F);
+  std::array<Floats, 2> colors = {beyond_ - share_of_all_, beyond_ - share_of_all_};
+  for (std::size_t i = 0; i < side_count_; ++i) {
+    const Floats difference = sides_[i].color - beyond_;
+    colors[0] += difference * sum(__builtin_shufflevector(found[i], found[i], 0, 1, 2, 3));
+    colors[1] += difference * sum(__builtin_shufflevector(found[i], found[i], 4, 5, 6, 7));
+  }
+  return colors;
 }
 
 }  // namespace pprt

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <type_traits>
 #include <utility>
 
 #include "pipeline/edge_patch.h"
@@ -28,21 +29,25 @@ std::array<std::uint32_t, 3> primitives_of(const Delaunay::Triangle& triangle, c
   return {corners[a].primitive, corners[b].primitive, corners[c].primitive};
 }
 
-// Whether a triangle has corners on different primitives, of colours that tell, and is small enough for them
-// to tell of all of it.
+// Whether a triangle has corners on different primitives, of colours that tell.
 bool may_show_edge(const Delaunay::Triangle& triangle, const SampleMesh::Impl& mesh) {
   constexpr float kLeastVariance = 3e-4F;
   const auto& [a, b, c] = triangle.corners;
   const auto& corners = mesh.corners();
   if (corners[a].primitive == corners[b].primitive && corners[b].primitive == corners[c].primitive)
     return false;
-  if (!(display_variance(corners[a].color, corners[b].color, corners[c].color) > kLeastVariance))
-    return false;
+  return display_variance(corners[a].color, corners[b].color, corners[c].color) > kLeastVariance;
+}
+
+// Whether it is worth looking at every part of a pixel that the triangle touches. Not at those of a sliver
+// right across the image.
+bool is_small(const Delaunay::Triangle& triangle, const SampleMesh::Impl& mesh) {
+  constexpr double kLargest = 1.5;  // square pixels
+  constexpr double kLongest = 16;   // pixels
+  const auto& [a, b, c] = triangle.corners;
   const auto& points = mesh.delaunay().points();
   const Vec2d ab = points[b] - points[a], ac = points[c] - points[a];
-  if (ab.x * ac.y - ab.y * ac.x > 2 * kLargestWithEdge) return false;
-  // Nor a sliver right across the image, of which each pixel would be looked at.
-  constexpr double kLongest = 16;  // pixels
+  if (ab.x * ac.y - ab.y * ac.x > 2 * kLargest) return false;
   return std::max({ab.dot(ab), ac.dot(ac), (ab - ac).dot(ab - ac)}) <= kLongest * kLongest;
 }
 
@@ -114,6 +119,17 @@ void for_each_span(const std::array<Corner, 3>& corner, const PixelRect& bounds,
   }
 }
 
+// The interpolation from one pixel of a row to another.
+struct Run {
+  int row, left, steps;
+  Floats first, step;
+
+  Floats at(int x) const { return first + step * static_cast<float>(x); }
+};
+
+// In place of an EdgePatch.
+struct NoEdge {};
+
 // One triangle after another.
 class Painter {
  public:
@@ -121,8 +137,9 @@ class Painter {
       : pixels_(pixels), bounds_(pixels.bounds), buffers_(buffers), rule_(rule) {}
 
   void gather(const SampleMesh::Impl& mesh);
-  void paint(const std::array<Corner, 3>& corner);
-  void paint_edge(const std::array<Corner, 3>& corner, const EdgePatch& edge);
+  template <class Edge>
+  void paint(const std::array<Corner, 3>& corner, const Edge& edge);
+  void paint_by_area(const std::array<Corner, 3>& corner, const EdgePatch& edge);
   void finish();
 
  private:
@@ -142,8 +159,12 @@ class Painter {
 
   void add_edge_lines(const ExtentPerLine& extents, const EdgePatch& edge, int row, int left, int right);
   void add_sample(int x, int y, const Floats& color);
-  void fill(const LinearPatch& patch, int first_row, const Spans& spans);
-  void add_lines(const Outline& outline, const LinearPatch& patch, int row);
+  template <class Edge>
+  void fill(const LinearPatch& patch, const Edge& edge, int first_row, const Spans& spans);
+  void fill_run(const Run& run, const NoEdge& none);
+  void fill_run(const Run& run, const EdgePatch& edge);
+  template <class Edge>
+  void add_lines(const Outline& outline, const LinearPatch& patch, const Edge& edge, int row);
   void show_by_area(int row, const Extent& extent, const EdgePatch& edge);
   void show_by_area(const PixelPlace& place, const Floats& color);
   void start_sum(const PixelPlace& place);
@@ -192,7 +213,8 @@ void Painter::add_sample(int x, int y, const Floats& color) {
     add_difference(place.pixel, color - base_of(place.pixel) + Floats{0, 0, 0, 1});
 }
 
-void Painter::paint(const std::array<Corner, 3>& corner) {
+template <class Edge>
+void Painter::paint(const std::array<Corner, 3>& corner, const Edge& edge) {
   Outline outline(corner);
   const bool area = takes_area();
   // Rows that the triangle touches or, where only centres count, whose centres it may hold.
@@ -202,13 +224,14 @@ void Painter::paint(const std::array<Corner, 3>& corner) {
   if (top >= bottom) return;
   outline.prepare();
   const LinearPatch patch(corner);
-  for (int row = top; row < bottom; row += kLanes) fill(patch, row, spans_at(outline, row, bounds_));
+  for (int row = top; row < bottom; row += kLanes) fill(patch, edge, row, spans_at(outline, row, bounds_));
   if (!area) return;
-  for (int row = top; row < bottom; ++row) add_lines(outline, patch, row);
+  for (int row = top; row < bottom; ++row) add_lines(outline, patch, edge, row);
 }
 
 // Evaluates the ends of spans and goes from one to the other: as exact, and needs no care in between.
-void Painter::fill(const LinearPatch& patch, int first_row, const Spans& spans) {
+template <class Edge>
+void Painter::fill(const LinearPatch& patch, const Edge& edge, int first_row, const Spans& spans) {
   if (!any(spans.left <= spans.last)) return;
   auto [r, g, b] = patch.at_centers(spans.left, first_row);
   const auto [r_last, g_last, b_last] = patch.at_centers(spans.last, first_row);
@@ -222,10 +245,21 @@ void Painter::fill(const LinearPatch& patch, int first_row, const Spans& spans) 
   first = {r, g, b, none}, step = {r_step, g_step, b_step, none_either};
   for (int i = 0; i < kLanes; ++i) {
     if (steps[i] < 0) continue;
-    Color* pixel = pixels_.colors.data() + row_start(bounds_, first_row + i) + spans.left[i];
-    for (int x = 0; x <= steps[i]; ++x) {
-      store_channels(first[i] + step[i] * static_cast<float>(x), pixel[x]);
-    }
+    fill_run({first_row + i, spans.left[i], steps[i], first[i], step[i]}, edge);
+  }
+}
+
+void Painter::fill_run(const Run& run, const NoEdge&) {
+  Color* pixel = pixels_.colors.data() + row_start(bounds_, run.row) + run.left;
+  for (int x = 0; x <= run.steps; ++x) store_channels(run.at(x), pixel[x]);
+}
+
+void Painter::fill_run(const Run& run, const EdgePatch& edge) {
+  Color* pixel = pixels_.colors.data() + row_start(bounds_, run.row) + run.left;
+  for (int x = 0; x <= run.steps; x += 2) {
+    const auto [left, right] = edge.at_pixels(run.row, run.left + x);
+    store_channels(left + run.at(x) * (1 - kEdgeShare), pixel[x]);
+    if (x < run.steps) store_channels(right + run.at(x + 1) * (1 - kEdgeShare), pixel[x + 1]);
   }
 }
 
@@ -239,12 +273,21 @@ bool Painter::several_between(int row, int left, int right) const {
   return std::any_of(words + first + 1, words + last, [](std::uint64_t word) { return word != 0; });
 }
 
-void Painter::add_lines(const Outline& outline, const LinearPatch& patch, int row) {
+template <class Edge>
+void Painter::add_lines(const Outline& outline, const LinearPatch& patch, const Edge& edge, int row) {
   const int left = std::max(floor_to_int(outline.left()), bounds_.x0) - bounds_.x0;
   const int right = std::min(floor_to_int(outline.right()), bounds_.x1 - 1) - bounds_.x0;
   if (left > right || !several_between(row, left, right)) return;
   const ExtentPerLine extents = outline.along(row, bounds_.x0 + left);
   const LinearPatch::OnLines plane(patch, row, bounds_.x0 + left);
+  const auto integral = [&](const PerLine& from, const PerLine& to, const PerLine& length,
+                            const Floats& base) {
+    if constexpr (std::is_same_v<Edge, NoEdge>) {
+      return plane.integral(0.5f * (from + to), length, base);
+    } else {
+      return edge.integral(row, bounds_.x0 + left, from, to, length, base);
+    }
+  };
   const std::uint64_t* words =
       buffers_.holds_several.data() + static_cast<std::size_t>(row - bounds_.y0) * words_per_row();
   for (int first = left; first <= right; first = (first / 64 + 1) * 64) {
@@ -257,13 +300,13 @@ void Painter::add_lines(const Outline& outline, const LinearPatch& patch, int ro
                     to = least(extents.right, on_all(begin + 1));
       const PerLine length = greatest(to - from, PerLine{}) * (1.0f / kLines);
       const auto pixel = static_cast<std::size_t>(row_start(bounds_, row) + bounds_.x0 + column);
-      add_difference(pixel, plane.integral(0.5f * (from + to), length, base_of(pixel)));
+      add_difference(pixel, integral(from, to, length, base_of(pixel)));
     }
   }
 }
 
-// As paint(), of a triangle with edges of primitives in it: the pixels that it touches are shown by area.
-void Painter::paint_edge(const std::array<Corner, 3>& corner, const EdgePatch& edge) {
+// As paint(), of a small triangle: all pixels that it touches are shown by area.
+void Painter::paint_by_area(const std::array<Corner, 3>& corner, const EdgePatch& edge) {
   Outline outline(corner);
   const int top = std::max(floor_to_int(outline.top()), bounds_.y0);
   const int bottom = std::min(ceil_to_int(outline.bottom()), bounds_.y1);
@@ -337,20 +380,32 @@ void reconstruct(const SampleMesh& mesh, const PixelRect& bounds, RegionPixels& 
   const Beside is_beside(impl, bounds);
   Painter painter(pixels, buffers, rule);
   painter.gather(impl);
-  // Those with edges first: they decide which pixels the others show by area.
-  buffers.has_edge.assign(triangles.size(), 0);
+  // The small ones with edges first: they decide which pixels the others show by area.
+  buffers.edges.assign(triangles.size(), TriangleEdge::kNone);
   EdgePatch edge;
   for (std::size_t i = 0; rule == PixelRule::kEdges && viewed && i < triangles.size(); ++i) {
     const Delaunay::Triangle& t = triangles[i];
     if (!t.is_finite() || !may_show_edge(t, impl) || is_beside(t)) continue;
+    if (!is_small(t, impl)) {
+      buffers.edges[i] = TriangleEdge::kLarge;
+      continue;
+    }
     const std::array<Corner, 3> corners = corners_of(t, impl);
-    if (!edge.set(corners, primitives_of(t, impl), *viewed)) continue;
-    buffers.has_edge[i] = 1;
-    painter.paint_edge(corners, edge);
+    if (!edge.set(corners, primitives_of(t, impl), *viewed, 0)) continue;
+    buffers.edges[i] = TriangleEdge::kSmall;
+    painter.paint_by_area(corners, edge);
   }
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const Delaunay::Triangle& t = triangles[i];
-    if (t.is_finite() && buffers.has_edge[i] == 0 && !is_beside(t)) painter.paint(corners_of(t, impl));
+    if (!t.is_finite() || buffers.edges[i] == TriangleEdge::kSmall || is_beside(t)) continue;
+    const std::array<Corner, 3> corners = corners_of(t, impl);
+    constexpr float kHalfAPixel = 0.5F;
+    if (buffers.edges[i] == TriangleEdge::kLarge &&
+        edge.set(corners, primitives_of(t, impl), *viewed, kHalfAPixel)) {
+      painter.paint(corners, edge);
+    } else {
+      painter.paint(corners, NoEdge());
+    }
   }
   painter.finish();
 }

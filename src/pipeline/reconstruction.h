@@ -27,7 +27,7 @@ enum class PixelRule : std::uint8_t {
   kCenter,  // the interpolation at its centre as well
   kMean,    // the samples' mean: the paper's rule
   kArea,    // the interpolation's mean over the pixel's area
-  kEdges    // the same, and small triangles with corners on different primitives show each where it is seen
+  kEdges    // the same, and triangles with corners on different primitives show each where it is seen
 };
 
 // A pixel that holds several samples or an edge. The fourth lanes pad; that of the sum counts samples where
@@ -37,13 +37,17 @@ struct alignas(16) PixelSum {
   float differences[4];  // from it, summed over samples or area
 };
 
+// Of a triangle of the mesh, whether edges of primitives are shown in it, and how: every pixel that a small
+// one touches is shown by area, a large one shows them at a few points of the pixels whose centres it holds.
+enum class TriangleEdge : std::uint8_t { kNone, kSmall, kLarge };
+
 // Storage that lives from frame to frame. Pixels are numbered row by row within the bounds; `sums` has a
 // meaning for those that hold a sample, the differences for those that hold several.
 struct ReconstructionBuffers {
   std::vector<std::uint64_t> holds_one, holds_several;  // a bit a pixel, each row beginning a new word
   std::vector<std::uint32_t> pixels;                    // those that hold several, in the order of the second
   std::vector<PixelSum> sums;
-  std::vector<std::uint8_t> has_edge;  // per triangle of the mesh: 1 if of a primitive
+  std::vector<TriangleEdge> edges;  // per triangle of the mesh
 };
 
 // Every pixel of `bounds`, as the mesh has it: the barycentric mean of the triangle that holds its centre,

@@ -267,7 +267,6 @@ SampleMesh::Guess SampleMesh::Impl::guess() const {
 
 SampleMesh::Guess SampleMesh::Impl::guess_beside_edge(std::uint32_t primitive) const {
   Guess result = guess();
-  if (result.area > kLargestWithEdge) return result;
   Color sum(0, 0, 0);
   int count = 0;
   for (const Index corner : delaunay_.triangles()[refined_].corners) {

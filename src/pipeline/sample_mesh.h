@@ -16,11 +16,9 @@
 
 namespace pprt {
 
-// Where a picture shows primitives' edges (PixelRule::kEdges). Of a larger triangle, in square pixels, the
-// primitives of its corners tell too little.
-inline constexpr double kLargestWithEdge = 3;
-// How much of the colour of what belongs to a primitive is that of the corners on it; the rest is all
-// corners' mean, for what lies between them may be hidden by a primitive that no corner is on.
+// Where a picture shows primitives' edges (PixelRule::kEdges), how much of the colour of what belongs to a
+// primitive is that of the corners on it; the rest is of all corners, for what lies between them may be
+// hidden by a primitive that no corner is on.
 inline constexpr float kEdgeShare = 0.75F;
 
 // A Delaunay triangle. Corners index SampleMesh::samples().
