@@ -44,7 +44,7 @@ class WallClock final : public FrameClock {
     sampling_began_s_ = 0;
     deadline_s_ = order.deadline_s > 0 ? start_s_ + order.deadline_s : 0;
     reserve_s_ = order.reserve_s;
-    most_left_ = order.carry == Carry::kAccumulate ? 1 : kMostLeftOfANewPicture;
+    is_at_rest_ = order.carry == Carry::kAccumulate;
     set_stop();
   }
   void spend(Work, std::uint64_t) override {}
@@ -52,7 +52,10 @@ class WallClock final : public FrameClock {
     left_in_packet_ = ranks_per_core_ > 1 ? kSamplesOfAShortTurn : kSamplesPerPacket;
     size_ = static_cast<double>(samples) + region_size_;
     set_stop();
-    if (sampling_began_s_ == 0) sampling_began_s_ = monotonic_seconds();
+    if (sampling_began_s_ == 0) {
+      sampling_began_s_ = monotonic_seconds();
+      sampling_began_cpu_s_ = thread_cpu_seconds();
+    }
     // With more ranks than cores, short turns keep every rank near its deadline.
     if (ranks_per_core_ > 1) sched_yield();
   }
@@ -60,7 +63,11 @@ class WallClock final : public FrameClock {
     if (left_in_packet_-- == 0) return true;
     return (left_in_packet_ & 7) == 0 && sampling_over();
   }
-  bool sampling_over() override { return stop_s_ > 0 && monotonic_seconds() >= stop_s_; }
+  bool sampling_over() override {
+    if (stop_s_ == 0) return false;
+    const double now = monotonic_seconds();
+    return now >= stop_s_ && !goes_on_after(now);
+  }
   void end_frame(double reconstruction_ms) override {
     reconstruction_s_per_size_.add(1e-3 * reconstruction_ms / size_);
   }
@@ -90,29 +97,47 @@ class WallClock final : public FrameClock {
  private:
   static constexpr int kSamplesPerPacket = 128, kSamplesOfAShortTurn = 48;
   static constexpr double kPixelsPerSample = 8;  // that take as long to reconstruct where edges are shown
-  static constexpr double kMostLeftOfANewPicture = 0.7;
+  // Of the period, for all that follows sampling.
+  static constexpr double kLeastLeft = 0.04, kMostLeftOfANewPicture = 0.7;
 
   void set_stop() { stop_s_ = deadline_s_ > 0 ? deadline_s_ - left_for_the_rest() : 0; }
+
+  // The sampling of a new picture that began late, or whose rank was not let run, goes on into half of the
+  // reserve, until it has nearly what others have. The next frames each have a little less until the reserve
+  // is whole again: a moment lost is shared among them. Where ranks share cores no time is their own.
+  bool goes_on_after(double now) {
+    constexpr double kShareOfOthers = 0.85, kLeastOfReserve = 0.5;
+    const double reconstruction_s = 1.25 * reconstruction_s_per_size_.get() * size_;
+    if (ranks_per_core_ > 1 || is_at_rest_ || reconstruction_s == 0) return false;
+    const double had_s = thread_cpu_seconds() - sampling_began_cpu_s_;
+    const double lacks_s = kShareOfOthers * (period_s_ - reconstruction_s) - had_s;
+    const double latest_s =
+        deadline_s_ - std::max(kLeastOfReserve * reserve_s_ + reconstruction_s, kLeastLeft * period_s_);
+    stop_s_ = std::max(stop_s_, std::min(now + lacks_s, latest_s));
+    return now < stop_s_;
+  }
 
   // After sampling: this rank's own reconstruction beside those of the ranks that share its core, a quarter
   // more for luck, and what else the master has seen to pass until a frame is whole. A resting picture whose
   // reconstruction fills the frame is fine enough; a new one gets some samples, whatever that takes.
   double left_for_the_rest() const {
     const double reconstruction_s = reconstruction_s_per_size_.get() * size_ * ranks_per_core_;
-    return std::clamp(reserve_s_ + 1.25 * reconstruction_s, 0.04 * period_s_, most_left_ * period_s_);
+    const double most = is_at_rest_ ? 1 : kMostLeftOfANewPicture;
+    return std::clamp(reserve_s_ + 1.25 * reconstruction_s, kLeastLeft * period_s_, most * period_s_);
   }
 
   double start_s_;
   double period_s_;
   double ranks_per_core_;
   double frame_began_s_ = 0;
-  double deadline_s_ = 0;        // 0: no rate
-  double reserve_s_ = 0;         // for what follows reconstruction
-  double most_left_ = 1;         // of the period, for all that follows sampling
+  double deadline_s_ = 0;  // 0: no rate
+  double reserve_s_ = 0;   // for what follows reconstruction
+  bool is_at_rest_ = false;
   double stop_s_ = 0;            // when sampling must stop; 0: no rate
   double sampling_began_s_ = 0;  // of this frame; 0: not yet
-  double size_ = 1;              // of what is to be reconstructed, in samples
-  double region_size_ = 0;       // what the region's pixels add to it
+  double sampling_began_cpu_s_ = 0;
+  double size_ = 1;         // of what is to be reconstructed, in samples
+  double region_size_ = 0;  // what the region's pixels add to it
   RecentMaximum reconstruction_s_per_size_;
   int left_in_packet_ = 0;
   double last_lap_s_ = thread_cpu_seconds();

@@ -1,6 +1,7 @@
 #include "parallel/frame_clock.h"
 
 #include <catch2/catch.hpp>
+#include <ctime>
 
 namespace pprt {
 namespace {
@@ -57,6 +58,48 @@ TEST_CASE("a resting picture whose reconstruction fills the frame gets no furthe
     for (const std::uint64_t samples : {19000, 1000000})
       CHECK(left_with(*clock, samples) == Approx(rests ? kPeriod : 0.7 * kPeriod));
   }
+}
+
+// A clock in a frame that has to end sampling in `stops_in_s`, with a reserve of seven tenths of the period,
+// and whose reconstruction takes so long.
+std::unique_ptr<FrameClock> clock_about_to_stop(double period_s, double stops_in_s, double reconstruction_s,
+                                                Carry carry = Carry::kNothing, double ranks_per_core = 1) {
+  SessionSettings settings;
+  settings.clock = ClockKind::kWall;
+  settings.frames_per_second = 1 / period_s;
+  auto clock = make_frame_clock(settings, monotonic_seconds(), 0, ranks_per_core);
+  FrameOrder order;
+  order.reserve_s = 0.7 * period_s - 1.25 * reconstruction_s * ranks_per_core;
+  order.carry = carry;
+  order.deadline_s = 0.7 * period_s + stops_in_s;
+  for (int frame = 0; frame < 2; ++frame) {
+    clock->begin_frame(order);
+    clock->begin_packet(3000);
+    if (frame == 0) clock->end_frame(1e3 * reconstruction_s);
+  }
+  return clock;
+}
+
+TEST_CASE("a new picture that lost time goes on into half of the reserve") {
+  constexpr double kLong = 100;  // seconds: no delay of this test's matters
+  const auto clock = clock_about_to_stop(kLong, -5, 8);
+  CHECK_FALSE(clock->sampling_over());
+  CHECK(clock->sampling_end_seconds() == Approx(-5 + 0.5 * (70 - 1.25 * 8)));
+  clock->begin_packet(3000);
+  CHECK_FALSE(clock->sampling_over());
+  CHECK(clock_about_to_stop(kLong, -40, 8)->sampling_over());  // beyond that half
+  CHECK(clock_about_to_stop(kLong, -5, 8, Carry::kAccumulate)->sampling_over());
+  CHECK(clock_about_to_stop(kLong, -5, 8, Carry::kNothing, 2)->sampling_over());
+  CHECK(clock_about_to_stop(kLong, -5, 0)->sampling_over());  // nobody knows yet what follows
+}
+
+TEST_CASE("a new picture that has had its time ends when it must") {
+  constexpr double kShort = 0.2;
+  const auto clock = clock_about_to_stop(kShort, 0.15, 0.001);
+  const auto cpu_seconds = [] { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; };
+  for (const double began = cpu_seconds(); cpu_seconds() < began + 0.9 * kShort;) {
+  }
+  CHECK(clock->sampling_over());
 }
 
 TEST_CASE("of the last eight reconstructions the slowest counts") {
