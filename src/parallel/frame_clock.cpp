@@ -41,21 +41,22 @@ class WallClock final : public FrameClock {
   }
   void begin_frame(const FrameOrder& order) override {
     frame_began_s_ = monotonic_seconds();
-    sampling_began_s_ = 0;
+    frame_began_cpu_s_ = thread_cpu_seconds();
+    sampling_began_s_ = made_up_until_s_ = rested_s_ = 0;
     deadline_s_ = order.deadline_s > 0 ? start_s_ + order.deadline_s : 0;
     reserve_s_ = order.reserve_s;
     is_at_rest_ = order.carry == Carry::kAccumulate;
     set_stop();
   }
   void spend(Work, std::uint64_t) override {}
+  void rested(double seconds) override { rested_s_ += seconds; }
   void begin_packet(std::uint64_t samples) override {
     left_in_packet_ = ranks_per_core_ > 1 ? kSamplesOfAShortTurn : kSamplesPerPacket;
     size_ = static_cast<double>(samples) + region_size_;
     set_stop();
-    if (sampling_began_s_ == 0) {
-      sampling_began_s_ = monotonic_seconds();
-      sampling_began_cpu_s_ = thread_cpu_seconds();
-    }
+    const double now = monotonic_seconds();
+    if (sampling_began_s_ == 0) sampling_began_s_ = now;
+    if (stop_s_ > 0 && now >= stop_s_) goes_on_after(now);
     // With more ranks than cores, short turns keep every rank near its deadline.
     if (ranks_per_core_ > 1) sched_yield();
   }
@@ -100,30 +101,40 @@ class WallClock final : public FrameClock {
   // Of the period, for all that follows sampling.
   static constexpr double kLeastLeft = 0.04, kMostLeftOfANewPicture = 0.7;
 
-  void set_stop() { stop_s_ = deadline_s_ > 0 ? deadline_s_ - left_for_the_rest() : 0; }
-
-  // The sampling of a new picture that began late, or whose rank was not let run, goes on into half of the
-  // reserve, until it has nearly what others have. The next frames each have a little less until the reserve
-  // is whole again: a moment lost is shared among them. Where ranks share cores no time is their own.
-  bool goes_on_after(double now) {
-    constexpr double kShareOfOthers = 0.85, kLeastOfReserve = 0.5;
-    const double reconstruction_s = 1.25 * reconstruction_s_per_size_.get() * size_;
-    if (ranks_per_core_ > 1 || is_at_rest_ || reconstruction_s == 0) return false;
-    const double had_s = thread_cpu_seconds() - sampling_began_cpu_s_;
-    const double lacks_s = kShareOfOthers * (period_s_ - reconstruction_s) - had_s;
-    const double latest_s =
-        deadline_s_ - std::max(kLeastOfReserve * reserve_s_ + reconstruction_s, kLeastLeft * period_s_);
-    stop_s_ = std::max(stop_s_, std::min(now + lacks_s, latest_s));
-    return now < stop_s_;
+  void set_stop() {
+    made_up_until_s_ = std::min(made_up_until_s_, latest_s());
+    stop_s_ = deadline_s_ > 0 ? std::max(deadline_s_ - left_for_the_rest(), made_up_until_s_) : 0;
   }
 
-  // After sampling: this rank's own reconstruction beside those of the ranks that share its core, a quarter
-  // more for luck, and what else the master has seen to pass until a frame is whole. A resting picture whose
-  // reconstruction fills the frame is fine enough; a new one gets some samples, whatever that takes.
+  // A new picture that began late, or whose rank was not let run, goes on into half of the reserve, until the
+  // rank has had nearly the time that others have. The next frames each have a little less until the reserve
+  // is whole again: a moment lost is shared among them. Where ranks share cores no time is their own.
+  bool goes_on_after(double now) {
+    constexpr double kShareOfOthers = 0.85;
+    if (ranks_per_core_ > 1 || is_at_rest_ || reconstruction_s() == 0) return false;
+    const double had_s = thread_cpu_seconds() - frame_began_cpu_s_ + rested_s_;
+    const double lacks_s = kShareOfOthers * (period_s_ - reconstruction_s()) - had_s;
+    const double until_s = std::min(now + lacks_s, latest_s());
+    if (until_s <= now) return false;
+    made_up_until_s_ = stop_s_ = until_s;
+    return true;
+  }
+  double latest_s() const {
+    constexpr double kLeastOfReserve = 0.5;
+    return deadline_s_ - std::max(kLeastOfReserve * reserve_s_ + reconstruction_s(), kLeastLeft * period_s_);
+  }
+
+  // After sampling: this rank's own reconstruction beside those of the ranks that share its core, and what
+  // else the master has seen to pass until a frame is whole. A resting picture whose reconstruction fills the
+  // frame is fine enough; a new one gets some samples, whatever that takes.
   double left_for_the_rest() const {
-    const double reconstruction_s = reconstruction_s_per_size_.get() * size_ * ranks_per_core_;
     const double most = is_at_rest_ ? 1 : kMostLeftOfANewPicture;
-    return std::clamp(reserve_s_ + 1.25 * reconstruction_s, kLeastLeft * period_s_, most * period_s_);
+    return std::clamp(reserve_s_ + reconstruction_s(), kLeastLeft * period_s_, most * period_s_);
+  }
+
+  // As the slowest of the last frames had it, and a quarter more for luck.
+  double reconstruction_s() const {
+    return 1.25 * reconstruction_s_per_size_.get() * size_ * ranks_per_core_;
   }
 
   double start_s_;
@@ -135,9 +146,11 @@ class WallClock final : public FrameClock {
   bool is_at_rest_ = false;
   double stop_s_ = 0;            // when sampling must stop; 0: no rate
   double sampling_began_s_ = 0;  // of this frame; 0: not yet
-  double sampling_began_cpu_s_ = 0;
-  double size_ = 1;         // of what is to be reconstructed, in samples
-  double region_size_ = 0;  // what the region's pixels add to it
+  double frame_began_cpu_s_ = 0;
+  double made_up_until_s_ = 0;  // beyond when sampling would have to stop
+  double rested_s_ = 0;         // in this frame
+  double size_ = 1;             // of what is to be reconstructed, in samples
+  double region_size_ = 0;      // what the region's pixels add to it
   RecentMaximum reconstruction_s_per_size_;
   int left_in_packet_ = 0;
   double last_lap_s_ = thread_cpu_seconds();
@@ -156,6 +169,7 @@ class WorkClock final : public FrameClock {
     round_ = 0;
   }
   void spend(Work work, std::uint64_t count) override { frame_units_ += price(work) * count; }
+  void rested(double) override {}
   void begin_packet(std::uint64_t) override {
     ++round_;
     // Besides reconstruction, a round's worth is kept for what the last exchange brings.

@@ -26,12 +26,16 @@ class FrameClock {
   // Counts work (a no-op for wall time: it passes by itself).
   virtual void spend(Work work, std::uint64_t count) = 0;
 
+  // The rank had nothing to do for so long (a no-op for counted work).
+  virtual void rested(double seconds) = 0;
+
   // Sampling goes in packets with an exchange of messages after each. `samples`: of the region so far, which
   // reconstruction will have to deal with.
   virtual void begin_packet(std::uint64_t samples) = 0;
   virtual bool packet_over() = 0;
 
-  // With a rate: whether what must follow needs the rest of the frame's time. Without: never.
+  // With a rate: whether what must follow needs the rest of the frame's time; the end is put off a little
+  // where a rank was not let run. Without: never.
   virtual bool sampling_over() = 0;
 
   // The frame is sent. What its reconstruction took of this rank's CPU, in milliseconds as lap_ms() has it,

@@ -404,7 +404,7 @@ bool Worker::insert(const Sample& sample, const Insertion& how) {
 void Worker::await_news() {
   const double began = monotonic_seconds();
   if (!inbox_.pump()) rest_briefly();
-  report_.cpu_ms.idle += 1e3 * (monotonic_seconds() - began);
+  note_rest(monotonic_seconds() - began);
 }
 
 void Worker::await(const std::function<bool()>& arrived) {
@@ -413,7 +413,12 @@ void Worker::await(const std::function<bool()>& arrived) {
   while (!arrived()) {
     if (!inbox_.pump()) rest_briefly();
   }
-  if (!clock_->in_lockstep()) report_.cpu_ms.idle += 1e3 * (monotonic_seconds() - began);
+  if (!clock_->in_lockstep()) note_rest(monotonic_seconds() - began);
+}
+
+void Worker::note_rest(double seconds) {
+  report_.cpu_ms.idle += 1e3 * seconds;
+  clock_->rested(seconds);
 }
 
 }  // namespace pprt

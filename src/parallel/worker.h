@@ -111,6 +111,7 @@ class Worker {
   bool insert(const Sample& sample, const Insertion& how);
   void await(const std::function<bool()>& arrived);
   void await_news();
+  void note_rest(double seconds);
 
   Communicator& network_;
   Inbox& inbox_;

@@ -88,8 +88,8 @@ class EdgePatch {
   Floats integral(int row, int column, const PerLine& from, const PerLine& to, const PerLine& length,
                   const Floats& base) const;
 
-  // Of two pixels side by side, whose centres the triangle holds: what they show but for the share of the
-  // interpolation.
+  // Of two pixels side by side, the first of which has its centre in the triangle and the second may: what
+  // they show but for the share of the interpolation.
   std::array<Floats, 2> at_pixels(int row, int column) const;
 
  private:

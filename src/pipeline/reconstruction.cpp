@@ -299,6 +299,7 @@ void Painter::add_lines(const Outline& outline, const LinearPatch& patch, const 
       const PerLine from = greatest(extents.left, on_all(begin)),
                     to = least(extents.right, on_all(begin + 1));
       const PerLine length = greatest(to - from, PerLine{}) * (1.0f / kLines);
+      if (sum(length) == 0) continue;
       const auto pixel = static_cast<std::size_t>(row_start(bounds_, row) + bounds_.x0 + column);
       add_difference(pixel, integral(from, to, length, base_of(pixel)));
     }

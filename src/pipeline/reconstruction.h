@@ -22,7 +22,8 @@ struct RegionPixels {
   }
 };
 
-// What a pixel that holds several samples shows. Others show the interpolation at their centre.
+// What a pixel that holds several samples shows. Others show the interpolation at their centre, but for
+// kEdges.
 enum class PixelRule : std::uint8_t {
   kCenter,  // the interpolation at its centre as well
   kMean,    // the samples' mean: the paper's rule
@@ -38,7 +39,8 @@ struct alignas(16) PixelSum {
 };
 
 // Of a triangle of the mesh, whether edges of primitives are shown in it, and how: every pixel that a small
-// one touches is shown by area, a large one shows them at a few points of the pixels whose centres it holds.
+// one touches is shown by area; a large one shows them at a few points of the pixels whose centres it holds,
+// and where pixels are shown by area anyhow, in these.
 enum class TriangleEdge : std::uint8_t { kNone, kSmall, kLarge };
 
 // Storage that lives from frame to frame. Pixels are numbered row by row within the bounds; `sums` has a

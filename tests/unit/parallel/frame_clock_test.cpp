@@ -1,7 +1,9 @@
 #include "parallel/frame_clock.h"
 
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <ctime>
+#include <thread>
 
 namespace pprt {
 namespace {
@@ -91,6 +93,19 @@ TEST_CASE("a new picture that lost time goes on into half of the reserve") {
   CHECK(clock_about_to_stop(kLong, -5, 8, Carry::kAccumulate)->sampling_over());
   CHECK(clock_about_to_stop(kLong, -5, 8, Carry::kNothing, 2)->sampling_over());
   CHECK(clock_about_to_stop(kLong, -5, 0)->sampling_over());  // nobody knows yet what follows
+}
+
+TEST_CASE("a new picture whose rank was not let run goes on, one that rested does not") {
+  for (const bool rests : {false, true}) {
+    const auto clock = clock_about_to_stop(10, 0.1, 0.1);
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    if (rests) clock->rested(9);
+    CHECK(clock->sampling_over() == rests);
+    const auto is_put_off = [&] { return clock->sampling_end_seconds() > 1; };
+    CHECK(is_put_off() == !rests);
+    clock->begin_packet(3000);
+    CHECK(is_put_off() == !rests);
+  }
 }
 
 TEST_CASE("a new picture that has had its time ends when it must") {

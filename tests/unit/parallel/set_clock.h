@@ -14,6 +14,7 @@ class SetClock final : public FrameClock {
   bool may_begin(const FrameOrder&) const override { return true; }
   void begin_frame(const FrameOrder&) override { packets_ = 0; }
   void spend(Work, std::uint64_t) override {}
+  void rested(double) override {}
   void begin_packet(std::uint64_t) override { left_ = samples_per_packet_, ++packets_; }
   bool packet_over() override { return left_-- == 0; }
   bool sampling_over() override { return packets_ >= 6; }
