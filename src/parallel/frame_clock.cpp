@@ -42,7 +42,7 @@ class WallClock final : public FrameClock {
   void begin_frame(const FrameOrder& order) override {
     frame_began_s_ = monotonic_seconds();
     frame_began_cpu_s_ = thread_cpu_seconds();
-    sampling_began_s_ = made_up_until_s_ = rested_s_ = 0;
+    sampling_began_s_ = rested_s_ = 0;
     deadline_s_ = order.deadline_s > 0 ? start_s_ + order.deadline_s : 0;
     reserve_s_ = order.reserve_s;
     is_at_rest_ = order.carry == Carry::kAccumulate;
@@ -101,22 +101,19 @@ class WallClock final : public FrameClock {
   // Of the period, for all that follows sampling.
   static constexpr double kLeastLeft = 0.04, kMostLeftOfANewPicture = 0.7;
 
-  void set_stop() {
-    made_up_until_s_ = std::min(made_up_until_s_, latest_s());
-    stop_s_ = deadline_s_ > 0 ? std::max(deadline_s_ - left_for_the_rest(), made_up_until_s_) : 0;
-  }
+  void set_stop() { stop_s_ = deadline_s_ > 0 ? deadline_s_ - left_for_the_rest() : 0; }
 
   // A new picture that began late, or whose rank was not let run, goes on into half of the reserve, until the
   // rank has had nearly the time that others have. The next frames each have a little less until the reserve
   // is whole again: a moment lost is shared among them. Where ranks share cores no time is their own.
   bool goes_on_after(double now) {
-    constexpr double kShareOfOthers = 0.85;
+    constexpr double kShareOfOthers = 0.93;
     if (ranks_per_core_ > 1 || is_at_rest_ || reconstruction_s() == 0) return false;
     const double had_s = thread_cpu_seconds() - frame_began_cpu_s_ + rested_s_;
     const double lacks_s = kShareOfOthers * (period_s_ - reconstruction_s()) - had_s;
     const double until_s = std::min(now + lacks_s, latest_s());
     if (until_s <= now) return false;
-    made_up_until_s_ = stop_s_ = until_s;
+    stop_s_ = until_s;
     return true;
   }
   double latest_s() const {
@@ -147,10 +144,9 @@ class WallClock final : public FrameClock {
   double stop_s_ = 0;            // when sampling must stop; 0: no rate
   double sampling_began_s_ = 0;  // of this frame; 0: not yet
   double frame_began_cpu_s_ = 0;
-  double made_up_until_s_ = 0;  // beyond when sampling would have to stop
-  double rested_s_ = 0;         // in this frame
-  double size_ = 1;             // of what is to be reconstructed, in samples
-  double region_size_ = 0;      // what the region's pixels add to it
+  double rested_s_ = 0;     // in this frame
+  double size_ = 1;         // of what is to be reconstructed, in samples
+  double region_size_ = 0;  // what the region's pixels add to it
   RecentMaximum reconstruction_s_per_size_;
   int left_in_packet_ = 0;
   double last_lap_s_ = thread_cpu_seconds();
