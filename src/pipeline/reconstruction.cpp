@@ -401,7 +401,7 @@ void reconstruct(const SampleMesh& mesh, const PixelRect& bounds, RegionPixels& 
     if (!t.is_finite() || buffers.edges[i] == TriangleEdge::kSmall || is_beside(t)) continue;
     const std::array<Corner, 3> corners = corners_of(t, impl);
     constexpr float kHalfAPixel = 0.5F;
-    if (buffers.edges[i] == TriangleEdge::kLarge &&
+    if (viewed && buffers.edges[i] == TriangleEdge::kLarge &&
         edge.set(corners, primitives_of(t, impl), *viewed, kHalfAPixel)) {
       painter.paint(corners, edge);
     } else {
