@@ -41,10 +41,11 @@ std::string nff_text(const SceneDescription& scene) {
 std::string run_key(const RenderOptions& o, const RenderPlan& plan, int ranks,
                     const std::string& scene_hash) {
   const SessionSettings& s = plan.settings;
-  std::string text = fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", scene_hash, ranks, s.width,
-                                 s.height, o.clock, s.frames_per_second, s.budget_units, s.stop.seconds,
-                                 s.stop.samples, s.stop.quality, o.balance + o.keep_samples + o.pixels,
-                                 o.cast, s.seed, o.max_depth, o.effects + (o.cull ? " cull" : ""));
+  std::string text =
+      fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", scene_hash, ranks, s.width, s.height,
+                  o.clock, s.frames_per_second, s.budget_units, s.stop.seconds, s.stop.samples,
+                  s.stop.quality, o.balance + o.keep_samples + o.pixels + o.weights, o.cast, s.seed,
+                  o.max_depth, o.effects + (o.cull ? " cull" : ""));
   for (const PlannedFrame& f : plan.script_frames) {
     const View& v = f.view;
     text += fmt::format("\n{} {} {} {} {} {} {} {} {} {} {} {}", f.number, f.cut, v.from.x, v.from.y,
@@ -58,9 +59,15 @@ Json run_record(const RenderOptions& o, const RenderPlan& plan, int ranks, const
   char host[256] = {};
   gethostname(host, sizeof host - 1);
   const SessionSettings& s = plan.settings;
-  Json options = {{"fps", s.frames_per_second},     {"balance", o.balance}, {"cast", o.cast},
-                  {"keep_samples", o.keep_samples}, {"pixels", o.pixels},   {"seed", s.seed},
-                  {"max_depth", o.max_depth},       {"cull", o.cull}};
+  Json options = {{"fps", s.frames_per_second},
+                  {"balance", o.balance},
+                  {"cast", o.cast},
+                  {"keep_samples", o.keep_samples},
+                  {"weights", o.weights},
+                  {"pixels", o.pixels},
+                  {"seed", s.seed},
+                  {"max_depth", o.max_depth},
+                  {"cull", o.cull}};
   if (s.clock == ClockKind::kWork) options["budget"] = s.budget_units;
   if (s.frames_per_second <= 0) {
     options["time"] = s.stop.seconds, options["samples"] = s.stop.samples,

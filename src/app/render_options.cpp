@@ -112,6 +112,10 @@ void add_run_options(CLI::App& app, RenderOptions& o) {
       "What becomes of samples when the image is cut anew: on hands them over, off drops them");
   keep->capture_default_str()->group(group);
   take_one_of(*keep, {"on", "off"});
+  auto* weights = app.add_option(
+      "--weights", o.weights, "Where samples go: by the paper's weights, or by these and the errors found");
+  weights->capture_default_str()->group(group);
+  take_one_of(*weights, {"learned", "paper"});
   app.add_option("--seed", o.seed, "Of the pattern that every frame starts from")
       ->check(count_from(0))
       ->capture_default_str()

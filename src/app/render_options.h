@@ -28,6 +28,7 @@ struct RenderOptions {
   std::string balance = "combined";
   std::string cast = "auto";
   std::string keep_samples = "on";
+  std::string weights = "learned";
   std::string pixels = "edges";
   std::uint64_t seed = 1;
 

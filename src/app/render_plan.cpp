@@ -177,6 +177,7 @@ SessionSettings settle(const RenderOptions& options, const View& view, double fp
   settings.cast = cast_choice(options.cast);
   settings.keep_samples = options.keep_samples == "on";
   settings.pixel_rule = pixel_rule(options.pixels);
+  settings.learned_weights = options.weights == "learned";
   settings.seed = options.seed;
   const std::vector<Layer> layers = requested_layers(options);
   settings.report_samples =

@@ -202,7 +202,7 @@ void run_stratified(const Subject& subject, const CurveRange& range, const Secon
     std::mt19937_64 random(range.seed);
     const auto jitter = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
     const double begin = clock();
-    MeshPainter painter(subject, {false, false, false}, PixelRule::kEdges);
+    MeshPainter painter(subject, {.area = false, .variance = false, .learned = false}, PixelRule::kEdges);
     for (const Vec2d& corner : {Vec2d(0, 0), Vec2d(w, 0), Vec2d(w, h), Vec2d(0, h)}) painter.add(corner);
     for (int y = 0; y < size.height; ++y) {
       for (int x = 0; x < size.width; ++x) {
@@ -254,12 +254,14 @@ std::vector<Method> accuracy_methods() {
   return {progressive_method(),
           uniform_method(),
           {kControl, "the uniform grid once more: how far figures differ by noise alone", run_uniform},
-          refinement("area only", "progressive by the triangles' size, whatever their colours",
-                     {true, false, false}),
-          refinement("variance only", "progressive by the colours' variance, whatever the size",
-                     {false, true, true}),
-          refinement("no pixel rule", "progressive, flat triangles below a pixel refined like others",
-                     {true, true, false}),
+          refinement("paper weights", "progressive by the paper's weights, whatever errors are found",
+                     {.learned = false}),
+          refinement("area only", "the same by the triangles' size, whatever their colours",
+                     {.variance = false, .pixel_rule = false, .learned = false}),
+          refinement("variance only", "the same by the colours' variance, whatever the size",
+                     {.area = false, .learned = false}),
+          refinement("no pixel rule", "the same, flat triangles below a pixel refined like others",
+                     {.pixel_rule = false, .learned = false}),
           refinement("pixel area",
                      "progressive, a pixel with several samples shows the interpolation's mean over its area",
                      {}, PixelRule::kArea),

@@ -11,7 +11,7 @@ Bytes encode(const SessionSettings& settings) {
   out.put(settings.width), out.put(settings.height), out.put(settings.clock);
   out.put(settings.frames_per_second), out.put(settings.budget_units), out.put(settings.stop);
   out.put(settings.balance), out.put(settings.cast), out.put(settings.keep_samples);
-  out.put(settings.pixel_rule), out.put(settings.seed);
+  out.put(settings.pixel_rule), out.put(settings.learned_weights), out.put(settings.seed);
   out.put(settings.report_samples), out.put(settings.machine);
   return out.take();
 }
@@ -22,7 +22,8 @@ SessionSettings decode_settings(const Bytes& bytes) {
   in.get(settings.width), in.get(settings.height), in.get(settings.clock, ClockKind::kWork);
   in.get(settings.frames_per_second), in.get(settings.budget_units), in.get(settings.stop);
   in.get(settings.balance, BalanceMode::kCombined), in.get(settings.cast, CastChoice::kAuto);
-  in.get(settings.keep_samples), in.get(settings.pixel_rule, PixelRule::kEdges), in.get(settings.seed);
+  in.get(settings.keep_samples), in.get(settings.pixel_rule, PixelRule::kEdges);
+  in.get(settings.learned_weights), in.get(settings.seed);
   in.get(settings.report_samples), in.get(settings.machine);
   in.expect_end();
   return settings;

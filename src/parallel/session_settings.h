@@ -46,6 +46,7 @@ struct SessionSettings {
   CastChoice cast = CastChoice::kAuto;
   bool keep_samples = true;  // when the image is cut anew: hand samples over, or drop them as the paper does
   PixelRule pixel_rule = PixelRule::kEdges;
+  bool learned_weights = true;  // refinement corrects the paper's weights by what it learns
   std::uint64_t seed = 1;
   bool report_samples = false;  // every sample of a frame comes to the master with the pixels
   Machine machine;              // of the work clock

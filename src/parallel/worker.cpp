@@ -48,7 +48,7 @@ Worker::Worker(Communicator& network, Inbox& inbox, const SessionSettings& setti
       settings_(settings),
       probe_(std::move(probe)),
       clock_(std::move(clock)),
-      mesh_(region_of(partition, network.rank())),
+      mesh_(region_of(partition, network.rank()), {.learned = settings.learned_weights}),
       exchange_(partition, network.rank(), seed_pattern(settings.width, settings.height, settings.seed)),
       balancer_(network.rank(), network.size(), partition.grid.tile_count()),
       stance_(network.size()),

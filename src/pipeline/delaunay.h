@@ -34,6 +34,7 @@ class Delaunay {
     std::uint32_t stamp = 0;
     float weight = 0;
     std::int32_t tile = 0;
+    std::uint32_t kind = 0;
   };
 
   // One line of cache.

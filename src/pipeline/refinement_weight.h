@@ -51,12 +51,22 @@ inline float display_variance(const Color& a, const Color& b, const Color& c) {
   return (channel(a.x, b.x, c.x) + channel(a.y, b.y, c.y) + channel(a.z, b.z, c.z)) * (1.0f / 27);
 }
 
+// Mean over the channels of the squared difference on the display scale.
+inline double display_error(const Color& a, const Color& b) {
+  const auto difference = [](float p, float q) {
+    return static_cast<double>(held_to_unit(p)) - static_cast<double>(held_to_unit(q));
+  };
+  const Vec3d d(difference(a.x, b.x), difference(a.y, b.y), difference(a.z, b.z));
+  return d.dot(d) / 3;
+}
+
 // The reasons to refine that count: all of them, but where a study asks what each is worth. Without area and
 // variance there is no reason at all.
 struct WeightTerms {
   bool area = true;        // Rad^2
   bool variance = true;    // log(1.01 + 500 Var)
   bool pixel_rule = true;  // a triangle smaller than a pixel has its variance as its only reason
+  bool learned = true;     // times what error_by_kind.h has learned; below a pixel, less by its side
 };
 
 // The natural logarithm of a positive, normal float or of four, to 4e-7 of itself; of 1 exactly 0. The
@@ -72,13 +82,14 @@ Number fast_logarithm(const Number& x) {
   return f * all + as_numbers<Number>(exponent) * 0.693147181F;
 }
 
+inline constexpr float kPixelSizeSquared = 0.318309886F;  // 1 / pi: a circle of one square pixel
+
 // Weight(t) = Rad^2 log(1.01 + 500 Var), with two safeguards. Rad is at most the longest edge: a sliver on
 // the hull has a circumradius of any size. A triangle whose circle is smaller than a pixel keeps only its
 // variance as a reason (Painter and Sloan 1989): the constant 1.01 becomes 1, and a flat one has weight 0. Of
 // one triangle or of four, by the square of Rad in square pixels, and Var.
 template <class Number>
 Number refinement_weight(const Number& size_squared, const Number& variance, const WeightTerms& terms = {}) {
-  constexpr float kPixelSizeSquared = 0.318309886F;  // 1 / pi: a circle of one square pixel
   const Number nothing{};
   if (!terms.area && !terms.variance) return nothing;
   const auto small = size_squared < (terms.pixel_rule ? kPixelSizeSquared : 0);

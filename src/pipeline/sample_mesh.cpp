@@ -10,6 +10,13 @@
 namespace pprt {
 namespace {
 
+Color color_of(const Floats& channels) {
+  return {channels[0], channels[1], channels[2]};
+}
+
+constexpr std::uint32_t kNoPrimitive = ~std::uint32_t{0};
+constexpr float kUnknownError = 1.0F / 32;  // where no triangle tells what the picture would have shown
+
 bool is_inside(const Vec2d& point, const TileGrid& image) {
   return point.x >= 0 && point.x <= image.width && point.y >= 0 && point.y <= image.height;
 }
@@ -108,6 +115,7 @@ void SampleMesh::Impl::clear() {
   latest_in_cell_.assign(cell_of({0.0 + region_.grid().width, 0.0 + region_.grid().height}) + 1,
                          Delaunay::kNowhere);
   next_stamp_ = 1;
+  learned_.forget();
   notes_foreign_ = inserts_many_ = false;
   wanted_.reset();
 }
@@ -124,10 +132,21 @@ bool SampleMesh::Impl::insert(const Sample& sample) {
   const Vec2d point(sample.x, sample.y);
   if (!is_inside(point, grid)) return false;
   const int tile = grid.tile_at(point.x, point.y);
+  const bool is_wanted = std::exchange(wanted_, std::nullopt) == point;
   const bool was_planar = delaunay_.is_planar();
-  if (!triangulate(point, tile)) return false;
+  Corner corner{sample.ray.color, sample.ray.primitive, trait_of(kUnknownError, sample.ray.rays),
+                region_.owns_tile(tile)};
+  if (was_planar) {
+    const Index at = find(point, tile, is_wanted);
+    if (at == Delaunay::kNowhere) return false;
+    if (terms_.learned && delaunay_.triangles()[at].is_finite())
+      corner.trait = trait_of(error_found(at, sample, is_wanted), sample.ray.rays);
+    delaunay_.insert(point, at);
+  } else if (!delaunay_.insert_before_planar(point)) {
+    return false;
+  }
   samples_.push_back(sample);
-  corners_.push_back({sample.ray.color, sample.ray.primitive, region_.owns_tile(tile)});
+  corners_.push_back(corner);
   if (was_planar) {
     admit();
   } else if (delaunay_.is_planar()) {
@@ -136,21 +155,30 @@ bool SampleMesh::Impl::insert(const Sample& sample) {
   return true;
 }
 
-bool SampleMesh::Impl::triangulate(const Vec2d& point, int tile) {
-  const bool is_wanted = wanted_ == point;
-  wanted_.reset();
-  if (!delaunay_.is_planar()) return delaunay_.insert_before_planar(point);
+SampleMesh::Impl::Index SampleMesh::Impl::find(const Vec2d& point, int tile, bool is_wanted) {
   Index& in_tile = latest_in_tile_[static_cast<std::size_t>(tile)];
   Index& in_cell = latest_in_cell_[cell_of(point)];
   Index at = refined_;
   if (!is_wanted || !delaunay_.surely_holds(refined_, point)) {
     const Index from = in_cell != Delaunay::kNowhere ? in_cell : in_tile;
     at = delaunay_.locate(point, from == Delaunay::kNowhere ? 0 : from);
-    if (at == Delaunay::kNowhere) return false;
+    if (at == Delaunay::kNowhere) return at;
   }
-  delaunay_.insert(point, at);
   in_tile = in_cell = at;
-  return true;
+  return at;
+}
+
+float SampleMesh::Impl::error_found(Index triangle, const Sample& sample, bool is_wanted) {
+  const auto on_display = [](const Floats& v) { return least(greatest(v, Floats{}), Floats{1, 1, 1, 0}); };
+  const Floats difference = on_display(channels_before_more(&sample.ray.color)) -
+                            on_display(shown_beside_edge(triangle, sample.ray.primitive));
+  const Floats squared = difference * difference;
+  const float error = (squared[0] + squared[1] + squared[2]) * (1.0F / 3);
+  if (is_wanted && triangle == refined_) {
+    const Tally& tally = delaunay_.note(triangle);
+    learned_.learn(tally.kind, tally.weight, error, static_cast<float>(area(triangle)), sample.ray.rays);
+  }
+  return error;
 }
 
 void SampleMesh::Impl::admit() {
@@ -160,7 +188,7 @@ void SampleMesh::Impl::admit() {
   weigh_new();
   for (std::size_t k = 0; k < triangles.size(); ++k) {
     if (!delaunay_.triangles()[triangles[k]].is_finite()) continue;
-    adopt(triangles[k], weights_[k]);
+    adopt(triangles[k], weights_[k], kinds_[k]);
     note_at_border(triangles[k]);
   }
 }
@@ -172,11 +200,18 @@ void SampleMesh::Impl::weigh_new() {
   const auto shown = [&](Index corner) {
     return least(greatest(corners_[corner].channels(), Floats{}), Floats{1, 1, 1, 0});
   };
-  const Floats center = shown(static_cast<Index>(corners_.size() - 1));
-  shown_.resize(padded + kLanes), weights_.resize(padded);
-  for (std::size_t k = 0; k < count; ++k)
-    shown_[k] = around[k] == Delaunay::kInfinite ? center : shown(around[k]);
-  shown_[count] = shown_[0];
+  const auto apex = static_cast<Index>(corners_.size() - 1);
+  const Floats center = shown(apex);
+  shown_.resize(padded + kLanes), weights_.resize(padded), kinds_.resize(padded);
+  primitives_.resize(padded + kLanes), traits_.resize(padded + kLanes);
+  for (std::size_t k = 0; k < count; ++k) {
+    const Index corner = around[k] == Delaunay::kInfinite ? apex : around[k];
+    shown_[k] = shown(corner);
+    primitives_[k] = static_cast<std::int32_t>(corners_[corner].primitive);
+    traits_[k] = corners_[corner].trait;
+  }
+  shown_[count] = shown_[0], primitives_[count] = primitives_[0], traits_[count] = traits_[0];
+  const LaneBits primitive = LaneBits{} + static_cast<std::int32_t>(corners_[apex].primitive);
   const auto squared_differences = [&](std::size_t k, auto&& other) {
     const auto square = [](const Floats& v) { return v * v; };
     Floats a = square(shown_[k] - other(k)), b = square(shown_[k + 1] - other(k + 1)),
@@ -198,6 +233,10 @@ void SampleMesh::Impl::weigh_new() {
     for (std::size_t i = 0; i < kLanes && k + i < count; ++i)
       size_squared[i] = delaunay_.triangles()[triangles[k + i]].circle.size_squared;
     store(refinement_weight(size_squared, variance, terms_), &weights_[k]);
+    const LaneBits traits = load<LaneBits>(&traits_[k]) + load<LaneBits>(&traits_[k + 1]);
+    store(triangle_kind(primitive, load<LaneBits>(&primitives_[k]), load<LaneBits>(&primitives_[k + 1]),
+                        variance, traits + corners_[apex].trait),
+          &kinds_[k]);
   }
 }
 
@@ -258,24 +297,33 @@ void SampleMesh::Impl::expect_growth(double factor) {
 }
 
 SampleMesh::Guess SampleMesh::Impl::guess() const {
-  const auto& [a, b, c] = delaunay_.triangles()[refined_].corners;
-  const Points corners = points(refined_);
-  const Vec2d ab = corners[1] - corners[0], ac = corners[2] - corners[0];
-  return {(corners_[a].color + corners_[b].color + corners_[c].color) / 3.0f,
-          0.5 * (ab.x * ac.y - ab.y * ac.x)};
+  return guess_beside_edge(kNoPrimitive);
 }
 
 SampleMesh::Guess SampleMesh::Impl::guess_beside_edge(std::uint32_t primitive) const {
-  Guess result = guess();
-  Color sum(0, 0, 0);
+  return {color_of(shown_beside_edge(refined_, primitive)), area(refined_)};
+}
+
+Floats SampleMesh::Impl::shown_beside_edge(Index triangle, std::uint32_t primitive) const {
+  Floats all{}, beside{};
   int count = 0;
-  for (const Index corner : delaunay_.triangles()[refined_].corners) {
-    if (corners_[corner].primitive != primitive) continue;
-    sum += corners_[corner].color;
-    ++count;
+  for (const Index corner : delaunay_.triangles()[triangle].corners) {
+    const Floats color = corners_[corner].channels();
+    const std::int32_t is_beside = corners_[corner].primitive == primitive ? 1 : 0;
+    all += color;
+    beside += std::bit_cast<Floats>(std::bit_cast<LaneBits>(color) & -is_beside);
+    count += is_beside;
   }
-  if (count > 0) result.color += (sum / static_cast<float>(count) - result.color) * kEdgeShare;
-  return result;
+  constexpr std::array<float, 4> kOneOver = {0, 1, 1.0F / 2, 1.0F / 3};
+  const float share = count > 0 ? kEdgeShare : 0;
+  const auto i = static_cast<std::size_t>(count);
+  return all * ((1 - share) * kOneOver[3]) + beside * (share * kOneOver[i]);
+}
+
+double SampleMesh::Impl::area(Index triangle) const {
+  const Points corners = points(triangle);
+  const Vec2d ab = corners[1] - corners[0], ac = corners[2] - corners[0];
+  return 0.5 * (ab.x * ac.y - ab.y * ac.x);
 }
 
 Vec2d SampleMesh::Impl::refinement_point(Index triangle) const {
@@ -292,19 +340,28 @@ SampleMesh::Impl::Points SampleMesh::Impl::points(Index triangle) const {
 void SampleMesh::Impl::adopt(Index triangle) {
   const Delaunay::Triangle& t = delaunay_.triangles()[triangle];
   const auto& [a, b, c] = t.corners;
-  const float variance = display_variance(corners_[a].color, corners_[b].color, corners_[c].color);
-  adopt(triangle, refinement_weight(t.circle.size_squared, variance, terms_));
+  const Corner &p = corners_[a], &q = corners_[b], &r = corners_[c];
+  const float variance = display_variance(p.color, q.color, r.color);
+  const auto kind =
+      triangle_kind(static_cast<std::int32_t>(p.primitive), static_cast<std::int32_t>(q.primitive),
+                    static_cast<std::int32_t>(r.primitive), variance, p.trait + q.trait + r.trait);
+  adopt(triangle, refinement_weight(t.circle.size_squared, variance, terms_),
+        static_cast<TriangleKind>(kind));
 }
 
-void SampleMesh::Impl::adopt(Index triangle, float weight) {
+void SampleMesh::Impl::adopt(Index triangle, float weight, TriangleKind kind) {
   const Vec2d point = refinement_point(triangle);
   Tally& tally = delaunay_.note(triangle);
   tally.stamp = next_stamp_++;
   tally.tile = region_.grid().tile_at(point.x, point.y);
   // What is refined elsewhere is weighed elsewhere.
   if (region_.owns_tile(tally.tile)) {
-    tally.weight = weight;
+    tally.weight = weight, tally.kind = kind;
     count(tally, 1);
+    if (terms_.learned) {
+      const float in_pixels = delaunay_.triangles()[triangle].circle.size_squared / kPixelSizeSquared;
+      weight *= learned_.correction(kind) * (in_pixels < 1 ? std::sqrt(in_pixels) : 1);
+    }
     if (weight > 0) queue_.push(weight, {triangle, tally.stamp});
   }
 }

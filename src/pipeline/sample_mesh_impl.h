@@ -9,6 +9,7 @@
 
 #include "pipeline/bucket_queue.h"
 #include "pipeline/delaunay.h"
+#include "pipeline/error_by_kind.h"
 #include "pipeline/lanes.h"
 #include "pipeline/sample_mesh.h"
 
@@ -22,7 +23,8 @@ class SampleMesh::Impl {
   struct Corner {
     Color color{0, 0, 0};
     std::uint32_t primitive = 0;  // as in RaySample
-    bool own = false;             // in the region
+    Trait trait = 0;
+    bool own = false;  // in the region
 
     Floats channels() const { return channels_before_more(this); }
   };
@@ -74,15 +76,23 @@ class SampleMesh::Impl {
     const auto columns = static_cast<std::size_t>(region_.grid().width) / kCellPixels + 1;
     return row * columns + column;
   }
-  bool triangulate(const Vec2d& point, int tile);  // false where a sample is already
-  void admit();                                    // the triangles that an insertion made
-  void weigh_new();                                // them, into weights_
-  void adopt(Index triangle);                      // one that is new: weight, statistics, queue
-  void adopt(Index triangle, float weight);        // the same of known weight
-  void count(const Tally& tally, int sign);        // into, or out of, the statistics
-  void forget(Tally& tally);                       // a triangle that is gone: statistics
-  void rescan();                                   // every triangle anew
+  // A triangle that the point destroys; kNowhere where a sample is already.
+  Index find(const Vec2d& point, int tile, bool is_wanted);
+  // The square by which the sample shows the picture to be wrong in a triangle that it destroys. To be
+  // learned from, if that triangle was to be refined.
+  float error_found(Index triangle, const Sample& sample, bool is_wanted);
+  void admit();                                                 // the triangles that an insertion made
+  void weigh_new();                                             // them, into weights_
+  void adopt(Index triangle);                                   // one that is new: weight, statistics, queue
+  void adopt(Index triangle, float weight, TriangleKind kind);  // the same of known weight
+  void count(const Tally& tally, int sign);                     // into, or out of, the statistics
+  void forget(Tally& tally);                                    // a triangle that is gone: statistics
+  void rescan();                                                // every triangle anew
   void note_at_border(Index triangle);
+  // What a picture shows of the primitive in the triangle, where that has edges; or of all corners, if the
+  // primitive is none of theirs.
+  Floats shown_beside_edge(Index triangle, std::uint32_t primitive) const;
+  double area(Index triangle) const;  // square pixels
   Vec2d refinement_point(Index triangle) const;
   Points points(Index triangle) const;  // of its corners
 
@@ -96,8 +106,12 @@ class SampleMesh::Impl {
   // Triangles to start a walk from, by tile and by cell of eight pixels; kNowhere before the first.
   std::vector<Index> latest_in_tile_, latest_in_cell_;
   BucketQueue<QueueEntry> queue_;
-  std::vector<float> weights_;  // of the new triangles
-  std::vector<Floats> shown_;   // scratch of weigh_new()
+  ErrorByKind learned_;
+  // Of the new triangles, and of the corners around them: weigh_new().
+  std::vector<float> weights_;
+  std::vector<TriangleKind> kinds_;
+  std::vector<Floats> shown_;
+  std::vector<std::int32_t> primitives_, traits_;
   std::uint32_t next_stamp_ = 1;
   bool notes_foreign_ = false;
   bool inserts_many_ = false;

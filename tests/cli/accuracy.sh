@@ -9,7 +9,7 @@ for file in index.html provenance.json curves.csv comparisons.csv ratios.csv; do
 grep -q '"command": "pprt-study accuracy spd:tree:4 spd:balls:1 -o all' all/provenance.json ||
   complain "provenance.json does not tell the command: $(cat all/provenance.json)"
 grep -q '^# cpu: .' all/curves.csv || complain "curves.csv does not tell the processor"
-for method in progressive uniform control 'area only' 'variance only' 'no pixel rule' 'mean of samples' 'pixel centers' 'stratified random'; do
+for method in progressive uniform control 'paper weights' 'area only' 'variance only' 'no pixel rule' 'mean of samples' 'pixel centers' 'stratified random'; do
   for scene in spd:tree:4 spd:balls:1; do
     [[ $(grep -c "^$scene,$method,2," all/curves.csv) -ge 3 ]] || complain "curves.csv lacks the $method of $scene"
   done

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "parallel/work_units.h"
+#include "pipeline/refinement_weight.h"
 
 namespace pprt {
 namespace {

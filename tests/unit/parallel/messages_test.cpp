@@ -58,7 +58,8 @@ SessionSettings some_settings() {
   settings.stop = {1.5, 678, 0.01};
   settings.cast = CastChoice::kVerified, settings.seed = 99;
   settings.balance = BalanceMode::kLocal, settings.keep_samples = false, settings.report_samples = true;
-  settings.pixel_rule = PixelRule::kMean, settings.machine = {3e8, 1e-3, 4e7};
+  settings.pixel_rule = PixelRule::kMean, settings.learned_weights = false;
+  settings.machine = {3e8, 1e-3, 4e7};
   return settings;
 }
 
@@ -193,6 +194,7 @@ TEST_CASE("a value that its type has not is refused") {
   CHECK_THROWS_AS(decode_settings(with(settings, 50, 4)), ProtocolError);  // cast
   CHECK_THROWS_AS(decode_settings(with(settings, 51, 2)), ProtocolError);  // keep_samples
   CHECK_THROWS_AS(decode_settings(with(settings, 52, 4)), ProtocolError);  // pixel_rule
+  CHECK_THROWS_AS(decode_settings(with(settings, 53, 2)), ProtocolError);  // learned_weights
 }
 
 TEST_CASE("runs of more tiles than an image has are refused") {

@@ -35,15 +35,13 @@ std::vector<Vec2d> pattern(const VirtualRun& run) {
   return points;
 }
 
-std::vector<Vec2d> parallel_pattern(bool cut_off, std::uint64_t seed) {
-  SessionSettings s = settings(seed);
+std::vector<Vec2d> parallel_pattern(bool cut_off, SessionSettings s) {
   s.frames_per_second = 4;
   s.budget_units = 2'000'000;
   return pattern(run_session(kRanks, s, still_or_pan(s, 1), {.period = kPeriod, .drop_samples = cut_off}));
 }
 
-std::vector<Vec2d> serial_pattern(std::size_t samples, std::uint64_t seed) {
-  SessionSettings s = settings(seed);
+std::vector<Vec2d> serial_pattern(std::size_t samples, SessionSettings s) {
   s.stop.samples = samples;
   return pattern(run_session(1, s, still_or_pan(s, 1), {.period = kPeriod}));
 }
@@ -92,11 +90,15 @@ double bucket_distance(const std::vector<Vec2d>& a, const std::vector<Vec2d>& b)
 
 // Which triangle comes first differs from seed to seed, and with it some hundred samples: three are averaged.
 TEST_CASE("borders between regions are sampled as one rank would, and not so without the exchange") {
+  // What weights have said is corrected by each rank from its own region.
+  const bool learned = GENERATE(false, true);
   const Partition partition = partition_by_area();
   double wanted = 0, shared = 0, apart = 0, distance = 0, distance_apart = 0;
   for (const std::uint64_t seed : {1, 2, 3}) {
-    const std::vector<Vec2d> parallel = parallel_pattern(false, seed), cut_off = parallel_pattern(true, seed);
-    const std::vector<Vec2d> serial = serial_pattern(parallel.size(), seed);
+    SessionSettings s = settings(seed);
+    s.learned_weights = learned;
+    const std::vector<Vec2d> parallel = parallel_pattern(false, s), cut_off = parallel_pattern(true, s);
+    const std::vector<Vec2d> serial = serial_pattern(parallel.size(), s);
     REQUIRE(serial.size() > 10000);
     wanted += share_near_borders(serial, partition) / 3;
     shared += share_near_borders(parallel, partition) / 3;
@@ -108,7 +110,7 @@ TEST_CASE("borders between regions are sampled as one rank would, and not so wit
                                      << "; distances " << distance << ", " << distance_apart);
   CHECK(shared == Approx(wanted).epsilon(0.1));
   CHECK(apart < 0.85 * wanted);
-  CHECK(distance < 0.11);
+  CHECK(distance < (learned ? 0.14 : 0.11));
   CHECK(distance_apart > 1.1 * distance);
 }
 

@@ -30,8 +30,9 @@ inline Sample sample_of(const Picture& picture, double x, double y, SampleId id 
 }
 
 // Seeds everywhere, then `count` samples where the mesh wants them.
-inline SampleMesh refine(const Region& region, const Picture& picture, int count, std::uint64_t seed = 1) {
-  SampleMesh mesh(region);
+inline SampleMesh refine(const Region& region, const Picture& picture, int count, std::uint64_t seed = 1,
+                         const WeightTerms& terms = {}) {
+  SampleMesh mesh(region, terms);
   for (const Vec2d& p : seed_points(region.grid().width, region.grid().height, seed)) {
     mesh.insert(sample_of(picture, p.x, p.y));
   }
