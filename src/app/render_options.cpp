@@ -107,13 +107,11 @@ void add_run_options(CLI::App& app, RenderOptions& o) {
   auto* cast = app.add_option("--cast", o.cast, "Which samples are carried to the next frame");
   cast->capture_default_str()->group(group);
   take_one_of(*cast, {"off", "paper", "verified", "auto"});
-  auto* keep = app.add_option(
-      "--keep-samples", o.keep_samples,
-      "What becomes of samples when the image is cut anew: on hands them over, off drops them");
+  auto* keep =
+      app.add_option("--keep-samples", o.keep_samples, "Hand samples over when the image is cut anew");
   keep->capture_default_str()->group(group);
   take_one_of(*keep, {"on", "off"});
-  auto* weights = app.add_option(
-      "--weights", o.weights, "Where samples go: by the paper's weights, or by these and the errors found");
+  auto* weights = app.add_option("--weights", o.weights, "By what refinement decides where samples go");
   weights->capture_default_str()->group(group);
   take_one_of(*weights, {"learned", "paper"});
   app.add_option("--seed", o.seed, "Of the pattern that every frame starts from")
