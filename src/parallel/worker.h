@@ -67,7 +67,7 @@ class Worker {
   void prepare(const FrameOrder& order);
   Balancer::Known known_before(const FrameOrder& order, const Missed& missed) const;
   void catch_up(const FrameOrder& order, const Missed& missed);
-  void begin_triangulation(int epoch);
+  void begin_triangulation(int epoch, bool goes_on);
   void adopt_partition(const FrameOrder& order, bool keep_samples);
   void send_handed_over(const FrameOrder& order);
   std::vector<Sample> cast(const FrameOrder& order, bool eye_rests);

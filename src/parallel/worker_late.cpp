@@ -37,7 +37,7 @@ void Worker::hear_gifts(const FrameOrder& order) {
 // seeds of that frame and from what they have told since.
 void Worker::catch_up(const FrameOrder& order, const Missed& missed) {
   if (!order.owners.empty()) adopt_partition(order, false);
-  begin_triangulation(missed.epoch);
+  begin_triangulation(missed.epoch, !missed.cut);
   trace_seeds(order);
   receive_bundles(order, kSeedRound);
 }

@@ -56,12 +56,14 @@ void Worker::prepare(const FrameOrder& order) {
     report_.samples_cast = in_region_;
     return;
   }
+  // What is carried from frame to frame, and what refinement has learned with it.
+  const bool goes_on = carry != Carry::kNothing && !missed.cut;
   std::vector<Sample> survivors;
-  if (carry != Carry::kNothing && !missed.cut) survivors = cast(order, eye_rests);
+  if (goes_on) survivors = cast(order, eye_rests);
   report_.cpu_ms.casting += clock_->lap_ms();
   if (new_partition) adopt_partition(order, false);
 
-  begin_triangulation(order.index);
+  begin_triangulation(order.index, goes_on);
   trace_seeds(order);
   settle(order, survivors);
 }
@@ -71,9 +73,13 @@ Balancer::Known Worker::known_before(const FrameOrder& order, const Missed& miss
   return order.camera == *camera_before_ ? Balancer::Known::kAll : Balancer::Known::kSome;
 }
 
-void Worker::begin_triangulation(int epoch) {
+void Worker::begin_triangulation(int epoch, bool goes_on) {
   under_way_.clear();  // of the triangulation before
-  mesh_.clear();
+  if (goes_on) {
+    mesh_.restart();
+  } else {
+    mesh_.clear();
+  }
   exchange_.clear();
   epoch_ = epoch;
   in_region_ = 0;

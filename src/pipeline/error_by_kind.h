@@ -59,10 +59,7 @@ Whole triangle_kind(const Whole& a, const Whole& b, const Whole& c, const Number
 // compared with the squared error times the triangle's area, and with the time that its sample took.
 class ErrorByKind {
  public:
-  ErrorByKind() { forget(); }
-
-  void forget() {
-    kinds_ = {}, all_ = {}, samples_ = 0;
+  ErrorByKind() {
     for (std::size_t kind = 0; kind < kTriangleKinds; ++kind)
       corrections_[kind] = tempered(expected()[kind % kExpected]);
   }

@@ -55,6 +55,9 @@ SampleMesh::~SampleMesh() = default;
 void SampleMesh::clear() {
   impl_->clear();
 }
+void SampleMesh::restart() {
+  impl_->restart();
+}
 void SampleMesh::set_region(const Region& region) {
   impl_->set_region(region);
 }
@@ -103,6 +106,11 @@ SampleMesh::Impl::Impl(const Region& region, const WeightTerms& terms) : region_
 }
 
 void SampleMesh::Impl::clear() {
+  restart();
+  learned_ = {};
+}
+
+void SampleMesh::Impl::restart() {
   const auto tiles = static_cast<std::size_t>(region_.grid().tile_count());
   delaunay_.clear();
   samples_.clear();
@@ -115,7 +123,6 @@ void SampleMesh::Impl::clear() {
   latest_in_cell_.assign(cell_of({0.0 + region_.grid().width, 0.0 + region_.grid().height}) + 1,
                          Delaunay::kNowhere);
   next_stamp_ = 1;
-  learned_.forget();
   notes_foreign_ = inserts_many_ = false;
   wanted_.reset();
 }

@@ -51,8 +51,11 @@ class SampleMesh {
   SampleMesh& operator=(SampleMesh&&) noexcept;
   ~SampleMesh();
 
-  // Forgets all samples.
+  // Forgets all samples, and what refinement has learned from them.
   void clear();
+
+  // Forgets all samples: the next picture will be much like this one.
+  void restart();
 
   // Moves the border of what is refined here; keeps all samples. O(triangles).
   void set_region(const Region& region);

@@ -34,6 +34,7 @@ class SampleMesh::Impl {
   Impl(const Region& region, const WeightTerms& terms);
 
   void clear();
+  void restart();
   void set_region(const Region& region);
   void note_foreign() { notes_foreign_ = true; }
   bool insert(const Sample& sample);

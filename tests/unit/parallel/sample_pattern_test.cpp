@@ -90,7 +90,7 @@ double bucket_distance(const std::vector<Vec2d>& a, const std::vector<Vec2d>& b)
 
 // Which triangle comes first differs from seed to seed, and with it some hundred samples: three are averaged.
 TEST_CASE("borders between regions are sampled as one rank would, and not so without the exchange") {
-  // What weights have said is corrected by each rank from its own region.
+  // Each rank learns from its own region, and from fewer samples.
   const bool learned = GENERATE(false, true);
   const Partition partition = partition_by_area();
   double wanted = 0, shared = 0, apart = 0, distance = 0, distance_apart = 0;

@@ -84,9 +84,6 @@ TEST_CASE("a kind that proves more wrong than its weights said counts more, and 
   CHECK(errors.correction(kOther) < 1);
   const float by_time = by_rays.correction(kOne) / by_rays.correction(kOther);
   CHECK(by_time == Approx(std::pow((12 + 2.5) / (1 + 2.5), 0.75)).epsilon(0.05));
-
-  errors.forget();
-  CHECK(errors.correction(kOne) == ErrorByKind().correction(kOne));
 }
 
 TEST_CASE("what is learned is uncertain at first, follows what comes, and stays within bounds") {
