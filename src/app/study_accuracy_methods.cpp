@@ -264,7 +264,7 @@ std::vector<Method> accuracy_methods() {
                      {.pixel_rule = false, .learned = false}),
           refinement("pixel area",
                      "progressive, a pixel with several samples shows the interpolation's mean over its area",
-                     {}, PixelRule::kArea),
+                     {.edges = false}, PixelRule::kArea),
           refinement("mean of samples",
                      "progressive, a pixel with several samples shows their mean: the paper's rule", {},
                      PixelRule::kMean),

@@ -59,6 +59,7 @@ class Stage {
     settings.budget_units = static_cast<std::uint64_t>(budget_units);
     settings.frames_per_second = kWorkUnitsPerSecond / budget_units;
     settings.cast = cast;
+    settings.learned_weights = false;  // what is learned goes on with what is cast
     settings.seed = trial_.seed;
     Tracer tracer(scene_, Camera());
     run_virtual_ranks(

@@ -58,6 +58,7 @@ SessionSettings settings_of(const Setting& setting, const PaperRun& run) {
   s.balance = run.balance;
   s.cast = run.cast;
   s.keep_samples = run.keep_samples;
+  s.learned_weights = false;  // each rank would learn something else
   s.seed = setting.options.seed;
   s.report_samples = run.compare_serial;
   s.machine = run.machine;

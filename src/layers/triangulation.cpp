@@ -23,7 +23,7 @@ Triangulation triangulate_frame(std::vector<Sample> samples, const TileGrid& gri
     return std::tie(a.id, a.y, a.x) < std::tie(b.id, b.y, b.x);
   });
   const Region whole = Region::whole(grid);
-  SampleMesh mesh(whole);
+  SampleMesh mesh(whole, {.learned = false});
   for (const Sample& sample : samples) mesh.insert(sample);
   return {grid.width,
           grid.height,

@@ -76,6 +76,14 @@ CastEvidence halved(CastEvidence e) {
   return e;
 }
 
+double display_error(const Color& a, const Color& b) {
+  const auto difference = [](float p, float q) {
+    return static_cast<double>(std::clamp(p, 0.0f, 1.0f)) - static_cast<double>(std::clamp(q, 0.0f, 1.0f));
+  };
+  const Vec3d d(difference(a.x, b.x), difference(a.y, b.y), difference(a.z, b.z));
+  return d.dot(d) / 3;
+}
+
 int cast_life(const CastEvidence& evidence, double eye_dependent_share) {
   const bool serve_longer = eye_dependent_share > kMost && stale_within(evidence, kGoodAtMost) &&
                             hidden_share(evidence) <= kHiddenMany;

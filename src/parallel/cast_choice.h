@@ -36,6 +36,9 @@ inline CastEvidence& operator+=(CastEvidence& a, const CastEvidence& b) {
 // What is known one frame later, when that counts half.
 CastEvidence halved(CastEvidence evidence);
 
+// Mean over the channels of the squared difference on the display scale [0, 1].
+double display_error(const Color& a, const Color& b);
+
 struct CastLimits {
   bool eye_dependent = true;  // whether samples whose colour depends on the eye are carried
   double share = 0.5;         // of the frame's time that putting samples back may take; 0: none is carried

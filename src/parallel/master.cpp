@@ -121,6 +121,7 @@ void Master::order_next() {
     order.cut = request->cut;
     order.carry = carry_into(*request);
     order.camera = request->camera;
+    if (order.carry == Carry::kNothing) evidence_ = {}, evidence_since_ = order.index;
     order.evidence = evidence_;
     if (settings_.frames_per_second > 0) {
       order.deadline_s =
@@ -222,7 +223,7 @@ void Master::deliver(Assembly& assembly) {
   evidence_ = halved(evidence_);
   for (const RankReport& r : assembly.ranks) {
     samples_delivered_ += r.samples_in_region;
-    evidence_ += r.evidence;
+    if (assembly.order.index >= evidence_since_) evidence_ += r.evidence;
   }
   balance_globally(assembly);
   FinishedFrame frame;

@@ -126,6 +126,7 @@ class Master {
   std::vector<TileEstimate> found_;        // per tile, what that partition stands on
   std::vector<double> handed_over_;        // per rank: samples it will have to take in with that partition
   CastEvidence evidence_;                  // of the frames delivered, the latest counting most
+  int evidence_since_ = 0;                 // index of the last frame that nothing was carried into
   std::uint32_t generation_ = 0;           // of the partition ordered last
   std::uint64_t samples_delivered_ = 0;    // in the frame delivered last
   int delivered_ = 0;                      // frames

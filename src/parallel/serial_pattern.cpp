@@ -48,6 +48,7 @@ std::vector<Sample> serial_samples(const SessionSettings& settings, const Camera
   serial.width = settings.width;
   serial.height = settings.height;
   serial.seed = settings.seed;
+  serial.learned_weights = settings.learned_weights;
   serial.clock = ClockKind::kWork;
   serial.stop.samples = count;
   serial.cast = CastChoice::kOff;

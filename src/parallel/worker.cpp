@@ -48,7 +48,8 @@ Worker::Worker(Communicator& network, Inbox& inbox, const SessionSettings& setti
       settings_(settings),
       probe_(std::move(probe)),
       clock_(std::move(clock)),
-      mesh_(region_of(partition, network.rank()), {.learned = settings.learned_weights}),
+      mesh_(region_of(partition, network.rank()),
+            {.learned = settings.learned_weights, .edges = settings.pixel_rule == PixelRule::kEdges}),
       exchange_(partition, network.rank(), seed_pattern(settings.width, settings.height, settings.seed)),
       balancer_(network.rank(), network.size(), partition.grid.tile_count()),
       stance_(network.size()),
@@ -124,9 +125,7 @@ bool Worker::refine_once(const FrameOrder& order) {
   if (!point) return false;
   const Sample sample = trace(order, point->x, point->y);
   if (measures_fresh_) {
-    const SampleMesh::Guess guess = settings_.pixel_rule == PixelRule::kEdges
-                                        ? mesh_.guess_beside_edge(sample.ray.primitive)
-                                        : mesh_.guess();
+    const SampleMesh::Guess guess = mesh_.guess(sample.ray.primitive);
     ++report_.evidence.fresh;
     report_.evidence.fresh_error += guess.area * display_error(sample.ray.color, guess.color);
     report_.evidence.fresh_area += guess.area;

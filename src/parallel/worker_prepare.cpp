@@ -56,7 +56,7 @@ void Worker::prepare(const FrameOrder& order) {
     report_.samples_cast = in_region_;
     return;
   }
-  // What is carried from frame to frame, and what refinement has learned with it.
+  // From the frame before: with its samples, and with what refinement has learned.
   const bool goes_on = carry != Carry::kNothing && !missed.cut;
   std::vector<Sample> survivors;
   if (goes_on) survivors = cast(order, eye_rests);
@@ -79,6 +79,7 @@ void Worker::begin_triangulation(int epoch, bool goes_on) {
     mesh_.restart();
   } else {
     mesh_.clear();
+    next_id_ = 0;  // which samples casting draws shall not depend on frames before either
   }
   exchange_.clear();
   epoch_ = epoch;

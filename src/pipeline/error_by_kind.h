@@ -17,7 +17,7 @@ namespace pprt {
 // What a triangle's kind takes from a corner: how wrong the picture was where that sample came, and how many
 // rays it took, to their octaves. Traits of corners add up without mixing the two.
 using Trait = std::int16_t;
-inline constexpr std::int32_t kErrorOctaves = 16;  // the lowest: 2^-15 and less; the highest: 1/2 and more
+inline constexpr std::int32_t kErrorOctaves = 16;  // the lowest: below 2^-14; the highest: 1
 inline constexpr std::int32_t kRayOctaves = 4;     // 1, 2 and 3, 4 to 7, 8 and more
 inline constexpr std::int32_t kPerRayOctave = 64;  // above three of the highest error octave
 
@@ -64,13 +64,13 @@ class ErrorByKind {
       corrections_[kind] = tempered(expected()[kind % kExpected]);
   }
 
-  // Of all kinds about 1, in the mean.
+  // Above 1 for kinds that have proved worse than all together when they were last learned of.
   float correction(TriangleKind kind) const { return corrections_[kind]; }
 
   // A sample has refined a triangle of the kind and of that weight. The picture there was wrong by
   // `squared_error` over `area` square pixels; the sample's ray tree has so many rays.
   void learn(TriangleKind kind, float weight, float squared_error, float area, std::uint32_t rays) {
-    if (!(weight > 0)) return;
+    if (!(weight > 0)) return;          // it has said nothing
     constexpr float kInsertion = 2.5F;  // takes as long as so many rays
     constexpr float kDoubt = 10;        // what was expected counts as much as so many samples
     const Evidence found{squared_error * area / weight, kInsertion + static_cast<float>(rays)};
@@ -79,7 +79,7 @@ class ErrorByKind {
     samples_ += 1 - samples_ * (1.0F / 4096);
     const float error = of_kind.error * samples_ + all_.error * kDoubt * expected()[kind % kExpected];
     const float time = of_kind.time * samples_ + all_.time * kDoubt;
-    corrections_[kind] = tempered(error * all_.time / (time * all_.error + 1e-30F));
+    if (all_.error > 0) corrections_[kind] = tempered(error * all_.time / (time * all_.error));
   }
 
  private:
@@ -98,12 +98,13 @@ class ErrorByKind {
   static constexpr std::size_t kExpected = 4 * 8 * 8;
   static const std::array<float, kExpected>& expected() {
     static const std::array<float, kExpected> table = [] {
-      constexpr float kAnOctaveOf = 0.3F, kUsualErrors = 2.5F;
+      constexpr float kStep = 1.23114441F,
+                      kLeast = 0.594603558F;  // .3 octaves; as much, two and a half times less
       std::array<float, kExpected> by_kind{};
       for (std::size_t kind = 0; kind < kExpected; ++kind) {
-        const auto errors = static_cast<float>(kind & 7);
-        const float three = kind >> 6 == 2 ? 1 : 0;
-        by_kind[kind] = std::exp2(kAnOctaveOf * (errors - kUsualErrors + three));
+        by_kind[kind] = kLeast;
+        for (std::size_t step = (kind & 7) + (kind >> 6 == 2 ? 1 : 0); step > 0; --step)
+          by_kind[kind] *= kStep;
       }
       return by_kind;
     }();

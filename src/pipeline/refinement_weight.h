@@ -51,15 +51,6 @@ inline float display_variance(const Color& a, const Color& b, const Color& c) {
   return (channel(a.x, b.x, c.x) + channel(a.y, b.y, c.y) + channel(a.z, b.z, c.z)) * (1.0f / 27);
 }
 
-// Mean over the channels of the squared difference on the display scale.
-inline double display_error(const Color& a, const Color& b) {
-  const auto difference = [](float p, float q) {
-    return static_cast<double>(held_to_unit(p)) - static_cast<double>(held_to_unit(q));
-  };
-  const Vec3d d(difference(a.x, b.x), difference(a.y, b.y), difference(a.z, b.z));
-  return d.dot(d) / 3;
-}
-
 // The reasons to refine that count: all of them, but where a study asks what each is worth. Without area and
 // variance there is no reason at all.
 struct WeightTerms {
@@ -67,6 +58,7 @@ struct WeightTerms {
   bool variance = true;    // log(1.01 + 500 Var)
   bool pixel_rule = true;  // a triangle smaller than a pixel has its variance as its only reason
   bool learned = true;     // times what error_by_kind.h has learned; below a pixel, less by its side
+  bool edges = true;       // learned of pictures that show primitives' edges (PixelRule::kEdges)
 };
 
 // The natural logarithm of a positive, normal float or of four, to 4e-7 of itself; of 1 exactly 0. The

@@ -10,12 +10,12 @@
 namespace pprt {
 namespace {
 
-Color color_of(const Floats& channels) {
-  return {channels[0], channels[1], channels[2]};
-}
-
-constexpr std::uint32_t kNoPrimitive = ~std::uint32_t{0};
 constexpr float kUnknownError = 1.0F / 32;  // where no triangle tells what the picture would have shown
+
+// Channels held to the display scale.
+Floats on_display(const Floats& channels) {
+  return least(greatest(channels, Floats{}), Floats{1, 1, 1, 0});
+}
 
 bool is_inside(const Vec2d& point, const TileGrid& image) {
   return point.x >= 0 && point.x <= image.width && point.y >= 0 && point.y <= image.height;
@@ -82,11 +82,8 @@ std::optional<Vec2d> SampleMesh::next_point() {
 void SampleMesh::expect_growth(double factor) {
   impl_->expect_growth(factor);
 }
-SampleMesh::Guess SampleMesh::guess() const {
-  return impl_->guess();
-}
-SampleMesh::Guess SampleMesh::guess_beside_edge(std::uint32_t primitive) const {
-  return impl_->guess_beside_edge(primitive);
+SampleMesh::Guess SampleMesh::guess(std::uint32_t primitive) const {
+  return impl_->guess(primitive);
 }
 std::span<const Sample> SampleMesh::samples() const {
   return impl_->samples();
@@ -146,8 +143,11 @@ bool SampleMesh::Impl::insert(const Sample& sample) {
   if (was_planar) {
     const Index at = find(point, tile, is_wanted);
     if (at == Delaunay::kNowhere) return false;
-    if (terms_.learned && delaunay_.triangles()[at].is_finite())
-      corner.trait = trait_of(error_found(at, sample, is_wanted), sample.ray.rays);
+    if (terms_.learned && delaunay_.triangles()[at].is_finite()) {
+      const float error = error_found(at, sample);
+      corner.trait = trait_of(error, sample.ray.rays);
+      if (is_wanted && at == refined_) learn(error, sample.ray.rays);
+    }
     delaunay_.insert(point, at);
   } else if (!delaunay_.insert_before_planar(point)) {
     return false;
@@ -175,17 +175,16 @@ SampleMesh::Impl::Index SampleMesh::Impl::find(const Vec2d& point, int tile, boo
   return at;
 }
 
-float SampleMesh::Impl::error_found(Index triangle, const Sample& sample, bool is_wanted) {
-  const auto on_display = [](const Floats& v) { return least(greatest(v, Floats{}), Floats{1, 1, 1, 0}); };
+float SampleMesh::Impl::error_found(Index triangle, const Sample& sample) const {
   const Floats difference = on_display(channels_before_more(&sample.ray.color)) -
-                            on_display(shown_beside_edge(triangle, sample.ray.primitive));
+                            on_display(shown_of(triangle, sample.ray.primitive));
   const Floats squared = difference * difference;
-  const float error = (squared[0] + squared[1] + squared[2]) * (1.0F / 3);
-  if (is_wanted && triangle == refined_) {
-    const Tally& tally = delaunay_.note(triangle);
-    learned_.learn(tally.kind, tally.weight, error, static_cast<float>(area(triangle)), sample.ray.rays);
-  }
-  return error;
+  return (squared[0] + squared[1] + squared[2]) * (1.0F / 3);
+}
+
+void SampleMesh::Impl::learn(float squared_error, std::uint32_t rays) {
+  const Tally& tally = delaunay_.note(refined_);
+  learned_.learn(tally.kind, tally.weight, squared_error, static_cast<float>(area(refined_)), rays);
 }
 
 void SampleMesh::Impl::admit() {
@@ -204,9 +203,7 @@ void SampleMesh::Impl::admit() {
 void SampleMesh::Impl::weigh_new() {
   const std::span<const Index> around = delaunay_.around_new(), triangles = delaunay_.new_triangles();
   const std::size_t count = around.size(), padded = (count + kLanes - 1) / kLanes * kLanes;
-  const auto shown = [&](Index corner) {
-    return least(greatest(corners_[corner].channels(), Floats{}), Floats{1, 1, 1, 0});
-  };
+  const auto shown = [&](Index corner) { return on_display(corners_[corner].channels()); };
   const auto apex = static_cast<Index>(corners_.size() - 1);
   const Floats center = shown(apex);
   shown_.resize(padded + kLanes), weights_.resize(padded), kinds_.resize(padded);
@@ -303,15 +300,12 @@ void SampleMesh::Impl::expect_growth(double factor) {
   queue_.set_floor(queue_.level() / static_cast<float>(std::pow(std::max(1.0, factor), kSurePower)));
 }
 
-SampleMesh::Guess SampleMesh::Impl::guess() const {
-  return guess_beside_edge(kNoPrimitive);
+SampleMesh::Guess SampleMesh::Impl::guess(std::uint32_t primitive) const {
+  const Floats shown = shown_of(refined_, primitive);
+  return {{shown[0], shown[1], shown[2]}, area(refined_)};
 }
 
-SampleMesh::Guess SampleMesh::Impl::guess_beside_edge(std::uint32_t primitive) const {
-  return {color_of(shown_beside_edge(refined_, primitive)), area(refined_)};
-}
-
-Floats SampleMesh::Impl::shown_beside_edge(Index triangle, std::uint32_t primitive) const {
+Floats SampleMesh::Impl::shown_of(Index triangle, std::uint32_t primitive) const {
   Floats all{}, beside{};
   int count = 0;
   for (const Index corner : delaunay_.triangles()[triangle].corners) {
@@ -322,7 +316,7 @@ Floats SampleMesh::Impl::shown_beside_edge(Index triangle, std::uint32_t primiti
     count += is_beside;
   }
   constexpr std::array<float, 4> kOneOver = {0, 1, 1.0F / 2, 1.0F / 3};
-  const float share = count > 0 ? kEdgeShare : 0;
+  const float share = terms_.edges && count > 0 ? kEdgeShare : 0;
   const auto i = static_cast<std::size_t>(count);
   return all * ((1 - share) * kOneOver[3]) + beside * (share * kOneOver[i]);
 }

@@ -54,7 +54,7 @@ class SampleMesh {
   // Forgets all samples, and what refinement has learned from them.
   void clear();
 
-  // Forgets all samples: the next picture will be much like this one.
+  // Forgets all samples, but not what was learned from them: for a picture much like this one.
   void restart();
 
   // Moves the border of what is refined here; keeps all samples. O(triangles).
@@ -77,18 +77,18 @@ class SampleMesh {
 
   // There are going to be so many times as many samples as now: what that many surely refine is refined an
   // octave of weight at a time, one neighbourhood after the other, which is faster than the heaviest first.
-  // To be told again and again on the way, so that the end is fine. Holds until clear().
+  // To be told again and again on the way, so that the end is fine. Holds until the samples are
+  // forgotten.
   void expect_growth(double factor);
 
   // Of the triangle that next_point() refines, before the sample is inserted: what the picture shows there,
-  // and its area in square pixels. That is the mean colour of its corners or, where a picture shows edges, of
-  // those on the primitive that the sample has found.
+  // and its area in square pixels. That is the mean colour of its corners or, where pictures show edges,
+  // mostly of those on the primitive that the sample has found.
   struct Guess {
     Color color;
     double area;
   };
-  Guess guess() const;
-  Guess guess_beside_edge(std::uint32_t primitive) const;
+  Guess guess(std::uint32_t primitive) const;
 
   std::span<const Sample> samples() const;
 
@@ -96,7 +96,7 @@ class SampleMesh {
   // region, and may not lie wholly in it by their circumcircle.
   void take_new_at_border(std::vector<BorderTriangle>& triangles);
 
-  // From now on until clear(), those without such a corner as well.
+  // From now on until the samples are forgotten, those without such a corner as well.
   void note_foreign();
 
   // One entry per tile of the grid; zero outside the region.

@@ -42,8 +42,7 @@ class SampleMesh::Impl {
   void end_many();
   std::optional<Vec2d> next_point();
   void expect_growth(double factor);
-  Guess guess() const;
-  Guess guess_beside_edge(std::uint32_t primitive) const;
+  Guess guess(std::uint32_t primitive) const;
   double refinement() const;
 
   const Region& region() const { return region_; }
@@ -79,9 +78,10 @@ class SampleMesh::Impl {
   }
   // A triangle that the point destroys; kNowhere where a sample is already.
   Index find(const Vec2d& point, int tile, bool is_wanted);
-  // The square by which the sample shows the picture to be wrong in a triangle that it destroys. To be
-  // learned from, if that triangle was to be refined.
-  float error_found(Index triangle, const Sample& sample, bool is_wanted);
+  // The square by which the sample shows the picture to be wrong in a triangle that it destroys; and what
+  // follows for such triangles from a sample that was wanted there.
+  float error_found(Index triangle, const Sample& sample) const;
+  void learn(float squared_error, std::uint32_t rays);
   void admit();                                                 // the triangles that an insertion made
   void weigh_new();                                             // them, into weights_
   void adopt(Index triangle);                                   // one that is new: weight, statistics, queue
@@ -90,9 +90,9 @@ class SampleMesh::Impl {
   void forget(Tally& tally);                                    // a triangle that is gone: statistics
   void rescan();                                                // every triangle anew
   void note_at_border(Index triangle);
-  // What a picture shows of the primitive in the triangle, where that has edges; or of all corners, if the
+  // What the picture shows of a primitive in the triangle; or of all corners, if it shows no edges or the
   // primitive is none of theirs.
-  Floats shown_beside_edge(Index triangle, std::uint32_t primitive) const;
+  Floats shown_of(Index triangle, std::uint32_t primitive) const;
   double area(Index triangle) const;  // square pixels
   Vec2d refinement_point(Index triangle) const;
   Points points(Index triangle) const;  // of its corners

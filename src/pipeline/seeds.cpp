@@ -43,7 +43,7 @@ std::vector<Vec2d> seed_points(int width, int height, std::uint64_t seed) {
 
 SeedPattern seed_pattern(int width, int height, std::uint64_t seed) {
   SeedPattern pattern{seed_points(width, height, seed), {}};
-  SampleMesh mesh(Region::whole({width, height, std::max(width, height)}));
+  SampleMesh mesh(Region::whole({width, height, std::max(width, height)}), {.learned = false});
   for (const Vec2d& p : pattern.points) {
     Sample sample;
     sample.x = p.x, sample.y = p.y;

@@ -68,6 +68,13 @@ TEST_CASE("samples come to the master only for what is made of them") {
   CHECK(plan_render(options).settings.report_samples);
 }
 
+TEST_CASE("weights are learned unless the paper's are asked for") {
+  RenderOptions options = options_for("spd:tree:1");
+  CHECK(plan_render(options).settings.learned_weights);
+  options.weights = "paper";
+  CHECK_FALSE(plan_render(options).settings.learned_weights);
+}
+
 TEST_CASE("the layers' pictures stand beside the PNGs, not beside the EXRs") {
   RenderOptions options = options_for("spd:tree:1");
   options.outputs = {"a_%04d.exr", "b_%04d.png"};

@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "parallel/work_units.h"
-#include "pipeline/refinement_weight.h"
 
 namespace pprt {
 namespace {

@@ -83,6 +83,7 @@ TEST_CASE("the serial sampler makes as many samples as are asked for, where the 
 
 TEST_CASE("one rank has the serial pattern, many without balancing have not") {
   SessionSettings s = settings();
+  s.learned_weights = GENERATE(true, false);
   CHECK(distance_to_serial(third_frame(1, s), s, diagonal()) == 0);
   s.balance = BalanceMode::kNone;
   s.budget_units = 400'000;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <random>
 #include <set>
+#include <vector>
 
 #include "synthetic_image.h"
 
@@ -106,8 +107,37 @@ TEST_CASE("what is learned is uncertain at first, follows what comes, and stays 
       CHECK(errors.correction(kind) <= 32);
     }
   }
-  errors.learn(kOne, 0, 1, 1, 1);  // a triangle without weight says nothing
-  CHECK(std::isfinite(errors.correction(kOne)));
+  const float before = errors.correction(kOne);
+  errors.learn(kOne, 0, 1, 1, 1);  // a triangle without weight has said nothing
+  CHECK(errors.correction(kOne) == before);
+  ErrorByKind right;
+  const float unknown = right.correction(kOne);
+  learn(right, kOne, 0, 100);  // nothing has been wrong yet
+  CHECK(right.correction(kOne) == unknown);
+}
+
+TEST_CASE("a mesh forgets what it has learned with clear(), and not with restart()") {
+  const TileGrid grid{128, 96, 32};
+  const auto points_after = [&](const auto& begin) {
+    SampleMesh mesh = refine(Region::whole(grid), disc(grid), 1500);
+    begin(mesh);
+    for (const Vec2d& p : seed_points(grid.width, grid.height, 1))
+      mesh.insert(sample_of(disc(grid), p.x, p.y));
+    for (int i = 0; i < 500; ++i) {
+      const auto point = mesh.next_point();
+      REQUIRE(point);
+      mesh.insert(sample_of(disc(grid), point->x, point->y));
+    }
+    std::vector<Vec2d> points;
+    for (const Sample& s : mesh.samples()) points.emplace_back(s.x, s.y);
+    return points;
+  };
+  const auto anew = points_after([&](SampleMesh& mesh) { mesh = SampleMesh(Region::whole(grid)); });
+  const auto cleared = points_after([](SampleMesh& mesh) { mesh.clear(); });
+  const auto restarted = points_after([](SampleMesh& mesh) { mesh.restart(); });
+  CHECK(cleared == anew);
+  CHECK(restarted.size() == anew.size());
+  CHECK(restarted != anew);
 }
 
 // On the left stripes of a primitive each, so that samples are foreseen wherever their stripe has one; on the

@@ -143,9 +143,8 @@ float heaviest_weights(const SampleMesh& mesh) {
 
 using Tell = std::function<void(SampleMesh&, std::size_t wanted)>;
 
-// By the paper's weights: what is learned is another order.
-SampleMesh refine_told(const Tell& tell, std::size_t wanted) {
-  SampleMesh mesh = refine(Region::whole(kGrid), disc(kGrid), 100, 1, {.learned = false});
+SampleMesh refine_told(const Tell& tell, std::size_t wanted, bool learned) {
+  SampleMesh mesh = refine(Region::whole(kGrid), disc(kGrid), 100, 1, {.learned = learned});
   while (mesh.samples().size() < wanted) {
     tell(mesh, wanted);
     const auto point = mesh.next_point();
@@ -160,11 +159,12 @@ TEST_CASE("whoever tells how many samples there will be gets nearly as fine a pa
     float coarse = 0;
     double way = 0;
   };
+  const bool learned = GENERATE(false, true);
   // Over several ends: where in an octave refinement ends is chance.
-  const auto pattern = [](const Tell& tell) {
+  const auto pattern = [&](const Tell& tell) {
     Pattern sum;
     for (const std::size_t wanted : {1500, 1700, 2000, 2300, 2600, 3000}) {
-      const SampleMesh mesh = refine_told(tell, wanted);
+      const SampleMesh mesh = refine_told(tell, wanted, learned);
       sum.coarse += heaviest_weights(mesh);
       for (std::size_t i = wanted / 2; i < wanted; ++i) {
         const Sample &a = mesh.samples()[i - 1], &b = mesh.samples()[i];
@@ -180,7 +180,8 @@ TEST_CASE("whoever tells how many samples there will be gets nearly as fine a pa
   const Pattern told_wrongly = pattern([](SampleMesh& mesh, std::size_t) { mesh.expect_growth(1e6); });
   CHECK(told.way < 0.9 * heaviest_first.way);
   CHECK(told.coarse < 1.1F * heaviest_first.coarse);
-  CHECK(told_wrongly.coarse > 1.15F * heaviest_first.coarse);
+  // The heaviest by the paper's weights are not those by what is learned.
+  if (!learned) CHECK(told_wrongly.coarse > 1.15F * heaviest_first.coarse);
 }
 
 TEST_CASE("a taken point and one outside the image are refused") {
@@ -300,8 +301,8 @@ TEST_CASE("many samples at once make the mesh that they make one by one") {
 
 TEST_CASE("what is shown beside an edge is the colour of the same primitive's corners") {
   // A triangle of corners on the primitives 1, 2, 2, whose circumcentre is wanted.
-  const auto guess = [](std::uint32_t primitive) {
-    SampleMesh mesh(Region::whole({64, 64, 32}));
+  const auto guess = [](std::uint32_t primitive, bool edges = true) {
+    SampleMesh mesh(Region::whole({64, 64, 32}), {.edges = edges});
     const std::array<Vec2d, 3> corners = {{{10, 10}, {12, 10}, {10, 12}}};
     for (std::size_t i = 0; i < 3; ++i) {
       Sample sample;
@@ -311,12 +312,12 @@ TEST_CASE("what is shown beside an edge is the colour of the same primitive's co
       mesh.insert(sample);
     }
     REQUIRE(mesh.next_point());
-    CHECK(mesh.guess().color.x == Approx(0.6));
-    return mesh.guess_beside_edge(primitive).color.x;
+    return mesh.guess(primitive).color.x;
   };
   CHECK(guess(1) == Approx(0.15));  // three quarters of black, a quarter of the mean
   CHECK(guess(2) == Approx(0.825));
   CHECK(guess(3) == Approx(0.6));  // another primitive: the mean
+  CHECK(guess(1, false) == Approx(0.6));
 }
 
 TEST_CASE("collinear and cocircular samples do no harm") {
