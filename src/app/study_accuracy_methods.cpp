@@ -99,13 +99,19 @@ void run_uniform(const Subject& subject, const CurveRange& range, const SecondsC
   }
 }
 
+// What is learned is learned of pictures by that rule.
+WeightTerms learning_of(WeightTerms terms, PixelRule rule) {
+  terms.edges = rule == PixelRule::kEdges;
+  return terms;
+}
+
 // The samples of one picture on their triangulation.
 class MeshPainter {
  public:
   MeshPainter(const Subject& subject, const WeightTerms& terms, PixelRule rule)
       : camera_(subject.camera),
         tracer_(subject.scene, subject.camera),
-        mesh_(Region::whole({camera_.width, camera_.height, kTilePixels}), terms),
+        mesh_(Region::whole({camera_.width, camera_.height, kTilePixels}), learning_of(terms, rule)),
         rule_(rule),
         viewed_([this](std::uint32_t primitive, ImageShape& shape) { tracer_.view(primitive, shape); }) {}
 
@@ -264,7 +270,7 @@ std::vector<Method> accuracy_methods() {
                      {.pixel_rule = false, .learned = false}),
           refinement("pixel area",
                      "progressive, a pixel with several samples shows the interpolation's mean over its area",
-                     {.edges = false}, PixelRule::kArea),
+                     {}, PixelRule::kArea),
           refinement("mean of samples",
                      "progressive, a pixel with several samples shows their mean: the paper's rule", {},
                      PixelRule::kMean),

@@ -49,6 +49,7 @@ std::vector<Sample> serial_samples(const SessionSettings& settings, const Camera
   serial.height = settings.height;
   serial.seed = settings.seed;
   serial.learned_weights = settings.learned_weights;
+  serial.pixel_rule = settings.pixel_rule;
   serial.clock = ClockKind::kWork;
   serial.stop.samples = count;
   serial.cast = CastChoice::kOff;

@@ -27,8 +27,8 @@ std::size_t samples_near_borders(std::span<const Sample> samples, const TileGrid
                                  std::span<const std::int32_t> owners, double reach);
 
 // The pattern of one rank that samples the camera's image afresh until it holds `count` samples, its seeds
-// included. Of the settings only size, seed and weights count. The probe is left
-// looking from `camera`.
+// included. Of the settings only size, seed, weights and the pixels' rule, which what is learned
+// depends on, count. The probe is left looking from `camera`.
 std::vector<Sample> serial_samples(const SessionSettings& settings, const Camera& camera, std::uint64_t count,
                                    const Probe& probe);
 

@@ -71,7 +71,7 @@ class ErrorByKind {
   // `squared_error` over `area` square pixels; the sample's ray tree has so many rays.
   void learn(TriangleKind kind, float weight, float squared_error, float area, std::uint32_t rays) {
     if (!(weight > 0)) return;          // it has said nothing
-    constexpr float kInsertion = 2.5F;  // takes as long as so many rays
+    constexpr float kInsertion = 2.5F;  // takes as long as so many rays; painting is left out
     constexpr float kDoubt = 10;        // what was expected counts as much as so many samples
     const Evidence found{squared_error * area / weight, kInsertion + static_cast<float>(rays)};
     Evidence& of_kind = kinds_[kind];
@@ -83,7 +83,7 @@ class ErrorByKind {
   }
 
  private:
-  // Sums that forget: in time, of as many samples as they forget a share of.
+  // Sums over about the last 1 / `forgotten` samples.
   struct Evidence {
     float error = 0, time = 0;
 
@@ -98,8 +98,8 @@ class ErrorByKind {
   static constexpr std::size_t kExpected = 4 * 8 * 8;
   static const std::array<float, kExpected>& expected() {
     static const std::array<float, kExpected> table = [] {
-      constexpr float kStep = 1.23114441F,
-                      kLeast = 0.594603558F;  // .3 octaves; as much, two and a half times less
+      constexpr float kStep = 1.23114441F;    // .3 octaves
+      constexpr float kLeast = 0.594603558F;  // two and a half such steps below 1
       std::array<float, kExpected> by_kind{};
       for (std::size_t kind = 0; kind < kExpected; ++kind) {
         by_kind[kind] = kLeast;

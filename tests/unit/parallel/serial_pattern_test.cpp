@@ -26,6 +26,7 @@ Probe diagonal() {
           [](double x, double y) {
             RaySample sample;
             sample.color = Color(static_cast<float>(x > y), 0.5f, 0.5f);
+            sample.primitive = x > y ? 1 : 2;
             return sample;
           },
           [](const Vec3f&, bool) { return true; }, [] { return RayCounts(); }};
@@ -84,6 +85,7 @@ TEST_CASE("the serial sampler makes as many samples as are asked for, where the 
 TEST_CASE("one rank has the serial pattern, many without balancing have not") {
   SessionSettings s = settings();
   s.learned_weights = GENERATE(true, false);
+  s.pixel_rule = GENERATE(PixelRule::kEdges, PixelRule::kArea);
   CHECK(distance_to_serial(third_frame(1, s), s, diagonal()) == 0);
   s.balance = BalanceMode::kNone;
   s.budget_units = 400'000;
