@@ -12,7 +12,8 @@ inline Probe probe_of(Tracer& tracer) {
           [&tracer](double x, double y) { return tracer.trace(x, y); },
           [&tracer](const Vec3f& hit, bool at_infinity) { return tracer.visible(hit, at_infinity); },
           [&tracer] { return tracer.counts(); },
-          [&tracer](std::uint32_t primitive, ImageShape& shape) { tracer.view(primitive, shape); }};
+          [&tracer](std::uint32_t primitive, ImageShape& shape) { tracer.view(primitive, shape); },
+          tracer.primitive_count()};
 }
 
 }  // namespace pprt

@@ -20,6 +20,7 @@ struct Probe {
   std::function<RayCounts()> counts;  // since the beginning
   std::function<void(std::uint32_t primitive, ImageShape& shape)> view =
       {};  // what a primitive of a RaySample looks like, into `shape`; empty where nobody knows
+  std::uint32_t primitives = 0;  // how many a RaySample may be of; 0: nobody knows
 };
 
 }  // namespace pprt

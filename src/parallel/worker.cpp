@@ -54,6 +54,7 @@ Worker::Worker(Communicator& network, Inbox& inbox, const SessionSettings& setti
       balancer_(network.rank(), network.size(), partition.grid.tile_count()),
       stance_(network.size()),
       viewed_(probe_.view),
+      landmarks_(probe_.primitives),
       peer_done_(static_cast<std::size_t>(network.size()), 0) {
   own_region_changed();
 }
@@ -92,6 +93,7 @@ void Worker::sample(const FrameOrder& order) {
   measures_fresh_ = false;
   for (int round = kSeedRound + 1;; ++round) {
     clock_->begin_packet(in_region_);
+    seek_landmarks(order);
     const bool measured = std::exchange(measures_fresh_, clock_->sampling_share() > 0.75);
     if (measures_fresh_ && !measured) report_.cpu_ms.sampling += clock_->lap_ms();
     bool idle = false, traced = false;
@@ -118,10 +120,31 @@ double Worker::growth_since(std::size_t begin) const {
   return 1 + (1 - static_cast<double>(begin) / now) * (1 - share) / share;
 }
 
+// Once refinement has found again by itself what it soon finds.
+void Worker::seek_landmarks(const FrameOrder& order) {
+  constexpr double kAfter = 0.1;
+  const double share = clock_->sampling_share();
+  if (landmarks_at_most_ == 0 || share < kAfter) return;
+  double most = std::exchange(landmarks_at_most_, 0);
+  if (order.deadline_s > 0)
+    most = std::min(most, kLandmarkShare * static_cast<double>(report_.samples_new) / share);
+  sought_ = landmarks_.unseen(mesh_.samples(), order.camera, mesh_.region(), static_cast<std::size_t>(most));
+  std::reverse(sought_.begin(), sought_.end());
+}
+
+// Where a sample is wanted most. Of what refinement itself wants the frame's end takes evidence: nothing else
+// is sought then.
+std::optional<Vec2d> Worker::next_point() {
+  if (sought_.empty() || measures_fresh_) return mesh_.next_point();
+  const Vec2d point = sought_.back();
+  sought_.pop_back();
+  return point;
+}
+
 // Traces one sample where it is wanted most; false when nothing is.
 bool Worker::refine_once(const FrameOrder& order) {
   if (in_region_ >= sample_limit_) return false;
-  const std::optional<Vec2d> point = mesh_.next_point();
+  const std::optional<Vec2d> point = next_point();
   if (!point) return false;
   const Sample sample = trace(order, point->x, point->y);
   if (measures_fresh_) {

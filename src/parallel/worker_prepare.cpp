@@ -37,6 +37,8 @@ CastSettings verified(int life) {
 
 void Worker::prepare(const FrameOrder& order) {
   probe_.look_from(order.camera);
+  sought_.clear();
+  landmarks_at_most_ = 0;
   const bool new_partition = !order.owners.empty();
   const Carry carry = carried_into(order);
   const Missed missed = std::exchange(missed_, {});
@@ -63,6 +65,11 @@ void Worker::prepare(const FrameOrder& order) {
   report_.cpu_ms.casting += clock_->lap_ms();
   if (new_partition) adopt_partition(order, false);
 
+  if (goes_on && carry == Carry::kCastWherePaying) {
+    landmarks_.note(mesh_.samples());
+  } else {
+    landmarks_.clear();
+  }
   begin_triangulation(order.index, goes_on);
   trace_seeds(order);
   settle(order, survivors);
@@ -156,9 +163,14 @@ CastSurvivors Worker::known_of(const CastResult& cast) const {
 std::vector<Sample> Worker::cast_at_rest(const FrameOrder& order) {
   CastResult cast = cast_into(order, verified(kLongLife));
   const CastLimits limits = cast_limits_at_rest(known_of(cast));
+  landmarks_at_most_ = landmarks_by(limits);
   if (limits.one_a_pixel) keep_youngest_of_pixels(cast.survivors);
   keep_affordable(order, limits.share, cast.survivors);
   return std::move(cast.survivors);
+}
+
+double Worker::landmarks_by(const CastLimits& limits) const {
+  return limits.landmarks ? kLandmarkShare * static_cast<double>(in_region_) : 0;
 }
 
 // Whether casting pays is found out from a few samples before the others are touched: where it does not, it
@@ -177,6 +189,7 @@ std::vector<Sample> Worker::cast_where_paying(const FrameOrder& order) {
   std::vector<Sample> tried = try_some(order, drawn.survivors);
   evidence += report_.evidence;
   const CastLimits limits = cast_limits(evidence, known);
+  landmarks_at_most_ = landmarks_by(limits);
   if (limits.share == 0) return tried;
 
   settings = verified(life);

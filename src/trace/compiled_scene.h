@@ -77,6 +77,9 @@ class Tracer {
   // Whether nothing lies between the eye and a hit point of a former frame (compiled space).
   bool visible(const Vec3f& hit, bool at_infinity);
 
+  // The largest number that a primitive of a RaySample may have.
+  std::uint32_t primitive_count() const;
+
   // What a primitive of a RaySample looks like through the camera, into `shape`, whose storage is kept.
   void view(std::uint32_t primitive, ImageShape& shape) const;
 

@@ -52,6 +52,11 @@ bool Tracer::visible(const Vec3f& hit, bool at_infinity) {
   return !occluded(scene_.impl(), Vec3f(origin), Vec3f(direction), static_cast<float>(length));
 }
 
+std::uint32_t Tracer::primitive_count() const {
+  const Inventory& of = scene_.impl().inventory;
+  return static_cast<std::uint32_t>(of.spheres + of.cones + of.polygons + of.patches);
+}
+
 void Tracer::view(std::uint32_t primitive, ImageShape& shape) const {
   view_primitive(scene_.impl(), primitive, camera_, shape);
 }

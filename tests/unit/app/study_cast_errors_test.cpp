@@ -59,6 +59,18 @@ TEST_CASE("errors come for every sequence and density, the same each time, small
   CHECK(table.columns.size() == table.rows[0].size());
 }
 
+TEST_CASE("small things that were seen in a frame are seen in the next ones too") {
+  CastTrial trial = cast_trial(settled({}));
+  trial.densities = {0.3};
+  trial.judged = {8, 12};
+  std::erase_if(trial.sequences, [](const CastSequence& s) { return s.scene != "tree" || s.speed != 1; });
+  const std::vector<CastErrors> errors = run_cast_trial(trial, [](const std::string&) {});
+  REQUIRE(errors.size() == 1);
+  const double off = errors[0].rmse[0], verified = errors[0].rmse[2], with_landmarks = errors[0].rmse[3];
+  CHECK(with_landmarks < 0.95 * off);
+  CHECK(with_landmarks < 0.95 * verified);
+}
+
 TEST_CASE("auto is compared with the best of the others") {
   CHECK(CastErrors{{"tree", 1}, 1, {0.04, 0.02, 0.03, 0.021}}.auto_ratio() == Approx(1.05));
 }

@@ -50,6 +50,7 @@ TEST_CASE("primitives have their place in the file, over all kinds, and material
   CHECK(tracer.first_hit(32, 32).primitive == 2);
   CHECK(tracer.first_hit(32, 32).material == 2);
   CHECK(tracer.first_hit(1, 1).primitive == 1);
+  CHECK(tracer.primitive_count() == 3);
   CHECK(tracer.first_hit(1, 1).material == 1);
   tracer.set_camera(compiled.camera(view_from({0, 0, 10}, {0, 0, 0})));
   CHECK(tracer.first_hit(32, 32).primitive == 3);

@@ -1,0 +1,58 @@
+// A place on each primitive that the frames before have seen, where the next one looks for it. What
+// refinement comes upon by chance, small things late or never, is so found again for the price of one sample.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "base/camera.h"
+#include "pipeline/region.h"
+#include "pipeline/sample.h"
+
+namespace pprt {
+
+class Landmarks {
+ public:
+  // Of primitives numbered from 1 to `primitives`, as in RaySample; others have none.
+  explicit Landmarks(std::uint32_t primitives) : slots_(primitives) {}
+
+  // A frame is over. Of its samples on a primitive that in their middle marks it. Landmarks are kept in the
+  // order in which the frame has found their primitives, as refinement finds large things first; those of
+  // primitives that it has not seen come after, for kLife frames.
+  void note(std::span<const Sample> samples);
+
+  // The image points in the region where the camera would see the landmarks of primitives that none of the
+  // samples lies on; at most so many, the first ones. Whether something hides them a ray must tell.
+  std::vector<Vec2d> unseen(std::span<const Sample> samples, const Camera& camera, const Region& region,
+                            std::size_t most);
+
+  // Nothing has been seen. Keeps the storage.
+  void clear() { landmarks_.clear(); }
+
+ private:
+  static constexpr int kLife = 4;
+
+  struct Landmark {
+    std::uint32_t primitive;
+    Vec3f hit;
+    int frames_unseen = 0;  // since the one that noted it
+    bool is_met = false;    // by a sample, when it was last asked
+    // Of the samples on the primitive: how many, the sum of their image points, and how far from the middle
+    // of all the hit point is, square pixels.
+    std::uint32_t samples = 0;
+    Vec2d sum{0, 0};
+    double from_middle2 = std::numeric_limits<double>::infinity();
+  };
+
+  Landmark* find(std::vector<Landmark>& among, std::uint32_t primitive) const;
+  void add(std::vector<Landmark>& to, const Landmark& landmark);
+
+  // By primitive: where its landmark is, if it is there.
+  std::vector<std::uint32_t> slots_;
+  std::vector<Landmark> landmarks_, noted_;
+};
+
+}  // namespace pprt
