@@ -102,8 +102,6 @@ CastLimits cast_limits(const CastEvidence& evidence, const CastSurvivors& surviv
                                     : is_cheap_by_table(e, survivors.eye_dependent <= kMost && !moved_far);
   if (!cheap) limits.share = 0;
   if (survivors.samples_per_pixel > kPlenty) limits.share = 0;
-  // Where reflections are carried they are most of what is wrong, and most primitives are carried with them.
-  limits.landmarks = limits.share == 0 || survivors.eye_dependent <= kMost;
   return limits;
 }
 
@@ -111,8 +109,7 @@ CastLimits cast_limits(const CastEvidence& evidence, const CastSurvivors& surviv
 // tells less and less how much of it lies on either side. Reflections are everywhere, and all samples serve.
 CastLimits cast_limits_at_rest(const CastSurvivors& survivors) {
   CastLimits limits;
-  limits.landmarks = survivors.eye_dependent <= kMost;
-  limits.one_a_pixel = survivors.samples_per_pixel >= kCoarse && limits.landmarks;
+  limits.one_a_pixel = survivors.samples_per_pixel >= kCoarse && survivors.eye_dependent <= kMost;
   return limits;
 }
 

@@ -43,7 +43,6 @@ struct CastLimits {
   bool eye_dependent = true;  // whether samples whose colour depends on the eye are carried
   double share = 0.5;         // of the frame's time that putting samples back may take; 0: none is carried
   bool one_a_pixel = false;   // the youngest, no others
-  bool landmarks = true;      // whether primitives that were seen are sought (pipeline/landmarks.h)
 };
 
 // What survives of a region's samples, as cast into the next picture.

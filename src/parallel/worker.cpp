@@ -132,19 +132,21 @@ void Worker::seek_landmarks(const FrameOrder& order) {
   std::reverse(sought_.begin(), sought_.end());
 }
 
-// Where a sample is wanted most. Of what refinement itself wants the frame's end takes evidence: nothing else
-// is sought then.
-std::optional<Vec2d> Worker::next_point() {
-  if (sought_.empty() || measures_fresh_) return mesh_.next_point();
-  const Vec2d point = sought_.back();
+void Worker::seek_once() {
+  const Sample landmark = sought_.back();
   sought_.pop_back();
-  return point;
+  if (see(landmark.ray.hit, landmark.ray.at_infinity)) put_back(landmark);
 }
 
-// Traces one sample where it is wanted most; false when nothing is.
+// Traces one sample where it is wanted most; false when nothing is. Of what refinement itself wants the
+// frame's end takes evidence: nothing else is sought then.
 bool Worker::refine_once(const FrameOrder& order) {
   if (in_region_ >= sample_limit_) return false;
-  const std::optional<Vec2d> point = next_point();
+  if (!sought_.empty() && !measures_fresh_) {
+    seek_once();
+    return true;
+  }
+  const std::optional<Vec2d> point = mesh_.next_point();
   if (!point) return false;
   const Sample sample = trace(order, point->x, point->y);
   if (measures_fresh_) {

@@ -45,7 +45,7 @@ class Worker {
     bool kept = false;                  // of a frame before: its point was not chosen now
   };
 
-  static constexpr double kLandmarkShare = 0.2;  // of a frame's samples, those at landmarks at most
+  static constexpr double kLandmarkShare = 0.1;  // of a frame's samples, those at landmarks at most
   static constexpr int kSeedRound = 0;  // the bundles of seeds and survivors; sampling counts on from there
 
   // What the frames that were left out have changed for those after them.
@@ -77,7 +77,6 @@ class Worker {
   std::vector<Sample> cast_at_rest(const FrameOrder& order);
   CastResult cast_into(const FrameOrder& order, const CastSettings& settings);
   CastSurvivors known_of(const CastResult& cast) const;
-  double landmarks_by(const CastLimits& limits) const;
   void drop_hidden_of(std::vector<Sample>& survivors);
   std::vector<Sample> try_some(const FrameOrder& order, const std::vector<Sample>& survivors);
   void keep_affordable(const FrameOrder& order, double share, std::vector<Sample>& survivors) const;
@@ -95,7 +94,7 @@ class Worker {
   void sample(const FrameOrder& order);
   double growth_since(std::size_t begin) const;
   void seek_landmarks(const FrameOrder& order);
-  std::optional<Vec2d> next_point();
+  void seek_once();
   bool refine_once(const FrameOrder& order);
   bool goal_reached() const;
   bool all_done() const;
@@ -133,7 +132,7 @@ class Worker {
 
   Landmarks landmarks_;
   double landmarks_at_most_ = 0;  // that this frame is still to seek
-  std::vector<Vec2d> sought_;     // landmarks' image points; the next one last
+  std::vector<Sample> sought_;    // landmarks; the next one last
 
   Missed missed_;  // since the last frame that was not left out
   std::vector<UnderWay> under_way_;

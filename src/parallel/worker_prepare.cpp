@@ -67,6 +67,7 @@ void Worker::prepare(const FrameOrder& order) {
 
   if (goes_on && carry == Carry::kCastWherePaying) {
     landmarks_.note(mesh_.samples());
+    landmarks_at_most_ = kLandmarkShare * static_cast<double>(in_region_);
   } else {
     landmarks_.clear();
   }
@@ -163,14 +164,9 @@ CastSurvivors Worker::known_of(const CastResult& cast) const {
 std::vector<Sample> Worker::cast_at_rest(const FrameOrder& order) {
   CastResult cast = cast_into(order, verified(kLongLife));
   const CastLimits limits = cast_limits_at_rest(known_of(cast));
-  landmarks_at_most_ = landmarks_by(limits);
   if (limits.one_a_pixel) keep_youngest_of_pixels(cast.survivors);
   keep_affordable(order, limits.share, cast.survivors);
   return std::move(cast.survivors);
-}
-
-double Worker::landmarks_by(const CastLimits& limits) const {
-  return limits.landmarks ? kLandmarkShare * static_cast<double>(in_region_) : 0;
 }
 
 // Whether casting pays is found out from a few samples before the others are touched: where it does not, it
@@ -189,7 +185,6 @@ std::vector<Sample> Worker::cast_where_paying(const FrameOrder& order) {
   std::vector<Sample> tried = try_some(order, drawn.survivors);
   evidence += report_.evidence;
   const CastLimits limits = cast_limits(evidence, known);
-  landmarks_at_most_ = landmarks_by(limits);
   if (limits.share == 0) return tried;
 
   settings = verified(life);

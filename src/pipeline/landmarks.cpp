@@ -7,11 +7,11 @@ namespace pprt {
 Landmarks::Landmark* Landmarks::find(std::vector<Landmark>& among, std::uint32_t primitive) const {
   if (primitive == 0 || primitive > slots_.size()) return nullptr;
   const std::uint32_t slot = slots_[primitive - 1];
-  return slot < among.size() && among[slot].primitive == primitive ? &among[slot] : nullptr;
+  return slot < among.size() && among[slot].sample.ray.primitive == primitive ? &among[slot] : nullptr;
 }
 
 void Landmarks::add(std::vector<Landmark>& to, const Landmark& landmark) {
-  slots_[landmark.primitive - 1] = static_cast<std::uint32_t>(to.size());
+  slots_[landmark.sample.ray.primitive - 1] = static_cast<std::uint32_t>(to.size());
   to.push_back(landmark);
 }
 
@@ -19,42 +19,45 @@ void Landmarks::note(std::span<const Sample> samples) {
   noted_.clear();
   for (const Sample& s : samples) {
     const std::uint32_t primitive = s.ray.primitive;
-    if (primitive == 0 || primitive > slots_.size()) continue;
-    if (find(noted_, primitive) == nullptr) add(noted_, {primitive, s.ray.hit});
+    if (primitive == 0 || primitive > slots_.size() || s.ray.eye_dependent) continue;
+    if (find(noted_, primitive) == nullptr) add(noted_, {s});
     Landmark& landmark = *find(noted_, primitive);
     ++landmark.samples;
     landmark.sum += Vec2d(s.x, s.y);
   }
   for (const Sample& s : samples) {
     Landmark* landmark = find(noted_, s.ray.primitive);
-    if (landmark == nullptr) continue;
+    if (landmark == nullptr || s.ray.eye_dependent) continue;
     const Vec2d from_middle = Vec2d(s.x, s.y) - landmark->sum / landmark->samples;
     if (from_middle.dot(from_middle) >= landmark->from_middle2) continue;
     landmark->from_middle2 = from_middle.dot(from_middle);
-    landmark->hit = s.ray.hit;
+    landmark->sample = s;
   }
   for (Landmark& before : landmarks_) {
-    if (find(noted_, before.primitive) == nullptr && ++before.frames_unseen < kLife) add(noted_, before);
+    if (find(noted_, before.sample.ray.primitive) == nullptr && ++before.frames_unseen < kLife)
+      add(noted_, before);
   }
   landmarks_.swap(noted_);
 }
 
-std::vector<Vec2d> Landmarks::unseen(std::span<const Sample> samples, const Camera& camera,
-                                     const Region& region, std::size_t most) {
+std::vector<Sample> Landmarks::unseen(std::span<const Sample> samples, const Camera& camera,
+                                      const Region& region, std::size_t most) {
   for (Landmark& landmark : landmarks_) landmark.is_met = false;
   for (const Sample& s : samples) {
     if (Landmark* landmark = find(landmarks_, s.ray.primitive)) landmark->is_met = true;
   }
-  std::vector<Vec2d> points;
+  std::vector<Sample> sought;
   for (const Landmark& landmark : landmarks_) {
-    if (points.size() >= most) break;
+    if (sought.size() >= most) break;
     if (landmark.is_met) continue;
-    const std::optional<Vec2d> point = project(camera, Vec3d(landmark.hit) - camera.eye);
+    const std::optional<Vec2d> point = project(camera, Vec3d(landmark.sample.ray.hit) - camera.eye);
     if (!point || point->x < 0 || point->y < 0 || point->x > camera.width || point->y > camera.height)
       continue;
-    if (region.owns_point(point->x, point->y)) points.push_back(*point);
+    if (!region.owns_point(point->x, point->y)) continue;
+    sought.push_back(landmark.sample);
+    sought.back().x = point->x, sought.back().y = point->y;
   }
-  return points;
+  return sought;
 }
 
 }  // namespace pprt

@@ -1,5 +1,5 @@
-// A place on each primitive that the frames before have seen, where the next one looks for it. What
-// refinement comes upon by chance, small things late or never, is so found again for the price of one sample.
+// A sample on each primitive that the frames before have seen, where the next one looks for it. What
+// refinement comes upon by chance, small things late or never, is so found again for the price of a ray.
 #pragma once
 
 #include <cstddef>
@@ -19,15 +19,17 @@ class Landmarks {
   // Of primitives numbered from 1 to `primitives`, as in RaySample; others have none.
   explicit Landmarks(std::uint32_t primitives) : slots_(primitives) {}
 
-  // A frame is over. Of its samples on a primitive that in their middle marks it. Landmarks are kept in the
-  // order in which the frame has found their primitives, as refinement finds large things first; those of
-  // primitives that it has not seen come after, for kLife frames.
+  // A frame is over. Of its samples on a primitive, those whose colour does not depend on the eye, that in
+  // their middle marks it. Landmarks are kept in the order in which the frame has found their primitives, as
+  // refinement finds large things first; those of primitives that it has not seen come after, for kLife
+  // frames.
   void note(std::span<const Sample> samples);
 
-  // The image points in the region where the camera would see the landmarks of primitives that none of the
-  // samples lies on; at most so many, the first ones. Whether something hides them a ray must tell.
-  std::vector<Vec2d> unseen(std::span<const Sample> samples, const Camera& camera, const Region& region,
-                            std::size_t most);
+  // The landmarks of primitives that none of the samples lies on, at the image points where the camera would
+  // see them, which lie in the region; at most so many, the first ones. Whether something hides them a ray
+  // must tell.
+  std::vector<Sample> unseen(std::span<const Sample> samples, const Camera& camera, const Region& region,
+                             std::size_t most);
 
   // Nothing has been seen. Keeps the storage.
   void clear() { landmarks_.clear(); }
@@ -36,12 +38,11 @@ class Landmarks {
   static constexpr int kLife = 4;
 
   struct Landmark {
-    std::uint32_t primitive;
-    Vec3f hit;
+    Sample sample;
     int frames_unseen = 0;  // since the one that noted it
     bool is_met = false;    // by a sample, when it was last asked
-    // Of the samples on the primitive: how many, the sum of their image points, and how far from the middle
-    // of all the hit point is, square pixels.
+    // Of all samples on the primitive: how many, the sum of their image points, and how far from their middle
+    // this one is, square pixels.
     std::uint32_t samples = 0;
     Vec2d sum{0, 0};
     double from_middle2 = std::numeric_limits<double>::infinity();

@@ -110,20 +110,6 @@ TEST_CASE("nothing is carried where a sample that proves right costs as much as 
   CHECK(cast_limits(e, {1, 0, 0.5}).share == 0);
 }
 
-TEST_CASE("primitives are sought but where reflections are carried") {
-  const CastEvidence carries = evidence(0.01);
-  CastEvidence does_not = carries;
-  does_not.hidden = 19;  // of 20
-  for (const double samples_per_pixel : {0.5, 1.5}) {
-    CAPTURE(samples_per_pixel);
-    CHECK(cast_limits(carries, {1, 0.4, samples_per_pixel}).landmarks);
-    CHECK_FALSE(cast_limits(carries, {1, 0.6, samples_per_pixel}).landmarks);
-    CHECK(cast_limits(does_not, {1, 0.6, samples_per_pixel}).landmarks);
-    CHECK(cast_limits_at_rest({1, 0.4, samples_per_pixel}).landmarks);
-    CHECK_FALSE(cast_limits_at_rest({1, 0.6, samples_per_pixel}).landmarks);
-  }
-}
-
 TEST_CASE("what samples were measured to cost decides, and the table of prices no more") {
   // By the table a fresh sample costs 1475 units and a carried one 935; here 0.8 ms for a hundred of them.
   CastEvidence e = evidence(0.01);
