@@ -87,11 +87,23 @@ struct Sequence {
   RateSettings settings;
 };
 
-Sequence make_sequence(const Stage& stage, const Animation* script, const AccuracyOptions& options,
-                       int most_frames) {
+std::vector<Shot> shots_of(const Stage& stage, const Animation* script, const AccuracyOptions& options) {
+  return sequence_of(stage.scene, *stage.description.view, script, sequence_size(options),
+                     options.quick ? kMostFrames / 2 : kMostFrames);
+}
+
+// Those that are played in real time where a rate is asked for.
+std::vector<Shot> shots_at(double fps, const Stage& stage, const Animation* script,
+                           const AccuracyOptions& options) {
+  const View& view = *stage.description.view;
+  if (!script) return orbit_of(stage.scene, view, sequence_size(options), fps);
+  return sequence_of(stage.scene, view, script, sequence_size(options),
+                     options.quick ? kMostFramesInRealTime / 2 : kMostFramesInRealTime);
+}
+
+Sequence make_sequence(const Stage& stage, std::vector<Shot> shots, const AccuracyOptions& options) {
   Sequence sequence;
-  sequence.shots = sequence_of(stage.scene, *stage.description.view, script, sequence_size(options),
-                               options.quick ? most_frames / 2 : most_frames);
+  sequence.shots = std::move(shots);
   for (const Shot& shot : sequence.shots) {
     sequence.references.push_back(cached_reference(stage.nff, {stage.scene, shot.camera},
                                                    options.quick ? kQuickSequenceCells : kSequenceCells,
@@ -157,7 +169,7 @@ void measure_scene(const Stage& stage, const Animation* script, const AccuracyOp
       stage.name, file_word(stage.name), {stage.scene, stage.camera(std::min(options.size, kFigureSize))},
       options.seed, thread_cpu_seconds);
   std::move(pictures.begin(), pictures.end(), std::back_inserter(results.pictures));
-  const Sequence sequence = make_sequence(stage, script, options, kMostFrames);
+  const Sequence sequence = make_sequence(stage, shots_of(stage, script, options), options);
   const std::vector<RatePoint> rates = rates_of(stage, sequence);
   results.rates.insert(results.rates.end(), rates.begin(), rates.end());
   progress.tell("frame rates");
@@ -210,21 +222,39 @@ Inputs read_inputs(const AccuracyOptions& options) {
   return inputs;
 }
 
+// Only what the answers need.
+std::vector<RatePoint> rates_asked_for(const Stage& stage, const Animation* script,
+                                       const AccuracyOptions& options) {
+  Sequence sequence = make_sequence(stage, shots_of(stage, script, options), options);
+  sequence.settings.casts = {CastChoice::kAuto};
+  if (!options.want_rmse) sequence.settings.rates = {*options.want_fps};
+  return rates_of(stage, sequence);
+}
+
+std::string answer_in_real_time(double fps, const Stage& stage, const Animation* script,
+                                const AccuracyOptions& options) {
+  const Sequence s = make_sequence(stage, shots_at(fps, stage, script, options), options);
+  const auto run = [&](CastChoice cast) {
+    return measure_in_real_time(stage.name, stage.scene, s.shots, s.references, s.settings, cast, fps);
+  };
+  std::vector<Punctuality> with, without;
+  for (int turn = 0; turn < options.repeats; ++turn) {
+    with.push_back(run(CastChoice::kAuto));
+    without.push_back(run(CastChoice::kOff));
+    with.back().uniform_rmse = uniform_rmse_in(options.ranks / fps, stage.scene, s.shots, s.references);
+  }
+  return plan_in_real_time(with, without);
+}
+
 void answer(const Inputs& inputs, const Animation* script, const AccuracyOptions& options) {
   for (const std::string& name : inputs.scenes) {
     const Stage stage = make_stage(name);
-    const std::vector<RatePoint> points = rates_of(stage, make_sequence(stage, script, options, kMostFrames));
+    const std::vector<RatePoint> points = rates_asked_for(stage, script, options);
     fmt::print(stderr, "pprt-study: {}: {}\n", name, rates_setting(options, script));
     if (options.want_rmse) fmt::print("{}\n", plan(name, points, {options.want_rmse, {}}));
-    if (options.want_fps) {
-      fmt::print("{}\n", plan(name, points, {{}, options.want_fps}));
-      const Sequence s = make_sequence(stage, script, options, kMostFramesInRealTime);
-      const auto at = [&](CastChoice cast) {
-        return measure_in_real_time(name, stage.scene, s.shots, s.references, s.settings, cast,
-                                    *options.want_fps);
-      };
-      fmt::print("{}\n", plan_in_real_time(at(CastChoice::kAuto), at(CastChoice::kOff)));
-    }
+    if (!options.want_fps) continue;
+    fmt::print("{}\n", plan(name, points, {{}, options.want_fps}));
+    fmt::print("{}\n", answer_in_real_time(*options.want_fps, stage, script, options));
   }
 }
 

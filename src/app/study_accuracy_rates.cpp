@@ -45,10 +45,11 @@ SessionSettings session_settings(const RateSettings& settings, const Camera& cam
   return s;
 }
 
+// Of every frame.
 struct Told {
   std::vector<Image> pictures;
   std::vector<double> late_ms;
-  double samples = 0;  // of all frames
+  std::vector<double> samples;
 };
 
 Told play(const CompiledScene& scene, const std::vector<Shot>& shots, int ranks,
@@ -65,9 +66,16 @@ Told play(const CompiledScene& scene, const std::vector<Shot>& shots, int ranks,
       [&](FinishedFrame&& frame) {
         told.pictures.push_back(clamped_to_display(frame.image));
         told.late_ms.push_back(frame.late_ms);
-        for (const RankReport& r : frame.ranks) told.samples += static_cast<double>(r.samples_in_region);
+        double& samples = told.samples.emplace_back(0);
+        for (const RankReport& r : frame.ranks) samples += static_cast<double>(r.samples_in_region);
       });
   return told;
+}
+
+double mean_of(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double v : values) sum += v;
+  return values.empty() ? 0 : sum / static_cast<double>(values.size());
 }
 
 RatePoint measure(const std::string& name, const CompiledScene& scene, const std::vector<Shot>& shots,
@@ -78,8 +86,7 @@ RatePoint measure(const std::string& name, const CompiledScene& scene, const std
   RatePoint point;
   point.scene = name, point.cast = cast, point.fps = fps;
   judge_sequence(shots, told.pictures, references, point);
-  const double frames = static_cast<double>(shots.size());
-  point.samples = told.samples / (frames * camera.width * camera.height);
+  point.samples = mean_of(told.samples) / (static_cast<double>(camera.width) * camera.height);
   return point;
 }
 
@@ -90,14 +97,9 @@ double frames_until(const std::vector<double>& errors, std::size_t cut, double e
   return static_cast<double>(i - cut);
 }
 
-double mean_of(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double v : values) sum += v;
-  return values.empty() ? 0 : sum / static_cast<double>(values.size());
-}
-
 // y where x is on the polyline through (x, y) by increasing x, in logarithms; NaN outside.
 double interpolated(const std::vector<std::pair<double, double>>& line, double x) {
+  if (line.size() == 1 && line.front().first == x) return line.front().second;
   for (std::size_t i = 1; i < line.size(); ++i) {
     const auto& [x0, y0] = line[i - 1];
     const auto& [x1, y1] = line[i];
@@ -128,6 +130,20 @@ std::vector<Shot> sequence_of(const CompiledScene& scene, const View& view, cons
     const Vec3d axis = view.up / std::sqrt(view.up.dot(view.up));
     here.from = view.at + turned(view.from - view.at, axis, kStep * (frame - 1) + (second ? kJump : 0));
     shots.push_back({scene.camera(here), frame == kFrames / 2 + 1});
+  }
+  return shots;
+}
+
+std::vector<Shot> orbit_of(const CompiledScene& scene, const View& view, int size, double fps) {
+  constexpr int kFrames = 24;
+  constexpr double kDegreesPerSecond = 14.4;
+  View here = view;
+  here.width = here.height = size;
+  const Vec3d axis = view.up / std::sqrt(view.up.dot(view.up));
+  std::vector<Shot> shots;
+  for (int frame = 0; frame < kFrames; ++frame) {
+    here.from = view.at + turned(view.from - view.at, axis, kDegreesPerSecond / fps * frame);
+    shots.push_back({scene.camera(here), false});
   }
   return shots;
 }
@@ -191,7 +207,10 @@ Punctuality measure_in_real_time(const std::string& name, const CompiledScene& s
   point.frames = static_cast<int>(told.pictures.size());
   for (std::size_t i = 0; i < told.pictures.size(); ++i)
     point.rmse += rmse_of(told.pictures[i], references[i % shots.size()]) / point.frames;
-  point.samples = told.samples / (static_cast<double>(point.frames) * camera.width * camera.height);
+  constexpr std::ptrdiff_t kSettling = 5;
+  const auto first = told.samples.begin() + std::min<std::ptrdiff_t>(kSettling, point.frames - 1);
+  point.fewest_samples = *std::min_element(first, told.samples.end());
+  point.samples = mean_of(told.samples) / (static_cast<double>(camera.width) * camera.height);
   std::vector<double>& late = told.late_ms;
   std::sort(late.begin(), late.end());
   const auto quantile = [&](double q) {
@@ -202,13 +221,17 @@ Punctuality measure_in_real_time(const std::string& name, const CompiledScene& s
   point.on_time =
       static_cast<double>(std::count_if(late.begin(), late.end(), [](double ms) { return ms <= 0; })) /
       point.frames;
-  for (std::size_t i = 0; i < shots.size(); ++i) {
-    const Image uniform =
-        uniform_picture_in(settings.ranks / fps, {scene, shots[i].camera}, thread_cpu_seconds);
-    point.uniform_rmse +=
-        rmse_of(clamped_to_display(uniform), references[i]) / static_cast<double>(shots.size());
-  }
   return point;
+}
+
+double uniform_rmse_in(double seconds, const CompiledScene& scene, const std::vector<Shot>& shots,
+                       const std::vector<Image>& references) {
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    const Image uniform = uniform_picture_in(seconds, {scene, shots[i].camera}, thread_cpu_seconds);
+    errors.push_back(rmse_of(clamped_to_display(uniform), references[i]));
+  }
+  return mean_of(errors);
 }
 
 std::vector<Punctuality> measure_punctuality(const std::string& name, const CompiledScene& scene,
@@ -216,8 +239,10 @@ std::vector<Punctuality> measure_punctuality(const std::string& name, const Comp
                                              const std::vector<Image>& references,
                                              const RateSettings& settings) {
   std::vector<Punctuality> points;
-  for (const double fps : settings.rates)
+  for (const double fps : settings.rates) {
     points.push_back(measure_in_real_time(name, scene, shots, references, settings, CastChoice::kAuto, fps));
+    points.back().uniform_rmse = uniform_rmse_in(settings.ranks / fps, scene, shots, references);
+  }
   return points;
 }
 
@@ -280,15 +305,28 @@ std::string plan(const std::string& scene, const std::vector<RatePoint>& points,
                      interpolated(line, wanted));
 }
 
-std::string plan_in_real_time(const Punctuality& with, const Punctuality& without) {
+std::string plan_in_real_time(std::span<const Punctuality> with, std::span<const Punctuality> without) {
+  if (with.empty() || with.size() != without.size())
+    throw std::invalid_argument("as many runs with casting as without are needed");
+  int frames = 0;
+  double on_time = 0, late_max_ms = with.front().late_max_ms, fewest = with.front().fewest_samples;
+  std::vector<double> rmse, over_without, over_uniform;
+  for (std::size_t i = 0; i < with.size(); ++i) {
+    const Punctuality& run = with[i];
+    frames += run.frames, on_time += run.on_time * run.frames;
+    late_max_ms = std::max(late_max_ms, run.late_max_ms), fewest = std::min(fewest, run.fewest_samples);
+    rmse.push_back(run.rmse);
+    over_without.push_back(run.rmse / without[i].rmse), over_uniform.push_back(run.rmse / run.uniform_rmse);
+  }
+  const Spread ratio = spread_of(over_without);
+  const int ranks = with.front().ranks;
   return fmt::format(
-      "{}: in real time {:.0f} of {} frames were on time on {}, the latest {:.1f} ms {}; RMSE {:.4f}, which "
-      "is "
-      "{:.2f} of that without casting and {:.2f} of what uniform sampling has in all of their time.",
-      with.scene, with.on_time * with.frames, with.frames,
-      with.ranks == 1 ? "one rank" : fmt::format("{} ranks", with.ranks), std::abs(with.late_max_ms),
-      with.late_max_ms > 0 ? "late" : "early", with.rmse, with.rmse / without.rmse,
-      with.rmse / with.uniform_rmse);
+      "{}: in real time {:.0f} of {} frames were on time on {}, the latest {:.1f} ms {}, none after the "
+      "fifth of fewer than {:.0f} samples; RMSE {:.4f}, which is {:.2f} ({:.2f} to {:.2f}) of that without "
+      "casting and {:.2f} of what uniform sampling has in all of their time.",
+      with.front().scene, on_time, frames, ranks == 1 ? "one rank" : fmt::format("{} ranks", ranks),
+      std::abs(late_max_ms), late_max_ms > 0 ? "late" : "early", fewest, spread_of(rmse).median, ratio.median,
+      ratio.low, ratio.high, spread_of(over_uniform).median);
 }
 
 Table rates_table(const std::vector<RatePoint>& points) {

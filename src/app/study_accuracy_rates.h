@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,10 @@ struct Shot {
 // two degrees a frame, with a jump in the middle. Pictures of size x size pixels.
 std::vector<Shot> sequence_of(const CompiledScene& scene, const View& view, const Animation* script, int size,
                               int most);
+
+// Twenty-four frames that go round the scene's target at one speed whatever the rate, 14.4 degrees a second:
+// at 24 frames a second as slowly as films do, so that most of a frame was seen in the one before.
+std::vector<Shot> orbit_of(const CompiledScene& scene, const View& view, int size, double fps);
 
 struct RateSettings {
   std::vector<double> rates = {1, 2, 4, 8, 15, 24, 30, 60};  // frames a second
@@ -56,7 +61,8 @@ struct Punctuality {
   double late_p50_ms = 0, late_p95_ms = 0, late_p99_ms = 0, late_max_ms = 0;  // below 0: early
   double rmse = 0;                                                            // mean over the frames
   double samples = 0;                                                         // a pixel and frame
-  double uniform_rmse = 0;  // of uniform grids that have the ranks' whole time, as if they lost none of it
+  double fewest_samples = 0;  // of any frame after the fifth, when balancing has settled
+  double uniform_rmse = 0;    // uniform_rmse_in() the same time
 };
 
 // Work units that a rank does in a second of this machine's CPU on this scene.
@@ -78,13 +84,18 @@ std::vector<Punctuality> measure_punctuality(const std::string& name, const Comp
 void judge_sequence(const std::vector<Shot>& shots, const std::vector<Image>& pictures,
                     const std::vector<Image>& references, RatePoint& point);
 
-// The same at one rate only, and by one way of casting.
+// The same at one rate only, and by one way of casting; nothing of uniform grids.
 Punctuality measure_in_real_time(const std::string& name, const CompiledScene& scene,
                                  const std::vector<Shot>& shots, const std::vector<Image>& references,
                                  const RateSettings& settings, CastChoice cast, double fps);
 
-// In a sentence what a sequence did in real time, `without` casting beside it.
-std::string plan_in_real_time(const Punctuality& with, const Punctuality& without);
+// Of uniform grids that have all the time of so many ranks, as if they lost none of it: mean over the frames.
+double uniform_rmse_in(double seconds, const CompiledScene& scene, const std::vector<Shot>& shots,
+                       const std::vector<Image>& references);
+
+// In a sentence what a sequence did in real time, run by run `with` casting and `without`, by turns: errors
+// are medians, ratios medians of those of a turn.
+std::string plan_in_real_time(std::span<const Punctuality> with, std::span<const Punctuality> without);
 
 // What is wanted of a sequence: one of the two.
 struct Wish {

@@ -45,8 +45,9 @@ animation {
   camera { key 1 { from <4, 0, 2> at <0, 0, 1> up <0, 0, 1> angle 45 } key 3 { from <3.9, 0.8, 2> } }
 }
 SCRIPT
-run pprt-study accuracy turn.anim --quick --size 32 --no-cache --want-fps 100; expect_code 0
+run pprt-study accuracy turn.anim --quick --size 32 --no-cache --want-fps 100 --repeats 1; expect_code 0
 expect_line out 'spd:tree:4: at 100 frames/s the RMSE will be about 0\.0.*'
+expect_line out 'spd:tree:4: in real time [0-9]* of 201 frames .* casting and .*'
 run pprt-study accuracy turn.anim --quick --size 32 --no-cache --want-rmse 0.9; expect_code 0
 expect_line out 'spd:tree:4: an RMSE of 0.9 is kept at 240 frames/s and more.'
 run pprt-study accuracy turn.anim turn.anim --want-fps 4; expect_code 2
@@ -56,9 +57,9 @@ touch -d '2001-01-01' kept/*
 run pprt-study accuracy spd:tree:4 -o again --quick --size 48 --repeats 1 --cache kept; expect_code 0
 [[ -z $(find kept -type f -newermt '2001-01-02') ]] || complain "a converged frame was made again"
 export XDG_CACHE_HOME=$PWD/home
-run pprt-study accuracy turn.anim --quick --size 32 --no-cache --want-fps 100; expect_code 0
+run pprt-study accuracy turn.anim --quick --size 32 --no-cache --want-fps 100 --repeats 1; expect_code 0
 expect_no_file home
-run pprt-study accuracy turn.anim --quick --size 32 --want-fps 100; expect_code 0
+run pprt-study accuracy turn.anim --quick --size 32 --want-fps 100 --repeats 1; expect_code 0
 [[ $(find home/pprt -type f | wc -l) -ge 2 ]] || complain "the user's cache directory holds no converged frame"
 
 # Refused.
