@@ -2,6 +2,7 @@
 // jumped out of. So each direction has one such function, which touches only what its caller prepared.
 #include <fmt/core.h>
 #include <png.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <array>
@@ -16,9 +17,10 @@
 namespace pprt {
 namespace {
 
-// Measured on 1920x1080 (bench/image_bench.cpp): see docs/decisions/0005-picture-encoding.md.
-constexpr int kZlibLevel = 2;
-constexpr int kFilter = PNG_FILTER_UP;
+// Measured on rendered frames: see docs/decisions/0005-picture-encoding.md.
+constexpr int kZlibLevel = 1;  // makes no difference to run lengths
+constexpr int kZlibStrategy = Z_RLE;
+constexpr int kFilter = PNG_FILTER_SUB;
 
 constexpr std::size_t kMaxTextName = 79;  // the format's limit
 
@@ -136,6 +138,7 @@ bool write_rows(Writer& writer, png_uint_32 width, png_uint_32 height, png_const
   png_set_IHDR(writer.png, writer.info, width, height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_BASE, PNG_FILTER_TYPE_BASE);
   png_set_compression_level(writer.png, kZlibLevel);
+  png_set_compression_strategy(writer.png, kZlibStrategy);
   png_set_filter(writer.png, PNG_FILTER_TYPE_BASE, kFilter);
   if (text_count > 0) png_set_text(writer.png, writer.info, texts, text_count);
   png_write_info(writer.png, writer.info);
