@@ -138,8 +138,8 @@ void Worker::seek_once() {
   if (see(landmark.ray.hit, landmark.ray.at_infinity)) put_back(landmark);
 }
 
-// Traces one sample where it is wanted most; false when nothing is. Of what refinement itself wants the
-// frame's end takes evidence: nothing else is sought then.
+// Traces one sample where it is wanted most; false when nothing is. Landmarks come first, but not at the
+// frame's end, where evidence is taken of what refinement itself wants.
 bool Worker::refine_once(const FrameOrder& order) {
   if (in_region_ >= sample_limit_) return false;
   if (!sought_.empty() && !measures_fresh_) {
