@@ -91,7 +91,8 @@ struct Reader {
 
 // Exact: a float times 255 plus a half fits a double.
 png_byte to_byte(float value) {
-  return static_cast<png_byte>(std::clamp(double{value}, 0.0, 1.0) * 255 + 0.5);
+  constexpr double kHalf = 0.5;  // rounds what is not negative
+  return static_cast<png_byte>(std::clamp(double{value}, 0.0, 1.0) * 255 + kHalf);
 }
 
 std::vector<png_byte> to_bytes(const Image& image) {

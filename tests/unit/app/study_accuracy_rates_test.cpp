@@ -20,6 +20,7 @@ namespace {
 
 std::vector<Image> greys(const std::vector<float>& levels) {
   std::vector<Image> images;
+  images.reserve(levels.size());
   for (const float v : levels) images.emplace_back(2, 2, Color(v, v, v));
   return images;
 }
@@ -78,6 +79,7 @@ TEST_CASE("more time a frame makes better frames, at a rate of the work clock") 
   REQUIRE(shots.size() == 3);
   CHECK_FALSE(shots[0].camera == shots[1].camera);
   std::vector<Image> references;
+  references.reserve(shots.size());
   for (const Shot& shot : shots) references.push_back(converged_reference({scene, shot.camera}, 2).image);
   RateSettings settings;
   settings.rates = {50, 800};
@@ -93,6 +95,7 @@ TEST_CASE("in real time every frame of the repeated sequence is told of, with it
   const CompiledScene scene = compile(tree);
   const std::vector<Shot> shots = sequence_of(scene, *tree.view, nullptr, 64, 3);
   std::vector<Image> references;
+  references.reserve(shots.size());
   for (const Shot& shot : shots) references.push_back(converged_reference({scene, shot.camera}, 2).image);
   RateSettings settings;
   settings.rates = {10};
