@@ -108,20 +108,21 @@ void FrameWriter::run(Priority priority) {
 WrittenFrame FrameWriter::write(const FrameToWrite& frame) const {
   WrittenFrame written{frame.frame, {}, frame.layers.names};
   const auto write_to = [&](const FramePattern& pattern, const Image& image,
-                            const std::vector<Channel>& channels) {
+                            const std::vector<Channel>& channels, PictureKind kind) {
     std::filesystem::path file = file_name(pattern, frame.frame);
     if (!options_.overwrite && std::filesystem::exists(file)) {
       throw std::runtime_error(fmt::format("cannot write '{}': the file is there already", file.string()));
     }
-    write_image(file, image, frame.facts, channels);
+    write_image(file, image, frame.facts, channels, kind);
     written.files.push_back(std::move(file));
   };
   const std::vector<std::string>& layers = frame.layers.names;
   for (const FramePattern& output : outputs_) {
     const bool has_channels = !layers.empty() && holds_channels(output);
-    write_to(output, frame.image, has_channels ? frame.layers.channels() : std::vector<Channel>());
+    write_to(output, frame.image, has_channels ? frame.layers.channels() : std::vector<Channel>(),
+             PictureKind::kRendered);
     for (std::size_t i = 0; i < layers.size() && !has_channels; ++i) {
-      write_to(beside(output, layers[i]), frame.layers.picture(i, frame.image), {});
+      write_to(beside(output, layers[i]), frame.layers.picture(i, frame.image), {}, PictureKind::kDrawn);
     }
   }
   return written;

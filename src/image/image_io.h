@@ -30,13 +30,18 @@ using Facts = std::vector<std::pair<std::string, Fact>>;
 // The gate: sets every channel that is NaN or infinite to 0 and returns how many pixels had one.
 std::size_t replace_non_finite(Image& image);
 
+// What a picture shows: surfaces, in which colours run; or lines, dots and areas of one colour, whose
+// patterns come again. A PNG is packed accordingly (docs/decisions/0005-picture-encoding.md).
+enum class PictureKind : std::uint8_t { kRendered, kDrawn };
+
 // The file's bytes. Throw std::runtime_error with the reason when the picture is empty, has a value that is
 // not finite (it should have passed the gate), or a fact has a name that the format refuses. Values beyond
 // the range of half (65504) are clamped to it. Channels stand beside R, G and B, in 32 bits each;
 // std::runtime_error when one has not the picture's size, a NaN, or a name that is taken.
 std::string encode_exr(const Image& image, const Facts& facts = {},
                        const std::vector<Channel>& channels = {});
-std::string encode_png(const Image& image, const Facts& facts = {});
+std::string encode_png(const Image& image, const Facts& facts = {},
+                       PictureKind kind = PictureKind::kRendered);
 
 // The picture in a file's bytes. Throw std::runtime_error with the reason.
 // EXR: channels R, G, B of any pixel type, or Y alone; the first part of several.
@@ -48,7 +53,7 @@ Image decode_png(std::string_view bytes);
 // Throws std::runtime_error "cannot write 'PATH': REASON". Channels are for an EXR; a PNG has no room for
 // them.
 void write_image(const std::filesystem::path& path, const Image& image, const Facts& facts = {},
-                 const std::vector<Channel>& channels = {});
+                 const std::vector<Channel>& channels = {}, PictureKind kind = PictureKind::kRendered);
 
 // Reads an EXR or a PNG, told apart by their first bytes. Throws std::runtime_error "cannot read 'PATH':
 // REASON".

@@ -17,10 +17,15 @@
 namespace pprt {
 namespace {
 
-// Measured on rendered frames: see docs/decisions/0005-picture-encoding.md.
-constexpr int kZlibLevel = 1;  // makes no difference to run lengths
-constexpr int kZlibStrategy = Z_RLE;
-constexpr int kFilter = PNG_FILTER_SUB;
+struct Packing {
+  int zlib_level, zlib_strategy, filter;
+};
+
+// Measured: see docs/decisions/0005-picture-encoding.md.
+constexpr Packing packing_of(PictureKind kind) {
+  if (kind == PictureKind::kDrawn) return {2, Z_DEFAULT_STRATEGY, PNG_FILTER_UP};
+  return {1, Z_RLE, PNG_FILTER_SUB};  // the level makes no difference to run lengths
+}
 
 constexpr std::size_t kMaxTextName = 79;  // the format's limit
 
@@ -134,13 +139,13 @@ struct Texts {
 };
 
 bool write_rows(Writer& writer, png_uint_32 width, png_uint_32 height, png_const_bytep rows, png_textp texts,
-                int text_count) {
+                int text_count, const Packing& packing) {
   if (setjmp(png_jmpbuf(writer.png)) != 0) return false;
   png_set_IHDR(writer.png, writer.info, width, height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_BASE, PNG_FILTER_TYPE_BASE);
-  png_set_compression_level(writer.png, kZlibLevel);
-  png_set_compression_strategy(writer.png, kZlibStrategy);
-  png_set_filter(writer.png, PNG_FILTER_TYPE_BASE, kFilter);
+  png_set_compression_level(writer.png, packing.zlib_level);
+  png_set_compression_strategy(writer.png, packing.zlib_strategy);
+  png_set_filter(writer.png, PNG_FILTER_TYPE_BASE, packing.filter);
   if (text_count > 0) png_set_text(writer.png, writer.info, texts, text_count);
   png_write_info(writer.png, writer.info);
   for (png_uint_32 y = 0; y < height; ++y) png_write_row(writer.png, rows + std::size_t{3} * width * y);
@@ -171,14 +176,15 @@ float channel(const png_byte* big_endian) {
 
 }  // namespace
 
-std::string encode_png(const Image& image, const Facts& facts) {
+std::string encode_png(const Image& image, const Facts& facts, PictureKind kind) {
   require_encodable(image);
   const std::vector<png_byte> bytes = to_bytes(image);
   Texts texts(facts);
   Stream stream;
   Writer writer(stream);
   if (!write_rows(writer, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height),
-                  bytes.data(), texts.entries.data(), static_cast<int>(texts.entries.size()))) {
+                  bytes.data(), texts.entries.data(), static_cast<int>(texts.entries.size()),
+                  packing_of(kind))) {
     throw std::runtime_error(stream.error.data());
   }
   return std::move(stream.output);

@@ -25,6 +25,7 @@ Image picture_of(int frame) {
 
 std::vector<int> numbers(const std::vector<WrittenFrame>& frames) {
   std::vector<int> result;
+  result.reserve(frames.size());
   for (const WrittenFrame& frame : frames) result.push_back(frame.frame);
   return result;
 }
@@ -75,6 +76,9 @@ TEST_CASE("layers are channels of an EXR and pictures beside a PNG, made when th
   CHECK(finished[0].files == std::vector<fs::path>{directory.path() / "3.exr", directory.path() / "3.png",
                                                    directory.path() / "3.a.png",
                                                    directory.path() / "3.b.png"});
+  CHECK(read_whole_file(directory.path() / "3.png") == encode_png(picture_of(3)));
+  CHECK(read_whole_file(directory.path() / "3.a.png") ==
+        encode_png(Image(4, 2, Color(1, 1, 1)), {}, PictureKind::kDrawn));
   CHECK(read_image(directory.path() / "3.a.png").at(3, 1) == Color(1, 1, 1));
   CHECK(read_image(directory.path() / "3.b.png").at(0, 0) == picture_of(3).at(0, 0));
   CHECK(maker != std::this_thread::get_id());
