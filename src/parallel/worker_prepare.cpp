@@ -62,15 +62,15 @@ void Worker::prepare(const FrameOrder& order) {
   const bool goes_on = carry != Carry::kNothing && !missed.cut;
   std::vector<Sample> survivors;
   if (goes_on) survivors = cast(order, eye_rests);
-  report_.cpu_ms.casting += clock_->lap_ms();
-  if (new_partition) adopt_partition(order, false);
-
-  if (goes_on && carry == Carry::kCastWherePaying) {
+  const bool has_landmarks = goes_on && carry == Carry::kCastWherePaying;
+  if (has_landmarks) {
     landmarks_.note(mesh_.samples());
-    landmarks_at_most_ = kLandmarkShare * static_cast<double>(in_region_);
   } else {
     landmarks_.clear();
   }
+  report_.cpu_ms.casting += clock_->lap_ms();
+  if (new_partition) adopt_partition(order, false);
+  if (has_landmarks) landmarks_at_most_ = kLandmarkShare * static_cast<double>(in_region_);
   begin_triangulation(order.index, goes_on);
   trace_seeds(order);
   settle(order, survivors);
