@@ -83,15 +83,16 @@ std::vector<NamedPicture> figure_pictures(const std::string& scene, const std::s
   const TileGrid grid = tile_grid_for(frame.image.width, frame.image.height, 1);
   FrameLayers layers({frame.order.number, grid, frame.owners, frame.samples, {}});
   std::vector<NamedPicture> pictures;
-  const auto add = [&](const char* what, const std::string& caption, const Image& image) {
-    pictures.push_back(
-        {fmt::format("{}-{}.png", word, what), fmt::format("{}: {}", scene, caption), encode_png(image)});
+  const auto add = [&](const char* what, const std::string& caption, const Image& image,
+                       PictureKind kind = PictureKind::kDrawn) {
+    pictures.push_back({fmt::format("{}-{}.png", word, what), fmt::format("{}: {}", scene, caption),
+                        encode_png(image, {}, kind)});
   };
   add("complexity", "CPU time of each pixel's sample, darker is dearer", complexity_map(subject, clock));
   add("samples", fmt::format("{} samples", frame.samples.size()),
       layers.picture(Layer::kSamples, frame.image));
   add("triangulation", "their triangulation", layers.picture(Layer::kTriangulation, frame.image));
-  add("reconstruction", "the picture from these samples", frame.image);
+  add("reconstruction", "the picture from these samples", frame.image, PictureKind::kRendered);
   return pictures;
 }
 

@@ -70,7 +70,8 @@ std::vector<Picture> pictures_of(const PaperOptions& options, const PaperRun& ru
   for (const Shown& view : views) {
     Image picture = view ? layers.picture(*view, frame.image) : frame.image;
     if (picture.width > kDrawingWidth) picture = thumbnail(picture, kDrawingWidth);
-    pictures.push_back({of_sequence.empty(), caption_of(run, number, view), encode_png(picture)});
+    pictures.push_back({of_sequence.empty(), caption_of(run, number, view),
+                        encode_png(picture, {}, view ? PictureKind::kDrawn : PictureKind::kRendered)});
   }
   return pictures;
 }

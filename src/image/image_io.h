@@ -30,8 +30,8 @@ using Facts = std::vector<std::pair<std::string, Fact>>;
 // The gate: sets every channel that is NaN or infinite to 0 and returns how many pixels had one.
 std::size_t replace_non_finite(Image& image);
 
-// What a picture shows: surfaces, in which colours run; or lines, dots and areas of one colour, whose
-// patterns come again. A PNG is packed accordingly (docs/decisions/0005-picture-encoding.md).
+// What a picture shows: surfaces, in which colours run; or what layers do, lines, areas and numbers as
+// colours, whose patterns come again. A PNG is packed accordingly (docs/decisions/0005-picture-encoding.md).
 enum class PictureKind : std::uint8_t { kRendered, kDrawn };
 
 // The file's bytes. Throw std::runtime_error with the reason when the picture is empty, has a value that is
