@@ -26,6 +26,10 @@ constexpr int kMostFrames = 8;             // of a script
 constexpr int kMostFramesInRealTime = 40;  // where a rate is asked for
 constexpr int kFigureSize = 256;           // pixels
 
+// What is played without a script: always, and where a rate is asked for.
+constexpr const char* kSixFrames = "Six frames round the scene, with a jump in the middle,";
+constexpr const char* kOrbit = "Frames that go round the scene by 14.4 degrees a second,";
+
 // What is done to one scene, told on standard error with the time that it took.
 class Progress {
  public:
@@ -92,7 +96,7 @@ std::vector<Shot> shots_of(const Stage& stage, const Animation* script, const Ac
                      options.quick ? kMostFrames / 2 : kMostFrames);
 }
 
-// Those that are played in real time where a rate is asked for.
+// Those that are played where a rate is asked for.
 std::vector<Shot> shots_at(double fps, const Stage& stage, const Animation* script,
                            const AccuracyOptions& options) {
   const View& view = *stage.description.view;
@@ -122,13 +126,14 @@ std::vector<RatePoint> rates_of(const Stage& stage, const Sequence& s) {
   return measure_rates(stage.name, stage.scene, s.shots, s.references, s.settings);
 }
 
-std::string rates_setting(const AccuracyOptions& options, const Animation* script) {
+// `without_script` names the frames that are played then.
+std::string rates_setting(const AccuracyOptions& options, const Animation* script,
+                          const std::string& without_script) {
   return fmt::format(
       "{} of {} x {} pixels on {} under the work clock, which counts work instead of seconds: a second is "
       "what a core of this machine does in a second, measured on each scene.",
-      script ? "The frames of " + script->name : "Six frames round the scene, with a jump in the middle,",
-      sequence_size(options), sequence_size(options),
-      options.ranks == 1 ? "one rank" : fmt::format("{} ranks", options.ranks));
+      script ? "The frames of " + script->name : without_script, sequence_size(options),
+      sequence_size(options), options.ranks == 1 ? "one rank" : fmt::format("{} ranks", options.ranks));
 }
 
 // Other programs, and this one at their size.
@@ -222,39 +227,43 @@ Inputs read_inputs(const AccuracyOptions& options) {
   return inputs;
 }
 
-// Only what the answers need.
-std::vector<RatePoint> rates_asked_for(const Stage& stage, const Animation* script,
-                                       const AccuracyOptions& options) {
-  Sequence sequence = make_sequence(stage, shots_of(stage, script, options), options);
-  sequence.settings.casts = {CastChoice::kAuto};
-  if (!options.want_rmse) sequence.settings.rates = {*options.want_fps};
-  return rates_of(stage, sequence);
+void tell(const Stage& stage, const std::string& setting) {
+  fmt::print(stderr, "pprt-study: {}: {}\n", stage.name, setting);
 }
 
-std::string answer_in_real_time(double fps, const Stage& stage, const Animation* script,
-                                const AccuracyOptions& options) {
-  const Sequence s = make_sequence(stage, shots_at(fps, stage, script, options), options);
+// At which rate there is the error.
+void answer_rate(double rmse, const Stage& stage, const Animation* script, const AccuracyOptions& options) {
+  Sequence sequence = make_sequence(stage, shots_of(stage, script, options), options);
+  sequence.settings.casts = {CastChoice::kAuto};
+  tell(stage, rates_setting(options, script, kSixFrames));
+  fmt::print("{}\n", plan(stage.name, rates_of(stage, sequence), {rmse, {}}));
+}
+
+// Which error there is at the rate.
+void answer_error(double fps, const Stage& stage, const Animation* script, const AccuracyOptions& options) {
+  Sequence s = make_sequence(stage, shots_at(fps, stage, script, options), options);
+  s.settings.rates = {fps};
+  s.settings.casts = {CastChoice::kAuto};
+  tell(stage, rates_setting(options, script, kOrbit));
+  fmt::print("{}\n", plan(stage.name, rates_of(stage, s), {{}, fps}));
   const auto run = [&](CastChoice cast) {
     return measure_in_real_time(stage.name, stage.scene, s.shots, s.references, s.settings, cast, fps);
   };
   std::vector<Punctuality> with, without;
-  for (int turn = 0; turn < options.repeats; ++turn) {
+  std::vector<double> uniform;
+  for (int turn = 0; turn < options.repeats; ++turn, ++s.settings.seed) {
     with.push_back(run(CastChoice::kAuto));
     without.push_back(run(CastChoice::kOff));
-    with.back().uniform_rmse = uniform_rmse_in(options.ranks / fps, stage.scene, s.shots, s.references);
+    uniform.push_back(uniform_rmse_in(options.ranks / fps, stage.scene, s.shots, s.references));
   }
-  return plan_in_real_time(with, without);
+  fmt::print("{}\n", plan_in_real_time(with, without, uniform));
 }
 
 void answer(const Inputs& inputs, const Animation* script, const AccuracyOptions& options) {
   for (const std::string& name : inputs.scenes) {
     const Stage stage = make_stage(name);
-    const std::vector<RatePoint> points = rates_asked_for(stage, script, options);
-    fmt::print(stderr, "pprt-study: {}: {}\n", name, rates_setting(options, script));
-    if (options.want_rmse) fmt::print("{}\n", plan(name, points, {options.want_rmse, {}}));
-    if (!options.want_fps) continue;
-    fmt::print("{}\n", plan(name, points, {{}, options.want_fps}));
-    fmt::print("{}\n", answer_in_real_time(*options.want_fps, stage, script, options));
+    if (options.want_rmse) answer_rate(*options.want_rmse, stage, script, options);
+    if (options.want_fps) answer_error(*options.want_fps, stage, script, options);
   }
 }
 
@@ -289,7 +298,7 @@ void study_accuracy(const AccuracyOptions& asked, const std::string& command_lin
   write_figures(results.pictures, output);
   write_foreign(results.foreign, results.small_curves, options.size / 2, output);
   write_effects(results.effects, output);
-  write_rates(results.rates, rates_setting(options, script), output);
+  write_rates(results.rates, rates_setting(options, script, kSixFrames), output);
   write_punctuality(results.punctuality, output);
   output.finish();
 }

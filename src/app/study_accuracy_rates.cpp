@@ -207,9 +207,7 @@ Punctuality measure_in_real_time(const std::string& name, const CompiledScene& s
   point.frames = static_cast<int>(told.pictures.size());
   for (std::size_t i = 0; i < told.pictures.size(); ++i)
     point.rmse += rmse_of(told.pictures[i], references[i % shots.size()]) / point.frames;
-  constexpr std::ptrdiff_t kSettling = 5;
-  const auto first = told.samples.begin() + std::min<std::ptrdiff_t>(kSettling, point.frames - 1);
-  point.fewest_samples = *std::min_element(first, told.samples.end());
+  point.fewest_samples = fewest_after_fifth(told.samples);
   point.samples = mean_of(told.samples) / (static_cast<double>(camera.width) * camera.height);
   std::vector<double>& late = told.late_ms;
   std::sort(late.begin(), late.end());
@@ -222,6 +220,12 @@ Punctuality measure_in_real_time(const std::string& name, const CompiledScene& s
       static_cast<double>(std::count_if(late.begin(), late.end(), [](double ms) { return ms <= 0; })) /
       point.frames;
   return point;
+}
+
+double fewest_after_fifth(std::span<const double> samples_of_frames) {
+  constexpr std::size_t kSettling = 5;
+  const auto settled = samples_of_frames.subspan(std::min(kSettling, samples_of_frames.size() - 1));
+  return *std::min_element(settled.begin(), settled.end());
 }
 
 double uniform_rmse_in(double seconds, const CompiledScene& scene, const std::vector<Shot>& shots,
@@ -305,9 +309,10 @@ std::string plan(const std::string& scene, const std::vector<RatePoint>& points,
                      interpolated(line, wanted));
 }
 
-std::string plan_in_real_time(std::span<const Punctuality> with, std::span<const Punctuality> without) {
-  if (with.empty() || with.size() != without.size())
-    throw std::invalid_argument("as many runs with casting as without are needed");
+std::string plan_in_real_time(std::span<const Punctuality> with, std::span<const Punctuality> without,
+                              std::span<const double> uniform_rmse) {
+  if (with.empty() || with.size() != without.size() || with.size() != uniform_rmse.size())
+    throw std::invalid_argument("a turn has a run with casting, one without and uniform grids");
   int frames = 0;
   double on_time = 0, late_max_ms = with.front().late_max_ms, fewest = with.front().fewest_samples;
   std::vector<double> rmse, over_without, over_uniform;
@@ -316,13 +321,13 @@ std::string plan_in_real_time(std::span<const Punctuality> with, std::span<const
     frames += run.frames, on_time += run.on_time * run.frames;
     late_max_ms = std::max(late_max_ms, run.late_max_ms), fewest = std::min(fewest, run.fewest_samples);
     rmse.push_back(run.rmse);
-    over_without.push_back(run.rmse / without[i].rmse), over_uniform.push_back(run.rmse / run.uniform_rmse);
+    over_without.push_back(run.rmse / without[i].rmse), over_uniform.push_back(run.rmse / uniform_rmse[i]);
   }
   const Spread ratio = spread_of(over_without);
   const int ranks = with.front().ranks;
   return fmt::format(
       "{}: in real time {:.0f} of {} frames were on time on {}, the latest {:.1f} ms {}, none after the "
-      "fifth of fewer than {:.0f} samples; RMSE {:.4f}, which is {:.2f} ({:.2f} to {:.2f}) of that without "
+      "fifth of fewer than {:.0f} samples; RMSE {:.4f}, by turns {:.2f} ({:.2f} to {:.2f}) of that without "
       "casting and {:.2f} of what uniform sampling has in all of their time.",
       with.front().scene, on_time, frames, ranks == 1 ? "one rank" : fmt::format("{} ranks", ranks),
       std::abs(late_max_ms), late_max_ms > 0 ? "late" : "early", fewest, spread_of(rmse).median, ratio.median,

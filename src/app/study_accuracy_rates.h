@@ -62,7 +62,7 @@ struct Punctuality {
   double rmse = 0;                                                            // mean over the frames
   double samples = 0;                                                         // a pixel and frame
   double fewest_samples = 0;  // of any frame after the fifth, when balancing has settled
-  double uniform_rmse = 0;    // uniform_rmse_in() the same time
+  double uniform_rmse = 0;    // uniform_rmse_in() the ranks' time, if that was measured
 };
 
 // Work units that a rank does in a second of this machine's CPU on this scene.
@@ -84,18 +84,23 @@ std::vector<Punctuality> measure_punctuality(const std::string& name, const Comp
 void judge_sequence(const std::vector<Shot>& shots, const std::vector<Image>& pictures,
                     const std::vector<Image>& references, RatePoint& point);
 
-// The same at one rate only, and by one way of casting; nothing of uniform grids.
+// A sequence in real time at one rate, by one way of casting; nothing of uniform grids.
 Punctuality measure_in_real_time(const std::string& name, const CompiledScene& scene,
                                  const std::vector<Shot>& shots, const std::vector<Image>& references,
                                  const RateSettings& settings, CastChoice cast, double fps);
 
-// Of uniform grids that have all the time of so many ranks, as if they lost none of it: mean over the frames.
+// The fewest samples of any frame after the fifth; of the last one where there are no more.
+double fewest_after_fifth(std::span<const double> samples_of_frames);
+
+// Mean error of the frames by uniform grids that have so many seconds of one thread for each: ranks that
+// share a frame have their number times its time, if they lost none of it.
 double uniform_rmse_in(double seconds, const CompiledScene& scene, const std::vector<Shot>& shots,
                        const std::vector<Image>& references);
 
-// In a sentence what a sequence did in real time, run by run `with` casting and `without`, by turns: errors
-// are medians, ratios medians of those of a turn.
-std::string plan_in_real_time(std::span<const Punctuality> with, std::span<const Punctuality> without);
+// In a sentence what a sequence did in real time, turn by turn with casting, without, and by uniform grids.
+// The error is the median, and the ratios are medians of those of a turn.
+std::string plan_in_real_time(std::span<const Punctuality> with, std::span<const Punctuality> without,
+                              std::span<const double> uniform_rmse);
 
 // What is wanted of a sequence: one of the two.
 struct Wish {

@@ -97,7 +97,9 @@ CLI::App* add_accuracy(CLI::App& app, pprt::AccuracyOptions& options) {
                    "Answer at which rate frames have this error; without -o measure nothing else")
       ->check(CLI::PositiveNumber)
       ->type_name("E");
-  command->add_option("--want-fps", options.want_fps, "Answer which error frames have at this rate")
+  command
+      ->add_option("--want-fps", options.want_fps,
+                   "Answer which error frames have at this rate, in real time too")
       ->check(CLI::PositiveNumber)
       ->type_name("F");
   command->add_option("--seed", options.seed, "Of the seed samples' places in the first repeat")

@@ -111,8 +111,6 @@ TEST_CASE("in real time every frame of the repeated sequence is told of, with it
   CHECK(p.rmse < 0.1);
   CHECK(p.samples > 0.1);
   CHECK(p.fewest_samples > 0);
-  CHECK(p.fewest_samples <= 16 * 64 * 64);  // where a slow frame stops
-  CHECK(p.uniform_rmse == Approx(uniform_rmse_in(0.1, scene, shots, references)).epsilon(0.3));
   CHECK(uniform_rmse_in(0.0003, scene, shots, references) > 1.5 * p.uniform_rmse);
 }
 
@@ -133,18 +131,25 @@ TEST_CASE("the sentence of a sequence in real time says what is better and by ho
   for (std::size_t i = 0; i < with.size(); ++i) {
     with[i].scene = "tree", with[i].ranks = 2, with[i].frames = 80, with[i].on_time = 1;
     with[i].late_max_ms = -0.5, with[i].fewest_samples = 19'500;
-    with[i].rmse = 0.02, with[i].uniform_rmse = 0.04, without[i].rmse = 0.025;
+    with[i].rmse = 0.02, without[i].rmse = 0.025;
   }
   with[1].on_time = 0.9875, with[1].late_max_ms = 1.25, with[1].fewest_samples = 18'900;
   // A turn in which all were slower, and one in which casting had bad luck: ratios .8, .7 and 1.
   with[0].rmse = 0.04, without[0].rmse = 0.05;
   with[1].rmse = 0.0175;
   with[2].rmse = 0.025;
-  CHECK(plan_in_real_time(with, without) ==
+  const std::vector<double> uniform = {0.1, 0.05, 0.04};  // ratios .4, .35 and .625
+  CHECK(plan_in_real_time(with, without, uniform) ==
         "tree: in real time 239 of 240 frames were on time on 2 ranks, the latest 1.2 ms late, none after "
-        "the fifth of fewer than 18900 samples; RMSE 0.0250, which is 0.80 (0.70 to 1.00) of that without "
-        "casting and 0.62 of what uniform sampling has in all of their time.");
-  CHECK_THROWS_AS(plan_in_real_time(with, {}), std::invalid_argument);
+        "the fifth of fewer than 18900 samples; RMSE 0.0250, by turns 0.80 (0.70 to 1.00) of that without "
+        "casting and 0.40 of what uniform sampling has in all of their time.");
+  CHECK_THROWS_AS(plan_in_real_time(with, {}, uniform), std::invalid_argument);
+  CHECK_THROWS_AS(plan_in_real_time(with, without, {}), std::invalid_argument);
+}
+
+TEST_CASE("the poorest frame is looked for after the fifth") {
+  CHECK(fewest_after_fifth(std::vector<double>{1, 2, 3, 4, 5, 9, 7, 8}) == 7);
+  CHECK(fewest_after_fifth(std::vector<double>{1, 2, 3}) == 3);
 }
 
 TEST_CASE("the frames that a rate is asked for with go round the scene at one speed whatever the rate") {
