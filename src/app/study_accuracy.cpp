@@ -24,6 +24,7 @@ constexpr int kSequenceCells = 4;  // of a sequence's converged frames: 32 sampl
 constexpr int kQuickSequenceCells = 2;
 constexpr int kMostFrames = 8;             // of a script
 constexpr int kMostFramesInRealTime = 40;  // where a rate is asked for
+constexpr int kOrbitFrames = 24;           // then, without a script
 constexpr int kFigureSize = 256;           // pixels
 
 // What is played without a script: always, and where a rate is asked for.
@@ -100,9 +101,9 @@ std::vector<Shot> shots_of(const Stage& stage, const Animation* script, const Ac
 std::vector<Shot> shots_at(double fps, const Stage& stage, const Animation* script,
                            const AccuracyOptions& options) {
   const View& view = *stage.description.view;
-  if (!script) return orbit_of(stage.scene, view, sequence_size(options), fps);
-  return sequence_of(stage.scene, view, script, sequence_size(options),
-                     options.quick ? kMostFramesInRealTime / 2 : kMostFramesInRealTime);
+  const int shortened = options.quick ? 2 : 1, size = sequence_size(options);
+  if (!script) return orbit_of(stage.scene, view, size, fps, kOrbitFrames / shortened);
+  return sequence_of(stage.scene, view, script, size, kMostFramesInRealTime / shortened);
 }
 
 Sequence make_sequence(const Stage& stage, std::vector<Shot> shots, const AccuracyOptions& options) {

@@ -50,11 +50,13 @@ Image complexity_map(const Subject& subject, const SecondsClock& clock) {
   std::vector<float> seconds(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height),
                              std::numeric_limits<float>::infinity());
   for (int t = 0; t < kTries; ++t) {
-    for (int i = 0; i < camera.width * camera.height; ++i) {
-      const double begin = clock();
-      tracer.trace(i % camera.width + 0.5, i / camera.width + 0.5);
-      float& least = seconds[static_cast<std::size_t>(i)];
-      least = std::min(least, static_cast<float>(clock() - begin));
+    auto least = seconds.begin();
+    for (int y = 0; y < camera.height; ++y) {
+      for (int x = 0; x < camera.width; ++x, ++least) {
+        const double begin = clock();
+        tracer.trace(x + 0.5, y + 0.5);
+        *least = std::min(*least, static_cast<float>(clock() - begin));
+      }
     }
   }
   std::vector<float> sorted = seconds;

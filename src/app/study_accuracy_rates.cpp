@@ -134,14 +134,13 @@ std::vector<Shot> sequence_of(const CompiledScene& scene, const View& view, cons
   return shots;
 }
 
-std::vector<Shot> orbit_of(const CompiledScene& scene, const View& view, int size, double fps) {
-  constexpr int kFrames = 24;
+std::vector<Shot> orbit_of(const CompiledScene& scene, const View& view, int size, double fps, int frames) {
   constexpr double kDegreesPerSecond = 14.4;
   View here = view;
   here.width = here.height = size;
   const Vec3d axis = view.up / std::sqrt(view.up.dot(view.up));
   std::vector<Shot> shots;
-  for (int frame = 0; frame < kFrames; ++frame) {
+  for (int frame = 0; frame < frames; ++frame) {
     here.from = view.at + turned(view.from - view.at, axis, kDegreesPerSecond / fps * frame);
     shots.push_back({scene.camera(here), false});
   }

@@ -25,9 +25,9 @@ struct Shot {
 std::vector<Shot> sequence_of(const CompiledScene& scene, const View& view, const Animation* script, int size,
                               int most);
 
-// Twenty-four frames that go round the scene's target at one speed whatever the rate, 14.4 degrees a second:
-// at 24 frames a second as slowly as films do, so that most of a frame was seen in the one before.
-std::vector<Shot> orbit_of(const CompiledScene& scene, const View& view, int size, double fps);
+// Frames that go round the scene's target at one speed whatever the rate, 14.4 degrees a second: at 24 frames
+// a second as slowly as films do, so that most of a frame was seen in the one before.
+std::vector<Shot> orbit_of(const CompiledScene& scene, const View& view, int size, double fps, int frames);
 
 struct RateSettings {
   std::vector<double> rates = {1, 2, 4, 8, 15, 24, 30, 60};  // frames a second

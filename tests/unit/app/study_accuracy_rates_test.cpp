@@ -157,7 +157,7 @@ TEST_CASE("the frames that a rate is asked for with go round the scene at one sp
   const CompiledScene scene = compile(tree);
   // Degrees between the first frame's line of sight and another's.
   const auto turn = [&](double fps, std::size_t frame) {
-    const std::vector<Shot> shots = orbit_of(scene, *tree.view, 64, fps);
+    const std::vector<Shot> shots = orbit_of(scene, *tree.view, 64, fps, 24);
     REQUIRE(shots.size() == 24);
     CHECK_FALSE(shots[frame].cut);
     const auto flat = [&](std::size_t i) {
