@@ -52,8 +52,18 @@ std::string percent(double share) {
   return fmt::format("{:.{}f} %", 100 * share, share < 0.1 ? 1 : 0);
 }
 
-Cell two_digits(double value) {
-  return std::isnan(value) ? Cell(kNoValue) : Cell(fmt::format("{:.2f}", value));
+Cell with_digits(double value, int digits) {
+  return std::isnan(value) ? Cell(kNoValue) : Cell(fmt::format("{:.{}f}", value, digits));
+}
+
+// NaN when none of them is a number.
+double geometric_mean(const std::vector<double>& values) {
+  double sum = 0;
+  int count = 0;
+  for (const double v : values) {
+    if (!std::isnan(v)) sum += std::log(v), ++count;
+  }
+  return count == 0 ? kNoValue : std::exp(sum / count);
 }
 
 template <typename RatioAt>
@@ -63,7 +73,8 @@ Table budgets_table(const std::vector<SceneCurves>& scenes, const RatioAt& ratio
   for (const SceneCurves& scene : scenes) {
     for (const std::string& method : rivals(scene)) {
       std::vector<Cell>& row = table.rows.emplace_back(std::vector<Cell>{scene.scene, method});
-      for (const double share : kBudgets) row.push_back(two_digits(ratio_at(scene, method, share).median));
+      for (const double share : kBudgets)
+        row.push_back(with_digits(ratio_at(scene, method, share).median, 2));
     }
   }
   return table;
@@ -176,19 +187,24 @@ Table equal_error_table(const std::vector<SceneCurves>& scenes) {
 Table ratio_table(const std::vector<SceneCurves>& scenes) {
   constexpr double kLeast = 0.1;
   Table table{{"scene", "ms for one sample a pixel"}, {}, {}};
+  std::vector<Cell> mean = {"geometric mean", kNoValue};
+  for (const SceneCurves& scene : scenes) table.rows.push_back({scene.scene, 1e3 * scene.one_sample_s});
   for (const double share : kBudgets) {
-    if (share >= kLeast) table.columns.push_back(budget_name(share));
+    if (share < kLeast) continue;
+    table.columns.push_back(budget_name(share));
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+      ratios.push_back(ratio_at_equal_time(scenes[i], kProgressive, share).median);
+      table.rows[i].push_back(with_digits(ratios.back(), 2));
+    }
+    mean.push_back(with_digits(geometric_mean(ratios), 3));
   }
   table.columns.push_back("break-even");
-  for (const SceneCurves& scene : scenes) {
-    std::vector<Cell>& row =
-        table.rows.emplace_back(std::vector<Cell>{scene.scene, 1e3 * scene.one_sample_s});
-    for (const double share : kBudgets) {
-      if (share < kLeast) continue;
-      row.push_back(two_digits(ratio_at_equal_time(scene, kProgressive, share).median));
-    }
-    row.push_back(to_sentence(break_even(scene, kProgressive), kProgressive));
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    table.rows[i].push_back(to_sentence(break_even(scenes[i], kProgressive), kProgressive));
   }
+  mean.push_back(kNoValue);
+  if (scenes.size() > 1) table.rows.push_back(std::move(mean));
   return table;
 }
 

@@ -56,7 +56,8 @@ std::vector<std::string> rivals(const SceneCurves& curves);
 Table equal_time_table(const std::vector<SceneCurves>& scenes);
 Table equal_error_table(const std::vector<SceneCurves>& scenes);
 
-// A row for each scene: progressive against uniform at 10 to 400 %.
+// A row for each scene: progressive against uniform at 10 to 400 %. Of several scenes the last row is their
+// geometric mean, at each budget of those that have a picture by then.
 Table ratio_table(const std::vector<SceneCurves>& scenes);
 
 // Both with their spread: a row for every scene, method and budget.

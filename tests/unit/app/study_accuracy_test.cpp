@@ -112,6 +112,28 @@ TEST_CASE("break-even points are where the ratio of errors passes 1") {
         "There is no budget for which both have a picture.");
 }
 
+TEST_CASE("the table of ratios ends with the geometric mean of its scenes") {
+  const auto scene = [](const char* name, double first_share, double ratio) {
+    std::vector<std::pair<double, double>> points;
+    for (const double share : {first_share, 10.0}) points.emplace_back(share, ratio * 0.1 / std::sqrt(share));
+    SceneCurves curves = made_up(std::move(points));
+    curves.scene = name;
+    return curves;
+  };
+  const Table table = ratio_table({scene("a", 0.1, 0.5), scene("b", 0.1, 2), scene("c", 1, 0.216)});
+  REQUIRE(table.columns.size() == 9);
+  CHECK(table.columns[2] == "10 %");
+  CHECK(table.columns[5] == "100 %");
+  REQUIRE(table.rows.size() == 4);
+  const std::vector<Cell>& mean = table.rows.back();
+  REQUIRE(mean.size() == table.columns.size());
+  CHECK(to_text(mean[0]) == "geometric mean");
+  CHECK(to_text(table.rows[2][2]) == to_text(Cell(kNoValue)));  // no picture of c at 10 %
+  CHECK(to_text(mean[2]) == "1.000");
+  CHECK(to_text(mean[5]) == "0.600");
+  CHECK(ratio_table({scene("a", 0.1, 0.5)}).rows.size() == 1);
+}
+
 TEST_CASE("the uniform sampler under the name progressive has ratio 1") {
   const Stage stage;
   const SceneCurves exact =
