@@ -37,7 +37,9 @@ std::vector<CurvePoint> best_so_far(std::vector<CurvePoint> curve) {
 // Over the repeats, of a method's and the uniform one's curve.
 Spread over_repeats(const SceneCurves& curves, const std::string& method, const Ratio& ratio) {
   std::vector<double> ratios;
-  for (int r = 0; r < repeats_of(curves); ++r) {
+  const int repeats = repeats_of(curves);
+  ratios.reserve(static_cast<std::size_t>(repeats));
+  for (int r = 0; r < repeats; ++r) {
     ratios.push_back(
         ratio(best_so_far(curve_of(curves, method, r)), best_so_far(curve_of(curves, kUniform, r))));
   }
@@ -135,7 +137,9 @@ BreakEven break_even(const SceneCurves& curves, const std::string& method) {
   constexpr double kFrom = 0.01, kTo = 4, kStep = 1.02;
   BreakEven result;
   double before = kNoValue;
-  for (double share = kFrom; share <= kTo * 1.0001; share *= kStep) {
+  const int steps = static_cast<int>(std::log(kTo / kFrom) / std::log(kStep));
+  for (int step = 0; step <= steps; ++step) {
+    const double share = kFrom * std::pow(kStep, step);
     const double ratio = ratio_at_equal_time(curves, method, share).median;
     if (std::isnan(ratio)) continue;
     if (std::isnan(before)) {

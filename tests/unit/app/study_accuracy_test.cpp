@@ -37,7 +37,7 @@ struct Stage {
 
 // The same pictures under another name, and their times what samples cost at a fixed price: the same each
 // time.
-Method priced(Method method, std::string name, double seconds_per_sample) {
+Method priced(const Method& method, std::string name, double seconds_per_sample) {
   return {std::move(name), method.description,
           [run = method.run, seconds_per_sample](const Subject& subject, const CurveRange& range,
                                                  const SecondsClock& clock, const RenderingSink& sink) {
@@ -57,7 +57,7 @@ SceneCurves curves_of(const Stage& stage, const std::vector<Method>& methods, in
                         thread_cpu_seconds);
 }
 
-SceneCurves made_up(std::vector<std::pair<double, double>> progressive, bool exhausted = false) {
+SceneCurves made_up(const std::vector<std::pair<double, double>>& progressive, bool exhausted = false) {
   SceneCurves curves{"made up", 1, 0, 2, {}};
   const auto add = [&](const char* method, double share, double rmse, bool last) {
     CurvePoint p;
@@ -116,7 +116,7 @@ TEST_CASE("the table of ratios ends with the geometric mean of its scenes") {
   const auto scene = [](const char* name, double first_share, double ratio) {
     std::vector<std::pair<double, double>> points;
     for (const double share : {first_share, 10.0}) points.emplace_back(share, ratio * 0.1 / std::sqrt(share));
-    SceneCurves curves = made_up(std::move(points));
+    SceneCurves curves = made_up(points);
     curves.scene = name;
     return curves;
   };
@@ -183,7 +183,9 @@ TEST_CASE("uniform pictures are the tracer's own, and means of it") {
     CAPTURE(x, y);
     CHECK(images[1].at(x, y) == tracer.trace(x + 0.5, y + 0.5).color);
     Color sum(0, 0, 0);
-    for (int i = 0; i < 4; ++i) sum += tracer.trace(x + 0.25 + 0.5 * (i % 2), y + 0.25 + 0.5 * (i / 2)).color;
+    for (const double dy : {0.25, 0.75}) {
+      for (const double dx : {0.25, 0.75}) sum += tracer.trace(x + dx, y + dy).color;
+    }
     CHECK(images[2].at(x, y).x == Approx(sum.x / 4).margin(1e-6));
   }
   // A pixel's centre lies between four samples two pixels apart, at a quarter of the way.
