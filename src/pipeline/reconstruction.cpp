@@ -29,8 +29,8 @@ std::array<std::uint32_t, 3> primitives_of(const Delaunay::Triangle& triangle, c
   return {corners[a].primitive, corners[b].primitive, corners[c].primitive};
 }
 
-// Slots hold triangles that lie anywhere. Sends for the corners of one that comes up a little later.
-void fetch_corners(std::size_t slot, const SampleMesh::Impl& mesh) {
+// Slots hold triangles that lie anywhere. Prefetches the corners of one that comes up a little later.
+void prefetch_corners(std::size_t slot, const SampleMesh::Impl& mesh) {
   constexpr std::size_t kAhead = 8;
   const auto& triangles = mesh.delaunay().triangles();
   if (slot + kAhead >= triangles.size()) return;
@@ -397,7 +397,7 @@ void reconstruct(const SampleMesh& mesh, const PixelRect& bounds, RegionPixels& 
   buffers.edges.assign(triangles.size(), TriangleEdge::kNone);
   EdgePatch edge;
   for (std::size_t i = 0; rule == PixelRule::kEdges && viewed && i < triangles.size(); ++i) {
-    fetch_corners(i, impl);
+    prefetch_corners(i, impl);
     const Delaunay::Triangle& t = triangles[i];
     if (!t.is_finite() || !may_show_edge(t, impl) || is_beside(t)) continue;
     if (!is_small(t, impl)) {
@@ -410,7 +410,7 @@ void reconstruct(const SampleMesh& mesh, const PixelRect& bounds, RegionPixels& 
     painter.paint_by_area(corners, edge);
   }
   for (std::size_t i = 0; i < triangles.size(); ++i) {
-    fetch_corners(i, impl);
+    prefetch_corners(i, impl);
     const Delaunay::Triangle& t = triangles[i];
     if (!t.is_finite() || buffers.edges[i] == TriangleEdge::kSmall || is_beside(t)) continue;
     const std::array<Corner, 3> corners = corners_of(t, impl);
