@@ -28,7 +28,7 @@ constexpr int kOrbitFrames = 24;           // then, without a script
 constexpr int kFigureSize = 256;           // pixels
 
 // What is played without a script: always, and where a rate is asked for.
-constexpr const char* kSixFrames = "Six frames round the scene, with a jump in the middle,";
+constexpr const char* kRound = "Frames round the scene, with a jump after the third,";
 constexpr const char* kOrbit = "Frames that go round the scene by 14.4 degrees a second,";
 
 // What is done to one scene, told on standard error with the time that it took.
@@ -236,7 +236,7 @@ void tell(const Stage& stage, const std::string& setting) {
 void answer_rate(double rmse, const Stage& stage, const Animation* script, const AccuracyOptions& options) {
   Sequence sequence = make_sequence(stage, shots_of(stage, script, options), options);
   sequence.settings.casts = {CastChoice::kAuto};
-  tell(stage, rates_setting(options, script, kSixFrames));
+  tell(stage, rates_setting(options, script, kRound));
   fmt::print("{}\n", plan(stage.name, rates_of(stage, sequence), {rmse, {}}));
 }
 
@@ -299,7 +299,7 @@ void study_accuracy(const AccuracyOptions& asked, const std::string& command_lin
   write_figures(results.pictures, output);
   write_foreign(results.foreign, results.small_curves, options.size / 2, output);
   write_effects(results.effects, output);
-  write_rates(results.rates, rates_setting(options, script, kSixFrames), output);
+  write_rates(results.rates, rates_setting(options, script, kRound), output);
   write_punctuality(results.punctuality, output);
   output.finish();
 }

@@ -129,7 +129,8 @@ void write_verdicts(const std::vector<SceneCurves>& scenes, StudyOutput& output)
       "Errors of the progressive picture over those of the uniform one that takes as much CPU time of one "
       "thread with the same tracing kernel. Below 1 progressive is better. Times are shares of what one "
       "sample a pixel takes, its picture included, so that below some share neither has a picture to show. "
-      "Of each method the best picture counts that the time allows.");
+      "Of each method the best picture counts that the time allows. The geometric mean at a budget is over "
+      "the scenes that have a picture by then.");
   output.add_table("ratios", ratio_table(scenes));
   for (const SceneCurves& s : scenes) {
     page.paragraph(fmt::format("{}: {} {}", s.scene, to_sentence(break_even(s, kProgressive), "Progressive"),

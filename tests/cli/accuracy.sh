@@ -48,6 +48,8 @@ SCRIPT
 run pprt-study accuracy turn.anim --quick --size 32 --no-cache --want-fps 100 --repeats 1; expect_code 0
 expect_line out 'spd:tree:4: at 100 frames/s the RMSE will be about 0\.0.*'
 expect_line out 'spd:tree:4: in real time [0-9]* of 201 frames .* casting and .*'
+run pprt-study accuracy spd:tree:4 --quick --size 32 --no-cache --want-fps 100 --repeats 1; expect_code 0
+expect_line out 'spd:tree:4: in real time [0-9]* of 204 frames .*'  # of 12 frames, as often as 200 take
 run pprt-study accuracy turn.anim --quick --size 32 --no-cache --want-rmse 0.9; expect_code 0
 expect_line out 'spd:tree:4: an RMSE of 0.9 is kept at 240 frames/s and more.'
 run pprt-study accuracy turn.anim turn.anim --want-fps 4; expect_code 2
