@@ -33,7 +33,8 @@ void picture(benchmark::State& state, const std::string& database, Order order) 
   const std::vector<int> pixels = pixels_in(order, view.width * view.height);
   for (auto _ : state) {
     for (const int pixel : pixels) {
-      benchmark::DoNotOptimize(tracer.trace(pixel % view.width + 0.5, pixel / view.width + 0.5));
+      const int row = pixel / view.width, column = pixel % view.width;
+      benchmark::DoNotOptimize(tracer.trace(column + 0.5, row + 0.5));
     }
   }
   const auto rays = static_cast<double>(tracer.counts().traced());

@@ -23,7 +23,7 @@ bool is_sequence(const std::string& name) {
 // Those that both sides have, if neither has others.
 std::vector<int> frames_of_both(const FramePattern& image, const FramePattern& reference,
                                 const CompareOptions& options) {
-  const std::vector<int> a = frames_present(image);
+  std::vector<int> a = frames_present(image);
   const std::vector<int> b = frames_present(reference);
   if (a.empty()) throw std::runtime_error(fmt::format("there are no frames '{}'", options.image));
   if (b.empty()) throw std::runtime_error(fmt::format("there are no frames '{}'", options.reference));

@@ -55,6 +55,7 @@ SceneEffects measure_effects(const std::string& scene_name, const SceneDescripti
   SceneEffects result{scene_name, whole.census(), {}};
   const std::vector<Variant> variants = variants_of(whole.effects());
   std::vector<CompiledScene> scenes;
+  scenes.reserve(variants.size());
   for (const Variant& v : variants) scenes.push_back(compile(description, v.options));
   std::vector<RayCounts> counts(variants.size());
   std::vector<std::vector<double>> ratios(variants.size());

@@ -58,6 +58,7 @@ double seconds_of(const timeval& t) {
 // that name, std::runtime_error when it fails.
 double run_in_silence(std::vector<std::string> words) {
   std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
   for (std::string& w : words) pointers.push_back(w.data());
   pointers.push_back(nullptr);
   posix_spawn_file_actions_t files;
@@ -127,7 +128,7 @@ ForeignResult present_or_absent(const std::string& scene, const char* program, c
   return result;
 }
 
-Command povray_command(const std::string& scene_file, std::vector<std::string> options) {
+Command povray_command(const std::string& scene_file, const std::vector<std::string>& options) {
   return [=](int size, const std::string& file) {
     std::vector<std::string> words = {
         "povray", "+I" + scene_file, "+O" + file, fmt::format("+W{}", size), fmt::format("+H{}", size),

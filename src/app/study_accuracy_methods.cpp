@@ -147,7 +147,7 @@ class MeshPainter {
     reconstruct(mesh_, mesh_.region().bounds(), pixels_, buffers_, rule_, &viewed_);
     Image image;
     image.width = camera_.width, image.height = camera_.height;
-    image.pixels = std::move(pixels_.colors);
+    image.pixels = std::exchange(pixels_.colors, {});
     return image;
   }
 

@@ -52,6 +52,8 @@ Panel curves_panel(const SceneCurves& scene, const Abscissa& x, const std::vecto
 }
 
 Panel ratio_panel(const SceneCurves& scene) {
+  constexpr double kLeast = 0.01, kStep = 1.1;  // of the shares that are asked, up to four times all of it
+  constexpr int kSteps = 62;
   Panel panel{scene.scene,
               {kTime.label, 10},
               {"error of progressive / uniform at equal time"},
@@ -59,7 +61,8 @@ Panel ratio_panel(const SceneCurves& scene) {
               PanelKind::kCurves};
   for (const char* method : {kProgressive, kControl}) {
     Curve curve{method, {}, CurveStyle::kLine};
-    for (double share = 0.01; share <= 4.0001; share *= 1.1) {
+    for (int step = 0; step <= kSteps; ++step) {
+      const double share = kLeast * std::pow(kStep, step);
       const Spread s = ratio_at_equal_time(scene, method, share);
       if (!std::isnan(s.median)) curve.points.push_back({100 * share, s.median, s.low, s.high});
     }

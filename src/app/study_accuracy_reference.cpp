@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -44,8 +45,9 @@ Color pixel_mean(Tracer& tracer, int x, int y, int n, int half) {
   for (int cell = 0; cell < n * n; ++cell) {
     const std::uint64_t index =
         2 * (static_cast<std::uint64_t>(half) * cells + static_cast<std::uint64_t>(cell));
-    const double at_x = x + (cell % n + uniform(pixel, index)) / n;
-    const double at_y = y + (cell / n + uniform(pixel, index + 1)) / n;
+    const int row = cell / n, column = cell % n;
+    const double at_x = x + (column + uniform(pixel, index)) / n;
+    const double at_y = y + (row + uniform(pixel, index + 1)) / n;
     sum += Vec3d(displayed(tracer.trace(at_x, at_y).color));
   }
   return Color(sum / (n * n));
@@ -64,9 +66,10 @@ std::string fingerprint(const Subject& subject) {
   Tracer tracer(subject.scene, subject.camera);
   std::string text;
   for (int i = 0; i < kPoints * kPoints; ++i) {
+    const int row = i / kPoints, column = i % kPoints;
     const Color c = tracer
-                        .trace((i % kPoints + 0.5) / kPoints * subject.camera.width,
-                               (i / kPoints + 0.5) / kPoints * subject.camera.height)
+                        .trace((column + 0.5) / kPoints * subject.camera.width,
+                               (row + 0.5) / kPoints * subject.camera.height)
                         .color;
     text += fmt::format("{} {} {}\n", c.x, c.y, c.z);
   }
@@ -83,7 +86,7 @@ std::string to_bytes(const Reference& reference) {
   const std::size_t size = reference.image.pixels.size() * sizeof(Color);
   std::string bytes(sizeof(double) + size, '\0');
   std::memcpy(bytes.data(), &reference.own_rmse, sizeof(double));
-  std::memcpy(bytes.data() + sizeof(double), reference.image.pixels.data(), size);
+  std::memcpy(bytes.data() + sizeof(double), std::as_bytes(std::span(reference.image.pixels)).data(), size);
   return bytes;
 }
 

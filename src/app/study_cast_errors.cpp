@@ -103,7 +103,8 @@ Image converged(const CompiledScene& scene, const Camera& camera, int n) {
     for (int x = 0; x < camera.width; ++x) {
       Vec3d sum(0, 0, 0);
       for (int i = 0; i < n * n; ++i) {
-        const Color c = tracer.trace(x + (i % n + 0.5) / n, y + (i / n + 0.5) / n).color;
+        const int row = i / n, column = i % n;
+        const Color c = tracer.trace(x + (column + 0.5) / n, y + (row + 0.5) / n).color;
         sum += Vec3d(std::clamp(c.x, 0.0f, 1.0f), std::clamp(c.y, 0.0f, 1.0f), std::clamp(c.z, 0.0f, 1.0f));
       }
       image.at(x, y) = Color(sum / (n * n));

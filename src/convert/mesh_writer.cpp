@@ -10,6 +10,7 @@
 #include <array>
 #include <assimp/Exporter.hpp>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -246,6 +247,7 @@ std::unique_ptr<aiScene> to_assimp(const SceneDescription& scene, const std::vec
 const std::vector<std::string>& mesh_output_extensions() {
   static const std::vector<std::string> kExtensions = [] {
     std::vector<std::string> names;
+    names.reserve(std::size(kFormats));
     for (const Format& format : kFormats) names.emplace_back(format.extension);
     return names;
   }();

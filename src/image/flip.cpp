@@ -105,7 +105,8 @@ Detectors detectors(double pixels_per_degree) {
   const int radius = static_cast<int>(std::ceil(3 * sigma));
   Detectors result{radius, gaussian(2 * radius + 1, sigma), {}, {}};
   for (int x = -radius; x <= radius; ++x) {
-    const double g = result.smooth[static_cast<std::size_t>(x + radius)];
+    const int place = x + radius;
+    const double g = result.smooth[static_cast<std::size_t>(place)];
     result.slope.push_back(-x * g);
     result.bend.push_back((x * x / (sigma * sigma) - 1) * g);
   }

@@ -52,6 +52,7 @@ std::vector<float> densities(const Triangulation& frame) {
     for (const std::uint32_t corner : corners) areas[corner] += third;
   }
   std::vector<float> at_samples;
+  at_samples.reserve(areas.size());
   for (const double area : areas) at_samples.push_back(area > 0 ? static_cast<float>(1 / area) : 0);
   return interpolate(frame, at_samples);
 }

@@ -41,7 +41,8 @@ std::vector<float> interpolate(const Triangulation& frame, std::span<const float
       return Vec2d(frame.samples[corners[corner]].x, frame.samples[corners[corner]].y);
     };
     const auto width = static_cast<std::size_t>(frame.width);
-    const Vec2d center(static_cast<double>(i % width) + 0.5, static_cast<double>(i / width) + 0.5);
+    const std::size_t row = i / width, column = i % width;
+    const Vec2d center(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
     const Vec2d ab = place(1) - place(0), ac = place(2) - place(0), ap = center - place(0);
     const double area = cross(ab, ac);
     if (area == 0) continue;

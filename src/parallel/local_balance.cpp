@@ -46,7 +46,8 @@ bool ring_is_whole(const Partition& partition, int tile, int rank) {
   for (std::size_t i = 0; i < 8; ++i) {
     const int x = column + kAround[i][0], y = row + kAround[i][1];
     has[i] = x >= 0 && y >= 0 && x < columns && y < rows &&
-             partition.owner[static_cast<std::size_t>(y * columns + x)] == rank;
+             partition.owner[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) +
+                             static_cast<std::size_t>(x)] == rank;
   }
   int pieces = 0;
   for (std::size_t i = 0; i < 8; i += 2) {
@@ -90,7 +91,10 @@ class Shape {
   }
 
  private:
-  Vec2d at(int tile) const { return Vec2d(tile % grid_.columns(), tile / grid_.columns()); }
+  Vec2d at(int tile) const {
+    const int row = tile / grid_.columns(), column = tile % grid_.columns();
+    return Vec2d(column, row);
+  }
   Vec2d middle_of(const std::vector<int>& tiles) const {
     Vec2d sum(0, 0);
     for (const int tile : tiles) sum += at(tile);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <string>
 
@@ -479,7 +480,7 @@ std::optional<Rgb> numbered_gray(std::string_view percent) {
   const auto [stop, problem] = std::from_chars(percent.data(), percent.data() + percent.size(), value);
   if (problem != std::errc{} || stop != percent.data() + percent.size()) return std::nullopt;
   if (value < 0 || value > 100 || percent != std::to_string(value)) return std::nullopt;
-  return Rgb(static_cast<int>(2.55 * value + 0.5) / 255.0);
+  return Rgb(std::floor(2.55 * value + 0.5) / 255.0);
 }
 
 }  // namespace

@@ -17,7 +17,8 @@ Directions child_directions() {
   const std::array<Vec3d, 3> first = {Vec3d(d, d, 0) * tilt, Vec3d(d, 0, -d) * tilt, Vec3d(0, d, -d) * tilt};
   Directions all;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    all[i] = first[i % 3] * rotation(kAxisZ, radians(120.0 * static_cast<double>(i / 3)));
+    const std::size_t third = i / 3;
+    all[i] = first[i % 3] * rotation(kAxisZ, radians(120.0 * static_cast<double>(third)));
   }
   return all;
 }
