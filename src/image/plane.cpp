@@ -45,10 +45,10 @@ Plane with_margin(const Plane& plane, int margin) {
   Plane result{plane.width + 2 * margin, plane.height + 2 * margin, {}};
   result.values.reserve(static_cast<std::size_t>(result.width) * static_cast<std::size_t>(result.height));
   for (int y = -margin; y < plane.height + margin; ++y) {
-    const int row = std::clamp(y, 0, plane.height - 1) * plane.width;
+    const auto line = static_cast<std::size_t>(std::clamp(y, 0, plane.height - 1));
+    const double* row = plane.values.data() + line * static_cast<std::size_t>(plane.width);
     for (int x = -margin; x < plane.width + margin; ++x) {
-      result.values.push_back(
-          plane.values[static_cast<std::size_t>(row + std::clamp(x, 0, plane.width - 1))]);
+      result.values.push_back(row[std::clamp(x, 0, plane.width - 1)]);
     }
   }
   return result;

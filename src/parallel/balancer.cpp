@@ -117,6 +117,7 @@ std::vector<int> Balancer::takers(const SampleMesh& mesh, const std::vector<int>
   }
   std::sort(ahead.begin(), ahead.end());
   std::vector<int> ranks;
+  ranks.reserve(ahead.size());
   for (const auto& [ratio, rank] : ahead) ranks.push_back(rank);
   return ranks;
 }

@@ -477,8 +477,7 @@ Rgb from_bytes(std::uint32_t rgb) {
 // gray0 .. gray100: percents of white, rounded as rgb.txt has them (gray50 is 127, gray10 is 26).
 std::optional<Rgb> numbered_gray(std::string_view percent) {
   int value = 0;
-  const auto [stop, problem] = std::from_chars(percent.data(), percent.data() + percent.size(), value);
-  if (problem != std::errc{} || stop != percent.data() + percent.size()) return std::nullopt;
+  std::from_chars(percent.data(), percent.data() + percent.size(), value);
   if (value < 0 || value > 100 || percent != std::to_string(value)) return std::nullopt;
   return Rgb(std::floor(2.55 * value + 0.5) / 255.0);
 }

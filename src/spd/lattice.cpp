@@ -31,7 +31,8 @@ void lattice_node(SceneBuilder& out, const std::array<int, 3>& node, int size) {
 
 void build_lattice(SceneBuilder& out, int size) {
   const double half_cell = 0.5 / size;
-  const double x = (size / 2 + 0.5) / size;  // between two layers of nodes
+  const int middle = size / 2;
+  const double x = (middle + 0.5) / size;  // between two layers of nodes
   out.view({x, 1, 1 - half_cell}, {x, -1, -1 - half_cell}, {0.2, 1, 0}, 0);
   out.scene.view->angle_degrees = 60;
   out.lights({{2, 0.5, 0.5}, {-1, 0.5, 0.5}, {0.5, 2, 0.5}, {0.5, -1, 0.5}, {0.5, 0.5, 2}, {0.5, 0.5, -1}});

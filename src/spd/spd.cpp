@@ -60,6 +60,7 @@ std::optional<std::size_t> find_database(std::string_view name) {
 
 [[noreturn]] void reject_name(std::string_view scene, std::string_view name) {
   std::vector<std::string_view> names;
+  names.reserve(kDatabases.size());
   for (const SpdDatabase& d : kDatabases) names.push_back(d.name);
   reject(scene, fmt::format("no procedural database has the name '{}'{} (there are: {})", name,
                             did_you_mean(name, names), fmt::join(names, " ")));

@@ -48,6 +48,7 @@ std::string_view name(Effect effect) {
 
 std::vector<Effect> every_effect() {
   std::vector<Effect> effects;
+  effects.reserve(kNames.size());
   for (const EffectName& e : kNames) effects.push_back(e.effect);
   return effects;
 }
