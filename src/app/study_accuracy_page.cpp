@@ -52,8 +52,7 @@ Panel curves_panel(const SceneCurves& scene, const Abscissa& x, const std::vecto
 }
 
 Panel ratio_panel(const SceneCurves& scene) {
-  constexpr double kLeast = 0.01, kStep = 1.1;  // of the shares that are asked, up to four times all of it
-  constexpr int kSteps = 62;
+  constexpr double kStep = 1.1;
   Panel panel{scene.scene,
               {kTime.label, 10},
               {"error of progressive / uniform at equal time"},
@@ -61,8 +60,7 @@ Panel ratio_panel(const SceneCurves& scene) {
               PanelKind::kCurves};
   for (const char* method : {kProgressive, kControl}) {
     Curve curve{method, {}, CurveStyle::kLine};
-    for (int step = 0; step <= kSteps; ++step) {
-      const double share = kLeast * std::pow(kStep, step);
+    for (const double share : shares_by(kStep)) {
       const Spread s = ratio_at_equal_time(scene, method, share);
       if (!std::isnan(s.median)) curve.points.push_back({100 * share, s.median, s.low, s.high});
     }

@@ -121,6 +121,15 @@ double share_at(const std::vector<CurvePoint>& curve, double rmse) {
   return log_linear(rmse, before.rmse, before.share, down->rmse, down->share);
 }
 
+std::vector<double> shares_by(double step) {
+  constexpr double kFrom = 0.01, kTo = 4;
+  const int last = static_cast<int>(std::log(kTo / kFrom) / std::log(step));
+  std::vector<double> shares;
+  shares.reserve(static_cast<std::size_t>(last) + 1);
+  for (int i = 0; i <= last; ++i) shares.push_back(kFrom * std::pow(step, i));
+  return shares;
+}
+
 Spread ratio_at_equal_time(const SceneCurves& curves, const std::string& method, double share) {
   return over_repeats(curves, method, [&](const auto& own, const auto& uniform) {
     return error_at(own, share) / error_at(uniform, share);
@@ -134,12 +143,10 @@ Spread ratio_at_equal_error(const SceneCurves& curves, const std::string& method
 }
 
 BreakEven break_even(const SceneCurves& curves, const std::string& method) {
-  constexpr double kFrom = 0.01, kTo = 4, kStep = 1.02;
+  constexpr double kStep = 1.02;
   BreakEven result;
   double before = kNoValue;
-  const int steps = static_cast<int>(std::log(kTo / kFrom) / std::log(kStep));
-  for (int step = 0; step <= steps; ++step) {
-    const double share = kFrom * std::pow(kStep, step);
+  for (const double share : shares_by(kStep)) {
     const double ratio = ratio_at_equal_time(curves, method, share).median;
     if (std::isnan(ratio)) continue;
     if (std::isnan(before)) {

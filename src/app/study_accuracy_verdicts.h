@@ -30,6 +30,10 @@ double error_at(const std::vector<CurvePoint>& curve, double share);
 // The least share at which the curve is down to the error; NaN when it never is.
 double share_at(const std::vector<CurvePoint>& curve, double rmse);
 
+// Where curves are compared: shares from a hundredth to four times the time of one sample a pixel, each
+// `step` times the one before.
+std::vector<double> shares_by(double step);
+
 // Error of the method over the uniform one's at equal time, over the repeats; below 1 it is better. Of each
 // method the best picture counts that the time allows: who has a better one made sooner, shows that.
 Spread ratio_at_equal_time(const SceneCurves& curves, const std::string& method, double share);
