@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "parallel/exchange.h"
-#include "parallel/messages.h"
-#include "parallel/partition.h"
-#include "pipeline/reconstruction.h"
+#include "parallel/network/messages.h"
+#include "parallel/balance/partition.h"
+#include "pipeline/reconstruction/reconstruction.h"
 
 namespace {
 

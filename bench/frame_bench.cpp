@@ -12,12 +12,12 @@
 #include <utility>
 #include <vector>
 
-#include "parallel/local_communicator.h"
-#include "parallel/messages.h"
+#include "parallel/network/local_communicator.h"
+#include "parallel/network/messages.h"
 #include "parallel/session.h"
-#include "pipeline/reconstruction.h"
-#include "pipeline/sample_mesh.h"
-#include "pipeline/seeds.h"
+#include "pipeline/reconstruction/reconstruction.h"
+#include "pipeline/sampling/sample_mesh.h"
+#include "pipeline/sampling/seeds.h"
 
 namespace {
 

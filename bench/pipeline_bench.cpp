@@ -10,10 +10,10 @@
 #include <optional>
 #include <vector>
 
-#include "pipeline/casting.h"
-#include "pipeline/reconstruction.h"
-#include "pipeline/sample_mesh.h"
-#include "pipeline/seeds.h"
+#include "pipeline/preparation/casting.h"
+#include "pipeline/reconstruction/reconstruction.h"
+#include "pipeline/sampling/sample_mesh.h"
+#include "pipeline/sampling/seeds.h"
 #include "spd/spd.h"
 #include "trace/compiled_scene.h"
 

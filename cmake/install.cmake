@@ -1,4 +1,4 @@
-# What stands beside the programs (src/app installs those), and the Debian package: cpack -G DEB.
+# What stands beside the programs (src/render, convert, compare and study install those), and the Debian package: cpack -G DEB.
 
 # Manual pages and the package's changelog are installed compressed, as Debian wants them; -n leaves out the
 # time stamp, so that equal sources give equal packages.

@@ -32,6 +32,14 @@ function(pprt_module name)
   target_link_libraries(pprt_${name} PUBLIC pprt_flags ${M_USES} PRIVATE ${M_HIDES})
 endfunction()
 
+# pprt_program(NAME MAIN_SOURCE MODULE): a program that is installed.
+function(pprt_program name source module)
+  add_executable(${name} ${source})
+  target_link_libraries(${name} PRIVATE ${module} CLI11::CLI11)
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+  install(TARGETS ${name})
+endfunction()
+
 # pprt_unit_test(NAME SOURCES a.cpp ... USES modules ... LABELS labels ...): a Catch2 program, one CTest entry a case.
 function(pprt_unit_test name)
   cmake_parse_arguments(T "" "" "SOURCES;USES;LABELS" ${ARGN})
@@ -40,6 +48,7 @@ function(pprt_unit_test name)
   endif()
   add_executable(test_${name} ${T_SOURCES})
   target_link_libraries(test_${name} PRIVATE ${T_USES} pprt_flags Catch2::Catch2WithMain)
+  target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   if(Catch2_VERSION VERSION_GREATER_EQUAL 3)
     target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests/catch2_3)
   endif()

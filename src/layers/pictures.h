@@ -7,7 +7,7 @@
 
 #include "base/first_hit.h"
 #include "image/image.h"
-#include "layers/ink.h"
+#include "layers/coverage_mask.h"
 #include "layers/triangulation.h"
 #include "pipeline/tile_grid.h"
 

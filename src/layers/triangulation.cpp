@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "pipeline/region.h"
-#include "pipeline/sample_mesh.h"
+#include "pipeline/sampling/sample_mesh.h"
 
 namespace pprt {
 namespace {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "pipeline/reconstruction.h"
+#include "pipeline/reconstruction/reconstruction.h"
 #include "pipeline/sample.h"
 #include "pipeline/tile_grid.h"
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "parallel/work_units.h"
-#include "pipeline/casting.h"
+#include "parallel/clock/work_units.h"
+#include "pipeline/preparation/casting.h"
 
 namespace pprt {
 namespace {

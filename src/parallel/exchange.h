@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "parallel/partition.h"
+#include "parallel/balance/partition.h"
 #include "parallel/rank_set.h"
-#include "pipeline/sample_mesh.h"
-#include "pipeline/seeds.h"
+#include "pipeline/sampling/sample_mesh.h"
+#include "pipeline/sampling/seeds.h"
 
 namespace pprt {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <utility>
 
-#include "parallel/frame_clock.h"
-#include "parallel/global_balance.h"
-#include "parallel/work_units.h"
+#include "parallel/clock/frame_clock.h"
+#include "parallel/balance/global_balance.h"
+#include "parallel/clock/work_units.h"
 
 namespace pprt {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "image/image.h"
-#include "parallel/messages.h"
+#include "parallel/network/messages.h"
 #include "pipeline/tile_grid.h"
 
 namespace pprt {

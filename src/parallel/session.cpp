@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "parallel/frame_clock.h"
-#include "parallel/inbox.h"
-#include "parallel/wire.h"
-#include "parallel/work_units.h"
+#include "parallel/clock/frame_clock.h"
+#include "parallel/network/inbox.h"
+#include "parallel/network/wire.h"
+#include "parallel/clock/work_units.h"
 #include "parallel/worker.h"
 
 namespace pprt {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/probe.h"
-#include "parallel/communicator.h"
+#include "parallel/network/communicator.h"
 #include "parallel/master.h"
 #include "parallel/session_settings.h"
 

@@ -1,6 +1,6 @@
 #include "parallel/session_settings.h"
 
-#include "parallel/wire.h"
+#include "parallel/network/wire.h"
 
 namespace pprt {
 

@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-#include "parallel/communicator.h"
-#include "parallel/machine.h"
-#include "pipeline/reconstruction.h"
+#include "parallel/network/communicator.h"
+#include "parallel/clock/machine.h"
+#include "pipeline/reconstruction/reconstruction.h"
 
 namespace pprt {
 

@@ -5,7 +5,7 @@
 #include <thread>
 #include <vector>
 
-#include "parallel/local_communicator.h"
+#include "parallel/network/local_communicator.h"
 
 namespace pprt {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "pipeline/seeds.h"
+#include "pipeline/sampling/seeds.h"
 
 namespace pprt {
 namespace {

@@ -15,16 +15,16 @@
 #include <vector>
 
 #include "base/probe.h"
-#include "parallel/balancer.h"
+#include "parallel/balance/balancer.h"
 #include "parallel/exchange.h"
-#include "parallel/frame_clock.h"
-#include "parallel/inbox.h"
-#include "parallel/partition.h"
+#include "parallel/clock/frame_clock.h"
+#include "parallel/network/inbox.h"
+#include "parallel/balance/partition.h"
 #include "parallel/session_settings.h"
-#include "pipeline/casting.h"
-#include "pipeline/landmarks.h"
-#include "pipeline/reconstruction.h"
-#include "pipeline/sample_mesh.h"
+#include "pipeline/preparation/casting.h"
+#include "pipeline/preparation/primitive_anchors.h"
+#include "pipeline/reconstruction/reconstruction.h"
+#include "pipeline/sampling/sample_mesh.h"
 
 namespace pprt {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "pipeline/refinement_weight.h"
+#include "pipeline/sampling/refinement_weight.h"
 #include "pipeline/tile_grid.h"
 
 namespace pprt {

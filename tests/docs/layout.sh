@@ -1,20 +1,27 @@
 #!/usr/bin/env bash
 # layout.sh SOURCE_DIR: the rooms as docs/architecture.md tells them. Which module may include which; each
-# third-party library in one module, in headers that no other module includes (Imath's vectors and fmt are
-# everyone's); no file over 500 lines, no main over 40; no test that CTest cannot run.
+# third-party library in one module (those for options, records and logs in the programs'), in headers that no other
+# module includes (Imath's vectors and fmt are everyone's); no file over 500 lines, no main over 40; no test that CTest cannot run.
 set -euo pipefail
 cd "$1"
 failures=0
 complain() { echo "$1"; failures=$((failures + 1)); }
 
 declare -A allowed=(
-  [base]="base" [report]="base report" [scene]="base scene" [spd]="base scene spd" [parser]="base scene parser"
-  [trace]="base scene trace" [convert]="base scene convert" [image]="base image" [pipeline]="base pipeline"
-  [layers]="base image pipeline layers" [parallel]="base image pipeline parallel"
-  [app]="base report scene spd parser trace convert image pipeline layers parallel app")
+  [base]="base" [scene]="base scene" [spd]="base scene spd" [parser]="base scene parser" [trace]="base scene trace"
+  [image]="base image" [pipeline]="base pipeline" [layers]="base image pipeline layers"
+  [parallel]="base image pipeline parallel" [cli]="base scene spd parser cli"
+  [render]="base scene spd parser trace image pipeline layers parallel cli render"
+  [convert]="base scene spd parser image cli convert" [compare]="base image cli compare"
+  [study]="base scene spd parser trace image pipeline layers parallel cli convert study")
+# Single headers of other rooms.
+declare -A besides=([study]="render/ledger.h render/render_job.h")
+# Stages of the pipeline: sampling knows of neither of the two that follow it.
+declare -A closed=([pipeline/sampling]="pipeline/(reconstruction|preparation)/" [pipeline/reconstruction]="pipeline/preparation/"
+  [pipeline/preparation]="pipeline/reconstruction/")
 declare -A home=(
-  [embree3]=trace [embree4]=trace [CGAL]=pipeline [mpi.h]=parallel [tao]=parser [assimp]=convert [OpenEXR]=image [png.h]=image [CLI]=app
-  [nlohmann]=app [spdlog]=app)
+  [embree3]=trace [embree4]=trace [CGAL]=pipeline [mpi.h]=parallel [tao]=parser [assimp]=convert [OpenEXR]=image [png.h]=image
+  [CLI]="cli render convert compare study" [nlohmann]="cli render compare study" [spdlog]="cli render")
 
 seen=0
 while IFS=: read -r file include; do
@@ -23,15 +30,20 @@ while IFS=: read -r file include; do
   name=${include#*[\"<]} name=${name%%[\">]*} first=${name%%/*}
   seen=$((seen + 1))
   if [[ $include == *\"* ]]; then
-    [[ " ${allowed[$module]} " == *" $first "* ]] || complain "$file: $module may not include $name"
+    [[ " ${allowed[$module]} ${besides[$module]:-} " == *" $first "* || " ${besides[$module]:-} " == *" $name "* ]] ||
+      complain "$file: $module may not include $name"
+    stage=$(dirname "${file#src/}")
+    [[ -z ${closed[$stage]:-} || ! $name =~ ^${closed[$stage]} ]] || complain "$file: $stage may not include $name"
   elif [[ -n ${home[$first]:-} ]]; then
-    [[ ${home[$first]} == "$module" ]] || complain "$file: <$name> belongs to ${home[$first]}"
+    [[ " ${home[$first]} " == *" $module "* ]] || complain "$file: <$name> belongs to ${home[$first]}"
   elif [[ $first != Imath && $first != fmt && $name =~ / && $name != sys/* ]]; then
     complain "$file: <$name> belongs to no room"
   fi
   if [[ $include == *'<'* && $file == *.h ]] && [[ -n ${home[$first]:-} || $first == fmt ]]; then
+    # shellcheck disable=SC2086 # one word a module
+    inside=$(printf '^src/%s/|' ${home[$first]:-$module})
     outside=$(grep -rlF "#include \"${file#src/}\"" src --include='*.h' --include='*.cpp' |
-              grep -v "^src/$module/" || true)
+              grep -vE "${inside%|}" || true)
     [[ -z $outside ]] || complain "$file: shows <$name> to $outside"
   fi
 done < <(grep -roE '^#include ["<][^">]+[">]' src --include='*.h' --include='*.cpp')
@@ -40,7 +52,7 @@ done < <(grep -roE '^#include ["<][^">]+[">]' src --include='*.h' --include='*.c
 while read -r lines file; do
   [[ $file == total || $lines -le 500 ]] || complain "$file: has $lines lines, more than 500"
 done < <(find src tests bench -name '*.h' -o -name '*.cpp' | xargs wc -l)
-for file in src/app/*_main.cpp; do
+for file in src/*/*_main.cpp; do
   lines=$(awk '/^int main/ { inside = 1 } inside { ++n } inside && /^}/ { exit } END { print n }' "$file")
   [[ $lines -le 40 ]] || complain "$file: main has $lines lines, more than 40"
 done

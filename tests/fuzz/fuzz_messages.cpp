@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <span>
 
-#include "parallel/messages.h"
+#include "parallel/network/messages.h"
 #include "parallel/session_settings.h"
 
 namespace {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "parallel/messages.h"
+#include "parallel/network/messages.h"
 #include "parallel/session_settings.h"
 
 namespace {

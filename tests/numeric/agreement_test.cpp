@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "oracle.h"
-#include "pictures.h"
-#include "report.h"
+#include "numeric/oracle.h"
+#include "numeric/pictures.h"
+#include "numeric/report.h"
 #include "spd/spd.h"
-#include "test_scenes.h"
+#include "unit/trace/test_scenes.h"
 
 using namespace pprt;
 using namespace pprt::test;

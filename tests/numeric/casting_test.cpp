@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "pictures.h"
-#include "pipeline/casting.h"
-#include "pipeline/seeds.h"
-#include "report.h"
-#include "test_scenes.h"
+#include "numeric/pictures.h"
+#include "pipeline/preparation/casting.h"
+#include "pipeline/sampling/seeds.h"
+#include "numeric/report.h"
+#include "unit/trace/test_scenes.h"
 
 namespace pprt {
 namespace {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <initializer_list>
 
-#include "oracle.h"
-#include "pictures.h"
-#include "report.h"
-#include "test_scenes.h"
+#include "numeric/oracle.h"
+#include "numeric/pictures.h"
+#include "numeric/report.h"
+#include "unit/trace/test_scenes.h"
 
 using namespace pprt;
 using namespace pprt::test;

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "pictures.h"
-#include "report.h"
-#include "test_scenes.h"
+#include "numeric/pictures.h"
+#include "numeric/report.h"
+#include "unit/trace/test_scenes.h"
 
 using namespace pprt;
 using namespace pprt::test;

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "pictures.h"
-#include "pipeline/sample_mesh.h"
-#include "report.h"
+#include "numeric/pictures.h"
+#include "pipeline/sampling/sample_mesh.h"
+#include "numeric/report.h"
 #include "spd/spd.h"
 
 namespace pprt {

@@ -6,10 +6,10 @@
 #include <functional>
 #include <numbers>
 
-#include "oracle.h"
-#include "pictures.h"
-#include "report.h"
-#include "test_scenes.h"
+#include "numeric/oracle.h"
+#include "numeric/pictures.h"
+#include "numeric/report.h"
+#include "unit/trace/test_scenes.h"
 
 using namespace pprt;
 using namespace pprt::test;

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <random>
 
-#include "report.h"
-#include "test_scenes.h"
+#include "numeric/report.h"
+#include "unit/trace/test_scenes.h"
 
 using namespace pprt;
 using namespace pprt::test;

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <vector>
 
-#include "pipeline/reconstruction.h"
-#include "report.h"
-#include "synthetic_image.h"
+#include "pipeline/reconstruction/reconstruction.h"
+#include "numeric/report.h"
+#include "unit/pipeline/synthetic_image.h"
 
 namespace pprt {
 namespace {

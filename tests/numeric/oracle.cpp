@@ -1,4 +1,4 @@
-#include "oracle.h"
+#include "numeric/oracle.h"
 
 #include <algorithm>
 #include <cmath>

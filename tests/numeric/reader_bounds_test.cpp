@@ -12,7 +12,7 @@
 
 #include "base/diagnostics.h"
 #include "parser/nff_parser.h"
-#include "test_scenes.h"
+#include "unit/trace/test_scenes.h"
 #include "trace/compiled_scene.h"
 
 namespace pprt {

@@ -1,4 +1,4 @@
-#include "report.h"
+#include "numeric/report.h"
 
 #include <fmt/format.h>
 

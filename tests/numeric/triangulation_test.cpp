@@ -9,10 +9,10 @@
 #include <optional>
 #include <random>
 
-#include "cgal_oracle.h"
-#include "pipeline/reconstruction.h"
-#include "pipeline/sample_mesh.h"
-#include "report.h"
+#include "unit/pipeline/cgal_oracle.h"
+#include "pipeline/reconstruction/reconstruction.h"
+#include "pipeline/sampling/sample_mesh.h"
+#include "numeric/report.h"
 
 namespace pprt {
 namespace {

@@ -9,8 +9,8 @@
 #include <random>
 #include <vector>
 
-#include "report.h"
-#include "test_scenes.h"
+#include "numeric/report.h"
+#include "unit/trace/test_scenes.h"
 #include "trace/compiled_scene.h"
 
 using namespace pprt;

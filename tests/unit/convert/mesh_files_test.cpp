@@ -6,7 +6,7 @@
 #include <fstream>
 #include <string>
 
-#include "../image/temporary_directory.h"
+#include "unit/image/temporary_directory.h"
 #include "base/diagnostics.h"
 #include "convert/mesh_reader.h"
 #include "convert/mesh_writer.h"

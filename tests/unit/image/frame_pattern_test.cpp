@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "base/diagnostics.h"
-#include "temporary_directory.h"
+#include "unit/image/temporary_directory.h"
 
 using namespace pprt;
 

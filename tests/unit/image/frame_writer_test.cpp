@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "image/whole_file.h"
-#include "temporary_directory.h"
+#include "unit/image/temporary_directory.h"
 
 namespace fs = std::filesystem;
 using namespace pprt;

@@ -15,7 +15,7 @@
 #include <limits>
 
 #include "image/whole_file.h"
-#include "temporary_directory.h"
+#include "unit/image/temporary_directory.h"
 
 namespace fs = std::filesystem;
 using namespace pprt;

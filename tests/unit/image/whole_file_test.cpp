@@ -7,7 +7,7 @@
 #include <ostream>
 #include <stdexcept>
 
-#include "temporary_directory.h"
+#include "unit/image/temporary_directory.h"
 
 namespace fs = std::filesystem;
 using namespace pprt;

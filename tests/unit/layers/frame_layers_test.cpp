@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "hand_made.h"
+#include "unit/layers/hand_made.h"
 
 using namespace pprt;
 using namespace pprt::test;

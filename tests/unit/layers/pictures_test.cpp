@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
-#include "hand_made.h"
+#include "unit/layers/hand_made.h"
 
 using namespace pprt;
 using namespace pprt::test;

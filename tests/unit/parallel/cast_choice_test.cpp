@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <numeric>
 
-#include "parallel/work_units.h"
+#include "parallel/clock/work_units.h"
 
 namespace pprt {
 namespace {

@@ -3,9 +3,9 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "parallel/partition.h"
-#include "parallel/work_units.h"
-#include "virtual_run.h"
+#include "parallel/balance/partition.h"
+#include "parallel/clock/work_units.h"
+#include "unit/parallel/virtual_run.h"
 
 namespace pprt {
 namespace {

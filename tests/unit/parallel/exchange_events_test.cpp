@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "exchange_ranks.h"
+#include "unit/parallel/exchange_ranks.h"
 
 namespace pprt {
 namespace {

@@ -1,4 +1,4 @@
-#include "exchange_ranks.h"
+#include "unit/parallel/exchange_ranks.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "exchange_ranks.h"
+#include "unit/parallel/exchange_ranks.h"
 
 namespace pprt {
 namespace {

@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "virtual_run.h"
+#include "unit/parallel/virtual_run.h"
 
 namespace pprt {
 namespace {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <set>
 
-#include "parallel/local_communicator.h"
+#include "parallel/network/local_communicator.h"
 #include "parallel/worker.h"
-#include "set_clock.h"
-#include "virtual_run.h"
+#include "unit/parallel/clock/set_clock.h"
+#include "unit/parallel/virtual_run.h"
 
 namespace pprt {
 namespace {

@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <map>
 
-#include "parallel/local_communicator.h"
-#include "virtual_run.h"
+#include "parallel/network/local_communicator.h"
+#include "unit/parallel/virtual_run.h"
 
 namespace pprt {
 namespace {

@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "parallel/partition.h"
-#include "virtual_run.h"
+#include "parallel/balance/partition.h"
+#include "unit/parallel/virtual_run.h"
 
 namespace pprt {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "parallel/virtual_ranks.h"
-#include "virtual_run.h"
+#include "unit/parallel/virtual_run.h"
 
 namespace pprt {
 namespace {

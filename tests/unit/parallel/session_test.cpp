@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "parallel/work_units.h"
-#include "virtual_run.h"
+#include "parallel/clock/work_units.h"
+#include "unit/parallel/virtual_run.h"
 
 namespace pprt {
 namespace {

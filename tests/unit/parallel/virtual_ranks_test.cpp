@@ -6,7 +6,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "virtual_run.h"
+#include "unit/parallel/virtual_run.h"
 
 namespace pprt {
 namespace {

@@ -1,4 +1,4 @@
-#include "virtual_run.h"
+#include "unit/parallel/virtual_run.h"
 
 #include <chrono>
 #include <cmath>
@@ -10,8 +10,8 @@
 #include <thread>
 #include <utility>
 
-#include "parallel/frame_clock.h"
-#include "parallel/local_communicator.h"
+#include "parallel/clock/frame_clock.h"
+#include "parallel/network/local_communicator.h"
 
 namespace pprt {
 namespace {

@@ -5,9 +5,9 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "parallel/local_communicator.h"
-#include "set_clock.h"
-#include "virtual_run.h"
+#include "parallel/network/local_communicator.h"
+#include "unit/parallel/clock/set_clock.h"
+#include "unit/parallel/virtual_run.h"
 
 namespace pprt {
 namespace {

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <string>
 
-#include "nff_sample.h"
+#include "unit/parser/nff_sample.h"
 
 namespace pprt {
 namespace {

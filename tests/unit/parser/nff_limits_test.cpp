@@ -4,7 +4,7 @@
 #include <random>
 #include <string>
 
-#include "nff_sample.h"
+#include "unit/parser/nff_sample.h"
 #include "parser/text_input.h"
 
 namespace pprt {

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <functional>
 
-#include "pipeline/sample_mesh.h"
-#include "pipeline/seeds.h"
+#include "pipeline/sampling/sample_mesh.h"
+#include "pipeline/sampling/seeds.h"
 
 namespace pprt {
 

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "base/diagnostics.h"
-#include "test_scenes.h"
+#include "unit/trace/test_scenes.h"
 #include "trace/compiled_scene.h"
 
 using namespace pprt;

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "base/diagnostics.h"
-#include "test_scenes.h"
+#include "unit/trace/test_scenes.h"
 #include "trace/compiled_scene.h"
 #include "trace/normalisation.h"
 

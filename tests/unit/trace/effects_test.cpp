@@ -4,7 +4,7 @@
 
 #include "base/diagnostics.h"
 #include "spd/spd.h"
-#include "test_scenes.h"
+#include "unit/trace/test_scenes.h"
 #include "trace/compiled_scene.h"
 
 using namespace pprt;

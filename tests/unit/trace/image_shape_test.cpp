@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "spd/spd.h"
-#include "test_scenes.h"
+#include "unit/trace/test_scenes.h"
 
 using namespace pprt;
 using namespace pprt::test;

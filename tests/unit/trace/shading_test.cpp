@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "spd/spd.h"
-#include "test_scenes.h"
+#include "unit/trace/test_scenes.h"
 
 using namespace pprt;
 using namespace pprt::test;

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "test_scenes.h"
+#include "unit/trace/test_scenes.h"
 
 using namespace pprt;
 using namespace pprt::test;

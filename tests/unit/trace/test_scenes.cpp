@@ -1,4 +1,4 @@
-#include "test_scenes.h"
+#include "unit/trace/test_scenes.h"
 
 namespace pprt::test {
 

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "spd/spd.h"
-#include "test_scenes.h"
+#include "unit/trace/test_scenes.h"
 
 using namespace pprt;
 using namespace pprt::test;

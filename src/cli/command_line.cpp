@@ -1,0 +1,109 @@
+#include "cli/command_line.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iostream>
+#include <iterator>
+#include <optional>
+#include <string_view>
+
+#include "cli/completion.h"
+#include "cli/help.h"
+#include "cli/launch.h"
+#include "cli/option_table.h"
+#include "cli/option_words.h"
+#include "cli/version.h"
+#include "base/diagnostics.h"
+#include "base/nearest_word.h"
+
+namespace pprt {
+namespace {
+
+void use_help(CLI::App& app) {
+  app.formatter_fn([](const CLI::App* of, const std::string& name, CLI::AppFormatMode) {
+    // CLI11 asks with a pointer to what it may not change; the table only reads.
+    return help_text(option_table(*const_cast<CLI::App*>(of)), name.empty() ? of->get_name() : name);
+  });
+}
+
+// Prints the script and ends the parsing, whatever else the command line lacks: as --version does.
+void add_completion(CLI::App& app) {
+  const auto print = [&app](const std::string& shell) {
+    const Shell which = shell == "bash" ? Shell::kBash : shell == "zsh" ? Shell::kZsh : Shell::kFish;
+    std::string script = completion_script(option_table(app), which);
+    script.pop_back();  // the line's end, which is printed behind it
+    throw CLI::CallForVersion(script, 0);
+  };
+  auto* option = app.add_option_function<std::string>(
+      "--completion", print, "Print what makes this shell complete command lines, and exit");
+  take_one_of(*option, {"bash", "zsh", "fish"});
+  option->configurable(false);
+}
+
+// Where the parsing stood: the subcommand that was given, or the program.
+CLI::App& innermost(CLI::App& app) {
+  const std::vector<CLI::App*> parsed = app.get_subcommands();
+  return parsed.empty() ? app : innermost(*parsed.back());
+}
+
+// What could have been meant by a word that nothing takes: options, or subcommands.
+std::vector<std::string> candidates(CLI::App& app, bool option) {
+  std::vector<std::string> names;
+  if (!option) {
+    for (const CLI::App* subcommand : app.get_subcommands({})) names.push_back(subcommand->get_name());
+    return names;
+  }
+  for (const OptionRow& row : option_table(app).rows) {
+    if (row.positional) continue;
+    std::copy_if(row.names.begin(), row.names.end(), std::back_inserter(names),
+                 [](const std::string& name) { return name.starts_with("--"); });
+  }
+  return names;
+}
+
+// The first word that nothing takes; nullopt when there is none, and something else was wrong.
+std::optional<std::string> unexpected_word(CLI::App& app) {
+  const std::vector<std::string> left = app.remaining(true);
+  if (left.empty()) return std::nullopt;
+  const std::string word = left.front().substr(0, left.front().find('='));
+  const bool option = word.starts_with('-');
+  const std::vector<std::string> names = candidates(innermost(app), option);
+  const std::string hint = did_you_mean(word, std::vector<std::string_view>(names.begin(), names.end()));
+  if (option) return fmt::format("there is no option {}{}", word, hint);
+  if (!names.empty()) return fmt::format("there is no subcommand '{}'{}", word, hint);
+  return fmt::format("'{}' is one argument too many", word);
+}
+
+}  // namespace
+
+void add_common_flags(CLI::App& app) {
+  app.set_help_flag("-h,--help", "Print this help and exit");
+  app.set_version_flag("--version", app.get_name() + " " + kVersion, "Print the version and exit");
+  add_completion(app);
+  use_help(app);
+  for (CLI::App* subcommand : app.get_subcommands({})) use_help(*subcommand);
+}
+
+bool parse_command_line(CLI::App& app, int argc, const char* const* argv) {
+  return parse_command_line(app, std::vector<std::string>(argv + 1, argv + argc));
+}
+
+bool parse_command_line(CLI::App& app, std::vector<std::string> words) {
+  std::reverse(words.begin(), words.end());  // the order that CLI11 wants
+  try {
+    app.parse(words);
+    return true;
+  } catch (const CLI::Success& request) {
+    if (launcher_rank() == 0) app.exit(request, std::cout, std::cout);
+    return false;
+  } catch (const CLI::ExtrasError& e) {
+    throw UsageError(unexpected_word(app).value_or(e.what()));
+  } catch (const CLI::RequiredError& e) {
+    throw UsageError(unexpected_word(app).value_or(e.what()));  // which may be why something is missing
+  } catch (const CLI::ParseError& e) {
+    throw UsageError(e.what());
+  }
+}
+
+}  // namespace pprt

@@ -1,0 +1,33 @@
+#include "cli/exit.h"
+
+#include <fmt/core.h>
+
+#include <exception>
+#include <new>
+
+#include "cli/launch.h"
+#include "base/diagnostics.h"
+
+namespace pprt {
+
+int run_guarded(std::string_view program, const std::function<int()>& body) {
+  try {
+    return body();
+  } catch (const InputError& e) {
+    if (launcher_rank() > 0) return kExitDone;
+    fmt::print(stderr, "{}\n", e.what());
+    return kExitInput;
+  } catch (const UsageError& e) {
+    if (launcher_rank() > 0) return kExitDone;
+    fmt::print(stderr, "{0}: error: {1}\ntry '{0} --help'\n", program, e.what());
+    return kExitUsage;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "{}: error: out of memory\n", program);
+    return kExitFailure;
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "{}: error: {}\n", program, e.what());
+    return kExitFailure;
+  }
+}
+
+}  // namespace pprt

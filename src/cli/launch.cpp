@@ -1,0 +1,155 @@
+#include "cli/launch.h"
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+#include "cli/exit.h"
+#include "cli/mpirun_messages.h"
+
+namespace pprt {
+namespace {
+
+volatile std::sig_atomic_t mpirun_pid = 0;
+volatile std::sig_atomic_t stopped_by = 0;
+volatile std::sig_atomic_t forced = 0;  // a second signal came
+
+// Tells the ranks, whose standard error is a pipe to mpirun, that a terminal is at its end.
+constexpr const char* kTerminalVariable = "PPRT_ON_TERMINAL";
+
+// A first SIGINT or SIGTERM asks rank 0 to finish its frame; a second one ends mpirun.
+void pass_on(int signal) {
+  if (mpirun_pid == 0) return;
+  if (signal == SIGUSR1) {
+    kill(mpirun_pid, SIGUSR1);
+  } else {
+    kill(mpirun_pid, stopped_by == 0 ? SIGUSR2 : signal);
+    forced = stopped_by != 0;
+    stopped_by = signal;
+  }
+}
+
+void pass_signals_on() {
+  struct sigaction action {};
+  action.sa_handler = pass_on;
+  action.sa_flags = SA_RESTART;
+  for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) sigaction(signal, &action, nullptr);
+}
+
+std::vector<std::string> mpirun_command(int ranks, const std::string& hostfile, char** argv) {
+  std::vector<std::string> command = {"mpirun", "-np", std::to_string(ranks)};
+  if (!hostfile.empty()) command.insert(command.end(), {"--hostfile", hostfile});
+  // More ranks than cores is a normal case here: idle ranks sleep, and none may be tied to a core.
+  command.insert(command.end(), {"--oversubscribe", "--bind-to", "none"});
+  if (geteuid() == 0) command.emplace_back("--allow-run-as-root");
+  if (on_terminal()) command.insert(command.end(), {"-x", std::string(kTerminalVariable) + "=1"});
+  std::error_code ignored;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  command.push_back(ignored ? argv[0] : self.string());
+  for (char** word = argv + 1; *word != nullptr; ++word) command.emplace_back(*word);
+  return command;
+}
+
+[[noreturn]] void become(std::vector<std::string>& command, int standard_error) {
+  // mpirun in a process group of its own: a terminal's Ctrl-C must reach it through us alone. It dies with
+  // us.
+  setpgid(0, 0);
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  dup2(standard_error, STDERR_FILENO);
+  std::vector<char*> words;
+  words.reserve(command.size() + 1);
+  for (std::string& word : command) words.push_back(word.data());
+  words.push_back(nullptr);
+  execvp(words[0], words.data());
+  _exit(127);
+}
+
+[[noreturn]] void throw_errno(const std::string& what) {
+  throw std::runtime_error(what + ": " + std::strerror(errno));
+}
+
+void show(std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t count = write(STDERR_FILENO, text.data(), text.size());
+    if (count < 0 && errno != EINTR) return;  // nobody to tell
+    if (count > 0) text.remove_prefix(static_cast<std::size_t>(count));
+  }
+}
+
+// Hands on what mpirun and the ranks say until they end.
+MpirunMessages relay(int from, const std::function<void(std::string_view)>& overhear) {
+  MpirunMessages messages;
+  std::array<char, 4096> piece{};
+  for (ssize_t count = 0; (count = read(from, piece.data(), piece.size())) != 0;) {
+    if (count > 0) {
+      const std::string said = messages.take({piece.data(), static_cast<std::size_t>(count)});
+      show(said);
+      overhear(said);
+    } else if (errno != EINTR) {
+      throw_errno("cannot read from mpirun");
+    }
+  }
+  show(messages.finish());
+  return messages;
+}
+
+int wait_for(pid_t child) {
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0) {
+    if (errno != EINTR) throw_errno("cannot wait for mpirun");
+  }
+  return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+}
+
+}  // namespace
+
+int run_under_mpirun(int ranks, const std::string& hostfile, char** argv,
+                     const std::function<void(std::string_view)>& overhear) {
+  std::vector<std::string> command = mpirun_command(ranks, hostfile, argv);
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) throw_errno("cannot start mpirun");
+  const pid_t child = fork();
+  if (child < 0) throw_errno("cannot start mpirun");
+  if (child == 0) become(command, ends[1]);
+  close(ends[1]);
+  mpirun_pid = child;
+  pass_signals_on();
+  const MpirunMessages messages = relay(ends[0], overhear);
+  const int code = wait_for(child);
+  close(ends[0]);
+  // A run that was to stop may fail at that; what mpirun makes of being ended itself says nothing.
+  const bool failed = code >= kExitFailure && code <= kExitInput;
+  if (stopped_by != 0 && (forced != 0 || !failed)) return 128 + stopped_by;
+  if (code == 127)
+    throw std::runtime_error("cannot start mpirun: it is not on the PATH (package openmpi-bin)");
+  if (code > kExitInput) {
+    throw std::runtime_error(messages.lost_rank().value_or("mpirun ended with code " + std::to_string(code)) +
+                             "; frames that are in place are whole, and --resume goes on after them");
+  }
+  return code;
+}
+
+bool on_terminal() {
+  return isatty(STDERR_FILENO) != 0 || std::getenv(kTerminalVariable) != nullptr;
+}
+
+int launcher_rank() {
+  // Of Open MPI, of PMIx, and of the PMI of MPICH and Slurm.
+  for (const char* name : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"}) {
+    if (const char* rank = std::getenv(name)) return std::atoi(rank);
+  }
+  return 0;
+}
+
+}  // namespace pprt

@@ -1,0 +1,31 @@
+#include "cli/number_pair.h"
+
+#include <charconv>
+
+#include "base/diagnostics.h"
+
+namespace pprt {
+
+std::optional<std::pair<int, int>> parse_pair(const std::string& text, const std::string& separators) {
+  const std::size_t at = text.find_first_of(separators);
+  if (at == std::string::npos) return std::nullopt;
+  int a = 0, b = 0;
+  const char* begin = text.data();
+  const char* end = begin + text.size();
+  const auto first = std::from_chars(begin, begin + at, a);
+  const auto second = std::from_chars(begin + at + 1, end, b);
+  if (first.ec != std::errc() || first.ptr != begin + at || second.ec != std::errc() || second.ptr != end) {
+    return std::nullopt;
+  }
+  return std::pair(a, b);
+}
+
+FrameRange parse_frame_range(const std::string& text) {
+  const auto pair = parse_pair(text.find('-') == std::string::npos ? text + "-" + text : text, "-");
+  if (!pair || pair->first < 1 || pair->second < pair->first) {
+    throw UsageError("--frames " + text + ": want FIRST-LAST, counted from 1, such as 1-40");
+  }
+  return {pair->first, pair->second};
+}
+
+}  // namespace pprt

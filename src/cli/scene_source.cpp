@@ -1,0 +1,74 @@
+#include "cli/scene_source.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+
+#include "base/diagnostics.h"
+#include "base/nearest_word.h"
+#include "spd/spd.h"
+
+namespace pprt {
+namespace {
+
+// Files like the one asked for, by their ending, in the directory where it should be.
+std::vector<std::string> files_beside(const std::filesystem::path& path) {
+  std::vector<std::string> names;
+  const std::filesystem::path directory = path.has_parent_path() ? path.parent_path() : ".";
+  std::error_code none;  // without such a directory there is nothing to name
+  for (const auto& entry : std::filesystem::directory_iterator(directory, none)) {
+    if (entry.path().extension() == path.extension()) names.push_back(entry.path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string nearest(const std::string& word, const std::vector<std::string>& candidates) {
+  return std::string(nearest_word(word, std::vector<std::string_view>(candidates.begin(), candidates.end())));
+}
+
+// What could have been meant by the name of a file that is not there; empty when nothing is close.
+std::string meant_by(const std::string& name) {
+  const std::filesystem::path path(name);
+  if (const std::string file = nearest(path.filename().string(), files_beside(path)); !file.empty()) {
+    return (path.parent_path() / file).string();
+  }
+  // Of a size, "teapot:5".
+  const std::size_t digits = name.find_last_not_of("0123456789") + 1;
+  const bool sized = digits > 1 && digits < name.size() && name[digits - 1] == ':';
+  const std::string word = name.substr(0, sized ? digits - 1 : name.size());
+  for (const std::string& tried : {word, "spd:" + word}) {
+    if (const std::string scene = nearest(tried, generated_scenes()); !scene.empty()) {
+      return scene + name.substr(word.size());
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string hint_at_meant(const std::string& name) {
+  const std::string meant = meant_by(name);
+  return meant.empty() ? "" : "; did you mean '" + meant + "'?";
+}
+
+void require_file(const std::string& path) {
+  std::error_code unknown;  // then reading will tell
+  if (std::filesystem::exists(path, unknown) || unknown) return;
+  throw InputError("cannot read '" + path + "': No such file or directory" + hint_at_meant(path));
+}
+
+std::vector<std::string> generated_scenes() {
+  std::vector<std::string> names;
+  for (const SpdDatabase& database : spd_databases()) names.push_back("spd:" + std::string(database.name));
+  return names;
+}
+
+ParsedScene load_scene(const std::string& name, const NffOptions& options) {
+  if (is_spd_name(name)) return {make_spd_scene(name), {}};
+  if (name != "-") require_file(name);
+  return read_nff(name, options);
+}
+
+}  // namespace pprt

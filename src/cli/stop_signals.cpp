@@ -1,0 +1,71 @@
+#include "cli/stop_signals.h"
+
+#include <semaphore.h>
+
+#include <cerrno>
+#include <csignal>
+#include <utility>
+
+namespace pprt {
+namespace {
+
+// The only state a signal handler may touch.
+volatile std::sig_atomic_t stop_signal = 0;
+sem_t status_wanted;  // set up by watch_signals()
+
+void on_stop(int signal) {
+  if (stop_signal != 0 && signal != SIGUSR2) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
+  stop_signal = signal;
+}
+
+void on_status(int) {
+  const int error = errno;
+  sem_post(&status_wanted);
+  errno = error;
+}
+
+void handle(int signal, void (*handler)(int)) {
+  struct sigaction action {};
+  action.sa_handler = handler;
+  action.sa_flags = SA_RESTART;
+  sigaction(signal, &action, nullptr);
+}
+
+}  // namespace
+
+void watch_signals() {
+  sem_init(&status_wanted, 0, 0);
+  for (const int signal : {SIGINT, SIGTERM, SIGUSR2}) handle(signal, on_stop);
+  handle(SIGUSR1, on_status);
+}
+
+void ignore_signals() {
+  for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGUSR2}) handle(signal, SIG_IGN);
+}
+
+std::optional<int> stop_requested() {
+  if (stop_signal == 0) return std::nullopt;
+  return static_cast<int>(stop_signal);
+}
+
+StatusTeller::StatusTeller(std::function<void()> tell) : tell_(std::move(tell)), thread_([this] { run(); }) {}
+
+StatusTeller::~StatusTeller() {
+  over_ = true;
+  sem_post(&status_wanted);
+  thread_.join();
+}
+
+void StatusTeller::run() const {
+  for (;;) {
+    while (sem_wait(&status_wanted) != 0) {
+    }
+    if (over_) return;
+    tell_();
+  }
+}
+
+}  // namespace pprt

@@ -1,0 +1,59 @@
+#include "compare/compare.h"
+
+#include <iostream>
+
+#include "cli/command_line.h"
+#include "cli/exit.h"
+
+namespace {
+
+// A limit of the figure that `what` names.
+void add_limit(CLI::App& app, const char* name, std::optional<double>& limit, const char* what) {
+  app.add_option(name, limit, what)->type_name("X")->group("Limits, beyond which the exit code is 1");
+}
+
+void add_options(CLI::App& app, pprt::CompareOptions& options) {
+  app.add_option("A", options.image, "The picture, EXR or PNG, or a sequence such as out/%04d.png")
+      ->required()
+      ->type_name("FILE");
+  app.add_option("B", options.reference, "The reference to compare it with")->required()->type_name("FILE");
+  app.add_option("--frames", options.frames, "Compare only frames A to B of the sequences")->type_name("A-B");
+  app.add_flag("--clamp", options.clamp, "Compare what a display shows: values clamped to 0..1");
+  app.add_option("--threshold", options.threshold, "Error above which a pixel counts for the share")
+      ->capture_default_str()
+      ->type_name("T");
+  app.add_option("--pixels-per-degree", options.pixels_per_degree, "How large FLIP's viewer sees the pixels")
+      ->capture_default_str()
+      ->type_name("P");
+  app.add_option("--diff", options.difference_picture, "Write the differences, the largest as 1")
+      ->type_name("OUT");
+  add_limit(app, "--max-rmse", options.max_rmse, "Largest root mean square error allowed");
+  add_limit(app, "--min-psnr", options.min_psnr, "Smallest peak signal to noise ratio allowed, dB");
+  add_limit(app, "--max-relative-mse", options.max_relative_mse,
+            "Largest relative mean square error allowed");
+  add_limit(app, "--min-ssim", options.min_ssim, "Smallest structural similarity allowed");
+  add_limit(app, "--max-flip", options.max_flip, "Largest mean FLIP allowed");
+  add_limit(app, "--max-error", options.max_error, "Largest error of any pixel allowed");
+  add_limit(app, "--max-p999", options.max_p999, "Largest 99.9th percentile of error allowed");
+  add_limit(app, "--max-share", options.max_share,
+            "Largest share of pixels over the threshold allowed, 0 to 1");
+  add_limit(app, "--max-flicker", options.max_flicker, "Largest flicker of a sequence allowed");
+  app.add_flag("--json", options.json, "Print JSON: an object, of a sequence a line a frame and one for all");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  bool within = true;
+  const int code = pprt::run_guarded("pprt-compare", [&]() -> int {
+    CLI::App app("Tells how far one picture, or sequence, is from another.", "pprt-compare");
+    pprt::CompareOptions options;
+    add_options(app, options);
+    pprt::add_common_flags(app);
+    if (pprt::parse_command_line(app, argc, argv)) within = pprt::compare(options, std::cout, std::cerr);
+    return pprt::kExitDone;
+  });
+  // Exit code 1 is kept for a verdict, so that a check cannot take a missing file for a difference.
+  if (code != pprt::kExitDone) return pprt::kExitUsage;
+  return within ? pprt::kExitDone : pprt::kExitFailure;
+}

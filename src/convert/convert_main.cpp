@@ -1,0 +1,51 @@
+#include <limits>
+#include <string>
+
+#include "cli/command_line.h"
+#include "convert/convert.h"
+#include "cli/exit.h"
+#include "cli/option_words.h"
+#include "cli/scene_source.h"
+#include "convert/tessellate.h"
+
+namespace {
+
+void add_options(CLI::App& app, pprt::ConvertOptions& options) {
+  auto* input = app.add_option(
+      "IN", options.input,
+      "FILE.nff, - (NFF on standard input), spd:NAME[:SIZE], or a mesh (.obj .ply .stl .gltf ...)");
+  input->required()->type_name("");
+  pprt::take_path_or(*input, pprt::generated_scenes());
+  app.add_option("OUT", options.output,
+                 "FILE.nff, - (NFF on standard output), FILE.pov, or a mesh (.obj .ply .stl .glb .gltf .dae)")
+      ->required()
+      ->type_name("FILE");
+  auto* divisions = app.add_option("--tessellate", options.tessellate,
+                                   "Cut spheres into 12 N x N triangles, cones into 8 N (meshes: 6)");
+  divisions->type_name("N")->check(CLI::Range(1, pprt::kMaxDivisions));
+  app.add_option("--chord-error", options.chord_error,
+                 "Cut spheres and cones no farther than E inside their surface, each as finely as it needs")
+      ->type_name("E")
+      ->check(CLI::Range(std::numeric_limits<double>::min(), std::numeric_limits<double>::max(), "POSITIVE"))
+      ->excludes(divisions);
+  auto* up = app.add_option_function<std::string>(
+      "--up",
+      [&options](const std::string& axis) { options.up = axis == "z" ? pprt::UpAxis::kZ : pprt::UpAxis::kY; },
+      "The axis that is up for a camera that has to be added");
+  up->default_str("y");
+  pprt::take_one_of(*up, {"y", "z"});
+  app.add_flag("--strict", options.strict, "Reject what the NFF specification does not allow");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return pprt::run_guarded("pprt-convert", [&]() -> int {
+    CLI::App app("Converts a scene from one format into another.", "pprt-convert");
+    pprt::ConvertOptions options;
+    add_options(app, options);
+    pprt::add_common_flags(app);
+    if (pprt::parse_command_line(app, argc, argv)) pprt::convert(options);
+    return pprt::kExitDone;
+  });
+}

@@ -1,0 +1,175 @@
+#include "parallel/balance/local_balance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "base/vector.h"
+
+namespace pprt {
+namespace {
+
+// A tile's side neighbours, those that exist.
+std::vector<int> beside(const TileGrid& grid, int tile) {
+  const int column = tile % grid.columns(), row = tile / grid.columns();
+  std::vector<int> tiles;
+  if (column > 0) tiles.push_back(tile - 1);
+  if (column + 1 < grid.columns()) tiles.push_back(tile + 1);
+  if (row > 0) tiles.push_back(tile - grid.columns());
+  if (row + 1 < grid.rows()) tiles.push_back(tile + grid.columns());
+  return tiles;
+}
+
+struct Sides {
+  int giver = 0, taker = 0;
+};
+
+Sides owners_beside(const Partition& partition, int tile, int giver, int taker) {
+  Sides sides;
+  for (const int t : beside(partition.grid, tile)) {
+    const std::int32_t owner = partition.owner[static_cast<std::size_t>(t)];
+    sides.giver += owner == giver;
+    sides.taker += owner == taker;
+  }
+  return sides;
+}
+
+// Whether the rank's tiles among the eight around a tile, if any, are one piece by their sides.
+bool ring_is_whole(const Partition& partition, int tile, int rank) {
+  const int columns = partition.grid.columns(), rows = partition.grid.rows();
+  const int column = tile % columns, row = tile / columns;
+  // Clockwise; corners have odd places, and count only beside a side.
+  constexpr std::array<std::array<int, 2>, 8> kAround = {
+      {{0, -1}, {1, -1}, {1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}}};
+  std::array<bool, 8> has{};
+  for (std::size_t i = 0; i < 8; ++i) {
+    const int x = column + kAround[i][0], y = row + kAround[i][1];
+    has[i] = x >= 0 && y >= 0 && x < columns && y < rows &&
+             partition.owner[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) +
+                             static_cast<std::size_t>(x)] == rank;
+  }
+  int pieces = 0;
+  for (std::size_t i = 0; i < 8; i += 2) {
+    // A side begins a piece unless the side before hangs together with it through the corner between.
+    if (has[i] && !(has[(i + 7) % 8] && has[(i + 6) % 8])) ++pieces;
+  }
+  return pieces <= 1;
+}
+
+// Whether the giver's tiles hang together without this one as they do with it. Only those around the tile can
+// lose touch: if they are one piece among themselves nothing is lost; if not, the whole region tells.
+bool can_spare(Partition& partition, int tile, int giver, int taker) {
+  std::int32_t& owner = partition.owner[static_cast<std::size_t>(tile)];
+  owner = taker;
+  const bool whole = ring_is_whole(partition, tile, giver) || is_connected(partition, giver);
+  owner = giver;
+  return whole;
+}
+
+std::vector<int> tiles_of(const Partition& partition, int rank) {
+  std::vector<int> tiles;
+  for (int tile = 0; tile < partition.grid.tile_count(); ++tile) {
+    if (partition.owner[static_cast<std::size_t>(tile)] == rank) tiles.push_back(tile);
+  }
+  return tiles;
+}
+
+// How regions stay compact: a tile should be nearer to the middle of who has it than to that of others.
+class Shape {
+ public:
+  Shape(const Partition& partition, int giver, int taker)
+      : grid_(partition.grid),
+        giver_(middle_of(tiles_of(partition, giver))),
+        taker_(middle_of(tiles_of(partition, taker))) {}
+
+  // How much farther the tile is from the taker's middle than from the giver's, by the distance of the two:
+  // -1 (at the taker's) to 1 (at the giver's).
+  double detour(int tile) const {
+    const double apart = (giver_ - taker_).length();
+    return apart > 0 ? ((at(tile) - taker_).length() - (at(tile) - giver_).length()) / apart : 0;
+  }
+
+ private:
+  Vec2d at(int tile) const {
+    const int row = tile / grid_.columns(), column = tile % grid_.columns();
+    return Vec2d(column, row);
+  }
+  Vec2d middle_of(const std::vector<int>& tiles) const {
+    Vec2d sum(0, 0);
+    for (const int tile : tiles) sum += at(tile);
+    return tiles.empty() ? sum : sum / static_cast<double>(tiles.size());
+  }
+
+  TileGrid grid_;
+  Vec2d giver_, taker_;
+};
+
+struct Candidate {
+  int tile;
+  Sides sides;
+  TileOffer offer;
+};
+
+// The giver's tiles beside the taker's.
+std::vector<Candidate> candidates_of(const Partition& partition, const std::vector<int>& own, int giver,
+                                     int taker, const std::function<TileOffer(int tile)>& offer) {
+  std::vector<Candidate> candidates;
+  for (const int tile : own) {
+    const Sides sides = owners_beside(partition, tile, giver, taker);
+    if (sides.taker > 0) candidates.push_back({tile, sides, offer(tile)});
+  }
+  return candidates;
+}
+
+}  // namespace
+
+bool should_give(const LocalBalanceSettings& settings, double own_quality, double own_future_cost,
+                 const RankProgress& theirs) {
+  return theirs.quality > 0 && own_quality > settings.quality_ratio * theirs.quality &&
+         own_future_cost > settings.cost_ratio * theirs.future_cost;
+}
+
+double target_quality(double quality) {
+  return std::exp2(std::floor(std::log2(quality)));
+}
+
+std::vector<int> tiles_to_give(const LocalBalanceSettings& settings, const Partition& before, int giver,
+                               int taker, double difference, double insertion_cost, double most_samples,
+                               const std::function<TileOffer(int tile)>& offer) {
+  Partition partition = before;
+  std::vector<int> given, own = tiles_of(before, giver);
+  const Shape shape(before, giver, taker);
+  double to_move = settings.share * difference;
+  // At most a quarter of the region at once, for the estimates are no better.
+  for (std::size_t left = own.size() / 4; to_move > 0 && left > 0; --left) {
+    const std::vector<Candidate> candidates = candidates_of(partition, own, giver, taker, offer);
+    double most_relief = 0;
+    for (const Candidate& c : candidates) most_relief = std::max(most_relief, c.offer.future_cost);
+    const Candidate* best = nullptr;
+    double best_grade = 0;
+    for (const Candidate& c : candidates) {
+      const double unknown = c.offer.samples - c.offer.known_to_taker;
+      // More than what is left to move would only turn the imbalance round.
+      if (c.offer.future_cost > 1.5 * to_move || unknown > most_samples) continue;
+      const double relief = c.offer.future_cost - insertion_cost * unknown;
+      const double balance = most_relief > 0 ? relief / most_relief : 0;
+      const double known = c.offer.samples > 0 ? c.offer.known_to_taker / c.offer.samples : 1;
+      const double longer_border = 0.25 * (c.sides.giver - c.sides.taker);
+      const double grade = settings.balance_weight * balance + settings.communication_weight * known -
+                           settings.border_weight * longer_border -
+                           settings.shape_weight * shape.detour(c.tile);
+      if ((best == nullptr || grade > best_grade) && can_spare(partition, c.tile, giver, taker))
+        best = &c, best_grade = grade;
+    }
+    if (best == nullptr) break;
+    partition.owner[static_cast<std::size_t>(best->tile)] = taker;
+    given.push_back(best->tile);
+    to_move -= best->offer.future_cost;
+    most_samples -= best->offer.samples - best->offer.known_to_taker;
+    own.erase(std::find(own.begin(), own.end(), best->tile));
+  }
+  return given;
+}
+
+}  // namespace pprt

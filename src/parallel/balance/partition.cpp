@@ -1,0 +1,129 @@
+#include "parallel/balance/partition.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace pprt {
+namespace {
+
+struct TileRect {
+  int x0, y0, x1, y1;
+  int width() const { return x1 - x0; }
+  int height() const { return y1 - y0; }
+  int count() const { return width() * height(); }
+};
+
+// Cuts rectangles of tiles among ranges of ranks.
+class Bisector {
+ public:
+  Bisector(const TileGrid& grid, std::span<const double> costs, Partition& partition)
+      : columns_(grid.columns()), partition_(partition), costs_(costs.begin(), costs.end()) {
+    if (std::accumulate(costs_.begin(), costs_.end(), 0.0) <= 0) std::fill(costs_.begin(), costs_.end(), 1.0);
+  }
+
+  void share(TileRect rect, int first_rank, int ranks) {
+    if (rect.count() == 0) return;
+    if (ranks == 1 || rect.count() == 1) {
+      give(rect, first_rank);
+      return;
+    }
+    const int left_ranks = ranks / 2;
+    const bool across_x = rect.width() >= rect.height();
+    const int at = best_cut(rect, across_x, left_ranks, ranks);
+    TileRect left = rect, right = rect;
+    (across_x ? left.x1 : left.y1) = at;
+    (across_x ? right.x0 : right.y0) = at;
+    share(left, first_rank, left_ranks);
+    share(right, first_rank + left_ranks, ranks - left_ranks);
+  }
+
+ private:
+  std::size_t tile_index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x);
+  }
+  double cost(int x, int y) const { return costs_[tile_index(x, y)]; }
+
+  void give(const TileRect& rect, int rank) {
+    for (int y = rect.y0; y < rect.y1; ++y) {
+      for (int x = rect.x0; x < rect.x1; ++x) partition_.owner[tile_index(x, y)] = rank;
+    }
+  }
+
+  // The line whose left side comes nearest to its share, among those that leave every rank a tile if
+  // possible.
+  int best_cut(const TileRect& rect, bool across_x, int left_ranks, int ranks) const {
+    const int begin = across_x ? rect.x0 : rect.y0, end = across_x ? rect.x1 : rect.y1;
+    const int lane = across_x ? rect.height() : rect.width();
+    std::vector<double> lanes(static_cast<std::size_t>(end - begin), 0.0);
+    for (int y = rect.y0; y < rect.y1; ++y) {
+      for (int x = rect.x0; x < rect.x1; ++x)
+        lanes[static_cast<std::size_t>((across_x ? x : y) - begin)] += cost(x, y);
+    }
+    const double wanted = std::accumulate(lanes.begin(), lanes.end(), 0.0) * left_ranks / ranks;
+    double left = 0, best_error = std::numeric_limits<double>::infinity();
+    int best = begin + 1;
+    for (int at = begin + 1; at < end; ++at) {
+      left += lanes[static_cast<std::size_t>(at - 1 - begin)];
+      const bool starves = (at - begin) * lane < left_ranks || (end - at) * lane < ranks - left_ranks;
+      const double error = std::abs(left - wanted) + (starves ? 1e30 : 0);
+      if (error < best_error) best_error = error, best = at;
+    }
+    return best;
+  }
+
+  int columns_;
+  Partition& partition_;
+  std::vector<double> costs_;
+};
+
+}  // namespace
+
+TileGrid tile_grid_for(int width, int height, int ranks) {
+  constexpr double kTilesPerRank = 100;
+  const double pixels = static_cast<double>(width) * height;
+  const int size = static_cast<int>(std::sqrt(pixels / (kTilesPerRank * ranks)));
+  return {width, height, std::clamp(size, 2, 32)};
+}
+
+Partition bisect(const TileGrid& grid, std::span<const double> tile_costs, int ranks) {
+  Partition partition{grid, ranks, std::vector<std::int32_t>(static_cast<std::size_t>(grid.tile_count()), 0),
+                      std::vector<std::uint64_t>(static_cast<std::size_t>(grid.tile_count()), 0)};
+  Bisector(grid, tile_costs, partition).share({0, 0, grid.columns(), grid.rows()}, 0, ranks);
+  return partition;
+}
+
+Region region_of(const Partition& partition, int rank) {
+  std::vector<std::uint8_t> owned(partition.owner.size());
+  std::transform(partition.owner.begin(), partition.owner.end(), owned.begin(),
+                 [rank](std::int32_t owner) { return owner == rank ? 1 : 0; });
+  return Region(partition.grid, std::move(owned));
+}
+
+bool is_connected(const Partition& partition, int rank) {
+  const int columns = partition.grid.columns(), count = partition.grid.tile_count();
+  std::vector<std::uint8_t> open(static_cast<std::size_t>(count));
+  std::vector<int> reached;
+  int owned = 0;
+  for (int tile = 0; tile < count; ++tile) {
+    const auto t = static_cast<std::size_t>(tile);
+    open[t] = partition.owner[t] == rank;
+    owned += open[t];
+  }
+  const auto reach = [&](int tile) {
+    if (!open[static_cast<std::size_t>(tile)]) return;
+    open[static_cast<std::size_t>(tile)] = 0;
+    reached.push_back(tile);
+  };
+  for (int tile = 0; tile < count && reached.empty(); ++tile) reach(tile);
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    const int tile = reached[i], column = tile % columns;
+    if (column > 0) reach(tile - 1);
+    if (column + 1 < columns) reach(tile + 1);
+    if (tile >= columns) reach(tile - columns);
+    if (tile + columns < count) reach(tile + columns);
+  }
+  return static_cast<int>(reached.size()) == owned;
+}
+
+}  // namespace pprt

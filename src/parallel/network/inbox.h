@@ -1,0 +1,59 @@
+// What has arrived and waits for its turn.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "parallel/network/communicator.h"
+#include "parallel/network/messages.h"
+
+namespace pprt {
+
+// Receives everything and sorts it: frame orders, bundles, and for rank 0 what the master handles.
+class Inbox {
+ public:
+  struct Arrived {
+    int from = 0;
+    Bundle bundle;
+  };
+
+  // `to_master` gets what is not for a worker (pixels); never called where no master lives. `after_look` is
+  // called at the end of every pump(): rank 0 keeps the deadlines by it.
+  Inbox(
+      Communicator& network, std::function<void(const Message&)> to_master,
+      std::function<void()> after_look = [] {})
+      : network_(network), to_master_(std::move(to_master)), after_look_(std::move(after_look)) {}
+
+  // Takes in all that has arrived; false when there was nothing.
+  bool pump();
+
+  // Takes in one message. Throws ProtocolError for one that has no place in a sequence.
+  void accept(const Message& message);
+
+  // The order for a frame, if it has come.
+  std::optional<FrameOrder> take_order(int index);
+
+  // Removes and returns the bundles that `wanted` accepts, in order of rank and then of sending.
+  std::vector<Arrived> take_bundles(const std::function<bool(const Arrived&)>& wanted);
+
+  // All bundles that are here.
+  const std::vector<Arrived>& bundles() const { return bundles_; }
+
+  // How many bundles that `wanted` accepts are here.
+  std::size_t count_bundles(const std::function<bool(const Arrived&)>& wanted) const;
+
+ private:
+  Communicator& network_;
+  std::function<void(const Message&)> to_master_;
+  std::function<void()> after_look_;
+  std::deque<FrameOrder> orders_;
+  std::vector<Arrived> bundles_;
+};
+
+// A short sleep between looks into the inbox: idle ranks must not take the cores from busy ones.
+void rest_briefly();
+
+}  // namespace pprt

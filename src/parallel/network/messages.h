@@ -1,0 +1,117 @@
+// The catalogue of messages: plain values and their bytes.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/camera.h"
+#include "base/ray_counts.h"
+#include "base/vector.h"
+#include "parallel/cast_choice.h"
+#include "parallel/network/communicator.h"
+#include "parallel/balance/transfer_handshake.h"
+#include "parallel/balance/tile_cost.h"
+#include "pipeline/sample.h"
+
+namespace pprt {
+
+// What a frame takes over from the one before.
+enum class Carry : std::uint8_t {
+  kNothing,         // first frame, a cut, or casting off
+  kAccumulate,      // the camera rests: all samples stay where they are
+  kCastPaper,       // samples cast, hidden ones guessed
+  kCastVerified,    // samples cast, hidden ones found by rays
+  kCastWherePaying  // the same, of those samples that the evidence speaks for
+};
+
+// Master to every rank, one frame ahead.
+struct FrameOrder {
+  bool end = false;         // no further frame; nothing below counts
+  std::int32_t index = 0;   // 0, 1, 2 ... within this run
+  std::int32_t number = 0;  // as the script counts, in file names and time stamps
+  bool cut = false;
+  Carry carry = Carry::kNothing;
+  Camera camera;
+  CastEvidence evidence;             // of all ranks, in frames before
+  double deadline_s = 0;             // since the start of the sequence; 0: no rate
+  std::uint32_t generation = 0;      // of the partition in force from this frame on
+  std::vector<std::int32_t> owners;  // per tile, when that partition is a new one
+  std::vector<TileEstimate> tiles;   // and what those of the receiver were found to be, ascending by tile
+  double reserve_s = 0;  // wall clock: for what follows sampling, besides the rank's own reconstruction
+};
+
+// Rank to rank: samples whose triangles touch the receiver's region.
+struct Bundle {
+  std::int32_t frame_index = 0;
+  std::int32_t epoch = 0;  // index of the frame in which the sender's triangulation began
+  std::int32_t round = 0;
+  bool done = false;                  // the sender has reached its goal (frames without a rate)
+  std::int32_t rounds_under_way = 0;  // lockstep: the samples are the receiver's so many rounds later
+  RankProgress progress;              // of the sender
+  StanceWord stance;
+  std::vector<TileGrant> grants;  // tiles that the sender has given away
+  std::vector<Sample> samples;
+};
+
+// CPU time by stage, milliseconds (work clock: work units / 1e6).
+struct StageTimes {
+  double sampling = 0;
+  double casting = 0;
+  double reconstruction = 0;
+  double balancing = 0;
+  double idle = 0;  // wall time spent waiting
+};
+
+// What a rank did for one frame.
+struct RankReport {
+  std::uint64_t samples_new = 0;        // traced in this frame
+  std::uint64_t samples_cast = 0;       // of those in the region at its end, carried from frames before
+  std::uint64_t samples_received = 0;   // traced by other ranks in this frame; cast ones count as cast
+  std::uint64_t samples_known = 0;      // received although already known
+  std::uint64_t samples_in_region = 0;  // at the end
+  std::uint64_t non_finite = 0;         // colours that were no numbers
+  double refinement = 0;                // Q_k
+  std::uint64_t triangles_in_region = 0;
+  RayCounts rays;
+  CastEvidence evidence;
+  StageTimes cpu_ms;
+  std::uint64_t tiles_given = 0;
+  std::uint64_t bytes_progress = 0;
+  std::uint64_t bytes_balance = 0;
+  std::uint64_t bytes_samples = 0;  // sent
+  std::uint64_t bytes_pixels = 0;
+  double finished_s = 0;        // work clock: virtual time used in this frame, seconds
+  double sampling_ended_s = 0;  // wall clock: since the start of the sequence
+};
+
+// Rank to master: the pixels of its tiles and of those it has given away, tile after tile, rows from the top.
+struct PixelMessage {
+  std::int32_t frame_index = 0;
+  RankReport report;
+  std::vector<TileReport> tiles;
+  std::vector<std::int32_t> given;  // tiles given away in this frame: shown unless their new owner sends them
+  std::vector<float> rgb;           // 3 per pixel
+  std::vector<Sample> samples;      // of the region; empty unless the settings ask for them
+};
+
+// What a sample takes in a message.
+inline constexpr std::size_t kSampleBytes = 64;
+
+// A rank's tiles in an order, one after the other: whose, and how many.
+struct OwnerRun {
+  std::int32_t owner = 0;
+  std::int32_t tiles = 0;
+};
+std::vector<OwnerRun> owner_runs(std::span<const std::int32_t> owners);
+
+Bytes encode(const FrameOrder& order);
+Bytes encode(const Bundle& bundle);
+Bytes encode(const PixelMessage& pixels);
+
+// Throw ProtocolError on bytes that are no such message.
+FrameOrder decode_frame_order(std::span<const std::byte> bytes);
+Bundle decode_bundle(std::span<const std::byte> bytes);
+PixelMessage decode_pixels(std::span<const std::byte> bytes);
+
+}  // namespace pprt

@@ -1,0 +1,209 @@
+#include "parallel/network/mpi_communicator.h"
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <deque>
+#include <limits>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace pprt {
+namespace {
+
+void check(int code, const char* what) {
+  if (code == MPI_SUCCESS) return;
+  char text[MPI_MAX_ERROR_STRING];
+  int length = 0;
+  MPI_Error_string(code, text, &length);
+  throw std::runtime_error(std::string(what) + ": " + std::string(text, static_cast<std::size_t>(length)));
+}
+
+int mpi_count(std::size_t bytes) {
+  if (bytes > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
+    throw std::runtime_error("a message exceeds 2 GiB");
+  }
+  return static_cast<int>(bytes);
+}
+
+// What goes to one other rank, in order. MPI keeps a message that is not taken in memory that all messages of
+// this rank share: a rank that stands still would use it up (Open MPI has room for 512 on a host), and then
+// none could be sent to anyone. So only so many are MPI's at a time, and the others wait here.
+class Lane {
+ public:
+  void send(int to, Tag tag, Bytes payload) {
+    under_way_.push_back({std::move(payload), tag, MPI_REQUEST_NULL});
+    advance(to);
+  }
+
+  bool empty() const { return under_way_.empty(); }
+
+  // Forgets what has left, and hands over to MPI what may go.
+  void advance(int to) {
+    while (handed_over_ > 0 && has_left(under_way_.front())) {
+      if (under_way_.front().is_confirmed) unconfirmed_ -= kPerConfirmation;
+      under_way_.pop_front();
+      --handed_over_;
+    }
+    while (handed_over_ < under_way_.size() && unconfirmed_ < kMostUnconfirmed) {
+      hand_over(under_way_[handed_over_++], to);
+    }
+  }
+
+ private:
+  static constexpr int kMostUnconfirmed = 32;
+  static constexpr int kPerConfirmation = 8;
+
+  // A send under way owns what it sends; a deque keeps both where they are.
+  struct Sending {
+    Bytes payload;
+    Tag tag;
+    MPI_Request request;
+    bool is_confirmed = false;  // is over only when the receiver has taken it, and so all before it
+  };
+
+  void hand_over(Sending& sending, int to) {
+    sending.is_confirmed = ++unconfirmed_ % kPerConfirmation == 0;
+    check((sending.is_confirmed ? MPI_Issend : MPI_Isend)(
+              sending.payload.data(), mpi_count(sending.payload.size()), MPI_BYTE, to,
+              static_cast<int>(sending.tag), MPI_COMM_WORLD, &sending.request),
+          "MPI_Isend");
+  }
+
+  static bool has_left(Sending& sending) {
+    int over = 0;
+    check(MPI_Test(&sending.request, &over, MPI_STATUS_IGNORE), "MPI_Test");
+    return over != 0;
+  }
+
+  std::deque<Sending> under_way_;
+  std::size_t handed_over_ = 0;  // of those, to MPI
+  int unconfirmed_ = 0;          // handed over since the last that is known to have been taken
+};
+
+}  // namespace
+
+class MpiCommunicator::Impl {
+ public:
+  void advance() {
+    for (int to = 0; to < size; ++to) lanes[static_cast<std::size_t>(to)].advance(to);
+  }
+
+  bool all_sent() const {
+    return std::all_of(lanes.begin(), lanes.end(), [](const Lane& lane) { return lane.empty(); });
+  }
+
+  int rank = 0;
+  int size = 1;
+  int on_host = 1;
+  std::vector<Lane> lanes;  // by receiver
+  std::deque<Message> to_self;
+};
+
+MpiCommunicator::MpiCommunicator(int& argc, char**& argv) : impl_(std::make_unique<Impl>()) {
+  int provided = 0;
+  check(MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided), "MPI_Init_thread");
+  MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
+  check(MPI_Comm_rank(MPI_COMM_WORLD, &impl_->rank), "MPI_Comm_rank");
+  check(MPI_Comm_size(MPI_COMM_WORLD, &impl_->size), "MPI_Comm_size");
+  impl_->lanes.resize(static_cast<std::size_t>(impl_->size));
+  MPI_Comm host = MPI_COMM_NULL;
+  check(MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &host),
+        "MPI_Comm_split_type");
+  check(MPI_Comm_size(host, &impl_->on_host), "MPI_Comm_size");
+  check(MPI_Comm_free(&host), "MPI_Comm_free");
+}
+
+MpiCommunicator::~MpiCommunicator() {
+  MPI_Finalize();
+}
+
+int MpiCommunicator::rank() const {
+  return impl_->rank;
+}
+int MpiCommunicator::size() const {
+  return impl_->size;
+}
+int MpiCommunicator::ranks_on_host() const {
+  return impl_->on_host;
+}
+
+void MpiCommunicator::send(int to, Tag tag, Bytes payload) {
+  if (to == impl_->rank) {
+    impl_->to_self.push_back({to, tag, std::move(payload)});
+    return;
+  }
+  impl_->lanes.at(static_cast<std::size_t>(to)).send(to, tag, std::move(payload));
+}
+
+std::optional<Message> MpiCommunicator::receive() {
+  if (!impl_->to_self.empty()) {
+    Message message = std::move(impl_->to_self.front());
+    impl_->to_self.pop_front();
+    return message;
+  }
+  if (impl_->size == 1) return std::nullopt;
+  impl_->advance();
+  int arrived = 0;
+  MPI_Message handle = MPI_MESSAGE_NULL;
+  MPI_Status status;
+  check(MPI_Improbe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &arrived, &handle, &status), "MPI_Improbe");
+  if (!arrived) return std::nullopt;
+  int bytes = 0;
+  check(MPI_Get_count(&status, MPI_BYTE, &bytes), "MPI_Get_count");
+  Message message{status.MPI_SOURCE, static_cast<Tag>(status.MPI_TAG),
+                  Bytes(static_cast<std::size_t>(bytes))};
+  check(MPI_Mrecv(message.payload.data(), bytes, MPI_BYTE, &handle, MPI_STATUS_IGNORE), "MPI_Mrecv");
+  return message;
+}
+
+void MpiCommunicator::broadcast(Bytes& data) {
+  std::uint64_t size = data.size();
+  check(MPI_Bcast(&size, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD), "MPI_Bcast");
+  data.resize(size);
+  constexpr std::size_t kPiece = std::size_t{1} << 30;
+  for (std::size_t done = 0; done < data.size(); done += kPiece) {
+    const int piece = mpi_count(std::min(kPiece, data.size() - done));
+    check(MPI_Bcast(data.data() + done, piece, MPI_BYTE, 0, MPI_COMM_WORLD), "MPI_Bcast");
+  }
+}
+
+void MpiCommunicator::finish() {
+  // A large message leaves only when its receiver takes it, so all go on receiving until none has anything to
+  // send.
+  const auto drain_until = [this](const auto& over) {
+    while (!over()) {
+      if (!receive()) std::this_thread::sleep_for(std::chrono::microseconds(100));
+    }
+  };
+  drain_until([this] {
+    impl_->advance();
+    return impl_->all_sent();
+  });
+  MPI_Request all_here = MPI_REQUEST_NULL;
+  check(MPI_Ibarrier(MPI_COMM_WORLD, &all_here), "MPI_Ibarrier");
+  drain_until([&all_here] {
+    int over = 0;
+    check(MPI_Test(&all_here, &over, MPI_STATUS_IGNORE), "MPI_Test");
+    return over != 0;
+  });
+}
+
+void MpiCommunicator::abort_all(int exit_code) {
+  MPI_Abort(MPI_COMM_WORLD, exit_code);
+  std::_Exit(exit_code);
+}
+
+bool started_by_mpi_launcher() {
+  // Open MPI, PMIx and the PMI of MPICH and Slurm each set one of these.
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"}) {
+    if (std::getenv(name) != nullptr) return true;
+  }
+  return false;
+}
+
+}  // namespace pprt

@@ -1,0 +1,38 @@
+// The network that MPI gives.
+#pragma once
+
+#include <memory>
+
+#include "parallel/network/communicator.h"
+
+namespace pprt {
+
+// Initialises MPI, and finalises it when destroyed. At most one in a process. Call abort_all() instead of
+// letting an exception pass: a rank must not leave while others wait for it.
+class MpiCommunicator final : public Communicator {
+ public:
+  MpiCommunicator(int& argc, char**& argv);
+  ~MpiCommunicator() override;
+  MpiCommunicator(const MpiCommunicator&) = delete;
+  MpiCommunicator& operator=(const MpiCommunicator&) = delete;
+
+  int rank() const override;
+  int size() const override;
+  int ranks_on_host() const override;
+  void send(int to, Tag tag, Bytes payload) override;
+  std::optional<Message> receive() override;
+  void broadcast(Bytes& data) override;
+  void finish() override;
+
+  // Ends every rank of the run with this exit code.
+  [[noreturn]] void abort_all(int exit_code);
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// Whether an MPI launcher started this process.
+bool started_by_mpi_launcher();
+
+}  // namespace pprt

@@ -1,0 +1,159 @@
+// What the primitives behind a picture's samples look like, asked once and kept while the eye rests.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "base/image_shape.h"
+#include "base/vector.h"
+#include "pipeline/simd.h"
+
+namespace pprt {
+
+// Forms as in image_shape.h, over points given from a place that the shape covers, or nearly so: there float
+// has digits to spare.
+struct NearLinear {
+  float constant = 0, per_x = 0, per_y = 0;
+
+  NearLinear() = default;
+  NearLinear(const LinearForm& f, const Vec2d& origin)
+      : constant(static_cast<float>(f.at(origin.x, origin.y))),
+        per_x(static_cast<float>(f.per_x)),
+        per_y(static_cast<float>(f.per_y)) {}
+};
+
+struct NearQuadratic {
+  float constant = 0, per_x = 0, per_y = 0, per_xx = 0, per_xy = 0, per_yy = 0;
+
+  NearQuadratic() = default;
+  NearQuadratic(const QuadraticForm& f, const Vec2d& o)
+      : constant(static_cast<float>(f.at(o.x, o.y))),
+        per_x(static_cast<float>(f.per_x + 2 * f.per_xx * o.x + f.per_xy * o.y)),
+        per_y(static_cast<float>(f.per_y + 2 * f.per_yy * o.y + f.per_xy * o.x)),
+        per_xx(static_cast<float>(f.per_xx)),
+        per_xy(static_cast<float>(f.per_xy)),
+        per_yy(static_cast<float>(f.per_yy)) {}
+};
+
+struct NearQuadric {
+  NearQuadratic discriminant;
+  NearLinear middle, along;
+  float height = 0, top = 0;
+  bool has_ends = false, front = true, back = true;
+
+  NearQuadric() = default;
+  NearQuadric(const ImageQuadric& q, const Vec2d& origin)
+      : discriminant(q.discriminant, origin),
+        middle(q.middle, origin),
+        along(q.along, origin),
+        height(static_cast<float>(q.height)),
+        top(static_cast<float>(q.top)),
+        has_ends(q.has_ends),
+        front(q.front),
+        back(q.back) {}
+};
+
+struct NearFacet {
+  std::array<NearLinear, 3> edges;
+  NearLinear nearness;
+
+  NearFacet() = default;
+  NearFacet(const ImageFacet& f, const Vec2d& origin)
+      : edges{NearLinear(f.edges[0], origin), NearLinear(f.edges[1], origin), NearLinear(f.edges[2], origin)},
+        nearness(f.nearness, origin) {}
+};
+
+class ViewedPrimitives {
+ public:
+  // As Probe::view.
+  using View = std::function<void(std::uint32_t primitive, ImageShape& shape)>;
+  using Place = std::uint32_t;
+
+  // One of these, over points from the origin.
+  struct Shape {
+    ImageShape::Kind kind = ImageShape::Kind::kUnknown;
+    Vec2d origin{0, 0};
+    NearQuadric quadric;
+    std::size_t first_facet = 0, facets = 0;
+  };
+
+  explicit ViewedPrimitives(View view) : view_(std::move(view)) {}
+
+  // The eye has moved. Keeps the storage.
+  void forget() {
+    for (const std::uint32_t primitive : primitives_) places_[primitive] = kNotAsked;
+    primitives_.clear();
+    shapes_.resize(1);
+    facets_.clear();
+    bounds_.clear();
+  }
+
+  // Of a primitive that a sample at the image point has met. The number may come from another rank: what
+  // nobody knows takes no storage.
+  Place find(std::uint32_t primitive, const Vec2d& point) {
+    if (primitive < places_.size() && places_[primitive] != kNotAsked) return places_[primitive];
+    view_(primitive, asked_);
+    const bool is_known = asked_.kind != ImageShape::Kind::kUnknown;
+    if (primitive >= places_.size()) {
+      if (!is_known) return kUnknown;
+      places_.resize(std::size_t{primitive} + 1, kNotAsked);
+    }
+    primitives_.push_back(primitive);
+    return places_[primitive] = is_known ? keep_asked(point) : kUnknown;
+  }
+
+  const Shape& shape(Place place) const { return shapes_[place]; }
+
+  // Calls visit(facet) for those whose bounds meet a rectangle.
+  template <class Visit>
+  void for_each_facet(const Shape& shape, const ImageBounds& rectangle, const Visit& visit) const {
+    const ImageBounds& r = rectangle;
+    const std::size_t end = shape.first_facet + shape.facets;
+    for (std::size_t i = shape.first_facet; i < end; i += kLanes) {
+      const FourBounds& b = bounds_[i / kLanes];
+      const LaneBits meet = (load<Floats>(b.x0) <= r.x1) & (load<Floats>(b.x1) >= r.x0) &
+                            (load<Floats>(b.y0) <= r.y1) & (load<Floats>(b.y1) >= r.y0);
+      if (!any(meet)) continue;
+      for (std::size_t lane = 0; lane < kLanes && i + lane < end; ++lane) {
+        if (meet[lane] != 0) visit(facets_[i + lane]);
+      }
+    }
+  }
+
+ private:
+  static constexpr Place kNotAsked = ~Place{0}, kUnknown = 0;
+
+  // Of four facets, a lane each.
+  struct FourBounds {
+    float x0[kLanes], y0[kLanes], x1[kLanes], y1[kLanes];
+  };
+
+  // Each shape's facets begin with a new four.
+  Place keep_asked(const Vec2d& point) {
+    facets_.resize(bounds_.size() * kLanes);
+    shapes_.push_back({asked_.kind, point, {asked_.quadric, point}, facets_.size(), asked_.facets.size()});
+    for (std::size_t i = 0; i < asked_.facets.size(); ++i) {
+      const ImageFacet& f = asked_.facets[i];
+      facets_.emplace_back(f, point);
+      const std::size_t lane = i % kLanes;
+      if (lane == 0) bounds_.emplace_back();
+      FourBounds& four = bounds_.back();
+      four.x0[lane] = f.bounds.x0, four.y0[lane] = f.bounds.y0;
+      four.x1[lane] = f.bounds.x1, four.y1[lane] = f.bounds.y1;
+    }
+    return static_cast<Place>(shapes_.size() - 1);
+  }
+
+  View view_;
+  std::vector<Place> places_;                          // by primitive
+  std::vector<std::uint32_t> primitives_;              // those asked for
+  std::vector<Shape> shapes_ = std::vector<Shape>(1);  // the first is kUnknown
+  std::vector<NearFacet> facets_;
+  std::vector<FourBounds> bounds_;  // of the facets: most are only asked for these
+  ImageShape asked_;
+};
+
+}  // namespace pprt

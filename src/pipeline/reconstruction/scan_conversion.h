@@ -1,0 +1,201 @@
+// Triangles over pixel rows: what reconstruction is made of. Private to the pipeline.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "base/vector.h"
+#include "pipeline/simd.h"
+#include "pipeline/sampling/refinement_weight.h"
+
+namespace pprt {
+
+struct Corner {
+  double x, y;
+  Floats color;  // channels()
+};
+
+// The largest whole number not above a coordinate, and the smallest not below it: without a call, which is
+// what the standard functions cost on the baseline instruction set.
+inline int floor_to_int(double v) {
+  const int towards_zero = static_cast<int>(v);
+  return towards_zero - (v < towards_zero ? 1 : 0);
+}
+inline int ceil_to_int(double v) {
+  const int towards_zero = static_cast<int>(v);
+  return towards_zero + (v > towards_zero ? 1 : 0);
+}
+
+// The first pixel whose centre is at or beyond a coordinate.
+inline int first_center(double coordinate) {
+  return ceil_to_int(coordinate - 0.5);
+}
+
+// Lines of a row for the mean over a pixel's area, dealt with at once. Along a line the mean is exact.
+inline constexpr int kLines = kLanes;
+using PerLine = Floats;
+inline constexpr Floats kLineOffsets = {0.125F, 0.375F, 0.625F, 0.875F};  // from the row's beginning
+inline constexpr Doubles kCenterOffsets = {0.5, 1.5, 2.5, 3.5};           // of four rows, from the first's
+
+inline float sum(const Floats& v) {
+  return (v[0] + v[1]) + (v[2] + v[3]);
+}
+inline Floats on_all(float value) {
+  return Floats{} + value;
+}
+
+// Where a triangle lies along a line.
+struct Extent {
+  double left, right;
+};
+
+struct ExtentPerLine {
+  PerLine left, right;
+};
+struct ExactExtents {
+  Doubles left, right;
+};
+
+// first_center() of four.
+inline LaneBits first_centers(const Doubles& coordinates) {
+  const Doubles v = coordinates - 0.5;
+  const LaneBits towards_zero = __builtin_convertvector(v, LaneBits);
+  const auto is_above = v > __builtin_convertvector(towards_zero, Doubles);  // -1 where it is
+  return towards_zero - __builtin_convertvector(is_above, LaneBits);
+}
+
+// A triangle's edges, as functions of y. An edge's ends are taken in one fixed order, so that the two
+// triangles at it compute the same crossings to the last bit: they neither overlap nor leave gaps.
+class Outline {
+ public:
+  explicit Outline(const std::array<Corner, 3>& corner) {
+    // Without a branch, for corners come in any order. Of two on one level either may be the upper: the edge
+    // between them is never asked for. 3 and 4 cannot be.
+    static constexpr std::array<std::array<std::uint8_t, 3>, 8> kDownwards = {
+        {{0, 1, 2}, {1, 0, 2}, {0, 2, 1}, {0, 1, 2}, {0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
+    const unsigned order = static_cast<unsigned>(corner[1].y < corner[0].y) |
+                           static_cast<unsigned>(corner[2].y < corner[1].y) << 1 |
+                           static_cast<unsigned>(corner[2].y < corner[0].y) << 2;
+    const auto& [top, middle, bottom] = kDownwards[order];
+    top_ = corner[top], middle_ = corner[middle], bottom_ = corner[bottom];
+    left_ = std::min({top_.x, middle_.x, bottom_.x});
+    right_ = std::max({top_.x, middle_.x, bottom_.x});
+  }
+
+  double top() const { return top_.y; }
+  double bottom() const { return bottom_.y; }
+  double left() const { return left_; }
+  double right() const { return right_; }
+  double area() const {
+    return 0.5 * std::abs((middle_.x - top_.x) * (bottom_.y - top_.y) -
+                          (bottom_.x - top_.x) * (middle_.y - top_.y));
+  }
+
+  // To be called before the first at(), once the triangle is known to matter.
+  void prepare() {
+    whole_ = slope(top_, bottom_);
+    upper_ = slope(top_, middle_);
+    lower_ = slope(middle_, bottom_);
+  }
+
+  // Needs top() <= y < bottom().
+  Extent at(double y) const {
+    const double a = top_.x + (y - top_.y) * whole_;
+    const double b = y < middle_.y ? top_.x + (y - top_.y) * upper_ : middle_.x + (y - middle_.y) * lower_;
+    return {std::min(a, b), std::max(a, b)};
+  }
+
+  // At four levels, of no length where they miss the triangle.
+  ExactExtents at(const Doubles& y) const {
+    const Doubles below_top = y - top_.y;
+    const Doubles a = top_.x + below_top * whole_;
+    const Doubles b = y < middle_.y ? top_.x + below_top * upper_ : middle_.x + (y - middle_.y) * lower_;
+    const auto meets = (y >= top_.y) & (y < bottom_.y);
+    return {meets ? least(a, b) : Doubles{}, meets ? greatest(a, b) : Doubles{}};
+  }
+
+  // Along the lines of a pixel row. Coordinates begin at a column, so that float has digits to spare.
+  ExtentPerLine along(int row, int column) const {
+    const ExactExtents exact = at(__builtin_convertvector(kLineOffsets, Doubles) + row);
+    const auto from_column = [&](const Doubles& x) { return __builtin_convertvector(x - column, PerLine); };
+    return {from_column(exact.left), from_column(exact.right)};
+  }
+
+ private:
+  struct End {
+    double x = 0, y = 0;
+    End() = default;
+    End(const Corner& corner) : x(corner.x), y(corner.y) {}
+  };
+
+  // Horizontal edges are never asked for.
+  static double slope(const End& from, const End& to) { return (to.x - from.x) / (to.y - from.y); }
+
+  End top_, middle_, bottom_;
+  double left_, right_;
+  double whole_ = 0, upper_ = 0, lower_ = 0;
+};
+
+// Linear over one triangle: colour = c0 + a (c1 - c0) + b (c2 - c0) with barycentric a, b held to [0, 1], so
+// that a constant stays exactly constant and rounding in slivers never leaves the corners' range by more than
+// itself.
+class LinearPatch {
+ public:
+  explicit LinearPatch(const std::array<Corner, 3>& corner)
+      : origin_(corner[0]),
+        to_1_(corner[1].color - corner[0].color),
+        to_2_(corner[2].color - corner[0].color) {
+    const double x1 = corner[1].x - origin_.x, y1 = corner[1].y - origin_.y;
+    const double x2 = corner[2].x - origin_.x, y2 = corner[2].y - origin_.y;
+    const double cross = x1 * y2 - y1 * x2;
+    const double scale = cross != 0 ? 1 / cross : 0;
+    ax_ = y2 * scale, ay_ = -x2 * scale;
+    bx_ = -y1 * scale, by_ = x1 * scale;
+  }
+
+  // At the centres of a pixel in each of four rows: red, green and blue.
+  std::array<Floats, 3> at_centers(const LaneBits& column, int first_row) const {
+    const Doubles dx = __builtin_convertvector(column, Doubles) + (0.5 - origin_.x);
+    const Doubles dy = kCenterOffsets + (first_row - origin_.y);
+    const auto share = [&](double per_x, double per_y) {
+      const Floats v = __builtin_convertvector(per_x * dx + per_y * dy, Floats);
+      return greatest(Floats{}, least(v, on_all(1)));
+    };
+    const Floats a = share(ax_, ay_), b = share(bx_, by_);
+    const auto channel = [&](int i) { return origin_.color[i] + to_1_[i] * a + to_2_[i] * b; };
+    return {channel(0), channel(1), channel(2)};
+  }
+
+  // The same along the lines of a pixel row, their coordinates beginning at a column.
+  class OnLines {
+   public:
+    OnLines(const LinearPatch& patch, int row, int column) : patch_(patch) {
+      const double dx = column - patch.origin_.x, dy = row - patch.origin_.y;
+      a_ = static_cast<float>(patch.ax_ * dx + patch.ay_ * dy) + static_cast<float>(patch.ay_) * kLineOffsets;
+      b_ = static_cast<float>(patch.bx_ * dx + patch.by_ * dy) + static_cast<float>(patch.by_) * kLineOffsets;
+    }
+
+    // The integral of the difference from `base` over parts of the lines that are so long about x.
+    Floats integral(const PerLine& x, const PerLine& length, const Floats& base) const {
+      const auto share = [&](const PerLine& at_column, double slope) {
+        const PerLine v = at_column + static_cast<float>(slope) * x;
+        return sum(greatest(PerLine{}, least(v, on_all(1))) * length);
+      };
+      return (patch_.origin_.color - base) * sum(length) + patch_.to_1_ * share(a_, patch_.ax_) +
+             patch_.to_2_ * share(b_, patch_.bx_);
+    }
+
+   private:
+    const LinearPatch& patch_;
+    PerLine a_, b_;  // barycentric, at the column
+  };
+
+ private:
+  Corner origin_;
+  Floats to_1_, to_2_;
+  double ax_, ay_, bx_, by_;
+};
+
+}  // namespace pprt

@@ -1,0 +1,98 @@
+// How much a Delaunay triangle wants to be refined (paper s. 3.6, after Eldar et al.).
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <type_traits>
+
+#include "base/vector.h"
+#include "pipeline/simd.h"
+
+namespace pprt {
+
+struct Circle {
+  Vec2d center{0, 0};
+  double radius_squared = 0;
+};
+
+struct TriangleShape {
+  Circle circumcircle;
+  double longest_edge_squared = 0;  // square pixels
+};
+
+// Twice the area below which a triangle counts as having it, in square pixels: keeps the circumcircle of
+// collinear corners finite. Corners lie within 2^15 pixels and are rounded to 2^-38 of one, so twice the area
+// of a proper triangle is above 1e-6 unless its corners touch within rounding.
+inline constexpr double kSmallestDoubleArea = 1e-9;
+
+inline TriangleShape triangle_shape(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
+  const Vec2d ab = b - a, ac = c - a, bc = c - b;
+  const double cross = std::max(ab.x * ac.y - ab.y * ac.x, kSmallestDoubleArea);
+  const double ab2 = ab.dot(ab), ac2 = ac.dot(ac), bc2 = bc.dot(bc);
+  const double half = 0.5 / cross;
+  const Vec2d to_center((ac.y * ab2 - ab.y * ac2) * half, (ab.x * ac2 - ac.x * ab2) * half);
+  return {{a + to_center, to_center.dot(to_center)}, std::max({ab2, ac2, bc2})};
+}
+
+// Held to [0, 1], by value: std::clamp goes by reference, hence by branches, which noise makes dear.
+inline float held_to_unit(float v) {
+  const float from_below = v > 0 ? v : 0;
+  return from_below < 1 ? from_below : 1;
+}
+
+// Mean over the channels of the variance of three intensities on the display scale [0, 1]. The variance of
+// three numbers is a ninth of the sum of their squared differences.
+inline float display_variance(const Color& a, const Color& b, const Color& c) {
+  const auto channel = [](float p, float q, float r) {
+    p = held_to_unit(p), q = held_to_unit(q), r = held_to_unit(r);
+    return (p - q) * (p - q) + (q - r) * (q - r) + (r - p) * (r - p);
+  };
+  return (channel(a.x, b.x, c.x) + channel(a.y, b.y, c.y) + channel(a.z, b.z, c.z)) * (1.0f / 27);
+}
+
+// The reasons to refine that count: all of them, but where a study asks what each is worth. Without area and
+// variance there is no reason at all.
+struct WeightTerms {
+  bool area = true;        // Rad^2
+  bool variance = true;    // log(1.01 + 500 Var)
+  bool pixel_rule = true;  // a triangle smaller than a pixel has its variance as its only reason
+  bool learned = true;     // times what error_by_kind.h has learned; below a pixel, less by its side
+  bool edges = true;       // learned of pictures that show primitives' edges (PixelRule::kEdges)
+};
+
+// The natural logarithm of a positive, normal float or of four, to 4e-7 of itself; of 1 exactly 0. The
+// polynomial is the minimax one (Remez) for log(1 + f) / f over [sqrt(1/2), sqrt(2)] - 1.
+template <class Number>
+Number fast_logarithm(const Number& x) {
+  using Bits = std::conditional_t<std::is_same_v<Number, float>, std::int32_t, LaneBits>;
+  constexpr std::int32_t kRootOfHalf = 0x3f3504f3;
+  const Bits bits = std::bit_cast<Bits>(x), exponent = (bits - kRootOfHalf) >> 23;
+  const Number f = std::bit_cast<Number>(bits - (exponent << 23)) - 1;
+  const Number high = 0.199001655F + f * (-0.172508298F + f * (0.162225803F + f * -0.10106895F));
+  const Number all = 0.999999945F + f * (-0.500003651F + f * (0.333350589F + f * (-0.249699091F + f * high)));
+  return f * all + as_numbers<Number>(exponent) * 0.693147181F;
+}
+
+inline constexpr float kPixelSizeSquared = 0.318309886F;  // 1 / pi: a circle of one square pixel
+
+// Weight(t) = Rad^2 log(1.01 + 500 Var), with two safeguards. Rad is at most the longest edge: a sliver on
+// the hull has a circumradius of any size. A triangle whose circle is smaller than a pixel keeps only its
+// variance as a reason (Painter and Sloan 1989): the constant 1.01 becomes 1, and a flat one has weight 0. Of
+// one triangle or of four, by the square of Rad in square pixels, and Var.
+template <class Number>
+Number refinement_weight(const Number& size_squared, const Number& variance, const WeightTerms& terms = {}) {
+  const Number nothing{};
+  if (!terms.area && !terms.variance) return nothing;
+  const auto small = size_squared < (terms.pixel_rule ? kPixelSizeSquared : 0);
+  if (!terms.variance) return small ? nothing : size_squared;
+  const Number detail = fast_logarithm((small ? nothing + 1 : nothing + 1.01F) + 500 * variance);
+  return terms.area ? size_squared * detail : detail;
+}
+
+inline float refinement_weight(const TriangleShape& shape, float variance, const WeightTerms& terms = {}) {
+  const double size_squared = std::min(shape.circumcircle.radius_squared, shape.longest_edge_squared);
+  return refinement_weight(static_cast<float>(size_squared), variance, terms);
+}
+
+}  // namespace pprt

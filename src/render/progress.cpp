@@ -1,0 +1,162 @@
+#include "render/progress.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "cli/exit.h"
+#include "cli/launch.h"
+
+namespace pprt {
+namespace {
+
+// A terminal cuts a line that is too long, rather than go on below it, where "\r" does not lead back.
+constexpr std::string_view kOverLine = "\r\033[?7l";
+constexpr std::string_view kLineEnd = "\033[K\033[?7h";
+
+// 19034.4 -> "19,034"
+std::string grouped(double value) {
+  std::string digits = std::to_string(std::llround(value));
+  for (int at = static_cast<int>(digits.size()) - 3; at > 0; at -= 3)
+    digits.insert(static_cast<std::size_t>(at), ",");
+  return digits;
+}
+
+std::string lateness(double late_ms) {
+  return late_ms <= 0 ? fmt::format("{:.0f} ms before its deadline", -late_ms)
+                      : fmt::format("{:.0f} ms after its deadline", late_ms);
+}
+
+// 75.2 -> "1:15"
+std::string minutes(double seconds) {
+  const long long whole = std::llround(seconds);
+  if (whole < 3600) return fmt::format("{}:{:02}", whole / 60, whole % 60);
+  return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+}
+
+constexpr std::array<std::string_view, 3> kEnds = {"done", "stopped", "failed"};
+
+std::string head_of_end(std::string_view event) {
+  return fmt::format("{{\"event\":\"{}\"", event);
+}
+
+}  // namespace
+
+ProgressKind progress_kind(const std::string& word) {
+  if (word == "tty" || (word == "auto" && on_terminal())) return ProgressKind::kTty;
+  return word == "json" ? ProgressKind::kJson : ProgressKind::kNone;
+}
+
+void Pace::frame(Time when) {
+  last_ = when;
+  if (++frames_ == 1) first_ = when;
+}
+
+double Pace::frames_per_second() const {
+  const bool several = frames_ > 1;
+  const double seconds = std::chrono::duration<double>(last_ - (several ? first_ : begin_)).count();
+  return seconds > 0 ? (several ? frames_ - 1 : frames_) / seconds : 0;
+}
+
+double Pace::seconds_for(int frames) const {
+  const double rate = frames_per_second();
+  return rate > 0 ? frames / rate : 0;
+}
+
+void Progress::begin(const ProgressPlan& plan) {
+  plan_ = plan;
+  begun_ = true;
+  pace_ = Pace(std::chrono::steady_clock::now());
+}
+
+void Progress::frame_done(const FinishedFrame& frame, const RunTotals& totals) {
+  done_ = totals.frames();
+  pace_.frame(std::chrono::steady_clock::now());
+  if (kind_ == ProgressKind::kTty) fmt::print(stderr, "{}{}{}", kOverLine, line(totals), kLineEnd);
+  if (kind_ != ProgressKind::kJson) return;
+  const Json record = {{"event", "frame"},
+                       {"frame", frame.order.number},
+                       {"done", done_},
+                       {"there", plan_.there},
+                       {"frames", plan_.frames},
+                       {"on_time", totals.on_time()},
+                       {"late_ms", frame.late_ms},
+                       {"worst_late_ms", totals.worst_late_ms()},
+                       {"samples_per_frame", totals.samples_per_frame()},
+                       {"frames_per_second", pace_.frames_per_second()},
+                       {"seconds_left", pace_.seconds_for(plan_.frames - plan_.there - done_)}};
+  fmt::print(stderr, "{}\n", record.dump());
+}
+
+void Progress::status(const RunTotals& totals) const {
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
+  const char* over_line = kind_ == ProgressKind::kTty ? "\r\033[K" : "";
+  fmt::print(stderr, "{}{}  {:.1f} s elapsed\n", over_line, line(totals), elapsed.count());
+}
+
+void Progress::finish(const std::string& event, const RunTotals& totals, const std::string& where) {
+  if (kind_ == ProgressKind::kTty && totals.frames() > 0) fmt::print(stderr, "\r\033[K");
+  if (quiet_ || kind_ == ProgressKind::kJson) return;
+  const std::string there = plan_.there > 0 ? fmt::format(" ({} were there already)", plan_.there) : "";
+  std::string text = fmt::format("{}: {} of {} frame{}{} in {}", event, totals.frames(), plan_.frames,
+                                 plan_.frames == 1 ? "" : "s", there, where);
+  if (totals.frames() > 0) {
+    if (plan_.frames_per_second > 0) {
+      text += fmt::format("; {} on time at {:g} frames/s, the slowest {}", totals.on_time(),
+                          plan_.frames_per_second, lateness(totals.worst_late_ms()));
+    }
+    text += fmt::format("; {} samples a frame", grouped(totals.samples_per_frame()));
+  }
+  fmt::print(stderr, "{}\n", text);
+}
+
+void Progress::fail(const std::string& why) {
+  tell_end("failed", why);
+}
+
+void Progress::close(int exit_code) {
+  tell_end(exit_code == kExitDone ? "done" : exit_code > 128 ? "stopped" : "failed", "");
+}
+
+void Progress::tell_end(const std::string& event, const std::string& why) {
+  if (kind_ != ProgressKind::kJson || ended_) return;
+  ended_ = true;
+  Json record = {{"event", event}};
+  if (begun_) {
+    record["done"] = done_;
+    record["there"] = plan_.there;
+    record["frames"] = plan_.frames;
+  }
+  if (!why.empty()) record["error"] = why;
+  fmt::print(stderr, "{}\n", record.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+void Progress::overhear(std::string_view text) {
+  if (kind_ != ProgressKind::kJson || ended_) return;
+  overheard_ += text;
+  ended_ = std::any_of(kEnds.begin(), kEnds.end(), [&](std::string_view event) {
+    return overheard_.find(head_of_end(event)) != std::string::npos;
+  });
+  constexpr std::size_t kLongestHead = 32;
+  if (overheard_.size() > kLongestHead) overheard_.erase(0, overheard_.size() - kLongestHead);
+}
+
+std::string Progress::line(const RunTotals& totals) const {
+  std::string text = fmt::format("frame {} of {}", plan_.there + totals.frames(), plan_.frames);
+  if (totals.frames() == 0) return text;
+  const double per_second = pace_.frames_per_second();
+  const std::string rate = fmt::format("{:.{}f}", per_second, per_second < 10 ? 2 : per_second < 100 ? 1 : 0);
+  if (plan_.frames_per_second > 0) {
+    const double worst = totals.worst_late_ms();
+    text += fmt::format("  {} of {:g}/s", rate, plan_.frames_per_second);
+    text += fmt::format("  worst {:.0f} ms {}", std::abs(worst), worst > 0 ? "late" : "early");
+  } else {
+    text += fmt::format("  {}/s", rate);
+  }
+  text += fmt::format("  {} samples a frame", grouped(totals.samples_per_frame()));
+  return text + fmt::format("  {} left", minutes(pace_.seconds_for(plan_.frames - plan_.there - done_)));
+}
+
+}  // namespace pprt

@@ -1,0 +1,44 @@
+#include "render/render_job.h"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+
+#include "parallel/network/wire.h"
+
+namespace pprt {
+
+Bytes encode(const RenderJob& job) {
+  WireWriter out;
+  out.put(job.go), out.put_all<std::byte>(encode(job.settings));
+  out.put(job.compile.max_depth), out.put(job.compile.cull);
+  out.put(job.compile.effects.has_value()), out.put(job.compile.effects.value_or(EffectSet()).bits());
+  out.put(job.scene_nff);
+  return out.take();
+}
+
+RenderJob decode_job(const Bytes& bytes) {
+  WireReader in(bytes);
+  RenderJob job;
+  Bytes settings;
+  bool restricted = false;
+  unsigned effects = 0;
+  in.get(job.go), in.get_all(settings);
+  job.settings = decode_settings(settings);
+  in.get(job.compile.max_depth), in.get(job.compile.cull);
+  in.get(restricted), in.get(effects);
+  if ((effects & ~EffectSet::all().bits()) != 0)
+    throw ProtocolError("a message holds effects that there are not");
+  if (restricted) job.compile.effects = EffectSet(effects);
+  in.get(job.scene_nff);
+  in.expect_end();
+  return job;
+}
+
+std::string content_hash(const std::string& text) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  return fmt::format("{:016x}", hash);
+}
+
+}  // namespace pprt

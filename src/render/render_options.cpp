@@ -1,0 +1,243 @@
+#include "render/render_options.h"
+
+#include <charconv>
+#include <cstdint>
+#include <cstdio>
+#include <sstream>
+#include <system_error>
+
+#include "cli/command_line.h"
+#include "cli/option_words.h"
+#include "cli/scene_source.h"
+#include "layers/layer.h"
+#include "trace/effects.h"
+
+namespace pprt {
+namespace {
+
+// Numbers from `least` to `most`; unlike CLI::Range it does not let NaN through.
+CLI::Validator number_between(double least, double most) {
+  return CLI::Validator(
+      [least, most](std::string& text) -> std::string {
+        double value = 0;
+        if (CLI::detail::lexical_cast(text, value) && value >= least && value <= most) return {};
+        std::ostringstream want;
+        want << "value " << text << " is not a number from " << least << " to " << most;
+        return want.str();
+      },
+      "");
+}
+
+// Whole numbers; a minus sign would wrap round.
+CLI::Validator count_from(std::uint64_t least, std::uint64_t most = ~std::uint64_t{0}) {
+  return CLI::Validator(
+      [least, most](std::string& text) -> std::string {
+        std::uint64_t value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool whole = error == std::errc() && end == text.data() + text.size();
+        if (whole && value >= least && value <= most) return {};
+        return "value " + text + " is not a whole number from " + std::to_string(least) +
+               (most < ~std::uint64_t{0} ? " to " + std::to_string(most) : "");
+      },
+      "");
+}
+
+std::vector<std::string> layer_words() {
+  std::vector<std::string> words = {"all"};
+  for (const Layer layer : kAllLayers) words.emplace_back(name_of(layer));
+  return words;
+}
+
+std::vector<std::string> effect_words() {
+  std::vector<std::string> words = {"auto", "all", "none"};
+  for (const Effect effect : every_effect()) words.emplace_back(name(effect));
+  return words;
+}
+
+void add_positionals(CLI::App& app, RenderOptions& o) {
+  auto* scene = app.add_option(
+      "SCENE", o.input, "FILE.nff, - (standard input), spd:NAME[:SIZE], or a script that names its scene");
+  scene->required()->type_name("");
+  take_path_or(*scene, generated_scenes());
+  app.add_option("SCRIPT", o.script,
+                 "Animation script, FILE.anim; without one a still from the scene's own view")
+      ->type_name("FILE");
+}
+
+void add_run_options(CLI::App& app, RenderOptions& o) {
+  const std::string group = "Run";
+  app.add_option("--np", o.ranks, "Ranks (also -np N, as in mpirun); starts mpirun itself when more than one")
+      ->check(count_from(1, 4096))
+      ->capture_default_str()
+      ->type_name("N")
+      ->group(group);
+  app.add_option("--hostfile", o.hostfile, "Hosts to run on, handed to mpirun")
+      ->type_name("FILE")
+      ->group(group);
+  app.add_option("--fps", o.fps,
+                 "Fixed frame rate, a deadline for every frame; 0: none (default: the script's)")
+      ->check(number_between(0, 1000))
+      ->type_name("F")
+      ->group(group);
+  auto* clock = app.add_option(
+      "--clock", o.clock, "Real time, or counted work: the same result on any machine and under any load");
+  clock->capture_default_str()->group(group);
+  take_one_of(*clock, {"wall", "work"});
+  app.add_option("--budget", o.budget,
+                 "Units of work for each rank and frame, with --clock work (default: 50000000 / fps)")
+      ->check(count_from(1))
+      ->type_name("N")
+      ->group(group);
+  app.add_option("--time", o.time, "Stop a frame after so many seconds; without a rate")
+      ->check(number_between(1e-3, 1e9))
+      ->type_name("S")
+      ->group(group);
+  app.add_option("--samples", o.samples, "Stop a frame at so many samples; without a rate")
+      ->check(count_from(1))
+      ->type_name("N")
+      ->group(group);
+  app.add_option("--quality", o.quality,
+                 "Stop a frame at this mean triangle weight; without a rate (default: 0.005)")
+      ->check(number_between(1e-12, 1e12))
+      ->type_name("Q")
+      ->group(group);
+  auto* balance = app.add_option("--balance", o.balance, "Load balancing among ranks");
+  balance->capture_default_str()->group(group);
+  take_one_of(*balance, {"none", "local", "global", "combined"});
+  auto* cast = app.add_option("--cast", o.cast, "Which samples are carried to the next frame");
+  cast->capture_default_str()->group(group);
+  take_one_of(*cast, {"off", "paper", "verified", "auto"});
+  auto* keep =
+      app.add_option("--keep-samples", o.keep_samples, "Hand samples over when the image is cut anew");
+  keep->capture_default_str()->group(group);
+  take_one_of(*keep, {"on", "off"});
+  auto* weights = app.add_option("--weights", o.weights, "By what refinement decides where samples go");
+  weights->capture_default_str()->group(group);
+  take_one_of(*weights, {"learned", "paper"});
+  app.add_option("--seed", o.seed, "Of the pattern that every frame starts from")
+      ->check(count_from(0))
+      ->capture_default_str()
+      ->type_name("N")
+      ->group(group);
+}
+
+void add_image_options(CLI::App& app, RenderOptions& o) {
+  const std::string group = "Image";
+  app.add_option("-s,--size", o.size, "Width and height in pixels (default: the script's, or the scene's)")
+      ->type_name("WxH")
+      ->group(group);
+  app.add_option(
+         "-o,--output", o.outputs,
+         "File names, with %04d or #### for the frame number, .exr or .png; may be given twice (default: " +
+             std::string(kDefaultOutput) + ")")
+      ->type_name("PATTERN")
+      ->type_size(1)
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false)
+      ->group(group);
+  auto* pixels = app.add_option("--pixels", o.pixels, "What a pixel with several samples or an edge shows");
+  pixels->capture_default_str()->group(group);
+  take_one_of(*pixels, {"edges", "area", "mean", "center"});
+  app.add_option("--frames", o.frames, "Render only frames A to B")->type_name("A-B")->group(group);
+  auto* layers = app.add_option(
+      "--layers", o.layers,
+      "What shows how a frame came about, as EXR channels and PNG pictures: all, or some of samples, "
+      "triangulation, regions, age, density, cost, confidence, depth, normal, id");
+  layers->type_name("LIST")->group(group);
+  take_some_of(*layers, layer_words());
+  app.add_option("--contact-sheet", o.contact_sheet,
+                 "Put thumbnails of the finished frames on one picture, .exr or .png")
+      ->type_name("FILE")
+      ->group(group);
+  app.add_option("--film", o.film, "Make a film of the finished frames, .mp4 or .mkv (needs ffmpeg)")
+      ->type_name("FILE")
+      ->group(group);
+  auto* overwrite =
+      app.add_flag("--overwrite", o.overwrite, "Replace frames that are there already")->group(group);
+  app.add_flag("--resume", o.resume,
+               "Skip frames that the manifest says are finished with the same scene and options")
+      ->excludes(overwrite)
+      ->group(group);
+}
+
+void add_effect_options(CLI::App& app, RenderOptions& o) {
+  const std::string group = "Effects";
+  app.add_option("--max-depth", o.max_depth, "Longest chain of rays; an eye ray has depth 1")
+      ->check(count_from(1, 64))
+      ->capture_default_str()
+      ->type_name("N")
+      ->group(group);
+  auto* effects = app.add_option("--effects", o.effects,
+                                 "Which effects are simulated: auto (what the scene calls for), all, none, "
+                                 "or some of shadows, highlights, reflection, refraction, smooth-normals");
+  effects->capture_default_str()->type_name("LIST")->group(group);
+  take_some_of(*effects, effect_words());
+  app.add_flag("--cull", o.cull, "Opaque surfaces are visible from the front only")->group(group);
+  app.add_flag("--census", o.census,
+               "Print what effects the scene calls for and why, and with frames the rays of each")
+      ->group(group);
+  app.add_flag("--strict", o.strict, "Reject what the NFF specification does not allow")->group(group);
+}
+
+void add_report_options(CLI::App& app, RenderOptions& o) {
+  const std::string group = "Reports and settings";
+  app.add_option("--stats", o.stats, "Write the ledger, one JSON object a line; - is standard output")
+      ->type_name("FILE")
+      ->group(group);
+  app.add_option("--reference", o.reference, "Pictures to measure each frame's error against")
+      ->type_name("PATTERN")
+      ->group(group);
+  app.add_flag("--compare-serial", o.compare_serial,
+               "Measure each frame's sample pattern against the serial one of as many samples")
+      ->group(group);
+  auto* progress = app.add_option("--progress", o.progress,
+                                  "What is told while frames are made: a line that is rewritten, or a JSON "
+                                  "object a frame; auto: tty on a terminal");
+  progress->capture_default_str()->group(group);
+  take_one_of(*progress, {"auto", "tty", "json", "none"});
+  auto* log = app.add_option("--log", o.log, "Tell what is done on standard error");
+  log->capture_default_str()->group(group);
+  take_one_of(*log, {"trace", "debug", "info", "warning", "error", "off"});
+  app.set_config("--config", "", "Read options from a file")->type_name("FILE")->group(group);
+  app.get_config_formatter_base()->comment(';');  // '#' stands in file name patterns
+  app.allow_config_extras(CLI::config_extras_mode::error);
+  app.add_flag("--write-config", o.write_config, "Print the options in force as such a file, and exit")
+      ->configurable(false)
+      ->group(group);
+}
+
+}  // namespace
+
+void add_render_options(CLI::App& app, RenderOptions& options) {
+  add_positionals(app, options);
+  add_run_options(app, options);
+  add_image_options(app, options);
+  add_effect_options(app, options);
+  add_report_options(app, options);
+}
+
+std::string options_in_force(const CLI::App& app) {
+  // Paragraphs, each a comment and "name=value".
+  std::istringstream lines(app.config_to_str(true, true));
+  std::string result, paragraph;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.empty()) paragraph += line + "\n";
+    const bool ends = line.empty() || lines.peek() == EOF;
+    if (!ends) continue;
+    const bool unset = paragraph.ends_with("=\"\"\n") || paragraph.ends_with("=false\n");
+    if (!unset && !paragraph.empty()) result += (result.empty() ? "" : "\n") + paragraph;
+    paragraph.clear();
+  }
+  return result;
+}
+
+std::vector<std::string> with_long_np(int argc, const char* const* argv) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  for (std::string& word : words) {
+    if (word == "-np") word = "--np";
+  }
+  return words;
+}
+
+}  // namespace pprt

@@ -1,0 +1,82 @@
+#include "study/accuracy/curves.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+
+#include "study/accuracy/verdicts.h"
+#include "image/image_io.h"
+#include "image/metrics.h"
+
+namespace pprt {
+namespace {
+
+CurvePoint judged(const std::string& method, int repeat, Rendering&& rendering, const Image& reference) {
+  constexpr double kThreshold = 1;  // the share of pixels beyond is not asked for
+  replace_non_finite(rendering.image);
+  const Image shown = clamped_to_display(rendering.image);
+  CurvePoint point;
+  point.method = method;
+  point.repeat = repeat;
+  point.samples = rendering.samples;
+  point.seconds = rendering.seconds;
+  point.rmse = rmse_of(shown, reference);
+  point.exhausted = rendering.exhausted;
+  if (repeat == 0 && (method == kProgressive || method == kUniform)) {
+    const ImageDifference d = difference(shown, reference, kThreshold);
+    point.ssim = d.ssim;
+    point.flip = mean_flip(shown, reference);
+    point.error_p999 = d.error_p999;
+    point.signed_mean = d.signed_mean;
+  }
+  return point;
+}
+
+double one_sample_seconds(const Method& uniform, const Subject& subject, const SecondsClock& clock) {
+  constexpr std::array kOne = {1.0};
+  double seconds = 0;
+  uniform.run(subject, {kOne}, clock, [&](Rendering&& rendering) { seconds = rendering.seconds; });
+  return seconds;
+}
+
+// Sets the repeat's shares; returns the time of one sample a pixel in it.
+double set_shares(std::span<CurvePoint> points) {
+  const auto one = std::find_if(points.begin(), points.end(),
+                                [](const CurvePoint& p) { return p.method == kUniform && p.samples == 1; });
+  if (one == points.end()) throw std::logic_error("the uniform method gave no picture of one sample a pixel");
+  const double seconds = one->seconds;
+  for (CurvePoint& p : points) p.share = p.seconds / seconds;
+  return seconds;
+}
+
+}  // namespace
+
+SceneCurves measure_curves(const std::string& scene, const Subject& subject, const Reference& reference,
+                           std::span<const Method> methods, const CurveSettings& settings,
+                           const SecondsClock& clock) {
+  const auto uniform =
+      std::find_if(methods.begin(), methods.end(), [](const Method& m) { return m.name == kUniform; });
+  if (uniform == methods.end()) throw std::invalid_argument("there is no uniform method to compare with");
+  SceneCurves curves{scene, 0, reference.own_rmse, reference.samples, {}};
+  const std::vector<double> densities = curve_densities();
+  one_sample_seconds(*uniform, subject, clock);  // warms caches
+  const double limit_s = settings.greatest_share * one_sample_seconds(*uniform, subject, clock);
+  std::vector<double> one_sample;
+  for (int repeat = 0; repeat < settings.repeats; ++repeat) {
+    const std::size_t begin = curves.points.size();
+    for (std::size_t i = 0; i < methods.size(); ++i) {
+      const Method& method = methods[(i + static_cast<std::size_t>(repeat)) % methods.size()];
+      const CurveRange range{densities, limit_s, settings.seed + static_cast<std::uint64_t>(repeat)};
+      method.run(subject, range, clock, [&](Rendering&& rendering) {
+        curves.points.push_back(judged(method.name, repeat, std::move(rendering), reference.image));
+      });
+    }
+    one_sample.push_back(set_shares(std::span(curves.points).subspan(begin)));
+  }
+  curves.one_sample_s = spread_of(one_sample).median;
+  return curves;
+}
+
+}  // namespace pprt

@@ -1,0 +1,237 @@
+#include "study/accuracy/foreign.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <stdlib.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <stdexcept>
+#include <utility>
+
+#include "study/accuracy/reference.h"
+#include "convert/pov_writer.h"
+#include "image/contact_sheet.h"
+#include "image/image_io.h"
+#include "study/report/gnuplot.h"
+#include "study/report/plot.h"
+#include "scene/nff_writer.h"
+
+namespace pprt {
+namespace {
+
+// Gone with all its files at the end.
+class ScratchDirectory {
+ public:
+  ScratchDirectory() {
+    std::string name = (std::filesystem::temp_directory_path() / "pprt-study-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr)
+      throw std::runtime_error("cannot make a directory for other renderers");
+    path_ = name;
+  }
+  ScratchDirectory(const ScratchDirectory&) = delete;
+  ScratchDirectory& operator=(const ScratchDirectory&) = delete;
+  ~ScratchDirectory() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  std::string file(const char* name) const { return (path_ / name).string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+double seconds_of(const timeval& t) {
+  return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+}
+
+// Runs a program in silence; returns the CPU seconds that it took. Throws MissingTool when there is none of
+// that name, std::runtime_error when it fails.
+double run_in_silence(std::vector<std::string> words) {
+  std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
+  for (std::string& w : words) pointers.push_back(w.data());
+  pointers.push_back(nullptr);
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    posix_spawn_file_actions_addopen(&files, descriptor, "/dev/null", O_RDWR, 0);
+  }
+  pid_t child = 0;
+  const int error = posix_spawnp(&child, words[0].c_str(), &files, nullptr, pointers.data(), environ);
+  posix_spawn_file_actions_destroy(&files);
+  if (error != 0) throw MissingTool(words[0] + " is not installed");
+  int status = 0;
+  rusage used{};
+  while (wait4(child, &status, 0, &used) < 0) {
+    if (errno != EINTR) throw std::runtime_error("lost " + words[0]);
+  }
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw std::runtime_error(words[0] + " failed");
+  return seconds_of(used.ru_utime) + seconds_of(used.ru_stime);
+}
+
+// How a program is told to render: a picture of size x size pixels into the file.
+using Command = std::function<std::vector<std::string>(int size, const std::string& file)>;
+
+struct Trial {
+  std::string setting;
+  bool adaptive = false;
+  int scale = 1;  // rendered larger by this factor, then the mean over each pixel
+  Command command;
+};
+
+Image rendered(const Trial& trial, int size, const ScratchDirectory& scratch, double& seconds) {
+  const std::string file = scratch.file("picture.png");
+  seconds = run_in_silence(trial.command(trial.scale * size, file));
+  Image image = read_image(file);
+  return image.width == size ? image : resize(image, size, size);
+}
+
+// The first trial is the plain picture.
+std::vector<ForeignPoint> carry_out(const std::vector<Trial>& trials, const Trial& converged, int size,
+                                    const ScratchDirectory& scratch) {
+  constexpr int kTiny = 8;  // pixels: what is left is reading and building
+  double unused = 0;
+  const Image reference = rendered(converged, size, scratch, unused);
+  const double fixed = run_in_silence(trials[0].command(kTiny, scratch.file("tiny.png")));
+  std::vector<ForeignPoint> points;
+  for (const Trial& trial : trials) {
+    double seconds = 0;
+    const Image image = rendered(trial, size, scratch, seconds);
+    ForeignPoint& p = points.emplace_back();
+    p.setting = trial.setting;
+    p.adaptive = trial.adaptive;
+    p.seconds = std::max(1e-3, seconds - fixed);
+    p.share = p.seconds / points.front().seconds;
+    p.rmse = rmse_of(image, reference);
+  }
+  return points;
+}
+
+template <typename Measure>
+ForeignResult present_or_absent(const std::string& scene, const char* program, const Measure& measure) {
+  ForeignResult result{scene, program, {}, {}};
+  try {
+    result.points = measure();
+  } catch (const std::runtime_error& e) {
+    result.absent = e.what();
+  }
+  return result;
+}
+
+Command povray_command(const std::string& scene_file, const std::vector<std::string>& options) {
+  return [=](int size, const std::string& file) {
+    std::vector<std::string> words = {
+        "povray", "+I" + scene_file, "+O" + file, fmt::format("+W{}", size), fmt::format("+H{}", size),
+        "-D",     "+FN16",           "-J"};
+    words.insert(words.end(), options.begin(), options.end());
+    return words;
+  };
+}
+
+bool is_convex(std::span<const Vec3d> corners) {
+  Vec3d first(0, 0, 0);
+  const std::size_t n = corners.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3d turn = (corners[(i + 1) % n] - corners[i]).cross(corners[(i + 2) % n] - corners[(i + 1) % n]);
+    if (i == 0) first = turn;
+    if (turn.dot(first) < -1e-9 * first.dot(first)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+ForeignResult measure_povray(const std::string& name, const SceneDescription& scene, int size) {
+  return present_or_absent(name, "POV-Ray", [&] {
+    constexpr int kConvergedScale = 6;
+    const ScratchDirectory scratch;
+    const std::string file = scratch.file("scene.pov");
+    std::ofstream out(file);
+    write_pov(scene, out);
+    out.close();
+    std::vector<Trial> trials;
+    for (const int n : {1, 2, 3}) {
+      trials.push_back(
+          {fmt::format("plain, {0} x {0} samples", n), false, n, povray_command(file, {"-A", "+WT1"})});
+    }
+    for (const int method : {1, 2}) {
+      for (const char* threshold : {"0.3", "0.1", "0.03"}) {
+        trials.push_back({fmt::format("anti-aliasing {}, threshold {}", method, threshold), true, 1,
+                          povray_command(file, {fmt::format("+A{}", threshold), fmt::format("+AM{}", method),
+                                                "+R3", "+WT1"})});
+      }
+    }
+    const Trial converged{"converged", false, kConvergedScale, povray_command(file, {"-A"})};
+    return carry_out(trials, converged, size, scratch);
+  });
+}
+
+ForeignResult measure_tachyon(const std::string& name, const SceneDescription& scene, int size) {
+  if (const std::string defect = tachyon_defect(scene); !defect.empty()) return {name, "Tachyon", defect, {}};
+  return present_or_absent(name, "Tachyon", [&] {
+    const ScratchDirectory scratch;
+    const std::string file = scratch.file("scene.nff");
+    std::ofstream out(file);
+    write_nff(scene, out);
+    out.close();
+    const auto with_samples = [&](int more, int threads) {
+      return [=](int pixels, const std::string& picture) -> std::vector<std::string> {
+        const std::string side = std::to_string(pixels);
+        return {"tachyon",
+                file,
+                "-res",
+                side,
+                side,
+                "-aasamples",
+                std::to_string(more),
+                "-numthreads",
+                std::to_string(threads),
+                "-format",
+                "PNG",
+                "-o",
+                picture};
+      };
+    };
+    std::vector<Trial> trials;
+    for (const int more : {0, 1, 3, 7}) {
+      trials.push_back(
+          {more == 0 ? "1 sample" : fmt::format("{} samples", more + 1), false, 1, with_samples(more, 1)});
+    }
+    return carry_out(trials, {"converged", false, 1, with_samples(47, 2)}, size, scratch);
+  });
+}
+
+std::string tachyon_defect(const SceneDescription& scene) {
+  const bool cones = std::any_of(scene.cones.begin(), scene.cones.end(), [](const Cone& c) {
+    return std::abs(c.base_radius - c.apex_radius) > 1e-6 * std::abs(c.base_radius);
+  });
+  if (cones) return "it shows cones as cylinders";
+  const bool concave = std::any_of(scene.polygons.begin(), scene.polygons.end(),
+                                   [&](const Polygon& p) { return !is_convex(scene.vertices(p)); });
+  return concave ? "it cuts concave polygons as if they were convex" : "";
+}
+
+Table foreign_table(const std::vector<ForeignResult>& results) {
+  Table table{{"scene", "program", "setting", "cpu s", "share of its plain picture", "rmse"}, {}, {}};
+  for (const ForeignResult& r : results) {
+    if (!r.absent.empty()) {
+      table.rows.push_back({r.scene, r.program, "absent: " + r.absent, kNoValue, kNoValue, kNoValue});
+    }
+    for (const ForeignPoint& p : r.points) {
+      table.rows.push_back({r.scene, r.program, p.setting, p.seconds, p.share, p.rmse});
+    }
+  }
+  return table;
+}
+
+}  // namespace pprt

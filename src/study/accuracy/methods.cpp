@@ -1,0 +1,290 @@
+#include "study/accuracy/methods.h"
+
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <random>
+#include <utility>
+
+#include "image/contact_sheet.h"
+#include "pipeline/reconstruction/reconstruction.h"
+#include "pipeline/sampling/sample_mesh.h"
+#include "pipeline/sampling/seeds.h"
+
+namespace pprt {
+namespace {
+
+constexpr int kTilePixels = 32;
+
+struct Size {
+  int width, height;
+};
+
+// Of the grid that has so many samples a pixel.
+Size grid_size(const Camera& camera, double density) {
+  const auto along = [&](int pixels) {
+    return std::max(2, static_cast<int>(std::lround(pixels * std::sqrt(density))));
+  };
+  return {along(camera.width), along(camera.height)};
+}
+
+double samples_per_pixel(double samples, const Camera& camera) {
+  return samples / (static_cast<double>(camera.width) * camera.height);
+}
+
+// Where a pixel's centre lies between two samples of a row of `count`, the row's ends extended.
+struct Between {
+  int low;
+  float share;  // of the one after `low`
+};
+
+std::vector<Between> between_samples(int pixels, int count) {
+  std::vector<Between> places;
+  places.reserve(static_cast<std::size_t>(pixels));
+  for (int i = 0; i < pixels; ++i) {
+    const double at = std::clamp((i + 0.5) * count / pixels - 0.5, 0.0, count - 1.0);
+    const int low = std::min(static_cast<int>(at), count - 2);
+    places.push_back({low, static_cast<float>(at - low)});
+  }
+  return places;
+}
+
+Image bilinear(const Image& grid, int width, int height) {
+  const std::vector<Between> columns = between_samples(width, grid.width);
+  const std::vector<Between> rows = between_samples(height, grid.height);
+  Image image(width, height);
+  std::vector<Color> row(static_cast<std::size_t>(grid.width));
+  for (int y = 0; y < height; ++y) {
+    const auto [top, down] = rows[static_cast<std::size_t>(y)];
+    for (int i = 0; i < grid.width; ++i) {
+      row[static_cast<std::size_t>(i)] = grid.at(i, top) + (grid.at(i, top + 1) - grid.at(i, top)) * down;
+    }
+    for (int x = 0; x < width; ++x) {
+      const auto [left, right] = columns[static_cast<std::size_t>(x)];
+      const auto at = static_cast<std::size_t>(left);
+      image.at(x, y) = row[at] + (row[at + 1] - row[at]) * right;
+    }
+  }
+  return image;
+}
+
+Image uniform_picture(Tracer& tracer, const Camera& camera, const Size& size) {
+  Image grid(size.width, size.height);
+  const double step_x = static_cast<double>(camera.width) / size.width;
+  const double step_y = static_cast<double>(camera.height) / size.height;
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      grid.at(x, y) = tracer.trace((x + 0.5) * step_x, (y + 0.5) * step_y).color;
+    }
+  }
+  if (size.width == camera.width && size.height == camera.height) return grid;
+  return size.width < camera.width ? bilinear(grid, camera.width, camera.height)
+                                   : resize(grid, camera.width, camera.height);
+}
+
+void run_uniform(const Subject& subject, const CurveRange& range, const SecondsClock& clock,
+                 const RenderingSink& sink) {
+  for (const double density : range.densities) {
+    const Size size = grid_size(subject.camera, density);
+    Tracer tracer(subject.scene, subject.camera);
+    const double begin = clock();
+    Image image = uniform_picture(tracer, subject.camera, size);
+    const double seconds = clock() - begin;
+    sink({samples_per_pixel(static_cast<double>(size.width) * size.height, subject.camera), seconds,
+          std::move(image)});
+    if (seconds > range.limit_s) return;
+  }
+}
+
+// What is learned is learned of pictures by that rule.
+WeightTerms learning_of(WeightTerms terms, PixelRule rule) {
+  terms.edges = rule == PixelRule::kEdges;
+  return terms;
+}
+
+// The samples of one picture on their triangulation.
+class MeshPainter {
+ public:
+  MeshPainter(const Subject& subject, const WeightTerms& terms, PixelRule rule)
+      : camera_(subject.camera),
+        tracer_(subject.scene, subject.camera),
+        mesh_(Region::whole({camera_.width, camera_.height, kTilePixels}), learning_of(terms, rule)),
+        rule_(rule),
+        viewed_([this](std::uint32_t primitive, ImageShape& shape) { tracer_.view(primitive, shape); }) {}
+
+  void add(const Vec2d& point) {
+    Sample sample;
+    sample.x = point.x, sample.y = point.y;
+    sample.ray = tracer_.trace(point.x, point.y);
+    mesh_.insert(sample);
+  }
+
+  void clear() { mesh_.clear(); }
+
+  enum class Stop : std::uint8_t { kSamples, kTime, kExhausted };
+
+  // Until there are so many samples, the clock shows `end_s`, or nothing is left to refine.
+  Stop refine_until(double samples, const SecondsClock& clock, double end_s) {
+    constexpr int kSamplesPerLook = 256;  // at the clock, which costs as much as a sample
+    for (int i = 1; static_cast<double>(mesh_.samples().size()) < samples; ++i) {
+      if (i % kSamplesPerLook == 1)
+        mesh_.expect_growth(samples / static_cast<double>(mesh_.samples().size()));
+      if (i % kSamplesPerLook == 0 && clock() > end_s) return Stop::kTime;
+      const std::optional<Vec2d> point = mesh_.next_point();
+      if (!point) return Stop::kExhausted;
+      add(*point);
+    }
+    return Stop::kSamples;
+  }
+
+  double density() const { return samples_per_pixel(static_cast<double>(mesh_.samples().size()), camera_); }
+
+  Image picture() {
+    viewed_.forget();  // as every frame must
+    reconstruct(mesh_, mesh_.region().bounds(), pixels_, buffers_, rule_, &viewed_);
+    Image image;
+    image.width = camera_.width, image.height = camera_.height;
+    image.pixels = std::exchange(pixels_.colors, {});
+    return image;
+  }
+
+ private:
+  Camera camera_;
+  Tracer tracer_;
+  SampleMesh mesh_;
+  PixelRule rule_;
+  ViewedPrimitives viewed_;
+  RegionPixels pixels_;
+  ReconstructionBuffers buffers_;
+};
+
+// One refinement, looked at on its way: a picture's time is that of all sampling before it, and its own
+// reconstruction. It is made twice, and the second time counts: the frames of a sequence find the storage
+// that those before them have left.
+void run_refinement(const WeightTerms& terms, PixelRule rule, const Subject& subject, const CurveRange& range,
+                    const SecondsClock& clock, const RenderingSink& sink) {
+  const Camera& camera = subject.camera;
+  const double pixels = static_cast<double>(camera.width) * camera.height;
+  const std::vector<Vec2d> seeds = seed_points(camera.width, camera.height, range.seed);
+  MeshPainter painter(subject, terms, rule);
+  for (const Vec2d& point : seeds) painter.add(point);
+  painter.refine_until(range.densities.back() * pixels, clock, clock() + range.limit_s);
+  painter.picture();
+  painter.clear();
+
+  double sampling = 0, begin = clock();
+  for (const Vec2d& point : seeds) painter.add(point);
+  for (const double density : range.densities) {
+    if (density < painter.density()) continue;
+    const auto stop = painter.refine_until(density * pixels, clock, begin + range.limit_s - sampling);
+    const double sampled = clock();
+    sampling += sampled - begin;
+    Image image = painter.picture();
+    const double seconds = sampling + clock() - sampled;
+    const bool exhausted = stop == MeshPainter::Stop::kExhausted;
+    sink({painter.density(), seconds, std::move(image), exhausted});
+    if (stop != MeshPainter::Stop::kSamples || seconds > range.limit_s) return;
+    begin = clock();
+  }
+}
+
+Method refinement(std::string name, std::string description, const WeightTerms& terms,
+                  PixelRule rule = PixelRule::kEdges) {
+  return {
+      std::move(name), std::move(description),
+      [terms, rule](const Subject& subject, const CurveRange& range, const SecondsClock& clock,
+                    const RenderingSink& sink) { run_refinement(terms, rule, subject, range, clock, sink); }};
+}
+
+void run_stratified(const Subject& subject, const CurveRange& range, const SecondsClock& clock,
+                    const RenderingSink& sink) {
+  const Camera& camera = subject.camera;
+  const double w = camera.width, h = camera.height;
+  for (const double density : range.densities) {
+    const Size size = grid_size(camera, density);
+    std::mt19937_64 random(range.seed);
+    const auto jitter = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+    const double begin = clock();
+    MeshPainter painter(subject, {.area = false, .variance = false, .learned = false}, PixelRule::kEdges);
+    for (const Vec2d& corner : {Vec2d(0, 0), Vec2d(w, 0), Vec2d(w, h), Vec2d(0, h)}) painter.add(corner);
+    for (int y = 0; y < size.height; ++y) {
+      for (int x = 0; x < size.width; ++x) {
+        const double px = (x + jitter()) * w / size.width;
+        painter.add({px, (y + jitter()) * h / size.height});
+      }
+    }
+    Image image = painter.picture();
+    const double seconds = clock() - begin;
+    sink({painter.density(), seconds, std::move(image)});
+    if (seconds > range.limit_s) return;
+  }
+}
+
+}  // namespace
+
+double thread_cpu_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+Method progressive_method() {
+  return refinement(kProgressive, "this renderer, one rank: the heaviest triangle is refined", {});
+}
+
+Method uniform_method() {
+  return {kUniform, "a grid of samples: bilinear where coarser than pixels, mean over the pixel where finer",
+          run_uniform};
+}
+
+Image uniform_picture_in(double seconds, const Subject& subject, const SecondsClock& clock) {
+  // Each trial tells the next what a sample takes.
+  constexpr int kTrials = 3;
+  constexpr double kFirst = 0.05;  // samples a pixel
+  double density = kFirst;
+  Image image;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    Tracer tracer(subject.scene, subject.camera);
+    const double begin = clock();
+    image = uniform_picture(tracer, subject.camera, grid_size(subject.camera, density));
+    const double taken = std::max(clock() - begin, 1e-9);
+    if (trial + 1 < kTrials) density *= seconds / taken;
+  }
+  return image;
+}
+
+std::vector<Method> accuracy_methods() {
+  return {progressive_method(),
+          uniform_method(),
+          {kControl, "the uniform grid once more: how far figures differ by noise alone", run_uniform},
+          refinement("paper weights", "progressive by the paper's weights, whatever errors are found",
+                     {.learned = false}),
+          refinement("area only", "the same by the triangles' size, whatever their colours",
+                     {.variance = false, .pixel_rule = false, .learned = false}),
+          refinement("variance only", "the same by the colours' variance, whatever the size",
+                     {.area = false, .learned = false}),
+          refinement("no pixel rule", "the same, flat triangles below a pixel refined like others",
+                     {.pixel_rule = false, .learned = false}),
+          refinement("pixel area",
+                     "progressive, a pixel with several samples shows the interpolation's mean over its area",
+                     {}, PixelRule::kArea),
+          refinement("mean of samples",
+                     "progressive, a pixel with several samples shows their mean: the paper's rule", {},
+                     PixelRule::kMean),
+          refinement("pixel centers", "progressive, every pixel shows the interpolation at its centre", {},
+                     PixelRule::kCenter),
+          {"stratified random", "no queue: a jittered grid, triangulated and reconstructed alike",
+           run_stratified}};
+}
+
+std::vector<double> curve_densities() {
+  std::vector<double> densities;
+  for (int i = -12; i <= 2; ++i) densities.push_back(std::pow(10.0, i / 5.0));
+  densities.insert(densities.end(), {4.2, 7, 11});
+  return densities;
+}
+
+}  // namespace pprt

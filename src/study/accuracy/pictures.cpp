@@ -1,0 +1,101 @@
+#include "study/accuracy/pictures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "trace/tracer_probe.h"
+#include "image/image_io.h"
+#include "layers/frame_layers.h"
+#include "layers/pictures.h"
+#include "parallel/balance/partition.h"
+#include "parallel/virtual_ranks.h"
+
+namespace pprt {
+namespace {
+
+// One frame of one rank, of so many samples.
+FinishedFrame sampled_frame(const Subject& subject, std::uint64_t seed) {
+  SessionSettings settings;
+  settings.width = subject.camera.width;
+  settings.height = subject.camera.height;
+  settings.seed = seed;
+  settings.clock = ClockKind::kWork;
+  settings.stop.samples = kFigureSamples;
+  settings.cast = CastChoice::kOff;
+  settings.balance = BalanceMode::kNone;
+  settings.report_samples = true;
+  Tracer tracer(subject.scene, subject.camera);
+  FinishedFrame frame;
+  run_virtual_ranks(
+      1, settings, [&](int) { return probe_of(tracer); },
+      [&](int index) -> std::optional<FrameRequest> {
+        if (index > 0) return std::nullopt;
+        return FrameRequest{1, subject.camera, false, true};
+      },
+      [&](FinishedFrame&& finished) { frame = std::move(finished); });
+  return frame;
+}
+
+// Dark where a sample takes long; the least of some tries, so that no interruption shows.
+Image complexity_map(const Subject& subject, const SecondsClock& clock) {
+  constexpr int kTries = 3;
+  constexpr double kShown = 0.999;  // of the pixels lie within the map's range
+  const Camera& camera = subject.camera;
+  Tracer tracer(subject.scene, camera);
+  std::vector<float> seconds(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height),
+                             std::numeric_limits<float>::infinity());
+  for (int t = 0; t < kTries; ++t) {
+    auto least = seconds.begin();
+    for (int y = 0; y < camera.height; ++y) {
+      for (int x = 0; x < camera.width; ++x, ++least) {
+        const double begin = clock();
+        tracer.trace(x + 0.5, y + 0.5);
+        *least = std::min(*least, static_cast<float>(clock() - begin));
+      }
+    }
+  }
+  std::vector<float> sorted = seconds;
+  std::sort(sorted.begin(), sorted.end());
+  const auto last = static_cast<std::size_t>(kShown * static_cast<double>(sorted.size() - 1));
+  const double low = std::max(1e-9f, sorted.front());
+  Image map =
+      heat_picture(seconds, camera.width, camera.height, low, std::max(1.01 * low, double{sorted[last]}));
+  for (Color& c : map.pixels) c = Color(1, 1, 1) - c;
+  return map;
+}
+
+}  // namespace
+
+std::string file_word(const std::string& scene) {
+  std::string word = scene;
+  std::replace_if(
+      word.begin(), word.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '-');
+  return word;
+}
+
+std::vector<NamedPicture> figure_pictures(const std::string& scene, const std::string& word,
+                                          const Subject& subject, std::uint64_t seed,
+                                          const SecondsClock& clock) {
+  const FinishedFrame frame = sampled_frame(subject, seed);
+  const TileGrid grid = tile_grid_for(frame.image.width, frame.image.height, 1);
+  FrameLayers layers({frame.order.number, grid, frame.owners, frame.samples, {}});
+  std::vector<NamedPicture> pictures;
+  const auto add = [&](const char* what, const std::string& caption, const Image& image,
+                       PictureKind kind = PictureKind::kDrawn) {
+    pictures.push_back({fmt::format("{}-{}.png", word, what), fmt::format("{}: {}", scene, caption),
+                        encode_png(image, {}, kind)});
+  };
+  add("complexity", "CPU time of each pixel's sample, darker is dearer", complexity_map(subject, clock));
+  add("samples", fmt::format("{} samples", frame.samples.size()),
+      layers.picture(Layer::kSamples, frame.image));
+  add("triangulation", "their triangulation", layers.picture(Layer::kTriangulation, frame.image));
+  add("reconstruction", "the picture from these samples", frame.image, PictureKind::kRendered);
+  return pictures;
+}
+
+}  // namespace pprt

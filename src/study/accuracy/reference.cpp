@@ -1,0 +1,158 @@
+#include "study/accuracy/reference.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "render/render_job.h"
+#include "image/metrics.h"
+#include "image/whole_file.h"
+
+namespace pprt {
+namespace {
+
+// A number in [0, 1) that depends on its address alone (the finaliser of splitmix64 over a running mix).
+double uniform(std::uint64_t pixel, std::uint64_t index) {
+  std::uint64_t h = 0x2545f4914f6cdd1du;
+  for (const std::uint64_t word : {pixel, index}) {
+    h = (h ^ word) + 0x9e3779b97f4a7c15u;
+    h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9u;
+    h = (h ^ (h >> 27)) * 0x94d049bb133111ebu;
+    h ^= h >> 31;
+  }
+  return static_cast<double>(h >> 11) * 0x1p-53;
+}
+
+Color displayed(const Color& c) {
+  return {std::clamp(c.x, 0.0f, 1.0f), std::clamp(c.y, 0.0f, 1.0f), std::clamp(c.z, 0.0f, 1.0f)};
+}
+
+// Mean of one half's samples of a pixel. `half`: 0 or 1.
+Color pixel_mean(Tracer& tracer, int x, int y, int n, int half) {
+  const auto pixel = static_cast<std::uint64_t>(y) * 0x10000u + static_cast<std::uint64_t>(x);
+  const auto cells = static_cast<std::uint64_t>(n) * static_cast<std::uint64_t>(n);
+  Vec3d sum(0, 0, 0);
+  for (int cell = 0; cell < n * n; ++cell) {
+    const std::uint64_t index =
+        2 * (static_cast<std::uint64_t>(half) * cells + static_cast<std::uint64_t>(cell));
+    const int row = cell / n, column = cell % n;
+    const double at_x = x + (column + uniform(pixel, index)) / n;
+    const double at_y = y + (row + uniform(pixel, index + 1)) / n;
+    sum += Vec3d(displayed(tracer.trace(at_x, at_y).color));
+  }
+  return Color(sum / (n * n));
+}
+
+void add_row(Tracer& tracer, int y, int n, Image& first, Image& second) {
+  for (int x = 0; x < first.width; ++x) {
+    first.at(x, y) = pixel_mean(tracer, x, y, n, 0);
+    second.at(x, y) = pixel_mean(tracer, x, y, n, 1);
+  }
+}
+
+// Colours at 16 x 16 points, as text.
+std::string fingerprint(const Subject& subject) {
+  constexpr int kPoints = 16;
+  Tracer tracer(subject.scene, subject.camera);
+  std::string text;
+  for (int i = 0; i < kPoints * kPoints; ++i) {
+    const int row = i / kPoints, column = i % kPoints;
+    const Color c = tracer
+                        .trace((column + 0.5) / kPoints * subject.camera.width,
+                               (row + 0.5) / kPoints * subject.camera.height)
+                        .color;
+    text += fmt::format("{} {} {}\n", c.x, c.y, c.z);
+  }
+  return text;
+}
+
+std::string camera_text(const Camera& c) {
+  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {}", c.eye.x, c.eye.y, c.eye.z, c.forward.x,
+                     c.forward.y, c.forward.z, c.up.x, c.up.y, c.up.z, c.slope_per_pixel, c.width, c.height);
+}
+
+// In a file: own_rmse, then the pixels' colours, as this machine holds them.
+std::string to_bytes(const Reference& reference) {
+  const std::size_t size = reference.image.pixels.size() * sizeof(Color);
+  std::string bytes(sizeof(double) + size, '\0');
+  std::memcpy(bytes.data(), &reference.own_rmse, sizeof(double));
+  std::memcpy(bytes.data() + sizeof(double), std::as_bytes(std::span(reference.image.pixels)).data(), size);
+  return bytes;
+}
+
+std::optional<Reference> from_file(const std::filesystem::path& path, const Camera& camera, int samples) {
+  if (!std::filesystem::exists(path)) return std::nullopt;
+  const std::string bytes = read_whole_file(path);
+  Reference reference{Image(camera.width, camera.height), samples};
+  const std::size_t size = reference.image.pixels.size() * sizeof(Color);
+  if (bytes.size() != sizeof(double) + size) return std::nullopt;
+  std::memcpy(&reference.own_rmse, bytes.data(), sizeof(double));
+  std::memcpy(reinterpret_cast<char*>(reference.image.pixels.data()), bytes.data() + sizeof(double), size);
+  return reference;
+}
+
+}  // namespace
+
+Reference converged_reference(const Subject& subject, int n) {
+  const Camera& camera = subject.camera;
+  Image first(camera.width, camera.height), second = first;
+  std::atomic<int> next_row = 0;
+  {
+    std::vector<std::jthread> workers(std::max(1u, std::thread::hardware_concurrency()));
+    for (std::jthread& worker : workers) {
+      worker = std::jthread([&] {
+        Tracer tracer(subject.scene, camera);
+        for (int y = next_row++; y < camera.height; y = next_row++) add_row(tracer, y, n, first, second);
+      });
+    }
+  }
+  Reference reference{Image(camera.width, camera.height), 2 * n * n};
+  reference.own_rmse = 0.5 * difference(first, second, 1).rmse;
+  for (std::size_t i = 0; i < first.pixels.size(); ++i) {
+    reference.image.pixels[i] = (first.pixels[i] + second.pixels[i]) * 0.5f;
+  }
+  return reference;
+}
+
+Reference cached_reference(const std::string& scene_nff, const Subject& subject, int n,
+                           const std::filesystem::path& directory) {
+  if (directory.empty()) return converged_reference(subject, n);
+  const std::string key =
+      fmt::format("{}\n{}\n{}\n{}", scene_nff, camera_text(subject.camera), n, fingerprint(subject));
+  const std::filesystem::path path = directory / ("reference-" + content_hash(key) + ".raw");
+  if (std::optional<Reference> kept = from_file(path, subject.camera, 2 * n * n)) return std::move(*kept);
+  Reference reference = converged_reference(subject, n);
+  write_whole_file(path, to_bytes(reference));
+  return reference;
+}
+
+std::filesystem::path default_cache_directory() {
+  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache) {
+    return std::filesystem::path(cache) / "pprt";
+  }
+  if (const char* home = std::getenv("HOME"); home && *home) {
+    return std::filesystem::path(home) / ".cache" / "pprt";
+  }
+  return {};
+}
+
+double rmse_of(const Image& image, const Image& reference) {
+  double sum = 0;
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    const Color d = image.pixels[i] - reference.pixels[i];
+    sum += static_cast<double>(d.x * d.x + d.y * d.y + d.z * d.z);
+  }
+  return std::sqrt(sum / (3 * static_cast<double>(image.pixels.size())));
+}
+
+}  // namespace pprt

@@ -1,0 +1,362 @@
+#include "unit/parallel/balance/ownership_model.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "parallel/balance/local_balance.h"
+
+namespace pprt {
+namespace {
+
+using Kind = OwnershipStep::Kind;
+
+bool same(const TileGrant& a, const TileGrant& b) {
+  return a.tile == b.tile && a.owner == b.owner && a.version == b.version;
+}
+
+bool same(const OwnershipLetter& a, const OwnershipLetter& b) {
+  return a.frame == b.frame && a.stance == b.stance &&
+         std::equal(a.grants.begin(), a.grants.end(), b.grants.begin(), b.grants.end(),
+                    [](const TileGrant& x, const TileGrant& y) { return same(x, y); });
+}
+
+bool same(const OwnershipRank& a, const OwnershipRank& b) {
+  return a.partition.owner == b.partition.owner && a.partition.version == b.partition.version &&
+         a.stance == b.stance && a.frame == b.frame;
+}
+
+bool are_beside(const TileGrid& grid, int a, int b) {
+  const int columns = grid.columns();
+  return std::abs(a % columns - b % columns) + std::abs(a / columns - b / columns) == 1;
+}
+
+}  // namespace
+
+bool operator==(const OwnershipState& a, const OwnershipState& b) {
+  const auto same_letters = [](const auto& x, const auto& y) {
+    return std::equal(x.begin(), x.end(), y.begin(), y.end(),
+                      [](const OwnershipLetter& p, const OwnershipLetter& q) { return same(p, q); });
+  };
+  return a.cuts == b.cuts && a.left == b.left &&
+         std::equal(a.ranks.begin(), a.ranks.end(), b.ranks.begin(), b.ranks.end(),
+                    [](const OwnershipRank& x, const OwnershipRank& y) { return same(x, y); }) &&
+         std::equal(a.under_way.begin(), a.under_way.end(), b.under_way.begin(), b.under_way.end(),
+                    same_letters);
+}
+
+// Of what can be seen; operator== looks at the rest, too.
+std::size_t OwnershipStateHash::operator()(const OwnershipState& state) const {
+  std::uint64_t hash = 14695981039346656037u;
+  const auto mix = [&hash](std::uint64_t value) {
+    hash = (hash ^ value) * 1099511628211u, hash ^= hash >> 29;
+  };
+  mix(static_cast<std::uint64_t>(state.cuts * 4096 + state.left.decisions * 256 + state.left.words * 16 +
+                                 state.left.gifts));
+  for (std::size_t k = 0; k < state.ranks.size(); ++k) {
+    const OwnershipRank& rank = state.ranks[k];
+    for (const std::int32_t owner : rank.partition.owner) mix(static_cast<std::uint64_t>(owner));
+    for (const std::uint64_t version : rank.partition.version) mix(version);
+    mix(static_cast<std::uint64_t>(rank.frame));
+    mix(rank.stance.may_give());
+    Stance copy = rank.stance;
+    for (int other = 0; other < static_cast<int>(state.ranks.size()); ++other) {
+      mix(rank.stance.owes_word(other) * 4u + rank.stance.takes(other) * 2u +
+          rank.stance.has_counted_gifts(other));
+      const StanceWord word = copy.tell(other);
+      mix(word.stance), mix(word.heard), mix(word.taken);
+    }
+  }
+  for (const auto& letters : state.under_way) {
+    mix(letters.size());
+    for (const OwnershipLetter& letter : letters) {
+      mix(letter.stance.stance), mix(letter.stance.heard), mix(letter.stance.taken);
+      for (const TileGrant& grant : letter.grants)
+        mix(grant.version), mix(static_cast<std::uint64_t>(grant.tile));
+    }
+  }
+  return static_cast<std::size_t>(hash);
+}
+
+OwnershipModel::OwnershipModel(const Partition& first, std::vector<Partition> cuts,
+                               const OwnershipLimits& limits, const OwnershipRules& rules)
+    : first_(first), cuts_(std::move(cuts)), limits_(limits), rules_(rules) {
+  for (std::size_t i = 0; i < cuts_.size(); ++i) {
+    const auto generation = rules_.cuts_raise_version ? static_cast<std::uint32_t>(i + 1) : 0;
+    std::fill(cuts_[i].version.begin(), cuts_[i].version.end(), first_version(generation));
+  }
+}
+
+OwnershipState OwnershipModel::start() const {
+  OwnershipState state;
+  for (int rank = 0; rank < rank_count(); ++rank) {
+    state.ranks.push_back({first_, Stance(rank_count()), 0});
+  }
+  state.under_way.resize(static_cast<std::size_t>(rank_count() * rank_count()));
+  state.left = limits_;
+  return state;
+}
+
+std::vector<OwnershipLetter>& OwnershipModel::letters(OwnershipState& state, int from, int to) const {
+  return state.under_way[static_cast<std::size_t>(from * rank_count() + to)];
+}
+
+const std::vector<OwnershipLetter>& OwnershipModel::letters(const OwnershipState& state, int from,
+                                                            int to) const {
+  return state.under_way[static_cast<std::size_t>(from * rank_count() + to)];
+}
+
+// --- What can happen ---
+
+std::vector<OwnershipStep> OwnershipModel::steps(const OwnershipState& state) const {
+  std::vector<OwnershipStep> steps;
+  if (state.cuts < static_cast<int>(cuts_.size())) steps.push_back({Kind::kOrderCut, 0, 0, {}, 0});
+  for (int rank = 0; rank < rank_count(); ++rank) {
+    const OwnershipRank& r = state.ranks[static_cast<std::size_t>(rank)];
+    if (state.left.decisions > 0) steps.push_back({Kind::kChangeStance, rank, 0, {}, 0});
+    if (r.frame < state.cuts) steps.push_back({Kind::kHearCut, rank, 0, {}, 0});
+    for (int other = 0; other < rank_count(); ++other) {
+      if (other == rank) continue;
+      const bool owed = rules_.acknowledges && r.stance.owes_word(other);
+      if (owed || state.left.words > 0) steps.push_back({Kind::kTell, rank, other, {}, 0});
+      const auto& coming = letters(state, other, rank);
+      for (std::size_t i = 0; i < coming.size(); ++i) {
+        if (i > 0 && rules_.words_keep_order) break;
+        if (can_deliver(state, rank, coming[i])) steps.push_back({Kind::kDeliver, rank, other, {}, i});
+      }
+      if (!may_give(state, rank, other)) continue;
+      for (int tile = 0; tile < first_.grid.tile_count(); ++tile) {
+        if (can_spare(state, rank, other, tile)) steps.push_back({Kind::kGive, rank, other, {tile}, 0});
+      }
+    }
+  }
+  return steps;
+}
+
+bool OwnershipModel::may_give(const OwnershipState& state, int giver, int taker) const {
+  const Stance& stance = state.ranks[static_cast<std::size_t>(giver)].stance;
+  const bool gives = rules_.waits_for_acknowledgement ? stance.may_give() : stance.is_giving();
+  return state.left.gifts > 0 && gives && stance.takes(taker) && stance.has_counted_gifts(taker);
+}
+
+bool OwnershipModel::can_deliver(const OwnershipState& state, int to, const OwnershipLetter& letter) const {
+  return letter.frame <= state.ranks[static_cast<std::size_t>(to)].frame || !rules_.words_wait_for_frame;
+}
+
+// Beside the taker's, and what is left of the giver's hangs together: as the giver sees it.
+bool OwnershipModel::can_spare(const OwnershipState& state, int giver, int taker, int tile) const {
+  Partition partition = state.ranks[static_cast<std::size_t>(giver)].partition;
+  const std::int32_t owner = partition.owner[static_cast<std::size_t>(tile)];
+  if (owner == taker || (owner != giver && rules_.only_owners_give)) return false;
+  bool beside = false;
+  for (int other = 0; other < partition.grid.tile_count(); ++other) {
+    beside = beside || (partition.owner[static_cast<std::size_t>(other)] == taker &&
+                        are_beside(partition.grid, tile, other));
+  }
+  if (!beside) return false;
+  partition.owner[static_cast<std::size_t>(tile)] = taker;
+  return (is_connected(partition, giver) || !rules_.keeps_regions_whole) &&
+         std::count(partition.owner.begin(), partition.owner.end(), giver) > 0;
+}
+
+std::vector<int> OwnershipModel::graded_tiles(const OwnershipState& state, int giver, int taker) const {
+  return tiles_to_give({}, state.ranks[static_cast<std::size_t>(giver)].partition, giver, taker, 10, 0, 1e9,
+                       [](int) {
+                         return TileOffer{1, 1, 0};
+                       });
+}
+
+// --- What it does ---
+
+std::optional<std::string> OwnershipModel::take(OwnershipState& state, const OwnershipStep& step) const {
+  OwnershipRank& rank = state.ranks[static_cast<std::size_t>(step.rank)];
+  switch (step.kind) {
+    case Kind::kChangeStance:
+      rank.stance.decide(!rank.stance.is_giving());
+      --state.left.decisions;
+      break;
+    case Kind::kTell:
+      if (!rank.stance.owes_word(step.other)) --state.left.words;
+      tell(state, step.rank, step.other, {});
+      break;
+    case Kind::kGive:
+      return give(state, step);
+    case Kind::kDeliver:
+      deliver(state, step.rank, step.other, step.position);
+      break;
+    case Kind::kOrderCut:
+      ++state.cuts;
+      break;
+    case Kind::kHearCut:
+      hear_cut(state, step.rank);
+      break;
+  }
+  return std::nullopt;
+}
+
+void OwnershipModel::tell(OwnershipState& state, int from, int to,
+                          const std::vector<TileGrant>& grants) const {
+  OwnershipRank& rank = state.ranks[static_cast<std::size_t>(from)];
+  letters(state, from, to).push_back({rank.frame, rank.stance.tell(to), grants});
+}
+
+// All ranks are told, as Worker::send_bundles does.
+std::optional<std::string> OwnershipModel::give(OwnershipState& state, const OwnershipStep& step) const {
+  OwnershipRank& giver = state.ranks[static_cast<std::size_t>(step.rank)];
+  std::optional<std::string> wrong;
+  for (int from = 0; from < rank_count(); ++from) {
+    for (const OwnershipLetter& letter : letters(state, from, step.rank)) {
+      for (const TileGrant& grant : letter.grants) {
+        if (grant.owner == step.rank &&
+            grant.version >= giver.partition.version[static_cast<std::size_t>(grant.tile)])
+          wrong = "a rank gives while a tile is on its way to it";
+      }
+    }
+  }
+  std::vector<TileGrant> grants;
+  for (const int tile : step.tiles) {
+    const auto t = static_cast<std::size_t>(tile);
+    giver.partition.version[t] += rules_.gifts_raise_version;
+    giver.partition.owner[t] = step.other;
+    grants.push_back({tile, step.other, giver.partition.version[t], {}, {}});
+  }
+  giver.stance.gave(step.other);
+  --state.left.gifts;
+  for (int to = 0; to < rank_count(); ++to) {
+    if (to != step.rank) tell(state, step.rank, to, grants);
+  }
+  return wrong;
+}
+
+void OwnershipModel::deliver(OwnershipState& state, int to, int from, std::size_t position) const {
+  auto& coming = letters(state, from, to);
+  const OwnershipLetter letter = std::move(coming[position]);
+  coming.erase(coming.begin() + static_cast<std::ptrdiff_t>(position));
+  OwnershipRank& rank = state.ranks[static_cast<std::size_t>(to)];
+  rank.stance.hear(from, letter.stance);
+  bool gift = false;
+  for (const TileGrant& grant : letter.grants) {
+    const auto t = static_cast<std::size_t>(grant.tile);
+    gift = gift || grant.owner == to;
+    if (grant.version <= rank.partition.version[t]) continue;
+    rank.partition.owner[t] = grant.owner;
+    rank.partition.version[t] = grant.version;
+  }
+  if (gift) rank.stance.took(from);
+}
+
+void OwnershipModel::hear_cut(OwnershipState& state, int rank) const {
+  OwnershipRank& r = state.ranks[static_cast<std::size_t>(rank)];
+  r.partition = cuts_[static_cast<std::size_t>(r.frame++)];
+}
+
+// --- What must hold ---
+
+// What anybody says of a tile, or is about to hear.
+std::vector<TileGrant> OwnershipModel::claims(const OwnershipState& state, int tile) const {
+  const auto t = static_cast<std::size_t>(tile);
+  std::vector<TileGrant> claims;
+  for (const OwnershipRank& r : state.ranks) {
+    claims.push_back({tile, r.partition.owner[t], r.partition.version[t], {}, {}});
+  }
+  for (const auto& letters : state.under_way) {
+    for (const OwnershipLetter& letter : letters) {
+      for (const TileGrant& grant : letter.grants) {
+        if (grant.tile == tile) claims.push_back(grant);
+      }
+    }
+  }
+  for (int cut = 0; cut < state.cuts; ++cut) {
+    const Partition& partition = cuts_[static_cast<std::size_t>(cut)];
+    claims.push_back({tile, partition.owner[t], partition.version[t], {}, {}});
+  }
+  return claims;
+}
+
+// Or will know: the word of it is on its way to the owner.
+bool OwnershipModel::owner_knows(const OwnershipState& state, const TileGrant& truth) const {
+  const OwnershipRank& owner = state.ranks[static_cast<std::size_t>(truth.owner)];
+  const auto t = static_cast<std::size_t>(truth.tile);
+  if (owner.partition.version[t] == truth.version && owner.partition.owner[t] == truth.owner) return true;
+  if (owner.frame < state.cuts) return true;
+  for (int from = 0; from < rank_count(); ++from) {
+    for (const OwnershipLetter& letter : letters(state, from, truth.owner)) {
+      if (std::any_of(letter.grants.begin(), letter.grants.end(),
+                      [&](const TileGrant& grant) { return same(grant, truth); }))
+        return true;
+    }
+  }
+  return false;
+}
+
+std::optional<std::string> OwnershipModel::fault(const OwnershipState& state) const {
+  Partition truth = first_;
+  for (int tile = 0; tile < first_.grid.tile_count(); ++tile) {
+    const auto t = static_cast<std::size_t>(tile);
+    TileGrant highest{tile, 0, 0, {}, {}};
+    const std::vector<TileGrant> all = claims(state, tile);
+    for (const TileGrant& a : all) {
+      for (const TileGrant& b : all) {
+        if (a.version == b.version && a.owner != b.owner) return "two owners by the same version";
+      }
+      if (a.version >= highest.version) highest = a;
+    }
+    if (!owner_knows(state, highest)) return "a tile's owner will never hear of it";
+    truth.owner[t] = highest.owner;
+    for (int a = 0; a < rank_count(); ++a) {
+      for (int b = 0; b < a; ++b) {
+        const OwnershipRank &x = state.ranks[static_cast<std::size_t>(a)],
+                            &y = state.ranks[static_cast<std::size_t>(b)];
+        if (x.frame == y.frame && x.partition.owner[t] == a && y.partition.owner[t] == b)
+          return "two ranks render the same tile";
+      }
+    }
+  }
+  for (int rank = 0; rank < rank_count(); ++rank) {
+    if (!is_connected(truth, rank)) return "a region has fallen apart";
+  }
+  const bool quiet = std::all_of(state.under_way.begin(), state.under_way.end(),
+                                 [](const auto& letters) { return letters.empty(); });
+  for (const OwnershipRank& r : state.ranks) {
+    if (quiet && r.frame == state.cuts && state.ranks.front().frame == state.cuts &&
+        (r.partition.owner != state.ranks.front().partition.owner))
+      return "ranks that have heard everything disagree";
+  }
+  return std::nullopt;
+}
+
+// All that is under way arrives, and whoever is owed a word gets it.
+void OwnershipModel::quieten(OwnershipState& state) const {
+  for (bool quiet = false; !quiet;) {
+    quiet = true;
+    for (int rank = 0; rank < rank_count(); ++rank) {
+      OwnershipRank& r = state.ranks[static_cast<std::size_t>(rank)];
+      while (r.frame < state.cuts) hear_cut(state, rank);
+      for (int other = 0; other < rank_count(); ++other) {
+        if (other == rank) continue;
+        for (; !letters(state, other, rank).empty(); quiet = false) deliver(state, rank, other, 0);
+        if (!rules_.acknowledges || !r.stance.owes_word(other)) continue;
+        tell(state, rank, other, {});
+        quiet = false;
+      }
+    }
+  }
+}
+
+bool OwnershipModel::all_can_come_to_give(OwnershipState& state) const {
+  quieten(state);
+  for (int giver = 0; giver < rank_count(); ++giver) {
+    for (int rank = 0; rank < rank_count(); ++rank) {
+      state.ranks[static_cast<std::size_t>(rank)].stance.decide(rank == giver);
+      if (rank != giver) tell(state, rank, giver, {});
+    }
+    quieten(state);
+    const Stance& stance = state.ranks[static_cast<std::size_t>(giver)].stance;
+    if (!stance.may_give()) return false;
+    for (int rank = 0; rank < rank_count(); ++rank) {
+      if (rank != giver && (!stance.takes(rank) || !stance.has_counted_gifts(rank))) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace pprt

@@ -1,0 +1,120 @@
+// How tiles change hands, without pictures: ranks with the real Partition and Stance, the messages between
+// them, and everything that can happen next. A test goes through the states one by one or at random.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "parallel/balance/partition.h"
+#include "parallel/balance/transfer_handshake.h"
+#include "parallel/balance/tile_cost.h"
+
+namespace pprt {
+
+// The rules that the protocol stands on; a test breaks one to see that the model finds out.
+struct OwnershipRules {
+  bool waits_for_acknowledgement = true;  // who has changed to giving, before the first gift
+  bool gifts_raise_version = true;
+  bool only_owners_give = true;
+  bool cuts_raise_version = true;
+  bool words_keep_order = true;      // from one rank to another
+  bool words_wait_for_frame = true;  // the receiver hears of a cut before what was sent after it
+  bool keeps_regions_whole = true;   // the giver its own
+  bool acknowledges = true;          // whoever is owed a word gets one
+};
+
+// How often something may still happen, on all ranks together.
+struct OwnershipLimits {
+  int decisions = 0;  // changes of stance
+  int words = 0;      // that nobody waits for
+  int gifts = 0;
+
+  friend bool operator==(const OwnershipLimits&, const OwnershipLimits&) = default;
+};
+
+struct OwnershipLetter {
+  int frame = 0;  // how many cuts the sender had heard of
+  StanceWord stance;
+  std::vector<TileGrant> grants;
+};
+
+struct OwnershipRank {
+  Partition partition;  // as it sees it
+  Stance stance;
+  int frame = 0;  // how many cuts it has heard of
+};
+
+struct OwnershipState {
+  std::vector<OwnershipRank> ranks;
+  std::vector<std::vector<OwnershipLetter>> under_way;  // [from * ranks + to], the oldest first
+  int cuts = 0;                                         // ordered by the master
+  OwnershipLimits left;
+
+  friend bool operator==(const OwnershipState& a, const OwnershipState& b);
+};
+
+struct OwnershipStateHash {
+  std::size_t operator()(const OwnershipState& state) const;
+};
+
+// One thing that can happen.
+struct OwnershipStep {
+  enum class Kind { kChangeStance, kTell, kGive, kDeliver, kOrderCut, kHearCut };
+  Kind kind{};
+  int rank = 0;              // who does it, or gets the letter
+  int other = 0;             // to whom, or from whom
+  std::vector<int> tiles;    // given
+  std::size_t position = 0;  // of the letter
+};
+
+class OwnershipModel {
+ public:
+  // `cuts` are the partitions that the master orders, one after the other, if the run comes to it. Regions
+  // must be connected.
+  OwnershipModel(const Partition& first, std::vector<Partition> cuts, const OwnershipLimits& limits,
+                 const OwnershipRules& rules = {});
+
+  OwnershipState start() const;
+
+  // Everything that can happen next. Each gift is of a single tile.
+  std::vector<OwnershipStep> steps(const OwnershipState& state) const;
+
+  // The tiles that the rank would give to the other by the grades of parallel/local_balance.
+  std::vector<int> graded_tiles(const OwnershipState& state, int giver, int taker) const;
+
+  // Whether the rules let it give to the other now.
+  bool may_give(const OwnershipState& state, int giver, int taker) const;
+
+  // Makes it happen. Tells what is wrong with it, if anything.
+  std::optional<std::string> take(OwnershipState& state, const OwnershipStep& step) const;
+
+  // What is wrong with a state.
+  std::optional<std::string> fault(const OwnershipState& state) const;
+
+  // Whether from here each rank in turn can come to give to all others. Changes the state.
+  bool all_can_come_to_give(OwnershipState& state) const;
+
+ private:
+  int rank_count() const { return first_.ranks; }
+  std::vector<OwnershipLetter>& letters(OwnershipState& state, int from, int to) const;
+  const std::vector<OwnershipLetter>& letters(const OwnershipState& state, int from, int to) const;
+  bool can_deliver(const OwnershipState& state, int to, const OwnershipLetter& letter) const;
+  bool can_spare(const OwnershipState& state, int giver, int taker, int tile) const;
+  void tell(OwnershipState& state, int from, int to, const std::vector<TileGrant>& grants) const;
+  std::optional<std::string> give(OwnershipState& state, const OwnershipStep& step) const;
+  void deliver(OwnershipState& state, int to, int from, std::size_t position) const;
+  void hear_cut(OwnershipState& state, int rank) const;
+  void quieten(OwnershipState& state) const;
+  std::vector<TileGrant> claims(const OwnershipState& state, int tile) const;
+  bool owner_knows(const OwnershipState& state, const TileGrant& truth) const;
+
+  Partition first_;
+  std::vector<Partition> cuts_;
+  OwnershipLimits limits_;
+  OwnershipRules rules_;
+};
+
+}  // namespace pprt

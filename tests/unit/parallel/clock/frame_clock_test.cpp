@@ -1,0 +1,140 @@
+#include "parallel/clock/frame_clock.h"
+
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <ctime>
+#include <thread>
+
+namespace pprt {
+namespace {
+
+constexpr double kPeriod = 0.1;
+constexpr std::size_t kPixels = 8 * 1000;  // as long to reconstruct as 1000 samples
+
+// A clock of a sequence that began now, in its frame 0, whose deadline is a second away.
+std::unique_ptr<FrameClock> clock_in_a_frame(double reserve_s, Carry carry = Carry::kNothing,
+                                             double ranks_per_core = 1) {
+  SessionSettings settings;
+  settings.clock = ClockKind::kWall;
+  settings.frames_per_second = 1 / kPeriod;
+  std::unique_ptr<FrameClock> clock =
+      make_frame_clock(settings, monotonic_seconds(), kPixels, ranks_per_core);
+  clock->region_changed(kPixels);
+  FrameOrder order;
+  order.deadline_s = 1;
+  order.carry = carry;
+  order.reserve_s = reserve_s;
+  clock->begin_frame(order);
+  return clock;
+}
+
+// How long before the deadline sampling ends with so many samples.
+double left_with(FrameClock& clock, std::uint64_t samples) {
+  clock.begin_packet(samples);
+  return 1 - clock.sampling_end_seconds();
+}
+
+TEST_CASE("sampling leaves time for the reconstruction of as many samples as there are") {
+  const auto clock = clock_in_a_frame(0.01);
+  CHECK(left_with(*clock, 500) == Approx(0.01));  // nothing is known of it yet
+  left_with(*clock, 3000);
+  clock->end_frame(8);  // milliseconds, for 3000 samples and the pixels
+  const double per_sample = 0.008 / (3000 + 1000);
+  CHECK(left_with(*clock, 0) == Approx(0.01 + 1.25 * per_sample * 1000));
+  CHECK(left_with(*clock, 9000) == Approx(0.01 + 1.25 * per_sample * 10000));
+}
+
+TEST_CASE("ranks that share a core leave time for each other's reconstruction") {
+  const auto clock = clock_in_a_frame(0, Carry::kNothing, 16);
+  left_with(*clock, 3000);
+  clock->end_frame(1);
+  CHECK(left_with(*clock, 3000) == Approx(1.25 * 16 * 0.001));
+}
+
+TEST_CASE("a resting picture whose reconstruction fills the frame gets no further samples, a new one some") {
+  for (const bool rests : {true, false}) {
+    const auto clock = clock_in_a_frame(0, rests ? Carry::kAccumulate : Carry::kNothing);
+    left_with(*clock, 9000);
+    clock->end_frame(50);
+    CHECK(left_with(*clock, 10000) == Approx(1.25 * 0.055));
+    for (const std::uint64_t samples : {19000, 1000000})
+      CHECK(left_with(*clock, samples) == Approx(rests ? kPeriod : 0.7 * kPeriod));
+  }
+}
+
+// A clock in a frame that has to end sampling in `stops_in_s`, with a reserve of seven tenths of the period,
+// and whose reconstruction takes so long.
+std::unique_ptr<FrameClock> clock_about_to_stop(double period_s, double stops_in_s, double reconstruction_s,
+                                                Carry carry = Carry::kNothing, double ranks_per_core = 1) {
+  SessionSettings settings;
+  settings.clock = ClockKind::kWall;
+  settings.frames_per_second = 1 / period_s;
+  auto clock = make_frame_clock(settings, monotonic_seconds(), 0, ranks_per_core);
+  FrameOrder order;
+  order.reserve_s = 0.7 * period_s - 1.25 * reconstruction_s * ranks_per_core;
+  order.carry = carry;
+  order.deadline_s = 0.7 * period_s + stops_in_s;
+  for (int frame = 0; frame < 2; ++frame) {
+    clock->begin_frame(order);
+    clock->begin_packet(3000);
+    if (frame == 0) clock->end_frame(1e3 * reconstruction_s);
+  }
+  return clock;
+}
+
+TEST_CASE("a new picture that lost time goes on into half of the reserve") {
+  constexpr double kLong = 100;  // seconds: no delay of this test's matters
+  const auto clock = clock_about_to_stop(kLong, -5, 8);
+  CHECK_FALSE(clock->sampling_over());
+  CHECK(clock->sampling_end_seconds() == Approx(-5 + 0.5 * (70 - 1.25 * 8)));
+  clock->begin_packet(3000);
+  CHECK_FALSE(clock->sampling_over());
+  CHECK(clock_about_to_stop(kLong, -40, 8)->sampling_over());  // beyond that half
+  CHECK(clock_about_to_stop(kLong, -5, 8, Carry::kAccumulate)->sampling_over());
+  CHECK(clock_about_to_stop(kLong, -5, 8, Carry::kNothing, 2)->sampling_over());
+  CHECK(clock_about_to_stop(kLong, -5, 0)->sampling_over());  // nobody knows yet what follows
+}
+
+TEST_CASE("a new picture whose rank was not let run goes on, one that rested does not") {
+  for (const bool rests : {false, true}) {
+    const auto clock = clock_about_to_stop(10, 0.1, 0.1);
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    if (rests) clock->rested(9.9);
+    CHECK(clock->sampling_over() == rests);
+    const auto is_put_off = [&] { return clock->sampling_end_seconds() > 1; };
+    CHECK(is_put_off() == !rests);
+    clock->begin_packet(3000);
+    CHECK(is_put_off() == !rests);
+  }
+}
+
+TEST_CASE("where a late end cannot be put off it stays what it was") {
+  const auto clock = clock_about_to_stop(0.8, 0.05, 0.001);
+  std::this_thread::sleep_for(std::chrono::milliseconds(400));  // beyond half of the reserve, which is 0.28 s
+  CHECK(clock->sampling_over());
+  CHECK(clock->sampling_end_seconds() < 0.2);
+}
+
+TEST_CASE("a new picture that has had its time ends when it must") {
+  constexpr double kShort = 0.2;
+  const auto clock = clock_about_to_stop(kShort, 0.15, 0.001);
+  const auto cpu_seconds = [] { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; };
+  for (const double began = cpu_seconds(); cpu_seconds() < began + kShort;) {
+  }
+  CHECK(clock->sampling_over());
+}
+
+TEST_CASE("of the last eight reconstructions the slowest counts") {
+  const auto clock = clock_in_a_frame(0);
+  const auto left_after = [&](double reconstruction_ms) {
+    left_with(*clock, 9000);
+    clock->end_frame(reconstruction_ms);
+    return left_with(*clock, 9000);
+  };
+  CHECK(left_after(40) == Approx(1.25 * 0.04));
+  for (int frame = 0; frame < 7; ++frame) CHECK(left_after(10) == Approx(1.25 * 0.04));
+  CHECK(left_after(10) == Approx(1.25 * 0.01));
+}
+
+}  // namespace
+}  // namespace pprt

@@ -1,0 +1,245 @@
+#include "parallel/network/messages.h"
+
+#include <catch2/catch.hpp>
+#include <functional>
+#include <limits>
+
+#include "parallel/session_settings.h"
+#include "parallel/network/wire.h"
+
+namespace pprt {
+namespace {
+
+Sample some_sample(int i) {
+  Sample s;
+  s.x = 0.25 + i;
+  s.y = 1e-300 * (i + 1);
+  s.id = (SampleId{7} << 40) | static_cast<SampleId>(i);
+  s.frame = -3 + i;
+  s.ray = {
+      Color(0.5f, 1e-38f, 2.0f),     Vec3f(1, 2, 3.5f), i % 2 == 0, i % 3 == 0, 5u + static_cast<unsigned>(i),
+      17u + static_cast<unsigned>(i)};
+  return s;
+}
+
+Bundle some_bundle() {
+  Bundle bundle{3, 2, 19, true, 4, {0.5, 0.25, 1e6}, {5, 8, 2}, {{4, 2, 7, {1, 2}, {3, 4}}}, {}};
+  for (int i = 0; i < 6; ++i) bundle.samples.push_back(some_sample(i));
+  return bundle;
+}
+
+FrameOrder some_order() {
+  FrameOrder order;
+  order.index = 5, order.number = 42, order.cut = true, order.carry = Carry::kCastVerified;
+  order.camera.eye = {1, 2, 3}, order.camera.right = {0, 1, 0}, order.camera.up = {0, 0, 1};
+  order.camera.forward = {1, 0, 0}, order.camera.slope_per_pixel = 0.01;
+  order.camera.width = 320, order.camera.height = 200;
+  order.deadline_s = 1.5, order.reserve_s = 0.02;
+  order.generation = 3, order.owners = {1, 0, 0, 1}, order.tiles = {{1, 2}, {3, 4}, {5, 6}};
+  return order;
+}
+
+PixelMessage some_pixels() {
+  PixelMessage pixels;
+  pixels.frame_index = 9;
+  pixels.report.samples_new = 1, pixels.report.samples_known = 2, pixels.report.non_finite = 3;
+  pixels.report.refinement = 0.125, pixels.report.rays.shadow = 77, pixels.report.cpu_ms.idle = 4.5;
+  pixels.report.finished_s = 6.5;
+  pixels.tiles = {{4, 12, 0.5, 100, 20, 3}, {1, 0, 0, 0, 0, 0}};
+  pixels.given = {7};
+  pixels.rgb = {0.1f, 0.2f, 0.3f, 1, 2, 3};
+  return pixels;
+}
+
+SessionSettings some_settings() {
+  SessionSettings settings;
+  settings.width = 123, settings.height = 45, settings.clock = ClockKind::kWork;
+  settings.frames_per_second = 4, settings.budget_units = 12345;
+  settings.stop = {1.5, 678, 0.01};
+  settings.cast = CastChoice::kVerified, settings.seed = 99;
+  settings.balance = BalanceMode::kLocal, settings.keep_samples = false, settings.report_samples = true;
+  settings.pixel_rule = PixelRule::kMean, settings.learned_weights = false;
+  settings.machine = {3e8, 1e-3, 4e7};
+  return settings;
+}
+
+// Every message, cut short after each of its bytes, and with one byte too many.
+void check_cut_short(const Bytes& whole, const std::function<void(const Bytes&)>& decode) {
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    INFO("cut after " << size << " of " << whole.size() << " bytes");
+    CHECK_THROWS_AS(decode(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size))),
+                    ProtocolError);
+  }
+  CHECK_NOTHROW(decode(whole));
+}
+
+void check_one_too_many(Bytes whole, const std::function<void(const Bytes&)>& decode) {
+  whole.push_back(std::byte{0});
+  CHECK_THROWS_AS(decode(whole), ProtocolError);
+}
+
+// Announces counts that no message can hold at the place where the count stands.
+void check_hostile_count(Bytes whole, std::size_t at, const std::function<void(const Bytes&)>& decode) {
+  for (const std::uint64_t count : {std::numeric_limits<std::uint64_t>::max(), std::uint64_t{1} << 63,
+                                    std::uint64_t{1} << 58, std::uint64_t{1} << 40, std::uint64_t{1000}}) {
+    INFO("count " << count);
+    std::memcpy(whole.data() + at, &count, sizeof count);
+    CHECK_THROWS_AS(decode(whole), ProtocolError);
+  }
+}
+
+const auto kDecodeOrder = [](const Bytes& bytes) { decode_frame_order(bytes); };
+const auto kDecodeBundle = [](const Bytes& bytes) { decode_bundle(bytes); };
+const auto kDecodePixels = [](const Bytes& bytes) { decode_pixels(bytes); };
+const auto kDecodeSettings = [](const Bytes& bytes) { decode_settings(bytes); };
+
+}  // namespace
+
+TEST_CASE("a frame order comes back as it was sent") {
+  const FrameOrder order = some_order(), back = decode_frame_order(encode(order));
+  CHECK(back.end == order.end);
+  CHECK(back.index == order.index);
+  CHECK(back.number == order.number);
+  CHECK(back.cut == order.cut);
+  CHECK(back.carry == order.carry);
+  CHECK(back.camera == order.camera);
+  CHECK(back.deadline_s == order.deadline_s);
+  CHECK(back.reserve_s == order.reserve_s);
+  CHECK((back.generation == 3 && back.owners == order.owners));
+  REQUIRE(back.tiles.size() == 3);
+  CHECK((back.tiles[1].cost == 3 && back.tiles[1].average_weight == 4));
+  // Runs of tiles travel, not tiles.
+  FrameOrder longer = order;
+  longer.owners.insert(longer.owners.end(), 1000, 1);
+  CHECK(encode(longer).size() == encode(order).size());
+  longer.owners.push_back(2);
+  CHECK(encode(longer).size() == encode(order).size() + sizeof(OwnerRun));
+  FrameOrder end;
+  end.end = true;
+  CHECK(decode_frame_order(encode(end)).end);
+}
+
+TEST_CASE("a bundle comes back as it was sent") {
+  const Bundle bundle = some_bundle(), back = decode_bundle(encode(bundle));
+  CHECK(back.frame_index == 3);
+  CHECK(back.epoch == 2);
+  CHECK(back.round == 19);
+  CHECK(back.done);
+  CHECK((back.progress.quality == 0.5 && back.progress.target == 0.25 && back.progress.future_cost == 1e6));
+  REQUIRE(back.grants.size() == 1);
+  CHECK(back.rounds_under_way == 4);
+  CHECK((back.stance.stance == 5 && back.stance.heard == 8 && back.stance.taken == 2));
+  CHECK((back.grants[0].tile == 4 && back.grants[0].owner == 2 && back.grants[0].version == 7));
+  CHECK((back.grants[0].now.cost == 1 && back.grants[0].last.average_weight == 4));
+  REQUIRE(back.samples.size() == bundle.samples.size());
+  for (std::size_t i = 0; i < back.samples.size(); ++i) {
+    const Sample &a = bundle.samples[i], &b = back.samples[i];
+    CHECK((a.x == b.x && a.y == b.y && a.id == b.id && a.frame == b.frame));
+    CHECK((a.ray.color == b.ray.color && a.ray.hit == b.ray.hit && a.ray.rays == b.ray.rays));
+    CHECK(a.ray.primitive == b.ray.primitive);
+    CHECK((a.ray.at_infinity == b.ray.at_infinity && a.ray.eye_dependent == b.ray.eye_dependent));
+  }
+  CHECK(decode_bundle(encode(Bundle())).samples.empty());
+}
+
+TEST_CASE("pixels and their report come back as they were sent") {
+  const PixelMessage pixels = some_pixels(), back = decode_pixels(encode(pixels));
+  CHECK(back.frame_index == 9);
+  REQUIRE(back.tiles.size() == 2);
+  CHECK((back.tiles[0].tile == 4 && back.tiles[0].triangles == 12 && back.tiles[0].total_weight == 0.5));
+  CHECK((back.tiles[0].cost == 100 && back.tiles[0].reconstruction == 20 && back.tiles[0].preparation == 3));
+  CHECK(back.given == pixels.given);
+  CHECK(back.rgb == pixels.rgb);
+  CHECK(back.report.samples_new == 1);
+  CHECK(back.report.samples_known == 2);
+  CHECK(back.report.non_finite == 3);
+  CHECK(back.report.refinement == 0.125);
+  CHECK(back.report.rays.shadow == 77);
+  CHECK(back.report.cpu_ms.idle == 4.5);
+  CHECK(back.report.finished_s == 6.5);
+  CHECK(encode(back) == encode(pixels));
+}
+
+TEST_CASE("settings come back as they were sent") {
+  CHECK((decode_settings(encode(some_settings())) == some_settings()));
+}
+
+TEST_CASE("a message cut short anywhere is refused") {
+  check_cut_short(encode(some_order()), kDecodeOrder);
+  check_cut_short(encode(some_bundle()), kDecodeBundle);
+  check_cut_short(encode(some_pixels()), kDecodePixels);
+  check_cut_short(encode(some_settings()), kDecodeSettings);
+}
+
+TEST_CASE("a message with more than it should hold is refused") {
+  check_one_too_many(encode(some_order()), kDecodeOrder);
+  check_one_too_many(encode(some_bundle()), kDecodeBundle);
+  check_one_too_many(encode(some_pixels()), kDecodePixels);
+}
+
+TEST_CASE("a value that its type has not is refused") {
+  const auto with = [](Bytes bytes, std::size_t at, unsigned value) {
+    bytes[at] = static_cast<std::byte>(value);
+    return bytes;
+  };
+  const Bytes order = encode(some_order()), bundle = encode(some_bundle());
+  CHECK_THROWS_AS(decode_frame_order(with(order, 0, 2)), ProtocolError);   // end
+  CHECK_THROWS_AS(decode_frame_order(with(order, 9, 2)), ProtocolError);   // cut
+  CHECK_THROWS_AS(decode_frame_order(with(order, 10, 5)), ProtocolError);  // carry
+  CHECK(decode_frame_order(with(order, 10, 4)).carry == Carry::kCastWherePaying);
+  CHECK_THROWS_AS(decode_bundle(with(bundle, 12, 255)), ProtocolError);  // done
+  const Bytes settings = encode(some_settings());
+  CHECK_THROWS_AS(decode_settings(with(settings, 8, 2)), ProtocolError);   // clock
+  CHECK_THROWS_AS(decode_settings(with(settings, 49, 4)), ProtocolError);  // balance
+  CHECK_THROWS_AS(decode_settings(with(settings, 50, 4)), ProtocolError);  // cast
+  CHECK_THROWS_AS(decode_settings(with(settings, 51, 2)), ProtocolError);  // keep_samples
+  CHECK_THROWS_AS(decode_settings(with(settings, 52, 4)), ProtocolError);  // pixel_rule
+  CHECK_THROWS_AS(decode_settings(with(settings, 53, 2)), ProtocolError);  // learned_weights
+}
+
+TEST_CASE("runs of more tiles than an image has are refused") {
+  FrameOrder order = some_order();
+  order.owners.clear(), order.tiles.clear();
+  Bytes bytes = encode(order);
+  const std::size_t counts = 2 * sizeof(std::uint64_t);
+  for (const std::int32_t tiles : {0, -1, std::numeric_limits<std::int32_t>::max(), 1 << 28}) {
+    WireWriter runs;
+    runs.put_all<OwnerRun>(std::vector<OwnerRun>{{0, tiles}});
+    runs.put(std::uint64_t{0});
+    Bytes hostile(bytes.begin(), bytes.end() - static_cast<std::ptrdiff_t>(counts));
+    const Bytes end = runs.take();
+    hostile.insert(hostile.end(), end.begin(), end.end());
+    CHECK_THROWS_AS(decode_frame_order(hostile), ProtocolError);
+  }
+}
+
+TEST_CASE("a count that a message cannot hold takes no memory") {
+  const Bytes bundle = encode(some_bundle());
+  Bundle without = some_bundle();
+  without.samples.clear();
+  check_hostile_count(bundle, encode(without).size() - sizeof(std::uint64_t), kDecodeBundle);
+  check_hostile_count(bundle, encode(without).size() - 2 * sizeof(std::uint64_t) - sizeof(TileGrant),
+                      kDecodeBundle);
+
+  const PixelMessage pixels = some_pixels();
+  const Bytes bytes = encode(pixels);
+  const std::size_t rgb = bytes.size() - 6 * sizeof(float) - 2 * sizeof(std::uint64_t);  // no samples follow
+  check_hostile_count(bytes, rgb, kDecodePixels);
+  const std::size_t given = rgb - sizeof(std::int32_t) - sizeof(std::uint64_t);
+  check_hostile_count(bytes, given, kDecodePixels);
+  check_hostile_count(bytes, given - 2 * sizeof(TileReport) - sizeof(std::uint64_t), kDecodePixels);
+}
+
+TEST_CASE("texts travel with their length") {
+  WireWriter out;
+  out.put(std::string("tree")), out.put(std::string());
+  const Bytes bytes = out.take();
+  WireReader in(bytes);
+  std::string first, second = "not empty";
+  in.get(first), in.get(second);
+  CHECK(first == "tree");
+  CHECK(second.empty());
+  CHECK_NOTHROW(in.expect_end());
+}
+
+}  // namespace pprt

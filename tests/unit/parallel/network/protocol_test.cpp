@@ -1,0 +1,98 @@
+// docs/protocol.md tells the sizes that the encoders make.
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <string>
+
+#include "parallel/network/messages.h"
+
+namespace pprt {
+namespace {
+
+std::string page() {
+  std::ifstream file(PPRT_SOURCE_DIR "/docs/protocol.md");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::size_t order_bytes(std::size_t runs, std::size_t tiles) {
+  FrameOrder order;
+  for (std::size_t i = 0; i < runs; ++i) order.owners.push_back(static_cast<std::int32_t>(i % 2));
+  order.tiles.resize(tiles);
+  return encode(order).size();
+}
+
+std::size_t bundle_bytes(std::size_t gifts, std::size_t samples) {
+  Bundle bundle;
+  bundle.grants.resize(gifts);
+  bundle.samples.resize(samples);
+  return encode(bundle).size();
+}
+
+std::size_t pixels_bytes(std::size_t tiles, std::size_t gifts, std::size_t pixels, std::size_t samples = 0) {
+  PixelMessage message;
+  message.tiles.resize(tiles);
+  message.given.resize(gifts);
+  message.rgb.resize(3 * pixels);
+  message.samples.resize(samples);
+  return encode(message).size();
+}
+
+// What the page tells, matched by a pattern; each match's numbers go to `check`.
+template <typename Check>
+int for_each_match(const std::string& text, const std::string& pattern, const Check& check) {
+  const std::regex regex(pattern);
+  int count = 0;
+  for (std::sregex_iterator match(text.begin(), text.end(), regex), end; match != end; ++match, ++count) {
+    INFO(match->str());
+    check([&](std::size_t i) { return static_cast<std::size_t>(std::stoul((*match)[i].str())); });
+  }
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("the page's formulas are those of the encoders") {
+  const std::string text = page();
+  const auto tells = [&](const std::string& formula) {
+    return text.find('`' + formula + '`') != std::string::npos;
+  };
+  const auto n = [](std::size_t value) { return std::to_string(value); };
+  const std::size_t order = order_bytes(0, 0), bundle = bundle_bytes(0, 0), pixels = pixels_bytes(0, 0, 0);
+  CHECK(tells(n(order)));
+  CHECK(
+      tells(n(order) + " + " + n(order_bytes(1, 0) - order) + " r + " + n(order_bytes(0, 1) - order) + " t"));
+  CHECK(tells(n(bundle) + " + " + n(bundle_bytes(1, 0) - bundle) + " g + " + n(bundle_bytes(0, 1) - bundle) +
+              " s"));
+  CHECK(tells(n(pixels) + " + " + n(pixels_bytes(1, 0, 0) - pixels) + " t + " +
+              n(pixels_bytes(0, 1, 0) - pixels) + " g + " + n(pixels_bytes(0, 0, 1) - pixels) + " p + " +
+              n(pixels_bytes(0, 0, 0, 1) - pixels) + " s"));
+  CHECK(text.find("report (" + n(sizeof(RankReport)) + ")") != std::string::npos);
+}
+
+TEST_CASE("the worked example's sizes are those of the encoders") {
+  const std::string text = page();
+  CHECK(3 == for_each_match(text, R"(\[order (\d+)r (\d+)t = (\d+)\])", [](const auto& number) {
+          CHECK(order_bytes(number(1), number(2)) == number(3));
+        }));
+  CHECK(16 <= for_each_match(text, R"(\[bundle (\d+)g (\d+)s = (\d+)\])", [](const auto& number) {
+          CHECK(bundle_bytes(number(1), number(2)) == number(3));
+        }));
+  CHECK(6 == for_each_match(text, R"(\[pixels (\d+)t (\d+)g (\d+)p = (\d+)\])", [](const auto& number) {
+          CHECK(pixels_bytes(number(1), number(2), number(3)) == number(4));
+        }));
+}
+
+TEST_CASE("the page's tags are those of the communicator") {
+  const std::string text = page();
+  const std::vector<std::pair<Tag, std::string>> tags = {
+      {Tag::kClockPing, "kClockPing"},   {Tag::kClockPong, "kClockPong"}, {Tag::kStart, "kStart"},
+      {Tag::kFrameOrder, "kFrameOrder"}, {Tag::kBundle, "kBundle"},       {Tag::kPixels, "kPixels"}};
+  for (const auto& [tag, name] : tags) {
+    const std::string row = "| " + std::to_string(static_cast<int>(tag)) + " `" + name + "` |";
+    INFO(row);
+    CHECK(text.find(row) != std::string::npos);
+  }
+}
+
+}  // namespace pprt

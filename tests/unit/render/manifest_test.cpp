@@ -1,0 +1,150 @@
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <sstream>
+
+#include "render/manifest.h"
+#include "base/diagnostics.h"
+#include "unit/image/temporary_directory.h"
+
+namespace pprt {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& path) {
+  std::stringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+void append(const fs::path& path, const std::string& text) {
+  std::ofstream(path, std::ios::app) << text;
+}
+
+// A run that has written frames 1 to 3, with the pictures.
+struct FinishedRun {
+  TemporaryDirectory directory;
+  fs::path path = directory.path() / "manifest.ndjson";
+
+  FinishedRun() {
+    Manifest manifest(path, "key", false);
+    for (const int frame : {1, 2, 3}) {
+      append(picture(frame), "x");
+      manifest.add({{frame, {picture(frame)}}});
+    }
+  }
+  fs::path picture(int frame) const { return directory.path() / (std::to_string(frame) + ".png"); }
+  std::vector<FramePattern> outputs(const std::string& extension = "png") const {
+    return {parse_frame_pattern((directory.path() / "#.").string() + extension, FrameCount::kMany)};
+  }
+  std::set<int> finished(const Manifest& manifest) const {
+    std::set<int> frames;
+    for (int frame = 1; frame < 10; ++frame) {
+      if (manifest.has(frame, outputs())) frames.insert(frame);
+    }
+    return frames;
+  }
+  std::set<int> resumed() const { return finished(Manifest(path, "key", true)); }
+};
+
+}  // namespace
+
+TEST_CASE("the manifest stands beside the frames") {
+  const auto path = [](const char* pattern) {
+    return manifest_path(parse_frame_pattern(pattern, FrameCount::kOne));
+  };
+  CHECK(path("out/%04d.exr") == "out/manifest.ndjson");
+  CHECK(path("frame_####.png") == "frame_manifest.ndjson");
+  CHECK(path("out/a%db.png") == "out/amanifest.ndjson");
+}
+
+TEST_CASE("a run goes on after the frames that are finished") {
+  const FinishedRun run;
+  CHECK(run.resumed() == std::set<int>{1, 2, 3});
+  append(run.picture(7), "x");
+  Manifest(run.path, "key", true).add({{7, {run.picture(7)}}});
+  CHECK(run.resumed() == std::set<int>{1, 2, 3, 7});
+}
+
+TEST_CASE("a frame whose picture is gone is not finished") {
+  const FinishedRun run;
+  fs::remove(run.picture(2));
+  CHECK(run.resumed() == std::set<int>{1, 3});
+}
+
+TEST_CASE("a frame is finished when it was written under every name that is asked for now") {
+  const FinishedRun run;
+  Manifest manifest(run.path, "key", true);
+  std::vector<FramePattern> both = run.outputs();
+  both.push_back(run.outputs("exr").front());
+  CHECK((manifest.has(1, run.outputs()) && !manifest.has(1, run.outputs("exr")) && !manifest.has(1, both)));
+  // Runs that wrote one format each have together written both.
+  const fs::path exr = run.directory.path() / "1.exr";
+  append(exr, "x");
+  manifest.add({{1, {exr}}});
+  const Manifest later(run.path, "key", true);
+  CHECK(later.has(1, both));
+  CHECK_FALSE(later.has(2, both));
+}
+
+TEST_CASE("an EXR is finished with the layers that it holds") {
+  const FinishedRun run;
+  const fs::path exr = run.directory.path() / "1.exr";
+  append(exr, "x");
+  Manifest(run.path, "key", true).add({{1, {exr}, {"age", "depth"}}});
+  const Manifest later(run.path, "key", true);
+  CHECK(later.has(1, run.outputs("exr")));
+  CHECK(later.has(1, run.outputs("exr"), {"depth"}));
+  CHECK_FALSE(later.has(1, run.outputs("exr"), {"depth", "id"}));
+  // A PNG holds none: its layers are files of their own.
+  CHECK(later.has(1, run.outputs(), {"depth"}));
+}
+
+TEST_CASE("a line that a dying run left half-written is no line, and harms none after it") {
+  const FinishedRun run;
+  append(run.path, R"({"record":"frame","frame":4,"fi)");
+  append(run.picture(5), "x");
+  {
+    Manifest manifest(run.path, "key", true);
+    CHECK(run.finished(manifest) == std::set<int>{1, 2, 3});
+    manifest.add({{5, {run.picture(5)}}});
+  }
+  CHECK(run.resumed() == std::set<int>{1, 2, 3, 5});
+}
+
+TEST_CASE("another scene or other options cannot be resumed") {
+  const FinishedRun run;
+  CHECK_THROWS_AS(Manifest(run.path, "other", true), UsageError);
+  CHECK(run.resumed().size() == 3);  // nothing was lost by trying
+}
+
+TEST_CASE("a manifest that is empty or whose first line is torn is of another run") {
+  const FinishedRun run;
+  for (const char* text :
+       {"", "{\"record\":\"ru", "\n\n", "[1, 2]\n", "{\"record\":\"frame\",\"frame\":1}\n"}) {
+    INFO("text '" << text << "'");
+    std::ofstream(run.path, std::ios::trunc) << text;
+    CHECK_THROWS_AS(Manifest(run.path, "key", true), UsageError);
+  }
+}
+
+TEST_CASE("a manifest with lines that are JSON but no records does not end the program") {
+  const FinishedRun run;
+  append(run.path, "17\n{\"record\":\"frame\"}\n{\"record\":\"frame\",\"frame\":\"x\",\"files\":3}\n");
+  CHECK(run.resumed() == std::set<int>{1, 2, 3});
+}
+
+TEST_CASE("without --resume a manifest starts anew") {
+  const FinishedRun run;
+  CHECK(run.finished(Manifest(run.path, "other", false)).empty());
+  CHECK(text_of(run.path) == "{\"record\":\"run\",\"key\":\"other\"}\n");
+}
+
+TEST_CASE("resuming where nothing was begun is a new run") {
+  const TemporaryDirectory directory;
+  const fs::path path = directory.path() / "manifest.ndjson";
+  Manifest(path, "key", true);
+  CHECK(text_of(path) == "{\"record\":\"run\",\"key\":\"key\"}\n");
+}
+
+}  // namespace pprt

@@ -1,0 +1,103 @@
+// Which runs the paper's study makes, and what one of them measures.
+#include "study/paper/runs.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "study/paper/measures.h"
+#include "study/paper/page.h"
+#include "base/diagnostics.h"
+
+using namespace pprt;
+
+namespace {
+
+Calibration even(const std::vector<int>& ranks) {
+  Calibration calibration{3e7, {{9, 1.0}}, 0.001};
+  for (const int count : ranks) calibration.share[count] = 1;
+  return calibration;
+}
+
+std::ptrdiff_t count(const std::vector<PaperRun>& runs, std::string_view experiment) {
+  return std::count_if(runs.begin(), runs.end(),
+                       [&](const PaperRun& run) { return run.experiment == experiment; });
+}
+
+}  // namespace
+
+TEST_CASE("what is left open is as in the paper, or small when quick") {
+  CHECK(settled({}).ranks == std::vector{32, 62});
+  CHECK(settled({}).frames == 40);
+  PaperOptions quick;
+  quick.quick = true;
+  quick.frames = 8;
+  CHECK(settled(quick).ranks == std::vector{4, 6});
+  CHECK(settled(quick).frames == 8);
+  PaperOptions wrong;
+  wrong.machine = "sp3";
+  CHECK_THROWS_AS(settled(wrong), UsageError);
+}
+
+TEST_CASE("a machine's network can be set apart from its processors") {
+  PaperOptions options;
+  options.machine = "sp2";
+  CHECK(machine_of(options).bytes_per_second == sp2_machine().bytes_per_second);
+  options.latency_us = 7;
+  options.bandwidth_mb_s = 100;
+  CHECK(machine_of(options).latency_s == Approx(7e-6));
+  CHECK(machine_of(options).bytes_per_second == Approx(1e8));
+  CHECK(machine_of(options).units_per_second == sp2_machine().units_per_second);
+}
+
+TEST_CASE("the paper's experiments as runs") {
+  const PaperOptions options = settled({});
+  const std::vector<PaperRun> runs = paper_runs(options, even(options.ranks));
+  CHECK(count(runs, kSimple) == 8);    // four modes, two numbers of ranks
+  CHECK(count(runs, kCasting) == 4);   // three modes, and samples kept
+  CHECK(count(runs, kScaling) == 28);  // seven numbers of ranks: three modes, and a larger picture
+  CHECK(count(runs, kShortFrame) == 14);
+  CHECK(count(runs, kCosts) == 7);
+  for (const PaperRun& run : runs) {
+    if (run.experiment == kSimple) CHECK((run.cast == CastChoice::kOff && run.frames == 40));
+    if (run.experiment == kCasting) CHECK((run.cast == CastChoice::kPaper && run.ranks == 62));
+    if (run.experiment == kScaling) CHECK(run.share == 1);
+  }
+}
+
+TEST_CASE("a quick study measures every frame of every run") {
+  PaperOptions options;
+  options.quick = true;
+  options.ranks = {2};
+  options.frames = 5;
+  options = settled(options);
+  std::vector<std::string> told;
+  const PaperResults results = run_paper(options, [&](const std::string& run) { told.push_back(run); });
+  CHECK(told.size() == results.runs.size() + cast_trial(options).sequences.size());
+  CHECK(results.cast_errors.size() == 16);
+  CHECK(results.calibration.share.at(2) == 1);
+  std::size_t rows = 0;
+  for (const MeasuredRun& r : results.runs) {
+    CAPTURE(r.run.experiment, r.run.ranks);
+    CHECK(r.frames.size() == 5);
+    rows += r.frames.size();
+    for (const FrameMeasures& m : r.frames) {
+      CHECK(m.samples > 100);
+      CHECK(m.refinement > 0);
+      CHECK(std::isnan(m.distance) != r.run.compare_serial);
+    }
+  }
+  CHECK(frames_table(results).rows.size() == rows);
+
+  const Runs runs(results);
+  // As many a pixel as 19,000 on 256 x 256 are 2672 on 96 x 96; calibrated within 5 %.
+  CHECK(mean(runs.find(kSimple, 2, BalanceMode::kCombined), {4, 5}, samples) == Approx(2672).epsilon(0.05));
+  CHECK(mean(runs.find(kScaling, 1, BalanceMode::kNone), {1, 5}, distance) == 0);
+  CHECK(mean(runs.find(kSimple, 2, BalanceMode::kNone), {1, 5}, distance) > 0.01);
+  // Three views each of frame 1 of the simple sequence, and of 1 and 5 of the casting one; one rank's pattern
+  // in four, nine ranks' in one and two.
+  const auto patterns = std::count_if(results.pictures.begin(), results.pictures.end(),
+                                      [](const Picture& picture) { return picture.of_pattern; });
+  CHECK(patterns == 7);
+  CHECK(results.pictures.size() == 7 + 9);
+}

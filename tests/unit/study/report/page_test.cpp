@@ -1,0 +1,62 @@
+#include "study/report/page.h"
+
+#include <catch2/catch.hpp>
+#include <string>
+
+using namespace pprt;
+
+namespace {
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size()) ++found;
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("text cannot become markup") {
+  CHECK(escape_html("<a href=\"x\">&</a>") == "&lt;a href=&quot;x&quot;&gt;&amp;&lt;/a&gt;");
+  const std::string evil = "<script>alert(1)</script>";
+  Page page(evil);
+  page.heading(evil);
+  page.paragraph(evil);
+  page.note(evil);
+  page.table({{evil}, {{evil}}, {}});
+  page.figure("<svg></svg>", evil);
+  page.picture("png", evil);
+  const std::string html = page.html({{evil, evil}});
+  CHECK(count(html, "<script") == 0);
+  CHECK(count(html, "&lt;script&gt;") == 12);
+}
+
+TEST_CASE("bytes as base 64") {
+  // The examples of RFC 4648, section 10.
+  CHECK(to_base64("").empty());
+  CHECK(to_base64("f") == "Zg==");
+  CHECK(to_base64("fo") == "Zm8=");
+  CHECK(to_base64("foo") == "Zm9v");
+  CHECK(to_base64("foobar") == "Zm9vYmFy");
+  CHECK(to_base64("\xff\xef\xbf") == "/++/");
+}
+
+TEST_CASE("a page needs nothing but itself, and tells where its results come from") {
+  Page page("A study");
+  page.picture("\x89PNG", "a frame");
+  page.table({{"finding", "measured"}, {{"one", 0.25}, {"two", 1.0}}, {Tone::kGood, Tone::kBad}});
+  const std::string html = page.html({{"cpu", "a model"}});
+  CHECK(count(html, "http") == 0);
+  CHECK(count(html, "src=") == count(html, "src=\"data:image/png;base64,"));
+  CHECK(count(html, "<tr class=\"good\"><td>one</td><td class=\"number\">0.25</td></tr>") == 1);
+  CHECK(count(html, "<tr class=\"bad\">") == 1);
+  CHECK(count(html, "<td>cpu</td><td>a model</td>") == 1);
+}
+
+TEST_CASE("this machine's facts have a value each") {
+  const Provenance facts = provenance_of_host();
+  CHECK(facts.size() == 7);
+  for (const auto& [name, value] : facts) {
+    CAPTURE(name);
+    CHECK_FALSE(value.empty());
+  }
+}
