@@ -126,7 +126,7 @@ void reconstruction(benchmark::State& state) {
   refine(mesh, static_cast<std::size_t>(state.range(0)), look_up);
   RegionPixels pixels;
   ReconstructionBuffers buffers;
-  ViewedPrimitives viewed(
+  ProjectedShapeCache viewed(
       [](std::uint32_t primitive, ImageShape& shape) { tree().tracer.view(primitive, shape); });
   for (auto _ : state) {
     viewed.forget();  // as in every frame that moves

@@ -9,8 +9,8 @@
 #include <iostream>
 #include <stdexcept>
 
-#include "cli/scene_source.h"
 #include "base/diagnostics.h"
+#include "cli/scene_source.h"
 #include "convert/mesh_reader.h"
 #include "convert/mesh_writer.h"
 #include "convert/pov_writer.h"
@@ -83,7 +83,7 @@ void complete_view(SceneDescription& scene, UpAxis up) {
 
 void complete_lights(SceneDescription& scene) {
   if (!scene.lights.empty()) return;
-  scene.lights.push_back(shoulder_light(scene, *scene.view));
+  scene.lights.push_back(default_light(scene, *scene.view));
   say(scene, "no lights: one behind the viewer's left shoulder is added");
 }
 

@@ -31,7 +31,7 @@ View fitted_view(const SceneDescription& scene, UpAxis up) {
   return view;
 }
 
-Light shoulder_light(const SceneDescription& scene, const View& view) {
+Light default_light(const SceneDescription& scene, const View& view) {
   const ViewFrame frame = view_frame(view, scene.name);
   const double radius = bounding_radius(scene);
   return {view.from + (frame.up - frame.right) * radius, {}, {}};

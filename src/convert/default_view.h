@@ -12,6 +12,6 @@ enum class UpAxis { kY, kZ };
 View fitted_view(const SceneDescription& scene, UpAxis up);
 
 // A white light behind the viewer's left shoulder.
-Light shoulder_light(const SceneDescription& scene, const View& view);
+Light default_light(const SceneDescription& scene, const View& view);
 
 }  // namespace pprt

@@ -13,7 +13,7 @@
 namespace pprt {
 
 // One plane of numbers, of the picture's size, row after row from the top. The name is "layer.channel", as
-// OpenEXR has it. Floats may be infinite but not NaN; they are stored as 32 bits, as are counted things.
+// OpenEXR has it. float4 may be infinite but not NaN; they are stored as 32 bits, as are counted things.
 struct Channel {
   std::string name;
   std::variant<std::vector<float>, std::vector<std::uint32_t>> values;

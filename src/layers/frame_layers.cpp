@@ -13,13 +13,13 @@ namespace pprt {
 namespace {
 
 // A drawing at the frame's size: the share of each pixel that is covered.
-std::vector<float> shrunk(const Ink& ink, int scale) {
-  const int width = ink.width / scale, height = ink.height / scale;
+std::vector<float> shrunk(const CoverageMask& coverage, int scale) {
+  const int width = coverage.width / scale, height = coverage.height / scale;
   std::vector<float> shares(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
-  for (int y = 0; y < ink.height; ++y) {
-    for (int x = 0; x < ink.width; ++x) {
+  for (int y = 0; y < coverage.height; ++y) {
+    for (int x = 0; x < coverage.width; ++x) {
       shares[static_cast<std::size_t>(y / scale) * static_cast<std::size_t>(width) +
-             static_cast<std::size_t>(x / scale)] += ink.at(x, y) / static_cast<float>(scale * scale);
+             static_cast<std::size_t>(x / scale)] += coverage.at(x, y) / static_cast<float>(scale * scale);
     }
   }
   return shares;

@@ -73,20 +73,21 @@ double spacing(const Triangulation& frame, int scale) {
 }
 
 // Where the owner changes: every side of a tile that another rank's tile lies behind.
-Ink region_borders(const TileGrid& grid, std::span<const std::int32_t> owners, int scale, double width) {
-  Ink ink(grid.width * scale, grid.height * scale);
+CoverageMask region_borders(const TileGrid& grid, std::span<const std::int32_t> owners, int scale,
+                            double width) {
+  CoverageMask coverage(grid.width * scale, grid.height * scale);
   const auto owner = [&](int tile) { return owners[static_cast<std::size_t>(tile)]; };
   const auto corner = [&](int x, int y) { return Vec2d(x, y) * static_cast<double>(scale); };
   for (int tile = 0; tile < grid.tile_count(); ++tile) {
     const PixelRect r = grid.pixels(tile);
     if (r.x1 < grid.width && owner(tile) != owner(tile + 1)) {
-      draw_line(ink, corner(r.x1, r.y0), corner(r.x1, r.y1), width);
+      draw_line(coverage, corner(r.x1, r.y0), corner(r.x1, r.y1), width);
     }
     if (r.y1 < grid.height && owner(tile) != owner(tile + grid.columns())) {
-      draw_line(ink, corner(r.x0, r.y1), corner(r.x1, r.y1), width);
+      draw_line(coverage, corner(r.x0, r.y1), corner(r.x1, r.y1), width);
     }
   }
-  return ink;
+  return coverage;
 }
 
 }  // namespace
@@ -97,30 +98,32 @@ int drawing_scale(int width, int height) {
 }
 
 // Dots shrink as samples come closer, down to what still shows.
-Ink sample_dots(const Triangulation& frame) {
+CoverageMask sample_dots(const Triangulation& frame) {
   const int scale = drawing_scale(frame.width, frame.height);
   const double diameter = std::clamp(0.16 * spacing(frame, scale), 1.6, 5.0);
-  Ink ink(frame.width * scale, frame.height * scale);
-  for (const Sample& s : frame.samples) draw_dot(ink, Vec2d(s.x, s.y) * static_cast<double>(scale), diameter);
-  return ink;
+  CoverageMask coverage(frame.width * scale, frame.height * scale);
+  for (const Sample& s : frame.samples)
+    draw_dot(coverage, Vec2d(s.x, s.y) * static_cast<double>(scale), diameter);
+  return coverage;
 }
 
-Ink triangle_edges(const Triangulation& frame) {
+CoverageMask triangle_edges(const Triangulation& frame) {
   const int scale = drawing_scale(frame.width, frame.height);
   const double width = std::clamp(0.05 * spacing(frame, scale), 0.3, 1.2);
-  Ink ink(frame.width * scale, frame.height * scale);
+  CoverageMask coverage(frame.width * scale, frame.height * scale);
   const auto place = [&](std::uint32_t sample) {
     return Vec2d(frame.samples[sample].x, frame.samples[sample].y) * static_cast<double>(scale);
   };
   for (const auto& corners : frame.triangles) {
-    for (std::size_t i = 0; i < 3; ++i) draw_line(ink, place(corners[i]), place(corners[(i + 1) % 3]), width);
+    for (std::size_t i = 0; i < 3; ++i)
+      draw_line(coverage, place(corners[i]), place(corners[(i + 1) % 3]), width);
   }
-  return ink;
+  return coverage;
 }
 
-Image black_on_white(const Ink& ink) {
-  Image image(ink.width, ink.height, Color(1, 1, 1));
-  paint(image, ink, Color(0, 0, 0));
+Image black_on_white(const CoverageMask& coverage) {
+  Image image(coverage.width, coverage.height, Color(1, 1, 1));
+  paint(image, coverage, Color(0, 0, 0));
   return image;
 }
 

@@ -18,10 +18,10 @@ namespace pprt {
 int drawing_scale(int width, int height);
 
 // Black dots on white (paper fig. 1c).
-Ink sample_dots(const Triangulation& frame);
+CoverageMask sample_dots(const Triangulation& frame);
 // The edges (fig. 1d).
-Ink triangle_edges(const Triangulation& frame);
-Image black_on_white(const Ink& ink);
+CoverageMask triangle_edges(const Triangulation& frame);
+Image black_on_white(const CoverageMask& coverage);
 
 // The frame, tinted by owner, with the borders between regions drawn over it (fig. 2e, 4b). `owners` per
 // tile; negative: nobody's, which stays as it is.

@@ -40,8 +40,8 @@ class SampleExchange {
   // rank what touches a tile that it no longer has: until clear() that is passed on to the new owner.
   void repartition(SampleMesh& mesh, const Partition& partition);
 
-  // A tile was given to this rank, but it has another owner already: what has been told with the gift, and
-  // will be, is passed on as if this rank had had the tile.
+  // A tile was given to this rank, but it has another owner already: what has been told with the transfer,
+  // and will be, is passed on as if this rank had had the tile.
   void pass_on(SampleMesh& mesh, int tile);
 
   // Tells `taker` every corner of the triangles whose circumcircle meets one of these tiles. Call it before

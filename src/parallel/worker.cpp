@@ -52,9 +52,9 @@ Worker::Worker(Communicator& network, Inbox& inbox, const SessionSettings& setti
             {.learned = settings.learned_weights, .edges = settings.pixel_rule == PixelRule::kEdges}),
       exchange_(partition, network.rank(), seed_pattern(settings.width, settings.height, settings.seed)),
       balancer_(network.rank(), network.size(), partition.grid.tile_count()),
-      stance_(network.size()),
-      viewed_(probe_.view),
-      landmarks_(probe_.primitives),
+      handshake_(network.size()),
+      projected_shapes_(probe_.view),
+      anchors_(probe_.primitives),
       peer_done_(static_cast<std::size_t>(network.size()), 0) {
   own_region_changed();
 }
@@ -93,7 +93,7 @@ void Worker::sample(const FrameOrder& order) {
   measures_fresh_ = false;
   for (int round = kSeedRound + 1;; ++round) {
     clock_->begin_packet(in_region_);
-    seek_landmarks(order);
+    seek_anchors(order);
     const bool measured = std::exchange(measures_fresh_, clock_->sampling_share() > 0.75);
     if (measures_fresh_ && !measured) report_.cpu_ms.sampling += clock_->lap_ms();
     bool idle = false, traced = false;
@@ -121,25 +121,25 @@ double Worker::growth_since(std::size_t begin) const {
 }
 
 // Once refinement has found again by itself what it soon finds.
-void Worker::seek_landmarks(const FrameOrder& order) {
+void Worker::seek_anchors(const FrameOrder& order) {
   constexpr double kAfter = 0.1;
   const double share = clock_->sampling_share();
-  if (landmarks_at_most_ == 0 || share < kAfter) return;
-  double most = std::exchange(landmarks_at_most_, 0);
+  if (anchors_at_most_ == 0 || share < kAfter) return;
+  double most = std::exchange(anchors_at_most_, 0);
   if (order.deadline_s > 0)
-    most = std::min(most, kLandmarkShare * static_cast<double>(report_.samples_new) / share);
-  sought_ = landmarks_.unseen(mesh_.samples(), order.camera, mesh_.region(), static_cast<std::size_t>(most));
+    most = std::min(most, kAnchorShare * static_cast<double>(report_.samples_new) / share);
+  sought_ = anchors_.unseen(mesh_.samples(), order.camera, mesh_.region(), static_cast<std::size_t>(most));
   std::reverse(sought_.begin(), sought_.end());
 }
 
 void Worker::seek_once() {
-  const Sample landmark = sought_.back();
+  const Sample anchor = sought_.back();
   sought_.pop_back();
-  if (see(landmark.ray.hit, landmark.ray.at_infinity)) put_back(landmark);
+  if (see(anchor.ray.hit, anchor.ray.at_infinity)) put_back(anchor);
 }
 
-// Traces one sample where it is wanted most; false when nothing is. Landmarks come first, but not at the
-// frame's end, where evidence is taken of what refinement itself wants.
+// Traces one sample where it is wanted most; false when nothing is. PrimitiveAnchors come first, but not at
+// the frame's end, where evidence is taken of what refinement itself wants.
 bool Worker::refine_once(const FrameOrder& order) {
   if (in_region_ >= sample_limit_) return false;
   if (!sought_.empty() && !measures_fresh_) {
@@ -175,7 +175,7 @@ bool Worker::all_done() const {
 
 void Worker::send_bundles(const FrameOrder& order, int round, bool to_all) {
   const bool local = settings_.balance == BalanceMode::kLocal || settings_.balance == BalanceMode::kCombined;
-  const std::vector<TileGrant> grants = local ? give_tiles() : std::vector<TileGrant>();
+  const std::vector<TileTransfer> transfers = local ? give_tiles() : std::vector<TileTransfer>();
   const RankProgress progress = local ? balancer_.progress(mesh_, clock_->sampling_share()) : RankProgress();
   const bool tell_progress = local && (clock_->in_lockstep() || round % kPacketsPerProgress == 0);
   clock_->spend(Work::kUpdateRule, exchange_.announce(mesh_));
@@ -186,16 +186,16 @@ void Worker::send_bundles(const FrameOrder& order, int round, bool to_all) {
     const bool neighbour = tell_progress && std::binary_search(exchange_.neighbours().begin(),
                                                                exchange_.neighbours().end(), rank);
     const bool concerned =
-        !samples.empty() || !grants.empty() || neighbour || to_all || stance_.owes_word(rank);
+        !samples.empty() || !transfers.empty() || neighbour || to_all || handshake_.owes_word(rank);
     if (!concerned && !clock_->in_lockstep()) continue;
-    send_bundle(rank, {order.index, epoch_, round, done_, 0, progress, {}, grants, std::move(samples)},
+    send_bundle(rank, {order.index, epoch_, round, done_, 0, progress, {}, transfers, std::move(samples)},
                 concerned);
   }
 }
 
 // Counted are the bytes of those that would be sent if ranks did not wait for each other, too.
 void Worker::send_bundle(int rank, Bundle bundle, bool counts) {
-  bundle.stance = stance_.tell(rank);
+  bundle.handshake = handshake_.tell(rank);
   // What one rank sends in a round goes through its link one after the other.
   link_bytes_ += static_cast<double>(bundle.samples.size() * kSampleBytes);
   const Machine& machine = settings_.machine;
@@ -203,12 +203,12 @@ void Worker::send_bundle(int rank, Bundle bundle, bool counts) {
       clock_->rounds_under_way(machine.latency_s + link_bytes_ / machine.bytes_per_second);
   clock_->spend(Work::kSentSample, bundle.samples.size());
   Bytes bytes = encode(bundle);
-  const std::size_t of_grants = bundle.grants.size() * sizeof(TileGrant);
+  const std::size_t of_transfers = bundle.transfers.size() * sizeof(TileTransfer);
   if (counts) {
     const std::size_t of_samples = bundle.samples.size() * kSampleBytes;
     report_.bytes_samples += of_samples;
-    report_.bytes_balance += of_grants;
-    report_.bytes_progress += bytes.size() - of_samples - of_grants;
+    report_.bytes_balance += of_transfers;
+    report_.bytes_progress += bytes.size() - of_samples - of_transfers;
   }
   network_.send(rank, Tag::kBundle, std::move(bytes));
 }
@@ -251,23 +251,23 @@ std::vector<Inbox::Arrived> Worker::arrived_by(int round, std::vector<Inbox::Arr
 
 // First who owns what from now on, then the samples: those that fall to new tiles are refined at once.
 void Worker::take_in(const std::vector<Inbox::Arrived>& bundles) {
-  std::vector<TileGrant> grants;
+  std::vector<TileTransfer> transfers;
   for (const Inbox::Arrived& arrived : bundles) {
     const Bundle& bundle = arrived.bundle;
-    grants.insert(grants.end(), bundle.grants.begin(), bundle.grants.end());
-    stance_.hear(arrived.from, bundle.stance);
-    const bool gift = std::any_of(bundle.grants.begin(), bundle.grants.end(),
-                                  [&](const TileGrant& g) { return g.owner == network_.rank(); });
-    if (gift) stance_.took(arrived.from);
+    transfers.insert(transfers.end(), bundle.transfers.begin(), bundle.transfers.end());
+    handshake_.hear(arrived.from, bundle.handshake);
+    const bool transfer = std::any_of(bundle.transfers.begin(), bundle.transfers.end(),
+                                      [&](const TileTransfer& g) { return g.owner == network_.rank(); });
+    if (transfer) handshake_.took(arrived.from);
     if (bundle.frame_index != frame_index_) continue;
     balancer_.heard(arrived.from, bundle.progress);
     peer_done_[static_cast<std::size_t>(arrived.from)] = bundle.done;
   }
-  apply(grants);
+  apply(transfers);
   for (const Inbox::Arrived& arrived : bundles) {
     if (arrived.bundle.epoch != epoch_) continue;
-    for (const TileGrant& grant : arrived.bundle.grants) {
-      if (grant.owner == network_.rank()) exchange_.pass_on(mesh_, grant.tile);
+    for (const TileTransfer& transfer : arrived.bundle.transfers) {
+      if (transfer.owner == network_.rank()) exchange_.pass_on(mesh_, transfer.tile);
     }
     if (arrived.bundle.round == kSeedRound && arrived.bundle.frame_index == epoch_) {
       take_in_late_seeds(arrived);
@@ -282,10 +282,10 @@ void Worker::take_in(const std::vector<Inbox::Arrived>& bundles) {
 // Tiles for a neighbour that is ahead, already made the taker's here. Where a number of samples is the goal
 // each rank takes the share of its area, which stays as it is. Under a resting camera a region with more
 // samples than pixels is fine enough, and its samples are too many to hand over.
-std::vector<TileGrant> Worker::give_tiles() {
+std::vector<TileTransfer> Worker::give_tiles() {
   if (epoch_ != frame_index_ && in_region_ > mesh_.region().pixel_count()) return {};
-  // Where most samples were cast each tile has so many from the start that gifts cost more than they bring,
-  // but for the first ones; and a new cut costs hardly anything there, for the samples move anyhow.
+  // Where most samples were cast each tile has so many from the start that transfers cost more than they
+  // bring, but for the first ones; and a new cut costs hardly anything there, for the samples move anyhow.
   const bool mostly_cast = epoch_ == frame_index_ && 2 * report_.samples_cast > in_region_;
   if (mostly_cast && (settings_.balance == BalanceMode::kCombined || clock_->sampling_share() > 0.25))
     return {};
@@ -294,30 +294,30 @@ std::vector<TileGrant> Worker::give_tiles() {
   const double most_samples = settings_.frames_per_second > 0
                                   ? static_cast<double>(clock_->affordable(Work::kReceivedSample, 0.1))
                                   : std::numeric_limits<double>::infinity();
-  stance_.decide(balancer_.wants_to_give(mesh_, exchange_.neighbours(), stance_.is_giving()));
-  std::vector<TileGrant> grants = balancer_.give(mesh_, exchange_, stance_, most_samples);
-  for (const TileGrant& grant : grants) given_.push_back(grant.tile);
-  report_.tiles_given += grants.size();
-  apply(grants);
-  return grants;
+  handshake_.decide(balancer_.wants_to_give(mesh_, exchange_.neighbours(), handshake_.is_giving()));
+  std::vector<TileTransfer> transfers = balancer_.give(mesh_, exchange_, handshake_, most_samples);
+  for (const TileTransfer& transfer : transfers) given_.push_back(transfer.tile);
+  report_.tiles_given += transfers.size();
+  apply(transfers);
+  return transfers;
 }
 
-// Makes grants true here, those that are news.
-void Worker::apply(std::span<const TileGrant> grants) {
-  if (grants.empty()) return;
+// Makes transfers true here, those that are news.
+void Worker::apply(std::span<const TileTransfer> transfers) {
+  if (transfers.empty()) return;
   Partition next = exchange_.partition();
   bool changed = false, own_changed = false;
-  for (const TileGrant& grant : grants) {
-    const auto tile = static_cast<std::size_t>(grant.tile);
-    if (tile >= next.owner.size() || grant.owner < 0 || grant.owner >= next.ranks) {
+  for (const TileTransfer& transfer : transfers) {
+    const auto tile = static_cast<std::size_t>(transfer.tile);
+    if (tile >= next.owner.size() || transfer.owner < 0 || transfer.owner >= next.ranks) {
       throw ProtocolError("a tile was given that is none, or to nobody");
     }
-    if (grant.version <= next.version[tile]) continue;
+    if (transfer.version <= next.version[tile]) continue;
     changed = true;
-    own_changed = own_changed || next.owner[tile] == network_.rank() || grant.owner == network_.rank();
-    if (grant.owner == network_.rank()) balancer_.take(grant);
-    next.owner[tile] = grant.owner;
-    next.version[tile] = grant.version;
+    own_changed = own_changed || next.owner[tile] == network_.rank() || transfer.owner == network_.rank();
+    if (transfer.owner == network_.rank()) balancer_.take(transfer);
+    next.owner[tile] = transfer.owner;
+    next.version[tile] = transfer.version;
   }
   if (!changed) return;
   exchange_.repartition(mesh_, next);
@@ -344,7 +344,8 @@ void Worker::reconstruct_and_send(const FrameOrder& order) {
   const TileGrid& grid = mesh_.region().grid();
   PixelRect bounds = mesh_.region().bounds();
   for (const int tile : given_) bounds = united(bounds, grid.pixels(tile));
-  reconstruct(mesh_, bounds, pixels_, buffers_, settings_.pixel_rule, probe_.view ? &viewed_ : nullptr);
+  reconstruct(mesh_, bounds, pixels_, buffers_, settings_.pixel_rule,
+              probe_.view ? &projected_shapes_ : nullptr);
   clock_->spend(Work::kPixel, mesh_.region().pixel_count());
   report_.cpu_ms.reconstruction = clock_->lap_ms();
 

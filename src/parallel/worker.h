@@ -16,10 +16,10 @@
 
 #include "base/probe.h"
 #include "parallel/balance/balancer.h"
-#include "parallel/exchange.h"
-#include "parallel/clock/frame_clock.h"
-#include "parallel/network/inbox.h"
 #include "parallel/balance/partition.h"
+#include "parallel/clock/frame_clock.h"
+#include "parallel/exchange.h"
+#include "parallel/network/inbox.h"
 #include "parallel/session_settings.h"
 #include "pipeline/preparation/casting.h"
 #include "pipeline/preparation/primitive_anchors.h"
@@ -45,7 +45,7 @@ class Worker {
     bool kept = false;                  // of a frame before: its point was not chosen now
   };
 
-  static constexpr double kLandmarkShare = 0.1;  // of a frame's samples, those at landmarks at most
+  static constexpr double kAnchorShare = 0.1;  // of a frame's samples, those at anchors at most
   static constexpr int kSeedRound = 0;  // the bundles of seeds and survivors; sampling counts on from there
 
   // What the frames that were left out have changed for those after them.
@@ -93,7 +93,7 @@ class Worker {
 
   void sample(const FrameOrder& order);
   double growth_since(std::size_t begin) const;
-  void seek_landmarks(const FrameOrder& order);
+  void seek_anchors(const FrameOrder& order);
   void seek_once();
   bool refine_once(const FrameOrder& order);
   bool goal_reached() const;
@@ -103,8 +103,8 @@ class Worker {
   void receive_bundles(const FrameOrder& order, int round);
   std::vector<Inbox::Arrived> arrived_by(int round, std::vector<Inbox::Arrived> bundles);
   void take_in(const std::vector<Inbox::Arrived>& bundles);
-  std::vector<TileGrant> give_tiles();
-  void apply(std::span<const TileGrant> grants);
+  std::vector<TileTransfer> give_tiles();
+  void apply(std::span<const TileTransfer> transfers);
   void own_region_changed();
 
   void reconstruct_and_send(const FrameOrder& order);
@@ -125,14 +125,14 @@ class Worker {
   SampleMesh mesh_;
   SampleExchange exchange_;
   Balancer balancer_;
-  Stance stance_;
+  TransferHandshake handshake_;
   RegionPixels pixels_;
   ReconstructionBuffers buffers_;
-  ViewedPrimitives viewed_;  // from camera_before_
+  ProjectedShapeCache projected_shapes_;  // from camera_before_
 
-  Landmarks landmarks_;
-  double landmarks_at_most_ = 0;  // that this frame is still to seek
-  std::vector<Sample> sought_;    // landmarks; the next one last
+  PrimitiveAnchors anchors_;
+  double anchors_at_most_ = 0;  // that this frame is still to seek
+  std::vector<Sample> sought_;  // anchors; the next one last
 
   Missed missed_;  // since the last frame that was not left out
   std::vector<UnderWay> under_way_;

@@ -25,12 +25,12 @@ Carry Worker::carried_into(const FrameOrder& order) const {
 // Tiles given away in frames before, of which this rank has not heard in time: whose they are must be known
 // before the seeds are traced.
 void Worker::hear_gifts(const FrameOrder& order) {
-  std::vector<TileGrant> grants;
+  std::vector<TileTransfer> transfers;
   for (const Inbox::Arrived& arrived : inbox_.bundles()) {
     if (arrived.bundle.frame_index >= order.index) continue;
-    grants.insert(grants.end(), arrived.bundle.grants.begin(), arrived.bundle.grants.end());
+    transfers.insert(transfers.end(), arrived.bundle.transfers.begin(), arrived.bundle.transfers.end());
   }
-  apply(grants);
+  apply(transfers);
 }
 
 // The others accumulate in a triangulation that they have begun without this rank: its part of it, from the

@@ -38,13 +38,13 @@ CastSettings verified(int life) {
 void Worker::prepare(const FrameOrder& order) {
   probe_.look_from(order.camera);
   sought_.clear();
-  landmarks_at_most_ = 0;
+  anchors_at_most_ = 0;
   const bool new_partition = !order.owners.empty();
   const Carry carry = carried_into(order);
   const Missed missed = std::exchange(missed_, {});
   balancer_.begin_frame(carry != Carry::kAccumulate || missed.triangulation, known_before(order, missed));
   const bool eye_rests = camera_before_ && (order.camera.eye - camera_before_->eye).length() <= kAtRest;
-  if (!camera_before_ || *camera_before_ != order.camera) viewed_.forget();
+  if (!camera_before_ || *camera_before_ != order.camera) projected_shapes_.forget();
   camera_before_ = order.camera;
   if (carry == Carry::kAccumulate && missed.triangulation) {
     catch_up(order, missed);
@@ -62,15 +62,15 @@ void Worker::prepare(const FrameOrder& order) {
   const bool goes_on = carry != Carry::kNothing && !missed.cut;
   std::vector<Sample> survivors;
   if (goes_on) survivors = cast(order, eye_rests);
-  const bool has_landmarks = goes_on && carry == Carry::kCastWherePaying;
-  if (has_landmarks) {
-    landmarks_.note(mesh_.samples());
+  const bool has_anchors = goes_on && carry == Carry::kCastWherePaying;
+  if (has_anchors) {
+    anchors_.note(mesh_.samples());
   } else {
-    landmarks_.clear();
+    anchors_.clear();
   }
   report_.cpu_ms.casting += clock_->lap_ms();
   if (new_partition) adopt_partition(order, false);
-  if (has_landmarks) landmarks_at_most_ = kLandmarkShare * static_cast<double>(in_region_);
+  if (has_anchors) anchors_at_most_ = kAnchorShare * static_cast<double>(in_region_);
   begin_triangulation(order.index, goes_on);
   trace_seeds(order);
   settle(order, survivors);
@@ -293,10 +293,10 @@ void Worker::receive_seeds(const FrameOrder& order, std::vector<Sample>& survivo
     return inbox_.count_bundles(awaited) >= expected ||
            (!has_patience && clock_->frame_seconds() * settings_.frames_per_second > kSeedPatience);
   });
-  // What was said before is heard before: a stance counts on the gifts that were sent ahead of it.
+  // What was said before is heard before: a handshake counts on the transfers that were sent ahead of it.
   take_in(inbox_.take_bundles([&](const Inbox::Arrived& a) { return a.bundle.frame_index < order.index; }));
   const std::vector<Inbox::Arrived> bundles = inbox_.take_bundles(of_this_round);
-  for (const Inbox::Arrived& arrived : bundles) stance_.hear(arrived.from, arrived.bundle.stance);
+  for (const Inbox::Arrived& arrived : bundles) handshake_.hear(arrived.from, arrived.bundle.handshake);
   for (const Inbox::Arrived& arrived : bundles) take_in_seeds(arrived);
   for (const Inbox::Arrived& arrived : bundles) take_over_survivors(arrived, survivors);
 }

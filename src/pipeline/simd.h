@@ -19,9 +19,9 @@
 namespace pprt {
 
 inline constexpr int kLanes = 4;
-using Floats = float __attribute__((vector_size(kLanes * sizeof(float))));
+using float4 = float __attribute__((vector_size(kLanes * sizeof(float))));
 using Doubles = double __attribute__((vector_size(kLanes * sizeof(double))));
-using LaneBits = std::int32_t __attribute__((vector_size(kLanes * sizeof(std::int32_t))));
+using int4 = std::int32_t __attribute__((vector_size(kLanes * sizeof(std::int32_t))));
 
 // Whole numbers as floats: one, or four.
 template <class Number, class Whole>
@@ -45,11 +45,11 @@ void store(const Lanes& v, To* to) {
 }
 
 template <class Lanes>
-Lanes least(const Lanes& a, const Lanes& b) {
+Lanes min(const Lanes& a, const Lanes& b) {
   return a < b ? a : b;
 }
 template <class Lanes>
-Lanes greatest(const Lanes& a, const Lanes& b) {
+Lanes max(const Lanes& a, const Lanes& b) {
   return a > b ? a : b;
 }
 template <class Lanes>
@@ -58,16 +58,16 @@ Lanes size(const Lanes& a) {
 }
 
 // The three channels of a colour that four more bytes follow in memory; the last lane is 0.
-inline Floats channels_before_more(const void* color) {
-  return std::bit_cast<Floats>(std::bit_cast<LaneBits>(load<Floats>(color)) & LaneBits{-1, -1, -1, 0});
+inline float4 channels_before_more(const void* color) {
+  return std::bit_cast<float4>(std::bit_cast<int4>(load<float4>(color)) & int4{-1, -1, -1, 0});
 }
-inline void store_channels(const Floats& channels, Color& color) {
+inline void store_channels(const float4& channels, Color& color) {
   std::memcpy(static_cast<void*>(&color), &channels, sizeof color);
 }
 
 // Of a comparison's answers.
-inline bool any(const LaneBits& lanes) {
-  using Halves = std::int64_t __attribute__((vector_size(sizeof(LaneBits))));
+inline bool any(const int4& lanes) {
+  using Halves = std::int64_t __attribute__((vector_size(sizeof(int4))));
   const auto halves = std::bit_cast<Halves>(lanes);
   return (halves[0] | halves[1]) != 0;
 }

@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
   order.owners = {1, 1, 1, 0, 0, 1}, order.tiles = {{1, 2}, {3, 4}};
   write(directory / "order", 0, encode(order));
   pprt::Bundle bundle;
-  bundle.grants.resize(2), bundle.samples.resize(3);
+  bundle.transfers.resize(2), bundle.samples.resize(3);
   write(directory / "bundle", 1, encode(bundle));
   pprt::PixelMessage pixels;
   pixels.tiles.resize(1), pixels.given = {5}, pixels.rgb = {1, 0.5f, 0}, pixels.samples.resize(2);

@@ -30,9 +30,9 @@ void Balancer::begin_frame(bool fresh_mesh, Known known_before) {
   std::fill(now_.begin(), now_.end(), TileEstimate());
 }
 
-void Balancer::take(const TileGrant& grant) {
-  now_[static_cast<std::size_t>(grant.tile)] = grant.now;
-  last_[static_cast<std::size_t>(grant.tile)] = grant.last;
+void Balancer::take(const TileTransfer& transfer) {
+  now_[static_cast<std::size_t>(transfer.tile)] = transfer.now;
+  last_[static_cast<std::size_t>(transfer.tile)] = transfer.last;
 }
 
 RankProgress Balancer::progress(const SampleMesh& mesh, double elapsed) {
@@ -105,12 +105,12 @@ bool Balancer::wants_to_give(const SampleMesh& mesh, const std::vector<int>& nei
 
 // The neighbours that take and that this rank should give to, the one that is farthest ahead first.
 std::vector<int> Balancer::takers(const SampleMesh& mesh, const std::vector<int>& neighbours,
-                                  const Stance& stance) const {
+                                  const TransferHandshake& handshake) const {
   const double quality = mesh.refinement();
   std::vector<std::pair<double, int>> ahead;
   for (const int rank : neighbours) {
     const RankProgress& theirs = theirs_[static_cast<std::size_t>(rank)];
-    if (!stance.takes(rank) || !stance.has_counted_gifts(rank) || theirs.quality <= 0) continue;
+    if (!handshake.takes(rank) || !handshake.has_counted_gifts(rank) || theirs.quality <= 0) continue;
     const double own_cost = future_cost_of_region(mesh, theirs.target);
     if (!should_give(settings_, quality, own_cost, theirs)) continue;
     ahead.emplace_back(theirs.future_cost / own_cost, rank);
@@ -137,23 +137,24 @@ std::vector<int> Balancer::tiles_for(const SampleMesh& mesh, const SampleExchang
                        static_cast<double>(price(Work::kReceivedSample)), most_samples, offer);
 }
 
-std::vector<TileGrant> Balancer::give(const SampleMesh& mesh, SampleExchange& exchange, Stance& stance,
-                                      double most_samples) {
-  std::vector<TileGrant> grants;
-  if (!stance.may_give()) return grants;
+std::vector<TileTransfer> Balancer::give(const SampleMesh& mesh, SampleExchange& exchange,
+                                         TransferHandshake& handshake, double most_samples) {
+  std::vector<TileTransfer> transfers;
+  if (!handshake.may_give()) return transfers;
   Partition partition = exchange.partition();
-  for (const int taker : takers(mesh, exchange.neighbours(), stance)) {
+  for (const int taker : takers(mesh, exchange.neighbours(), handshake)) {
     const std::vector<int> tiles = tiles_for(mesh, exchange, partition, taker, most_samples);
-    if (tiles.empty()) continue;  // it touches this region at a corner only, or every tile is too big a gift
+    if (tiles.empty())
+      continue;  // it touches this region at a corner only, or every tile is too big a transfer
     exchange.introduce(mesh, tiles, taker);
     for (const int tile : tiles) {
       const auto t = static_cast<std::size_t>(tile);
-      grants.push_back({tile, taker, partition.version[t] + 1, now_[t], last_[t]});
+      transfers.push_back({tile, taker, partition.version[t] + 1, now_[t], last_[t]});
       partition.owner[t] = taker;
     }
-    stance.gave(taker);
+    handshake.gave(taker);
   }
-  return grants;
+  return transfers;
 }
 
 std::vector<TileReport> Balancer::report(const SampleMesh& mesh) {

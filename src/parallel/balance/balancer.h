@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "parallel/exchange.h"
 #include "parallel/balance/local_balance.h"
-#include "parallel/balance/transfer_handshake.h"
 #include "parallel/balance/tile_cost.h"
+#include "parallel/balance/transfer_handshake.h"
+#include "parallel/exchange.h"
 #include "pipeline/sampling/sample_mesh.h"
 
 namespace pprt {
@@ -32,7 +32,7 @@ class Balancer {
   void paid(int tile, double units) { now_[static_cast<std::size_t>(tile)].cost += units; }
   void received(double units) { received_now_ += units; }
   void heard(int from, const RankProgress& progress) { theirs_[static_cast<std::size_t>(from)] = progress; }
-  void take(const TileGrant& grant);
+  void take(const TileTransfer& transfer);
 
   // A tile that comes with a new partition, and what it was found to be.
   void expect(int tile, const TileEstimate& found) { last_[static_cast<std::size_t>(tile)] = found; }
@@ -51,9 +51,9 @@ class Balancer {
   bool wants_to_give(const SampleMesh& mesh, const std::vector<int>& neighbours, bool is_giving) const;
 
   // Tiles to give to neighbours that take and are ahead. Their samples are put into the exchange's outbox;
-  // the caller sends the grants to every rank and makes them true.
-  std::vector<TileGrant> give(const SampleMesh& mesh, SampleExchange& exchange, Stance& stance,
-                              double most_samples);
+  // the caller sends the transfers to every rank and makes them true.
+  std::vector<TileTransfer> give(const SampleMesh& mesh, SampleExchange& exchange,
+                                 TransferHandshake& handshake, double most_samples);
 
   // Remembers the mean weights that the frame has led to, and tells what every tile of the region took.
   std::vector<TileReport> report(const SampleMesh& mesh);
@@ -65,7 +65,7 @@ class Balancer {
   double future_cost_of_region(const SampleMesh& mesh, double quality) const;
   double load_by_neighbours(const SampleMesh& mesh, const std::vector<int>& neighbours) const;
   std::vector<int> takers(const SampleMesh& mesh, const std::vector<int>& neighbours,
-                          const Stance& stance) const;
+                          const TransferHandshake& handshake) const;
   std::vector<int> tiles_for(const SampleMesh& mesh, const SampleExchange& exchange,
                              const Partition& partition, int taker, double most_samples) const;
 

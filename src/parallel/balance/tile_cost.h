@@ -26,7 +26,7 @@ struct RankProgress {
 };
 
 // A tile changes hands, with all that the new owner needs to estimate its cost.
-struct TileGrant {
+struct TileTransfer {
   std::int32_t tile = 0;
   std::int32_t owner = 0;     // from now on
   std::uint64_t version = 0;  // of this ownership; see Partition

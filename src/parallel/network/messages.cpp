@@ -122,8 +122,8 @@ Bytes encode(const Bundle& bundle) {
   WireWriter out;
   out.put(bundle.frame_index), out.put(bundle.epoch), out.put(bundle.round), out.put(bundle.done);
   out.put(bundle.rounds_under_way);
-  out.put(bundle.progress), out.put(bundle.stance);
-  out.put_all(std::span<const TileGrant>(bundle.grants));
+  out.put(bundle.progress), out.put(bundle.handshake);
+  out.put_all(std::span<const TileTransfer>(bundle.transfers));
   put_samples(out, bundle.samples);
   return out.take();
 }
@@ -133,8 +133,8 @@ Bundle decode_bundle(std::span<const std::byte> bytes) {
   Bundle bundle;
   in.get(bundle.frame_index), in.get(bundle.epoch), in.get(bundle.round), in.get(bundle.done);
   in.get(bundle.rounds_under_way);
-  in.get(bundle.progress), in.get(bundle.stance);
-  in.get_all(bundle.grants);
+  in.get(bundle.progress), in.get(bundle.handshake);
+  in.get_all(bundle.transfers);
   bundle.samples = get_samples(in);
   in.expect_end();
   return bundle;

@@ -8,10 +8,10 @@
 #include "base/camera.h"
 #include "base/ray_counts.h"
 #include "base/vector.h"
+#include "parallel/balance/tile_cost.h"
+#include "parallel/balance/transfer_handshake.h"
 #include "parallel/cast_choice.h"
 #include "parallel/network/communicator.h"
-#include "parallel/balance/transfer_handshake.h"
-#include "parallel/balance/tile_cost.h"
 #include "pipeline/sample.h"
 
 namespace pprt {
@@ -49,8 +49,8 @@ struct Bundle {
   bool done = false;                  // the sender has reached its goal (frames without a rate)
   std::int32_t rounds_under_way = 0;  // lockstep: the samples are the receiver's so many rounds later
   RankProgress progress;              // of the sender
-  StanceWord stance;
-  std::vector<TileGrant> grants;  // tiles that the sender has given away
+  HandshakeState handshake;
+  std::vector<TileTransfer> transfers;  // tiles that the sender has given away
   std::vector<Sample> samples;
 };
 

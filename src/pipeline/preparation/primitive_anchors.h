@@ -14,30 +14,30 @@
 
 namespace pprt {
 
-class Landmarks {
+class PrimitiveAnchors {
  public:
   // Of primitives numbered from 1 to `primitives`, as in RaySample; others have none.
-  explicit Landmarks(std::uint32_t primitives) : slots_(primitives) {}
+  explicit PrimitiveAnchors(std::uint32_t primitives) : slots_(primitives) {}
 
   // A frame is over. Of its samples on a primitive, those whose colour does not depend on the eye, that in
-  // their middle marks it. Landmarks are kept in the order in which the frame has found their primitives, as
-  // refinement finds large things first; those of primitives that it has not seen come after, for kLife
-  // frames.
+  // their middle marks it. PrimitiveAnchors are kept in the order in which the frame has found their
+  // primitives, as refinement finds large things first; those of primitives that it has not seen come after,
+  // for kLife frames.
   void note(std::span<const Sample> samples);
 
-  // The landmarks of primitives that none of the samples lies on, at the image points where the camera would
+  // The anchors of primitives that none of the samples lies on, at the image points where the camera would
   // see them, which lie in the region; at most so many, the first ones. Whether something hides them a ray
   // must tell.
   std::vector<Sample> unseen(std::span<const Sample> samples, const Camera& camera, const Region& region,
                              std::size_t most);
 
   // Nothing has been seen. Keeps the storage.
-  void clear() { landmarks_.clear(); }
+  void clear() { anchors_.clear(); }
 
  private:
   static constexpr int kLife = 4;
 
-  struct Landmark {
+  struct PrimitiveAnchor {
     Sample sample;
     int frames_unseen = 0;  // since the one that noted it
     bool is_met = false;    // by a sample, when it was last asked
@@ -48,12 +48,12 @@ class Landmarks {
     double from_middle2 = std::numeric_limits<double>::infinity();
   };
 
-  Landmark* find(std::vector<Landmark>& among, std::uint32_t primitive) const;
-  void add(std::vector<Landmark>& to, const Landmark& landmark);
+  PrimitiveAnchor* find(std::vector<PrimitiveAnchor>& among, std::uint32_t primitive) const;
+  void add(std::vector<PrimitiveAnchor>& to, const PrimitiveAnchor& anchor);
 
-  // By primitive: where its landmark is, if it is there.
+  // By primitive: where its anchor is, if it is there.
   std::vector<std::uint32_t> slots_;
-  std::vector<Landmark> landmarks_, noted_;
+  std::vector<PrimitiveAnchor> anchors_, noted_;
 };
 
 }  // namespace pprt

@@ -38,14 +38,14 @@ struct NearQuadratic {
         per_yy(static_cast<float>(f.per_yy)) {}
 };
 
-struct NearQuadric {
+struct ProjectedQuadric {
   NearQuadratic discriminant;
   NearLinear middle, along;
   float height = 0, top = 0;
   bool has_ends = false, front = true, back = true;
 
-  NearQuadric() = default;
-  NearQuadric(const ImageQuadric& q, const Vec2d& origin)
+  ProjectedQuadric() = default;
+  ProjectedQuadric(const ImageQuadric& q, const Vec2d& origin)
       : discriminant(q.discriminant, origin),
         middle(q.middle, origin),
         along(q.along, origin),
@@ -56,17 +56,17 @@ struct NearQuadric {
         back(q.back) {}
 };
 
-struct NearFacet {
+struct ProjectedFacet {
   std::array<NearLinear, 3> edges;
   NearLinear nearness;
 
-  NearFacet() = default;
-  NearFacet(const ImageFacet& f, const Vec2d& origin)
+  ProjectedFacet() = default;
+  ProjectedFacet(const ImageFacet& f, const Vec2d& origin)
       : edges{NearLinear(f.edges[0], origin), NearLinear(f.edges[1], origin), NearLinear(f.edges[2], origin)},
         nearness(f.nearness, origin) {}
 };
 
-class ViewedPrimitives {
+class ProjectedShapeCache {
  public:
   // As Probe::view.
   using View = std::function<void(std::uint32_t primitive, ImageShape& shape)>;
@@ -76,11 +76,11 @@ class ViewedPrimitives {
   struct Shape {
     ImageShape::Kind kind = ImageShape::Kind::kUnknown;
     Vec2d origin{0, 0};
-    NearQuadric quadric;
+    ProjectedQuadric quadric;
     std::size_t first_facet = 0, facets = 0;
   };
 
-  explicit ViewedPrimitives(View view) : view_(std::move(view)) {}
+  explicit ProjectedShapeCache(View view) : view_(std::move(view)) {}
 
   // The eye has moved. Keeps the storage.
   void forget() {
@@ -114,8 +114,8 @@ class ViewedPrimitives {
     const std::size_t end = shape.first_facet + shape.facets;
     for (std::size_t i = shape.first_facet; i < end; i += kLanes) {
       const FourBounds& b = bounds_[i / kLanes];
-      const LaneBits meet = (load<Floats>(b.x0) <= r.x1) & (load<Floats>(b.x1) >= r.x0) &
-                            (load<Floats>(b.y0) <= r.y1) & (load<Floats>(b.y1) >= r.y0);
+      const int4 meet = (load<float4>(b.x0) <= r.x1) & (load<float4>(b.x1) >= r.x0) &
+                        (load<float4>(b.y0) <= r.y1) & (load<float4>(b.y1) >= r.y0);
       if (!any(meet)) continue;
       for (std::size_t lane = 0; lane < kLanes && i + lane < end; ++lane) {
         if (meet[lane] != 0) visit(facets_[i + lane]);
@@ -151,7 +151,7 @@ class ViewedPrimitives {
   std::vector<Place> places_;                          // by primitive
   std::vector<std::uint32_t> primitives_;              // those asked for
   std::vector<Shape> shapes_ = std::vector<Shape>(1);  // the first is kUnknown
-  std::vector<NearFacet> facets_;
+  std::vector<ProjectedFacet> facets_;
   std::vector<FourBounds> bounds_;  // of the facets: most are only asked for these
   ImageShape asked_;
 };

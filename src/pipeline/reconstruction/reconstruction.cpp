@@ -6,10 +6,10 @@
 #include <type_traits>
 #include <utility>
 
-#include "pipeline/reconstruction/silhouette_patch.h"
-#include "pipeline/simd.h"
-#include "pipeline/sampling/sample_mesh_impl.h"
 #include "pipeline/reconstruction/scan_conversion.h"
+#include "pipeline/reconstruction/silhouette_patch.h"
+#include "pipeline/sampling/sample_mesh_impl.h"
+#include "pipeline/simd.h"
 
 namespace pprt {
 namespace {
@@ -104,15 +104,15 @@ std::ptrdiff_t row_start(const PixelRect& bounds, int row) {
 
 // In four rows, the pixels whose centres a triangle holds.
 struct Spans {
-  LaneBits left, last;  // none where last < left
+  int4 left, last;  // none where last < left
 };
 
 Spans spans_at(const Outline& outline, int first_row, const PixelRect& bounds) {
   const ExactExtents extents = outline.at(kCenterOffsets + first_row);
-  const LaneBits row = LaneBits{0, 1, 2, 3} + first_row;
-  const LaneBits last = least(first_centers(extents.right), LaneBits{} + bounds.x1) - 1;
+  const int4 row = int4{0, 1, 2, 3} + first_row;
+  const int4 last = min(first_centers(extents.right), int4{} + bounds.x1) - 1;
   const auto is_inside = (row >= bounds.y0) & (row < bounds.y1);
-  return {greatest(first_centers(extents.left), LaneBits{} + bounds.x0), is_inside ? last : LaneBits{} - 1};
+  return {max(first_centers(extents.left), int4{} + bounds.x0), is_inside ? last : int4{} - 1};
 }
 
 // Calls fill(row, left, right) for the pixel centres of one triangle: in each row those in [left, right).
@@ -134,12 +134,12 @@ void for_each_span(const std::array<Corner, 3>& corner, const PixelRect& bounds,
 // The interpolation from one pixel of a row to another.
 struct Run {
   int row, left, steps;
-  Floats first, step;
+  float4 first, step;
 
-  Floats at(int x) const { return first + step * static_cast<float>(x); }
+  float4 at(int x) const { return first + step * static_cast<float>(x); }
 };
 
-// In place of an EdgePatch.
+// In place of an SilhouettePatch.
 struct NoEdge {};
 
 // One triangle after another.
@@ -151,7 +151,7 @@ class Painter {
   void gather(const SampleMesh::Impl& mesh);
   template <class Edge>
   void paint(const std::array<Corner, 3>& corner, const Edge& edge);
-  void paint_by_area(const std::array<Corner, 3>& corner, const EdgePatch& edge);
+  void paint_by_area(const std::array<Corner, 3>& corner, const SilhouettePatch& edge);
   void finish();
 
  private:
@@ -169,20 +169,21 @@ class Painter {
             std::uint64_t{1} << (column % 64)};
   }
 
-  void add_edge_lines(const ExtentPerLine& extents, const EdgePatch& edge, int row, int left, int right);
-  void add_sample(int x, int y, const Floats& color);
+  void add_edge_lines(const ExtentPerLine& extents, const SilhouettePatch& edge, int row, int left,
+                      int right);
+  void add_sample(int x, int y, const float4& color);
   template <class Edge>
   void fill(const LinearPatch& patch, const Edge& edge, int first_row, const Spans& spans);
   void fill_run(const Run& run, const NoEdge& none);
-  void fill_run(const Run& run, const EdgePatch& edge);
+  void fill_run(const Run& run, const SilhouettePatch& edge);
   template <class Edge>
   void add_lines(const Outline& outline, const LinearPatch& patch, const Edge& edge, int row);
-  void show_by_area(int row, const Extent& extent, const EdgePatch& edge);
-  void show_by_area(const PixelPlace& place, const Floats& color);
+  void show_by_area(int row, const Extent& extent, const SilhouettePatch& edge);
+  void show_by_area(const PixelPlace& place, const float4& color);
   void start_sum(const PixelPlace& place);
-  Floats base_of(std::size_t pixel) const { return load<Floats>(buffers_.sums[pixel].base); }
-  Floats differences_of(std::size_t pixel) const { return load<Floats>(buffers_.sums[pixel].differences); }
-  void add_difference(std::size_t pixel, const Floats& color) {
+  float4 base_of(std::size_t pixel) const { return load<float4>(buffers_.sums[pixel].base); }
+  float4 differences_of(std::size_t pixel) const { return load<float4>(buffers_.sums[pixel].differences); }
+  void add_difference(std::size_t pixel, const float4& color) {
     store(differences_of(pixel) + color, buffers_.sums[pixel].differences);
   }
   bool takes_area() const { return rule_ == PixelRule::kArea || rule_ == PixelRule::kEdges; }
@@ -212,7 +213,7 @@ void Painter::gather(const SampleMesh::Impl& mesh) {
   }
 }
 
-void Painter::add_sample(int x, int y, const Floats& color) {
+void Painter::add_sample(int x, int y, const float4& color) {
   ReconstructionBuffers& b = buffers_;
   const PixelPlace place = place_of(x, y);
   if ((b.holds_one[place.word] & place.bit) == 0) {
@@ -222,7 +223,7 @@ void Painter::add_sample(int x, int y, const Floats& color) {
   }
   if ((b.holds_several[place.word] & place.bit) == 0) start_sum(place);
   if (rule_ == PixelRule::kMean)
-    add_difference(place.pixel, color - base_of(place.pixel) + Floats{0, 0, 0, 1});
+    add_difference(place.pixel, color - base_of(place.pixel) + float4{0, 0, 0, 1});
 }
 
 template <class Edge>
@@ -247,11 +248,11 @@ void Painter::fill(const LinearPatch& patch, const Edge& edge, int first_row, co
   if (!any(spans.left <= spans.last)) return;
   auto [r, g, b] = patch.at_centers(spans.left, first_row);
   const auto [r_last, g_last, b_last] = patch.at_centers(spans.last, first_row);
-  const LaneBits steps = spans.last - spans.left;
-  const Floats share = 1 / __builtin_convertvector(steps > 0 ? steps : LaneBits{} + 1, Floats);
-  Floats r_step = (r_last - r) * share, g_step = (g_last - g) * share, b_step = (b_last - b) * share;
-  std::array<Floats, kLanes> first, step;
-  Floats none{}, none_either{};
+  const int4 steps = spans.last - spans.left;
+  const float4 share = 1 / __builtin_convertvector(steps > 0 ? steps : int4{} + 1, float4);
+  float4 r_step = (r_last - r) * share, g_step = (g_last - g) * share, b_step = (b_last - b) * share;
+  std::array<float4, kLanes> first, step;
+  float4 none{}, none_either{};
   transpose(r, g, b, none);
   transpose(r_step, g_step, b_step, none_either);
   first = {r, g, b, none}, step = {r_step, g_step, b_step, none_either};
@@ -266,7 +267,7 @@ void Painter::fill_run(const Run& run, const NoEdge&) {
   for (int x = 0; x <= run.steps; ++x) store_channels(run.at(x), pixel[x]);
 }
 
-void Painter::fill_run(const Run& run, const EdgePatch& edge) {
+void Painter::fill_run(const Run& run, const SilhouettePatch& edge) {
   Color* pixel = pixels_.colors.data() + row_start(bounds_, run.row) + run.left;
   for (int x = 0; x <= run.steps; x += 2) {
     const auto [left, right] = edge.at_pixels(run.row, run.left + x);
@@ -293,7 +294,7 @@ void Painter::add_lines(const Outline& outline, const LinearPatch& patch, const 
   const ExtentPerLine extents = outline.along(row, bounds_.x0 + left);
   const LinearPatch::OnLines plane(patch, row, bounds_.x0 + left);
   const auto integral = [&](const PerLine& from, const PerLine& to, const PerLine& length,
-                            const Floats& base) {
+                            const float4& base) {
     if constexpr (std::is_same_v<Edge, NoEdge>) {
       return plane.integral(0.5f * (from + to), length, base);
     } else {
@@ -308,9 +309,8 @@ void Painter::add_lines(const Outline& outline, const LinearPatch& patch, const 
       const int column = first / 64 * 64 + std::countr_zero(word);
       if (column > right) return;
       const auto begin = static_cast<float>(column - left);
-      const PerLine from = greatest(extents.left, on_all(begin)),
-                    to = least(extents.right, on_all(begin + 1));
-      const PerLine length = greatest(to - from, PerLine{}) * (1.0f / kLines);
+      const PerLine from = max(extents.left, on_all(begin)), to = min(extents.right, on_all(begin + 1));
+      const PerLine length = max(to - from, PerLine{}) * (1.0f / kLines);
       if (sum(length) == 0) continue;
       const auto pixel = static_cast<std::size_t>(row_start(bounds_, row) + bounds_.x0 + column);
       add_difference(pixel, integral(from, to, length, base_of(pixel)));
@@ -319,7 +319,7 @@ void Painter::add_lines(const Outline& outline, const LinearPatch& patch, const 
 }
 
 // As paint(), of a small triangle: all pixels that it touches are shown by area.
-void Painter::paint_by_area(const std::array<Corner, 3>& corner, const EdgePatch& edge) {
+void Painter::paint_by_area(const std::array<Corner, 3>& corner, const SilhouettePatch& edge) {
   Outline outline(corner);
   const int top = std::max(floor_to_int(outline.top()), bounds_.y0);
   const int bottom = std::min(ceil_to_int(outline.bottom()), bounds_.y1);
@@ -334,12 +334,12 @@ void Painter::paint_by_area(const std::array<Corner, 3>& corner, const EdgePatch
   }
 }
 
-void Painter::add_edge_lines(const ExtentPerLine& extents, const EdgePatch& edge, int row, int left,
+void Painter::add_edge_lines(const ExtentPerLine& extents, const SilhouettePatch& edge, int row, int left,
                              int right) {
   for (int x = left; x < right; ++x) {
     const auto begin = static_cast<float>(x - left);
-    const PerLine from = greatest(extents.left, on_all(begin)), to = least(extents.right, on_all(begin + 1));
-    const PerLine length = greatest(to - from, PerLine{}) * (1.0f / kLines);
+    const PerLine from = max(extents.left, on_all(begin)), to = min(extents.right, on_all(begin + 1));
+    const PerLine length = max(to - from, PerLine{}) * (1.0f / kLines);
     if (sum(length) == 0) continue;
     const PixelPlace place = place_of(x, row);
     show_by_area(place, edge.beyond());
@@ -348,14 +348,14 @@ void Painter::add_edge_lines(const ExtentPerLine& extents, const EdgePatch& edge
 }
 
 // The pixels whose centres it holds: a thin triangle may have them between its lines.
-void Painter::show_by_area(int row, const Extent& extent, const EdgePatch& edge) {
+void Painter::show_by_area(int row, const Extent& extent, const SilhouettePatch& edge) {
   const int left = std::max(first_center(extent.left), bounds_.x0);
   const int right = std::min(first_center(extent.right), bounds_.x1);
   for (int x = left; x < right; ++x) show_by_area(place_of(x, row), edge.beyond());
 }
 
 // From now on, a pixel of about this colour.
-void Painter::show_by_area(const PixelPlace& place, const Floats& color) {
+void Painter::show_by_area(const PixelPlace& place, const float4& color) {
   ReconstructionBuffers& b = buffers_;
   if ((b.holds_several[place.word] & place.bit) != 0) return;
   if ((b.holds_one[place.word] & place.bit) == 0) store(color, b.sums[place.pixel].base);
@@ -366,12 +366,12 @@ void Painter::start_sum(const PixelPlace& place) {
   ReconstructionBuffers& b = buffers_;
   b.holds_several[place.word] |= place.bit;
   b.pixels.push_back(static_cast<std::uint32_t>(place.pixel));
-  store(Floats{0, 0, 0, 1}, b.sums[place.pixel].differences);
+  store(float4{0, 0, 0, 1}, b.sums[place.pixel].differences);
 }
 
 void Painter::finish() {
   for (const std::uint32_t pixel : buffers_.pixels) {
-    const Floats differences = differences_of(pixel);
+    const float4 differences = differences_of(pixel);
     const float share = takes_area() ? 1.0f : 1.0f / differences[3];
     store_channels(base_of(pixel) + differences * share, pixels_.colors[pixel]);
   }
@@ -381,7 +381,7 @@ void Painter::finish() {
 
 PPRT_CLONED_FOR_WIDE_REGISTERS
 void reconstruct(const SampleMesh& mesh, const PixelRect& bounds, RegionPixels& pixels,
-                 ReconstructionBuffers& buffers, PixelRule rule, ViewedPrimitives* viewed) {
+                 ReconstructionBuffers& buffers, PixelRule rule, ProjectedShapeCache* viewed) {
   pixels.bounds = bounds;
   const SampleMesh::Impl& impl = mesh.impl();
   if (covers_image(impl)) {
@@ -395,7 +395,7 @@ void reconstruct(const SampleMesh& mesh, const PixelRect& bounds, RegionPixels& 
   painter.gather(impl);
   // The small ones with edges first: they decide which pixels the others show by area.
   buffers.edges.assign(triangles.size(), TriangleEdge::kNone);
-  EdgePatch edge;
+  SilhouettePatch edge;
   for (std::size_t i = 0; rule == PixelRule::kEdges && viewed && i < triangles.size(); ++i) {
     prefetch_corners(i, impl);
     const Delaunay::Triangle& t = triangles[i];

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/vector.h"
-#include "pipeline/sampling/sample_mesh.h"
 #include "pipeline/reconstruction/projected_shape_cache.h"
+#include "pipeline/sampling/sample_mesh.h"
 
 namespace pprt {
 
@@ -57,7 +57,7 @@ struct ReconstructionBuffers {
 // edges. `viewed`, of the same eye as the samples, is asked under kEdges alone.
 void reconstruct(const SampleMesh& mesh, const PixelRect& bounds, RegionPixels& pixels,
                  ReconstructionBuffers& buffers, PixelRule rule = PixelRule::kArea,
-                 ViewedPrimitives* viewed = nullptr);
+                 ProjectedShapeCache* viewed = nullptr);
 
 // Per pixel of `bounds`, row by row: which of triangles(mesh) holds its centre, by the same rule;
 // kNoTriangle where none does.

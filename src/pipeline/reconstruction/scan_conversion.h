@@ -7,14 +7,14 @@
 #include <cstdint>
 
 #include "base/vector.h"
-#include "pipeline/simd.h"
 #include "pipeline/sampling/refinement_weight.h"
+#include "pipeline/simd.h"
 
 namespace pprt {
 
 struct Corner {
   double x, y;
-  Floats color;  // channels()
+  float4 color;  // channels()
 };
 
 // The largest whole number not above a coordinate, and the smallest not below it: without a call, which is
@@ -35,15 +35,15 @@ inline int first_center(double coordinate) {
 
 // Lines of a row for the mean over a pixel's area, dealt with at once. Along a line the mean is exact.
 inline constexpr int kLines = kLanes;
-using PerLine = Floats;
-inline constexpr Floats kLineOffsets = {0.125F, 0.375F, 0.625F, 0.875F};  // from the row's beginning
+using PerLine = float4;
+inline constexpr float4 kLineOffsets = {0.125F, 0.375F, 0.625F, 0.875F};  // from the row's beginning
 inline constexpr Doubles kCenterOffsets = {0.5, 1.5, 2.5, 3.5};           // of four rows, from the first's
 
-inline float sum(const Floats& v) {
+inline float sum(const float4& v) {
   return (v[0] + v[1]) + (v[2] + v[3]);
 }
-inline Floats on_all(float value) {
-  return Floats{} + value;
+inline float4 on_all(float value) {
+  return float4{} + value;
 }
 
 // Where a triangle lies along a line.
@@ -59,11 +59,11 @@ struct ExactExtents {
 };
 
 // first_center() of four.
-inline LaneBits first_centers(const Doubles& coordinates) {
+inline int4 first_centers(const Doubles& coordinates) {
   const Doubles v = coordinates - 0.5;
-  const LaneBits towards_zero = __builtin_convertvector(v, LaneBits);
+  const int4 towards_zero = __builtin_convertvector(v, int4);
   const auto is_above = v > __builtin_convertvector(towards_zero, Doubles);  // -1 where it is
-  return towards_zero - __builtin_convertvector(is_above, LaneBits);
+  return towards_zero - __builtin_convertvector(is_above, int4);
 }
 
 // A triangle's edges, as functions of y. An edge's ends are taken in one fixed order, so that the two
@@ -113,7 +113,7 @@ class Outline {
     const Doubles a = top_.x + below_top * whole_;
     const Doubles b = y < middle_.y ? top_.x + below_top * upper_ : middle_.x + (y - middle_.y) * lower_;
     const auto meets = (y >= top_.y) & (y < bottom_.y);
-    return {meets ? least(a, b) : Doubles{}, meets ? greatest(a, b) : Doubles{}};
+    return {meets ? min(a, b) : Doubles{}, meets ? max(a, b) : Doubles{}};
   }
 
   // Along the lines of a pixel row. Coordinates begin at a column, so that float has digits to spare.
@@ -156,14 +156,14 @@ class LinearPatch {
   }
 
   // At the centres of a pixel in each of four rows: red, green and blue.
-  std::array<Floats, 3> at_centers(const LaneBits& column, int first_row) const {
+  std::array<float4, 3> at_centers(const int4& column, int first_row) const {
     const Doubles dx = __builtin_convertvector(column, Doubles) + (0.5 - origin_.x);
     const Doubles dy = kCenterOffsets + (first_row - origin_.y);
     const auto share = [&](double per_x, double per_y) {
-      const Floats v = __builtin_convertvector(per_x * dx + per_y * dy, Floats);
-      return greatest(Floats{}, least(v, on_all(1)));
+      const float4 v = __builtin_convertvector(per_x * dx + per_y * dy, float4);
+      return max(float4{}, min(v, on_all(1)));
     };
-    const Floats a = share(ax_, ay_), b = share(bx_, by_);
+    const float4 a = share(ax_, ay_), b = share(bx_, by_);
     const auto channel = [&](int i) { return origin_.color[i] + to_1_[i] * a + to_2_[i] * b; };
     return {channel(0), channel(1), channel(2)};
   }
@@ -178,10 +178,10 @@ class LinearPatch {
     }
 
     // The integral of the difference from `base` over parts of the lines that are so long about x.
-    Floats integral(const PerLine& x, const PerLine& length, const Floats& base) const {
+    float4 integral(const PerLine& x, const PerLine& length, const float4& base) const {
       const auto share = [&](const PerLine& at_column, double slope) {
         const PerLine v = at_column + static_cast<float>(slope) * x;
-        return sum(greatest(PerLine{}, least(v, on_all(1))) * length);
+        return sum(max(PerLine{}, min(v, on_all(1))) * length);
       };
       return (patch_.origin_.color - base) * sum(length) + patch_.to_1_ * share(a_, patch_.ax_) +
              patch_.to_2_ * share(b_, patch_.bx_);
@@ -194,7 +194,7 @@ class LinearPatch {
 
  private:
   Corner origin_;
-  Floats to_1_, to_2_;
+  float4 to_1_, to_2_;
   double ax_, ay_, bx_, by_;
 };
 

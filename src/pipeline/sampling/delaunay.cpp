@@ -4,9 +4,9 @@
 #include <limits>
 #include <utility>
 
-#include "pipeline/simd.h"
 #include "pipeline/sampling/predicates.h"
 #include "pipeline/sampling/refinement_weight.h"
+#include "pipeline/simd.h"
 
 namespace pprt {
 namespace {
@@ -67,7 +67,7 @@ void measure_circles(const Doubles& ax, const Doubles& ay, const Doubles& bx, co
   constexpr double kCounted = 64 * 0x1p-53;
   Doubles slack = cross > kSmallestDoubleArea ? kCounted * n * parts * scale * scale
                                               : Doubles{} + std::numeric_limits<double>::infinity();
-  Doubles size2 = least(0.25 * (x * x + y * y), greatest(ab2, greatest(a2, b2)));
+  Doubles size2 = min(0.25 * (x * x + y * y), max(ab2, max(a2, b2)));
   for (int i = 0; i < kLanes; ++i)
     circles[i] = {x[i], y[i], static_cast<float>(slack[i]), static_cast<float>(size2[i])};
 }

@@ -57,9 +57,9 @@ Whole triangle_kind(const Whole& a, const Whole& b, const Whole& c, const Number
 
 // By how much weights have said too much or too little, to be multiplied with them. What a weight had said is
 // compared with the squared error times the triangle's area, and with the time that its sample took.
-class ErrorByKind {
+class LearnedWeights {
  public:
-  ErrorByKind() {
+  LearnedWeights() {
     for (std::size_t kind = 0; kind < kTriangleKinds; ++kind)
       corrections_[kind] = tempered(expected()[kind % kExpected]);
   }

@@ -65,7 +65,7 @@ struct WeightTerms {
 // polynomial is the minimax one (Remez) for log(1 + f) / f over [sqrt(1/2), sqrt(2)] - 1.
 template <class Number>
 Number fast_logarithm(const Number& x) {
-  using Bits = std::conditional_t<std::is_same_v<Number, float>, std::int32_t, LaneBits>;
+  using Bits = std::conditional_t<std::is_same_v<Number, float>, std::int32_t, int4>;
   constexpr std::int32_t kRootOfHalf = 0x3f3504f3;
   const Bits bits = std::bit_cast<Bits>(x), exponent = (bits - kRootOfHalf) >> 23;
   const Number f = std::bit_cast<Number>(bits - (exponent << 23)) - 1;

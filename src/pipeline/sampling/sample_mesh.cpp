@@ -13,8 +13,8 @@ namespace {
 constexpr float kUnknownError = 1.0F / 32;  // where no triangle tells what the picture would have shown
 
 // Channels held to the display scale.
-Floats on_display(const Floats& channels) {
-  return least(greatest(channels, Floats{}), Floats{1, 1, 1, 0});
+float4 on_display(const float4& channels) {
+  return min(max(channels, float4{}), float4{1, 1, 1, 0});
 }
 
 bool is_inside(const Vec2d& point, const TileGrid& image) {
@@ -176,9 +176,9 @@ SampleMesh::Impl::Index SampleMesh::Impl::find(const Vec2d& point, int tile, boo
 }
 
 float SampleMesh::Impl::error_found(Index triangle, const Sample& sample) const {
-  const Floats difference = on_display(channels_before_more(&sample.ray.color)) -
+  const float4 difference = on_display(channels_before_more(&sample.ray.color)) -
                             on_display(shown_of(triangle, sample.ray.primitive));
-  const Floats squared = difference * difference;
+  const float4 squared = difference * difference;
   return (squared[0] + squared[1] + squared[2]) * (1.0F / 3);
 }
 
@@ -205,7 +205,7 @@ void SampleMesh::Impl::weigh_new() {
   const std::size_t count = around.size(), padded = (count + kLanes - 1) / kLanes * kLanes;
   const auto shown = [&](Index corner) { return on_display(corners_[corner].channels()); };
   const auto apex = static_cast<Index>(corners_.size() - 1);
-  const Floats center = shown(apex);
+  const float4 center = shown(apex);
   shown_.resize(padded + kLanes), weights_.resize(padded), kinds_.resize(padded);
   primitives_.resize(padded + kLanes), traits_.resize(padded + kLanes);
   for (std::size_t k = 0; k < count; ++k) {
@@ -215,10 +215,10 @@ void SampleMesh::Impl::weigh_new() {
     traits_[k] = corners_[corner].trait;
   }
   shown_[count] = shown_[0], primitives_[count] = primitives_[0], traits_[count] = traits_[0];
-  const LaneBits primitive = LaneBits{} + static_cast<std::int32_t>(corners_[apex].primitive);
+  const int4 primitive = int4{} + static_cast<std::int32_t>(corners_[apex].primitive);
   const auto squared_differences = [&](std::size_t k, auto&& other) {
-    const auto square = [](const Floats& v) { return v * v; };
-    Floats a = square(shown_[k] - other(k)), b = square(shown_[k + 1] - other(k + 1)),
+    const auto square = [](const float4& v) { return v * v; };
+    float4 a = square(shown_[k] - other(k)), b = square(shown_[k + 1] - other(k + 1)),
            c = square(shown_[k + 2] - other(k + 2)), d = square(shown_[k + 3] - other(k + 3));
     transpose(a, b, c, d);
     return a + b + c;
@@ -226,20 +226,20 @@ void SampleMesh::Impl::weigh_new() {
   const auto to_center = [&](std::size_t k) {
     return squared_differences(k, [&](std::size_t) { return center; });
   };
-  Floats next = to_center(0);
+  float4 next = to_center(0);
   for (std::size_t k = 0; k < count; k += kLanes) {
-    const Floats here = next;
+    const float4 here = next;
     next = to_center(k + kLanes);
-    const Floats after = __builtin_shufflevector(here, next, 1, 2, 3, 4);
-    const Floats between = squared_differences(k, [&](std::size_t i) { return shown_[i + 1]; });
-    const Floats variance = (here + after + between) * (1.0F / 27);
-    Floats size_squared{};
+    const float4 after = __builtin_shufflevector(here, next, 1, 2, 3, 4);
+    const float4 between = squared_differences(k, [&](std::size_t i) { return shown_[i + 1]; });
+    const float4 variance = (here + after + between) * (1.0F / 27);
+    float4 size_squared{};
     for (std::size_t i = 0; i < kLanes && k + i < count; ++i)
       size_squared[i] = delaunay_.triangles()[triangles[k + i]].circle.size_squared;
     store(refinement_weight(size_squared, variance, terms_), &weights_[k]);
-    const LaneBits traits = load<LaneBits>(&traits_[k]) + load<LaneBits>(&traits_[k + 1]);
-    store(triangle_kind(primitive, load<LaneBits>(&primitives_[k]), load<LaneBits>(&primitives_[k + 1]),
-                        variance, traits + corners_[apex].trait),
+    const int4 traits = load<int4>(&traits_[k]) + load<int4>(&traits_[k + 1]);
+    store(triangle_kind(primitive, load<int4>(&primitives_[k]), load<int4>(&primitives_[k + 1]), variance,
+                        traits + corners_[apex].trait),
           &kinds_[k]);
   }
 }
@@ -301,18 +301,18 @@ void SampleMesh::Impl::expect_growth(double factor) {
 }
 
 SampleMesh::Guess SampleMesh::Impl::guess(std::uint32_t primitive) const {
-  const Floats shown = shown_of(refined_, primitive);
+  const float4 shown = shown_of(refined_, primitive);
   return {{shown[0], shown[1], shown[2]}, area(refined_)};
 }
 
-Floats SampleMesh::Impl::shown_of(Index triangle, std::uint32_t primitive) const {
-  Floats all{}, beside{};
+float4 SampleMesh::Impl::shown_of(Index triangle, std::uint32_t primitive) const {
+  float4 all{}, beside{};
   int count = 0;
   for (const Index corner : delaunay_.triangles()[triangle].corners) {
-    const Floats color = corners_[corner].channels();
+    const float4 color = corners_[corner].channels();
     const std::int32_t is_beside = corners_[corner].primitive == primitive ? 1 : 0;
     all += color;
-    beside += std::bit_cast<Floats>(std::bit_cast<LaneBits>(color) & -is_beside);
+    beside += std::bit_cast<float4>(std::bit_cast<int4>(color) & -is_beside);
     count += is_beside;
   }
   constexpr std::array<float, 4> kOneOver = {0, 1, 1.0F / 2, 1.0F / 3};

@@ -10,8 +10,8 @@
 #include "pipeline/sampling/bucket_queue.h"
 #include "pipeline/sampling/delaunay.h"
 #include "pipeline/sampling/learned_weights.h"
-#include "pipeline/simd.h"
 #include "pipeline/sampling/sample_mesh.h"
+#include "pipeline/simd.h"
 
 namespace pprt {
 
@@ -26,7 +26,7 @@ class SampleMesh::Impl {
     Trait trait = 0;
     bool own = false;  // in the region
 
-    Floats channels() const { return channels_before_more(this); }
+    float4 channels() const { return channels_before_more(this); }
   };
 
   static_assert(offsetof(Corner, primitive) == sizeof(Color));
@@ -92,7 +92,7 @@ class SampleMesh::Impl {
   void note_at_border(Index triangle);
   // What the picture shows of a primitive in the triangle; or of all corners, if it shows no edges or the
   // primitive is none of theirs.
-  Floats shown_of(Index triangle, std::uint32_t primitive) const;
+  float4 shown_of(Index triangle, std::uint32_t primitive) const;
   double area(Index triangle) const;  // square pixels
   Vec2d refinement_point(Index triangle) const;
   Points points(Index triangle) const;  // of its corners
@@ -107,11 +107,11 @@ class SampleMesh::Impl {
   // Triangles to start a walk from, by tile and by cell of eight pixels; kNowhere before the first.
   std::vector<Index> latest_in_tile_, latest_in_cell_;
   BucketQueue<QueueEntry> queue_;
-  ErrorByKind learned_;
+  LearnedWeights learned_;
   // Of the new triangles, and of the corners around them: weigh_new().
   std::vector<float> weights_;
   std::vector<TriangleKind> kinds_;
-  std::vector<Floats> shown_;
+  std::vector<float4> shown_;
   std::vector<std::int32_t> primitives_, traits_;
   std::uint32_t next_stamp_ = 1;
   bool notes_foreign_ = false;

@@ -113,7 +113,8 @@ class MeshPainter {
         tracer_(subject.scene, subject.camera),
         mesh_(Region::whole({camera_.width, camera_.height, kTilePixels}), learning_of(terms, rule)),
         rule_(rule),
-        viewed_([this](std::uint32_t primitive, ImageShape& shape) { tracer_.view(primitive, shape); }) {}
+        projected_shapes_(
+            [this](std::uint32_t primitive, ImageShape& shape) { tracer_.view(primitive, shape); }) {}
 
   void add(const Vec2d& point) {
     Sample sample;
@@ -143,8 +144,8 @@ class MeshPainter {
   double density() const { return samples_per_pixel(static_cast<double>(mesh_.samples().size()), camera_); }
 
   Image picture() {
-    viewed_.forget();  // as every frame must
-    reconstruct(mesh_, mesh_.region().bounds(), pixels_, buffers_, rule_, &viewed_);
+    projected_shapes_.forget();  // as every frame must
+    reconstruct(mesh_, mesh_.region().bounds(), pixels_, buffers_, rule_, &projected_shapes_);
     Image image;
     image.width = camera_.width, image.height = camera_.height;
     image.pixels = std::exchange(pixels_.colors, {});
@@ -156,7 +157,7 @@ class MeshPainter {
   Tracer tracer_;
   SampleMesh mesh_;
   PixelRule rule_;
-  ViewedPrimitives viewed_;
+  ProjectedShapeCache projected_shapes_;
   RegionPixels pixels_;
   ReconstructionBuffers buffers_;
 };

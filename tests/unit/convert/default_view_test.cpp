@@ -33,7 +33,7 @@ TEST_CASE("the light stands left of the eye and above it") {
   const SceneDescription scene = make_spd("rings", 2);
   const View view = fitted_view(scene, UpAxis::kY);
   const ViewFrame frame = view_frame(view, "rings");
-  const Light light = shoulder_light(scene, view);
+  const Light light = default_light(scene, view);
   CHECK((light.position - view.from).dot(frame.right) < 0);
   CHECK((light.position - view.from).dot(frame.up) > 0);
   CHECK_FALSE(light.color);

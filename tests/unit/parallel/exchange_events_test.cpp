@@ -16,7 +16,7 @@ unsigned seeds_to_try() {
 }
 
 struct Events {
-  bool gifts = false;
+  bool transfers = false;
   bool cuts = false;
   bool frames = false;
   bool late_seeds = false;
@@ -31,7 +31,7 @@ void happen(ExchangingRanks& run, const Events& events, const Partition& first, 
   switch (random() % 8) {
     case 0:
     case 1:
-      if (events.gifts) run.give_somewhere();
+      if (events.transfers) run.give_somewhere();
       break;
     case 2:
       if (events.cuts) run.cut_anew(another());
@@ -66,7 +66,7 @@ void check_exact(ExchangingRanks& run) {
 }
 
 void check_events(const Events& events) {
-  int gifts = 0;
+  int transfers = 0;
   for (unsigned seed = 1; seed <= seeds_to_try(); ++seed) {
     std::mt19937 random(seed);
     const int ranks = 2 + static_cast<int>(random() % 8);
@@ -78,15 +78,15 @@ void check_events(const Events& events) {
       for (int event = 0; event < 15; ++event) happen(run, events, first, random);
       check_exact(run);
     }
-    gifts += run.gifts();
+    transfers += run.transfers();
   }
-  CHECK((gifts > 0) == events.gifts);
+  CHECK((transfers > 0) == events.transfers);
 }
 
 }  // namespace
 
 TEST_CASE("triangles at borders are known to both sides while tiles move", "[exchange]") {
-  check_events({.gifts = true});
+  check_events({.transfers = true});
 }
 
 TEST_CASE("triangles at borders are known to both sides when the image is cut anew", "[exchange]") {
@@ -98,11 +98,11 @@ TEST_CASE("triangles at borders are known to both sides in frame after frame", "
 }
 
 TEST_CASE("triangles at borders are known to both sides whatever happens", "[exchange]") {
-  check_events({.gifts = true, .cuts = true, .frames = true});
+  check_events({.transfers = true, .cuts = true, .frames = true});
 }
 
 TEST_CASE("and when seeds come late", "[exchange]") {
-  check_events({.gifts = true, .cuts = true, .frames = true, .late_seeds = true});
+  check_events({.transfers = true, .cuts = true, .frames = true, .late_seeds = true});
 }
 
 }  // namespace pprt

@@ -102,15 +102,15 @@ void ExchangingRanks::give_somewhere() {
   }
   if (tiles.empty()) return;
   giver.exchange.introduce(giver.mesh, tiles, taker);
-  std::vector<Gift> gifts;
+  std::vector<Gift> transfers;
   for (const int tile : tiles) {
     const auto t = static_cast<std::size_t>(tile);
     next.owner[t] = taker;
-    gifts.push_back({tile, taker, ++next.version[t]});
+    transfers.push_back({tile, taker, ++next.version[t]});
   }
-  gifts_ += static_cast<int>(gifts.size());
+  gifts_ += static_cast<int>(transfers.size());
   set_partition(giver, next);
-  post(giver, gifts);
+  post(giver, transfers);
 }
 
 void ExchangingRanks::cut_anew(const Partition& partition) {
@@ -164,7 +164,7 @@ int ExchangingRanks::quieten() {
 
 // --- What a rank does, as parallel/worker does it ---
 
-void ExchangingRanks::post(ExchangingRank& r, const std::vector<Gift>& gifts, bool seeds,
+void ExchangingRanks::post(ExchangingRank& r, const std::vector<Gift>& transfers, bool seeds,
                            const std::vector<std::vector<Sample>>& guests) {
   if (!seeds) r.exchange.announce(r.mesh);
   for (ExchangingRank& to : ranks_) {
@@ -175,9 +175,9 @@ void ExchangingRanks::post(ExchangingRank& r, const std::vector<Gift>& gifts, bo
       const auto& landed = guests[static_cast<std::size_t>(to.rank)];
       samples.insert(samples.end(), landed.begin(), landed.end());
     }
-    if (samples.empty() && gifts.empty()) continue;
+    if (samples.empty() && transfers.empty()) continue;
     to.inbox[static_cast<std::size_t>(r.rank)].push_back(
-        {r.frame, r.epoch, seeds, gifts, std::move(samples)});
+        {r.frame, r.epoch, seeds, transfers, std::move(samples)});
   }
 }
 
@@ -188,8 +188,8 @@ bool ExchangingRanks::take_in_one(ExchangingRank& r, int from) {
   letters.pop_front();
   apply(r, letter);
   if (letter.epoch != r.epoch) return true;
-  for (const Gift& gift : letter.gifts) {
-    if (gift.owner == r.rank) r.exchange.pass_on(r.mesh, gift.tile);
+  for (const Gift& transfer : letter.transfers) {
+    if (transfer.owner == r.rank) r.exchange.pass_on(r.mesh, transfer.tile);
   }
   if (letter.seeds) {
     take_in_late_seeds(r, letter);
@@ -222,13 +222,13 @@ void ExchangingRanks::set_partition(ExchangingRank& r, const Partition& partitio
 
 void ExchangingRanks::apply(ExchangingRank& r, const Letter& letter) {
   Partition next = r.exchange.partition();
-  for (const Gift& gift : letter.gifts) {
-    const auto t = static_cast<std::size_t>(gift.tile);
-    if (gift.version <= next.version[t]) continue;
-    next.owner[t] = gift.owner;
-    next.version[t] = gift.version;
+  for (const Gift& transfer : letter.transfers) {
+    const auto t = static_cast<std::size_t>(transfer.tile);
+    if (transfer.version <= next.version[t]) continue;
+    next.owner[t] = transfer.owner;
+    next.version[t] = transfer.version;
   }
-  if (!letter.gifts.empty()) set_partition(r, next);
+  if (!letter.transfers.empty()) set_partition(r, next);
 }
 
 // Whether the sender keeps a sample is not known: a seed it does, a survivor that landed here it does not.

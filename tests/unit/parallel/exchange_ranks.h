@@ -24,7 +24,7 @@ struct Letter {
   int frame = 0;       // orders that the sender had carried out; the receiver must have, too
   int epoch = 0;       // triangulations that it had begun
   bool seeds = false;  // and survivors that landed with the receiver
-  std::vector<Gift> gifts;
+  std::vector<Gift> transfers;
   std::vector<Sample> samples;
 };
 
@@ -76,14 +76,14 @@ class ExchangingRanks {
 
   const std::deque<ExchangingRank>& ranks() const { return ranks_; }
   int repeats() const { return repeats_; }  // samples that a rank told another a second time
-  int gifts() const { return gifts_; }
+  int transfers() const { return gifts_; }
 
   // The serial triangulation of every sample that any rank has.
   SampleMesh all_samples() const;
 
  private:
   std::size_t random(std::size_t below) { return random_() % below; }
-  void post(ExchangingRank& rank, const std::vector<Gift>& gifts = {}, bool seeds = false,
+  void post(ExchangingRank& rank, const std::vector<Gift>& transfers = {}, bool seeds = false,
             const std::vector<std::vector<Sample>>& guests = {});
   bool take_in_one(ExchangingRank& rank, int from);
   void hear_of_cut(ExchangingRank& rank);

@@ -100,7 +100,7 @@ CameraSource still_with_disc_aside(const SessionSettings& settings, int frames) 
 
 }  // namespace
 
-TEST_CASE("no new cut and no gift costs a sample while the camera rests, and every tile has one owner") {
+TEST_CASE("no new cut and no transfer costs a sample while the camera rests, and every tile has one owner") {
   for (const BalanceMode balance : {BalanceMode::kLocal, BalanceMode::kGlobal, BalanceMode::kCombined}) {
     const SessionSettings settings = settings_for(balance, ClockKind::kWork);
     const VirtualRun run = run_session(kRanks, settings, still_with_disc_aside(settings, 8));

@@ -164,9 +164,9 @@ class Squares {
 
 TEST_CASE("what the frame before has seen is found again, however small it has become") {
   Scene scene(false);
-  const Vec2d landmark = middle_one(scene.render(Carry::kNothing, kCenter, kLarge));
+  const Vec2d anchor = middle_one(scene.render(Carry::kNothing, kCenter, kLarge));
   for (int frame = 2; frame < 7; ++frame) {
-    const std::vector<Sample> found = scene.render(Carry::kCastWherePaying, landmark, kTiny);
+    const std::vector<Sample> found = scene.render(Carry::kCastWherePaying, anchor, kTiny);
     REQUIRE(found.size() == 1);
     CHECK(found[0].frame == 1);
   }
@@ -176,17 +176,17 @@ TEST_CASE("what is hidden is not put back, nor what would have a stale colour") 
   for (const bool shines : {false, true}) {
     CAPTURE(shines);
     Scene scene(shines);
-    const Vec2d landmark = middle_one(scene.render(Carry::kNothing, kCenter, kLarge));
-    CHECK(scene.render(Carry::kCastWherePaying, shines ? landmark : -landmark, kTiny).empty());
+    const Vec2d anchor = middle_one(scene.render(Carry::kNothing, kCenter, kLarge));
+    CHECK(scene.render(Carry::kCastWherePaying, shines ? anchor : -anchor, kTiny).empty());
   }
 }
 
 TEST_CASE("what refinement finds by itself is not sought") {
   Scene scene(false);
-  const Vec2d landmark = middle_one(scene.render(Carry::kNothing, kCenter, kLarge));
+  const Vec2d anchor = middle_one(scene.render(Carry::kNothing, kCenter, kLarge));
   const std::vector<Sample> found = scene.render(Carry::kCastWherePaying, kCenter, kLarge);
   CHECK(found.size() > 10);
-  for (const Sample& s : found) CHECK((Vec2d(s.ray.hit.x, s.ray.hit.y) - landmark).length() > kTiny);
+  for (const Sample& s : found) CHECK((Vec2d(s.ray.hit.x, s.ray.hit.y) - anchor).length() > kTiny);
 }
 
 TEST_CASE("a tenth of the samples at most is spent on what was seen before") {
@@ -203,12 +203,12 @@ TEST_CASE("a cut forgets what was seen before it") {
   for (const bool has_cut : {false, true}) {
     CAPTURE(has_cut);
     Scene scene(false);
-    const Vec2d landmark = middle_one(scene.render(Carry::kNothing, kCenter, kLarge));
+    const Vec2d anchor = middle_one(scene.render(Carry::kNothing, kCenter, kLarge));
     // Noted, and seen no more.
     for (int frame = 0; frame < 2; ++frame)
-      CHECK(scene.render(Carry::kCastWherePaying, -landmark, kTiny).empty());
-    if (has_cut) CHECK(scene.render(Carry::kNothing, landmark, kTiny).empty());
-    CHECK(scene.render(Carry::kCastWherePaying, landmark, kTiny).size() == (has_cut ? 0 : 1));
+      CHECK(scene.render(Carry::kCastWherePaying, -anchor, kTiny).empty());
+    if (has_cut) CHECK(scene.render(Carry::kNothing, anchor, kTiny).empty());
+    CHECK(scene.render(Carry::kCastWherePaying, anchor, kTiny).size() == (has_cut ? 0 : 1));
   }
 }
 

@@ -127,13 +127,13 @@ TEST_CASE("a word of the frame before is heard before this frame's seeds that ca
   scene.render(Carry::kNothing);
   std::uint32_t heard = 0;
   for (const Bundle& b : scene.said_to(0)) {
-    CHECK(b.stance.heard >= heard);
-    heard = b.stance.heard;
+    CHECK(b.handshake.heard >= heard);
+    heard = b.handshake.heard;
   }
   CHECK(heard == 1);
 }
 
-TEST_CASE("samples that come with a gift whose tile has gone elsewhere reach its owner") {
+TEST_CASE("samples that come with a transfer whose tile has gone elsewhere reach its owner") {
   Scene scene;
   const int tile = 2 * 12 + 3;  // rank 0's, beside rank 1's
   scene.render(Carry::kNothing);

@@ -66,9 +66,9 @@ TEST_CASE("small things that were seen in a frame are seen in the next ones too"
   std::erase_if(trial.sequences, [](const CastSequence& s) { return s.scene != "tree" || s.speed != 1; });
   const std::vector<CastErrors> errors = run_cast_trial(trial, [](const std::string&) {});
   REQUIRE(errors.size() == 1);
-  const double off = errors[0].rmse[0], verified = errors[0].rmse[2], with_landmarks = errors[0].rmse[3];
-  CHECK(with_landmarks < 0.95 * off);
-  CHECK(with_landmarks < 0.95 * verified);
+  const double off = errors[0].rmse[0], verified = errors[0].rmse[2], with_anchors = errors[0].rmse[3];
+  CHECK(with_anchors < 0.95 * off);
+  CHECK(with_anchors < 0.95 * verified);
 }
 
 TEST_CASE("auto is compared with the best of the others") {

@@ -76,7 +76,7 @@ TEST_CASE("its share of the difference moves, along the border, and the giver st
   CHECK(is_connected(after, 1));
 }
 
-TEST_CASE("a gift is bounded: by what is left to move, by the taker's room, by a quarter of the region") {
+TEST_CASE("a transfer is bounded: by what is left to move, by the taker's room, by a quarter of the region") {
   const Partition partition = halves();
   const auto costly = [](int) { return TileOffer{1000, 10, 0}; };
   CHECK(tiles_to_give({}, partition, 0, 1, 1200, 1, kUnlimited, costly).empty());

@@ -10,19 +10,19 @@ namespace {
 
 using Kind = OwnershipStep::Kind;
 
-bool same(const TileGrant& a, const TileGrant& b) {
+bool same(const TileTransfer& a, const TileTransfer& b) {
   return a.tile == b.tile && a.owner == b.owner && a.version == b.version;
 }
 
 bool same(const OwnershipLetter& a, const OwnershipLetter& b) {
-  return a.frame == b.frame && a.stance == b.stance &&
-         std::equal(a.grants.begin(), a.grants.end(), b.grants.begin(), b.grants.end(),
-                    [](const TileGrant& x, const TileGrant& y) { return same(x, y); });
+  return a.frame == b.frame && a.handshake == b.handshake &&
+         std::equal(a.transfers.begin(), a.transfers.end(), b.transfers.begin(), b.transfers.end(),
+                    [](const TileTransfer& x, const TileTransfer& y) { return same(x, y); });
 }
 
 bool same(const OwnershipRank& a, const OwnershipRank& b) {
   return a.partition.owner == b.partition.owner && a.partition.version == b.partition.version &&
-         a.stance == b.stance && a.frame == b.frame;
+         a.handshake == b.handshake && a.frame == b.frame;
 }
 
 bool are_beside(const TileGrid& grid, int a, int b) {
@@ -51,27 +51,27 @@ std::size_t OwnershipStateHash::operator()(const OwnershipState& state) const {
     hash = (hash ^ value) * 1099511628211u, hash ^= hash >> 29;
   };
   mix(static_cast<std::uint64_t>(state.cuts * 4096 + state.left.decisions * 256 + state.left.words * 16 +
-                                 state.left.gifts));
+                                 state.left.transfers));
   for (std::size_t k = 0; k < state.ranks.size(); ++k) {
     const OwnershipRank& rank = state.ranks[k];
     for (const std::int32_t owner : rank.partition.owner) mix(static_cast<std::uint64_t>(owner));
     for (const std::uint64_t version : rank.partition.version) mix(version);
     mix(static_cast<std::uint64_t>(rank.frame));
-    mix(rank.stance.may_give());
-    Stance copy = rank.stance;
+    mix(rank.handshake.may_give());
+    TransferHandshake copy = rank.handshake;
     for (int other = 0; other < static_cast<int>(state.ranks.size()); ++other) {
-      mix(rank.stance.owes_word(other) * 4u + rank.stance.takes(other) * 2u +
-          rank.stance.has_counted_gifts(other));
-      const StanceWord word = copy.tell(other);
-      mix(word.stance), mix(word.heard), mix(word.taken);
+      mix(rank.handshake.owes_word(other) * 4u + rank.handshake.takes(other) * 2u +
+          rank.handshake.has_counted_gifts(other));
+      const HandshakeState word = copy.tell(other);
+      mix(word.handshake), mix(word.heard), mix(word.taken);
     }
   }
   for (const auto& letters : state.under_way) {
     mix(letters.size());
     for (const OwnershipLetter& letter : letters) {
-      mix(letter.stance.stance), mix(letter.stance.heard), mix(letter.stance.taken);
-      for (const TileGrant& grant : letter.grants)
-        mix(grant.version), mix(static_cast<std::uint64_t>(grant.tile));
+      mix(letter.handshake.handshake), mix(letter.handshake.heard), mix(letter.handshake.taken);
+      for (const TileTransfer& transfer : letter.transfers)
+        mix(transfer.version), mix(static_cast<std::uint64_t>(transfer.tile));
     }
   }
   return static_cast<std::size_t>(hash);
@@ -89,7 +89,7 @@ OwnershipModel::OwnershipModel(const Partition& first, std::vector<Partition> cu
 OwnershipState OwnershipModel::start() const {
   OwnershipState state;
   for (int rank = 0; rank < rank_count(); ++rank) {
-    state.ranks.push_back({first_, Stance(rank_count()), 0});
+    state.ranks.push_back({first_, TransferHandshake(rank_count()), 0});
   }
   state.under_way.resize(static_cast<std::size_t>(rank_count() * rank_count()));
   state.left = limits_;
@@ -116,7 +116,7 @@ std::vector<OwnershipStep> OwnershipModel::steps(const OwnershipState& state) co
     if (r.frame < state.cuts) steps.push_back({Kind::kHearCut, rank, 0, {}, 0});
     for (int other = 0; other < rank_count(); ++other) {
       if (other == rank) continue;
-      const bool owed = rules_.acknowledges && r.stance.owes_word(other);
+      const bool owed = rules_.acknowledges && r.handshake.owes_word(other);
       if (owed || state.left.words > 0) steps.push_back({Kind::kTell, rank, other, {}, 0});
       const auto& coming = letters(state, other, rank);
       for (std::size_t i = 0; i < coming.size(); ++i) {
@@ -133,9 +133,9 @@ std::vector<OwnershipStep> OwnershipModel::steps(const OwnershipState& state) co
 }
 
 bool OwnershipModel::may_give(const OwnershipState& state, int giver, int taker) const {
-  const Stance& stance = state.ranks[static_cast<std::size_t>(giver)].stance;
-  const bool gives = rules_.waits_for_acknowledgement ? stance.may_give() : stance.is_giving();
-  return state.left.gifts > 0 && gives && stance.takes(taker) && stance.has_counted_gifts(taker);
+  const TransferHandshake& handshake = state.ranks[static_cast<std::size_t>(giver)].handshake;
+  const bool gives = rules_.waits_for_acknowledgement ? handshake.may_give() : handshake.is_giving();
+  return state.left.transfers > 0 && gives && handshake.takes(taker) && handshake.has_counted_gifts(taker);
 }
 
 bool OwnershipModel::can_deliver(const OwnershipState& state, int to, const OwnershipLetter& letter) const {
@@ -171,11 +171,11 @@ std::optional<std::string> OwnershipModel::take(OwnershipState& state, const Own
   OwnershipRank& rank = state.ranks[static_cast<std::size_t>(step.rank)];
   switch (step.kind) {
     case Kind::kChangeStance:
-      rank.stance.decide(!rank.stance.is_giving());
+      rank.handshake.decide(!rank.handshake.is_giving());
       --state.left.decisions;
       break;
     case Kind::kTell:
-      if (!rank.stance.owes_word(step.other)) --state.left.words;
+      if (!rank.handshake.owes_word(step.other)) --state.left.words;
       tell(state, step.rank, step.other, {});
       break;
     case Kind::kGive:
@@ -194,9 +194,9 @@ std::optional<std::string> OwnershipModel::take(OwnershipState& state, const Own
 }
 
 void OwnershipModel::tell(OwnershipState& state, int from, int to,
-                          const std::vector<TileGrant>& grants) const {
+                          const std::vector<TileTransfer>& transfers) const {
   OwnershipRank& rank = state.ranks[static_cast<std::size_t>(from)];
-  letters(state, from, to).push_back({rank.frame, rank.stance.tell(to), grants});
+  letters(state, from, to).push_back({rank.frame, rank.handshake.tell(to), transfers});
 }
 
 // All ranks are told, as Worker::send_bundles does.
@@ -205,24 +205,24 @@ std::optional<std::string> OwnershipModel::give(OwnershipState& state, const Own
   std::optional<std::string> wrong;
   for (int from = 0; from < rank_count(); ++from) {
     for (const OwnershipLetter& letter : letters(state, from, step.rank)) {
-      for (const TileGrant& grant : letter.grants) {
-        if (grant.owner == step.rank &&
-            grant.version >= giver.partition.version[static_cast<std::size_t>(grant.tile)])
+      for (const TileTransfer& transfer : letter.transfers) {
+        if (transfer.owner == step.rank &&
+            transfer.version >= giver.partition.version[static_cast<std::size_t>(transfer.tile)])
           wrong = "a rank gives while a tile is on its way to it";
       }
     }
   }
-  std::vector<TileGrant> grants;
+  std::vector<TileTransfer> transfers;
   for (const int tile : step.tiles) {
     const auto t = static_cast<std::size_t>(tile);
     giver.partition.version[t] += rules_.gifts_raise_version;
     giver.partition.owner[t] = step.other;
-    grants.push_back({tile, step.other, giver.partition.version[t], {}, {}});
+    transfers.push_back({tile, step.other, giver.partition.version[t], {}, {}});
   }
-  giver.stance.gave(step.other);
-  --state.left.gifts;
+  giver.handshake.gave(step.other);
+  --state.left.transfers;
   for (int to = 0; to < rank_count(); ++to) {
-    if (to != step.rank) tell(state, step.rank, to, grants);
+    if (to != step.rank) tell(state, step.rank, to, transfers);
   }
   return wrong;
 }
@@ -232,16 +232,16 @@ void OwnershipModel::deliver(OwnershipState& state, int to, int from, std::size_
   const OwnershipLetter letter = std::move(coming[position]);
   coming.erase(coming.begin() + static_cast<std::ptrdiff_t>(position));
   OwnershipRank& rank = state.ranks[static_cast<std::size_t>(to)];
-  rank.stance.hear(from, letter.stance);
-  bool gift = false;
-  for (const TileGrant& grant : letter.grants) {
-    const auto t = static_cast<std::size_t>(grant.tile);
-    gift = gift || grant.owner == to;
-    if (grant.version <= rank.partition.version[t]) continue;
-    rank.partition.owner[t] = grant.owner;
-    rank.partition.version[t] = grant.version;
+  rank.handshake.hear(from, letter.handshake);
+  bool transfer = false;
+  for (const TileTransfer& transfer : letter.transfers) {
+    const auto t = static_cast<std::size_t>(transfer.tile);
+    transfer = transfer || transfer.owner == to;
+    if (transfer.version <= rank.partition.version[t]) continue;
+    rank.partition.owner[t] = transfer.owner;
+    rank.partition.version[t] = transfer.version;
   }
-  if (gift) rank.stance.took(from);
+  if (transfer) rank.handshake.took(from);
 }
 
 void OwnershipModel::hear_cut(OwnershipState& state, int rank) const {
@@ -252,16 +252,16 @@ void OwnershipModel::hear_cut(OwnershipState& state, int rank) const {
 // --- What must hold ---
 
 // What anybody says of a tile, or is about to hear.
-std::vector<TileGrant> OwnershipModel::claims(const OwnershipState& state, int tile) const {
+std::vector<TileTransfer> OwnershipModel::claims(const OwnershipState& state, int tile) const {
   const auto t = static_cast<std::size_t>(tile);
-  std::vector<TileGrant> claims;
+  std::vector<TileTransfer> claims;
   for (const OwnershipRank& r : state.ranks) {
     claims.push_back({tile, r.partition.owner[t], r.partition.version[t], {}, {}});
   }
   for (const auto& letters : state.under_way) {
     for (const OwnershipLetter& letter : letters) {
-      for (const TileGrant& grant : letter.grants) {
-        if (grant.tile == tile) claims.push_back(grant);
+      for (const TileTransfer& transfer : letter.transfers) {
+        if (transfer.tile == tile) claims.push_back(transfer);
       }
     }
   }
@@ -273,15 +273,15 @@ std::vector<TileGrant> OwnershipModel::claims(const OwnershipState& state, int t
 }
 
 // Or will know: the word of it is on its way to the owner.
-bool OwnershipModel::owner_knows(const OwnershipState& state, const TileGrant& truth) const {
+bool OwnershipModel::owner_knows(const OwnershipState& state, const TileTransfer& truth) const {
   const OwnershipRank& owner = state.ranks[static_cast<std::size_t>(truth.owner)];
   const auto t = static_cast<std::size_t>(truth.tile);
   if (owner.partition.version[t] == truth.version && owner.partition.owner[t] == truth.owner) return true;
   if (owner.frame < state.cuts) return true;
   for (int from = 0; from < rank_count(); ++from) {
     for (const OwnershipLetter& letter : letters(state, from, truth.owner)) {
-      if (std::any_of(letter.grants.begin(), letter.grants.end(),
-                      [&](const TileGrant& grant) { return same(grant, truth); }))
+      if (std::any_of(letter.transfers.begin(), letter.transfers.end(),
+                      [&](const TileTransfer& transfer) { return same(transfer, truth); }))
         return true;
     }
   }
@@ -292,10 +292,10 @@ std::optional<std::string> OwnershipModel::fault(const OwnershipState& state) co
   Partition truth = first_;
   for (int tile = 0; tile < first_.grid.tile_count(); ++tile) {
     const auto t = static_cast<std::size_t>(tile);
-    TileGrant highest{tile, 0, 0, {}, {}};
-    const std::vector<TileGrant> all = claims(state, tile);
-    for (const TileGrant& a : all) {
-      for (const TileGrant& b : all) {
+    TileTransfer highest{tile, 0, 0, {}, {}};
+    const std::vector<TileTransfer> all = claims(state, tile);
+    for (const TileTransfer& a : all) {
+      for (const TileTransfer& b : all) {
         if (a.version == b.version && a.owner != b.owner) return "two owners by the same version";
       }
       if (a.version >= highest.version) highest = a;
@@ -334,7 +334,7 @@ void OwnershipModel::quieten(OwnershipState& state) const {
       for (int other = 0; other < rank_count(); ++other) {
         if (other == rank) continue;
         for (; !letters(state, other, rank).empty(); quiet = false) deliver(state, rank, other, 0);
-        if (!rules_.acknowledges || !r.stance.owes_word(other)) continue;
+        if (!rules_.acknowledges || !r.handshake.owes_word(other)) continue;
         tell(state, rank, other, {});
         quiet = false;
       }
@@ -346,14 +346,14 @@ bool OwnershipModel::all_can_come_to_give(OwnershipState& state) const {
   quieten(state);
   for (int giver = 0; giver < rank_count(); ++giver) {
     for (int rank = 0; rank < rank_count(); ++rank) {
-      state.ranks[static_cast<std::size_t>(rank)].stance.decide(rank == giver);
+      state.ranks[static_cast<std::size_t>(rank)].handshake.decide(rank == giver);
       if (rank != giver) tell(state, rank, giver, {});
     }
     quieten(state);
-    const Stance& stance = state.ranks[static_cast<std::size_t>(giver)].stance;
-    if (!stance.may_give()) return false;
+    const TransferHandshake& handshake = state.ranks[static_cast<std::size_t>(giver)].handshake;
+    if (!handshake.may_give()) return false;
     for (int rank = 0; rank < rank_count(); ++rank) {
-      if (rank != giver && (!stance.takes(rank) || !stance.has_counted_gifts(rank))) return false;
+      if (rank != giver && (!handshake.takes(rank) || !handshake.has_counted_gifts(rank))) return false;
     }
   }
   return true;

@@ -1,5 +1,5 @@
-// How tiles change hands, without pictures: ranks with the real Partition and Stance, the messages between
-// them, and everything that can happen next. A test goes through the states one by one or at random.
+// How tiles change hands, without pictures: ranks with the real Partition and TransferHandshake, the messages
+// between them, and everything that can happen next. A test goes through the states one by one or at random.
 #pragma once
 
 #include <cstddef>
@@ -9,14 +9,14 @@
 #include <vector>
 
 #include "parallel/balance/partition.h"
-#include "parallel/balance/transfer_handshake.h"
 #include "parallel/balance/tile_cost.h"
+#include "parallel/balance/transfer_handshake.h"
 
 namespace pprt {
 
 // The rules that the protocol stands on; a test breaks one to see that the model finds out.
 struct OwnershipRules {
-  bool waits_for_acknowledgement = true;  // who has changed to giving, before the first gift
+  bool waits_for_acknowledgement = true;  // who has changed to giving, before the first transfer
   bool gifts_raise_version = true;
   bool only_owners_give = true;
   bool cuts_raise_version = true;
@@ -28,22 +28,22 @@ struct OwnershipRules {
 
 // How often something may still happen, on all ranks together.
 struct OwnershipLimits {
-  int decisions = 0;  // changes of stance
+  int decisions = 0;  // changes of handshake
   int words = 0;      // that nobody waits for
-  int gifts = 0;
+  int transfers = 0;
 
   friend bool operator==(const OwnershipLimits&, const OwnershipLimits&) = default;
 };
 
 struct OwnershipLetter {
   int frame = 0;  // how many cuts the sender had heard of
-  StanceWord stance;
-  std::vector<TileGrant> grants;
+  HandshakeState handshake;
+  std::vector<TileTransfer> transfers;
 };
 
 struct OwnershipRank {
   Partition partition;  // as it sees it
-  Stance stance;
+  TransferHandshake handshake;
   int frame = 0;  // how many cuts it has heard of
 };
 
@@ -79,7 +79,7 @@ class OwnershipModel {
 
   OwnershipState start() const;
 
-  // Everything that can happen next. Each gift is of a single tile.
+  // Everything that can happen next. Each transfer is of a single tile.
   std::vector<OwnershipStep> steps(const OwnershipState& state) const;
 
   // The tiles that the rank would give to the other by the grades of parallel/local_balance.
@@ -103,13 +103,13 @@ class OwnershipModel {
   const std::vector<OwnershipLetter>& letters(const OwnershipState& state, int from, int to) const;
   bool can_deliver(const OwnershipState& state, int to, const OwnershipLetter& letter) const;
   bool can_spare(const OwnershipState& state, int giver, int taker, int tile) const;
-  void tell(OwnershipState& state, int from, int to, const std::vector<TileGrant>& grants) const;
+  void tell(OwnershipState& state, int from, int to, const std::vector<TileTransfer>& transfers) const;
   std::optional<std::string> give(OwnershipState& state, const OwnershipStep& step) const;
   void deliver(OwnershipState& state, int to, int from, std::size_t position) const;
   void hear_cut(OwnershipState& state, int rank) const;
   void quieten(OwnershipState& state) const;
-  std::vector<TileGrant> claims(const OwnershipState& state, int tile) const;
-  bool owner_knows(const OwnershipState& state, const TileGrant& truth) const;
+  std::vector<TileTransfer> claims(const OwnershipState& state, int tile) const;
+  bool owner_knows(const OwnershipState& state, const TileTransfer& truth) const;
 
   Partition first_;
   std::vector<Partition> cuts_;

@@ -88,8 +88,8 @@ Partition rectangles(int ranks, std::mt19937& random) {
   return bisect(grid, costs, ranks);
 }
 
-// Mostly messages that arrive and words; now and then a change of mind or a cut. Where a gift is in order,
-// every second time one, and every second of these as local balancing would choose it.
+// Mostly messages that arrive and words; now and then a change of mind or a cut. Where a transfer is in
+// order, every second time one, and every second of these as local balancing would choose it.
 OwnershipStep random_step(const OwnershipModel& model, const OwnershipState& state, std::mt19937& random) {
   using Kind = OwnershipStep::Kind;
   const std::vector<OwnershipStep> steps = model.steps(state);
@@ -118,7 +118,7 @@ OwnershipStep random_step(const OwnershipModel& model, const OwnershipState& sta
   return step;
 }
 
-// Returns how many gifts were made.
+// Returns how many transfers were made.
 int walk(unsigned seed) {
   std::mt19937 random(seed);
   const int ranks = 6 + static_cast<int>(seed % 4);
@@ -134,10 +134,10 @@ int walk(unsigned seed) {
     CHECK(wrong_state.value_or("") == "");
     if (wrong_step || wrong_state) break;
   }
-  const int gifts = limits.gifts - state.left.gifts;
+  const int transfers = limits.transfers - state.left.transfers;
   CHECK(model.all_can_come_to_give(state));
   CHECK(model.fault(state).value_or("") == "");
-  return gifts;
+  return transfers;
 }
 
 }  // namespace
@@ -155,9 +155,9 @@ TEST_CASE("ownership is consistent and no rank is stuck under every order of mes
 TEST_CASE("ownership is consistent on random ways of many ranks", "[ownership]") {
   const char* asked = std::getenv("PPRT_OWNERSHIP_SEEDS");
   const unsigned seeds = asked != nullptr ? static_cast<unsigned>(std::stoul(asked)) : 24;
-  int gifts = 0;
-  for (unsigned seed = 1; seed <= seeds; ++seed) gifts += walk(seed);
-  CHECK(gifts > static_cast<int>(5 * seeds));
+  int transfers = 0;
+  for (unsigned seed = 1; seed <= seeds; ++seed) transfers += walk(seed);
+  CHECK(transfers > static_cast<int>(5 * seeds));
 }
 
 TEST_CASE("a rule that is broken shows", "[ownership]") {

@@ -8,7 +8,7 @@ namespace {
 
 // Two ranks that talk by words, delivered at once.
 struct Talk {
-  Stance a{2}, b{2};  // ranks 0 and 1
+  TransferHandshake a{2}, b{2};  // ranks 0 and 1
   void a_tells() { b.hear(0, a.tell(1)); }
   void b_tells() { a.hear(1, b.tell(0)); }
 };
@@ -16,11 +16,11 @@ struct Talk {
 }  // namespace
 
 TEST_CASE("a rank takes at first, and who has said nothing is not known to take") {
-  const Stance stance(3);
-  CHECK_FALSE(stance.is_giving());
-  CHECK_FALSE(stance.may_give());
-  CHECK_FALSE(stance.takes(1));
-  CHECK_FALSE(stance.owes_word(1));
+  const TransferHandshake handshake(3);
+  CHECK_FALSE(handshake.is_giving());
+  CHECK_FALSE(handshake.may_give());
+  CHECK_FALSE(handshake.takes(1));
+  CHECK_FALSE(handshake.owes_word(1));
 }
 
 TEST_CASE("a rank that nobody believes to take may give at once") {
@@ -40,7 +40,7 @@ TEST_CASE("who was told that a rank takes must know that it gives before it may"
   talk.a.decide(true);
   CHECK_FALSE(talk.a.may_give());
   CHECK(talk.a.owes_word(1));
-  const StanceWord before = talk.b.tell(0);  // said before it knew
+  const HandshakeState before = talk.b.tell(0);  // said before it knew
   talk.a_tells();
   CHECK_FALSE(talk.a.owes_word(1));
   talk.a.hear(1, before);
@@ -52,16 +52,16 @@ TEST_CASE("who was told that a rank takes must know that it gives before it may"
 }
 
 TEST_CASE("all who were told must know, not one") {
-  Stance stance(3), first(3), second(3);
-  first.hear(0, stance.tell(1));
-  second.hear(0, stance.tell(2));
-  stance.decide(true);
-  first.hear(0, stance.tell(1));
-  stance.hear(1, first.tell(0));
-  CHECK_FALSE(stance.may_give());
-  second.hear(0, stance.tell(2));
-  stance.hear(2, second.tell(0));
-  CHECK(stance.may_give());
+  TransferHandshake handshake(3), first(3), second(3);
+  first.hear(0, handshake.tell(1));
+  second.hear(0, handshake.tell(2));
+  handshake.decide(true);
+  first.hear(0, handshake.tell(1));
+  handshake.hear(1, first.tell(0));
+  CHECK_FALSE(handshake.may_give());
+  second.hear(0, handshake.tell(2));
+  handshake.hear(2, second.tell(0));
+  CHECK(handshake.may_give());
 }
 
 TEST_CASE("repeating a decision changes nothing, going back and forth needs a new acknowledgement") {

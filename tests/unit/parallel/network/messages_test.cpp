@@ -4,8 +4,8 @@
 #include <functional>
 #include <limits>
 
-#include "parallel/session_settings.h"
 #include "parallel/network/wire.h"
+#include "parallel/session_settings.h"
 
 namespace pprt {
 namespace {
@@ -126,11 +126,11 @@ TEST_CASE("a bundle comes back as it was sent") {
   CHECK(back.round == 19);
   CHECK(back.done);
   CHECK((back.progress.quality == 0.5 && back.progress.target == 0.25 && back.progress.future_cost == 1e6));
-  REQUIRE(back.grants.size() == 1);
+  REQUIRE(back.transfers.size() == 1);
   CHECK(back.rounds_under_way == 4);
-  CHECK((back.stance.stance == 5 && back.stance.heard == 8 && back.stance.taken == 2));
-  CHECK((back.grants[0].tile == 4 && back.grants[0].owner == 2 && back.grants[0].version == 7));
-  CHECK((back.grants[0].now.cost == 1 && back.grants[0].last.average_weight == 4));
+  CHECK((back.handshake.handshake == 5 && back.handshake.heard == 8 && back.handshake.taken == 2));
+  CHECK((back.transfers[0].tile == 4 && back.transfers[0].owner == 2 && back.transfers[0].version == 7));
+  CHECK((back.transfers[0].now.cost == 1 && back.transfers[0].last.average_weight == 4));
   REQUIRE(back.samples.size() == bundle.samples.size());
   for (std::size_t i = 0; i < back.samples.size(); ++i) {
     const Sample &a = bundle.samples[i], &b = back.samples[i];
@@ -218,7 +218,7 @@ TEST_CASE("a count that a message cannot hold takes no memory") {
   Bundle without = some_bundle();
   without.samples.clear();
   check_hostile_count(bundle, encode(without).size() - sizeof(std::uint64_t), kDecodeBundle);
-  check_hostile_count(bundle, encode(without).size() - 2 * sizeof(std::uint64_t) - sizeof(TileGrant),
+  check_hostile_count(bundle, encode(without).size() - 2 * sizeof(std::uint64_t) - sizeof(TileTransfer),
                       kDecodeBundle);
 
   const PixelMessage pixels = some_pixels();

@@ -22,17 +22,18 @@ std::size_t order_bytes(std::size_t runs, std::size_t tiles) {
   return encode(order).size();
 }
 
-std::size_t bundle_bytes(std::size_t gifts, std::size_t samples) {
+std::size_t bundle_bytes(std::size_t transfers, std::size_t samples) {
   Bundle bundle;
-  bundle.grants.resize(gifts);
+  bundle.transfers.resize(transfers);
   bundle.samples.resize(samples);
   return encode(bundle).size();
 }
 
-std::size_t pixels_bytes(std::size_t tiles, std::size_t gifts, std::size_t pixels, std::size_t samples = 0) {
+std::size_t pixels_bytes(std::size_t tiles, std::size_t transfers, std::size_t pixels,
+                         std::size_t samples = 0) {
   PixelMessage message;
   message.tiles.resize(tiles);
-  message.given.resize(gifts);
+  message.given.resize(transfers);
   message.rgb.resize(3 * pixels);
   message.samples.resize(samples);
   return encode(message).size();

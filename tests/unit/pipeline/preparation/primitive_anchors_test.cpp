@@ -30,10 +30,10 @@ Sample seen_at(double x, double y, std::uint32_t primitive) {
 
 }  // namespace
 
-TEST_CASE("a landmark is the sample in the middle of those on its primitive, where the next camera sees it") {
-  Landmarks landmarks(3);
-  landmarks.note(std::vector{seen_at(10, 10, 2), seen_at(30, 12, 2), seen_at(19, 11, 2), seen_at(22, 40, 2)});
-  const std::vector<Sample> sought = landmarks.unseen({}, camera_at(-5), kWhole, kAll);
+TEST_CASE("a anchor is the sample in the middle of those on its primitive, where the next camera sees it") {
+  PrimitiveAnchors anchors(3);
+  anchors.note(std::vector{seen_at(10, 10, 2), seen_at(30, 12, 2), seen_at(19, 11, 2), seen_at(22, 40, 2)});
+  const std::vector<Sample> sought = anchors.unseen({}, camera_at(-5), kWhole, kAll);
   REQUIRE(sought.size() == 1);
   CHECK(sought[0].x == Approx(19 + 5).margin(1e-4));
   CHECK(sought[0].y == Approx(11).margin(1e-4));
@@ -41,58 +41,58 @@ TEST_CASE("a landmark is the sample in the middle of those on its primitive, whe
 
 TEST_CASE(
     "primitives that a sample lies on are not sought, the others in the order in which they were found") {
-  Landmarks landmarks(5);
-  landmarks.note(std::vector{seen_at(1, 1, 4), seen_at(2, 2, 1), seen_at(3, 3, 5), seen_at(4, 4, 4)});
+  PrimitiveAnchors anchors(5);
+  anchors.note(std::vector{seen_at(1, 1, 4), seen_at(2, 2, 1), seen_at(3, 3, 5), seen_at(4, 4, 4)});
   const std::vector<Sample> sought =
-      landmarks.unseen(std::vector{seen_at(60, 60, 1)}, camera_at(0), kWhole, kAll);
+      anchors.unseen(std::vector{seen_at(60, 60, 1)}, camera_at(0), kWhole, kAll);
   REQUIRE(sought.size() == 2);
   CHECK(sought[0].y == Approx(1).margin(1e-4));
   CHECK(sought[1].y == Approx(3).margin(1e-4));
-  CHECK(landmarks.unseen({}, camera_at(0), kWhole, 2).size() == 2);
-  CHECK(landmarks.unseen({}, camera_at(0), kWhole, 0).empty());
+  CHECK(anchors.unseen({}, camera_at(0), kWhole, 2).size() == 2);
+  CHECK(anchors.unseen({}, camera_at(0), kWhole, 0).empty());
 }
 
-TEST_CASE("landmarks out of view, of another region or of nothing are not sought") {
-  Landmarks landmarks(2);
-  landmarks.note(std::vector{seen_at(20, 20, 1), seen_at(50, 50, 2), seen_at(5, 5, 0), seen_at(6, 6, 3)});
-  CHECK(landmarks.unseen({}, camera_at(0), kWhole, kAll).size() == 2);
-  CHECK(landmarks.unseen({}, camera_at(30), kWhole, kAll).size() == 1);
+TEST_CASE("anchors out of view, of another region or of nothing are not sought") {
+  PrimitiveAnchors anchors(2);
+  anchors.note(std::vector{seen_at(20, 20, 1), seen_at(50, 50, 2), seen_at(5, 5, 0), seen_at(6, 6, 3)});
+  CHECK(anchors.unseen({}, camera_at(0), kWhole, kAll).size() == 2);
+  CHECK(anchors.unseen({}, camera_at(30), kWhole, kAll).size() == 1);
   Camera turned = camera_at(0);
   turned.forward = {0, 0, -1}, turned.right = {-1, 0, 0};
-  CHECK(landmarks.unseen({}, turned, kWhole, kAll).empty());
+  CHECK(anchors.unseen({}, turned, kWhole, kAll).empty());
   const Region corner({kSize, kSize, 32}, {1, 0, 0, 0});
-  const std::vector<Sample> sought = landmarks.unseen({}, camera_at(0), corner, kAll);
+  const std::vector<Sample> sought = anchors.unseen({}, camera_at(0), corner, kAll);
   REQUIRE(sought.size() == 1);
   CHECK(sought[0].x == Approx(20).margin(1e-4));
 }
 
-TEST_CASE("a sample whose colour depends on the eye is no landmark, but its primitive is met") {
-  Landmarks landmarks(1);
+TEST_CASE("a sample whose colour depends on the eye is no anchor, but its primitive is met") {
+  PrimitiveAnchors anchors(1);
   Sample shining = seen_at(20, 20, 1);
   shining.ray.eye_dependent = true;
-  landmarks.note(std::vector{shining});
-  CHECK(landmarks.unseen({}, camera_at(0), kWhole, kAll).empty());
-  landmarks.note(std::vector{shining, seen_at(40, 40, 1), shining});
-  const std::vector<Sample> sought = landmarks.unseen({}, camera_at(0), kWhole, kAll);
+  anchors.note(std::vector{shining});
+  CHECK(anchors.unseen({}, camera_at(0), kWhole, kAll).empty());
+  anchors.note(std::vector{shining, seen_at(40, 40, 1), shining});
+  const std::vector<Sample> sought = anchors.unseen({}, camera_at(0), kWhole, kAll);
   REQUIRE(sought.size() == 1);
   CHECK(sought[0].x == Approx(40).margin(1e-4));
-  CHECK(landmarks.unseen(std::vector{shining}, camera_at(0), kWhole, kAll).empty());
+  CHECK(anchors.unseen(std::vector{shining}, camera_at(0), kWhole, kAll).empty());
 }
 
 TEST_CASE("what is not seen any more is sought in four frames, and not at all once everything is forgotten") {
-  Landmarks landmarks(2);
+  PrimitiveAnchors anchors(2);
   const std::vector both = {seen_at(20, 20, 1), seen_at(30, 30, 2)}, one = {seen_at(31, 30, 2)};
-  landmarks.note(both);
+  anchors.note(both);
   for (int frame = 0; frame < 4; ++frame) {
     CAPTURE(frame);
-    CHECK(landmarks.unseen(one, camera_at(0), kWhole, kAll).size() == 1);
-    landmarks.note(one);
+    CHECK(anchors.unseen(one, camera_at(0), kWhole, kAll).size() == 1);
+    anchors.note(one);
   }
-  CHECK(landmarks.unseen(one, camera_at(0), kWhole, kAll).empty());
-  landmarks.note(both);
-  CHECK(landmarks.unseen(one, camera_at(0), kWhole, kAll).size() == 1);
-  landmarks.clear();
-  CHECK(landmarks.unseen({}, camera_at(0), kWhole, kAll).empty());
+  CHECK(anchors.unseen(one, camera_at(0), kWhole, kAll).empty());
+  anchors.note(both);
+  CHECK(anchors.unseen(one, camera_at(0), kWhole, kAll).size() == 1);
+  anchors.clear();
+  CHECK(anchors.unseen({}, camera_at(0), kWhole, kAll).empty());
 }
 
 }  // namespace pprt

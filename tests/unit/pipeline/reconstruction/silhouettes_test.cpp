@@ -72,10 +72,10 @@ SampleMesh mesh_of(int refinements) {
   return mesh;
 }
 
-RegionPixels rebuild(const SampleMesh& mesh, PixelRule rule, const ViewedPrimitives::View& of = view) {
+RegionPixels rebuild(const SampleMesh& mesh, PixelRule rule, const ProjectedShapeCache::View& of = view) {
   RegionPixels pixels;
   ReconstructionBuffers buffers;
-  ViewedPrimitives viewed(of);
+  ProjectedShapeCache viewed(of);
   reconstruct(mesh, mesh.region().bounds(), pixels, buffers, rule, &viewed);
   return pixels;
 }
@@ -244,7 +244,7 @@ TEST_CASE("a part of the image shows the same edges") {
 
 TEST_CASE("shapes are asked for once until the eye moves") {
   int asked = 0;
-  ViewedPrimitives viewed([&](std::uint32_t, ImageShape& shape) {
+  ProjectedShapeCache viewed([&](std::uint32_t, ImageShape& shape) {
     ++asked;
     shape.kind = ImageShape::Kind::kFacets;
     shape.facets.assign(2, facet({1, 0, 0}, 1));
@@ -260,7 +260,7 @@ TEST_CASE("shapes are asked for once until the eye moves") {
 
 TEST_CASE("a primitive that nobody knows is of unknown shape, whatever its number") {
   int asked = 0;
-  ViewedPrimitives viewed([&](std::uint32_t primitive, ImageShape& shape) {
+  ProjectedShapeCache viewed([&](std::uint32_t primitive, ImageShape& shape) {
     ++asked;
     view(primitive, shape);
     if (primitive > 3) shape.kind = ImageShape::Kind::kUnknown;
@@ -276,7 +276,7 @@ TEST_CASE("a primitive that nobody knows is of unknown shape, whatever its numbe
 }
 
 TEST_CASE("of a shape's facets those are visited that a rectangle meets") {
-  ViewedPrimitives viewed([&](std::uint32_t primitive, ImageShape& shape) {
+  ProjectedShapeCache viewed([&](std::uint32_t primitive, ImageShape& shape) {
     shape.kind = ImageShape::Kind::kFacets;
     shape.facets.clear();
     for (std::uint32_t i = 0; i < primitive; ++i) {
@@ -286,10 +286,10 @@ TEST_CASE("of a shape's facets those are visited that a rectangle meets") {
     }
   });
   const auto few = viewed.find(3, {0, 0}), many = viewed.find(11, {0, 0});
-  const auto visited = [&](ViewedPrimitives::Place place, const ImageBounds& rectangle) {
+  const auto visited = [&](ProjectedShapeCache::Place place, const ImageBounds& rectangle) {
     std::vector<float> found;
     viewed.for_each_facet(viewed.shape(place), rectangle,
-                          [&](const NearFacet& f) { found.push_back(f.nearness.constant); });
+                          [&](const ProjectedFacet& f) { found.push_back(f.nearness.constant); });
     return found;
   };
   CHECK(visited(many, {2.5f, 1, 5.5f, 2}) == std::vector<float>{1102, 1103, 1104, 1105});
@@ -310,7 +310,7 @@ TEST_CASE("far from where a shape was met its outline is in place") {
                        0,
                        -scale};
   const Vec2d met(kCenter - kRadius, kCenter);  // at its left end
-  const NearQuadratic near = NearQuadric(disc, met).discriminant;
+  const NearQuadratic near = ProjectedQuadric(disc, met).discriminant;
   double farthest = 0;
   for (int degrees = 0; degrees < 360; ++degrees) {
     const double turn = degrees * 0.017453292519943295;

@@ -18,7 +18,8 @@ namespace {
 constexpr TriangleKind kOne = 1, kOther = 2;
 
 // As many samples of one ray each, whose triangles had an area and a weight of 1.
-void learn(ErrorByKind& errors, TriangleKind kind, float squared_error, int samples, std::uint32_t rays = 1) {
+void learn(LearnedWeights& errors, TriangleKind kind, float squared_error, int samples,
+           std::uint32_t rays = 1) {
   for (int i = 0; i < samples; ++i) errors.learn(kind, 1, squared_error, 1, rays);
 }
 
@@ -49,8 +50,8 @@ TEST_CASE("kinds of four triangles are those of one after the other, and no two 
         traits[k] += trait_of(std::exp2(-static_cast<float>(random() % 20)), 1U << random() % 6);
     }
     std::array<TriangleKind, kLanes> kinds{};
-    const auto lanes = [](const std::array<std::int32_t, kLanes>& v) { return load<LaneBits>(v.data()); };
-    store(triangle_kind(lanes(a), lanes(b), lanes(c), load<Floats>(variance.data()), lanes(traits)),
+    const auto lanes = [](const std::array<std::int32_t, kLanes>& v) { return load<int4>(v.data()); };
+    store(triangle_kind(lanes(a), lanes(b), lanes(c), load<float4>(variance.data()), lanes(traits)),
           kinds.data());
     for (std::size_t k = 0; k < kLanes; ++k) {
       REQUIRE(kinds[k] < kTriangleKinds);
@@ -74,7 +75,7 @@ TEST_CASE("the number of primitives, the variance, the errors and the rays each 
 }
 
 TEST_CASE("a kind that proves more wrong than its weights said counts more, and one that is dearer less") {
-  ErrorByKind errors, by_rays;
+  LearnedWeights errors, by_rays;
   for (int i = 0; i < 2000; ++i) {
     learn(errors, kOne, 0.16F, 1), learn(errors, kOther, 0.01F, 1);
     learn(by_rays, kOne, 0.1F, 1, 1), learn(by_rays, kOther, 0.1F, 1, 12);
@@ -88,7 +89,7 @@ TEST_CASE("a kind that proves more wrong than its weights said counts more, and 
 }
 
 TEST_CASE("what is learned is uncertain at first, follows what comes, and stays within bounds") {
-  ErrorByKind errors;
+  LearnedWeights errors;
   const float expected = errors.correction(kOne);
   learn(errors, kOther, 0.01F, 1000);
   learn(errors, kOne, 0.16F, 1);
@@ -110,7 +111,7 @@ TEST_CASE("what is learned is uncertain at first, follows what comes, and stays 
   const float before = errors.correction(kOne);
   errors.learn(kOne, 0, 1, 1, 1);  // a triangle without weight has said nothing
   CHECK(errors.correction(kOne) == before);
-  ErrorByKind right;
+  LearnedWeights right;
   const float unknown = right.correction(kOne);
   learn(right, kOne, 0, 100);  // nothing has been wrong yet
   CHECK(right.correction(kOne) == unknown);

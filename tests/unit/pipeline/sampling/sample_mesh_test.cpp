@@ -357,10 +357,10 @@ TEST_CASE("the logarithm of weights keeps to its bound, one or four at once") {
   CHECK(fast_logarithm(1.0f) == 0);
   double worst = 0;
   for (int i = 0; i < 100'000; ++i) {
-    Floats x{};
+    float4 x{};
     for (int lane = 0; lane < kLanes; ++lane)
       x[lane] = 1 + 500 * variance(random) * std::pow(variance(random), 8.0f);
-    const Floats four = fast_logarithm(x);
+    const float4 four = fast_logarithm(x);
     for (int lane = 0; lane < kLanes; ++lane) {
       const double exact = std::log(static_cast<double>(x[lane]));
       REQUIRE(four[lane] == fast_logarithm(float{x[lane]}));
