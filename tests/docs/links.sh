@@ -17,13 +17,13 @@ done < <(grep -roE '\]\([^) ]+\)' ./*.md docs --include='*.md')
 
 # `parallel/exchange.cpp`, `parallel/exchange` or `parallel/exchange.*`: below src or the root, if that has such a room.
 seen=0
+# shellcheck disable=SC2016 # backquotes are meant
 while IFS=: read -r file name; do
   name=${name//\`/} stem=${name%.\*} found=
   [[ -d ${name%%/*} || -d src/${name%%/*} ]] || continue
   seen=$((seen + 1))
   for place in "$name" "src/$name" "src/$stem.h" "src/$stem.cpp"; do [[ ! -e $place ]] || found=$place; done
   [[ -n $found ]] || complain "$file: $name is not there"
-# shellcheck disable=SC2016 # backquotes are meant
 done < <(grep -oE '`[a-z_]+/[a-z_0-9/]*(\.[a-z*]+)?`' ./*.md docs/*.md)
 [[ $seen -gt 50 ]] || complain "only $seen names of files were found"
 
