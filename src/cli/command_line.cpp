@@ -8,14 +8,14 @@
 #include <optional>
 #include <string_view>
 
+#include "base/diagnostics.h"
+#include "base/nearest_word.h"
 #include "cli/completion.h"
 #include "cli/help.h"
 #include "cli/launch.h"
 #include "cli/option_table.h"
 #include "cli/option_words.h"
 #include "cli/version.h"
-#include "base/diagnostics.h"
-#include "base/nearest_word.h"
 
 namespace pprt {
 namespace {
@@ -35,8 +35,8 @@ void add_completion(CLI::App& app) {
     script.pop_back();  // the line's end, which is printed behind it
     throw CLI::CallForVersion(script, 0);
   };
-  auto* option = app.add_option_function<std::string>(
-      "--completion", print, "Print what makes this shell complete command lines, and exit");
+  auto* option = app.add_option_function<std::string>("--completion", print,
+                                                      "Print a completion script for this shell and exit");
   take_one_of(*option, {"bash", "zsh", "fish"});
   option->configurable(false);
 }

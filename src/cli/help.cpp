@@ -81,7 +81,7 @@ std::string help_text(const OptionTable& table, const std::string& usage_name) {
     }
   }
   if (table.subcommands.empty()) return text;
-  text += "\nSubcommands, each with a --help of its own:\n";
+  text += "\nSubcommands, each with its own --help:\n";
   for (const OptionTable& subcommand : table.subcommands) {
     text += entry(subcommand.program, subcommand.description);
   }

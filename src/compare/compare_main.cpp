@@ -9,23 +9,24 @@ namespace {
 
 // A limit of the figure that `what` names.
 void add_limit(CLI::App& app, const char* name, std::optional<double>& limit, const char* what) {
-  app.add_option(name, limit, what)->type_name("X")->group("Limits, beyond which the exit code is 1");
+  app.add_option(name, limit, what)->type_name("X")->group("Limits; exit code 1 if one is exceeded");
 }
 
 void add_options(CLI::App& app, pprt::CompareOptions& options) {
-  app.add_option("A", options.image, "The picture, EXR or PNG, or a sequence such as out/%04d.png")
+  app.add_option("A", options.image, "Picture, EXR or PNG, or a sequence such as out/%04d.png")
       ->required()
       ->type_name("FILE");
-  app.add_option("B", options.reference, "The reference to compare it with")->required()->type_name("FILE");
+  app.add_option("B", options.reference, "Reference picture or sequence")->required()->type_name("FILE");
   app.add_option("--frames", options.frames, "Compare only frames A to B of the sequences")->type_name("A-B");
-  app.add_flag("--clamp", options.clamp, "Compare what a display shows: values clamped to 0..1");
+  app.add_flag("--clamp", options.clamp, "Clamp values to 0..1 first, as a display does");
   app.add_option("--threshold", options.threshold, "Error above which a pixel counts for the share")
       ->capture_default_str()
       ->type_name("T");
-  app.add_option("--pixels-per-degree", options.pixels_per_degree, "How large FLIP's viewer sees the pixels")
+  app.add_option("--pixels-per-degree", options.pixels_per_degree,
+                 "Pixels in a degree of the view of FLIP's viewer")
       ->capture_default_str()
       ->type_name("P");
-  app.add_option("--diff", options.difference_picture, "Write the differences, the largest as 1")
+  app.add_option("--diff", options.difference_picture, "Write a picture of the differences, the largest as 1")
       ->type_name("OUT");
   add_limit(app, "--max-rmse", options.max_rmse, "Largest root mean square error allowed");
   add_limit(app, "--min-psnr", options.min_psnr, "Smallest peak signal to noise ratio allowed, dB");
@@ -38,7 +39,8 @@ void add_options(CLI::App& app, pprt::CompareOptions& options) {
   add_limit(app, "--max-share", options.max_share,
             "Largest share of pixels over the threshold allowed, 0 to 1");
   add_limit(app, "--max-flicker", options.max_flicker, "Largest flicker of a sequence allowed");
-  app.add_flag("--json", options.json, "Print JSON: an object, of a sequence a line a frame and one for all");
+  app.add_flag("--json", options.json,
+               "Print one JSON object; for a sequence one a line for each frame, and a last one for all");
 }
 
 }  // namespace
@@ -46,7 +48,7 @@ void add_options(CLI::App& app, pprt::CompareOptions& options) {
 int main(int argc, char** argv) {
   bool within = true;
   const int code = pprt::run_guarded("pprt-compare", [&]() -> int {
-    CLI::App app("Tells how far one picture, or sequence, is from another.", "pprt-compare");
+    CLI::App app("Measures the difference of two pictures or sequences.", "pprt-compare");
     pprt::CompareOptions options;
     add_options(app, options);
     pprt::add_common_flags(app);

@@ -2,10 +2,10 @@
 #include <string>
 
 #include "cli/command_line.h"
-#include "convert/convert.h"
 #include "cli/exit.h"
 #include "cli/option_words.h"
 #include "cli/scene_source.h"
+#include "convert/convert.h"
 #include "convert/tessellate.h"
 
 namespace {
@@ -20,18 +20,19 @@ void add_options(CLI::App& app, pprt::ConvertOptions& options) {
                  "FILE.nff, - (NFF on standard output), FILE.pov, or a mesh (.obj .ply .stl .glb .gltf .dae)")
       ->required()
       ->type_name("FILE");
-  auto* divisions = app.add_option("--tessellate", options.tessellate,
-                                   "Cut spheres into 12 N x N triangles, cones into 8 N (meshes: 6)");
+  auto* divisions =
+      app.add_option("--tessellate", options.tessellate,
+                     "Divide spheres into 12 N x N triangles, cones into 8 N (default for meshes: 6)");
   divisions->type_name("N")->check(CLI::Range(1, pprt::kMaxDivisions));
   app.add_option("--chord-error", options.chord_error,
-                 "Cut spheres and cones no farther than E inside their surface, each as finely as it needs")
+                 "Divide spheres and cones so that triangles lie at most E inside the surface")
       ->type_name("E")
       ->check(CLI::Range(std::numeric_limits<double>::min(), std::numeric_limits<double>::max(), "POSITIVE"))
       ->excludes(divisions);
   auto* up = app.add_option_function<std::string>(
       "--up",
       [&options](const std::string& axis) { options.up = axis == "z" ? pprt::UpAxis::kZ : pprt::UpAxis::kY; },
-      "The axis that is up for a camera that has to be added");
+      "Up axis of an added camera");
   up->default_str("y");
   pprt::take_one_of(*up, {"y", "z"});
   app.add_flag("--strict", options.strict, "Reject what the NFF specification does not allow");

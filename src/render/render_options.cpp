@@ -56,65 +56,66 @@ std::vector<std::string> effect_words() {
 
 void add_positionals(CLI::App& app, RenderOptions& o) {
   auto* scene = app.add_option(
-      "SCENE", o.input, "FILE.nff, - (standard input), spd:NAME[:SIZE], or a script that names its scene");
+      "SCENE", o.input,
+      "FILE.nff, - (NFF on standard input), spd:NAME[:SIZE], or a script that names its scene");
   scene->required()->type_name("");
   take_path_or(*scene, generated_scenes());
   app.add_option("SCRIPT", o.script,
-                 "Animation script, FILE.anim; without one a still from the scene's own view")
+                 "Animation script, FILE.anim; without one: a still from the scene's own view")
       ->type_name("FILE");
 }
 
 void add_run_options(CLI::App& app, RenderOptions& o) {
   const std::string group = "Run";
-  app.add_option("--np", o.ranks, "Ranks (also -np N, as in mpirun); starts mpirun itself when more than one")
+  app.add_option("--np", o.ranks,
+                 "Number of ranks (also -np N, as in mpirun); starts mpirun if more than one")
       ->check(count_from(1, 4096))
       ->capture_default_str()
       ->type_name("N")
       ->group(group);
-  app.add_option("--hostfile", o.hostfile, "Hosts to run on, handed to mpirun")
+  app.add_option("--hostfile", o.hostfile, "Hosts to run on, passed to mpirun")
       ->type_name("FILE")
       ->group(group);
   app.add_option("--fps", o.fps,
-                 "Fixed frame rate, a deadline for every frame; 0: none (default: the script's)")
+                 "Frame rate, which gives every frame a deadline; 0: none (default: the script's)")
       ->check(number_between(0, 1000))
       ->type_name("F")
       ->group(group);
-  auto* clock = app.add_option(
-      "--clock", o.clock, "Real time, or counted work: the same result on any machine and under any load");
+  auto* clock = app.add_option("--clock", o.clock,
+                               "Real time, or counted work: the same result on any machine under any load");
   clock->capture_default_str()->group(group);
   take_one_of(*clock, {"wall", "work"});
   app.add_option("--budget", o.budget,
-                 "Units of work for each rank and frame, with --clock work (default: 50000000 / fps)")
+                 "Work units for each rank and frame, with --clock work (default: 50000000 / fps)")
       ->check(count_from(1))
       ->type_name("N")
       ->group(group);
-  app.add_option("--time", o.time, "Stop a frame after so many seconds; without a rate")
+  app.add_option("--time", o.time, "Without a rate: stop a frame after S seconds")
       ->check(number_between(1e-3, 1e9))
       ->type_name("S")
       ->group(group);
-  app.add_option("--samples", o.samples, "Stop a frame at so many samples; without a rate")
+  app.add_option("--samples", o.samples, "Without a rate: stop a frame at N samples")
       ->check(count_from(1))
       ->type_name("N")
       ->group(group);
   app.add_option("--quality", o.quality,
-                 "Stop a frame at this mean triangle weight; without a rate (default: 0.005)")
+                 "Without a rate: stop a frame at a mean triangle weight of Q (default: 0.005)")
       ->check(number_between(1e-12, 1e12))
       ->type_name("Q")
       ->group(group);
-  auto* balance = app.add_option("--balance", o.balance, "Load balancing among ranks");
+  auto* balance = app.add_option("--balance", o.balance, "How ranks share the load");
   balance->capture_default_str()->group(group);
   take_one_of(*balance, {"none", "local", "global", "combined"});
   auto* cast = app.add_option("--cast", o.cast, "Which samples are carried to the next frame");
   cast->capture_default_str()->group(group);
   take_one_of(*cast, {"off", "paper", "verified", "auto"});
-  auto* keep =
-      app.add_option("--keep-samples", o.keep_samples, "Hand samples over when the image is cut anew");
+  auto* keep = app.add_option("--keep-samples", o.keep_samples, "Keep carried samples at a repartition");
   keep->capture_default_str()->group(group);
   take_one_of(*keep, {"on", "off"});
-  auto* weights = app.add_option("--weights", o.weights, "By what refinement decides where samples go");
+  auto* weights = app.add_option("--weights", o.weights, "Rule that chooses the next triangle to refine");
   weights->capture_default_str()->group(group);
   take_one_of(*weights, {"learned", "paper"});
-  app.add_option("--seed", o.seed, "Of the pattern that every frame starts from")
+  app.add_option("--seed", o.seed, "Seed of the pattern that every frame starts from")
       ->check(count_from(0))
       ->capture_default_str()
       ->type_name("N")
@@ -126,37 +127,36 @@ void add_image_options(CLI::App& app, RenderOptions& o) {
   app.add_option("-s,--size", o.size, "Width and height in pixels (default: the script's, or the scene's)")
       ->type_name("WxH")
       ->group(group);
-  app.add_option(
-         "-o,--output", o.outputs,
-         "File names, with %04d or #### for the frame number, .exr or .png; may be given twice (default: " +
-             std::string(kDefaultOutput) + ")")
+  app.add_option("-o,--output", o.outputs,
+                 "File names of the frames, .exr or .png, with %04d or #### for the frame number; may be "
+                 "given twice (default: " +
+                     std::string(kDefaultOutput) + ")")
       ->type_name("PATTERN")
       ->type_size(1)
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->allow_extra_args(false)
       ->group(group);
-  auto* pixels = app.add_option("--pixels", o.pixels, "What a pixel with several samples or an edge shows");
+  auto* pixels = app.add_option("--pixels", o.pixels, "Colour of a pixel with several samples or an edge");
   pixels->capture_default_str()->group(group);
   take_one_of(*pixels, {"edges", "area", "mean", "center"});
   app.add_option("--frames", o.frames, "Render only frames A to B")->type_name("A-B")->group(group);
   auto* layers = app.add_option(
       "--layers", o.layers,
-      "What shows how a frame came about, as EXR channels and PNG pictures: all, or some of samples, "
+      "Layers that show how a frame came about, as EXR channels or PNG pictures: all, or some of samples, "
       "triangulation, regions, age, density, cost, confidence, depth, normal, id");
   layers->type_name("LIST")->group(group);
   take_some_of(*layers, layer_words());
   app.add_option("--contact-sheet", o.contact_sheet,
-                 "Put thumbnails of the finished frames on one picture, .exr or .png")
+                 "Write thumbnails of the finished frames to one picture, .exr or .png")
       ->type_name("FILE")
       ->group(group);
   app.add_option("--film", o.film, "Make a film of the finished frames, .mp4 or .mkv (needs ffmpeg)")
       ->type_name("FILE")
       ->group(group);
-  auto* overwrite =
-      app.add_flag("--overwrite", o.overwrite, "Replace frames that are there already")->group(group);
+  auto* overwrite = app.add_flag("--overwrite", o.overwrite, "Replace existing files")->group(group);
   app.add_flag("--resume", o.resume,
-               "Skip frames that the manifest says are finished with the same scene and options")
+               "Skip frames that the manifest lists as finished with the same scene and options")
       ->excludes(overwrite)
       ->group(group);
 }
@@ -169,13 +169,13 @@ void add_effect_options(CLI::App& app, RenderOptions& o) {
       ->type_name("N")
       ->group(group);
   auto* effects = app.add_option("--effects", o.effects,
-                                 "Which effects are simulated: auto (what the scene calls for), all, none, "
+                                 "Effects to simulate: auto (those that the scene calls for), all, none, "
                                  "or some of shadows, highlights, reflection, refraction, smooth-normals");
   effects->capture_default_str()->type_name("LIST")->group(group);
   take_some_of(*effects, effect_words());
-  app.add_flag("--cull", o.cull, "Opaque surfaces are visible from the front only")->group(group);
+  app.add_flag("--cull", o.cull, "Show opaque surfaces from the front only")->group(group);
   app.add_flag("--census", o.census,
-               "Print what effects the scene calls for and why, and with frames the rays of each")
+               "Print which effects the scene calls for and why; with -o also the rays of each kind")
       ->group(group);
   app.add_flag("--strict", o.strict, "Reject what the NFF specification does not allow")->group(group);
 }
@@ -185,18 +185,18 @@ void add_report_options(CLI::App& app, RenderOptions& o) {
   app.add_option("--stats", o.stats, "Write the ledger, one JSON object a line; - is standard output")
       ->type_name("FILE")
       ->group(group);
-  app.add_option("--reference", o.reference, "Pictures to measure each frame's error against")
+  app.add_option("--reference", o.reference, "Reference pictures for the frames' errors")
       ->type_name("PATTERN")
       ->group(group);
   app.add_flag("--compare-serial", o.compare_serial,
-               "Measure each frame's sample pattern against the serial one of as many samples")
+               "Compare each frame's sample pattern with the serial one of as many samples")
       ->group(group);
   auto* progress = app.add_option("--progress", o.progress,
-                                  "What is told while frames are made: a line that is rewritten, or a JSON "
-                                  "object a frame; auto: tty on a terminal");
+                                  "Progress reports: tty rewrites one line, json prints an object a frame; "
+                                  "auto: tty on a terminal");
   progress->capture_default_str()->group(group);
   take_one_of(*progress, {"auto", "tty", "json", "none"});
-  auto* log = app.add_option("--log", o.log, "Tell what is done on standard error");
+  auto* log = app.add_option("--log", o.log, "Diagnostic logging on standard error");
   log->capture_default_str()->group(group);
   take_one_of(*log, {"trace", "debug", "info", "warning", "error", "off"});
   app.set_config("--config", "", "Read options from a file")->type_name("FILE")->group(group);
