@@ -20,7 +20,7 @@ seen=0
 # shellcheck disable=SC2016 # backquotes are meant
 while IFS=: read -r file name; do
   name=${name//\`/} stem=${name%.\*} found=
-  [[ -d ${name%%/*} || -d src/${name%%/*} ]] || continue
+  [[ ${name%%/*} != build && (-d ${name%%/*} || -d src/${name%%/*}) ]] || continue
   seen=$((seen + 1))
   for place in "$name" "src/$name" "src/$stem.h" "src/$stem.cpp"; do [[ ! -e $place ]] || found=$place; done
   [[ -n $found ]] || complain "$file: $name is not there"
