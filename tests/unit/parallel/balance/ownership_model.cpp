@@ -233,15 +233,15 @@ void OwnershipModel::deliver(OwnershipState& state, int to, int from, std::size_
   coming.erase(coming.begin() + static_cast<std::ptrdiff_t>(position));
   OwnershipRank& rank = state.ranks[static_cast<std::size_t>(to)];
   rank.handshake.hear(from, letter.handshake);
-  bool transfer = false;
+  bool has_transfer = false;
   for (const TileTransfer& transfer : letter.transfers) {
     const auto t = static_cast<std::size_t>(transfer.tile);
-    transfer = transfer || transfer.owner == to;
+    has_transfer = has_transfer || transfer.owner == to;
     if (transfer.version <= rank.partition.version[t]) continue;
     rank.partition.owner[t] = transfer.owner;
     rank.partition.version[t] = transfer.version;
   }
-  if (transfer) rank.handshake.took(from);
+  if (has_transfer) rank.handshake.took(from);
 }
 
 void OwnershipModel::hear_cut(OwnershipState& state, int rank) const {
