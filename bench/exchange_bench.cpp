@@ -8,9 +8,9 @@
 #include <cstddef>
 #include <vector>
 
+#include "parallel/balance/partition.h"
 #include "parallel/exchange.h"
 #include "parallel/network/messages.h"
-#include "parallel/balance/partition.h"
 #include "pipeline/reconstruction/reconstruction.h"
 
 namespace {

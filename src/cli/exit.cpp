@@ -5,8 +5,8 @@
 #include <exception>
 #include <new>
 
-#include "cli/launch.h"
 #include "base/diagnostics.h"
+#include "cli/launch.h"
 
 namespace pprt {
 

@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/diagnostics.h"
 #include "compare/figures.h"
 #include "compare/pictures.h"
-#include "base/diagnostics.h"
 #include "image/image_io.h"
 
 namespace pprt {

@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "cli/number_pair.h"
 #include "base/diagnostics.h"
+#include "cli/number_pair.h"
 #include "image/frame_pattern.h"
 #include "image/image_io.h"
 

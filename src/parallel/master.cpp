@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "parallel/clock/frame_clock.h"
 #include "parallel/balance/global_balance.h"
+#include "parallel/clock/frame_clock.h"
 #include "parallel/clock/work_units.h"
 
 namespace pprt {

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "image/image.h"
-#include "parallel/network/communicator.h"
-#include "parallel/clock/frame_clock.h"
-#include "parallel/network/messages.h"
-#include "parallel/mosaic.h"
 #include "parallel/balance/partition.h"
+#include "parallel/clock/frame_clock.h"
+#include "parallel/mosaic.h"
+#include "parallel/network/communicator.h"
+#include "parallel/network/messages.h"
 #include "parallel/session_settings.h"
 
 namespace pprt {

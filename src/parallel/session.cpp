@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "parallel/clock/frame_clock.h"
+#include "parallel/clock/work_units.h"
 #include "parallel/network/inbox.h"
 #include "parallel/network/wire.h"
-#include "parallel/clock/work_units.h"
 #include "parallel/worker.h"
 
 namespace pprt {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "base/probe.h"
-#include "parallel/network/communicator.h"
 #include "parallel/master.h"
+#include "parallel/network/communicator.h"
 #include "parallel/session_settings.h"
 
 namespace pprt {

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "parallel/network/communicator.h"
 #include "parallel/clock/machine.h"
+#include "parallel/network/communicator.h"
 #include "pipeline/reconstruction/reconstruction.h"
 
 namespace pprt {

@@ -4,12 +4,12 @@
 #include <future>
 #include <utility>
 
-#include "render/film.h"
 #include "base/diagnostics.h"
 #include "image/contact_sheet.h"
 #include "image/metrics.h"
 #include "layers/frame_layers.h"
 #include "parallel/balance/partition.h"
+#include "render/film.h"
 
 namespace pprt {
 namespace {

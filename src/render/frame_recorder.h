@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "image/frame_writer.h"
 #include "render/ledger.h"
 #include "render/manifest.h"
 #include "render/progress.h"
 #include "render/render_plan.h"
 #include "render/serial_comparison.h"
-#include "image/frame_writer.h"
 
 namespace pprt {
 

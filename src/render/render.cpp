@@ -10,22 +10,22 @@
 #include <sstream>
 #include <utility>
 
+#include "base/diagnostics.h"
 #include "cli/exit.h"
-#include "render/frame_recorder.h"
 #include "cli/launch.h"
 #include "cli/log.h"
-#include "render/preflight.h"
-#include "render/render_job.h"
-#include "render/render_plan.h"
 #include "cli/stop_signals.h"
-#include "trace/tracer_probe.h"
 #include "cli/version.h"
-#include "base/diagnostics.h"
 #include "parallel/network/local_communicator.h"
 #include "parallel/network/mpi_communicator.h"
 #include "parallel/session.h"
 #include "parser/nff_parser.h"
+#include "render/frame_recorder.h"
+#include "render/preflight.h"
+#include "render/render_job.h"
+#include "render/render_plan.h"
 #include "scene/nff_writer.h"
+#include "trace/tracer_probe.h"
 
 namespace pprt {
 namespace {

@@ -7,14 +7,14 @@
 #include <optional>
 #include <utility>
 
-#include "render/film.h"
+#include "base/diagnostics.h"
 #include "cli/number_pair.h"
 #include "cli/scene_source.h"
-#include "base/diagnostics.h"
 #include "image/frame_writer.h"
 #include "image/whole_file.h"
 #include "parallel/session.h"
 #include "parser/anim_parser.h"
+#include "render/film.h"
 #include "spd/spd.h"
 
 namespace pprt {

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "render/render_options.h"
 #include "image/frame_pattern.h"
 #include "layers/layer.h"
 #include "parallel/session_settings.h"
+#include "render/render_options.h"
 #include "scene/animation.h"
 #include "scene/scene_description.h"
 #include "trace/compiled_scene.h"

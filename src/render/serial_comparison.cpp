@@ -3,9 +3,9 @@
 #include <exception>
 #include <utility>
 
-#include "trace/tracer_probe.h"
 #include "base/thread_priority.h"
 #include "parallel/serial_pattern.h"
+#include "trace/tracer_probe.h"
 
 namespace pprt {
 namespace {

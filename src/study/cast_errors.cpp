@@ -13,15 +13,15 @@
 #include <mutex>
 #include <thread>
 
-#include "study/paper/runs.h"
-#include "study/sequences.h"
-#include "trace/tracer_probe.h"
 #include "parallel/cast_choice.h"
-#include "parallel/virtual_ranks.h"
 #include "parallel/clock/work_units.h"
+#include "parallel/virtual_ranks.h"
 #include "parser/anim_parser.h"
 #include "scene/animation.h"
 #include "spd/spd.h"
+#include "study/paper/runs.h"
+#include "study/sequences.h"
+#include "trace/tracer_probe.h"
 
 namespace pprt {
 namespace {

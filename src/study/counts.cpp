@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "cli/scene_source.h"
 #include "base/diagnostics.h"
+#include "cli/scene_source.h"
 #include "trace/compiled_scene.h"
 
 namespace pprt {

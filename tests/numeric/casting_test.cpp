@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "numeric/pictures.h"
+#include "numeric/report.h"
 #include "pipeline/preparation/casting.h"
 #include "pipeline/sampling/seeds.h"
-#include "numeric/report.h"
 #include "unit/trace/test_scenes.h"
 
 namespace pprt {

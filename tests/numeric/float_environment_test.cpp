@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "numeric/pictures.h"
-#include "pipeline/sampling/sample_mesh.h"
 #include "numeric/report.h"
+#include "pipeline/sampling/sample_mesh.h"
 #include "spd/spd.h"
 
 namespace pprt {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <vector>
 
-#include "pipeline/reconstruction/reconstruction.h"
 #include "numeric/report.h"
+#include "pipeline/reconstruction/reconstruction.h"
 #include "unit/pipeline/synthetic_image.h"
 
 namespace pprt {

@@ -12,8 +12,8 @@
 
 #include "base/diagnostics.h"
 #include "parser/nff_parser.h"
-#include "unit/trace/test_scenes.h"
 #include "trace/compiled_scene.h"
+#include "unit/trace/test_scenes.h"
 
 namespace pprt {
 namespace {

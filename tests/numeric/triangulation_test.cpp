@@ -9,10 +9,10 @@
 #include <optional>
 #include <random>
 
-#include "unit/pipeline/cgal_oracle.h"
+#include "numeric/report.h"
 #include "pipeline/reconstruction/reconstruction.h"
 #include "pipeline/sampling/sample_mesh.h"
-#include "numeric/report.h"
+#include "unit/pipeline/cgal_oracle.h"
 
 namespace pprt {
 namespace {

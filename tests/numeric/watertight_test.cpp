@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "numeric/report.h"
-#include "unit/trace/test_scenes.h"
 #include "trace/compiled_scene.h"
+#include "unit/trace/test_scenes.h"
 
 using namespace pprt;
 using namespace pprt::test;

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <memory>
 
+#include "parallel/clock/work_units.h"
 #include "parallel/network/messages.h"
 #include "parallel/session_settings.h"
-#include "parallel/clock/work_units.h"
 
 namespace pprt {
 

@@ -10,9 +10,9 @@
 #include <span>
 #include <vector>
 
-#include "pipeline/sampling/refinement_weight.h"
 #include "pipeline/region.h"
 #include "pipeline/sample.h"
+#include "pipeline/sampling/refinement_weight.h"
 
 namespace pprt {
 

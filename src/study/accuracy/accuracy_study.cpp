@@ -9,13 +9,13 @@
 #include <sstream>
 #include <utility>
 
+#include "base/diagnostics.h"
 #include "cli/scene_source.h"
+#include "parser/anim_parser.h"
+#include "scene/nff_writer.h"
 #include "study/accuracy/page.h"
 #include "study/accuracy/parts.h"
 #include "study/output.h"
-#include "base/diagnostics.h"
-#include "parser/anim_parser.h"
-#include "scene/nff_writer.h"
 
 namespace pprt {
 namespace {

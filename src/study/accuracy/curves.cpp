@@ -6,9 +6,9 @@
 #include <cstddef>
 #include <stdexcept>
 
-#include "study/accuracy/verdicts.h"
 #include "image/image_io.h"
 #include "image/metrics.h"
+#include "study/accuracy/verdicts.h"
 
 namespace pprt {
 namespace {

@@ -18,13 +18,13 @@
 #include <stdexcept>
 #include <utility>
 
-#include "study/accuracy/reference.h"
 #include "convert/pov_writer.h"
 #include "image/contact_sheet.h"
 #include "image/image_io.h"
+#include "scene/nff_writer.h"
+#include "study/accuracy/reference.h"
 #include "study/report/gnuplot.h"
 #include "study/report/plot.h"
-#include "scene/nff_writer.h"
 
 namespace pprt {
 namespace {

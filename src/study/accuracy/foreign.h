@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "study/report/table.h"
 #include "scene/scene_description.h"
+#include "study/report/table.h"
 
 namespace pprt {
 

@@ -8,12 +8,12 @@
 #include <optional>
 #include <utility>
 
-#include "trace/tracer_probe.h"
 #include "image/image_io.h"
 #include "layers/frame_layers.h"
 #include "layers/pictures.h"
 #include "parallel/balance/partition.h"
 #include "parallel/virtual_ranks.h"
+#include "trace/tracer_probe.h"
 
 namespace pprt {
 namespace {

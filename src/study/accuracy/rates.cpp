@@ -14,12 +14,12 @@
 #include <thread>
 #include <utility>
 
+#include "image/metrics.h"
+#include "parallel/virtual_ranks.h"
 #include "study/accuracy/reference.h"
 #include "study/accuracy/verdicts.h"
 #include "study/cast_errors.h"
 #include "trace/tracer_probe.h"
-#include "image/metrics.h"
-#include "parallel/virtual_ranks.h"
 
 namespace pprt {
 namespace {

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "study/accuracy/methods.h"
 #include "parallel/session_settings.h"
-#include "study/report/table.h"
 #include "scene/animation.h"
+#include "study/accuracy/methods.h"
+#include "study/report/table.h"
 
 namespace pprt {
 

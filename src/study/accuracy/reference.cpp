@@ -14,9 +14,9 @@
 #include <thread>
 #include <vector>
 
-#include "render/render_job.h"
 #include "image/metrics.h"
 #include "image/whole_file.h"
+#include "render/render_job.h"
 
 namespace pprt {
 namespace {

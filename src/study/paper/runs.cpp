@@ -10,18 +10,18 @@
 #include <stdexcept>
 #include <utility>
 
-#include "render/ledger.h"
-#include "render/render_job.h"
-#include "study/paper/pictures.h"
-#include "study/sequences.h"
-#include "trace/tracer_probe.h"
 #include "base/diagnostics.h"
 #include "parallel/balance/partition.h"
 #include "parallel/serial_pattern.h"
 #include "parallel/virtual_ranks.h"
 #include "parser/anim_parser.h"
+#include "render/ledger.h"
+#include "render/render_job.h"
 #include "scene/animation.h"
 #include "spd/spd.h"
+#include "study/paper/pictures.h"
+#include "study/sequences.h"
+#include "trace/tracer_probe.h"
 
 namespace pprt {
 namespace {

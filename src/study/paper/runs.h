@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "study/cast_errors.h"
 #include "parallel/master.h"
+#include "study/cast_errors.h"
 #include "study/report/plot.h"
 
 namespace pprt {

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "unit/image/temporary_directory.h"
 #include "base/diagnostics.h"
 #include "image/image_io.h"
 #include "image/whole_file.h"
+#include "unit/image/temporary_directory.h"
 
 using namespace pprt;
 

@@ -5,12 +5,12 @@
 #include <sstream>
 #include <string>
 
-#include "unit/image/temporary_directory.h"
-#include "cli/scene_source.h"
 #include "base/diagnostics.h"
+#include "cli/scene_source.h"
 #include "image/whole_file.h"
 #include "scene/nff_writer.h"
 #include "spd/spd.h"
+#include "unit/image/temporary_directory.h"
 
 using namespace pprt;
 

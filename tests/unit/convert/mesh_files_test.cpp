@@ -6,11 +6,11 @@
 #include <fstream>
 #include <string>
 
-#include "unit/image/temporary_directory.h"
 #include "base/diagnostics.h"
 #include "convert/mesh_reader.h"
 #include "convert/mesh_writer.h"
 #include "spd/spd.h"
+#include "unit/image/temporary_directory.h"
 
 using namespace pprt;
 

@@ -4,8 +4,8 @@
 #include <random>
 #include <string>
 
-#include "unit/parser/nff_sample.h"
 #include "parser/text_input.h"
+#include "unit/parser/nff_sample.h"
 
 namespace pprt {
 namespace {

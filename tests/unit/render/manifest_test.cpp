@@ -2,8 +2,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "render/manifest.h"
 #include "base/diagnostics.h"
+#include "render/manifest.h"
 #include "unit/image/temporary_directory.h"
 
 namespace pprt {

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "base/diagnostics.h"
-#include "unit/trace/test_scenes.h"
 #include "trace/compiled_scene.h"
+#include "unit/trace/test_scenes.h"
 
 using namespace pprt;
 using namespace pprt::test;

@@ -3,9 +3,9 @@
 #include <limits>
 
 #include "base/diagnostics.h"
-#include "unit/trace/test_scenes.h"
 #include "trace/compiled_scene.h"
 #include "trace/normalisation.h"
+#include "unit/trace/test_scenes.h"
 
 using namespace pprt;
 using namespace pprt::test;

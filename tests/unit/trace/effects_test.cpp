@@ -4,8 +4,8 @@
 
 #include "base/diagnostics.h"
 #include "spd/spd.h"
-#include "unit/trace/test_scenes.h"
 #include "trace/compiled_scene.h"
+#include "unit/trace/test_scenes.h"
 
 using namespace pprt;
 using namespace pprt::test;

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "unit/pipeline/cgal_oracle.h"
 #include "pipeline/sampling/predicates.h"
+#include "unit/pipeline/cgal_oracle.h"
 
 namespace pprt {
 namespace {

@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "image/image_io.h"
+#include "image/metrics.h"
+#include "spd/spd.h"
 #include "study/accuracy/effects.h"
 #include "study/accuracy/foreign.h"
 #include "study/accuracy/pictures.h"
 #include "study/accuracy/reference.h"
-#include "image/image_io.h"
-#include "image/metrics.h"
-#include "spd/spd.h"
 
 using namespace pprt;
 

@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "scene/nff_writer.h"
+#include "spd/spd.h"
 #include "study/accuracy/curves.h"
 #include "study/accuracy/reference.h"
 #include "study/accuracy/verdicts.h"
-#include "scene/nff_writer.h"
-#include "spd/spd.h"
 
 using namespace pprt;
 

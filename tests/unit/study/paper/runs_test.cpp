@@ -5,9 +5,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "base/diagnostics.h"
 #include "study/paper/measures.h"
 #include "study/paper/page.h"
-#include "base/diagnostics.h"
 
 using namespace pprt;
 
