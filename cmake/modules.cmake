@@ -25,11 +25,38 @@ if(PPRT_TIDY)
   set(CMAKE_CXX_CLANG_TIDY ${PPRT_CLANG_TIDY} --quiet)
 endif()
 
-# pprt_module(NAME SOURCES a.cpp ... USES other modules and public libraries ... HIDES private libraries ...)
+# What nearly every source includes, compiled once for all modules (pprt_pch) and once for all unit tests (pprt_test_pch).
+# Sources include what they use all the same: with PPRT_PCH off each stands alone.
+function(pprt_precompile target)
+  target_link_libraries(${target} PRIVATE pprt_flags Imath::Imath)
+  target_precompile_headers(${target} PRIVATE
+    <algorithm> <array> <chrono> <cmath> <cstdint> <deque> <filesystem> <fstream> <functional> <limits> <map> <memory>
+    <numeric> <optional> <random> <set> <span> <sstream> <stdexcept> <string> <string_view> <thread> <tuple>
+    <unordered_map> <utility> <vector> <Imath/ImathBox.h> <Imath/ImathColor.h> <Imath/ImathVec.h> ${ARGN})
+endfunction()
+if(PPRT_PCH)
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/precompiled.cpp CONTENT "int main() {}\n")
+  add_library(pprt_pch OBJECT ${PROJECT_BINARY_DIR}/generated/precompiled.cpp)
+  pprt_precompile(pprt_pch)
+  if(BUILD_TESTING)
+    add_executable(pprt_test_pch ${PROJECT_BINARY_DIR}/generated/precompiled.cpp)
+    target_link_libraries(pprt_test_pch PRIVATE Catch2::Catch2)
+    pprt_precompile(pprt_test_pch <catch2/catch.hpp>)
+  endif()
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(pprt_flags INTERFACE -fpch-preprocess)  # for ccache
+  endif()
+endif()
+
+# pprt_module(NAME [OWN_FLAGS] SOURCES a.cpp ... USES other modules and public libraries ... HIDES private libraries ...)
+# A module with flags of its own cannot use the common precompiled header.
 function(pprt_module name)
-  cmake_parse_arguments(M "" "" "SOURCES;USES;HIDES" ${ARGN})
+  cmake_parse_arguments(M "OWN_FLAGS" "" "SOURCES;USES;HIDES" ${ARGN})
   add_library(pprt_${name} STATIC ${M_SOURCES})
   target_link_libraries(pprt_${name} PUBLIC pprt_flags ${M_USES} PRIVATE ${M_HIDES})
+  if(PPRT_PCH AND NOT M_OWN_FLAGS)
+    target_precompile_headers(pprt_${name} REUSE_FROM pprt_pch)
+  endif()
 endfunction()
 
 # pprt_program(NAME MAIN_SOURCE MODULE): a program that is installed.
@@ -40,9 +67,11 @@ function(pprt_program name source module)
   install(TARGETS ${name})
 endfunction()
 
-# pprt_unit_test(NAME SOURCES a.cpp ... USES modules ... LABELS labels ...): a Catch2 program, one CTest entry a case.
+# pprt_unit_test(NAME [OWN_FLAGS] [REAL_TIME] SOURCES a.cpp ... USES modules ... LABELS labels ...): a Catch2 program, one
+# CTest entry a case. With REAL_TIME its cases tagged [realtime], whose outcome needs a machine that keeps up, get the
+# label "realtime" instead, and run one at a time.
 function(pprt_unit_test name)
-  cmake_parse_arguments(T "" "" "SOURCES;USES;LABELS" ${ARGN})
+  cmake_parse_arguments(T "OWN_FLAGS;REAL_TIME" "" "SOURCES;USES;LABELS" ${ARGN})
   if(NOT T_LABELS)
     set(T_LABELS unit)
   endif()
@@ -52,5 +81,14 @@ function(pprt_unit_test name)
   if(Catch2_VERSION VERSION_GREATER_EQUAL 3)
     target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests/catch2_3)
   endif()
-  catch_discover_tests(test_${name} TEST_PREFIX "${name}: " PROPERTIES LABELS "${T_LABELS}" TIMEOUT 300)
+  if(PPRT_PCH AND NOT T_OWN_FLAGS)
+    target_precompile_headers(test_${name} REUSE_FROM pprt_test_pch)
+  endif()
+  catch_discover_tests(test_${name} TEST_SPEC "~[realtime]" TEST_PREFIX "${name}: "
+                       PROPERTIES LABELS "${T_LABELS}" TIMEOUT 300)
+  if(T_REAL_TIME)
+    catch_discover_tests(test_${name} TEST_SPEC "[realtime]" TEST_LIST test_${name}_realtime TEST_PREFIX "${name}, real time: "
+                         PROPERTIES LABELS realtime TIMEOUT 300 RUN_SERIAL ON)
+  endif()
+  add_dependencies(unit_tests test_${name})
 endfunction()
