@@ -1,7 +1,9 @@
 // No empty strips: many ranks leave the pattern that one rank leaves (paper s. 3.4, figures 2a to 2c).
+#include <fmt/format.h>
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <string>
 
 #include "parallel/balance/partition.h"
 #include "unit/parallel/virtual_run.h"
@@ -86,32 +88,68 @@ double bucket_distance(const std::vector<Vec2d>& a, const std::vector<Vec2d>& b)
   return sum / static_cast<double>(a.size() + b.size());
 }
 
-}  // namespace
+struct Comparison {
+  // Shares of samples near borders: of one rank, of nine, and of nine that do not exchange samples.
+  double serial = 0, parallel = 0, cut_off = 0;
+  // Bucket distances from the pattern of one rank: the same nine, and one rank with another seed.
+  double to_parallel = 0, to_cut_off = 0, to_other_seed = 0;
+};
 
-// Which triangle comes first differs from seed to seed, and with it some hundred samples: three are averaged.
-TEST_CASE("borders between regions are sampled as one rank would, and not so without the exchange") {
-  // Each rank learns from its own region, and from fewer samples.
-  const bool learned = GENERATE(false, true);
+// Returns means of three seeds. Which triangle comes first differs from seed to seed, and with it some
+// hundred samples.
+Comparison compare_patterns(bool learned) {
   const Partition partition = partition_by_area();
-  double wanted = 0, shared = 0, apart = 0, distance = 0, distance_apart = 0;
+  Comparison mean;
   for (const std::uint64_t seed : {1, 2, 3}) {
     SessionSettings s = settings(seed);
     s.learned_weights = learned;
     const std::vector<Vec2d> parallel = parallel_pattern(false, s), cut_off = parallel_pattern(true, s);
     const std::vector<Vec2d> serial = serial_pattern(parallel.size(), s);
+    s.seed += 10;
+    const std::vector<Vec2d> other_seed = serial_pattern(parallel.size(), s);
     REQUIRE(serial.size() > 10000);
-    wanted += share_near_borders(serial, partition) / 3;
-    shared += share_near_borders(parallel, partition) / 3;
-    apart += share_near_borders(cut_off, partition) / 3;
-    distance += bucket_distance(serial, parallel) / 3;
-    distance_apart += bucket_distance(serial, cut_off) / 3;
+    mean.serial += share_near_borders(serial, partition) / 3;
+    mean.parallel += share_near_borders(parallel, partition) / 3;
+    mean.cut_off += share_near_borders(cut_off, partition) / 3;
+    mean.to_parallel += bucket_distance(serial, parallel) / 3;
+    mean.to_cut_off += bucket_distance(serial, cut_off) / 3;
+    mean.to_other_seed += bucket_distance(serial, other_seed) / 3;
   }
-  INFO("share near borders: serial " << wanted << ", parallel " << shared << ", cut off " << apart
-                                     << "; distances " << distance << ", " << distance_apart);
-  CHECK(shared == Approx(wanted).epsilon(0.1));
-  CHECK(apart < 0.85 * wanted);
-  CHECK(distance < (learned ? 0.14 : 0.11));
-  CHECK(distance_apart > 1.1 * distance);
+  return mean;
+}
+
+std::string text_of(const Comparison& c) {
+  return fmt::format(
+      "near borders: serial {:.3f}, nine ranks {:.3f}, without exchange {:.3f}; distance from serial: "
+      "nine ranks {:.3f}, without exchange {:.3f}, another seed {:.3f}",
+      c.serial, c.parallel, c.cut_off, c.to_parallel, c.to_cut_off, c.to_other_seed);
+}
+
+}  // namespace
+
+TEST_CASE("sample pattern: nine ranks refine as one does, also near borders, and not without exchange") {
+  const Comparison c = compare_patterns(false);
+  INFO(text_of(c));
+  CHECK(c.parallel == Approx(c.serial).epsilon(0.1));
+  CHECK(c.to_parallel < 0.085);
+  // Controls.
+  CHECK(c.cut_off < 0.85 * c.serial);
+  CHECK(c.to_cut_off > 2 * 0.085);
+  CHECK(c.to_other_seed > 2 * 0.085);
+}
+
+// Each rank learns from its own region alone, so its weights differ from those of one rank. The distance that
+// this costs stands in docs/decisions/0018-learned-weights.md: 0.125 in place of 0.077.
+TEST_CASE(
+    "sample pattern: learned weights cost nine ranks a twentieth of the likeness to one, not the borders") {
+  const Comparison c = compare_patterns(true);
+  INFO(text_of(c));
+  CHECK(c.parallel == Approx(c.serial).epsilon(0.1));
+  CHECK(c.to_parallel < 0.13);
+  // Controls.
+  CHECK(c.cut_off < 0.85 * c.serial);
+  CHECK(c.to_cut_off > 1.5 * 0.13);
+  CHECK(c.to_other_seed > 1.5 * 0.13);
 }
 
 }  // namespace pprt
