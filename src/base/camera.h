@@ -1,7 +1,8 @@
-// A pinhole camera as plain values: rays through image points, and hit points back to the image.
+// A pinhole camera as plain values: image points to rays, and hit points back to image points.
 //
-// Image points are continuous, in pixels: x in [0, width] to the right, y in [0, height] downwards; pixel (i,
-// j) is the square [i, i+1] x [j, j+1]. The space is the compiled scene's (see trace/compiled_scene.h).
+// Image points are continuous, in pixels: x in [0, width] to the right, y in [0, height] downwards. Pixel (i,
+// j) is the square [i, i+1] x [j, j+1]. Points and directions are in the compiled space
+// (trace/compiled_scene.h).
 #pragma once
 
 #include <optional>
@@ -22,15 +23,17 @@ struct Camera {
   friend bool operator==(const Camera&, const Camera&) = default;
 };
 
-// Direction of the ray from the eye through image point (x, y): forward component 1, not normalised.
+// Returns the direction of the ray from the eye through image point (x, y). Its forward component is 1; it is
+// not normalised.
 inline Vec3d ray_direction(const Camera& camera, double x, double y) {
   const double sx = (x - 0.5 * camera.width) * camera.slope_per_pixel;
   const double sy = (0.5 * camera.height - y) * camera.slope_per_pixel;
   return camera.forward + camera.right * sx + camera.up * sy;
 }
 
-// Image point of a vector seen from the eye (a hit point minus the eye, or the direction of a point at
-// infinity); empty when it does not lie in front of the eye. May lie outside the image.
+// Projects a vector from the eye to the image, pixels. `from_eye` is a hit point minus the eye, or the
+// direction of a point at infinity. Empty unless it lies in front of the eye. The result may lie outside the
+// image.
 inline std::optional<Vec2d> project(const Camera& camera, const Vec3d& from_eye) {
   const double depth = from_eye.dot(camera.forward);
   if (!(depth > 0)) return std::nullopt;

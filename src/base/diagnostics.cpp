@@ -8,13 +8,13 @@ namespace {
 
 constexpr std::size_t kScreenWidth = 100;  // bytes of a source line shown around the caret
 
-// The lines of a text, asked for in rising order: one pass over the text in all. CR, LF and CR LF all end a
+// Splits a text into lines, in one pass; lines must be asked for in rising order. CR, LF and CR LF each end a
 // line.
 class Lines {
  public:
   explicit Lines(std::string_view text) : rest_(text), length_(line_length()) {}
 
-  // The bytes of line `number` (from 1) without its line end; empty behind the last line.
+  // Returns line `number` (from 1) without its line end; empty after the last line.
   std::string_view at(std::uint32_t number) {
     for (; current_ < number; ++current_) {
       const bool pair = rest_.substr(length_).starts_with("\r\n");
@@ -31,12 +31,12 @@ class Lines {
     return length;
   }
 
-  std::string_view rest_;  // from the current line's begin
+  std::string_view rest_;  // from the beginning of the current line
   std::size_t length_;     // of the current line
   std::uint32_t current_ = 1;
 };
 
-// Control characters would break the caret's alignment or the terminal.
+// Replaces control characters, which would break the caret's alignment or the terminal.
 char printable(char c) {
   const auto byte = static_cast<unsigned char>(c);
   return byte < 0x20 || byte == 0x7f ? ' ' : c;
@@ -52,7 +52,7 @@ void append_line_and_caret(std::string& out, Lines& lines, SourceLocation at) {
   out += "    ";
   std::transform(shown.begin(), shown.end(), std::back_inserter(out), printable);
   out += "\n    ";
-  // Bytes that continue a UTF-8 character take no room on the screen.
+  // Continuation bytes of a UTF-8 character take no column.
   for (std::size_t i = first; i < caret; ++i) {
     if ((static_cast<unsigned char>(line[i]) & 0xc0) != 0x80) out += ' ';
   }

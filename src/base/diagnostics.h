@@ -1,4 +1,4 @@
-// Problems found in a user's text, each with its place: collected first, reported together.
+// Problems found in a user's text, each with its place. They are collected first and reported together.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ struct Diagnostic {
 };
 
 // All problems of one text. Keeps at most kMaxKept of each severity and counts the rest, so that a hostile
-// file cannot take the memory.
+// file cannot exhaust memory.
 class Diagnostics {
  public:
   static constexpr std::size_t kMaxKept = 50;
@@ -42,11 +42,12 @@ class Diagnostics {
   std::size_t warning_count_ = 0;
 };
 
-// One "file:line:column: error: message" per problem in order of place, each followed by the line of the text
-// and a caret under the column. Lines longer than a screen are cut around the caret. Ends with a newline.
+// Formats one "file:line:column: error: message" per problem, ordered by place. Each is followed by the line
+// of the text and a caret under the column; a long line is cut around the caret. Ends with a newline.
 std::string format(const Diagnostics& diagnostics, std::string_view file_name, std::string_view text);
 
-// A scene or script that cannot be used; what() is the formatted report, without a trailing newline.
+// A scene or script that cannot be used (exit code 3). what() is the formatted report without a trailing
+// newline.
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -1,4 +1,4 @@
-// What an eye ray meets first, without its colour: what pictures of a scene's shape are made of.
+// The first hit of an eye ray, without its colour. Depth, normal and object pictures are made of these.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,11 @@
 namespace pprt {
 
 struct FirstHit {
-  float depth = std::numeric_limits<float>::infinity();  // along the direction of view, scene units
-  Vec3f normal{0, 0, 0};        // unit, in the scene's axes, towards the eye; a miss: zero
-  std::uint32_t primitive = 0;  // of the scene, counted from 1; a miss: 0
-  std::uint32_t material = 0;   // likewise
+  float depth = std::numeric_limits<float>::infinity();  // distance along the direction of view, scene units;
+                                                         // a miss: infinite
+  Vec3f normal{0, 0, 0};                                 // unit, in scene axes, towards the eye; a miss: zero
+  std::uint32_t primitive = 0;                           // its number in the scene, from 1; a miss: 0
+  std::uint32_t material = 0;                            // its number in the scene, from 1; a miss: 0
 };
 
 }  // namespace pprt

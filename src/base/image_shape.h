@@ -1,6 +1,10 @@
-// A primitive as an eye sees it: which image points it covers, and how near it is there. What pictures need
-// to have its edges where they are (after Bala, Walter and Greenberg, Combining Edges and Points for
-// Interactive High-Quality Rendering, 2003).
+// A primitive projected to the image: the image points it covers, and how near it is at each of them.
+// Reconstruction needs it to place edges exactly.
+//
+// Source: Bala, Walter and Greenberg, "Combining Edges and Points for Interactive High-Quality Rendering",
+// SIGGRAPH 2003.
+//
+// Nearness is 1 / depth along the direction of view, per unit of length; 0 at infinity.
 #pragma once
 
 #include <array>
@@ -9,7 +13,7 @@
 
 namespace pprt {
 
-// f(x, y) over image points, in pixels.
+// A linear function f(x, y) of image points, pixels.
 struct LinearForm {
   double constant = 0, per_x = 0, per_y = 0;
 
@@ -29,28 +33,29 @@ struct ImageBounds {
   float x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 };
 
-// Nearness is one over the depth along the direction of view; 0 at infinity.
-
-// A triangle: covers what none of its edges is negative at.
+// A projected triangle. It covers the points at which no edge function is negative.
 struct ImageFacet {
   std::array<LinearForm, 3> edges;
   LinearForm nearness;
-  ImageBounds bounds;  // infinite where it reaches behind the eye
+  ImageBounds bounds;  // infinite where the triangle reaches behind the eye
 };
 
-// A sphere, cone or cylinder: a line of sight where the discriminant is positive crosses its surface at the
-// nearness -middle + root (into it) and -middle - root (out of it), those of them that are positive and, of a
-// cone, whose height along its axis, height + along / nearness, lies within [0, top].
+// A projected sphere, cone or cylinder.
+//
+// A line of sight meets the surface where the discriminant is positive. With its square root r, the ray
+// enters at nearness -middle + r and leaves at -middle - r; only positive values count. On a cone the height
+// along the axis, height + along / nearness, must also lie within [0, top].
 struct ImageQuadric {
-  QuadraticForm discriminant;  // of its root's square
+  QuadraticForm discriminant;  // r squared
   LinearForm middle;
   bool has_ends = false;
   LinearForm along;
   double height = 0, top = 0;
-  bool front = true, back = true;  // the sides that are seen
+  bool front = true, back = true;  // which faces stop a ray
 };
 
-// One of these; kUnknown where an eye inside it, or next to its surface, sees no such thing.
+// The projection of one primitive. kUnknown where it is not defined: the eye is inside the primitive or next
+// to its surface.
 struct ImageShape {
   enum class Kind : std::uint8_t { kUnknown, kQuadric, kFacets };
   Kind kind = Kind::kUnknown;

@@ -7,13 +7,13 @@
 namespace pprt {
 namespace {
 
-constexpr std::size_t kLongest = 32;  // longer words are no misspelling of ours
+constexpr std::size_t kLongest = 32;  // letters; longer words are not compared
 
 char lower(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
-// Optimal string alignment distance; both words of at most kLongest letters.
+// Returns the optimal string alignment distance. Both words have at most kLongest letters.
 std::size_t distance(std::string_view a, std::string_view b) {
   std::array<std::array<std::size_t, kLongest + 1>, kLongest + 1> d{};
   for (std::size_t i = 0; i <= a.size(); ++i) {
@@ -35,9 +35,9 @@ std::size_t distance(std::string_view a, std::string_view b) {
 
 std::string_view nearest_word(std::string_view word, std::span<const std::string_view> candidates) {
   std::string_view best;
-  std::size_t least = word.size() <= 4 ? 2 : 3;  // more than what is allowed
+  std::size_t least = word.size() <= 4 ? 2 : 3;  // one more than the edits allowed
   if (word.size() > kLongest) return best;
-  least = std::min(least, word.size());  // something must be left of it
+  least = std::min(least, word.size());  // at least one letter must stay as it is
   for (const std::string_view candidate : candidates) {
     if (candidate.size() > kLongest) continue;
     const std::size_t changes = distance(word, candidate);

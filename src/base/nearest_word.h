@@ -1,4 +1,4 @@
-// "Did you mean": the known word that a mistyped one is closest to.
+// "Did you mean": the known word closest to a mistyped one.
 #pragma once
 
 #include <span>
@@ -7,11 +7,11 @@
 
 namespace pprt {
 
-// The candidate with the fewest letters to change, add, drop or swap with their neighbour; empty when none is
-// close: at most one letter in words of up to four, two in longer ones; case does not count.
+// Returns the candidate with the smallest edit distance (change, insert, delete, swap neighbours), ignoring
+// case. Empty when none is close enough: one edit in words of up to four letters, two in longer ones.
 std::string_view nearest_word(std::string_view word, std::span<const std::string_view> candidates);
 
-// "; did you mean 'x'?", or nothing.
+// Returns "; did you mean 'x'?", or an empty string.
 std::string did_you_mean(std::string_view word, std::span<const std::string_view> candidates);
 
 }  // namespace pprt

@@ -1,5 +1,4 @@
-// The tracer as the pipeline and the ranks see it: something that can be asked what lies behind an image
-// point.
+// The tracer's interface towards the pipeline and the ranks: what lies behind an image point.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +12,19 @@
 namespace pprt {
 
 struct Probe {
-  std::function<void(const Camera&)> look_from;        // the camera of what is asked from now on
-  std::function<RaySample(double x, double y)> trace;  // the eye ray through an image point, pixels
-  std::function<bool(const Vec3f& hit, bool at_infinity)>
-      visible;                        // whether nothing hides a hit point from the eye
-  std::function<RayCounts()> counts;  // since the beginning
-  std::function<void(std::uint32_t primitive, ImageShape& shape)> view =
-      {};  // what a primitive of a RaySample looks like, into `shape`; empty where nobody knows
-  std::uint32_t primitives = 0;  // how many a RaySample may be of; 0: nobody knows
+  // Sets the camera of all later calls.
+  std::function<void(const Camera&)> look_from;
+  // Traces the eye ray through image point (x, y), pixels.
+  std::function<RaySample(double x, double y)> trace;
+  // Returns whether nothing hides a hit point from the eye. `hit` is a RaySample's: a point of the compiled
+  // space, or a unit direction when `at_infinity`.
+  std::function<bool(const Vec3f& hit, bool at_infinity)> visible;
+  // Returns the rays traced since the beginning.
+  std::function<RayCounts()> counts;
+  // Projects a primitive of a RaySample into `shape`; empty: not available.
+  std::function<void(std::uint32_t primitive, ImageShape& shape)> view = {};
+  // Largest primitive number in a RaySample; 0: not known.
+  std::uint32_t primitives = 0;
 };
 
 }  // namespace pprt

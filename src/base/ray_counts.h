@@ -1,19 +1,19 @@
-// Rays by kind: what shows that only the effects a scene calls for were simulated.
+// Ray counters. They show that only the effects a scene calls for were simulated.
 #pragma once
 
 #include <cstdint>
 
 namespace pprt {
 
-// Rays by kind since a Tracer was made.
+// Number of rays by kind since a Tracer was made.
 struct RayCounts {
   std::uint64_t primary = 0;
   std::uint64_t eye_hits = 0;  // primary rays that hit something
   std::uint64_t shadow = 0;
   std::uint64_t reflection = 0;
-  std::uint64_t refraction = 0;                 // really refracted
-  std::uint64_t total_internal_reflection = 0;  // refraction asked for, none possible
-  std::uint64_t visibility = 0;                 // whether a former hit point is still seen
+  std::uint64_t refraction = 0;                 // rays that were refracted
+  std::uint64_t total_internal_reflection = 0;  // hits that asked for a refracted ray and got none
+  std::uint64_t visibility = 0;                 // rays that ask whether an earlier hit point is still visible
 
   std::uint64_t traced() const { return primary + shadow + reflection + refraction + visibility; }
 };

@@ -5,7 +5,7 @@
 
 namespace pprt {
 
-// On Linux a priority is a thread's own.
+// On Linux a priority belongs to the thread, not the process.
 void take_lowest_priority() {
   constexpr int kLowest = 19;
   setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kLowest);

@@ -1,10 +1,10 @@
-// Threads that work beside the frame loop must not take its time.
+// Priority of threads that work beside the frame loop and must not slow it down.
 #pragma once
 
 namespace pprt {
 
-// Makes the calling thread the last to be given a processor, as long as others want it. There is no way back:
-// a process without privileges may not raise a priority.
+// Gives the calling thread the lowest scheduling priority. This cannot be undone: a process without
+// privileges may not raise a priority.
 void take_lowest_priority();
 
 }  // namespace pprt

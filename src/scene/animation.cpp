@@ -8,10 +8,11 @@
 namespace pprt {
 namespace {
 
-// Sine of the smallest angle between the view and `up`: with doubles, the horizon is then known to 1e-10.
+// Smallest sine of the angle between the view and `up`. With rounding of 1e-16 the roll is then known to
+// 1e-10.
 constexpr double kLeastUpSine = 1e-6;
 
-// The key with what it leaves to the scene, and without what its spline does not know.
+// Fills in the fields of the scene's view and clears the parameters that the spline does not use.
 CameraKey resolved(CameraKey key, const View& base, SplineKind spline = SplineKind::kTcb) {
   if (key.of_scene.from) key.from = base.from;
   if (key.of_scene.at) key.at = base.at;
@@ -44,17 +45,17 @@ View view_at(const Animation& animation, double frame, const View& base) {
   const CameraKey start = resolved(*previous, base);
   if (next == keys.end() || next->cut || next->hold || previous->frame == frame) return view_of(start, base);
 
-  // The span's two keys and their neighbours, as far as no cut separates them.
+  // The segment's two keys and their neighbours, up to the nearest cut.
   std::array<CameraKey, 4> window;
   std::size_t count = 0;
   if (previous != keys.begin() && !previous->cut)
     window[count++] = resolved(*(previous - 1), base, animation.spline);
-  const std::size_t span = count;
+  const std::size_t first = count;
   window[count++] = resolved(*previous, base, animation.spline);
   window[count++] = resolved(*next, base, animation.spline);
   if (next + 1 != keys.end() && !(next + 1)->cut)
     window[count++] = resolved(*(next + 1), base, animation.spline);
-  return view_of(camera_between(std::span(window).first(count), span, frame, animation.spline), base);
+  return view_of(camera_between(std::span(window).first(count), first, frame, animation.spline), base);
 }
 
 bool cut_before(const Animation& animation, int frame) {
@@ -74,7 +75,8 @@ std::string_view camera_defect(const Vec3d& from, const Vec3d& at, const Vec3d& 
 
 void check_cameras(const Animation& animation, const View& base, Diagnostics& problems) {
   for (const CameraKey& key : animation.keys) {
-    if (key.hold) continue;  // what is wrong was said at the key it repeats
+    // A hold repeats a key whose defect has been reported.
+    if (key.hold) continue;
     const CameraKey camera = resolved(key, base);
     const std::string_view defect = camera_defect(camera.from, camera.at, camera.up);
     if (!defect.empty()) problems.error(key.location, std::string(defect));

@@ -1,4 +1,4 @@
-// An animation script as plain values, and the camera at any frame of it.
+// An animation script as plain values, and the camera at any of its frames.
 #pragma once
 
 #include <optional>
@@ -13,16 +13,16 @@
 
 namespace pprt {
 
-// catmull_rom is tcb with tension, continuity and bias 0 at every key.
+// kCatmullRom equals kTcb with tension, continuity and bias 0 at every key.
 enum class SplineKind { kLinear, kCatmullRom, kTcb };
 
-// Which fields of a key no key has given: they are the scene's own view's.
+// The fields that no key has given so far: they come from the scene's own view.
 struct SceneFields {
   bool from = false, at = false, up = false, angle = false;
 };
 
-// The camera at one moment; what a key did not give was taken from the key before, and `of_scene` marks what
-// neither had.
+// The camera at one moment. Fields that a key omits are copied from the key before; `of_scene` marks those
+// that no key has given.
 struct CameraKey {
   double frame = 1;  // frames count from 1; keys given in seconds: 1 + seconds * fps
   Vec3d from{0, 0, 0};
@@ -31,18 +31,18 @@ struct CameraKey {
   double angle_degrees = 45;
   SceneFields of_scene;
   double tension = 0, continuity = 0, bias = 0;  // Kochanek and Bartels 1984
-  // The way from the key before to this one: share of it spent accelerating from rest, and slowing down to
-  // rest; 0..1, their sum at most 1.
+  // Shares of the segment before this key, in time: accelerating from rest, and slowing down to rest. Each in
+  // [0, 1], their sum at most 1.
   double ease_in = 0, ease_out = 0;
-  bool cut = false;   // nothing is interpolated or carried from the key before
+  bool cut = false;   // nothing is interpolated or copied from the key before
   bool hold = false;  // same camera as the key before, which stands still until here
   SourceLocation location;
 };
 
-// A frame lasts a quarter of an hour at most: one without end could not be waited for.
+// Lower bound of fps: a frame lasts at most 1000 s, so that every animation ends.
 inline constexpr double kLeastFramesPerSecond = 0.001;
 
-// Invariant (after validation): keys are sorted by frame, strictly; the first one has cut = hold = false.
+// Invariant after validation: keys are strictly sorted by frame, and the first one has cut = hold = false.
 struct Animation {
   std::string name;                  // file name, for messages
   std::optional<std::string> scene;  // as written: spd:..., or a path relative to the script
@@ -53,19 +53,19 @@ struct Animation {
   std::vector<CameraKey> keys;  // empty: the scene's own view throughout
 };
 
-// The camera at a frame (1 .. frames, fractions allowed), over `base`, the scene's own view, for what no key
-// says. hither and size are always those of `base`. Exactly a key's camera at a key and where it stands
-// still. How the camera moves between keys: docs/decisions/0002-camera-interpolation.md.
+// Returns the view at a frame (1 .. frames, fractions allowed). `base` is the scene's own view: it gives
+// hither, the size, and every field that no key gives. At a key, and while the camera stands still, the
+// result is exactly the key's camera. Interpolation: docs/decisions/0002-camera-interpolation.md.
 View view_at(const Animation& animation, double frame, const View& base);
 
-// Whether a cut lies between frame - 1 and frame.
+// Returns whether a camera cut lies between frame - 1 and frame.
 bool cut_before(const Animation& animation, int frame);
 
-// What makes (from, at, up) no camera: the eye at its target, or `up` (nearly) along the view; empty when
-// nothing does.
+// Returns why (from, at, up) makes no camera; empty if it makes one. The defects: the eye at its target, no
+// up vector, up (nearly) parallel to the view.
 std::string_view camera_defect(const Vec3d& from, const Vec3d& at, const Vec3d& up);
 
-// Reports the keys that are no camera once `base` has filled in what they leave open.
+// Reports every key that makes no camera once `base` has filled in the fields of the scene.
 void check_cameras(const Animation& animation, const View& base, Diagnostics& problems);
 
 }  // namespace pprt

@@ -1,5 +1,5 @@
-// The camera's movement over one span between two keys, with the keys around it for the tangents.
-// Decision and derivation: docs/decisions/0002-camera-interpolation.md.
+// The camera's movement over one segment between two keys. The neighbouring keys determine the tangents.
+// Derivation: docs/decisions/0002-camera-interpolation.md.
 #pragma once
 
 #include <span>
@@ -8,15 +8,15 @@
 
 namespace pprt {
 
-// The camera at `frame` between keys[span] and keys[span + 1]. `keys` are resolved, proper cameras of one
-// uncut stretch: the two, and where there are such the one before and the one after (nothing else is used).
-CameraKey camera_between(std::span<const CameraKey> keys, std::size_t span, double frame, SplineKind spline);
+// Returns the camera at `frame` between keys[first] and keys[first + 1]. `keys` are two to four valid cameras
+// without a cut between them: these two keys, plus the key before and the key after where they exist.
+CameraKey camera_between(std::span<const CameraKey> keys, std::size_t first, double frame, SplineKind spline);
 
-// Share of the way covered after share `u` of the time, with the given shares of the time spent accelerating
-// from rest and slowing down to rest: quadratic, linear, quadratic; speed is continuous and never negative.
+// Maps share `u` of the time to the share of the way, both in [0, 1]. The camera accelerates over `ease_in`
+// of the time, moves evenly, and slows down over `ease_out`. The speed is continuous and never negative.
 double eased(double u, double ease_in, double ease_out);
 
-// Whether both keys show the same picture: from, at, up and angle are equal.
+// Returns whether both keys show the same picture: equal from, at, up and angle.
 bool same_camera(const CameraKey& a, const CameraKey& b);
 
 }  // namespace pprt

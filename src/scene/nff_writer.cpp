@@ -6,12 +6,12 @@
 namespace pprt {
 namespace {
 
-// Entities and vertices, a line each.
+// Writes entities and vertices, one per line.
 class NffOutput : public TextOutput {
  public:
   using TextOutput::TextOutput;
 
-  // One line: the keyword, the values with a blank before each, the line's end.
+  // Writes one line: the keyword, then each value after a blank.
   template <typename... Values>
   void line(std::string_view keyword, const Values&... values) {
     text(keyword);
@@ -19,7 +19,7 @@ class NffOutput : public TextOutput {
     text("\n");
   }
 
-  // The same for a line without a keyword.
+  // Writes a line without a keyword.
   void vertex_line(const Vec3d& position) {
     number(position.x);
     for (int i = 1; i < 3; ++i) value(position[i]);
@@ -41,7 +41,7 @@ class NffOutput : public TextOutput {
     text(" ");
     number(v);
   }
-  void value(int v) { value(static_cast<std::size_t>(v)); }  // of pixels
+  void value(int v) { value(static_cast<std::size_t>(v)); }  // pixels
   void value(const Vec3d& v) {
     for (int i = 0; i < 3; ++i) value(v[i]);
   }

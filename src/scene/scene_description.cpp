@@ -15,7 +15,7 @@ std::size_t hash(const Material& m) {
                            m.specular, m.shine,   m.transmittance, m.refractive_index};
   std::uint64_t h = 0x9e3779b97f4a7c15u;
   for (double v : values) {
-    v += 0.0;  // -0 compares equal to 0 and must hash alike
+    v += 0.0;  // -0 equals 0 and must have the same hash
     std::uint64_t bits = 0;
     std::memcpy(&bits, &v, sizeof bits);
     h = (h ^ bits) * 0xff51afd7ed558ccdu;
@@ -24,7 +24,7 @@ std::size_t hash(const Material& m) {
   return static_cast<std::size_t>(h);
 }
 
-// Half extent of a disc of radius r with unit normal n along axis i: r * sqrt(1 - n_i^2).
+// Returns the half extent of a disc along each axis i: radius * sqrt(1 - n_i^2), with n the unit normal.
 Vec3d disc_half_extent(const Vec3d& unit_normal, double radius) {
   Vec3d half;
   for (int i = 0; i < 3; ++i) {
@@ -68,7 +68,7 @@ void add_patch(SceneDescription& scene, std::span<const PatchVertex> vertices, M
 
 MaterialIndex MaterialTable::intern(std::vector<Material>& materials, const Material& material) {
   if (2 * (used_ + 1) > slots_.size()) {
-    // At most half full, also when the first call finds many materials there already.
+    // At most half full, also when the first call finds many materials.
     slots_.assign(std::bit_ceil(std::max<std::size_t>(16, 4 * materials.size())), kEmpty);
     for (MaterialIndex i = 0; i < materials.size(); ++i) {
       std::size_t slot = hash(materials[i]) & (slots_.size() - 1);

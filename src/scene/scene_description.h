@@ -1,4 +1,4 @@
-// What a scene file says, as plain values in the file's own units: nothing is compiled, tessellated or
+// The contents of a scene file as plain values in the file's own units. Nothing is compiled, tessellated or
 // rounded.
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace pprt {
 
-// Colour as a scene file gives it: [0, 1] by intent, double so that it is written back as it was read.
+// Colour as a scene file gives it, nominally in [0, 1]. Doubles, so that it is written back as it was read.
 using Rgb = Imath::Color3<double>;
 
 // NFF "f": local shading (Lambert, Phong) and the weights of reflected and refracted rays.
@@ -36,8 +36,8 @@ struct Light {
   SourceLocation location;
 };
 
-// NFF "v". The angle spans the centres of the first and last pixel, of the rows and of the columns alike
-// (spd: aspect 1). No vector is normalised.
+// NFF "v". The angle spans the centres of the first and last pixel, across rows and columns alike (SPD's
+// aspect ratio 1). No vector is normalised.
 struct View {
   Vec3d from{0, 0, 0};
   Vec3d at{0, 0, 1};
@@ -59,7 +59,7 @@ struct Sphere {
   SourceLocation location;
 };
 
-// NFF "c": open cone or cylinder, no end caps. Both radii negative: only the inside is visible.
+// NFF "c": open cone or cylinder without end caps. Both radii negative: only the inside is visible.
 struct Cone {
   Vec3d base{0, 0, 0};
   double base_radius = 0;
@@ -69,8 +69,8 @@ struct Cone {
   SourceLocation location;
 };
 
-// NFF "p": counter-clockwise seen from the front, planar by intent, possibly concave.
-// Its vertices are SceneDescription::polygon_vertices[first_vertex .. first_vertex + vertex_count).
+// NFF "p": counter-clockwise seen from the front, nominally planar, possibly concave. Its vertices are
+// SceneDescription::polygon_vertices[first_vertex .. first_vertex + vertex_count).
 struct Polygon {
   std::uint32_t first_vertex = 0;
   std::uint32_t vertex_count = 0;
@@ -80,7 +80,7 @@ struct Polygon {
 
 struct PatchVertex {
   Vec3d position{0, 0, 0};
-  Vec3d normal{0, 0, 0};  // as given: not necessarily of unit length
+  Vec3d normal{0, 0, 0};  // as given, not necessarily of unit length
 };
 
 // NFF "pp": a polygon with a normal per vertex.
@@ -94,7 +94,7 @@ struct Patch {
 
 enum class PrimitiveKind : std::uint8_t { kSphere, kCone, kPolygon, kPatch };
 
-// One object in file order: the index-th of its kind.
+// Refers to the index-th object of its kind.
 struct PrimitiveRef {
   PrimitiveKind kind = PrimitiveKind::kSphere;
   std::uint32_t index = 0;
@@ -102,7 +102,7 @@ struct PrimitiveRef {
   friend bool operator==(const PrimitiveRef&, const PrimitiveRef&) = default;
 };
 
-// A whole scene. Invariant: material, vertex and primitive indices are in range.
+// A whole scene. Invariant: all material, vertex and primitive indices are in range.
 struct SceneDescription {
   std::string name;               // file name or "spd:tree:11", for messages
   std::optional<Rgb> background;  // absent: black
@@ -126,7 +126,7 @@ struct SceneDescription {
   std::size_t primitive_count() const { return order.size(); }
 };
 
-// Appends a primitive and its place in the order; `material` must be in range.
+// Each appends a primitive and its entry in `order`. `material` must be in range.
 void add_sphere(SceneDescription& scene, const Sphere& sphere);
 void add_cone(SceneDescription& scene, const Cone& cone);
 void add_polygon(SceneDescription& scene, std::span<const Vec3d> vertices, MaterialIndex material,
@@ -134,24 +134,25 @@ void add_polygon(SceneDescription& scene, std::span<const Vec3d> vertices, Mater
 void add_patch(SceneDescription& scene, std::span<const PatchVertex> vertices, MaterialIndex material,
                SourceLocation location = {});
 
-// The material of a primitive in range.
+// Returns the material of a primitive; `ref` must be in range.
 MaterialIndex material_of(const SceneDescription& scene, PrimitiveRef ref);
 
-// Gives equal materials one index: a file with thousands of "f" lines and four distinct ones keeps four.
+// Gives equal materials one index: a file with thousands of "f" lines but four distinct ones keeps four.
 class MaterialTable {
  public:
-  // Index of `material` in `materials`, appended when new. Amortised constant time.
+  // Returns the index of `material` in `materials` and appends it when it is new. Amortised constant time.
   MaterialIndex intern(std::vector<Material>& materials, const Material& material);
 
  private:
-  std::vector<MaterialIndex> slots_;  // open addressing; kEmpty where free
+  std::vector<MaterialIndex> slots_;  // open addressing; kEmpty marks a free slot
   std::size_t used_ = 0;
 };
 
-// Axis-parallel box of a primitive in range, exact for cones and spheres too.
+// Returns the axis-parallel bounding box of a primitive, exact for cones and spheres too. `ref` must be in
+// range.
 Box3d bounds(const SceneDescription& scene, PrimitiveRef ref);
 
-// The same of all primitives; empty when there are none.
+// Returns the bounding box of all primitives; empty when there are none.
 Box3d bounds(const SceneDescription& scene);
 
 }  // namespace pprt

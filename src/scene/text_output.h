@@ -1,5 +1,5 @@
-// Text with many numbers on its way to a stream, through a buffer of its own: formatting through the stream
-// would cost ten times as much.
+// Buffered text output for files with many numbers. Formatting through the stream would cost ten times as
+// much.
 #pragma once
 
 #include <array>
@@ -14,18 +14,18 @@ enum class NumberFormat {
   kSixDigits,  // printf's %g, as the SPD programs write
 };
 
-// Numbers must be finite; they look the same in every locale. A failing stream is left failed, as by
-// operator<<.
+// Writes text and numbers to a stream. Numbers must be finite; their form does not depend on the locale. A
+// failing stream is left failed, as by operator<<.
 class TextOutput {
  public:
   explicit TextOutput(std::ostream& out, NumberFormat format = NumberFormat::kShortest)
       : out_(out), format_(format) {}
 
-  void text(std::string_view s);  // shorter than the buffer
+  void text(std::string_view s);  // must be shorter than the buffer
   void number(double v);
   void number(std::size_t v);
 
-  // To be called at the end.
+  // Writes what is buffered. Must be called at the end: the destructor does not.
   void flush();
 
  private:

@@ -7,12 +7,12 @@
 namespace pprt {
 namespace {
 
-// Twice the signed area; positive when a, b, c run counter-clockwise.
+// Returns twice the signed area; positive when a, b, c run counter-clockwise.
 double cross(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-// The polygon without the coordinate in which its normal is largest, turned to run counter-clockwise.
+// Drops the coordinate in which the normal is largest and makes the polygon run counter-clockwise.
 std::vector<Vec2d> project(std::span<const Vec3d> polygon, const Vec3d& normal) {
   const Vec3d size(std::abs(normal.x), std::abs(normal.y), std::abs(normal.z));
   const int drop = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
@@ -28,7 +28,7 @@ std::vector<Vec2d> project(std::span<const Vec3d> polygon, const Vec3d& normal) 
   return flat;
 }
 
-// The ring of vertices not yet cut off, and how good an ear each of them would make.
+// The ring of vertices not yet clipped, with the quality of each as the tip of an ear.
 class EarClipper {
  public:
   explicit EarClipper(std::vector<Vec2d> points) : points_(std::move(points)) {
@@ -46,7 +46,7 @@ class EarClipper {
     while (left_ >= 3) {
       std::uint32_t tip = best();
       if (quality_[tip] == kNoEar) {
-        judge_all();  // a vertex that stood in the way may have gone since
+        judge_all();  // a vertex that blocked an ear may be gone
         tip = best();
       }
       clip(tip);
@@ -73,7 +73,7 @@ class EarClipper {
     } while (i != start_);
   }
 
-  // Cuts a vertex off. When no ear is left the polygon crosses itself, and any vertex will do.
+  // Clips a vertex. When no ear is left the polygon intersects itself, and any vertex will do.
   void clip(std::uint32_t tip) {
     const std::uint32_t before = previous_[tip];
     const std::uint32_t after = next_[tip];
@@ -88,8 +88,9 @@ class EarClipper {
     }
   }
 
-  // Flatness in (0, 1]: area over the longest edge squared, so that slivers come last. A vertex that spans no
-  // area (a duplicate, or one on a straight line) is cut off first, at no cost.
+  // Sets a vertex's quality: the ear's area over its longest edge squared, in (0, 1], so that slivers come
+  // last. A vertex without area (a duplicate, or on a straight line) comes first, as clipping it costs
+  // nothing.
   void judge(std::uint32_t tip) {
     const Vec2d& a = points_[previous_[tip]];
     const Vec2d& b = points_[tip];
@@ -106,7 +107,8 @@ class EarClipper {
     quality_[tip] = area / longest;
   }
 
-  // Whether another vertex lies in the closed triangle; one in the same place as a corner does not count.
+  // Returns whether another vertex lies in the closed triangle. One that coincides with a corner does not
+  // count.
   bool blocked(std::uint32_t tip, const Vec2d& a, const Vec2d& b, const Vec2d& c) const {
     const std::uint32_t before = previous_[tip];
     for (std::uint32_t i = next_[next_[tip]]; i != before; i = next_[i]) {

@@ -1,4 +1,4 @@
-// Polygons, concave ones too, as triangles.
+// Triangulation of polygons, concave ones included.
 #pragma once
 
 #include <array>
@@ -10,15 +10,18 @@
 
 namespace pprt {
 
-using TriangleIndices = std::array<std::uint32_t, 3>;  // of the polygon's vertices, in its own winding
+using TriangleIndices =
+    std::array<std::uint32_t, 3>;  // indices of the polygon's vertices, in its own winding
 
-// Twice the vector area (Newell): along the normal of a planar polygon, robust against collinear corners.
+// Returns twice the vector area (Newell). It points along the normal of a planar polygon and tolerates
+// collinear vertices.
 Vec3d newell_normal(std::span<const Vec3d> polygon);
 
-// Covers a simple polygon by triangles over its own vertices: ear clipping on the plane of its largest
-// projection, the best shaped ear first. Duplicate and collinear vertices take no triangle; a non-planar
-// polygon is cut as its projection is; one that crosses itself is covered somehow. Empty for no area.
-// Quadratic in the number of vertices.
+// Triangulates a simple polygon over its own vertices by ear clipping. Works in the coordinate plane of the
+// largest projection and clips the best-shaped ear first.
+//
+// Duplicate and collinear vertices take no triangle. A non-planar polygon is cut as its projection is. A
+// self-intersecting one gets some cover. Returns nothing for no area. Quadratic in the number of vertices.
 std::vector<TriangleIndices> triangulate(std::span<const Vec3d> polygon);
 
 }  // namespace pprt

@@ -28,11 +28,11 @@ ViewFrame view_frame(const View& view, const std::string& scene_name) {
   require(view.angle_degrees > 0 && view.angle_degrees < 180, "the angle must lie between 0 and 180");
   require(view.width >= 1 && view.height >= 1, "the resolution must be at least 1 x 1");
   ViewFrame frame;
-  // normalized() scales first: neither huge nor tiny vectors over- or underflow.
+  // normalized() scales first, so huge and tiny vectors neither overflow nor underflow.
   frame.forward = (view.at - view.from).normalized();
   require(frame.forward != Vec3d(0, 0, 0), "'from' and 'at' are the same point");
   const Vec3d right = frame.forward.cross(view.up.normalized());
-  // Less than this, and the roll is made of rounding: the cross product of unit vectors errs by 2^-52.
+  // Below this the roll is rounding: the cross product of unit vectors errs by 2^-52.
   require(right.length2() > 0x1p-80, "'up' is zero or parallel to the direction of view");
   frame.right = right.normalized();
   frame.up = frame.right.cross(frame.forward);

@@ -10,7 +10,8 @@ namespace {
 
 using Directions = std::array<Vec3d, 9>;
 
-// Unit directions from a sphere that grew along +z to its nine children: three alike, turned by thirds.
+// Returns unit directions to the nine children of a sphere that grew along +z: three directions, each turned
+// by thirds of a circle.
 Directions child_directions() {
   const double d = std::numbers::sqrt2 / 2;
   const Imath::M44d tilt = rotation({1, -1, 0}, std::asin(2 / std::sqrt(6.0)));
@@ -23,8 +24,8 @@ Directions child_directions() {
   return all;
 }
 
-// Takes +z to the unit vector `direction`. Close to the axis, where it would be the zero vector, the axis of
-// rotation is not needed or may be any; SPD's bound on "close".
+// Rotates +z to the unit vector `direction`. SPD's bound decides when it is close to the axis: there the
+// rotation axis would be zero, and any will do.
 Imath::M44d rotation_from_z(const Vec3d& direction) {
   if (direction.z >= 0.9999) return {};
   if (direction.z <= -0.9999) return rotation(kAxisY, std::numbers::pi);

@@ -11,10 +11,10 @@ namespace {
 
 constexpr int kTeeth = 36;
 constexpr double kToothAngle = radians(360.0 / kTeeth);
-constexpr double kToothDepth = 0.1;  // share of the radius; also by how much neighbours overlap
+constexpr double kToothDepth = 0.1;  // share of the radius; also the overlap of neighbours
 
-// Four points a tooth: two of its outer edge, two of the gap behind it. Angles run counter-clockwise for
-// turn = 1, clockwise for turn = -1.
+// Returns four points per tooth: two of its outer edge, two of the gap after it. Angles run counter-clockwise
+// for turn = 1, clockwise for turn = -1.
 std::vector<Vec3d> outline(const Vec3d& center, double radius, double first_angle, int turn) {
   struct Step {
     double radius_factor, tooth_share;
@@ -44,7 +44,7 @@ void gear(SceneBuilder& out, const Vec3d& top_center, double radius, double thic
   out.polygon(outline(top_center + down, radius, first_angle, -1));
 }
 
-// Sevenths that change from neighbour to neighbour, made as bright as they go.
+// Colours in sevenths that differ between neighbours, scaled to full brightness.
 Fill gear_fill(int x, int y, int z) {
   const auto channel = [](int steps, int sevenths) { return 0.01 + steps * sevenths % 7 / 7.0; };
   Rgb color(channel(3 * x + 2 * y + z + 1, 5), channel(3 * y + 2 * z + x + 1, 3),

@@ -1,5 +1,5 @@
-// One function per database: fills an empty builder with the scene of the given size, at least 1 and checked
-// against kMaxSpdPrimitives. Private to src/spd.
+// One function per database: fills an empty builder with the scene of the given size. The size is at least 1
+// and checked against kMaxSpdPrimitives. Private to src/spd.
 #pragma once
 
 #include "spd/scene_builder.h"

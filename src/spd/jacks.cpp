@@ -1,4 +1,4 @@
-// "jacks": a three-armed cross with a smaller one in each octant, over and over.
+// "jacks": a three-armed cross with a smaller one in each octant, recursively.
 #include <array>
 
 #include "spd/generators.h"

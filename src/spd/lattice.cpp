@@ -10,11 +10,11 @@ namespace {
 constexpr std::array<Vec3d, 3> kAxes = {kAxisX, kAxisY, kAxisZ};
 constexpr std::array<Rgb, 3> kRodColors = {Rgb(0.9, 0.1, 0.1), Rgb(0.1, 0.9, 0.1), Rgb(0.1, 0.1, 0.9)};
 
-// The sphere at a node and the rods from it towards larger coordinates.
+// Adds the sphere at a node and the rods from it towards larger coordinates.
 void lattice_node(SceneBuilder& out, const std::array<int, 3>& node, int size) {
   const double sphere_radius = 0.25 / size;
   const double rod_radius = 0.0625 / size;
-  // Where a rod starts inside the sphere, so that it leaves no gap.
+  // The rod starts inside the sphere, so that it leaves no gap.
   const double start = 0.99 * sphere_radius * (1 - std::sqrt(rod_radius / sphere_radius));
 
   const Vec3d center = Vec3d(node[0], node[1], node[2]) / size;

@@ -7,8 +7,8 @@
 namespace pprt::spd {
 namespace {
 
-// A pair of uniform numbers from a linear congruential generator, made normal by Marsaglia's polar method;
-// the same seed gives the same number.
+// Returns a normally distributed number: two uniform ones of a linear congruential generator, by Marsaglia's
+// polar method. Equal seeds give equal numbers.
 double gaussian(std::uint32_t seed) {
   constexpr std::uint32_t kModulus = 134456;
   const auto next = [](std::uint32_t i) { return (28411 + 8121 * i) % kModulus; };
@@ -24,7 +24,7 @@ double gaussian(std::uint32_t seed) {
   return v1 * std::sqrt(-2 * std::log(r) / r);
 }
 
-// Heights above a square of a grid are found by halving it until one cell is left.
+// Finds the heights above a square grid by subdivision until one cell is left.
 class MountainMaker {
  public:
   struct Heights {
@@ -33,7 +33,7 @@ class MountainMaker {
 
   MountainMaker(SceneBuilder& out, int size) : out_(out), size_(size), cells_(1 << size) {}
 
-  // The square of `width` cells whose corner of smallest coordinates is (x, y).
+  // Subdivides the square of `width` cells whose corner of smallest coordinates is (x, y).
   void square(int width, int x, int y, const Heights& z) const {
     if (width == 1) return cell(x, y, z);
     const int h = width / 2;
@@ -51,11 +51,12 @@ class MountainMaker {
   }
 
  private:
-  // sqrt(ratio^2 - 1), where halving an edge lengthens it by ratio = 2 / 2^(1/1.2): fractal dimension 1.2.
+  // sqrt(ratio^2 - 1), where halving an edge lengthens it by ratio = 2 / 2^(1/1.2). The fractal dimension is
+  // 1.2.
   static constexpr double kRoughness = 0.509824528534;
 
-  // The height's deviation at a grid point depends on the point alone, so that neighbours fit. The bits of
-  // the seed above the 16th are dropped, and with them terms shifted down by sizes above 7.
+  // Returns the deviation of a grid point's height. It depends on the point alone, so that neighbours fit.
+  // The seed keeps 16 bits, so terms shifted down (sizes above 7) drop out.
   double noise(int x, int y) const {
     const auto shifted = [](int v, int bits) {
       return bits < 0 ? 0u : (static_cast<std::uint32_t>(v) << bits) & 0xffffu;
@@ -76,7 +77,7 @@ class MountainMaker {
 
   SceneBuilder& out_;
   int size_;
-  int cells_;  // along an edge of the whole
+  int cells_;  // along an edge of the whole grid
 };
 
 // Four mutually tangent spheres.

@@ -14,7 +14,8 @@ constexpr std::array<Rgb, 6> kColors = {Rgb(1, 0, 0), Rgb(0, 1, 0), Rgb(0, 0, 1)
 
 using Corners = std::array<Vec3d, kCorners * kColors.size()>;
 
-// Corners of the six pentagons: one in the xy plane, the others as the faces of a dodecahedron lean on it.
+// Returns the corners of the six pentagons: one lies in the xy plane, the others lean on it as the faces of a
+// dodecahedron do.
 Corners ring_corners() {
   const double scale = 1 / (1 + kRadius);
   const double lean = 2 * std::acos(std::cos(radians(60)) / std::sin(radians(36)));

@@ -5,7 +5,8 @@
 namespace pprt::spd {
 namespace {
 
-// The exponent s with cos(angle)^s = 1/2. The bounds are SPD's: no highlight is a very small one.
+// Returns the exponent s with cos(angle)^s = 1/2. The bounds are SPD's: no highlight counts as a very small
+// one.
 double phong_exponent(double highlight_degrees) {
   if (highlight_degrees <= 0) return 100000;
   if (highlight_degrees >= 90) return 1;

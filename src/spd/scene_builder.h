@@ -1,4 +1,4 @@
-// What the generators share: adding to a scene in NFF's manner, with a current material. Private to src/spd.
+// What the generators share: adds objects as NFF does, with a current material. Private to src/spd.
 #pragma once
 
 #include <Imath/ImathMatrix.h>
@@ -15,16 +15,16 @@ constexpr double radians(double degrees) {
   return degrees * (std::numbers::pi / 180);
 }
 
-// An active rotation by `angle` radians, counter-clockwise seen from the tip of `axis` (of any length).
-// Imath's vectors are rows: p * A * B applies A first.
+// Returns the rotation by `angle` radians, counter-clockwise seen from the tip of `axis` (of any length).
+// Imath multiplies row vectors: p * A * B applies A first.
 Imath::M44d rotation(const Vec3d& axis, double angle);
 
 inline constexpr Vec3d kAxisX{1, 0, 0};
 inline constexpr Vec3d kAxisY{0, 1, 0};
 inline constexpr Vec3d kAxisZ{0, 0, 1};
 
-// SPD's surface: `highlight_degrees` is the half-angle at which the highlight has fallen to one half, 0 for
-// no highlight; NFF has a Phong exponent instead.
+// SPD's surface. `highlight_degrees` is the angle at which the highlight has fallen to one half, 0 for none.
+// NFF has a Phong exponent in its place.
 struct Fill {
   Rgb color;
   double diffuse = 1;
@@ -36,11 +36,11 @@ struct Fill {
 
 class SceneBuilder {
  public:
-  // SPD's view: angle 45, 512 x 512, the sky as background.
+  // Sets SPD's view: angle 45, 512 x 512, sky-blue background.
   void view(const Vec3d& from, const Vec3d& at, const Vec3d& up, double hither);
   void lights(std::initializer_list<Vec3d> positions);
 
-  // The surface of all objects that follow.
+  // Sets the surface of all objects that follow.
   void fill(const Fill& fill);
 
   void sphere(const Vec3d& center, double radius);

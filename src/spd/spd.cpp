@@ -20,7 +20,7 @@ namespace {
 constexpr std::string_view kPrefix = "spd:";
 
 struct Generator {
-  double (*count)(double size);  // objects, by closed formula
+  double (*count)(double size);  // number of objects, by closed formula
   void (*build)(spd::SceneBuilder& out, int size);
 };
 
@@ -34,7 +34,7 @@ constexpr std::array<SpdDatabase, 9> kDatabases = {{{"tree", 11},
                                                     {"jacks", 1},
                                                     {"lattice", 12}}};
 
-// As in kDatabases.
+// In the order of kDatabases.
 constexpr std::array<Generator, 9> kGenerators = {{
     {[](double n) { return 2 * (std::exp2(n + 1) - 1) + 1; }, spd::build_tree},
     {[](double n) { return (std::pow(9, n + 1) - 1) / 8 + 1; }, spd::build_balls},

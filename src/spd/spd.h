@@ -1,7 +1,7 @@
 // Eric Haines' Standard Procedural Databases (version 3.14, public domain) as functions: size -> scene.
 //
-// Each scene equals what the SPD program of that name writes as NFF with true curves, before rounding to six
-// digits: same objects, same order, same view and lights.
+// Each scene equals the NFF output of the SPD program of that name with true curves, before rounding to six
+// digits. Objects, their order, view and lights are the same.
 #pragma once
 
 #include <optional>
@@ -14,27 +14,29 @@ namespace pprt {
 
 struct SpdDatabase {
   std::string_view name;  // "tree"
-  int default_size = 1;   // the SPD program's own; teapot: 12, the size of the published statistics
+  int default_size = 1;   // the SPD program's own, except teapot: 12, the size of the published statistics
 };
 
-// All databases, in the order in which messages and help list them.
+// Returns all databases, in the order of messages and help.
 std::span<const SpdDatabase> spd_databases();
 
-// Larger scenes are refused before anything is made. The most memory a scene takes: 5.2 GB (teapot).
+// Limit on primitives; larger scenes are refused before any is made. The largest memory a scene takes is 5.2
+// GB (teapot).
 inline constexpr double kMaxSpdPrimitives = 20e6;
 
-// Number of objects of a database, by closed formula; infinite where a double cannot hold it.
+// Returns the number of objects of a database, by closed formula; infinite where a double cannot hold it.
 // `name` must be one of spd_databases(), size at least 1.
 double spd_primitive_count(std::string_view name, int size);
 
-// The scene, named "spd:NAME:SIZE"; absent size: the default. Throws InputError for a name that is not one of
-// spd_databases(), for a size below 1, and for one that exceeds kMaxSpdPrimitives.
+// Makes a scene, named "spd:NAME:SIZE"; without a size, the default. Throws InputError for an unknown name, a
+// size below 1, and a size that exceeds kMaxSpdPrimitives.
 SceneDescription make_spd(std::string_view name, std::optional<int> size = {});
 
-// Whether a scene is named in the form "spd:..." at all, rightly or wrongly.
+// Returns whether a scene name begins with "spd:", whatever follows.
 bool is_spd_name(std::string_view scene);
 
-// The scene named "spd:NAME" or "spd:NAME:SIZE". Throws InputError as make_spd, and for any other form.
+// Makes the scene named "spd:NAME" or "spd:NAME:SIZE". Throws InputError as make_spd does, and for any other
+// form.
 SceneDescription make_spd_scene(std::string_view scene);
 
 }  // namespace pprt

@@ -10,7 +10,7 @@
 namespace pprt::spd {
 namespace {
 
-// Bernstein polynomials of degree 3 and their derivatives.
+// The four Bernstein polynomials of degree 3 and their derivatives.
 struct CubicBasis {
   std::array<double, 4> value, derivative;
 
@@ -33,8 +33,9 @@ PatchVertex surface_point(const BezierPatch& patch, const CubicBasis& s, const C
   return {position, along_t.cross(along_s).normalized()};
 }
 
-// The lid's top and the bottom's middle are cusps, where a whole patch edge is one point and has no normal of
-// its own: triangles with two vertices there are nothing, with one they get the axis as normal.
+// Adds a triangle unless it has no area. At the lid's top and the bottom's middle a whole patch edge is one
+// point without a normal. Triangles with two vertices there are dropped; a single vertex gets the axis as its
+// normal.
 void triangle(SceneBuilder& out, std::array<PatchVertex, 3> vertices) {
   int cusps = 0;
   for (PatchVertex& vertex : vertices) {
@@ -62,7 +63,7 @@ void flattened(SceneBuilder& out, const BezierPatch& patch, const std::vector<Cu
   }
 }
 
-// The light squares, then the dark ones.
+// Adds the light squares, then the dark ones.
 void checkerboard(SceneBuilder& out, int size) {
   const auto coordinate = [size](int i) { return 4 * (2.0 * i / size - 1); };
   for (const int parity : {1, 0}) {

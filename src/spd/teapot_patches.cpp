@@ -9,13 +9,14 @@ struct ProfilePoint {
   double radius, z;
 };
 
-// Parts turned about the z axis: four patches, a quarter each. `mirror` is -1 or 1, the sign of y.
+// Adds a surface of revolution about the z axis: four patches, a quarter each. `mirror` is -1 or 1, the sign
+// of y.
 void add_turned(std::vector<BezierPatch>& out, double mirror, const std::array<ProfilePoint, 4>& profile) {
   for (int quarter = 0; quarter < 4; ++quarter) {
     BezierPatch patch;
     for (std::size_t row = 0; row < 4; ++row) {
       const auto [r, z] = profile[row];
-      // Newell's approximation of a quarter circle, with one entry of his table that differs.
+      // Newell's approximation of a quarter circle; one entry of his table differs.
       const double bulge = r == 0.8 ? 0.45 : 0.56 * r;
       patch[row] = {Vec3d(r, 0, z), Vec3d(r, bulge, z), Vec3d(bulge, r, z), Vec3d(0, r, z)};
       for (Vec3d& p : patch[row]) {
@@ -27,12 +28,12 @@ void add_turned(std::vector<BezierPatch>& out, double mirror, const std::array<P
   }
 }
 
-// A row across handle or spout: two points in the plane of symmetry, and how far the part bulges out of it.
+// A row across handle or spout: two points in the plane of symmetry, and the half width across it.
 struct TubeRow {
   double ax, az, bx, bz, half_width;
 };
 
-// The two halves of a part that is symmetric about the xz plane.
+// Adds both halves of a part that is symmetric about the xz plane.
 void add_tube(std::vector<BezierPatch>& out, const std::array<TubeRow, 4>& rows) {
   BezierPatch there, back;
   for (std::size_t row = 0; row < 4; ++row) {

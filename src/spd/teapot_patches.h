@@ -10,7 +10,8 @@ namespace pprt::spd {
 
 using BezierPatch = std::array<std::array<Vec3d, 4>, 4>;  // control points [along s][along t]
 
-// Rim, body, handle, spout, lid, bottom; z is up, the board at z = 0. dP/dt x dP/ds points outwards.
+// Returns rim, body, handle, spout, lid and bottom. z is up, the board at z = 0. dP/dt x dP/ds points
+// outwards.
 std::vector<BezierPatch> teapot_patches();
 
 }  // namespace pprt::spd

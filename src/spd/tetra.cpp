@@ -6,11 +6,11 @@
 namespace pprt::spd {
 namespace {
 
-// Four of the cube's corners, no two of which share an edge.
+// Four corners of the cube, no two of which share an edge.
 constexpr std::array<Vec3d, 4> kCorners = {Vec3d(-1, -1, 1), Vec3d(-1, 1, -1), Vec3d(1, -1, -1),
                                            Vec3d(1, 1, 1)};
 
-// `half_width` is half the edge of the cube around the tetrahedron.
+// Adds a tetrahedron of the given level. `half_width` is half the edge of the cube around it.
 void tetrahedron(SceneBuilder& out, const Vec3d& center, double half_width, int level) {
   if (level > 1) {
     for (const Vec3d& corner : kCorners) {

@@ -4,7 +4,7 @@
 namespace pprt::spd {
 namespace {
 
-// Where a child branch stands on its parent, which goes from the origin to (0, 0, 1).
+// Returns the map of a child branch onto its parent, which goes from the origin to (0, 0, 1).
 Imath::M44d child_map(double length_factor, double branching_degrees, double divergence_degrees) {
   Imath::M44d scale;
   scale.setScale(length_factor);
@@ -15,7 +15,8 @@ Imath::M44d child_map(double length_factor, double branching_degrees, double div
 }
 
 struct TreeMaker {
-  static constexpr double kTaper = 0.67;  // of the radius along a branch, and from a branch to its children
+  static constexpr double kTaper =
+      0.67;  // factor of the radius along a branch, and from a branch to its children
 
   SceneBuilder& out;
   const Imath::M44d children[2] = {child_map(0.65, 40, 90), child_map(0.70, 25, 230)};
