@@ -12,11 +12,11 @@
 namespace pprt::anim {
 namespace {
 
-constexpr int kDeepestNesting = 100;         // operands within operands; each takes some 2 kB of the stack
-constexpr std::size_t kMostKeys = 100'000;   // key, hold, cut
-constexpr std::size_t kMostNames = 100'000;  // declared
+constexpr int kMaxNesting = 100;             // levels of operands; each takes some 2 kB of the call stack
+constexpr std::size_t kMostKeys = 100'000;   // key, hold and cut statements
+constexpr std::size_t kMostNames = 100'000;  // declared names
 
-// The words of statements by the block they stand in. The fields come last.
+// The keywords of statements and the block of each. The fields come last.
 struct Word {
   std::string_view text;
   Block block;
@@ -58,7 +58,7 @@ constexpr std::string_view name_of(Block block) {
   return {};
 }
 
-// The words that may stand in a block first, then all others: those are the likelier suggestions.
+// Returns the keywords of a block first, then all others: the former are likelier suggestions.
 std::vector<std::string_view> candidates_in(Block block) {
   std::vector<std::string_view> words;
   for (const Word& word : kWords) {
@@ -168,8 +168,8 @@ void ScriptReader::end_call() {
 }
 
 void ScriptReader::enter_operand(const char* place) {
-  if (++depth_ > kDeepestNesting) {
-    throw ParseFailure{place, fmt::format("the expression nests deeper than {} levels", kDeepestNesting)};
+  if (++depth_ > kMaxNesting) {
+    throw ParseFailure{place, fmt::format("the expression nests deeper than {} levels", kMaxNesting)};
   }
 }
 
@@ -226,7 +226,7 @@ void ScriptReader::set_scene(std::string_view name) {
 
 void ScriptReader::set_spline(std::string_view kind) {
   constexpr std::array<std::string_view, 3> kKinds = {"linear", "catmull_rom",
-                                                      "tcb"};  // in SplineKind's order
+                                                      "tcb"};  // in the order of SplineKind
   const auto found = std::find(kKinds.begin(), kKinds.end(), kind);
   if (found == kKinds.end()) {
     problems_.error(kind.data(), fmt::format("expected linear, catmull_rom or tcb, found {}{}", quoted(kind),
@@ -256,7 +256,7 @@ void ScriptReader::unknown(std::string_view token, Block block) {
 void ScriptReader::recover(const ParseFailure& failure) {
   if (failure.fatal) throw failure;
   problems_.error(failure.place, failure.message);
-  // The name's uses are no further problems.
+  // Declares the name all the same, so that its uses are not reported as unknown.
   if (!declared_.empty()) names_.insert_or_assign(std::string(declared_), Value{});
   declared_ = {};
   stack_.clear();

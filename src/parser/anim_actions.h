@@ -1,4 +1,4 @@
-// From the rules of animation scripts to a WrittenScript: what each rule does once it has matched.
+// Actions of the animation grammar: what each rule does once it has matched. The result is a WrittenScript.
 #pragma once
 
 #include <cstddef>
@@ -14,22 +14,22 @@
 
 namespace pprt::anim {
 
-// A place from which reading cannot go on as the grammar has it.
+// A place where the text no longer follows the grammar.
 struct ParseFailure {
   const char* place;
   std::string message;
-  bool fatal = false;  // nothing behind it can be read either
+  bool fatal = false;  // nothing after it can be read either
 };
 
-// The block that is being read, for what is said about words that do not belong there.
+// The block that is being read; messages name it when a word does not belong there.
 enum class Block { kTop, kAnimation, kCamera, kKey };
 
-// The script as far as it has been read.
+// Collects the script while it is read. Values of expressions are kept on a stack.
 class ScriptReader {
  public:
   explicit ScriptReader(std::string_view text) : problems_(text) {}
 
-  // Expressions: operands are pushed, operations take theirs off and push the result.
+  // Expressions. Operands are pushed; operations replace their operands by the result.
   void push_number(std::string_view token);
   void push_variable(std::string_view name);
   void calculate_top(Operation operation, const char* place);
@@ -38,7 +38,7 @@ class ScriptReader {
   void append_third(const char* place);
   void begin_call(std::string_view callee);
   void end_call();
-  void enter_operand(const char* place);  // throws when operands nest too deeply
+  void enter_operand(const char* place);  // throws ParseFailure when operands nest too deeply
   void leave_operand() { --depth_; }
 
   // Statements; each takes its value off the stack.
@@ -59,7 +59,7 @@ class ScriptReader {
   void set_resolution() { set(script_.resolution, "resolution", take()); }
   void set_spline(std::string_view kind);
 
-  // Problems.
+  // Problems. `recover` reports a failure and drops the unfinished statement; it rethrows a fatal one.
   void unknown(std::string_view token, Block block);
   void missing_brace(const char* place) { problems_.error(place, "expected '{' before this"); }
   void recover(const ParseFailure& failure);
@@ -70,7 +70,7 @@ class ScriptReader {
  private:
   struct Call {
     std::string_view name;
-    std::size_t first_argument;  // on the stack
+    std::size_t first_argument;  // its index on the stack
   };
 
   Value take();
@@ -91,16 +91,16 @@ class ScriptReader {
   WrittenKey key_;
   std::size_t field_ = 0;
   const char* field_place_ = nullptr;
-  const char* setting_ = nullptr;  // the word of the setting at hand
+  const char* setting_ = nullptr;  // the keyword of the current setting
 };
 
-// What stands at a place, as a message quotes it.
+// Returns what stands at a place, quoted for a message.
 std::string found_at(const char* place, const char* end);
 
 template <typename Rule>
 struct action : tao::pegtl::nothing<Rule> {};
 
-// An action that hands the matched bytes to a member function.
+// Action: passes the matched text to a member function.
 template <auto Member>
 struct with_text {
   template <typename ActionInput>
@@ -109,7 +109,7 @@ struct with_text {
   }
 };
 
-// One that hands on only where they begin.
+// Action: passes the place where the match begins.
 template <auto Member>
 struct with_place {
   template <typename ActionInput>
@@ -139,7 +139,7 @@ struct unknown_in {
   }
 };
 
-// Reports what goes wrong inside an item of a block, and takes up again at the next one.
+// Reports a failure inside an item of a block and continues with the next item.
 struct recovering : tao::pegtl::maybe_nothing {
   template <typename Rule, tao::pegtl::apply_mode A, tao::pegtl::rewind_mode M,
             template <typename...> class Action, template <typename...> class Control, typename Input>
@@ -148,7 +148,7 @@ struct recovering : tao::pegtl::maybe_nothing {
       return tao::pegtl::match<Rule, A, M, Action, Control>(in, reader);
     } catch (const ParseFailure& failure) {
       reader.recover(failure);
-      // The exception has taken the input back to the item's begin, or to somewhere in it.
+      // After the exception the input stands at the item's beginning, or somewhere within the item.
       in.bump(static_cast<std::size_t>(failure.place - in.current()));
     }
     return Control<grammar::skip>::template match<A, tao::pegtl::rewind_mode::dontcare, Action, Control>(
@@ -156,7 +156,7 @@ struct recovering : tao::pegtl::maybe_nothing {
   }
 };
 
-// Keeps a script from filling the stack with parentheses.
+// Limits nesting, so that parentheses cannot exhaust the call stack.
 struct limiting_depth : tao::pegtl::maybe_nothing {
   template <typename Rule, tao::pegtl::apply_mode A, tao::pegtl::rewind_mode M,
             template <typename...> class Action, template <typename...> class Control, typename Input>

@@ -1,7 +1,7 @@
 // The grammar of animation scripts, pprt-anim(5): rules only.
 //
-// Every token takes the gap behind it along. One token ahead decides what follows, so that no action runs for
-// something that is read again otherwise. A rule named in anim_messages.h must match once it is reached.
+// Every token includes the gap after it. One token of lookahead decides, so no action runs for text that is
+// read a second time. A rule named in anim_messages.h must match once it is reached.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +27,7 @@ using pegtl::sor;
 using pegtl::star;
 using pegtl::string;
 
-// Between tokens. "#" begins a comment, but "#declare" does not.
+// The gap between tokens. "#" begins a comment, "#declare" does not.
 struct blank : one<' ', '\t', '\n', '\r', '\f', '\v'> {};
 struct to_line_end : star<not_one<'\n', '\r'>> {};
 struct declare_word : TAO_PEGTL_KEYWORD("#declare") {};
@@ -42,7 +42,7 @@ struct token : seq<Token, gap> {};
 template <char... C>
 struct mark : token<one<C...>> {};
 
-// Words, by the block they stand in.
+// Keywords, grouped by block.
 struct animation_word : TAO_PEGTL_KEYWORD("animation") {};
 struct scene_word : TAO_PEGTL_KEYWORD("scene") {};
 struct frames_word : TAO_PEGTL_KEYWORD("frames") {};
@@ -95,13 +95,13 @@ struct expression : seq<product, star<sor<plus_product, minus_product>>> {};
 
 struct quoted : seq<one<'"'>, star<not_one<'"', '\n', '\r'>>, opt<one<'"'>>> {};
 
-// From where something is not understood to where reading can go on: the next word that begins a statement,
-// the end of the block, or behind a block of its own.
+// Skips from an error to the place where reading continues: the next keyword of a statement, the end of the
+// block, or the end of a nested block.
 struct skipped_block {
   using rule_t = skipped_block;
   using subs_t = pegtl::empty_list;
 
-  // Not recursive: the depth of what is skipped is the writer's choice.
+  // Not recursive, because the input decides the depth.
   template <typename Input>
   static bool match(Input& in) {
     std::size_t depth = 0;
@@ -174,7 +174,7 @@ struct script : seq<opt<pegtl::utf8::bom>, gap, star<top_item>, eof> {};
 
 }  // namespace pprt::anim::grammar
 
-// For pegtl::analyze: consumes a block, hence something.
+// For pegtl::analyze: the rule consumes a block, so it always makes progress.
 namespace TAO_PEGTL_NAMESPACE {
 template <typename Name>
 struct analyze_traits<Name, pprt::anim::grammar::skipped_block> : analyze_any_traits<> {};

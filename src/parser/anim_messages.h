@@ -1,12 +1,12 @@
-// What the rules of animation scripts say when they fail.
+// Error messages of the animation grammar.
 #pragma once
 
 #include "parser/anim_grammar.h"
 
 namespace pprt::anim {
 
-// What a rule that must match expects; nullptr for rules that may fail. The report goes on with what was
-// found instead: "expected ',', found 'at'".
+// What a rule expects that must match; nullptr for rules that may fail. The report appends what was found:
+// "expected ',', found 'at'".
 template <typename Rule>
 inline constexpr const char* expected = nullptr;
 

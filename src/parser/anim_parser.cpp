@@ -17,11 +17,11 @@ namespace {
 namespace pegtl = tao::pegtl;
 using Input = pegtl::memory_input<pegtl::tracking_mode::lazy, pegtl::eol::lf_crlf, const char*>;
 
-// A key at every frame of ten thousand, generously written, is a tenth of this.
+// Ten times the size of a script with a long key at each of ten thousand frames.
 constexpr std::size_t kMostBytes = std::size_t{16} << 20;
 
-// Turns the failure of a rule that must match into a ParseFailure. None of these rules has moved the input
-// when it fails, but the comment's, whose begin is told by `start`.
+// Turns the failure of a rule that must match into a ParseFailure. When such a rule fails the input has not
+// moved, except in a comment, where `match` keeps its beginning.
 template <typename Rule>
 struct control : pegtl::normal<Rule> {
   static void failure(const Input& in, ScriptReader&) {
@@ -69,7 +69,7 @@ ParsedAnimation parse_animation(std::string_view text, std::string_view file_nam
   }
   std::string report = format(problems.diagnostics(), file_name, text);
   if (!problems.diagnostics().has_errors()) return {std::move(animation), std::move(report)};
-  report.pop_back();  // the last line's end
+  report.pop_back();  // the last line end
   throw InputError(report);
 }
 

@@ -1,4 +1,4 @@
-// The animation script language (.anim, see pprt-anim(5)): text to the values of scene/animation.h.
+// Reads the animation script language (.anim, see pprt-anim(5)) into the values of scene/animation.h.
 #pragma once
 
 #include <string>
@@ -10,15 +10,16 @@ namespace pprt {
 
 struct ParsedAnimation {
   Animation animation;
-  std::string warnings;  // formatted as file:line:column, line, caret; empty when there are none
+  std::string warnings;  // each as file:line:column, line, caret; empty when there are none
 };
 
-// Reads a whole script. Throws InputError with every problem of the text: file:line:column, the line, a
-// caret. What can be judged only with the scene's own view at hand is left to check_cameras
-// (scene/animation.h).
+// Reads a script from memory; `file_name` is for messages. Throws InputError with every problem of the text,
+// each with file:line:column, the line and a caret. Problems that depend on the scene's view are left to
+// check_cameras (scene/animation.h).
 ParsedAnimation parse_animation(std::string_view text, std::string_view file_name);
 
-// The same for a file; one that cannot be read or is longer than any script is an InputError as well.
+// Reads a script from a file; "-" is standard input. Throws InputError also for a file that cannot be read or
+// is longer than 16 MiB.
 ParsedAnimation read_animation(const std::string& path);
 
 }  // namespace pprt

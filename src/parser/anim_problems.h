@@ -1,4 +1,4 @@
-// The problems of one text while it is read, told by the byte they are at.
+// Collects the problems of a text while it is read. Places are pointers into the text.
 #pragma once
 
 #include <string>
@@ -25,7 +25,7 @@ class Problems {
   const Diagnostics& diagnostics() const { return diagnostics_; }
 
  private:
-  // Places out of order cost a pass over the text each: none is looked up for what will not be shown.
+  // Looks up a place only if its problem will be shown: places out of order cost a pass over the text each.
   SourceLocation location(const char* place, std::size_t count_before) {
     return count_before < Diagnostics::kMaxKept ? lines_.at(place) : SourceLocation{};
   }

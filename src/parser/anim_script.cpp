@@ -12,7 +12,7 @@ constexpr double kMostFrames = 1e6;
 constexpr double kMostFps = 1000;
 constexpr double kLargestSide = 16384;  // pixels
 
-// A number of the script, if it is one; `what` is what it is for.
+// Returns a value as a number, if it is one; reports a vector. `what` names it in the message.
 std::optional<double> number(const Value& value, std::string_view what, Problems& problems) {
   if (!value.known()) return std::nullopt;
   if (value.size == 1) return value.c[0];
@@ -61,7 +61,7 @@ void interpret_resolution(const Value& value, Animation& animation, Problems& pr
   }
 }
 
-// Goes from key to key, with the camera as it stands after each.
+// Reads the keys in order and keeps the camera as it stands after each.
 class KeyReader {
  public:
   KeyReader(Animation& animation, bool fps_given, Problems& problems)
@@ -85,7 +85,7 @@ class KeyReader {
   }
 
  private:
-  // The frame a key stands at, from frames or seconds.
+  // Returns the frame of a key, converted from seconds where needed.
   std::optional<double> frame_of(const WrittenKey& written) {
     const std::optional<double> when = number(written.when, "key", problems_);
     if (!when) return std::nullopt;
@@ -115,7 +115,7 @@ class KeyReader {
     return false;
   }
 
-  // What is carried from the key before: everything, but across a cut nothing.
+  // Starts from the camera of the key before; after a cut, from the scene's view.
   void begin_camera(const WrittenKey& written) {
     const bool hold = written.kind == WrittenKey::Kind::kHold;
     if (first_ || written.kind == WrittenKey::Kind::kCut) {
@@ -154,7 +154,7 @@ class KeyReader {
   void read_vector(const WrittenKey& written, Field field, Vec3d& into, bool& of_scene) {
     if (!written.fields[field]) return;
     const Value& value = *written.fields[field];
-    of_scene = !value.known();  // one that has been reported causes no further problem
+    of_scene = !value.known();  // a value in error causes no further problem
     if (value.size == 3) {
       into = {value.c[0], value.c[1], value.c[2]};
     } else if (value.known()) {
@@ -188,8 +188,8 @@ class KeyReader {
     }
   }
 
-  // Only where this key changes something, so that one mistake is reported once; and only when all of it
-  // stands in the script. The rest is check_cameras', when the scene is known.
+  // Reports a defect only at a key that changes the camera, so that one mistake is reported once. A camera
+  // that takes fields from the scene is left to check_cameras.
   void check_camera(const WrittenKey& written) {
     if (!written.fields[kFrom] && !written.fields[kAt] && !written.fields[kUp]) return;
     const SceneFields& open = camera_.of_scene;
@@ -198,7 +198,7 @@ class KeyReader {
     if (!defect.empty()) report_at(written, {kUp, kAt, kFrom}, std::string(defect));
   }
 
-  // At the first of these fields that the key has.
+  // Reports at the first of these fields that the key has.
   void report_at(const WrittenKey& written, std::initializer_list<Field> fields, std::string message) {
     for (const Field field : fields) {
       if (!written.fields[field]) continue;
@@ -215,8 +215,8 @@ class KeyReader {
   bool first_ = true;
 };
 
-// Without `frames` the animation ends with its last key.
-void settle_frames(const WrittenScript& script, Animation& animation, Problems& problems) {
+// Sets the number of frames. Without `frames` the animation ends with its last key.
+void set_frame_count(const WrittenScript& script, Animation& animation, Problems& problems) {
   if (animation.keys.empty()) return;
   if (!script.frames) {
     animation.frames = static_cast<int>(std::ceil(animation.keys.back().frame));
@@ -245,7 +245,7 @@ Animation interpret(const WrittenScript& script, std::string_view file_name, Pro
 
   KeyReader reader(animation, script.fps.has_value(), problems);
   for (const WrittenKey& key : script.keys) reader.read(key);
-  settle_frames(script, animation, problems);
+  set_frame_count(script, animation, problems);
   return animation;
 }
 

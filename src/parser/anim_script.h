@@ -1,4 +1,4 @@
-// A script as it was written, every value with its place; and what it means.
+// A script as it was written, each value with its place, and its interpretation as an Animation.
 #pragma once
 
 #include <array>
@@ -27,15 +27,15 @@ enum Field : std::size_t {
   kFieldCount
 };
 
-// The words of the fields, in the order of Field.
+// The keywords of the fields, in the order of Field.
 inline constexpr std::array<std::string_view, kFieldCount> kFieldWords = {
     "from", "at", "up", "angle", "tension", "continuity", "bias", "ease_in", "ease_out"};
 
-// key, hold or cut.
+// A key, hold or cut statement.
 struct WrittenKey {
   enum class Kind { kKey, kHold, kCut };
   Kind kind = Kind::kKey;
-  const char* place = nullptr;  // of the word
+  const char* place = nullptr;  // of the keyword
   Value when;
   bool in_seconds = false;
   std::array<std::optional<Value>, kFieldCount> fields;
@@ -50,7 +50,8 @@ struct WrittenScript {
   std::vector<WrittenKey> keys;
 };
 
-// Checks every value and carries the cameras from key to key. What is wrong is reported, and left out.
+// Checks every value and copies omitted camera fields from key to key. A value in error is reported and left
+// out.
 Animation interpret(const WrittenScript& script, std::string_view file_name, Problems& problems);
 
 }  // namespace pprt::anim

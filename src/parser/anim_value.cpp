@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::string_view kNames[] = {"sin", "cos", "tan", "sqrt", "abs", "min", "max", "pi"};
 
-// Sine of degrees, exact at multiples of a quarter turn; `quarters` is added to the angle.
+// Returns the sine of an angle in degrees plus `quarters` quarter turns. Exact at multiples of a quarter
+// turn.
 double sine_of_degrees(double degrees, int quarters) {
   int quadrant = 0;
   const double rest = std::remquo(degrees, 90, &quadrant) * (std::numbers::pi / 180);  // within +-45 degrees
@@ -39,7 +40,7 @@ Value problem(const char* place, std::string message, Problems& problems) {
   return {.place = place};
 }
 
-// Numbers beyond the limit are refused, so that nothing made from them later overflows.
+// Refuses numbers beyond the limit, so that nothing computed from them overflows.
 Value checked(Value value, const char* place, Problems& problems) {
   for (const double c : value.c) {
     if (!(std::abs(c) <= kLargestNumber)) return problem(place, "the result is too large", problems);

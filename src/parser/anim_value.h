@@ -1,4 +1,4 @@
-// The values of a script's expressions, and arithmetic on them that reports what cannot be done.
+// Values of expressions in animation scripts, and their arithmetic.
 #pragma once
 
 #include <array>
@@ -9,32 +9,34 @@
 
 namespace pprt::anim {
 
-// A number (size 1) or a vector (2, 3). Size 0: a problem that has been reported; what is made from it is
-// size 0 again and no further problem.
+// A number (size 1) or a vector (size 2 or 3). Size 0 marks a value whose problem has been reported: results
+// made from it have size 0 too, and nothing more is reported.
 struct Value {
   int size = 0;
   std::array<double, 3> c{0, 0, 0};  // unused components are 0
-  const char* place = nullptr;       // where it begins in the text, of unknown ones too
+  const char* place = nullptr;       // where the expression begins in the text, also when size is 0
 
   bool known() const { return size > 0; }
 };
 
 enum class Operation { kAdd, kSubtract, kMultiply, kDivide, kPower };
 
-// `place` is the operator's. Vectors are added and subtracted among their like, and multiplied and divided by
-// numbers. The result begins where `a` does.
+// Applies a binary operator; `place` is the operator's. Vectors of one size add and subtract; a number
+// multiplies a vector and divides it. The result begins where `a` does. Reports what cannot be computed and
+// returns size 0.
 Value calculate(Operation operation, const Value& a, const Value& b, const char* place, Problems& problems);
 
 Value negated(const Value& a);
 
-// sin, cos, tan (of degrees), sqrt, abs (one number), min, max (one or more). `place` is the name's.
+// Calls sin, cos, tan (of degrees), sqrt, abs (one number each), min or max (one or more). `place` is the
+// name's. Reports what cannot be computed and returns size 0.
 Value call_function(std::string_view name, std::span<const Value> arguments, const char* place,
                     Problems& problems);
 
-// Whether `name` is a function; of one argument, or of any number of them.
+// Returns whether `name` is a function.
 bool is_function(std::string_view name);
 
-// All names that stand for something without being declared.
+// Returns all names that have a meaning without being declared.
 std::span<const std::string_view> built_in_names();
 
 }  // namespace pprt::anim

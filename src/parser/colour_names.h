@@ -1,4 +1,4 @@
-// The X11 colour names, which MTV and programs after it accept in place of r g b.
+// The X11 colour names. MTV's ray tracer and its successors accept them in place of r g b.
 #pragma once
 
 #include <optional>
@@ -8,8 +8,8 @@
 
 namespace pprt {
 
-// The colour of a name of X11's rgb.txt, in any case and written without blanks ("LightSteelBlue", "grey42");
-// empty for other names. Values are rgb.txt's, divided by 255.
+// Returns the colour of a name in X11's rgb.txt; empty for other names. Case does not matter, and names have
+// no blanks ("LightSteelBlue", "grey42"). Values are those of rgb.txt divided by 255.
 std::optional<Rgb> color_by_name(std::string_view name);
 
 }  // namespace pprt

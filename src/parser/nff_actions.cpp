@@ -13,9 +13,14 @@
 namespace pprt::nff {
 namespace {
 
-constexpr int kLargestResolution = 65536;     // pixels
-constexpr double kSmallestSine = 1e-9;        // between view and up: below, rounding would turn the image
-constexpr std::size_t kUnknownWordsTold = 8;  // distinct words; the rest is counted together
+constexpr int kLargestResolution = 65536;  // pixels
+
+// Smallest sine of the angle between the line of sight and up. Below it, rounding would turn the image
+// (docs/numerics.md).
+constexpr double kSmallestSine = 1e-9;
+
+// Distinct unknown words that warnings name; the others are counted together.
+constexpr std::size_t kMostUnknownWords = 8;
 
 bool has(unsigned items, ViewItem item) {
   return items >> static_cast<unsigned>(item) & 1;
@@ -28,10 +33,12 @@ const Vec3d& position(const PatchVertex& vertex) {
   return vertex.position;
 }
 
-// Whether a polygon's area is 0 as far as its decimal coordinates can tell. Reading a coordinate of size up
-// to M rounds it by at most uM (u = 2^-53), so a difference of two is off by at most 3uM. A component of a
-// cross product of differences up to L is off by 4 * 3uM * L from them and 3u * L^2 <= 6uM * L from its own
-// rounding: 18uML for each of the n - 2 triangles of the fan. Collinear vertices stay below that.
+// Returns whether a polygon has no area, as far as its decimal coordinates can tell.
+//
+// Bound, with u = 2^-53, M the largest coordinate and L the largest difference. Reading rounds a coordinate
+// by at most uM, so a difference of two is off by at most 3uM. A component of a cross product of differences
+// is off by 4 * 3uM * L from them, and by 3u * L^2 <= 6uM * L from its own rounding. That makes 18uML for
+// each of the n - 2 triangles of the fan.
 template <typename Vertex>
 bool is_flat(const std::vector<Vertex>& vertices) {
   constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
@@ -65,7 +72,7 @@ SceneBuilder::SceneBuilder(std::string_view text, std::string_view file_name, co
   scene_.name = file_name;
 }
 
-// Problems
+// Problems.
 
 void SceneBuilder::add_error(SourceLocation at, std::string message) {
   diagnostics_.error(at, std::move(message));
@@ -90,7 +97,7 @@ void SceneBuilder::deviation_at(Deviation kind, SourceLocation at) {
   if (occurrence.count++ == 0) occurrence.first = at;
 }
 
-// The gap before a rule that is tried and left is passed again: its comments count once.
+// Counts a comment once, although the gap before an alternative is read again.
 void SceneBuilder::comment(Deviation kind, const char* place) {
   if (last_comment_ && place <= last_comment_) return;
   last_comment_ = place;
@@ -112,7 +119,7 @@ void SceneBuilder::unknown(std::string_view word) {
   if (options_.strict) return error(word.data(), "unknown entity " + name);
   auto place = unknown_.find(name);
   if (place == unknown_.end()) {
-    if (unknown_.size() >= kUnknownWordsTold) name = "of other kinds";
+    if (unknown_.size() >= kMostUnknownWords) name = "of other kinds";
     place = unknown_.try_emplace(std::move(name)).first;
   }
   if (place->second.count++ == 0) place->second.first = cursor_.at(word.data());
@@ -138,7 +145,7 @@ const Diagnostics& SceneBuilder::finish() {
   return diagnostics_;
 }
 
-// View, background, lights, materials
+// View, background, lights, materials.
 
 void SceneBuilder::begin_view(std::string_view keyword) {
   begin_entity(keyword);
@@ -250,7 +257,7 @@ void SceneBuilder::add_light() {
   scene_.lights.push_back(light);
 }
 
-// Within the colour anything but a number is a mistake, behind it the name of a texture.
+// Within the colour any word is an error; after it, the word is the name of a texture.
 void SceneBuilder::fill_tail(std::string_view tail) {
   constexpr std::string_view kBlank = " \t\f\v";
   tail.remove_prefix(tail.find_first_not_of(kBlank));
@@ -294,7 +301,7 @@ void SceneBuilder::set_material() {
   }
 }
 
-// Objects
+// Objects.
 
 MaterialIndex SceneBuilder::material() {
   if (!has_material_) {
@@ -337,8 +344,8 @@ void SceneBuilder::add_cone() {
   pprt::add_cone(scene_, {base, base_radius, apex, apex_radius, material(), at});
 }
 
-// Nothing is reserved for vertices that the text only promises. Where fewer bytes than vertices are left, the
-// count itself is at fault; where a few are missing, the report on the first missing number says more.
+// Checks a vertex count before anything is reserved for it. With fewer bytes than vertices left, the count is
+// wrong. With a few vertices missing, the error at the first missing number says more.
 void SceneBuilder::begin_vertices(std::string_view matched) {
   constexpr std::string_view kPartOfNumber = "0123456789.+-eE";
   const double count = numbers_[0];

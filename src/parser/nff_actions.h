@@ -1,4 +1,4 @@
-// From NFF's rules to a scene: what each rule does once it has matched.
+// Actions of the NFF grammar: what each rule does once it has matched. The result is a SceneDescription.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace pprt::nff {
 
-// A problem after which the entity at hand, or the whole file, cannot be read on.
+// A place from which the current entity, or the whole file if fatal, cannot be read on.
 struct ParseFailure {
   const char* place;
   std::string message;
@@ -26,16 +26,16 @@ struct ParseFailure {
 
 enum class ViewItem : unsigned { kFrom, kAt, kUp, kAngle, kHither, kYon, kResolution };
 
-// Thrown when NffOptions::max_errors have been reported.
+// Thrown after NffOptions::max_errors errors.
 struct TooManyErrors {};
 
-// The scene as far as it has been read. The rules' actions collect the numbers of an entity here, and at its
-// end turn them into a value of the scene.
+// Builds the scene while it is read. Actions collect the numbers of an entity; at its end they become a value
+// of the scene.
 class SceneBuilder {
  public:
   SceneBuilder(std::string_view text, std::string_view file_name, const NffOptions& options);
 
-  // For the actions, in the order of the grammar.
+  // Called by the actions, in the order of the grammar.
   void number(double value) {
     if (count_ < numbers_.size()) numbers_[count_] = value;
     ++count_;
@@ -73,15 +73,15 @@ class SceneBuilder {
   void deviation(Deviation kind, const char* place);
   void comment(Deviation kind, const char* place);
 
-  // For the driver.
+  // Called by the driver.
   void report(const ParseFailure& failure);
   void try_at(const char* place) { tried_ = place; }
   const char* tried() const { return tried_; }  // where the last rule that must match was tried
   std::string_view entity() const { return entity_; }
-  std::size_t vertex_at_hand() const;  // from 1; 0 when no vertices are being read
+  std::size_t vertex_at_hand() const;  // from 1; 0 outside a list of vertices
   SourceLocation locate(const char* place) { return cursor_.at(place); }
   std::size_t entities() const { return entities_; }
-  const Diagnostics& finish();  // with the warnings
+  const Diagnostics& finish();  // adds the warnings
   SceneDescription& scene() { return scene_; }
 
  private:
@@ -108,15 +108,15 @@ class SceneBuilder {
   SceneDescription scene_;
   MaterialTable table_;
 
-  // The entity at hand.
-  std::string_view entity_;  // its keyword, in the text
+  // The current entity.
+  std::string_view entity_;  // its keyword, a view into the text
   std::array<double, 16> numbers_{};
-  std::size_t count_ = 0;  // of numbers read, also those that found no room
+  std::size_t count_ = 0;  // numbers read, including those beyond the array
   std::size_t vertex_count_ = 0;
   std::vector<Vec3d> polygon_;
   std::vector<PatchVertex> patch_;
   View view_;
-  unsigned view_items_ = 0;  // a bit for each ViewItem
+  unsigned view_items_ = 0;  // one bit per ViewItem
 
   std::size_t entities_ = 0;
   bool has_material_ = false;
@@ -135,7 +135,7 @@ struct action<grammar::number> : grammar::pegtl::nothing<grammar::number> {
   static void value(double value, SceneBuilder& builder) { builder.number(value); }
 };
 
-// Actions that pass the matched text on, and actions that only say that a rule has matched.
+// Actions that pass on the matched text, and actions that only report the match.
 template <void (SceneBuilder::*Handle)(std::string_view)>
 struct with_text {
   template <typename Input>

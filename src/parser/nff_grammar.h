@@ -1,7 +1,7 @@
-// The grammar of NFF as it is written (NFF.TXT 3.9 and the dialects of its readers): rules only.
+// The grammar of NFF as it occurs in practice (NFF.TXT 3.9 and the dialects of its readers): rules only.
 //
-// Tokens are separated by blanks, line ends and comments; lines matter only where a rule says so. A rule
-// named in nff_messages.h must match once it is reached; all others may fail and be tried otherwise.
+// Blanks, line ends and comments separate tokens; a line end matters only where a rule says so. A rule named
+// in nff_messages.h must match once it is reached. All other rules may fail, and an alternative is tried.
 #pragma once
 
 #include <tao/pegtl.hpp>
@@ -25,7 +25,7 @@ using pegtl::sor;
 using pegtl::star;
 using pegtl::string;
 
-// Between tokens.
+// The gap between tokens.
 struct inline_blank : one<' ', '\t', '\f', '\v'> {};
 struct line_end : one<'\n', '\r'> {};
 struct blank : sor<inline_blank, line_end> {};
@@ -42,7 +42,7 @@ struct token_end : sor<eof, blank, comment_begin> {};
 struct number_begin : one<'0', '1', '2', '3', '4', '5', '6', '7', '8', '9', '.', '+', '-'> {};
 struct token : plus<not_at<token_end>, any> {};
 
-// A finite number that fills its token; hands the value to the states.
+// Matches a finite number that fills its token, and passes its value to the action.
 struct number {
   using rule_t = number;
   using subs_t = pegtl::empty_list;
@@ -80,7 +80,7 @@ struct number {
 struct field : seq<gap, number> {};
 struct more_numbers : star<field> {};
 
-// As many times as the states ask for.
+// Matches Rule as many times as the state expects (expected_vertices).
 template <typename Rule>
 struct counted {
   using rule_t = counted;
@@ -96,11 +96,11 @@ struct counted {
   }
 };
 
-// Keywords; the first number may be glued to them ("s0 0 0 1", "p3").
+// Keywords. The first number may follow without a blank ("s0 0 0 1", "p3").
 template <char... Letters>
 struct keyword : seq<string<Letters...>, at<sor<token_end, number_begin>>> {};
 
-// Where reading is taken up again after a problem: a keyword that stands alone or before a whole number.
+// Where reading continues after a problem: a keyword that stands alone or before a number.
 struct entity_letters : sor<string<'p', 'p'>, one<'v', 'b', 'l', 'f', 'c', 's', 'p'>> {};
 struct entity_begin : seq<entity_letters, sor<at<token_end>, number>> {};
 struct open_comment : seq<string<'/', '*'>, star<any>> {};
@@ -133,15 +133,14 @@ struct color : seq<gap, color_value> {};
 struct background_keyword : keyword<'b'> {};
 struct background : seq<background_keyword, color> {};
 
-// l x y z [r g b]; what else follows is judged by its count.
+// l x y z [r g b]. Further numbers are judged by their count.
 struct light_x : field {};
 struct light_y : field {};
 struct light_z : field {};
 struct light_keyword : keyword<'l'> {};
 struct light : seq<light_keyword, light_x, light_y, light_z, more_numbers> {};
 
-// f r g b Kd Ks Shine T ior, or only the first of them, and whatever a dialect adds on the same line (the
-// name of a texture).
+// f r g b Kd Ks Shine T ior, or fewer of them. Dialects add the name of a texture on the same line.
 struct rest_of_line : star<sor<inline_blank, block_comment, token>> {};
 struct fill_tail : seq<star<inline_blank>, not_at<sor<token_end, entity_begin>>, rest_of_line> {};
 struct fill_value : sor<color_name, number> {};
@@ -181,14 +180,14 @@ struct patch_vertex : seq<vertex_x, vertex_y, vertex_z, normal_x, normal_y, norm
 struct patch_keyword : keyword<'p', 'p'> {};
 struct patch : seq<patch_keyword, vertex_count, counted<patch_vertex>> {};
 
-// The header of a mailed scene: "Subject: ...", with its folded lines, or mbox's "From ...".
+// The header of a mailed scene: "Subject: ..." with its folded lines, or mbox's "From ...".
 struct header_name : seq<pegtl::alpha, star<sor<pegtl::alnum, one<'-'>>>, one<':'>> {};
 struct folded_line : seq<sor<string<'\r', '\n'>, line_end>, plus<one<' ', '\t'>>,
                          not_at<sor<eof, line_end, entity_begin>>, to_line_end> {};
 struct header_begin : sor<header_name, string<'F', 'r', 'o', 'm', ' '>> {};
 struct mail_header : seq<header_begin, to_line_end, star<folded_line>> {};
 
-// Anything else that begins with a word: passed over to the end of its line, with the numbers that follow.
+// Any other word that begins an entity. It is skipped to the end of its line, with the numbers that follow.
 struct unknown_word : seq<not_at<number_begin>, token> {};
 struct unknown : seq<unknown_word, rest_of_line, pegtl::disable<more_numbers>> {};
 

@@ -1,12 +1,12 @@
-// What NFF's rules say when they fail, and what the lenient reading says when it departs from the format.
+// Error messages of the NFF grammar, and warnings of the lenient reading.
 #pragma once
 
 #include "parser/nff_grammar.h"
 
 namespace pprt::nff {
 
-// What a rule that must match expects; nullptr for rules that may fail. The report goes on with the entity
-// and what was found instead: "expected a number for the radius of 's', found 'abc'".
+// What a rule expects that must match; nullptr for rules that may fail. The report appends the entity and
+// what was found: "expected a number for the radius of 's', found 'abc'".
 template <typename Rule>
 inline constexpr const char* expected = nullptr;
 
@@ -72,8 +72,8 @@ inline constexpr const char* expected<grammar::end_of_entities> = "an entity (v,
 template <>
 inline constexpr const char* expected<grammar::block_comment_rest> = "'*/' to end this comment";
 
-// Ways in which real files depart from NFF.TXT. Strict reading: each is an error. Lenient reading: a warning,
-// once a kind with its first place and its count, or nothing where the meaning is beyond doubt.
+// Ways in which real files deviate from NFF.TXT. Strict reading reports each as an error. Lenient reading
+// gives one warning per kind, with its first place and its count, or none where the meaning is clear.
 enum class Deviation {
   kPercentComment,
   kBlockComment,
@@ -106,7 +106,7 @@ enum class Deviation {
 
 struct DeviationText {
   const char* problem;
-  const char* reading;  // what the lenient reading does; nullptr: not worth a warning
+  const char* reading;  // what the lenient reading does; nullptr: no warning
 };
 
 constexpr DeviationText text_of(Deviation deviation) {
@@ -171,7 +171,7 @@ constexpr DeviationText text_of(Deviation deviation) {
   return {"", nullptr};
 }
 
-// Words that other formats in NFF's family begin an entity with; nullptr for others.
+// Returns what a word means that begins an entity in a related format; nullptr for other words.
 constexpr const char* foreign_entity(std::string_view word) {
   struct Foreign {
     std::string_view word;

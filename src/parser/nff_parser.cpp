@@ -22,7 +22,7 @@ namespace {
 namespace pegtl = tao::pegtl;
 using Input = pegtl::memory_input<pegtl::tracking_mode::lazy, pegtl::eol::lf_crlf, const char*>;
 
-// Where the next token begins, and its bytes; empty at the end of the text.
+// Returns the next token after the gap; empty at the end of the text.
 std::string_view next_token(const char* begin_of_gap, const char* end) {
   Input ahead(begin_of_gap, end, "");
   pegtl::parse<grammar::gap>(ahead);
@@ -31,7 +31,7 @@ std::string_view next_token(const char* begin_of_gap, const char* end) {
   return {begin, static_cast<std::size_t>(ahead.current() - begin)};
 }
 
-// Why a token that looks like a number is none.
+// Returns why a token that looks like a number is none.
 const char* number_problem(std::string_view token) {
   const std::size_t sign = token.starts_with('-') || token.starts_with('+') ? 1 : 0;
   const char* const end = token.data() + token.size();
@@ -43,8 +43,8 @@ const char* number_problem(std::string_view token) {
   return number_in_form && !scan_number(token.data(), end, value) ? ", which is too large" : "";
 }
 
-// What a rule expected and what stands there instead. The caret goes to the offending token, or behind the
-// token before when the text or its line ends there.
+// Reports what a rule expected and what was found. The caret points to the wrong token, or after the token
+// before when the text or its line ends there.
 template <typename Rule>
 [[noreturn]] void fail(const Input& in, SceneBuilder& builder) {
   const char* const tried = builder.tried();  // before the gap
@@ -70,7 +70,8 @@ template <typename Rule>
   throw ParseFailure{tried, message + fmt::format(" on line {}", found.line)};
 }
 
-// As PEGTL's must_if, but the place is computed by the builder's cursor rather than from the text's begin.
+// Like PEGTL's must_if, except that the builder's cursor finds the place; PEGTL would count from the
+// beginning of the text.
 template <typename Rule>
 struct control : pegtl::normal<Rule> {
   static void start(const Input& in, SceneBuilder& builder) {
@@ -81,8 +82,8 @@ struct control : pegtl::normal<Rule> {
   }
 };
 
-// Reads the entities, taking up again after each problem at the next place that looks like an entity.
-// Returns whether the text was read to its end.
+// Reads the entities. After a problem it continues at the next place that looks like an entity. Returns
+// whether the text was read to its end.
 bool read_entities(Input& in, SceneBuilder& builder) {
   try {
     while (!in.empty()) {
@@ -91,8 +92,7 @@ bool read_entities(Input& in, SceneBuilder& builder) {
       } catch (const ParseFailure& failure) {
         builder.report(failure);
         if (failure.fatal) return false;
-        // The place may lie behind the last token: what follows it is not an entity's begin if it is the
-        // token that was found wrong, so an entity that begins there is read.
+        // Continues at the failure: a wrong token that looks like an entity is read as one.
         if (failure.place > in.current()) in.bump(static_cast<std::size_t>(failure.place - in.current()));
         pegtl::parse<grammar::resume>(in);
       }
@@ -103,7 +103,7 @@ bool read_entities(Input& in, SceneBuilder& builder) {
   return true;
 }
 
-// What is wrong with a text as a whole; empty when it may be NFF.
+// Returns what is wrong with a text as a whole; empty when it may be NFF.
 std::string unreadable(std::string_view text) {
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
     return "the text is in UTF-16; save it as UTF-8 or ASCII";
@@ -117,12 +117,12 @@ std::string_view without_byte_order_mark(std::string_view text) {
   return text.substr(text.starts_with("\xef\xbb\xbf") ? 3 : 0);
 }
 
-// Without the ^Z that CP/M and DOS put behind the end of a text.
+// Drops the ^Z that CP/M and DOS put at the end of a text.
 std::string_view without_end_mark(std::string_view text) {
   return text.substr(0, text.find_last_not_of(" \t\n\r\f\v\x1a") + 1);
 }
 
-// The one thing to say of a text without a single entity.
+// Returns the one problem of a text without any entity.
 Diagnostics nothing_found(const Input& whole, SceneBuilder& builder) {
   const std::string_view token = next_token(whole.begin(), whole.end());
   Diagnostics diagnostics;
@@ -140,7 +140,7 @@ Diagnostics nothing_found(const Input& whole, SceneBuilder& builder) {
 [[noreturn]] void reject(const Diagnostics& diagnostics, std::string_view file_name, std::string_view text,
                          const NffOptions& options) {
   std::string report = format(diagnostics, file_name, text);
-  report.pop_back();  // the last line's end
+  report.pop_back();  // the last line end
   if (diagnostics.error_count() >= options.max_errors) {
     report += fmt::format("\n{}: reading stopped after {} errors", file_name, diagnostics.error_count());
   }
@@ -151,7 +151,7 @@ Diagnostics nothing_found(const Input& whole, SceneBuilder& builder) {
 }  // namespace nff
 
 ParsedScene parse_nff(std::string_view text, std::string_view file_name, const NffOptions& options) {
-  // Lines and columns have 32 bits.
+  // SourceLocation has 32 bits for lines and columns.
   const std::size_t max_bytes =
       std::min<std::size_t>(options.max_bytes, std::numeric_limits<std::uint32_t>::max());
   text = nff::without_byte_order_mark(text);

@@ -1,5 +1,4 @@
-// Reads NFF, the Neutral File Format of Haines' Standard Procedural Databases (NFF.TXT 3.9), into plain
-// values.
+// Reads NFF, the Neutral File Format of Haines' Standard Procedural Databases (NFF.TXT 3.9).
 #pragma once
 
 #include <cstddef>
@@ -10,17 +9,17 @@
 
 namespace pprt {
 
-// How a scene file is read. The limits keep a hostile or broken file from taking the machine's memory; the
-// defaults leave room for a hundred times the largest SPD scene (mount of size 8: 131,076 objects, 11 MB).
+// How a scene file is read. The limits keep a hostile or broken file from exhausting memory. The defaults
+// allow a hundred times the largest SPD scene (mount of size 8: 131,076 objects, 11 MB).
 struct NffOptions {
-  bool strict = false;  // what the lenient reading warns of, or tolerates, becomes an error
+  bool strict = false;  // every deviation from NFF.TXT is an error, also one that causes no warning
 
   std::size_t max_bytes = std::size_t{512} << 20;
   std::size_t max_primitives = 20'000'000;
-  std::size_t max_polygon_vertices = 1'000'000;  // of one 'p' or 'pp'
+  std::size_t max_polygon_vertices = 1'000'000;  // per 'p' or 'pp'
   std::size_t max_lights = 10'000;
-  std::size_t max_materials = 1'000'000;  // distinct ones
-  std::size_t max_errors = 1'000;         // reading stops at so many
+  std::size_t max_materials = 1'000'000;  // distinct materials
+  std::size_t max_errors = 1'000;         // reading stops here
 };
 
 struct ParsedScene {
@@ -28,11 +27,11 @@ struct ParsedScene {
   std::string warnings;  // formatted with their places, each line ended; empty when there are none
 };
 
-// Reads a scene from memory; `file_name` is for messages and becomes the scene's name.
-// Throws InputError with every problem of the text.
+// Reads a scene from memory. `file_name` is for messages and becomes the scene's name. Throws InputError with
+// every problem of the text.
 ParsedScene parse_nff(std::string_view text, std::string_view file_name, const NffOptions& options = {});
 
-// The same from a file; "-" is standard input. Throws InputError also for a file that cannot be read.
+// Reads a scene from a file; "-" is standard input. Throws InputError also for a file that cannot be read.
 ParsedScene read_nff(const std::string& path, const NffOptions& options = {});
 
 }  // namespace pprt

@@ -19,7 +19,7 @@ constexpr std::size_t kQuotedLength = 40;                  // bytes of a token s
   throw InputError("cannot read '" + path + "': " + reason);
 }
 
-// An open file, closed at the end of the scope unless it is standard input.
+// An open file, closed at the end of its scope unless it is standard input.
 class InputFile {
  public:
   explicit InputFile(const std::string& path)
@@ -32,7 +32,7 @@ class InputFile {
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
 
-  // Bytes read, 0 at the end.
+  // Returns the number of bytes read, 0 at the end of the file.
   std::size_t read(char* into, std::size_t room) const {
     for (;;) {
       const ssize_t got = ::read(descriptor_, into, room);
@@ -74,8 +74,9 @@ std::string quoted(std::string_view token) {
   return out + (token.size() > kQuotedLength ? "...'" : "'");
 }
 
-bool vanishes(std::string_view number) {
-  // The power of ten of the first digit that is not 0, from its place relative to the point and the exponent.
+bool underflows(std::string_view number) {
+  // Computes the power of ten of the first digit that is not 0, from its distance to the point and the
+  // exponent.
   const std::size_t exponent_mark = std::min(number.find_first_of("eE"), number.size());
   const std::string_view digits = number.substr(0, exponent_mark);
   const std::size_t point = std::min(digits.find('.'), digits.size());

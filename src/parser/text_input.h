@@ -1,4 +1,4 @@
-// What the parsers share below their grammars: whole texts, places in them, numbers.
+// Text input shared by the parsers: whole files, places in a text, numbers.
 #pragma once
 
 #include <charconv>
@@ -11,15 +11,15 @@
 
 namespace pprt {
 
-// The whole file as bytes; "-" is standard input. Throws InputError: "cannot read 'x': No such file or
-// directory", or when there are more than `max_bytes`.
+// Returns a whole file as bytes; "-" is standard input. Throws InputError when it cannot be read ("cannot
+// read 'x': No such file or directory") or has more than `max_bytes`.
 std::string read_text(const std::string& path, std::size_t max_bytes);
 
-// A token as it is quoted in a message: control bytes replaced, long ones cut.
+// Quotes a token for a message: control bytes are replaced, long tokens are cut.
 std::string quoted(std::string_view token);
 
-// Line and column of places in a text. Each costs only the bytes between it and the place asked for before
-// (or, going back, the lines between), so that a whole pass is linear. CR, LF and CR LF each end a line.
+// Finds line and column of places in a text. A lookup scans only the bytes since the place before (or the
+// lines back to it), so a whole pass is linear. CR, LF and CR LF each end a line.
 class LineCursor {
  public:
   explicit LineCursor(std::string_view text)
@@ -39,7 +39,7 @@ class LineCursor {
   }
 
  private:
-  // Where the line after this one begins, when that is not behind `place`.
+  // Returns the beginning of the next line if it is not after `place`, else nullptr.
   const char* next_line(const char* place) const {
     if (searched_ >= place) return nullptr;
     if (!has_cr_) {
@@ -56,7 +56,7 @@ class LineCursor {
   }
 
   void to_previous_line() {
-    const char* p = line_begin_ - 1;  // on the previous line's end
+    const char* p = line_begin_ - 1;  // on the end of the line before
     if (*p == '\n' && p > text_.data() && p[-1] == '\r') --p;
     while (p > text_.data() && p[-1] != '\n' && p[-1] != '\r') --p;
     line_begin_ = searched_ = p;
@@ -70,21 +70,21 @@ class LineCursor {
   bool has_cr_;
 };
 
-// Numbers beyond this are refused, so that products of three of them stay finite.
+// Largest magnitude of a number. Products of three such numbers stay finite.
 constexpr double kLargestNumber = 1e100;
 
-// Whether a number out of a double's range (an unsigned token) is too small for one, not too large.
-bool vanishes(std::string_view number);
+// Returns whether an unsigned number that does not fit a double is too small, not too large.
+bool underflows(std::string_view number);
 
-// Reads a decimal number at `begin`, whatever the locale: digits with an optional sign (+ too), point
-// (".5", "5.") and exponent; no "nan", "inf" or hexadecimal. One too small for a double is 0.
-// Returns its end, or nullptr when there is no number or one beyond kLargestNumber.
+// Reads a decimal number at `begin`, independent of the locale: optional sign, digits, point (".5", "5."),
+// exponent. "nan", "inf" and hexadecimal are not numbers; one too small for a double is 0. Returns its end,
+// or nullptr when there is no number or one beyond kLargestNumber.
 inline const char* scan_number(const char* begin, const char* end, double& value) {
   const char* p = begin;
   if (p != end && (*p == '+' || *p == '-')) ++p;
   if (p == end || !((*p >= '0' && *p <= '9') || *p == '.')) return nullptr;
   const auto [stop, problem] = std::from_chars(*begin == '+' ? p : begin, end, value);
-  if (problem == std::errc::result_out_of_range && vanishes({p, stop})) {
+  if (problem == std::errc::result_out_of_range && underflows({p, stop})) {
     value = 0;
     return stop;
   }

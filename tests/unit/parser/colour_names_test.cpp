@@ -20,6 +20,7 @@ TEST_CASE("colour names have the values of X11, not of CSS") {
   CHECK(color_by_name("aliceblue") == bytes(240, 248, 255));
   CHECK(color_by_name("yellowgreen") == bytes(154, 205, 50));
   CHECK(color_by_name("tomato3") == bytes(205, 79, 57));
+  CHECK(color_by_name("DarkSlateGrey4") == bytes(82, 139, 139));
 }
 
 TEST_CASE("colour names may be written in any case and with grey for gray") {
@@ -37,7 +38,7 @@ TEST_CASE("numbered greys are rounded as in rgb.txt") {
 }
 
 TEST_CASE("what is no colour name is none") {
-  for (const char* name : {"", "redd", "re", "gray101", "gray-1", "gray05", "gray5x", "light blue"}) {
+  for (const char* name : {"", "redd", "re", "gray101", "gray-1", "gray05", "gray5x", "light blue", "tomato0", "tomato5", "beige1", "1", "4"}) {
     CAPTURE(name);
     CHECK_FALSE(color_by_name(name));
   }
