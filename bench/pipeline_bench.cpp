@@ -127,7 +127,7 @@ void reconstruction(benchmark::State& state) {
   RegionPixels pixels;
   ReconstructionBuffers buffers;
   ProjectedShapeCache viewed(
-      [](std::uint32_t primitive, ImageShape& shape) { tree().tracer.view(primitive, shape); });
+      [](std::uint32_t primitive, ImageShape& shape) { tree().tracer.project(primitive, shape); });
   for (auto _ : state) {
     viewed.forget();  // as in every frame that moves
     reconstruct(mesh, mesh.region().bounds(), pixels, buffers, static_cast<PixelRule>(state.range(1)),

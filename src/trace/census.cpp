@@ -28,7 +28,7 @@ std::string primitives(const CompiledScene::Impl& scene) {
   return text;
 }
 
-// Why the scene calls for an effect, or does not.
+// Returns why the scene calls for an effect, or does not.
 std::string reason(Effect effect, const Inventory& held) {
   const auto materials = [](std::size_t n, const char* with) {
     return n == 0 ? fmt::format("no material {}", with)

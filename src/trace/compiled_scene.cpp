@@ -29,19 +29,23 @@ bool finite(const Vec3d& v) {
   throw InputError(place + ": error: " + problem);
 }
 
-// Where the compiled space has its origin, about which floats are finest: the middle of the scene, unless
-// nearly all of the scene is empty or one thing, and floats are coarse for the rest of it. Then in the midst
-// of the objects, the small ones weighing most: the mean of their middles by 1 / size^2.
+// Returns the origin of the compiled space, about which floats are finest. Usually it is the middle of the
+// scene's box.
+//
+// If nearly all of the scene is empty or one large object, floats are coarse for the rest. The origin is then
+// the mean of the objects' middles, weighted by 1 / size^2. Test: hard_surfaces_test.cpp, "a huge sphere
+// ...".
 Vec3d origin_for(const SceneDescription& scene, const Box3d& box) {
-  constexpr double kSmallDetail = 0x1p-14;  // of the scene's size
+  constexpr double kSmallDetail = 0x1p-14;  // share of the scene's size
+  constexpr double kNoExtent = 1e-12;       // of the scene's size; smaller ones would take all the weight
   const double whole = (box.max - box.min).length();
   double weights = 0, objects = 0;
-  Vec3d sum(0, 0, 0);  // of middles relative to the box's
+  Vec3d sum(0, 0, 0);  // of the objects' middles, relative to the box's middle
   const Vec3d middle = box.min * 0.5 + box.max * 0.5;
   for (const PrimitiveRef ref : scene.order) {
     const Box3d own = bounds(scene, ref);
     const double size = (own.max - own.min).length() / whole;
-    if (!(size > 1e-12)) continue;
+    if (!(size > kNoExtent)) continue;
     ++objects;
     weights += 1 / (size * size);
     sum += (own.min * 0.5 + own.max * 0.5 - middle) * (1 / (size * size));
@@ -50,7 +54,7 @@ Vec3d origin_for(const SceneDescription& scene, const Box3d& box) {
   return typical < kSmallDetail ? middle + sum * (1 / weights) : middle;
 }
 
-// Of the sphere about the origin that holds the normalised box.
+// Returns the radius of the sphere about the origin that contains the normalised box.
 double radius_about_origin(const Normalisation& map, const Box3d& box) {
   const Vec3d low = map.point(box.min), high = map.point(box.max);
   const auto farther = [](double a, double b) { return std::max(std::abs(a), std::abs(b)); };
@@ -69,7 +73,7 @@ ShadingMaterial shading_material(const Material& m, double ambient_weight) {
   return result;
 }
 
-// Takes the description apart into parts: primitives of one kind of which the same sides are seen.
+// Sorts the primitives into parts: those of one kind with the same visible faces.
 class PartsBuilder {
  public:
   PartsBuilder(const SceneDescription& scene, CompiledScene::Impl& impl) : scene_(scene), impl_(impl) {}
@@ -91,19 +95,19 @@ class PartsBuilder {
     }
   }
 
-  Sides sides(MaterialIndex material, bool inside_only) const {
-    if (inside_only) return Sides::kBack;
+  VisibleFaces faces(MaterialIndex material, bool inside_only) const {
+    if (inside_only) return VisibleFaces::kBack;
     const bool opaque = !(scene_.materials[material].transmittance > 0);
-    return impl_.options.cull && opaque ? Sides::kFront : Sides::kBoth;
+    return impl_.options.cull && opaque ? VisibleFaces::kFront : VisibleFaces::kBoth;
   }
 
-  // Primitives come sorted by kind, and a kind has at most three parts: the search is short.
+  // Linear search: a kind has at most three parts.
   template <class Shape>
-  std::pair<ScenePart&, Shape&> part(PrimitiveKind kind, Sides sides) {
+  std::pair<ScenePart&, Shape&> part(PrimitiveKind kind, VisibleFaces faces) {
     for (ScenePart& p : impl_.parts) {
-      if (p.kind == kind && p.sides == sides) return {p, std::get<Shape>(p.shape)};
+      if (p.kind == kind && p.faces == faces) return {p, std::get<Shape>(p.shape)};
     }
-    impl_.parts.push_back({kind, sides, Shape(), {}, {}});
+    impl_.parts.push_back({kind, faces, Shape(), {}, {}});
     return {impl_.parts.back(), std::get<Shape>(impl_.parts.back().shape)};
   }
 
@@ -111,7 +115,7 @@ class PartsBuilder {
     require(finite(s.center) && std::isfinite(s.radius), s.location);
     if (s.radius == 0) return drop();
     auto [to, shape] =
-        part<std::vector<SphereRecord>>(PrimitiveKind::kSphere, sides(s.material, s.radius < 0));
+        part<std::vector<SphereRecord>>(PrimitiveKind::kSphere, faces(s.material, s.radius < 0));
     shape.push_back({impl_.normalisation.point(s.center), impl_.normalisation.length(std::abs(s.radius))});
     finish(to, 1, s.material);
   }
@@ -123,7 +127,7 @@ class PartsBuilder {
     const Vec3d axis = (c.apex - c.base) * impl_.normalisation.scale;
     if (axis.dot(axis) == 0 || (base_radius == 0 && apex_radius == 0)) return drop();
     const bool inside_only = c.base_radius < 0 || c.apex_radius < 0;
-    auto [to, shape] = part<std::vector<ConeRecord>>(PrimitiveKind::kCone, sides(c.material, inside_only));
+    auto [to, shape] = part<std::vector<ConeRecord>>(PrimitiveKind::kCone, faces(c.material, inside_only));
     shape.push_back({impl_.normalisation.point(c.base), axis, base_radius, apex_radius - base_radius});
     finish(to, 1, c.material);
   }
@@ -134,7 +138,7 @@ class PartsBuilder {
       require(finite(v), p.location);
       positions_.push_back(impl_.normalisation.point(v));
     }
-    auto [to, mesh] = part<Mesh>(PrimitiveKind::kPolygon, sides(p.material, false));
+    auto [to, mesh] = part<Mesh>(PrimitiveKind::kPolygon, faces(p.material, false));
     finish_mesh(to, mesh.add(positions_, {}), p.material);
   }
 
@@ -144,13 +148,13 @@ class PartsBuilder {
     for (const PatchVertex& v : scene_.vertices(p)) {
       require(finite(v.position) && finite(v.normal), p.location);
       positions_.push_back(impl_.normalisation.point(v.position));
-      normals_.emplace_back(v.normal.normalized());  // zero stays zero
+      normals_.emplace_back(v.normal.normalized());  // a zero normal stays zero
     }
-    auto [to, mesh] = part<Mesh>(PrimitiveKind::kPatch, sides(p.material, false));
+    auto [to, mesh] = part<Mesh>(PrimitiveKind::kPatch, faces(p.material, false));
     finish_mesh(to, mesh.add(positions_, normals_), p.material);
   }
 
-  // `count`: of what Embree sees of the primitive.
+  // `count`: number of Embree primitives, 1 or the number of triangles.
   void finish(ScenePart& to, std::size_t count, MaterialIndex material) const {
     to.materials.insert(to.materials.end(), count, material);
     to.primitives.insert(to.primitives.end(), count, primitive_);
@@ -170,7 +174,7 @@ class PartsBuilder {
 
   const SceneDescription& scene_;
   CompiledScene::Impl& impl_;
-  std::uint32_t primitive_ = 0;  // place of the one being added in the description's order
+  std::uint32_t primitive_ = 0;  // place in the description's order of the primitive that is being added
   std::vector<Vec3d> positions_;
   std::vector<Vec3f> normals_;
 };
@@ -193,14 +197,14 @@ std::size_t bytes(const ScenePart& part) {
 }
 
 EmbreeGeometry new_geometry(const EmbreeDevice& device, ScenePart& part) {
-  if (auto* mesh = std::get_if<Mesh>(&part.shape)) return new_mesh_geometry(device, *mesh, part.sides);
+  if (auto* mesh = std::get_if<Mesh>(&part.shape)) return new_mesh_geometry(device, *mesh, part.faces);
   if (auto* spheres = std::get_if<std::vector<SphereRecord>>(&part.shape)) {
-    return new_user_geometry(device, *spheres, part.sides);
+    return new_user_geometry(device, *spheres, part.faces);
   }
-  return new_user_geometry(device, std::get<std::vector<ConeRecord>>(part.shape), part.sides);
+  return new_user_geometry(device, std::get<std::vector<ConeRecord>>(part.shape), part.faces);
 }
 
-// A part's geometry number is its place in `parts`.
+// Builds Embree's BVH. A part's geometry number is its index in `parts`.
 void build_hierarchy(CompiledScene::Impl& impl) {
   const auto start = std::chrono::steady_clock::now();
   std::atomic<std::ptrdiff_t> allocated = 0;
@@ -283,6 +287,7 @@ CompiledScene compile(const SceneDescription& scene, const CompileOptions& optio
   impl->kernel =
       kernel_for(options.general_kernel ? EffectSet::all() : impl->effects, options.count_as_published);
   impl->normalisation = normalising(box, origin_for(scene, box));
+  // Enlarged by far more than the rounding of the sum, so that rays may start on the sphere.
   impl->radius = radius_about_origin(impl->normalisation, box) * (1 + 0x1p-20);
   impl->background = to_color(scene.background.value_or(Rgb(0, 0, 0)));
 

@@ -1,4 +1,4 @@
-// A scene ready for rays: Embree's BVH over normalised geometry, and the effects it calls for.
+// A scene compiled for ray tracing: Embree's BVH over normalised geometry, and the effects it calls for.
 #pragma once
 
 #include <cstdint>
@@ -19,18 +19,18 @@ namespace pprt {
 
 struct CompileOptions {
   int max_depth = 5;                 // an eye ray has depth 1
-  bool cull = false;                 // opaque surfaces one-sided
-  std::optional<EffectSet> effects;  // restricts what the scene calls for; absent: all it calls for
-  // Counting as Haines' tables do: every hit on T > 0 spawns a reflection ray even where Ks = 0, and rays are
-  // followed to the full depth whatever their weight.
+  bool cull = false;                 // show only the front of opaque surfaces
+  std::optional<EffectSet> effects;  // effects that may be simulated; absent: all that the scene calls for
+  // Count rays as Haines' tables do: every hit on T > 0 spawns a reflection ray even where Ks = 0, and rays
+  // are followed to the full depth whatever their weight.
   bool count_as_published = false;
-  // Follow rays with the kernel for all effects, whatever the scene calls for: to measure what the special
-  // ones gain. Pictures are the same.
+  // Use the kernel for all effects, whatever the scene calls for. Pictures are the same; this measures what
+  // the specialised kernels gain.
   bool general_kernel = false;
 };
 
-// Immutable once compiled; any number of Tracers may read it. Coordinates inside are recentred and rescaled,
-// in double, so that the scene's bounds fit the unit cube about the origin.
+// Immutable; any number of Tracers may read it. The compiled space is the scene's, moved and scaled in double
+// so that its largest extent lies in (0.5, 1] (trace/normalisation.h).
 class CompiledScene {
  public:
   class Impl;
@@ -40,14 +40,14 @@ class CompiledScene {
   CompiledScene& operator=(CompiledScene&&) noexcept;
   ~CompiledScene();
 
-  // What is simulated: called for by the scene and not ruled out by the options.
+  // Returns the effects that are simulated: called for by the scene and allowed by the options.
   EffectSet effects() const;
 
-  // A scene-space view as a camera of the compiled space, for an image of view.width x view.height pixels.
-  // Throws InputError when the view is degenerate (from = at, up parallel, angle outside (0, 180)).
+  // Converts a view in scene space to a camera in the compiled space, for view.width x view.height pixels.
+  // Throws InputError when the view is degenerate: from = at, up parallel to it, angle outside (0, 180).
   Camera camera(const View& view) const;
 
-  // For people: primitives by kind, materials, lights, effects chosen and why, kernel, memory.
+  // Returns a report for people: primitives by kind, materials, lights, effects with reasons, kernel, memory.
   std::string census() const;
 
   const Impl& impl() const { return *impl_; }
@@ -56,10 +56,10 @@ class CompiledScene {
   std::unique_ptr<const Impl> impl_;
 };
 
-// Throws InputError when nothing can be built from the scene.
+// Compiles a scene. Throws InputError when it has no visible object or a number that is not finite.
 CompiledScene compile(const SceneDescription& scene, const CompileOptions& options = {});
 
-// Follows rays of one thread. The CompiledScene must outlive it.
+// Traces rays in one thread. The CompiledScene must outlive it.
 class Tracer {
  public:
   Tracer(const CompiledScene& scene, const Camera& camera);
@@ -67,21 +67,22 @@ class Tracer {
   void set_camera(const Camera& camera) { camera_ = camera; }
   const Camera& camera() const { return camera_; }
 
-  // The whole ray tree of the eye ray through image point (x, y), in pixels.
+  // Traces the eye ray through image point (x, y), pixels, with its whole ray tree.
   RaySample trace(double x, double y);
 
-  // What lies behind image point (x, y), by one ray, which is not counted. Primitives have their number in
-  // SceneDescription::order, materials in SceneDescription::materials, both from 1.
+  // Returns the first hit at image point (x, y), pixels. The ray is not counted. Primitives are numbered as
+  // in SceneDescription::order, materials as in SceneDescription::materials, both from 1.
   FirstHit first_hit(double x, double y) const;
 
-  // Whether nothing lies between the eye and a hit point of a former frame (compiled space).
+  // Returns whether nothing lies between the eye and an earlier hit point. `hit` is a RaySample's: a point of
+  // the compiled space, or a unit direction when `at_infinity`.
   bool visible(const Vec3f& hit, bool at_infinity);
 
-  // The largest number that a primitive of a RaySample may have.
+  // Returns the largest primitive number that a RaySample may have.
   std::uint32_t primitive_count() const;
 
-  // What a primitive of a RaySample looks like through the camera, into `shape`, whose storage is kept.
-  void view(std::uint32_t primitive, ImageShape& shape) const;
+  // Projects a primitive of a RaySample to the image, into `shape`, whose storage is reused.
+  void project(std::uint32_t primitive, ImageShape& shape) const;
 
   const RayCounts& counts() const { return counts_; }
 

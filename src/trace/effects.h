@@ -1,4 +1,4 @@
-// Which effects a scene calls for: the rest is neither built nor simulated.
+// The effects a scene calls for. All others are neither built nor simulated.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,14 @@
 namespace pprt {
 
 enum class Effect : std::uint8_t {
-  kShadows = 1 << 0,        // some light: shadow rays (without them lights shine through)
-  kHighlights = 1 << 1,     // some material with Ks > 0 and a finite highlight, and a light
-  kReflection = 1 << 2,     // some Ks > 0
-  kRefraction = 1 << 3,     // some T > 0
-  kSmoothNormals = 1 << 4,  // some patch
+  kShadows = 1 << 0,        // the scene has a light; without shadow rays lights shine through objects
+  kHighlights = 1 << 1,     // a light, and a material with Ks > 0 and a visible highlight
+  kReflection = 1 << 2,     // a material with Ks > 0
+  kRefraction = 1 << 3,     // a material with T > 0
+  kSmoothNormals = 1 << 4,  // the scene has a patch
 };
 
-// A set of effects, as bits.
+// A set of effects, one bit each.
 class EffectSet {
  public:
   constexpr EffectSet() = default;
@@ -35,15 +35,15 @@ class EffectSet {
   unsigned bits_ = 0;
 };
 
-// The option's words: shadows, highlights, reflection, refraction, smooth-normals.
+// Returns the option's word: shadows, highlights, reflection, refraction, smooth-normals.
 std::string_view name(Effect effect);
 std::vector<Effect> every_effect();
 
-// "shadows,reflection", "none" or "all" to a set; throws UsageError naming the unknown word.
+// Parses "shadows,reflection", "none" or "all". Throws UsageError that names an unknown word.
 EffectSet parse_effects(std::string_view list);
 std::string to_string(EffectSet effects);
 
-// What the scene's own contents call for.
+// Returns the effects that the scene's lights, materials and patches call for.
 EffectSet effects_called_for(const SceneDescription& scene);
 
 }  // namespace pprt

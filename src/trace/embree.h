@@ -1,5 +1,5 @@
-// Embree 3 or 4: its handles as owners, its rays, and its errors as exceptions. What the two versions do not
-// share stands here alone.
+// Embree 3 or 4: owning handles, single rays, and errors as exceptions. All differences of the two versions
+// are here.
 #pragma once
 
 #if PPRT_EMBREE_MAJOR >= 4
@@ -30,7 +30,7 @@ using EmbreeDevice = EmbreeOwner<RTCDevice, rtcReleaseDevice>;
 using EmbreeScene = EmbreeOwner<RTCScene, rtcReleaseScene>;
 using EmbreeGeometry = EmbreeOwner<RTCGeometry, rtcReleaseGeometry>;
 
-// One thread: a rank is one core's worth of work, and Embree must not start others behind its back.
+// Creates a device with one thread: a rank has one core, so Embree must not start others.
 inline EmbreeDevice new_embree_device() {
   EmbreeDevice device(rtcNewDevice("threads=1"));
   if (!device) {
@@ -39,7 +39,7 @@ inline EmbreeDevice new_embree_device() {
   return device;
 }
 
-// Throws what went wrong since the last call, if anything did.
+// Throws std::runtime_error if a call since the last check failed. `doing` names the activity in the message.
 inline void check_embree(const EmbreeDevice& device, const char* doing) {
   const RTCError error = rtcGetDeviceError(device.get());
   if (error == RTC_ERROR_NONE) return;
@@ -48,7 +48,7 @@ inline void check_embree(const EmbreeDevice& device, const char* doing) {
       (error == RTC_ERROR_OUT_OF_MEMORY ? "out of memory" : "error " + std::to_string(error)));
 }
 
-// Sends rays into a scene, one after the other. Embree 3 wants a context for them; 4 makes its own.
+// Traces single rays. Embree 3 needs a context for them, Embree 4 has its own.
 class RaySender {
  public:
 #if PPRT_EMBREE_MAJOR >= 4

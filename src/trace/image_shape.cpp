@@ -11,15 +11,16 @@
 namespace pprt {
 namespace {
 
-// A quadric's constant term, over what it is made of: below this the eye is inside, or so near the surface
-// that rounding decides.
+// Least clearance of the eye from a quadric, c / size as in `solve`. Below it the eye is inside, or so near
+// that rounding decides. Counted from: c errs by some 2^-50 of `size`. Test: image_shape_test.cpp.
 constexpr double kLeastClearance = 1e-9;
 
-// A facet's volume with the eye, over the lengths of the ways to its corners: below this rounding decides
-// which side is seen.
+// Least volume of a facet and the eye, relative to the product of the vertices' distances. Below it rounding
+// decides which face is visible. Counted from: the volume errs by some 2^-50 of that product. Test:
+// image_shape_test.cpp.
 constexpr double kLeastVolume = 1e-14;
 
-// The direction of the eye ray (camera.h) as a form: its product with a vector, and its own square.
+// The direction d of the eye ray (base/camera.h) as a linear function of the image point.
 class EyeRay {
  public:
   explicit EyeRay(const Camera& camera)
@@ -31,7 +32,7 @@ class EyeRay {
 
   QuadraticForm squared() const { return squared(origin_, per_x_, per_y_); }
 
-  // Of the cross product with a vector.
+  // Returns |d x v|^2.
   QuadraticForm cross_squared(const Vec3d& v) const {
     return squared(origin_.cross(v), per_x_.cross(v), per_y_.cross(v));
   }
@@ -63,8 +64,8 @@ QuadraticForm square(const LinearForm& f) {
           f.per_x * f.per_x,       2 * f.per_x * f.per_y,    f.per_y * f.per_y};
 }
 
-// Solves c n^2 + 2 b n + a = 0 for the nearness n, where c is positive if the eye is outside; `size` is what
-// c is the difference of. False where that is not clear.
+// Solves c n^2 + 2 b n + a = 0 for the nearness n. `c` is positive when the eye is outside, `size` the
+// magnitude of the terms whose difference it is. Returns false when the eye is not clearly outside.
 bool solve(const QuadraticForm& a, const LinearForm& b, double c, double size, ImageQuadric& seen) {
   if (!(c > kLeastClearance * size)) return false;
   seen.middle = scaled(b, 1 / c);
@@ -72,8 +73,8 @@ bool solve(const QuadraticForm& a, const LinearForm& b, double c, double size, I
   return true;
 }
 
-// Equations as in quadrics.h with the ray d / n from the eye, times n^2.
-bool view(const SphereRecord& sphere, const Camera& camera, ImageQuadric& seen) {
+// These equations are those of quadrics.h for the ray d / n from the eye, multiplied by n^2.
+bool project(const SphereRecord& sphere, const Camera& camera, ImageQuadric& seen) {
   const EyeRay ray(camera);
   const Vec3d from_center = camera.eye - sphere.center;
   const double distance2 = from_center.dot(from_center);
@@ -82,7 +83,7 @@ bool view(const SphereRecord& sphere, const Camera& camera, ImageQuadric& seen) 
                seen);
 }
 
-bool view(const ConeRecord& cone, const Camera& camera, ImageQuadric& seen) {
+bool project(const ConeRecord& cone, const Camera& camera, ImageQuadric& seen) {
   const EyeRay ray(camera);
   const Vec3d from_base = camera.eye - cone.base;
   const Vec3d aside = from_base.cross(cone.axis);
@@ -100,24 +101,24 @@ bool view(const ConeRecord& cone, const Camera& camera, ImageQuadric& seen) {
                aside2 - radius * radius, aside2 + radius * radius, seen);
 }
 
-// Edges are the planes through the eye and two corners: no division, so corners may lie behind the eye. Empty
-// where the facet is seen edge-on.
-std::optional<ImageFacet> view(const std::array<Vec3d, 3>& corners, const Camera& camera) {
+// An edge function is the plane through the eye and two vertices. It needs no division, so vertices may lie
+// behind the eye. Returns nothing when the facet is seen edge-on.
+std::optional<ImageFacet> project(const std::array<Vec3d, 3>& vertices, const Camera& camera) {
   const EyeRay ray(camera);
-  const Vec3d a = corners[0] - camera.eye, b = corners[1] - camera.eye, c = corners[2] - camera.eye;
+  const Vec3d a = vertices[0] - camera.eye, b = vertices[1] - camera.eye, c = vertices[2] - camera.eye;
   const double volume = a.dot(b.cross(c)), size = std::fabs(volume);
   const double largest2 = a.dot(a) * b.dot(b) * c.dot(c);
   if (!(size * size > kLeastVolume * kLeastVolume * largest2)) return std::nullopt;
   const double side = volume < 0 ? -1 : 1;
   ImageFacet facet;
   facet.edges = {ray.dot(b.cross(c) * side), ray.dot(c.cross(a) * side), ray.dot(a.cross(b) * side)};
-  // The normal, of a length that makes the plane normal . p = 1.
+  // The normal, scaled so that the facet's plane is normal . p = 1.
   facet.nearness = ray.dot((b.cross(c) + c.cross(a) + a.cross(b)) * (side / size));
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   ImageBounds& box = facet.bounds;
   box = {kInfinity, kInfinity, -kInfinity, -kInfinity};
-  for (const Vec3d& corner : {a, b, c}) {
-    const std::optional<Vec2d> point = project(camera, corner);
+  for (const Vec3d& vertex : {a, b, c}) {
+    const std::optional<Vec2d> point = pprt::project(camera, vertex);
     if (!point) {
       box = {-kInfinity, -kInfinity, kInfinity, kInfinity};
       break;
@@ -128,31 +129,31 @@ std::optional<ImageFacet> view(const std::array<Vec3d, 3>& corners, const Camera
   return facet;
 }
 
-bool is_seen(const Facet& facet, const Vec3d& from_eye, Sides sides) {
-  if (sides == Sides::kBoth) return true;
+bool is_seen(const Facet& facet, const Vec3d& from_eye, VisibleFaces faces) {
+  if (faces == VisibleFaces::kBoth) return true;
   const bool front = Vec3d(facet.normal).dot(from_eye) < 0;
-  return front == (sides == Sides::kFront);
+  return front == (faces == VisibleFaces::kFront);
 }
 
-void view(const ScenePart& part, std::size_t first, std::size_t last, const Camera& camera,
-          ImageShape& shape) {
-  shape.quadric.front = part.sides != Sides::kBack;
-  shape.quadric.back = part.sides != Sides::kFront;
+void project(const ScenePart& part, std::size_t first, std::size_t last, const Camera& camera,
+             ImageShape& shape) {
+  shape.quadric.front = part.faces != VisibleFaces::kBack;
+  shape.quadric.back = part.faces != VisibleFaces::kFront;
   bool known = true;
   if (const auto* spheres = std::get_if<std::vector<SphereRecord>>(&part.shape)) {
     shape.kind = ImageShape::Kind::kQuadric;
-    known = view((*spheres)[first], camera, shape.quadric);
+    known = project((*spheres)[first], camera, shape.quadric);
   } else if (const auto* cones = std::get_if<std::vector<ConeRecord>>(&part.shape)) {
     shape.kind = ImageShape::Kind::kQuadric;
-    known = view((*cones)[first], camera, shape.quadric);
+    known = project((*cones)[first], camera, shape.quadric);
   } else {
     shape.kind = ImageShape::Kind::kFacets;
     const Mesh& mesh = std::get<Mesh>(part.shape);
     for (std::size_t i = first; i < last; ++i) {
       const auto& [a, b, c] = mesh.triangles[i];
-      if (!is_seen(mesh.facets[i], Vec3d(mesh.vertices[a]) - camera.eye, part.sides)) continue;
+      if (!is_seen(mesh.facets[i], Vec3d(mesh.vertices[a]) - camera.eye, part.faces)) continue;
       if (const auto facet =
-              view({Vec3d(mesh.vertices[a]), Vec3d(mesh.vertices[b]), Vec3d(mesh.vertices[c])}, camera)) {
+              project({Vec3d(mesh.vertices[a]), Vec3d(mesh.vertices[b]), Vec3d(mesh.vertices[c])}, camera)) {
         shape.facets.push_back(*facet);
       }
     }
@@ -162,17 +163,17 @@ void view(const ScenePart& part, std::size_t first, std::size_t last, const Came
 
 }  // namespace
 
-void view_primitive(const CompiledScene::Impl& scene, std::uint32_t primitive, const Camera& camera,
-                    ImageShape& shape) {
+void project_primitive(const CompiledScene::Impl& scene, std::uint32_t primitive, const Camera& camera,
+                       ImageShape& shape) {
   shape.kind = ImageShape::Kind::kUnknown;
   shape.facets.clear();
   for (const ScenePart& part : scene.parts) {
-    // Within a part primitives come in the description's order.
+    // Within a part, primitives are in the description's order.
     const auto [first, last] =
         std::equal_range(part.primitives.begin(), part.primitives.end(), primitive - 1);
     if (first == last) continue;
-    view(part, static_cast<std::size_t>(first - part.primitives.begin()),
-         static_cast<std::size_t>(last - part.primitives.begin()), camera, shape);
+    project(part, static_cast<std::size_t>(first - part.primitives.begin()),
+            static_cast<std::size_t>(last - part.primitives.begin()), camera, shape);
     return;
   }
 }

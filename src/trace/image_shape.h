@@ -1,4 +1,4 @@
-// Primitives of a compiled scene as an eye sees them.
+// Projects primitives of a compiled scene to the image.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,9 @@
 
 namespace pprt {
 
-// The shape of a primitive, counted from 1 as in RaySample, to this camera. Keeps the storage of `shape`.
-void view_primitive(const CompiledScene::Impl& scene, std::uint32_t primitive, const Camera& camera,
-                    ImageShape& shape);
+// Writes the projection of a primitive, counted from 1 as in RaySample, into `shape`, whose storage is
+// reused. The kind is kUnknown for a number that is no primitive.
+void project_primitive(const CompiledScene::Impl& scene, std::uint32_t primitive, const Camera& camera,
+                       ImageShape& shape);
 
 }  // namespace pprt

@@ -1,4 +1,4 @@
-// What a scene holds, counted once: from it follow the effects, and what the census tells of them.
+// Counts of a scene's contents. They decide the effects and appear in the census.
 #pragma once
 
 #include <cstddef>
@@ -11,11 +11,11 @@ namespace pprt {
 struct Inventory {
   std::size_t spheres = 0, cones = 0, polygons = 0, patches = 0;
   std::size_t lights = 0;
-  std::size_t materials = 0;     // that some primitive has
-  std::size_t reflecting = 0;    // materials in use with Ks > 0
-  std::size_t highlighting = 0;  // and with a highlight wide enough to be seen
-  std::size_t transmitting = 0;  // materials in use with T > 0
-  std::size_t brightening = 0;   // and with Ks + T > 1: what they show is brighter than what they see
+  std::size_t materials = 0;     // materials of at least one primitive
+  std::size_t reflecting = 0;    // of these, with Ks > 0
+  std::size_t highlighting = 0;  // of these, with a visible highlight
+  std::size_t transmitting = 0;  // of these, with T > 0
+  std::size_t brightening = 0;   // of these, with Ks + T > 1: brighter than what they reflect and transmit
 };
 
 Inventory take_inventory(const SceneDescription& scene);

@@ -30,6 +30,7 @@ void set_ray(RTCRay& ray, const Vec3f& origin, const Vec3f& direction, float len
   ray.flags = 0;
 }
 
+// Finds the first hit of a ray; returns whether there is one.
 bool intersect(const CompiledScene::Impl& scene, RaySender& sender, const Vec3f& origin,
                const Vec3f& direction, RTCRayHit& found) {
   set_ray(found.ray, origin, direction, kInfinity);
@@ -39,16 +40,18 @@ bool intersect(const CompiledScene::Impl& scene, RaySender& sender, const Vec3f&
   return found.hit.geomID != RTC_INVALID_GEOMETRY_ID;
 }
 
-// Where a ray met the scene, found anew on the primitive in double.
+// A hit, recomputed in double from the primitive.
 struct Surface {
   Vec3d position{0, 0, 0};
   Vec3d normal{0, 0, 1};   // unit, geometric, against the ray
   Vec3d shading{0, 0, 1};  // unit, on the same side as `normal`
-  double offset = 0;       // how far off the surface a leaving ray starts
-  bool entering = true;    // the ray came from outside
+  double offset = 0;       // distance from the surface at which a leaving ray starts
+  bool entering = true;    // whether the ray comes from outside
   const ShadingMaterial* material = nullptr;
 };
 
+// Recomputes a hit from its primitive. `direction` is the ray's, unit. kSmooth: patches have interpolated
+// normals.
 template <bool kSmooth>
 Surface surface_at(const CompiledScene::Impl& scene, const RTCRayHit& found, const Vec3d& direction) {
   const ScenePart& part = scene.parts[found.hit.geomID];
@@ -85,29 +88,32 @@ Surface surface_at(const CompiledScene::Impl& scene, const RTCRayHit& found, con
   return surface;
 }
 
-// Unit direction that does not run below the surface whose unit normal is `above`.
+// Returns a unit direction with at least kGrazingCosine to the normal `above`.
 Vec3d lifted(const Vec3d& direction, const Vec3d& above) {
   const double cosine = direction.dot(above);
   if (cosine >= kGrazingCosine) return direction;
   return unit(direction + above * (kGrazingCosine - cosine));
 }
 
+// Mirrors a direction at the plane with the given unit normal.
 Vec3d mirrored(const Vec3d& direction, const Vec3d& normal) {
   return direction - normal * (2 * direction.dot(normal));
 }
 
-// Snell's law for unit vectors, the normal against the direction; false for total internal reflection.
+// Refracts by Snell's law. Vectors are unit, the normal against the direction. Returns false on total
+// internal reflection.
 bool refracted(const Vec3d& direction, const Vec3d& normal, double index_ratio, Vec3d& result) {
   const double cosine = -direction.dot(normal);
   const double sine2 = index_ratio * index_ratio * (1 - cosine * cosine);
   if (!(sine2 < 1)) return false;
-  // The tangential part by itself: added up otherwise, an extreme ratio cancels both parts at perpendicular
+  // The tangential part is summed first. Otherwise an extreme ratio cancels both parts at perpendicular
   // incidence.
   result = unit((direction + normal * cosine) * index_ratio - normal * std::sqrt(1 - sine2));
   return true;
 }
 
-// The tree of one eye ray. `kEffects` are an EffectSet's bits; what is not among them leaves no code.
+// The ray tree of one eye ray. `kEffects` are the bits of an EffectSet; code for other effects is not
+// compiled in.
 template <unsigned kEffects, bool kPublished>
 class RayTree {
  public:
@@ -149,6 +155,7 @@ class RayTree {
     return ray.tfar < 0;
   }
 
+  // Returns the colour of a secondary ray.
   Color follow(const Vec3d& origin, const Vec3d& direction, int depth) {
     const Vec3f d(direction);
     RTCRayHit found;
@@ -157,6 +164,8 @@ class RayTree {
     return shade(surface_at<kSmooth>(scene_, found, exact), exact, depth);
   }
 
+  // Returns the colour of a surface seen along `direction`, by NFF's model: ambient light, direct light, and
+  // the secondary rays that `depth` allows. An eye ray has depth 1.
   Color shade(const Surface& surface, const Vec3d& direction, int depth) {
     Color color = surface.material->ambient + from_lights(surface, direction);
     if constexpr (kReflection || kRefraction) {
@@ -165,6 +174,7 @@ class RayTree {
     return color;
   }
 
+  // Lambert's diffuse reflection and Phong's highlight, summed over the lights that are not in shadow.
   Color from_lights(const Surface& surface, const Vec3d& direction) {
     const ShadingMaterial& material = *surface.material;
     Color color(0, 0, 0);
@@ -188,12 +198,14 @@ class RayTree {
     return color;
   }
 
+  // Phong: Ks cos(angle)^shine, with the angle between the mirrored ray and the light.
   static float highlight(const Surface& surface, const Vec3d& direction, const Vec3d& unit_to_light) {
     const double cosine = mirrored(direction, surface.shading).dot(unit_to_light);
     if (!(cosine > 0)) return 0;
     return surface.material->specular * std::pow(static_cast<float>(cosine), surface.material->shine);
   }
 
+  // The reflected ray weighted by Ks, and the refracted ray weighted by T.
   Color from_secondary_rays(const Surface& surface, const Vec3d& direction, int depth) {
     const ShadingMaterial& material = *surface.material;
     Color color(0, 0, 0);
@@ -229,6 +241,7 @@ class RayTree {
   RaySender sender_;
 };
 
+// The kernel of one set of effects.
 template <unsigned kEffects, bool kPublished>
 void run(const CompiledScene::Impl& scene, const Vec3f& origin, const Vec3f& direction, RaySample& sample,
          RayCounts& counts) {
@@ -237,6 +250,7 @@ void run(const CompiledScene::Impl& scene, const Vec3f& origin, const Vec3f& dir
   sample.rays = static_cast<std::uint32_t>(counts.traced() - before);
 }
 
+// Kernels of all sets of effects, indexed by EffectSet::bits().
 template <bool kPublished, unsigned... kSets>
 constexpr std::array<Kernel, sizeof...(kSets)> table(std::integer_sequence<unsigned, kSets...>) {
   return {run<kSets, kPublished>...};

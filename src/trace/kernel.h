@@ -10,24 +10,25 @@
 
 namespace pprt {
 
-// Follows the ray tree of an eye ray: fills the sample, adds to the counts. `direction` has unit length.
+// Traces the ray tree of an eye ray: fills the sample, adds to the counts. Origin and unit direction are in
+// the compiled space.
 using Kernel = void (*)(const CompiledScene::Impl& scene, const Vec3f& origin, const Vec3f& direction,
                         RaySample& sample, RayCounts& counts);
 
-// The kernel that simulates exactly `effects`; `published` as CompileOptions::count_as_published.
+// Returns the kernel that simulates exactly `effects`. `published` is CompileOptions::count_as_published.
 Kernel kernel_for(EffectSet effects, bool published);
 
-// The surface that an eye ray meets first.
+// The surface that an eye ray hits first, in the compiled space. Indices count from 0.
 struct VisibleSurface {
   Vec3d position{0, 0, 0};
-  Vec3d normal{0, 0, 1};  // unit, against the ray; interpolated where the scene's effects have it so
+  Vec3d normal{0, 0, 1};  // unit, against the ray; interpolated if the scene's effects say so
   std::uint32_t primitive = 0;
   MaterialIndex material = 0;
 };
 std::optional<VisibleSurface> visible_surface(const CompiledScene::Impl& scene, const Vec3f& origin,
                                               const Vec3f& direction);
 
-// Whether a ray hits anything before `length` (in units of its direction's length, which is 1).
+// Returns whether a ray hits anything nearer than `length`. `direction` has unit length.
 bool occluded(const CompiledScene::Impl& scene, const Vec3f& origin, const Vec3f& direction, float length);
 
 }  // namespace pprt

@@ -8,24 +8,24 @@
 namespace pprt {
 namespace {
 
-// Rejects hits on the side that is not seen; the user pointer is the mesh's facets.
-template <Sides kSides>
-void keep_visible_side(const RTCFilterFunctionNArguments* args) {
+// Embree filter: rejects hits on invisible faces. The user pointer is the mesh's facets.
+template <VisibleFaces kFaces>
+void keep_visible_faces(const RTCFilterFunctionNArguments* args) {
   const Facet* facets = static_cast<const Facet*>(args->geometryUserPtr);
   for (unsigned i = 0; i < args->N; ++i) {
     if (!args->valid[i]) continue;
     const Vec3f direction(RTCRayN_dir_x(args->ray, args->N, i), RTCRayN_dir_y(args->ray, args->N, i),
                           RTCRayN_dir_z(args->ray, args->N, i));
     const float slope = facets[RTCHitN_primID(args->hit, args->N, i)].normal.dot(direction);
-    const bool visible = kSides == Sides::kFront ? slope < 0 : slope > 0;
+    const bool visible = kFaces == VisibleFaces::kFront ? slope < 0 : slope > 0;
     if (!visible) args->valid[i] = 0;
   }
 }
 
-template <Sides kSides>
+template <VisibleFaces kFaces>
 void set_filter(RTCGeometry geometry) {
-  rtcSetGeometryIntersectFilterFunction(geometry, keep_visible_side<kSides>);
-  rtcSetGeometryOccludedFilterFunction(geometry, keep_visible_side<kSides>);
+  rtcSetGeometryIntersectFilterFunction(geometry, keep_visible_faces<kFaces>);
+  rtcSetGeometryOccludedFilterFunction(geometry, keep_visible_faces<kFaces>);
 }
 
 }  // namespace
@@ -34,18 +34,18 @@ std::size_t Mesh::add(std::span<const Vec3d> polygon, std::span<const Vec3f> ver
   const auto first_vertex = static_cast<std::uint32_t>(vertices.size());
   const std::size_t first_triangle = triangles.size();
   float offset = 0;
-  for (const TriangleIndices& corner : triangulate(polygon)) {
-    // Of the corners as the float vertices have them.
-    const Vec3d a{Vec3f(polygon[corner[0]])};
-    const Vec3d b{Vec3f(polygon[corner[1]])};
-    const Vec3d c{Vec3f(polygon[corner[2]])};
+  for (const TriangleIndices& index : triangulate(polygon)) {
+    // Positions as the float vertices have them.
+    const Vec3d a{Vec3f(polygon[index[0]])};
+    const Vec3d b{Vec3f(polygon[index[1]])};
+    const Vec3d c{Vec3f(polygon[index[2]])};
     const Vec3d normal = (b - a).cross(c - a);
     const double twice_area = std::sqrt(normal.dot(normal));
     if (!(twice_area > 0)) continue;
     const double longest = std::sqrt(std::max({(b - a).length2(), (c - b).length2(), (a - c).length2()}));
     const double reach = std::max({sum_of_coordinates(a), sum_of_coordinates(b), sum_of_coordinates(c)});
     offset = std::max(offset, static_cast<float>(triangle_offset(longest, twice_area, reach)));
-    triangles.push_back({first_vertex + corner[0], first_vertex + corner[1], first_vertex + corner[2]});
+    triangles.push_back({first_vertex + index[0], first_vertex + index[1], first_vertex + index[2]});
     facets.push_back({Vec3f(normal * (1 / twice_area)), 0});
   }
   const std::size_t added = triangles.size() - first_triangle;
@@ -57,34 +57,35 @@ std::size_t Mesh::add(std::span<const Vec3d> polygon, std::span<const Vec3f> ver
 }
 
 SurfacePoint on_surface(const Mesh& mesh, std::uint32_t triangle, double u, double v) {
-  const TriangleIndices& corner = mesh.triangles[triangle];
-  const Vec3d a(mesh.vertices[corner[0]]);
-  const Vec3d b(mesh.vertices[corner[1]]);
-  const Vec3d c(mesh.vertices[corner[2]]);
+  const TriangleIndices& index = mesh.triangles[triangle];
+  const Vec3d a(mesh.vertices[index[0]]);
+  const Vec3d b(mesh.vertices[index[1]]);
+  const Vec3d c(mesh.vertices[index[2]]);
   return {a + (b - a) * u + (c - a) * v, Vec3d(mesh.facets[triangle].normal)};
 }
 
 Vec3d shading_normal(const Mesh& mesh, std::uint32_t triangle, double u, double v) {
-  const TriangleIndices& corner = mesh.triangles[triangle];
-  const Vec3d normal = Vec3d(mesh.normals[corner[0]]) * (1 - u - v) + Vec3d(mesh.normals[corner[1]]) * u +
-                       Vec3d(mesh.normals[corner[2]]) * v;
+  const TriangleIndices& index = mesh.triangles[triangle];
+  const Vec3d normal = Vec3d(mesh.normals[index[0]]) * (1 - u - v) + Vec3d(mesh.normals[index[1]]) * u +
+                       Vec3d(mesh.normals[index[2]]) * v;
   const double length2 = normal.dot(normal);
-  // Opposite normals cancel; what is left of them then is no direction.
+  // Opposite normals cancel. Counted from: unit normals in float err by 2u = 1.2e-7 where they cancel, whose
+  // square is 1.4e-14. Test: shading_test.cpp, "normals of no length ...".
   if (!(length2 > 1e-12)) return Vec3d(mesh.facets[triangle].normal);
   return normal * (1 / std::sqrt(length2));
 }
 
-EmbreeGeometry new_mesh_geometry(const EmbreeDevice& device, Mesh& mesh, Sides sides) {
+EmbreeGeometry new_mesh_geometry(const EmbreeDevice& device, Mesh& mesh, VisibleFaces faces) {
   const std::size_t vertex_count = mesh.vertices.size();
-  mesh.vertices.emplace_back(0.f, 0.f, 0.f);  // Embree loads vertices 16 bytes at a time
+  mesh.vertices.emplace_back(0.f, 0.f, 0.f);  // Embree reads 16 bytes per vertex
   EmbreeGeometry geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
   rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                              mesh.vertices.data(), 0, sizeof(Vec3f), vertex_count);
   rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                              mesh.triangles.data(), 0, sizeof(TriangleIndices), mesh.triangles.size());
   rtcSetGeometryUserData(geometry.get(), mesh.facets.data());
-  if (sides == Sides::kFront) set_filter<Sides::kFront>(geometry.get());
-  if (sides == Sides::kBack) set_filter<Sides::kBack>(geometry.get());
+  if (faces == VisibleFaces::kFront) set_filter<VisibleFaces::kFront>(geometry.get());
+  if (faces == VisibleFaces::kBack) set_filter<VisibleFaces::kBack>(geometry.get());
   rtcCommitGeometry(geometry.get());
   return geometry;
 }

@@ -8,8 +8,10 @@
 
 namespace pprt {
 
-// Recentres and rescales so that a box's largest extent lies in (0.5, 1]. The scale is a power of two, so
-// that it rounds nothing; only the recentring can, by half a unit in the last place of a double.
+// Moves and scales a box so that its largest extent lies in (0.5, 1].
+//
+// The scale is a power of two and rounds nothing. Moving rounds each coordinate once, by at most 2^-53 of its
+// result. Test: compile_test.cpp, "normalising fits any box ...".
 struct Normalisation {
   Vec3d center{0, 0, 0};
   double scale = 1;
@@ -18,7 +20,8 @@ struct Normalisation {
   double length(double l) const { return l * scale; }
 };
 
-// `box` is finite and not empty, `center` a point in it: the new origin. A box of no size keeps the scale 1.
+// Returns the map of a box. `box` must be finite and not empty; `center`, a point in it, becomes the origin.
+// A box without extent keeps the scale 1.
 inline Normalisation normalising(const Box3d& box, const Vec3d& center) {
   Normalisation result;
   result.center = center;
@@ -26,7 +29,7 @@ inline Normalisation normalising(const Box3d& box, const Vec3d& center) {
   const double largest = std::max({size.x, size.y, size.z});
   if (largest > 0) {
     int exponent = 0;
-    const double mantissa = std::frexp(largest, &exponent);  // largest = mantissa * 2^exponent, [0.5, 1)
+    const double mantissa = std::frexp(largest, &exponent);  // in [0.5, 1); largest = mantissa * 2^exponent
     result.scale = std::ldexp(1.0, mantissa == 0.5 ? 1 - exponent : -exponent);
   }
   return result;

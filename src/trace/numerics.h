@@ -1,4 +1,7 @@
-// Rounding bounds of the tracer, each with the operations it was counted from (docs/numerics.md tells more).
+// Rounding bounds of the tracer. Each names its bound, what it was counted from, and its test in
+// tests/unit/trace or tests/numeric. docs/numerics.md has the same as a table.
+//
+// Lengths are in the compiled space, where coordinates are below 1.
 #pragma once
 
 #include <cmath>
@@ -7,43 +10,54 @@
 
 namespace pprt {
 
-// Relative error of one rounding to float: half a unit in the last place of 1.
+// Relative error of one rounding to float, u = 2^-24: half a unit in the last place of 1. Source: IEEE 754.
 inline constexpr double kFloatRounding = 0x1p-24;
 
-// How far a point of the scene moves when its three coordinates are rounded to float: each lies below 1, so
-// it moves by at most 2^-25, and the point by sqrt(3) times that.
+// Largest distance by which a point moves when rounded to float. Counted from: three coordinates below 1,
+// each moved by at most 2^-25; sqrt(3) times that. Test: leaving_rays_test.cpp.
 inline constexpr double kOriginRounding = 1.7321 * 0x1p-25;
 
-// Of absolute values: at least the length, and cheaper.
+// Returns |x| + |y| + |z|: an upper bound of the length, cheaper to compute.
 inline double sum_of_coordinates(const Vec3d& p) {
   return std::abs(p.x) + std::abs(p.y) + std::abs(p.z);
 }
 
-// The same of a point whose coordinates add up to no more than this, which may be far less: near the origin
-// floats are fine.
+// Returns the same bound for one point, given its sum_of_coordinates. Near the origin it is far smaller,
+// because floats are finer there. Counted from: half a unit in the last place of each coordinate. Test:
+// hard_surfaces_test.cpp, "a huge sphere ...".
 constexpr double origin_rounding(double sum_of_coordinates) {
   const double bound = kFloatRounding * sum_of_coordinates;
   return bound < kOriginRounding ? bound : kOriginRounding;
 }
 
-// By how much the crossing of a ray with a sphere or cone is off: some sixty operations in double.
+// Error of a ray's crossing with a sphere or cone. Counted from: some sixty operations in double on numbers
+// below 8, each off by at most 2^-50. Test: quadrics_test.cpp, "a line crosses ...".
 inline constexpr double kCrossingError = 64 * 0x1p-50;
 
-// How far above a sphere or cone a leaving ray starts: once for the rounding of its origin along the normal;
-// once more because the rounding across the normal turns the surface under it, by rounding / radius, which
-// costs rounding^2 / (2 radius): less than the rounding itself for every radius above half of it.
+// Returns the height above a sphere or cone at which a leaving ray starts.
+//
+// Counted from: the rounding of the origin along the normal, and kCrossingError. As much again for the
+// rounding across the normal: it turns the surface by rounding / radius and costs rounding^2 / (2 radius),
+// less than the rounding itself for every radius above half of it. Test: leaving_rays_test.cpp, "rays leave
+// ...".
 constexpr double quadric_offset(double sum_of_coordinates) {
   return 2 * (origin_rounding(sum_of_coordinates) + kCrossingError);
 }
 
-// A ray that leaves a triangle starts at most this far above it. Embree's error on a triangle grows with its
-// slenderness without bound; a triangle that would need more is too thin to be seen from where it matters.
+// Largest height above a triangle at which a leaving ray starts. Embree's error grows without bound as
+// triangles get thinner. Counted from: it is reached where triangle_offset needs more, on triangles thinner
+// than 1/64 of their length. Test: leaving_rays_test.cpp, "rays leave triangles ...".
 inline constexpr double kMaxTriangleOffset = 0x1p-15;
 
-// How far above a triangle a leaving ray starts: the rounding of its origin, and the error of the distance
-// T = v0 . Ng that Embree's Pluecker test finds in float. There, with l the longest edge and u a rounding:
-// v_i = vertex - origin errs by u l; an edge e = v_i - v_j by 3 u l; Ng = e x e' by 2 (3 u l) l + 2 u l^2;
-// the product v0 . Ng by l (8 u l^2) + (1 + 3) u l |Ng|. Above the plane by h, T is h |Ng|.
+// Returns the height above a triangle at which a leaving ray starts.
+//
+// Bound: the rounding of the origin, plus the error of T = v0 . Ng in Embree's Pluecker test, in float. At
+// height h above the plane, T is h |Ng|. Counted from, with l the longest edge and u a rounding:
+//   v_i = vertex - origin    errs by u l
+//   e = v_i - v_j, an edge   errs by 3 u l
+//   Ng = e x e'              errs by 2 (3 u l) l + 2 u l^2 = 8 u l^2
+//   T = v0 . Ng              errs by l (8 u l^2) + (1 + 3) u l |Ng|
+// Source: Embree 3, kernels/geometry/triangle_intersector_pluecker.h. Test: leaving_rays_test.cpp.
 constexpr double triangle_offset(double longest_edge, double twice_area, double sum_of_coordinates) {
   const double l = longest_edge;
   const double bound =
@@ -51,15 +65,18 @@ constexpr double triangle_offset(double longest_edge, double twice_area, double 
   return bound < kMaxTriangleOffset ? bound : kMaxTriangleOffset;
 }
 
-// A point seen before counts as visible when nothing lies before it by more than this. It was rounded to
-// float, so its own surface may stand before it by the rounding / cos(incidence): bridged down to a cosine
-// of 1/256. Beyond that a point is at worst taken for hidden, and sampled anew.
+// Returns how much nearer than an earlier hit point an occluder must be to hide it.
+//
+// Counted from: the hit point was rounded to float, so its own surface may lie before it by the rounding /
+// cos(incidence). The bound covers cosines down to 1/256. At flatter angles a visible point may count as
+// hidden, and is sampled anew. Test: visibility_test.cpp.
 constexpr double visibility_gap(double sum_of_coordinates) {
   return 256 * (origin_rounding(sum_of_coordinates) + kCrossingError);
 }
 
-// A mirrored or refracted direction that an interpolated normal sends through the surface is lifted to this
-// cosine with the geometric normal.
+// Smallest cosine of a secondary ray with the geometric normal. An interpolated normal can send a ray through
+// the surface; the ray is then lifted to this cosine. A choice: a twentieth of a degree, far above rounding
+// and too small to be seen. Test: shading_test.cpp, "a mirror patch ...".
 inline constexpr double kGrazingCosine = 0x1p-10;
 
 }  // namespace pprt

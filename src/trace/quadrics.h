@@ -1,7 +1,9 @@
-// Spheres and open cones (cylinders among them): exact crossings with a line, in double.
+// Spheres and open cones (cylinders among them): intersection with a line, in double.
 //
-// Both are boundaries of convex bodies, so a line enters a body once and leaves it once; a cone's caps are
-// open, so either crossing may be missing. Directions are of unit length up to rounding to float.
+// Both are boundaries of convex bodies, so a line enters the body once and leaves it once. A cone's ends are
+// open, so either crossing may be missing. Directions have unit length up to rounding to float.
+//
+// Error of a crossing: kCrossingError (numerics.h). Test: quadrics_test.cpp.
 #pragma once
 
 #include <cmath>
@@ -13,23 +15,23 @@ namespace pprt {
 
 struct SphereRecord {
   Vec3d center{0, 0, 0};
-  double radius = 1;  // > 0
+  double radius = 1;  // positive
 };
 static_assert(sizeof(SphereRecord) == 32);
 
-// The lateral surface between two discs.
+// The lateral surface between two parallel discs.
 struct ConeRecord {
   Vec3d base{0, 0, 0};
   Vec3d axis{0, 0, 1};       // from base to apex, not zero
-  double base_radius = 1;    // >= 0
+  double base_radius = 1;    // not negative
   double radius_change = 0;  // apex radius minus base radius
 };
 static_assert(sizeof(ConeRecord) == 64);
 
-// Ray parameters; NaN where there is no crossing.
+// Ray parameters of the crossings; NaN where there is none.
 struct Crossings {
-  double front = std::numeric_limits<double>::quiet_NaN();  // into the body: its outside is seen
-  double back = std::numeric_limits<double>::quiet_NaN();   // out of the body: its inside is seen
+  double front = std::numeric_limits<double>::quiet_NaN();  // enters the body, through its outer face
+  double back = std::numeric_limits<double>::quiet_NaN();   // leaves the body, through its inner face
 };
 
 struct SurfacePoint {
@@ -41,14 +43,14 @@ inline Vec3d unit(const Vec3d& v) {
   return v * (1 / std::sqrt(v.dot(v)));
 }
 
-// The line's origin is first moved to where it passes the centre, so that the discriminant cancels nothing
-// but the radius itself, however far the ray comes from.
+// Intersects a line with a sphere. The line's origin is first moved to its point nearest the centre. The
+// discriminant then subtracts only the radius squared, so a far ray loses no digits.
 inline Crossings crossings(const SphereRecord& sphere, const Vec3d& origin, const Vec3d& direction) {
   const Vec3d from_center = origin - sphere.center;
   const double to_middle = -from_center.dot(direction);
   const Vec3d middle = from_center + direction * to_middle;
   const double a = direction.dot(direction);
-  const double b = middle.dot(direction);  // rounding only
+  const double b = middle.dot(direction);  // zero up to rounding
   const double c = middle.dot(middle) - sphere.radius * sphere.radius;
   const double discriminant = b * b - a * c;
   if (!(discriminant >= 0)) return {};
@@ -57,8 +59,11 @@ inline Crossings crossings(const SphereRecord& sphere, const Vec3d& origin, cons
   return {to_middle + (-b - root) * inverse, to_middle + (-b + root) * inverse};
 }
 
-// With q a point relative to the base, L the axis' length, m = q . axis and r its radii, the surface is
-// L^2 |q x axis|^2 = (r0 L^2 + dr m)^2, free of divisions; the body is where the left side is smaller.
+// Intersects a line with an open cone or cylinder.
+//
+// With q a point relative to the base, L the axis' length, m = q . axis, r0 the base radius and dr the radius
+// change, the surface is L^2 |q x axis|^2 = (r0 L^2 + dr m)^2. The form has no division. The body is where
+// the left side is smaller.
 inline Crossings crossings(const ConeRecord& cone, const Vec3d& origin, const Vec3d& direction) {
   const Vec3d from_base = origin - cone.base;
   const double to_middle = -from_base.dot(direction);
@@ -78,8 +83,8 @@ inline Crossings crossings(const ConeRecord& cone, const Vec3d& origin, const Ve
   const double discriminant = b * b - a * c;
   if (!(discriminant >= 0)) return {};
 
-  // The slope of the surface function at its roots is -root and +root: into the body and out of it, whatever
-  // the sign of a. Each is taken in the form that does not cancel.
+  // At its roots the surface function has slope -root (entering) and +root (leaving), whatever the sign of a.
+  // Each root is computed in the form that does not cancel.
   const double root = std::sqrt(discriminant);
   const double sum = b >= 0 ? -b - root : -b + root;
   double front = (b >= 0 ? sum / a : c / sum);
@@ -94,13 +99,13 @@ inline Crossings crossings(const ConeRecord& cone, const Vec3d& origin, const Ve
   return result;
 }
 
-// The point of the surface next to one that lies on it up to rounding.
+// Projects a point that lies on the surface up to rounding onto it. Returns the point and its normal.
 inline SurfacePoint on_surface(const SphereRecord& sphere, const Vec3d& near) {
   const Vec3d normal = unit(near - sphere.center);
   return {sphere.center + normal * sphere.radius, normal};
 }
 
-// Moves the point at its height along the axis. At the very tip of a cone the normal is the axis.
+// Moves the point within its height on the axis. At the very tip of a cone the normal is the axis.
 inline SurfacePoint on_surface(const ConeRecord& cone, const Vec3d& near) {
   const Vec3d from_base = near - cone.base;
   const double per_length2 = 1 / cone.axis.dot(cone.axis);

@@ -1,4 +1,4 @@
-// What a CompiledScene holds; private to the module.
+// The contents of a CompiledScene. Private to src/trace.
 #pragma once
 
 #include <cstddef>
@@ -18,34 +18,34 @@
 
 namespace pprt {
 
-// A material as shading wants it: products taken, weights of the lights left to the lights.
+// A material prepared for shading: products are multiplied out. The lights' weight is in ShadingLight.
 struct ShadingMaterial {
-  Color ambient{0, 0, 0};  // the light that is everywhere, as reflected
+  Color ambient{0, 0, 0};  // colour reflected from the ambient light
   Color diffuse{0, 0, 0};  // colour times Kd
   float specular = 0;      // Ks
   float shine = 0;         // 0: no highlight
   float transmittance = 0;
   double refractive_index = 1;  // > 0
-  bool lit = false;             // whether a light makes any difference to it
+  bool lit = false;             // whether lights contribute to it at all
 };
 
 struct ShadingLight {
   Vec3d position{0, 0, 0};
-  Color color{1, 1, 1};  // times its weight
+  Color color{1, 1, 1};  // colour times the light's weight
 };
 
-// One Embree geometry: primitives of one kind, of which the same sides are seen.
+// One Embree geometry: primitives of one kind and one visibility of faces.
 struct ScenePart {
   PrimitiveKind kind = PrimitiveKind::kSphere;
-  Sides sides = Sides::kBoth;
+  VisibleFaces faces = VisibleFaces::kBoth;
   std::variant<std::vector<SphereRecord>, std::vector<ConeRecord>, Mesh> shape;
   std::vector<MaterialIndex> materials;   // by Embree's primitive number
-  std::vector<std::uint32_t> primitives;  // by the same: place in the description's order
+  std::vector<std::uint32_t> primitives;  // place in SceneDescription::order, by Embree's primitive number
 };
 
 struct BuildFigures {
   double seconds = 0;
-  std::size_t hierarchy_bytes = 0;  // Embree's own
+  std::size_t hierarchy_bytes = 0;  // memory of Embree's BVH
   std::size_t primitive_bytes = 0;
   std::size_t triangles = 0;
   std::size_t degenerate = 0;  // primitives without extent, left out
@@ -60,18 +60,18 @@ class CompiledScene::Impl {
   Kernel kernel = nullptr;
 
   Normalisation normalisation;
-  double radius = 1;  // of a sphere about the origin that holds the compiled scene
+  double radius = 1;  // of a sphere about the origin that contains the compiled scene
   Color background{0, 0, 0};
   std::vector<ShadingMaterial> materials;
   std::vector<ShadingLight> lights;
-  std::vector<ScenePart> parts;  // by Embree's geometry number; never moved once Embree has read them
+  std::vector<ScenePart> parts;  // by Embree's geometry number; not moved once Embree reads them
 
   BuildFigures figures;
   EmbreeDevice device;
-  EmbreeScene embree;  // released before the device and the parts it reads
+  EmbreeScene embree;  // destroyed before the device and the parts that it reads
 };
 
-// The text of CompiledScene::census().
+// Returns the text of CompiledScene::census().
 std::string census_text(const CompiledScene::Impl& scene);
 
 }  // namespace pprt

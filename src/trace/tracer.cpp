@@ -10,8 +10,8 @@
 namespace pprt {
 namespace {
 
-// Where a ray from an eye outside the scene may start: on the sphere about the scene, so that a far eye costs
-// no digits when the origin is rounded to float.
+// Returns how far along its ray a ray may start: for an eye outside the scene, on the sphere about the scene.
+// A far eye then costs no digits when the origin is rounded to float.
 double distance_to_scene(const CompiledScene::Impl& scene, const Vec3d& eye, const Vec3d& direction) {
   return std::max(0.0, -eye.dot(direction) - scene.radius);
 }
@@ -57,8 +57,8 @@ std::uint32_t Tracer::primitive_count() const {
   return static_cast<std::uint32_t>(of.spheres + of.cones + of.polygons + of.patches);
 }
 
-void Tracer::view(std::uint32_t primitive, ImageShape& shape) const {
-  view_primitive(scene_.impl(), primitive, camera_, shape);
+void Tracer::project(std::uint32_t primitive, ImageShape& shape) const {
+  project_primitive(scene_.impl(), primitive, camera_, shape);
 }
 
 }  // namespace pprt

@@ -1,4 +1,4 @@
-// A Tracer as the ranks see it.
+// Makes a Probe of a Tracer.
 #pragma once
 
 #include "base/probe.h"
@@ -6,13 +6,13 @@
 
 namespace pprt {
 
-// Asks the tracer, which must outlive it.
+// Returns a Probe that calls `tracer`, which must outlive it.
 inline Probe probe_of(Tracer& tracer) {
   return {[&tracer](const Camera& camera) { tracer.set_camera(camera); },
           [&tracer](double x, double y) { return tracer.trace(x, y); },
           [&tracer](const Vec3f& hit, bool at_infinity) { return tracer.visible(hit, at_infinity); },
           [&tracer] { return tracer.counts(); },
-          [&tracer](std::uint32_t primitive, ImageShape& shape) { tracer.view(primitive, shape); },
+          [&tracer](std::uint32_t primitive, ImageShape& shape) { tracer.project(primitive, shape); },
           tracer.primitive_count()};
 }
 

@@ -8,7 +8,7 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// The next float beyond a double, so that a box in float encloses one in double.
+// Round to the next float outwards, so that a box in float encloses the one in double.
 float below(double x) {
   return std::nextafterf(static_cast<float>(x), -kInfinity);
 }
@@ -28,33 +28,33 @@ void bound(const RTCBoundsFunctionArguments* args) {
   out.upper_z = above(box.max.z);
 }
 
-// The first crossing with a visible face strictly between two ray parameters; NaN when there is none.
-template <Sides kSides>
+// Returns the first crossing of a visible face strictly between two ray parameters; NaN when there is none.
+template <VisibleFaces kFaces>
 double first_within(const Crossings& crossings, double near, double far) {
   double first = std::numeric_limits<double>::quiet_NaN();
-  if (kSides != Sides::kBack && crossings.front > near && crossings.front < far) {
+  if (kFaces != VisibleFaces::kBack && crossings.front > near && crossings.front < far) {
     first = far = crossings.front;
   }
-  if (kSides != Sides::kFront && crossings.back > near && crossings.back < far) first = crossings.back;
+  if (kFaces != VisibleFaces::kFront && crossings.back > near && crossings.back < far) first = crossings.back;
   return first;
 }
 
-// Lane i of a packet of `lanes` rays; a single ray is a packet of one.
-template <class Record, Sides kSides>
+// Intersects ray i of a packet of `lanes` rays; a single ray is a packet of one.
+template <class Record, VisibleFaces kFaces>
 double first_hit(const Record& record, RTCRayN* ray, unsigned lanes, unsigned i) {
   const Vec3d origin(RTCRayN_org_x(ray, lanes, i), RTCRayN_org_y(ray, lanes, i),
                      RTCRayN_org_z(ray, lanes, i));
   const Vec3d direction(RTCRayN_dir_x(ray, lanes, i), RTCRayN_dir_y(ray, lanes, i),
                         RTCRayN_dir_z(ray, lanes, i));
-  return first_within<kSides>(crossings(record, origin, direction), RTCRayN_tnear(ray, lanes, i),
+  return first_within<kFaces>(crossings(record, origin, direction), RTCRayN_tnear(ray, lanes, i),
                               RTCRayN_tfar(ray, lanes, i));
 }
 
-template <class Record, Sides kSides>
+template <class Record, VisibleFaces kFaces>
 void intersect_lane(const Record& record, const RTCIntersectFunctionNArguments* args, unsigned lanes,
                     unsigned i) {
   RTCRayN* ray = RTCRayHitN_RayN(args->rayhit, lanes);
-  const double t = first_hit<Record, kSides>(record, ray, lanes, i);
+  const double t = first_hit<Record, kFaces>(record, ray, lanes, i);
   if (std::isnan(t)) return;
   RTCHitN* hit = RTCRayHitN_HitN(args->rayhit, lanes);
   RTCRayN_tfar(ray, lanes, i) = static_cast<float>(t);
@@ -63,61 +63,62 @@ void intersect_lane(const Record& record, const RTCIntersectFunctionNArguments* 
   RTCHitN_instID(hit, lanes, i, 0) = args->context->instID[0];
 }
 
-template <class Record, Sides kSides>
+template <class Record, VisibleFaces kFaces>
 void occlude_lane(const Record& record, const RTCOccludedFunctionNArguments* args, unsigned lanes,
                   unsigned i) {
-  const double t = first_hit<Record, kSides>(record, args->ray, lanes, i);
+  const double t = first_hit<Record, kFaces>(record, args->ray, lanes, i);
   if (!std::isnan(t)) RTCRayN_tfar(args->ray, lanes, i) = -kInfinity;
 }
 
-// The normal is not written: shading finds it from the primitive, in double.
-template <class Record, Sides kSides>
+// Embree callback. It writes no normal: shading recomputes it from the primitive, in double.
+template <class Record, VisibleFaces kFaces>
 void intersect(const RTCIntersectFunctionNArguments* args) {
   const Record& record = static_cast<const Record*>(args->geometryUserPtr)[args->primID];
   if (args->N == 1) {
-    if (args->valid[0]) intersect_lane<Record, kSides>(record, args, 1, 0);
+    if (args->valid[0]) intersect_lane<Record, kFaces>(record, args, 1, 0);
     return;
   }
   for (unsigned i = 0; i < args->N; ++i) {
-    if (args->valid[i]) intersect_lane<Record, kSides>(record, args, args->N, i);
+    if (args->valid[i]) intersect_lane<Record, kFaces>(record, args, args->N, i);
   }
 }
 
-template <class Record, Sides kSides>
+template <class Record, VisibleFaces kFaces>
 void occlude(const RTCOccludedFunctionNArguments* args) {
   const Record& record = static_cast<const Record*>(args->geometryUserPtr)[args->primID];
   if (args->N == 1) {
-    if (args->valid[0]) occlude_lane<Record, kSides>(record, args, 1, 0);
+    if (args->valid[0]) occlude_lane<Record, kFaces>(record, args, 1, 0);
     return;
   }
   for (unsigned i = 0; i < args->N; ++i) {
-    if (args->valid[i]) occlude_lane<Record, kSides>(record, args, args->N, i);
+    if (args->valid[i]) occlude_lane<Record, kFaces>(record, args, args->N, i);
   }
 }
 
-template <class Record, Sides kSides>
+template <class Record, VisibleFaces kFaces>
 void set_callbacks(RTCGeometry geometry) {
-  rtcSetGeometryIntersectFunction(geometry, intersect<Record, kSides>);
-  rtcSetGeometryOccludedFunction(geometry, occlude<Record, kSides>);
+  rtcSetGeometryIntersectFunction(geometry, intersect<Record, kFaces>);
+  rtcSetGeometryOccludedFunction(geometry, occlude<Record, kFaces>);
 }
 
 template <class Record>
-EmbreeGeometry new_geometry(const EmbreeDevice& device, const std::vector<Record>& records, Sides sides) {
+EmbreeGeometry new_geometry(const EmbreeDevice& device, const std::vector<Record>& records,
+                            VisibleFaces faces) {
   EmbreeGeometry geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
   rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(records.size()));
-  // Embree hands the pointer back untouched, and the callbacks only read through it.
+  // Embree returns the pointer unchanged, and the callbacks only read through it.
   rtcSetGeometryUserData(geometry.get(), const_cast<Record*>(records.data()));
   rtcSetGeometryBoundsFunction(
       geometry.get(), [](const RTCBoundsFunctionArguments* args) { bound<Record>(args); }, nullptr);
-  switch (sides) {
-    case Sides::kBoth:
-      set_callbacks<Record, Sides::kBoth>(geometry.get());
+  switch (faces) {
+    case VisibleFaces::kBoth:
+      set_callbacks<Record, VisibleFaces::kBoth>(geometry.get());
       break;
-    case Sides::kFront:
-      set_callbacks<Record, Sides::kFront>(geometry.get());
+    case VisibleFaces::kFront:
+      set_callbacks<Record, VisibleFaces::kFront>(geometry.get());
       break;
-    case Sides::kBack:
-      set_callbacks<Record, Sides::kBack>(geometry.get());
+    case VisibleFaces::kBack:
+      set_callbacks<Record, VisibleFaces::kBack>(geometry.get());
       break;
   }
   rtcCommitGeometry(geometry.get());
@@ -127,13 +128,13 @@ EmbreeGeometry new_geometry(const EmbreeDevice& device, const std::vector<Record
 }  // namespace
 
 EmbreeGeometry new_user_geometry(const EmbreeDevice& device, const std::vector<SphereRecord>& records,
-                                 Sides sides) {
-  return new_geometry(device, records, sides);
+                                 VisibleFaces faces) {
+  return new_geometry(device, records, faces);
 }
 
 EmbreeGeometry new_user_geometry(const EmbreeDevice& device, const std::vector<ConeRecord>& records,
-                                 Sides sides) {
-  return new_geometry(device, records, sides);
+                                 VisibleFaces faces) {
+  return new_geometry(device, records, faces);
 }
 
 }  // namespace pprt

@@ -1,4 +1,4 @@
-// Spheres and cones as Embree user geometry: bounds, and the intersection callbacks.
+// Spheres and cones as Embree user geometry: bounds and intersection callbacks.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,13 @@
 
 namespace pprt {
 
-// Which faces of a primitive stop a ray.
-enum class Sides : std::uint8_t { kBoth, kFront, kBack };
+// The faces of a primitive that stop a ray; rays pass through the others.
+enum class VisibleFaces : std::uint8_t { kBoth, kFront, kBack };
 
-// A geometry over the records, which it reads on every ray: they must outlive it and stay where they are.
+// Makes a geometry over the records. Every ray reads them: they must outlive the geometry and not move.
 EmbreeGeometry new_user_geometry(const EmbreeDevice& device, const std::vector<SphereRecord>& records,
-                                 Sides sides);
+                                 VisibleFaces faces);
 EmbreeGeometry new_user_geometry(const EmbreeDevice& device, const std::vector<ConeRecord>& records,
-                                 Sides sides);
+                                 VisibleFaces faces);
 
 }  // namespace pprt

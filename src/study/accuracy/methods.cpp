@@ -114,7 +114,7 @@ class MeshPainter {
         mesh_(Region::whole({camera_.width, camera_.height, kTilePixels}), learning_of(terms, rule)),
         rule_(rule),
         projected_shapes_(
-            [this](std::uint32_t primitive, ImageShape& shape) { tracer_.view(primitive, shape); }) {}
+            [this](std::uint32_t primitive, ImageShape& shape) { tracer_.project(primitive, shape); }) {}
 
   void add(const Vec2d& point) {
     Sample sample;

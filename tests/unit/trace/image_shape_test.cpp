@@ -55,7 +55,7 @@ int wrong(const CompiledScene& scene, const View& view, int points, double shift
     const RaySample seen = tracer.trace(x, y);
     for (auto p = static_cast<std::uint32_t>(shapes.size()); p <= seen.primitive + 50; ++p) {
       shapes.emplace_back();
-      if (p > 0) tracer.view(p, shapes.back());
+      if (p > 0) tracer.project(p, shapes.back());
     }
     std::uint32_t nearest = 0;
     double least = 0;
@@ -135,12 +135,12 @@ TEST_CASE("where the eye is inside a sphere or cone there is no shape, nor of wh
   const CompiledScene compiled = compile(scene);
   const Tracer tracer(compiled, compiled.camera(view_from({0, 0, 1}, {0, 0, -9})));
   ImageShape shape;
-  tracer.view(1, shape);
+  tracer.project(1, shape);
   CHECK(shape.kind == ImageShape::Kind::kUnknown);
-  tracer.view(2, shape);
+  tracer.project(2, shape);
   CHECK(shape.kind == ImageShape::Kind::kUnknown);
-  tracer.view(3, shape);
+  tracer.project(3, shape);
   CHECK(shape.kind == ImageShape::Kind::kQuadric);
-  tracer.view(4, shape);
+  tracer.project(4, shape);
   CHECK(shape.kind == ImageShape::Kind::kUnknown);
 }
