@@ -8,8 +8,7 @@
 namespace pprt {
 namespace {
 
-// The old pixels that one new pixel covers along one axis, and the share of it that each takes; shares add up
-// to 1.
+// The old pixels that one new pixel covers along an axis, and the share of each. The shares add up to 1.
 struct Span {
   int first = 0;
   std::vector<float> shares;

@@ -1,4 +1,4 @@
-// Many pictures on one page.
+// Resizes pictures and arranges many of them on one page.
 #pragma once
 
 #include <span>
@@ -7,22 +7,22 @@
 
 namespace pprt {
 
-// The picture at another size: each new pixel is the mean over the area it covers (a box filter). Sizes in
-// pixels, at least 1; the picture is not empty.
+// Returns the picture at another size, pixels, at least 1. Each new pixel is the mean over the area that it
+// covers (box filter). The picture must not be empty.
 Image resize(const Image& image, int width, int height);
 
 struct ContactSheetLayout {
   int columns = 8;
   int gap = 4;                // pixels between thumbnails and around them, black
-  int thumbnail_width = 128;  // pixels; heights follow each picture's shape
+  int thumbnail_width = 128;  // pixels; each height keeps its picture's aspect ratio
 };
 
-// The picture as it stands on a sheet: of this width in pixels, its shape kept.
+// Returns the picture at this width, pixels, with its aspect ratio kept.
 Image thumbnail(const Image& picture, int width);
 
-// Thumbnails row after row in reading order; a row is as high as its highest picture. Fewer pictures than
-// columns make a narrower page. Throws std::invalid_argument when there is no picture, one is empty, or a
-// measure makes no sense.
+// Arranges thumbnails in reading order. A row is as high as its highest picture; fewer pictures than columns
+// make a narrower page. Throws std::invalid_argument when there is no picture, one is empty, or a measure is
+// out of range.
 Image contact_sheet(std::span<const Image> pictures, const ContactSheetLayout& layout = {});
 
 }  // namespace pprt

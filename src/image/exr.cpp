@@ -21,11 +21,10 @@
 namespace pprt {
 namespace {
 
-// The library's compression threads would take cores from the ranks; everything is done in the caller's
-// thread.
+// No compression threads: they would take cores from the ranks.
 constexpr int kThreads = 0;
 
-// Measured on 1920x1080 (bench/image_bench.cpp): see docs/decisions/0005-picture-encoding.md.
+// Chosen by measurement: docs/decisions/0005-picture-encoding.md.
 constexpr Imf::Compression kCompression = Imf::ZIP_COMPRESSION;
 constexpr int kZipLevel = 1;
 
@@ -70,7 +69,7 @@ class ViewInput : public Imf::IStream {
   std::uint64_t position_ = 0;
 };
 
-struct FactToAttribute {
+struct ToAttribute {
   Imf::Header& header;
   const std::string& name;
 
@@ -85,13 +84,13 @@ struct FactToAttribute {
   }
 };
 
-Imf::Header make_header(const Image& image, const Facts& facts) {
+Imf::Header make_header(const Image& image, const Metadata& metadata) {
   Imf::Header header(image.width, image.height);
-  for (const auto& [name, fact] : facts) {
+  for (const auto& [name, value] : metadata) {
     if (header.find(name) != header.end()) {
-      throw std::runtime_error(fmt::format("the fact '{}' is there already, or OpenEXR's own", name));
+      throw std::runtime_error(fmt::format("the attribute '{}' is there already, or OpenEXR's own", name));
     }
-    std::visit(FactToAttribute{header, name}, fact);
+    std::visit(ToAttribute{header, name}, value);
   }
   header.compression() = kCompression;
   header.zipCompressionLevel() = kZipLevel;
@@ -99,7 +98,8 @@ Imf::Header make_header(const Image& image, const Facts& facts) {
   return header;
 }
 
-// Adds the channel's values to what is written; they stay where they are until then.
+// Adds a channel to the header and the frame buffer. The buffer refers to its values, which must stay in
+// place until they are written.
 void add_channel(const Channel& channel, const Image& image, Imf::Header& header, Imf::FrameBuffer& buffer) {
   if (header.channels().findChannel(channel.name) != nullptr) {
     throw std::runtime_error(fmt::format("the channel '{}' is there already", channel.name));
@@ -129,7 +129,7 @@ std::vector<half> to_half(const Image& image) {
   return halves;
 }
 
-// One channel of interleaved red, green and blue; `first` is its value in the window's upper left pixel.
+// Describes one channel of interleaved RGB. `first` is its value in the window's upper left pixel.
 template <typename Value>
 Imf::Slice slice(Imf::PixelType type, Value* first, const Imath::Box2i& window) {
   return Imf::Slice::Make(type, first, window, 3 * sizeof(Value));
@@ -137,7 +137,7 @@ Imf::Slice slice(Imf::PixelType type, Value* first, const Imath::Box2i& window) 
 
 using ChannelNames = std::vector<const char*>;
 
-// R, G and B, or Y alone.
+// Returns the channels to read: R, G and B, or Y alone. Throws std::runtime_error for any other set.
 ChannelNames channels_to_read(const Imf::ChannelList& channels) {
   const auto has = [&](const char* name) { return channels.findChannel(name) != nullptr; };
   ChannelNames names{"R", "G", "B"};
@@ -155,10 +155,10 @@ ChannelNames channels_to_read(const Imf::ChannelList& channels) {
 
 }  // namespace
 
-std::string encode_exr(const Image& image, const Facts& facts, const std::vector<Channel>& channels) {
+std::string encode_exr(const Image& image, const Metadata& metadata, const std::vector<Channel>& channels) {
   require_encodable(image);
   try {
-    Imf::Header header = make_header(image, facts);
+    Imf::Header header = make_header(image, metadata);
     std::vector<half> halves = to_half(image);
     Imf::FrameBuffer buffer;
     std::size_t offset = 0;

@@ -12,7 +12,7 @@ double linear_of_srgb(double value) {
   return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
 }
 
-// XYZ of linear sRGB, its rows; the sum of a row is white's.
+// Rows of the matrix from linear sRGB to XYZ. A row's sum is the white point.
 constexpr double kXyzOfRgb[3][3] = {
     {0.4124564, 0.3575761, 0.1804375}, {0.2126729, 0.7151522, 0.0721750}, {0.0193339, 0.1191920, 0.9503041}};
 constexpr double kRgbOfXyz[3][3] = {{3.2404542, -1.5371385, -0.4985314},
@@ -23,27 +23,27 @@ double white(int row) {
   return kXyzOfRgb[row][0] + kXyzOfRgb[row][1] + kXyzOfRgb[row][2];
 }
 
-Triple times(const double (&matrix)[3][3], const Triple& v) {
-  Triple result;
+ColorVector times(const double (&matrix)[3][3], const ColorVector& v) {
+  ColorVector result;
   for (int i = 0; i < 3; ++i) result[i] = matrix[i][0] * v.x + matrix[i][1] * v.y + matrix[i][2] * v.z;
   return result;
 }
 
-// XYZ, white being (1, 1, 1).
-Triple relative_xyz(const Triple& linear_rgb) {
-  const Triple xyz = times(kXyzOfRgb, linear_rgb);
+// Converts to XYZ, with white at (1, 1, 1).
+ColorVector relative_xyz(const ColorVector& linear_rgb) {
+  const ColorVector xyz = times(kXyzOfRgb, linear_rgb);
   return {xyz.x / white(0), xyz.y / white(1), xyz.z / white(2)};
 }
 
-Triple linear_rgb(const Triple& relative) {
+ColorVector linear_rgb(const ColorVector& relative) {
   return times(kRgbOfXyz, {relative.x * white(0), relative.y * white(1), relative.z * white(2)});
 }
 
-Triple opponent(const Triple& relative) {
+ColorVector opponent(const ColorVector& relative) {
   return {116 * relative.y - 16, 500 * (relative.x - relative.y), 200 * (relative.y - relative.z)};
 }
 
-Triple relative_xyz_of_opponent(const Triple& o) {
+ColorVector relative_xyz_of_opponent(const ColorVector& o) {
   const double y = (o.x + 16) / 116;
   return {y + o.y / 500, y, y - o.z / 200};
 }
@@ -53,23 +53,23 @@ double lab_curve(double t) {
   return t > kDelta * kDelta * kDelta ? std::cbrt(t) : t / (3 * kDelta * kDelta) + 4.0 / 29;
 }
 
-Triple lab(const Triple& relative) {
+ColorVector lab(const ColorVector& relative) {
   const double x = lab_curve(relative.x);
   const double y = lab_curve(relative.y);
   const double z = lab_curve(relative.z);
   return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
 }
 
-Triple hunt_adjusted(const Triple& lab) {
+ColorVector hunt_adjusted(const ColorVector& lab) {
   return {lab.x, 0.01 * lab.x * lab.y, 0.01 * lab.x * lab.z};
 }
 
-Triple perceived_rgb(const Triple& linear) {
+ColorVector perceived_rgb(const ColorVector& linear) {
   return hunt_adjusted(lab(relative_xyz(linear)));
 }
 
-// One term of a channel's sensitivity in space, a sqrt(pi / b) exp(-pi^2 x^2 / b), x in degrees. Zero where
-// one term is enough.
+// One term a sqrt(pi / b) exp(-pi^2 x^2 / b) of a channel's contrast sensitivity, x in degrees. a = 0: the
+// channel has one term only.
 struct Term {
   double a;
   double b;
@@ -80,16 +80,16 @@ constexpr Term kTerms[3][2] = {
     {{1, 0.0047}, {0, 1e-5}}, {{1, 0.0053}, {0, 1e-5}}, {{34.1, 0.04}, {13.5, 0.025}}};
 constexpr Term kWidest = kTerms[kBlueYellow][0];
 
-// The width of what is looked for is 0.082 degrees: twice the detectors' standard deviation.
+// Standard deviation of the feature detectors, degrees. The paper's feature width, 0.082 degrees, is twice
+// that.
 constexpr double kFeatureSigma = 0.5 * 0.082;
 
-// The smoothing and the derivatives of a Gaussian: along a line the positive weights of a derivative add up
-// to 1, the negative ones to -1.
+// A Gaussian and its derivatives. The positive weights of a derivative add up to 1, the negative ones to -1.
 struct Detectors {
   int radius;
   Kernel smooth;
-  Kernel slope;  // first derivative: edges
-  Kernel bend;   // second derivative: points
+  Kernel edge;   // first derivative
+  Kernel point;  // second derivative
 };
 
 Kernel balanced(Kernel weights) {
@@ -107,16 +107,16 @@ Detectors detectors(double pixels_per_degree) {
   for (int x = -radius; x <= radius; ++x) {
     const int place = x + radius;
     const double g = result.smooth[static_cast<std::size_t>(place)];
-    result.slope.push_back(-x * g);
-    result.bend.push_back((x * x / (sigma * sigma) - 1) * g);
+    result.edge.push_back(-x * g);
+    result.point.push_back((x * x / (sigma * sigma) - 1) * g);
   }
-  result.slope = balanced(std::move(result.slope));
-  result.bend = balanced(std::move(result.bend));
+  result.edge = balanced(std::move(result.edge));
+  result.point = balanced(std::move(result.point));
   return result;
 }
 
-// Lengths of the vectors of what a kernel finds across and down.
-std::vector<double> strengths(const Plane& plane, const Kernel& kernel, const Kernel& smooth) {
+// Returns the magnitude of the vector of the kernel's responses along x and y.
+std::vector<double> response_magnitudes(const Plane& plane, const Kernel& kernel, const Kernel& smooth) {
   std::vector<double> result = filtered(plane, kernel, smooth).values;
   const std::vector<double> down = filtered(plane, smooth, kernel).values;
   for (std::size_t i = 0; i < result.size(); ++i)
@@ -124,7 +124,7 @@ std::vector<double> strengths(const Plane& plane, const Kernel& kernel, const Ke
   return result;
 }
 
-// What is detected in a luminance of 0 (black) to 1 (white).
+// Feature strengths in a luminance from 0 (black) to 1 (white).
 struct Features {
   std::vector<double> edges;
   std::vector<double> points;
@@ -133,16 +133,16 @@ struct Features {
 Features features(const Plane& luminance, const Detectors& detectors) {
   Plane plane = with_margin(luminance, detectors.radius);
   for (double& value : plane.values) value = (value + 16) / 116;
-  return {strengths(plane, detectors.slope, detectors.smooth),
-          strengths(plane, detectors.bend, detectors.smooth)};
+  return {response_magnitudes(plane, detectors.edge, detectors.smooth),
+          response_magnitudes(plane, detectors.point, detectors.smooth)};
 }
 
-// Every pixel's perceived colour, the picture seen from afar.
-std::vector<Triple> perceived_colours(const OpponentPlanes& planes, double pixels_per_degree) {
+// Returns every pixel's perceived colour at the given viewing distance.
+std::vector<ColorVector> perceived_colours(const OpponentPlanes& planes, double pixels_per_degree) {
   const Plane luminance = contrast_filtered(planes[kLuminance], kLuminance, pixels_per_degree);
   const Plane red_green = contrast_filtered(planes[kRedGreen], kRedGreen, pixels_per_degree);
   const Plane blue_yellow = contrast_filtered(planes[kBlueYellow], kBlueYellow, pixels_per_degree);
-  std::vector<Triple> result;
+  std::vector<ColorVector> result;
   result.reserve(luminance.values.size());
   for (std::size_t i = 0; i < luminance.values.size(); ++i) {
     result.push_back(perceived({luminance.values[i], red_green.values[i], blue_yellow.values[i]}));
@@ -157,16 +157,16 @@ OpponentPlanes opponent_planes(const Image& image) {
   for (Plane& plane : planes) plane = {image.width, image.height, {}};
   for (Plane& plane : planes) plane.values.reserve(image.pixels.size());
   for (const Color& colour : image.pixels) {
-    Triple linear;
+    ColorVector linear;
     for (int c = 0; c < 3; ++c) linear[c] = linear_of_srgb(std::clamp(double{colour[c]}, 0.0, 1.0));
-    const Triple o = opponent(relative_xyz(linear));
+    const ColorVector o = opponent(relative_xyz(linear));
     for (int c = 0; c < 3; ++c) planes[static_cast<std::size_t>(c)].values.push_back(o[c]);
   }
   return planes;
 }
 
-// In two dimensions a term is its height times exp(-(x^2 + y^2) ...), so its share in the sum of all weights
-// is the height times the square of what the line adds up to.
+// A term in two dimensions is its height times exp(-(x^2 + y^2) ...). Its share of all weights is the height
+// times the square of the one-dimensional sum.
 Plane contrast_filtered(const Plane& plane, Channel channel, double pixels_per_degree) {
   const int radius = static_cast<int>(std::ceil(3 * kWidest.sigma() * pixels_per_degree));
   const Plane wide = with_margin(plane, radius);
@@ -175,7 +175,7 @@ Plane contrast_filtered(const Plane& plane, Channel channel, double pixels_per_d
   for (const Term& term : kTerms[channel]) {
     if (term.a == 0) continue;
     const Kernel kernel = gaussian(2 * radius + 1, term.sigma() * pixels_per_degree);
-    const double line = 1 / kernel[static_cast<std::size_t>(radius)];  // the sum before it was made 1
+    const double line = 1 / kernel[static_cast<std::size_t>(radius)];  // the sum before normalisation
     const double share = term.height() * line * line;
     const Plane part = filtered(wide, kernel, kernel);
     for (std::size_t i = 0; i < result.values.size(); ++i) result.values[i] += share * part.values[i];
@@ -185,14 +185,14 @@ Plane contrast_filtered(const Plane& plane, Channel channel, double pixels_per_d
   return result;
 }
 
-Triple perceived(const Triple& opponent) {
-  Triple linear = linear_rgb(relative_xyz_of_opponent(opponent));
+ColorVector perceived(const ColorVector& opponent) {
+  ColorVector linear = linear_rgb(relative_xyz_of_opponent(opponent));
   for (int c = 0; c < 3; ++c) linear[c] = std::clamp(linear[c], 0.0, 1.0);
   return perceived_rgb(linear);
 }
 
-double hyab(const Triple& a, const Triple& b) {
-  const Triple d = a - b;
+double hyab(const ColorVector& a, const ColorVector& b) {
+  const ColorVector d = a - b;
   return std::abs(d.x) + std::sqrt(d.y * d.y + d.z * d.z);
 }
 
@@ -223,8 +223,8 @@ std::vector<double> feature_errors(const Plane& a, const Plane& b, double pixels
 std::vector<double> error_map(const Image& image, const Image& reference, double pixels_per_degree) {
   const OpponentPlanes planes = opponent_planes(image);
   const OpponentPlanes reference_planes = opponent_planes(reference);
-  const std::vector<Triple> colours = perceived_colours(planes, pixels_per_degree);
-  const std::vector<Triple> reference_colours = perceived_colours(reference_planes, pixels_per_degree);
+  const std::vector<ColorVector> colours = perceived_colours(planes, pixels_per_degree);
+  const std::vector<ColorVector> reference_colours = perceived_colours(reference_planes, pixels_per_degree);
   std::vector<double> errors =
       feature_errors(planes[kLuminance], reference_planes[kLuminance], pixels_per_degree);
   for (std::size_t i = 0; i < errors.size(); ++i) {

@@ -12,7 +12,7 @@
 namespace pprt {
 namespace {
 
-constexpr std::size_t kMaxDigits = 9;  // more than any int frame number needs
+constexpr std::size_t kMaxDigits = 9;  // enough for any int
 
 class PatternReader {
  public:
@@ -44,7 +44,7 @@ class PatternReader {
     rest_.remove_prefix(1);
   }
 
-  // "%d", "%04d"; "%4d" would pad with blanks.
+  // "%d" or "%04d". "%4d" is refused, as it would pad with blanks.
   void percent_field() {
     const std::size_t end = rest_.find_first_not_of("0123456789", 1);
     const std::string_view width = rest_.substr(1, end == rest_.npos ? end : end - 1);
@@ -105,7 +105,7 @@ std::filesystem::path file_name(const FramePattern& pattern, int frame) {
   return fmt::format("{}{:0{}}{}", pattern.before, frame, *pattern.digits, pattern.after);
 }
 
-// The field may stand in a directory's name, so entries are matched up to the next separator.
+// The field may be in a directory's name, so entries are matched up to the next separator.
 std::vector<int> frames_present(const FramePattern& pattern) {
   std::vector<int> frames;
   if (!pattern.digits) return frames;
@@ -113,7 +113,7 @@ std::vector<int> frames_present(const FramePattern& pattern) {
   const std::string head = before.filename().string();
   const std::string tail = pattern.after.substr(0, pattern.after.find('/'));
   const std::filesystem::path directory = before.has_parent_path() ? before.parent_path() : ".";
-  std::error_code unreadable;  // has no frames
+  std::error_code unreadable;  // a directory that cannot be read has no frames
   for (const auto& entry : std::filesystem::directory_iterator(directory, unreadable)) {
     const std::string name = entry.path().filename().string();
     if (name.size() <= head.size() + tail.size() || !name.starts_with(head) || !name.ends_with(tail))
@@ -122,7 +122,7 @@ std::vector<int> frames_present(const FramePattern& pattern) {
     const char* end = name.data() + name.size() - tail.size();
     const auto [rest, error] = std::from_chars(name.data() + head.size(), end, frame);
     if (error != std::errc() || rest != end || frame < 0) continue;
-    const std::filesystem::path file = file_name(pattern, frame);  // with as many digits as it should have
+    const std::filesystem::path file = file_name(pattern, frame);  // with the pattern's number of digits
     if (file.string().starts_with(pattern.before + name.substr(head.size())) && std::filesystem::exists(file))
       frames.push_back(frame);
   }

@@ -113,7 +113,7 @@ WrittenFrame FrameWriter::write(const FrameToWrite& frame) const {
     if (!options_.overwrite && std::filesystem::exists(file)) {
       throw std::runtime_error(fmt::format("cannot write '{}': the file is there already", file.string()));
     }
-    write_image(file, image, frame.facts, channels, kind);
+    write_image(file, image, frame.metadata, channels, kind);
     written.files.push_back(std::move(file));
   };
   const std::vector<std::string>& layers = frame.layers.names;

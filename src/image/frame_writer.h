@@ -1,4 +1,4 @@
-// Numbered frames are written beside the frame loop, by a thread of their own.
+// Writes numbered frames in the background, so that the frame loop does not wait for files.
 #pragma once
 
 #include <condition_variable>
@@ -21,53 +21,57 @@ namespace pprt {
 
 struct FrameToWrite {
   int frame = 0;
-  Image image;  // has passed the gate: replace_non_finite
-  Facts facts;
-  LayerMaker layers = {};  // channels of every EXR, pictures beside every PNG
+  Image image;  // all values finite: see replace_non_finite
+  Metadata metadata;
+  LayerMaker layers = {};  // become channels of each EXR, and pictures beside each PNG
 };
 
 struct WrittenFrame {
   int frame = 0;
-  std::vector<std::filesystem::path> files;  // per output the frame, then its layers' pictures
-  std::vector<std::string> layers = {};      // of its channels and of those pictures
+  std::vector<std::filesystem::path> files;  // per output: the frame, then the pictures of its layers
+  std::vector<std::string> layers = {};      // their names
 };
 
 struct FrameWriterOptions {
-  bool overwrite = false;  // false: a file that is there already is an error
+  bool overwrite = false;  // false: an existing file is an error
 
-  // Bytes of pixels that may wait. A frame loop that is never slower than its writer never meets the bound: a
-  // 256x256 frame takes 0.75 MiB, so that some 340 of them may wait.
+  // Bytes of pixels that may wait; submit() blocks above it. A 256x256 frame takes 0.75 MiB, so some 340 of
+  // them may wait.
   std::size_t memory_bound = std::size_t{256} << 20;
 };
 
-// Whether an output holds layers in itself, as channels, rather than beside it.
+// Returns whether an output stores layers as channels (EXR), not as pictures beside it (PNG).
 bool holds_channels(const FramePattern& output);
 
-// Writes frames in the order in which they are submitted, beside the frame loop: in a thread of the lowest
-// priority until an eighth of the memory bound waits, then, as that is not enough, in one of the usual
-// priority (the frame under way when they change may be whole after the next). The first error is kept
-// until it is asked for; a frame that cannot be written does not keep later ones from being tried, as its
-// reason may be its own. submit, take_finished and error may be called from any thread.
+// Writes frames in the order in which they are submitted. submit, take_finished and error may be called from
+// any thread.
+//
+// A thread of the lowest priority does the work until an eighth of the memory bound waits. Then it is too
+// slow, and a thread of usual priority takes over. At the change, one frame may be finished after its
+// successor.
+//
+// The first error is kept until it is asked for. Later frames are still tried, as the error may concern one
+// frame only.
 class FrameWriter {
  public:
   explicit FrameWriter(std::vector<FramePattern> outputs, FrameWriterOptions options = {});
   FrameWriter(const FrameWriter&) = delete;
   FrameWriter& operator=(const FrameWriter&) = delete;
 
-  // Writes what still waits; errors that nobody asked for are lost, so call finish() first.
+  // Writes what still waits. Errors are lost, so call finish() first.
   ~FrameWriter();
 
-  // Hands a frame over and returns at once; blocks only while the memory bound would be passed (one frame is
-  // always taken). Throws std::logic_error after finish().
+  // Queues a frame and returns at once. Blocks only while the memory bound would be exceeded; a single frame
+  // is always accepted. Throws std::logic_error after finish().
   void submit(FrameToWrite frame);
 
-  // Frames whose files are all whole under their names, each told once.
+  // Returns the frames whose files are complete under their names, each once.
   std::vector<WrittenFrame> take_finished();
 
-  // What the first failed frame failed of, if any did so far.
+  // Returns the first error's message, if a frame has failed so far.
   std::optional<std::string> error() const;
 
-  // Waits until nothing waits; then throws the first error, if there was one.
+  // Waits until everything is written, then throws the first error, if any.
   void finish();
 
  private:
@@ -79,19 +83,19 @@ class FrameWriter {
   const std::vector<FramePattern> outputs_;
   const FrameWriterOptions options_;
 
-  mutable std::mutex mutex_;  // guards what follows, but the thread
+  mutable std::mutex mutex_;  // guards all members below except the threads
   std::condition_variable work_;
   std::condition_variable room_;
   std::deque<FrameToWrite> waiting_;
-  std::size_t bytes_ = 0;   // of pixels, waiting and being written
-  bool is_behind_ = false;  // the thread of the lowest priority has left the rest to the other
+  std::size_t bytes_ = 0;   // bytes of pixels, waiting and being written
+  bool is_behind_ = false;  // the lowest-priority thread has handed over
   bool stopping_ = false;
   std::vector<WrittenFrame> finished_;
   std::exception_ptr first_error_;
   std::string first_error_text_;
 
-  // Last: they use all of the above. A thread inherits its priority, and may not raise it: that of the usual
-  // one is begun by whoever submits.
+  // Declared last, because they use all members above. A thread inherits its priority and may not raise it,
+  // so the caller of submit starts the one of usual priority.
   std::thread at_lowest_priority_;
   std::thread at_usual_priority_;
 };

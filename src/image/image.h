@@ -11,7 +11,7 @@ namespace pprt {
 struct Image {
   int width = 0;
   int height = 0;
-  std::vector<Color> pixels;  // width * height, row after row
+  std::vector<Color> pixels;  // width * height, row by row
 
   Image() = default;
   Image(int w, int h, const Color& fill = Color(0, 0, 0))

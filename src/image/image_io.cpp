@@ -13,10 +13,10 @@ namespace {
 constexpr std::string_view kExrMagic = "\x76\x2f\x31\x01";
 constexpr std::string_view kPngMagic = "\x89PNG\r\n\x1a\n";
 
-std::string encode(const std::filesystem::path& path, const Image& image, const Facts& facts,
+std::string encode(const std::filesystem::path& path, const Image& image, const Metadata& metadata,
                    const std::vector<Channel>& channels, PictureKind kind) {
-  if (path.extension() == ".exr") return encode_exr(image, facts, channels);
-  if (path.extension() == ".png") return encode_png(image, facts, kind);
+  if (path.extension() == ".exr") return encode_exr(image, metadata, channels);
+  if (path.extension() == ".png") return encode_png(image, metadata, kind);
   throw std::runtime_error("the name ends neither in .exr nor in .png");
 }
 
@@ -42,11 +42,11 @@ std::size_t replace_non_finite(Image& image) {
   return replaced;
 }
 
-void write_image(const std::filesystem::path& path, const Image& image, const Facts& facts,
+void write_image(const std::filesystem::path& path, const Image& image, const Metadata& metadata,
                  const std::vector<Channel>& channels, PictureKind kind) {
   std::string bytes;
   try {
-    bytes = encode(path, image, facts, channels, kind);
+    bytes = encode(path, image, metadata, channels, kind);
   } catch (const std::runtime_error& e) {
     throw std::runtime_error(fmt::format("cannot write '{}': {}", path.string(), e.what()));
   }

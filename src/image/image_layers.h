@@ -1,4 +1,4 @@
-// What may go along with a picture: named channels in an EXR, further pictures beside a PNG.
+// Additional data of a picture: named channels in an EXR, further pictures beside a PNG.
 #pragma once
 
 #include <cstddef>
@@ -12,20 +12,20 @@
 
 namespace pprt {
 
-// One plane of numbers, of the picture's size, row after row from the top. The name is "layer.channel", as
-// OpenEXR has it. float4 may be infinite but not NaN; they are stored as 32 bits, as are counted things.
+// One plane of numbers with the picture's size, row by row from the top. The name is "layer.channel", as
+// OpenEXR has it. Values have 32 bits; floats may be infinite but not NaN.
 struct Channel {
   std::string name;
   std::variant<std::vector<float>, std::vector<std::uint32_t>> values;
 };
 
-// Made where and when they are written, so that the frame loop does not wait for them.
+// Computes layers when and where they are written, so that the frame loop does not wait for them.
 struct LayerMaker {
-  std::vector<std::string> names;                  // of the layers; empty: none, and nothing is called
-  std::function<std::vector<Channel>()> channels;  // of all layers
-  // The layer as a picture of its own, of any size.
+  std::vector<std::string> names;  // of the layers; empty: no layers, and nothing below is called
+  std::function<std::vector<Channel>()> channels;  // returns the channels of all layers
+  // Returns a layer as a picture of any size.
   std::function<Image(std::size_t layer, const Image& frame)> picture;
-  std::size_t bytes = 0;  // that it keeps in memory
+  std::size_t bytes = 0;  // memory that it holds
 };
 
 }  // namespace pprt

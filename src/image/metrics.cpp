@@ -43,7 +43,7 @@ Plane product(const Plane& a, const Plane& b) {
   return result;
 }
 
-// Over all windows that lie in the plane.
+// Returns the weighted means over all windows inside the plane.
 std::vector<double> window_means(const Plane& plane) {
   constexpr int kSide = 11;
   constexpr double kSigma = 1.5;
@@ -90,7 +90,7 @@ ImageDifference difference(const Image& image, const Image& reference, double th
       std::count_if(pixel_errors.begin(), pixel_errors.end(), [&](double e) { return e > threshold; });
   result.share_over_threshold = static_cast<double>(over) / pixels;
 
-  const std::size_t rank = (pixel_errors.size() * 999 + 999) / 1000;  // the nearest rank, from 1
+  const std::size_t rank = (pixel_errors.size() * 999 + 999) / 1000;  // nearest rank, from 1
   const auto at_rank = pixel_errors.begin() + static_cast<std::ptrdiff_t>(rank) - 1;
   std::nth_element(pixel_errors.begin(), at_rank, pixel_errors.end());
   result.error_p999 = *at_rank;

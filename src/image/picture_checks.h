@@ -1,4 +1,4 @@
-// What must hold of a picture before it is encoded and while it is decoded. Private to src/image.
+// Checks of a picture before encoding and while decoding. Private to src/image.
 #pragma once
 
 #include <cstdint>
@@ -7,11 +7,12 @@
 
 namespace pprt {
 
-// 16384 x 16384: a damaged or hostile header must not take the memory (3 GiB at this size).
+// Largest picture that is decoded: 16384 x 16384, 3 GiB. It keeps a damaged or hostile header from exhausting
+// memory.
 inline constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28;
 
-// Throws std::runtime_error when the picture has no pixels, not the number of pixels that its size says, or a
-// channel that is NaN or infinite.
+// Throws std::runtime_error when the picture has no pixels, a wrong number of pixels for its size, or a value
+// that is not finite.
 void require_encodable(const Image& image);
 
 // Throws std::runtime_error unless 1 <= width * height <= kMaxPixels.

@@ -18,8 +18,7 @@ Kernel gaussian(int taps, double sigma) {
   return weights;
 }
 
-// Whole rows are added up, tap by tap: the compiler can take several pixels at a time, and every pixel's sum
-// keeps its order.
+// Adds whole rows, tap by tap. The compiler can vectorise the loop, and each pixel's sum keeps its order.
 Plane filtered(const Plane& plane, const Kernel& across, const Kernel& down) {
   const int width = plane.width - static_cast<int>(across.size()) + 1;
   const int height = plane.height - static_cast<int>(down.size()) + 1;

@@ -1,4 +1,4 @@
-// One number per pixel, and separable filters over it. Private to src/image.
+// A plane of numbers, one per pixel, and separable filters over it. Private to src/image.
 #pragma once
 
 #include <vector>
@@ -8,21 +8,22 @@ namespace pprt {
 struct Plane {
   int width = 0;
   int height = 0;
-  std::vector<double> values;  // width * height, row after row
+  std::vector<double> values;  // width * height, row by row
 };
 
-// Weights of an odd or even number of neighbouring pixels, in the order of their coordinates; never empty.
+// Weights of neighbouring pixels, in the order of their coordinates. Any number of them, never none.
 using Kernel = std::vector<double>;
 
-// Samples of exp(-x^2 / (2 sigma^2)) at `taps` places one pixel apart, 0 in their middle; their sum is 1.
+// Samples exp(-x^2 / (2 sigma^2)) at `taps` places one pixel apart, centred at 0, and normalises their sum to
+// 1.
 Kernel gaussian(int taps, double sigma);
 
-// The weighted sums at every place where the window of across.size() x down.size() pixels lies in the plane
-// (correlation: the window is not mirrored). The result is smaller by the window's sides less one. The window
-// must fit.
+// Correlates the plane with the window across x down (the window is not mirrored). Only places where the
+// whole window lies in the plane have a result, so each side shrinks by the window's length minus 1. The
+// window must not be larger than the plane.
 Plane filtered(const Plane& plane, const Kernel& across, const Kernel& down);
 
-// The plane with `margin` more pixels on each side, each like the nearest one of the plane's own.
+// Returns the plane extended by `margin` pixels on each side; they repeat the nearest pixel.
 Plane with_margin(const Plane& plane, int margin);
 
 }  // namespace pprt

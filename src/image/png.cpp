@@ -1,5 +1,5 @@
-// setjmp, on which libpng's error handling rests, forbids objects with destructors in the functions that are
-// jumped out of. So each direction has one such function, which touches only what its caller prepared.
+// libpng reports errors by longjmp, which must not leave a function that owns objects with destructors. Each
+// direction therefore has functions that only use what their caller prepared.
 #include <fmt/core.h>
 #include <png.h>
 #include <zlib.h>
@@ -21,19 +21,19 @@ struct Packing {
   int zlib_level, zlib_strategy, filter;
 };
 
-// Measured: see docs/decisions/0005-picture-encoding.md.
+// Chosen by measurement: docs/decisions/0005-picture-encoding.md.
 constexpr Packing packing_of(PictureKind kind) {
   if (kind == PictureKind::kDrawn) return {2, Z_DEFAULT_STRATEGY, PNG_FILTER_UP};
-  return {1, Z_RLE, PNG_FILTER_SUB};  // the level makes no difference to run lengths
+  return {1, Z_RLE, PNG_FILTER_SUB};  // run-length coding ignores the level
 }
 
 constexpr std::size_t kMaxTextName = 79;  // the format's limit
 
-// What libpng's callbacks reach through its user pointers.
+// State that libpng's callbacks reach through its user pointers.
 struct Stream {
-  std::string output;             // encoding
-  std::string_view input;         // decoding: what is still to be read
-  std::array<char, 128> error{};  // libpng's message dies with the jump
+  std::string output;             // encoded bytes so far
+  std::string_view input;         // bytes still to be decoded
+  std::array<char, 128> error{};  // copy of libpng's message, which is lost with the jump
 };
 
 void note_error(png_structp png, png_const_charp message) {
@@ -63,7 +63,7 @@ void take_input(png_structp png, png_bytep bytes, std::size_t size) {
   input.remove_prefix(size);
 }
 
-// libpng's pair of structures, for one direction.
+// libpng's two structures, for one direction.
 struct Writer {
   png_structp png;
   png_infop info;
@@ -107,33 +107,33 @@ std::vector<png_byte> to_bytes(const Image& image) {
   return bytes;
 }
 
-struct FactToText {
+struct ToText {
   std::string operator()(const std::string& text) const { return text; }
   std::string operator()(double number) const { return fmt::format("{}", number); }
   std::string operator()(std::int64_t number) const { return fmt::format("{}", number); }
 };
 
-// Names and values as libpng takes them: pointers to characters that it does not change.
+// Names and values as png_text entries, which point to the strings kept here.
 struct Texts {
   std::vector<std::pair<std::string, std::string>> strings;
   std::vector<png_text> entries;
 
-  explicit Texts(const Facts& facts) {
-    strings.reserve(facts.size());
-    for (const auto& [name, fact] : facts) {
+  explicit Texts(const Metadata& metadata) {
+    strings.reserve(metadata.size());
+    for (const auto& [name, value] : metadata) {
       const bool printable =
           std::all_of(name.begin(), name.end(), [](char c) { return c >= ' ' && c <= '~'; });
       if (name.empty() || name.size() > kMaxTextName || !printable) {
-        throw std::runtime_error(fmt::format("'{}' cannot be the name of a fact in a PNG file", name));
+        throw std::runtime_error(fmt::format("'{}' cannot be the name of a text in a PNG file", name));
       }
-      auto& [key, value] = strings.emplace_back(name, std::visit(FactToText{}, fact));
+      auto& [key, text] = strings.emplace_back(name, std::visit(ToText{}, value));
       png_text& entry = entries.emplace_back();
-      const bool ascii = std::all_of(value.begin(), value.end(), [](char c) { return c > 0; });
+      const bool ascii = std::all_of(text.begin(), text.end(), [](char c) { return c > 0; });
       entry.compression = ascii ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;
       entry.key = key.data();
-      entry.text = value.data();
-      entry.text_length = ascii ? value.size() : 0;
-      entry.itxt_length = ascii ? 0 : value.size();
+      entry.text = text.data();
+      entry.text_length = ascii ? text.size() : 0;
+      entry.itxt_length = ascii ? 0 : text.size();
     }
   }
 };
@@ -159,7 +159,7 @@ bool read_header(Reader& reader) {
   return true;
 }
 
-// Reads into rows of big-endian 16-bit red, green, blue and alpha, whatever the file holds.
+// Reads rows of big-endian 16-bit RGBA, whatever the file holds.
 bool read_rows(Reader& reader, png_bytepp rows) {
   if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
   png_set_expand_16(reader.png);
@@ -176,10 +176,10 @@ float channel(const png_byte* big_endian) {
 
 }  // namespace
 
-std::string encode_png(const Image& image, const Facts& facts, PictureKind kind) {
+std::string encode_png(const Image& image, const Metadata& metadata, PictureKind kind) {
   require_encodable(image);
   const std::vector<png_byte> bytes = to_bytes(image);
-  Texts texts(facts);
+  Texts texts(metadata);
   Stream stream;
   Writer writer(stream);
   if (!write_rows(writer, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height),

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
   throw std::system_error(errno, std::generic_category());
 }
 
-// An open file, closed when its scope is left.
+// An open file, closed at the end of its scope.
 class Descriptor {
  public:
   Descriptor(const fs::path& path, int flags) : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {
@@ -55,7 +55,7 @@ class Descriptor {
     }
   }
 
-  // Some file systems report a full disk or quota only here.
+  // Some file systems report a full disk or quota only at closing.
   void close() {
     const int fd = fd_;
     fd_ = -1;
@@ -66,7 +66,7 @@ class Descriptor {
   int fd_;
 };
 
-// Hands all bytes to a descriptor as they come; its exceptions reach the stream's user.
+// A stream buffer that passes all bytes to a descriptor at once. Its exceptions reach the stream's user.
 class DescriptorBuffer : public std::streambuf {
  public:
   explicit DescriptorBuffer(Descriptor& file) : file_(file) {}
@@ -85,19 +85,19 @@ class DescriptorBuffer : public std::streambuf {
   Descriptor& file_;
 };
 
-// Removes the file of this name when its scope is left.
+// Removes a file at the end of its scope.
 struct Removal {
   fs::path path;
   ~Removal() { ::unlink(path.c_str()); }
 };
 
-// Why a path is not written to.
+// The reason why a path is refused.
 struct Refusal : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// A name that no file in the directory has and no other thread or process asks for. It does not hold the
-// final name, which may be as long as names can be; the left-over of a killed process is stepped over.
+// Returns a name that no file in the directory has and no other thread or process uses. It does not contain
+// the final name, which may have the maximum length. Left-overs of killed processes are skipped.
 fs::path unused_name(const fs::path& directory) {
   for (int i = 0;; ++i) {
     fs::path name = directory / fmt::format(".pprt-{}-{}.tmp", ::gettid(), i);
@@ -114,10 +114,10 @@ void write_and_rename(const fs::path& path, const std::function<void(std::ostrea
 
   const fs::path temporary = unused_name(directory);
   Descriptor file(temporary, O_WRONLY | O_CREAT | O_EXCL);
-  const Removal removal{temporary};  // after the rename there is nothing left to remove
+  const Removal removal{temporary};  // after the rename there is nothing to remove
   DescriptorBuffer buffer(file);
   std::ostream stream(&buffer);
-  stream.exceptions(std::ios::badbit);  // throws what the buffer has thrown
+  stream.exceptions(std::ios::badbit);  // rethrows the buffer's exceptions
   write(stream);
   file.close();
   fs::rename(temporary, path);

@@ -21,7 +21,7 @@ std::string names_of(const RenderOptions& options) {
 }
 
 // The record's entries as a header's: nested ones become "rays.primary" and the like, lists text.
-void append_facts(Facts& facts, const std::string& prefix, const Json& record) {
+void append_facts(Metadata& facts, const std::string& prefix, const Json& record) {
   for (const auto& [key, value] : record.items()) {
     const std::string name = prefix + "." + key;
     if (value.is_object()) {
@@ -40,9 +40,9 @@ void append_facts(Facts& facts, const std::string& prefix, const Json& record) {
   }
 }
 
-Facts header_facts(Json record) {
+Metadata header_facts(Json record) {
   record.erase("record");
-  Facts facts;
+  Metadata facts;
   append_facts(facts, "pprt", record);
   return facts;
 }
@@ -114,7 +114,7 @@ FrameRecorder::FrameRecorder(const RenderOptions& options, const RenderPlan& pla
 
 void FrameRecorder::record(FinishedFrame&& frame) {
   Json record = frame_record(frame);
-  Facts facts = header_facts(record);
+  Metadata facts = header_facts(record);
   if (ledger_.enabled()) ledger_.write_frame(std::move(record), measurements_of(frame));
   {
     const std::scoped_lock lock(mutex_);

@@ -27,7 +27,7 @@ double value_at(const Plane& plane, int x, int y) {
   return plane.values[static_cast<std::size_t>(y * plane.width + x)];
 }
 
-Triple of_colour(const Color& colour) {
+ColorVector of_colour(const Color& colour) {
   const OpponentPlanes planes = opponent_planes(Image(1, 1, colour));
   return {planes[0].values[0], planes[1].values[0], planes[2].values[0]};
 }
@@ -65,7 +65,7 @@ Image step(int width, int height) {
 }  // namespace
 
 TEST_CASE("FLIP: opponent colours of white, black and grey") {
-  const Triple white = of_colour(Color(1.0f));
+  const ColorVector white = of_colour(Color(1.0f));
   CHECK(white.x == Approx(100));
   CHECK(white.y == Approx(0).margin(1e-12));
   CHECK(white.z == Approx(0).margin(1e-12));
@@ -110,11 +110,11 @@ TEST_CASE("FLIP: a plain picture looks plain, up to its border") {
 
 TEST_CASE("FLIP: perceived colours have L*a*b* with the Hunt effect") {
   // L*a*b* of sRGB's green is (87.735, -86.183, 83.179), of blue (32.297, 79.188, -107.860).
-  const Triple green = perceived(of_colour(Color(0, 1, 0)));
+  const ColorVector green = perceived(of_colour(Color(0, 1, 0)));
   CHECK(green.x == Approx(87.735).epsilon(1e-4));
   CHECK(green.y == Approx(-86.183 * 0.87735).epsilon(1e-4));
   CHECK(green.z == Approx(83.179 * 0.87735).epsilon(1e-4));
-  const Triple blue = perceived(of_colour(Color(0, 0, 1)));
+  const ColorVector blue = perceived(of_colour(Color(0, 0, 1)));
   CHECK(blue.y == Approx(79.188 * 0.32297).epsilon(1e-4));
   CHECK(blue.z == Approx(-107.860 * 0.32297).epsilon(1e-4));
   CHECK(perceived({130, 0, 0}).x == Approx(100));  // brought into the range of sRGB

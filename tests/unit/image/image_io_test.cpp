@@ -158,9 +158,9 @@ TEST_CASE("a PNG holds display values, rounded to nearest and clamped") {
 
 TEST_CASE("equal pictures give equal bytes") {
   const Image image = half_exact_picture(64, 48);
-  const Facts facts{{"pprt.frame", std::int64_t{7}}, {"pprt.late_ms", -1.5}};
-  CHECK(encode_exr(image, facts) == encode_exr(image, facts));
-  CHECK(encode_png(image, facts) == encode_png(image, facts));
+  const Metadata metadata{{"pprt.frame", std::int64_t{7}}, {"pprt.late_ms", -1.5}};
+  CHECK(encode_exr(image, metadata) == encode_exr(image, metadata));
+  CHECK(encode_png(image, metadata) == encode_png(image, metadata));
 }
 
 TEST_CASE("what is drawn is packed with its patterns found, and shows the same") {
@@ -176,7 +176,7 @@ TEST_CASE("what is drawn is packed with its patterns found, and shows the same")
   CHECK(decode_png(with_patterns).pixels == decode_png(without).pixels);
 }
 
-TEST_CASE("facts stand in the EXR header with their types") {
+TEST_CASE("metadata become typed attributes of the EXR header") {
   const TemporaryDirectory directory;
   const fs::path path = directory.path() / "f.exr";
   write_image(path, Image(2, 2),
@@ -227,7 +227,7 @@ TEST_CASE("a channel that does not fit is refused") {
                     "the channel 'a.Y' has values that are no numbers");
 }
 
-TEST_CASE("facts stand in the PNG as texts") {
+TEST_CASE("metadata become texts of the PNG") {
   const std::string file = encode_png(Image(2, 2), {{"pprt.frame", std::int64_t{12}},
                                                     {"pprt.late_ms", 0.1},
                                                     {"pprt.scene", std::string("b\xc3\xa4ume.nff")}});
@@ -238,7 +238,7 @@ TEST_CASE("facts stand in the PNG as texts") {
   CHECK(file.find("b\xc3\xa4ume.nff") != file.npos);
 }
 
-TEST_CASE("a fact whose name a format refuses is an error") {
+TEST_CASE("metadata with a name that the format refuses are an error") {
   CHECK_THROWS_WITH(encode_exr(Image(1, 1), {{"channels", 1.0}}), Catch::Contains("'channels'"));
   CHECK_THROWS_WITH(encode_exr(Image(1, 1), {{"a", 1.0}, {"a", 2.0}}), Catch::Contains("'a'"));
   CHECK_THROWS_WITH(encode_exr(Image(1, 1), {{"", 1.0}}), Catch::Contains("name"));
