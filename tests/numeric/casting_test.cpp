@@ -77,7 +77,7 @@ std::size_t faults(const SampleMesh& mesh, const CastResult& cast) {
 
 }  // namespace
 
-TEST_CASE("samples cast into any view are numbers in its image, and none is lost") {
+TEST_CASE("samples cast into any view are finite points of its image, and none is lost") {
   int casts = 0;
   std::size_t wrong = 0;
   for (const SceneDescription& scene : test::spd_scenes()) {

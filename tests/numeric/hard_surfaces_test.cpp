@@ -74,7 +74,7 @@ Objects all(std::vector<Objects> objects) {
 
 }  // namespace
 
-TEST_CASE("spheres: tangent, nested, from within and from near") {
+TEST_CASE("spheres that touch, nest or enclose the eye are rendered as the oracle renders them") {
   const SceneDescription front = stage({0, 1, 8}, {0, 0, 0}, 40);
   check_all("spheres that touch, nest and fill the view",
             {
@@ -92,7 +92,7 @@ TEST_CASE("spheres: tangent, nested, from within and from near") {
             });
 }
 
-TEST_CASE("cylinders and cones: along the axis, onto the tip, needles and discs") {
+TEST_CASE("cylinders and cones at their limits are rendered as the oracle renders them") {
   const SceneDescription side = stage({0, 1, 8}, {0, 0, 0}, 40), above = stage({0, 0, 8}, {0, 0, 0}, 40);
   const double next = std::nextafter(1.0, 2.0);
   check_all(
@@ -120,7 +120,7 @@ TEST_CASE("cylinders and cones: along the axis, onto the tip, needles and discs"
       });
 }
 
-TEST_CASE("polygons and patches: grazed, concave, with corners that say nothing") {
+TEST_CASE("polygons and patches at their limits are rendered as the oracle renders them") {
   const SceneDescription front = stage({0, 1, 8}, {0, 0, 0}, 40);
   const auto polygon = [](const std::vector<Vec3d>& corners, MaterialIndex material = 0) -> Objects {
     return [=](SceneDescription& s) { add_polygon(s, corners, material); };
@@ -164,7 +164,7 @@ TEST_CASE("polygons and patches: grazed, concave, with corners that say nothing"
       });
 }
 
-TEST_CASE("a huge sphere seen from near") {
+TEST_CASE("a huge sphere seen from near is rendered as the oracle renders it") {
   const double r = 1e6;
   check_all("a sphere of radius 1e6 from near",
             {

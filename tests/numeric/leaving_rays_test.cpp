@@ -76,7 +76,7 @@ SceneDescription matte() {
 
 }  // namespace
 
-TEST_CASE("rays leave a sphere, whatever its size in the scene") {
+TEST_CASE("rays leave a sphere, whatever its size in the scene, and never meet it again") {
   std::uint64_t rays = 0;
   for (const double radius : {1.0, 0.01, 1e-4}) {
     SceneDescription scene = matte();
@@ -90,7 +90,7 @@ TEST_CASE("rays leave a sphere, whatever its size in the scene") {
   report_leaving("a sphere, of a share of the scene down to 1e-7", rays);
 }
 
-TEST_CASE("rays leave the inside of a sphere") {
+TEST_CASE("rays leave the inside of a sphere and never meet it again") {
   SceneDescription scene = matte();
   add_sphere(scene, {{0, 0, 0}, 1, 0, {}});
   std::uint64_t rays = 0;
@@ -103,7 +103,7 @@ TEST_CASE("rays leave the inside of a sphere") {
   report_leaving("the inside of a sphere", rays);
 }
 
-TEST_CASE("rays leave cylinders and cones") {
+TEST_CASE("rays leave cylinders and cones and never meet them again") {
   SceneDescription cylinder = matte();
   add_cone(cylinder, {{0, 0, -50}, 1, {0, 0, 50}, 1, 0, {}});
   SceneDescription cone = matte();
@@ -121,7 +121,7 @@ TEST_CASE("rays leave cylinders and cones") {
   report_leaving("a cylinder, and a cone", all);
 }
 
-TEST_CASE("rays leave polygons, slender and concave ones too") {
+TEST_CASE("rays leave polygons, slender and concave ones too, and never meet them again") {
   SceneDescription square = matte();
   add_square(square, 1, 0);
   std::uint64_t rays = check_around(square, 4);
@@ -146,7 +146,7 @@ TEST_CASE("rays leave polygons, slender and concave ones too") {
   report_leaving("polygons, slender and concave ones among them", rays + of_strip);
 }
 
-TEST_CASE("rays leave triangles of any shape in any plane") {
+TEST_CASE("rays leave triangles of any shape in any plane and never meet them again") {
   std::mt19937 engine(9);
   std::uniform_real_distribution<double> u(-1, 1);
   const auto point = [&] { return Vec3d(u(engine), u(engine), u(engine)); };
@@ -164,7 +164,7 @@ TEST_CASE("rays leave triangles of any shape in any plane") {
   report_leaving("triangles of any shape in any plane", rays);
 }
 
-TEST_CASE("rays leave a patch") {
+TEST_CASE("rays leave a patch and never meet it again") {
   SceneDescription scene = matte();
   // Its normals are those of its plane: others would light points that do lie in the patch's own shadow.
   const Vec3d a(-1, -1, 0), b(1, -1, 0.1), c(0.3, 1, 0);

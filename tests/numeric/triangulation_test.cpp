@@ -125,7 +125,7 @@ void check_tiling(const SampleMesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("a million hard points leave the triangulation whole") {
+TEST_CASE("a million hard points leave a valid triangulation") {
   constexpr int kPoints = 1'000'000;
   SampleMesh mesh(Region(kGrid, {}));  // of a region that holds nothing every triangle is told
   for (const Vec2d& corner : {Vec2d(0, 0), Vec2d(256, 0), Vec2d(256, 192), Vec2d(0, 192)}) {
@@ -170,8 +170,7 @@ TEST_CASE("a million hard points leave the triangulation whole") {
 }
 
 // Points along the border and round a corner, so near to a line or a circle that circumcentres lie anywhere.
-TEST_CASE(
-    "refinement amid slivers asks for points of the image, each once, and leaves the triangulation whole") {
+TEST_CASE("refinement among slivers asks for distinct points of the image and leaves a valid triangulation") {
   constexpr int kRefined = 50'000;
   SampleMesh mesh(Region::whole(kGrid));
   const auto put = [&](double x, double y) {

@@ -83,7 +83,7 @@ SceneDescription box(const Material& material) {
   return scene;
 }
 
-enum class Aim { kAnywhere, kSides, kCorners };  // of facets; rays at them pass within a rounding to float
+enum class Aim { kAnywhere, kEdges, kVertices };  // of facets; rays at them pass within a rounding to float
 
 // The answers to kRays rays from anywhere near the middle.
 void look_around(const SceneDescription& scene, const Vec3d& middle, Aim aim,
@@ -100,7 +100,7 @@ void look_around(const SceneDescription& scene, const Vec3d& middle, Aim aim,
     if (aim != Aim::kAnywhere) {
       const auto corners = scene.vertices(scene.polygons[random() % scene.polygons.size()]);
       const std::size_t k = random() % corners.size();
-      const double along = aim == Aim::kCorners ? 0 : share(random);
+      const double along = aim == Aim::kVertices ? 0 : share(random);
       view.at = corners[k] * (1 - along) + corners[(k + 1) % corners.size()] * along;
     }
     tracer.set_camera(compiled.camera(view));
@@ -123,7 +123,7 @@ TEST_CASE("no ray from inside a closed mesh misses it") {
       CAPTURE(scene.polygons.size(), offset);
       const Vec3d by(offset, -offset, offset);
       const SceneDescription there = moved(scene, by, 1);
-      const int anywhere = misses(there, by, Aim::kAnywhere), sides = misses(there, by, Aim::kSides);
+      const int anywhere = misses(there, by, Aim::kAnywhere), sides = misses(there, by, Aim::kEdges);
       CHECK(anywhere == 0);
       CHECK(sides == 0);
       missed += anywhere + sides;
@@ -149,7 +149,7 @@ TEST_CASE("no ray from inside a closed mesh of facets that are not flat misses i
   int missed = 0;
   for (const double offset : {0.0, 1e6}) {
     const Vec3d by(offset, -offset, offset);
-    missed += misses(moved(scene, by, 1), by, Aim::kAnywhere) + misses(moved(scene, by, 1), by, Aim::kSides);
+    missed += misses(moved(scene, by, 1), by, Aim::kAnywhere) + misses(moved(scene, by, 1), by, Aim::kEdges);
   }
   CHECK(missed == 0);
   report(fmt::format("the same in a ball whose quadrangles are not flat, at 0 and 1e6: {} rays each", kRays),
@@ -157,13 +157,13 @@ TEST_CASE("no ray from inside a closed mesh of facets that are not flat misses i
          missed == 0 ? "none" : fmt::format("{}", missed));
 }
 
-TEST_CASE("of rays aimed at the very corners of a closed mesh at most two in a thousand miss it") {
+TEST_CASE("of rays aimed at the very vertices of a closed mesh at most two in a thousand miss it") {
   Worst worst;
   for (const SceneDescription& scene : {ball(Material()), box(Material())}) {
     for (const double offset : {0.0, 1e3, 1e6}) {
       CAPTURE(scene.polygons.size(), offset);
       const Vec3d by(offset, -offset, offset);
-      const int missed = misses(moved(scene, by, 1), by, Aim::kCorners);
+      const int missed = misses(moved(scene, by, 1), by, Aim::kVertices);
       CHECK(missed <= kRays / 500);
       worst.add(static_cast<double>(missed) / kRays, scene.polygons.size() > 1000 ? "ball" : "box");
     }
@@ -175,7 +175,7 @@ TEST_CASE("of rays aimed at the very corners of a closed mesh at most two in a t
          worst.percent());
 }
 
-TEST_CASE("a mesh that lacks a facet is not closed") {
+TEST_CASE("control: rays from inside a mesh that lacks a facet miss it") {
   SceneDescription scene = ball(Material());
   scene.polygons.pop_back();
   scene.order.pop_back();

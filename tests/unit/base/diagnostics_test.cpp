@@ -48,7 +48,7 @@ TEST_CASE("a long line is cut around the caret, control characters and UTF-8 do 
         "f:1:5: error: after an umlaut and a tab\n    \xc3\xa4 a b\n       ^\n");
 }
 
-TEST_CASE("a flood of problems is counted, not kept") {
+TEST_CASE("a flood of problems is counted and not kept") {
   Diagnostics problems;
   for (int i = 0; i < 1000; ++i) problems.error({1, 1}, "again");
   CHECK(problems.kept().size() == Diagnostics::kMaxKept);

@@ -64,7 +64,7 @@ Image step(int width, int height) {
 
 }  // namespace
 
-TEST_CASE("FLIP: opponent colours of white, black and grey") {
+TEST_CASE("FLIP: white, black and grey have the expected opponent colours") {
   const ColorVector white = of_colour(Color(1.0f));
   CHECK(white.x == Approx(100));
   CHECK(white.y == Approx(0).margin(1e-12));
@@ -75,7 +75,7 @@ TEST_CASE("FLIP: opponent colours of white, black and grey") {
   CHECK(of_colour(Color(7.0f)).x == Approx(100));  // clamped
 }
 
-TEST_CASE("FLIP: the contrast sensitivity's weights, by the formula") {
+TEST_CASE("FLIP: the contrast filter has the weights of the formula") {
   struct Case {
     Channel channel;
     double a1, b1, a2, b2;
@@ -103,7 +103,7 @@ TEST_CASE("FLIP: the contrast sensitivity's weights, by the formula") {
   CHECK(std::accumulate(seen.values.begin(), seen.values.end(), 0.0) == Approx(1));
 }
 
-TEST_CASE("FLIP: a plain picture looks plain, up to its border") {
+TEST_CASE("FLIP: a plain picture stays plain when filtered, up to its border") {
   const Plane plain{3, 2, std::vector<double>(6, 0.7)};
   for (const double value : contrast_filtered(plain, kBlueYellow, 67).values) CHECK(value == Approx(0.7));
 }
@@ -125,7 +125,7 @@ TEST_CASE("FLIP: the distance adds lightness to the distance of colours") {
   CHECK(hyab({4, 4, 6}, {10, 1, 2}) == Approx(6 + 5));
 }
 
-TEST_CASE("FLIP: errors of colour fill the range in two parts") {
+TEST_CASE("FLIP: colour errors fill [0, 1] in two linear parts") {
   const double largest = hyab(perceived(of_colour(Color(0, 1, 0))), perceived(of_colour(Color(0, 0, 1))));
   CHECK(largest == Approx(203.297).epsilon(1e-5));
   CHECK(colour_error(0) == 0);
@@ -135,7 +135,7 @@ TEST_CASE("FLIP: errors of colour fill the range in two parts") {
   CHECK(colour_error(std::pow(0.7, 1 / 0.7) * largest) == Approx(0.975));
 }
 
-TEST_CASE("FLIP: features of a step, by hand") {
+TEST_CASE("FLIP: the feature error of a step equals that computed by hand") {
   // Beside the step all positive weights of the first derivative meet white and no negative one does.
   const Plane flat = opponent_planes(Image(40, 5, Color(1.0f)))[kLuminance];
   const Plane edge = opponent_planes(step(40, 5))[kLuminance];
@@ -148,7 +148,7 @@ TEST_CASE("FLIP: features of a step, by hand") {
   CHECK(swapped == errors);
 }
 
-TEST_CASE("FLIP: features of a point, by hand") {
+TEST_CASE("FLIP: the feature error of a point equals that computed by hand") {
   // At the point both second derivatives answer with their central weight, the first ones not at all.
   const double sigma = 0.5 * 0.082 * 67;
   double smooth = 0;
@@ -166,7 +166,7 @@ TEST_CASE("FLIP: features of a point, by hand") {
   CHECK(errors[15 * 31 + 15] == Approx(std::sqrt(answer / std::sqrt(2.0))));
 }
 
-TEST_CASE("FLIP of plain pictures is their error of colour") {
+TEST_CASE("FLIP of plain pictures is their colour error") {
   const auto plain = [](const Color& a, const Color& b) { return mean_flip(Image(8, 6, a), Image(8, 6, b)); };
   CHECK(plain(Color(0, 1, 0), Color(0, 0, 1)) == Approx(1).epsilon(1e-6));   // the largest there is
   CHECK(plain(Color(0.0f), Color(1.0f)) == Approx(0.967381).epsilon(1e-5));  // lightness 100, no colour
@@ -175,7 +175,7 @@ TEST_CASE("FLIP of plain pictures is their error of colour") {
   CHECK(plain(Color(0.6f), Color(0.6f)) == 0);
 }
 
-TEST_CASE("FLIP of a pattern, against a direct evaluation in two dimensions") {
+TEST_CASE("FLIP of a pattern equals a direct evaluation in two dimensions") {
   const Image image = pattern(0, 1, 2);
   const Image reference = pattern(2, 0.75f, 3);
   CHECK(mean_flip(image, reference) == Approx(0.6247203).epsilon(1e-6));
@@ -185,7 +185,7 @@ TEST_CASE("FLIP of a pattern, against a direct evaluation in two dimensions") {
   CHECK(map[31] == Approx(0.7092666).epsilon(1e-6));
 }
 
-TEST_CASE("FLIP knows no direction") {
+TEST_CASE("FLIP is symmetric, and the same for transposed pictures") {
   const Image image = pattern(0, 1, 2);
   const Image reference = pattern(2, 0.75f, 3);
   CHECK(mean_flip(image, image) == 0);

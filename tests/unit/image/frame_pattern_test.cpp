@@ -26,7 +26,7 @@ std::string complaint(const char* pattern, FrameCount count = FrameCount::kMany)
 
 }  // namespace
 
-TEST_CASE("a picture stands beside its frame") {
+TEST_CASE("a layer's picture is named after its frame") {
   const auto name = [](const char* pattern, int frame) {
     return file_name(beside(parse_frame_pattern(pattern, FrameCount::kOne), "depth"), frame).string();
   };
@@ -54,7 +54,7 @@ TEST_CASE("one frame may do without a field") {
         "output 'a/still.exr': several frames need a field for the frame number, as in 'a/still_%04d.exr'");
 }
 
-TEST_CASE("a pattern that makes no sense is explained") {
+TEST_CASE("an invalid pattern is rejected with its problem") {
   const std::string percent = "'%' must begin a frame number like %d or %04d, or be doubled: %%";
   for (const char* pattern :
        {"f%4d.png", "f%s.png", "f%04.png", "f%", "f%00d.png", "f%012d.png", "f%-4d.png"}) {

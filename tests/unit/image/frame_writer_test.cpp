@@ -114,7 +114,7 @@ TEST_CASE("the first error is kept, and later frames are tried all the same") {
   CHECK_THROWS_WITH(writer.finish(), message);
 }
 
-TEST_CASE("an error is told while the frame loop runs") {
+TEST_CASE("an error is reported while the frame loop runs") {
   FrameWriter writer({parse_frame_pattern("/dev/null/%d.png", FrameCount::kMany)});
   CHECK(!writer.error());
   writer.submit({1, picture_of(1), {}});
@@ -137,7 +137,7 @@ TEST_CASE("files that are there are kept unless overwriting is asked for") {
   CHECK(read_image(path).pixels == picture_of(2).pixels);
 }
 
-TEST_CASE("a frame that did not pass the gate never reaches a file") {
+TEST_CASE("a frame with values that are not finite never reaches a file") {
   const TemporaryDirectory directory;
   FrameWriter writer({pattern_in(directory.path(), "%d.exr")});
   Image image = picture_of(1);

@@ -163,7 +163,7 @@ TEST_CASE("equal pictures give equal bytes") {
   CHECK(encode_png(image, metadata) == encode_png(image, metadata));
 }
 
-TEST_CASE("what is drawn is packed with its patterns found, and shows the same") {
+TEST_CASE("a drawn picture is compressed better as such, and decodes to the same") {
   // At irregular places, but the same in every eighth row.
   Image drawn(128, 128, Color(1, 1, 1));
   for (int y = 0; y < 128; ++y) {
@@ -245,7 +245,7 @@ TEST_CASE("metadata with a name that the format refuses are an error") {
   CHECK_THROWS_WITH(encode_png(Image(1, 1), {{std::string(80, 'n'), 1.0}}), Catch::Contains("nnn"));
 }
 
-TEST_CASE("values that are not finite are counted at the gate and refused by the files") {
+TEST_CASE("values that are not finite are replaced and counted, and refused by the encoders") {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float infinity = std::numeric_limits<float>::infinity();
   Image image(3, 1, Color(0.25f, 0.5f, 0.75f));

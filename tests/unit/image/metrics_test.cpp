@@ -32,7 +32,7 @@ TEST_CASE("equal pictures do not differ") {
   CHECK(d.relative_mse == 0);
 }
 
-TEST_CASE("one changed pixel of four, by hand") {
+TEST_CASE("metrics of one changed pixel of four equal those computed by hand") {
   const Image reference(2, 2, Color(0.5f));
   Image image = reference;
   image.at(1, 0) = Color(0.75f, 0.5f, 0.0f);  // errors 0.25, 0, -0.5
@@ -71,7 +71,7 @@ TEST_CASE("structural similarity of flat pictures is that of their means") {
   CHECK(structural_similarity(Image(30, 12, Color(0.25f)), Image(30, 12, Color(0.75f))) == Approx(expected));
 }
 
-TEST_CASE("structural similarity of small pictures, by hand") {
+TEST_CASE("structural similarity of small pictures equals that computed by hand") {
   // Two pixels have equal weights 1/2: means 1/2, variances 1/4, covariance -1/4.
   Image a(2, 1);
   Image b(2, 1);
@@ -105,7 +105,7 @@ TEST_CASE("structural similarity sees structure where the error is the same") {
   CHECK(structural_similarity(shuffled, image) == Approx(structural_similarity(image, shuffled)));
 }
 
-TEST_CASE("flicker is the change that the reference has not, by hand") {
+TEST_CASE("flicker is the change that the reference does not have") {
   Image before(2, 1, Color(0.25f));
   Image now = before;
   const Image dark(2, 1, Color(0.25f));
@@ -126,7 +126,7 @@ TEST_CASE("flicker is refused for frames of different sizes") {
   CHECK_THROWS_AS(flicker(small, small, small, large), std::invalid_argument);
 }
 
-TEST_CASE("clamping leaves what a display shows") {
+TEST_CASE("clamping keeps display values and cuts off the rest") {
   Image image(2, 1, Color(-1.0f, 0.5f, 3.0f));
   image.at(1, 0) = Color(0, 1, 0.25f);
   CHECK(clamped_to_display(image).pixels == std::vector<Color>{Color(0, 0.5f, 1), Color(0, 1, 0.25f)});

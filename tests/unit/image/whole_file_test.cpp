@@ -74,7 +74,7 @@ TEST_CASE("missing directories are made") {
   CHECK(read_whole_file(directory.path() / "a/b/f") == "x");
 }
 
-TEST_CASE("a name as long as names can be") {
+TEST_CASE("a file name of maximum length can be written") {
   const TemporaryDirectory directory;
   const fs::path path = directory.path() / std::string(255, 'n');
   write_whole_file(path, "x");

@@ -22,7 +22,7 @@ bool accepted_strictly(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("harmless forms are read without a word, strictly too") {
+TEST_CASE("harmless variants are read without a warning, in strict reading too") {
   for (const std::string& text :
        {"\xef\xbb\xbf" + kFill + "s 0 0 0 1", kFill + "s 0 0 0 1\n\x1a", kFill + "s0 0 0 1",
         kFill + "s 0 0 0 1#red", kFill + "s +0 .5 5. 1e0", kFill + "c\n0 0 0 1\n0 0 1 1\n",
@@ -40,7 +40,7 @@ TEST_CASE("a byte order mark does not shift the places") {
   CHECK(scene("\xef\xbb\xbfs 0 0 0 1").spheres[0].location == SourceLocation{1, 1});
 }
 
-TEST_CASE("what is foreign but beyond doubt is read without a word, but not strictly") {
+TEST_CASE("an unambiguous deviation is read without a warning, and rejected in strict reading") {
   for (const std::string& text :
        {"% note\n" + kFill, "/* note\n s 0 0 0 0 */" + kFill, kFill + "s 0 0 0 1\n" + kView,
         kFill + "s 0 0 0 1\nl 1 2 3\n", std::string("f Red 1 0 0 0 1\n"), std::string("b MidnightBlue"),
@@ -72,7 +72,7 @@ TEST_CASE("the parts of a view stand in any order") {
   CHECK(accepted_strictly("v resolution 64 32 angle 30 up 0 1 0 hither 2 at 1 2 3 from 4 5 6"));
 }
 
-TEST_CASE("a lenient reading says once what it made of a departure") {
+TEST_CASE("a lenient reading reports each deviation once, with what it does") {
   struct Case {
     std::string text;
     std::string said;
@@ -123,7 +123,7 @@ TEST_CASE("a lenient reading says once what it made of a departure") {
   }
 }
 
-TEST_CASE("a departure that recurs is told once, with its count") {
+TEST_CASE("a repeated deviation is reported once, with its count") {
   CHECK(warnings(kFill + "s 0 0 0 0\ns 0 0 0 1\n s 0 0 0 0\ns 0 0 0 0") ==
         "t.nff:2:1: warning: the sphere's radius is 0: left out (3 times, first here)\n"
         "    s 0 0 0 0\n"
@@ -141,7 +141,7 @@ TEST_CASE("lights may have a colour, and an intensity before it") {
   CHECK(scene("l 1 2 3 0.5 1 0.5 0").lights[0].color == Rgb(0.5, 0.25, 0));
 }
 
-TEST_CASE("fill lines of the dialects") {
+TEST_CASE("fill lines of the dialects are read") {
   const auto material = [](const std::string& fill) { return scene(fill + "\ns 0 0 0 1").materials.at(0); };
   CHECK(material("f .5 1 0 .7 .2 3 0 1.5") == Material{{0.5, 1, 0}, 0.7, 0.2, 3, 0, 1.5});
   CHECK(material("f blue .7 .2 3 0 1.5") == Material{{0, 0, 1}, 0.7, 0.2, 3, 0, 1.5});
@@ -184,7 +184,7 @@ TEST_CASE("degenerate objects are left out and the others stay") {
   CHECK(read.primitive_count() == 2);
 }
 
-TEST_CASE("unknown entities are skipped with the numbers that follow, told by name") {
+TEST_CASE("unknown entities are skipped with the numbers that follow, and reported by name") {
   const std::string text =
       kFill + "tt wood.tga 0 0 0 0 0\n 1 0 0 1 0\n 0 1 0 0 1\ns 0 0 0 1\nblob 1 2 3\nblob 4\n";
   CHECK(scene(text).spheres.size() == 1);

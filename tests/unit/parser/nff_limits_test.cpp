@@ -37,7 +37,7 @@ bool survives(std::string_view text, const NffOptions& options) {
 
 }  // namespace
 
-TEST_CASE("a promise of many vertices takes no memory") {
+TEST_CASE("a vertex count larger than the text reserves no memory") {
   CHECK(report("p 4000000000") ==
         "t.nff:1:3: error: 'p' with more than 1000000 vertices\n"
         "    p 4000000000\n"
@@ -52,7 +52,7 @@ TEST_CASE("a promise of many vertices takes no memory") {
         "      ^");
 }
 
-TEST_CASE("each limit is said when it is passed") {
+TEST_CASE("a text beyond a limit is rejected, and the message names the limit") {
   NffOptions options;
   options.max_bytes = 100;
   options.max_primitives = 2;
@@ -81,7 +81,7 @@ TEST_CASE("each limit is said when it is passed") {
         "      ^");
 }
 
-TEST_CASE("reading stops after so many errors, and says so") {
+TEST_CASE("reading stops after max_errors errors and reports it") {
   NffOptions options;
   options.max_errors = 2;
   CHECK(report("s 0\ns 1\ns 2\n", options) ==
@@ -102,7 +102,7 @@ TEST_CASE("a scene cut off at any byte is read or rejected") {
   }
 }
 
-TEST_CASE("every scene of the wild, cut off at any byte, is read or rejected") {
+TEST_CASE("every scene of tests/wild, cut off at any byte, is read or rejected") {
   int scenes = 0;
   for (const auto& entry :
        std::filesystem::directory_iterator(std::string(PPRT_SOURCE_DIR) + "/tests/wild")) {

@@ -88,7 +88,7 @@ TEST_CASE("every problem of a file is reported, in order of place") {
         "      ^");
 }
 
-TEST_CASE("a view must be one") {
+TEST_CASE("a degenerate view is rejected") {
   CHECK(report("v from 0 0 0 up 0 0 1 hither 1 resolution 8 8") ==
         "t.nff:1:1: error: 'v' lacks 'at', 'angle'\n"
         "    v from 0 0 0 up 0 0 1 hither 1 resolution 8 8\n"
@@ -105,7 +105,7 @@ TEST_CASE("a view must be one") {
         "                                                      ^");
 }
 
-TEST_CASE("files that are no scenes say what they are") {
+TEST_CASE("a file that is no scene is reported with what it is") {
   CHECK(report("") == "t.nff: error: the file is empty");
   CHECK(report(" \r\n\t") == "t.nff: error: the file is empty");
   CHECK(report("# only this\n") == "t.nff: error: the file holds only comments");
@@ -136,7 +136,7 @@ TEST_CASE("an open comment ends the reading") {
         "    ^");
 }
 
-TEST_CASE("files that cannot be read") {
+TEST_CASE("a scene file that cannot be read is reported with the reason") {
   CHECK(read_report("/nonexistent.nff") == "cannot read '/nonexistent.nff': No such file or directory");
   CHECK(read_report("/") == "cannot read '/': Is a directory");
 }

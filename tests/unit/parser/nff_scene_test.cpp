@@ -95,7 +95,7 @@ TEST_CASE("a scene with lines ended by CR, CR LF or blanks alone is the same sce
   }
 }
 
-TEST_CASE("SPD's noise values and both-negative radii are read") {
+TEST_CASE("rounding residues and negative radii of SPD's files are read") {
   const SceneDescription scene =
       parse_nff("f 1 1 1 1 0 0 0 0\ns 1.11022e-16 -0 .5 -2\nc 0 0 0 -1 0 0 1 -1\nc 0 0 0 0 0 0 1 2\n",
                 "t.nff", strict())

@@ -66,7 +66,7 @@ std::string reading_problem(const std::string& path, std::size_t max_bytes) {
 
 }  // namespace
 
-TEST_CASE("numbers in every form that files have") {
+TEST_CASE("numbers in every form of real files are read") {
   CHECK(scan("12 ") == Scanned{12, 2});
   CHECK(scan("-0") == Scanned{0, 2});
   CHECK(scan("+.5") == Scanned{0.5, 3});
@@ -104,7 +104,7 @@ TEST_CASE("numbers do not depend on the locale") {
   CHECK(scanned == Scanned{1.5, 3});
 }
 
-TEST_CASE("places are right in rising, falling and mixed order, whatever ends the lines") {
+TEST_CASE("line and column are right for any order of lookup and any line ends") {
   for (const std::string_view text :
        {"a\nbc\n\nd", "a\r\nbc\r\n\r\nd\r\n", "a\rb\r\rc", "\r\n\n\r\r\n x\n\ry", ""}) {
     CAPTURE(text);
@@ -135,7 +135,7 @@ TEST_CASE("a file is read whole and byte by byte") {
             " bytes");
 }
 
-TEST_CASE("files that cannot be read say why") {
+TEST_CASE("reading a whole file fails with the reason") {
   CHECK(reading_problem("/nonexistent/x.nff", 100) ==
         "cannot read '/nonexistent/x.nff': No such file or directory");
   CHECK(reading_problem("/", 100) == "cannot read '/': Is a directory");

@@ -105,7 +105,7 @@ TEST_CASE("a cut lies before the frame that shows it first") {
     CHECK(cut_before(animation, frame) == (frame == 31 || frame == 36));
 }
 
-TEST_CASE("what is no camera is named") {
+TEST_CASE("a degenerate camera is reported with its defect") {
   CHECK(camera_defect({0, 0, 0}, {1, 0, 0}, {0, 0, 1}).empty());
   CHECK(camera_defect({1, 2, 3}, {1, 2, 3}, {0, 0, 1}) ==
         "the camera stands where it looks at: 'from' and 'at' are the same point");
@@ -115,7 +115,7 @@ TEST_CASE("what is no camera is named") {
   CHECK(camera_defect({0, 0, 0}, {1e-4, 0, -5}, {0, 0, 1}).empty());
 }
 
-TEST_CASE("keys are judged with the scene's view filled in, holds with the key they repeat") {
+TEST_CASE("keys are checked with the scene's view filled in, and holds with the key they repeat") {
   CameraKey key = key_at(1, {1, 1, 1}, {0, 0, 0});
   key.of_scene.at = true;  // base_view().at is <1, 1, 1>
   key.location = {3, 4};

@@ -71,7 +71,7 @@ TEST_CASE("an orbit looks at its target, keeps height and distance, and turns ev
   }
 }
 
-TEST_CASE("two keys suffice to go round, not through, what is looked at") {
+TEST_CASE("two keys suffice to orbit the target without passing through it") {
   const Vec3d tree(0, 0, 1.5);
   const Animation animation =
       animation_of({key_at(1, {4.6, 0.4, 2}, tree), key_at(21, {-4.6 * 0.866, 4.6 * 0.5, 2}, tree)});
@@ -83,7 +83,7 @@ TEST_CASE("two keys suffice to go round, not through, what is looked at") {
   }
 }
 
-TEST_CASE("a pan stays on its spot and turns at an even angular speed") {
+TEST_CASE("a pan keeps the eye in place and turns at an even angular speed") {
   const Vec3d spot(1, 2, 3);
   // The targets lie at very different distances: a target moved evenly would turn the camera unevenly.
   const Animation animation =
@@ -115,7 +115,7 @@ TEST_CASE("half turns are well defined: counter-clockwise seen from the tip of u
   }
 }
 
-TEST_CASE("up turned over rolls about the view, at any pitch of it, and never lies along it") {
+TEST_CASE("an up vector that turns over rolls the camera and never becomes parallel to the view") {
   const Vec3d target = GENERATE(Vec3d(5, 0, 0), Vec3d(5, 0, 4), Vec3d(0, 5, -20));
   const Animation animation =
       animation_of({key_at(1, {0, 0, 0}, target, {0, 0, 1}), key_at(11, {0, 0, 0}, target, {0, 0, -1})});
@@ -207,7 +207,7 @@ TEST_CASE("equal neighbouring values do not overshoot") {
   }
 }
 
-TEST_CASE("going round a target and then turning on the spot comes to rest between the two") {
+TEST_CASE("an orbit followed by a turn on the spot comes to rest between the two") {
   const Animation animation = animation_of(
       {key_at(0, {5, 0, 0}, {0, 0, 0}), key_at(10, {0, 5, 0}, {0, 0, 0}), key_at(20, {0, 5, 0}, {5, 5, 0})});
   CHECK(turning(animation, 10) < 0.02);
@@ -216,7 +216,7 @@ TEST_CASE("going round a target and then turning on the spot comes to rest betwe
   for (double frame = 10; frame < 20; frame += 0.5) CHECK(at(animation, frame).from == Vec3d(0, 5, 0));
 }
 
-TEST_CASE("any walk is smooth through its keys and a proper camera throughout") {
+TEST_CASE("a random camera path is smooth at its keys and valid throughout") {
   const unsigned seed = GENERATE(range(1u, 41u));
   const std::vector<CameraKey> keys = random_walk(seed);
   const Animation animation = animation_of(keys);

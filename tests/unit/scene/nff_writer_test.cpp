@@ -38,7 +38,7 @@ TEST_CASE("what a scene does not give is not written") {
   CHECK(nff(scene) == "f 0.5 0.25 1 0.1 0.2 30 0.9 1.5\ns 0 0 0 1\n");
 }
 
-TEST_CASE("the whole layout") {
+TEST_CASE("a scene with every entity is written in SPD's layout") {
   SceneDescription scene = two_materials();
   scene.background = Rgb(0.078, 0.361, 0.753);
   scene.view = View{{4.5, 0.4, 2}, {0, 0, 1.5}, {0, 0, 1}, 45, 0.01, 640, 480, {}};
@@ -98,7 +98,7 @@ TEST_CASE("every number reads back as itself") {
   }
 }
 
-TEST_CASE("six digits are printf's %g") {
+TEST_CASE("numbers of six digits are written as by printf's %g") {
   for (const double value : {1.0 / 3, 100000.0, 1234567.0, 1.11022e-16, -0.0, 0.5, 2.5e-5, 999999.5}) {
     SceneDescription scene = two_materials();
     add_sphere(scene, {{0, 0, 0}, value, 0, {}});

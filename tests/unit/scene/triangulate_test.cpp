@@ -107,7 +107,7 @@ TEST_CASE("duplicate and collinear vertices take no triangle and leave no hole")
   check_cover({{0, 0, 0}, {2, 0, 0}, {3, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}});
 }
 
-TEST_CASE("no polygon breaks the cutting") {
+TEST_CASE("triangulation ends for any polygon") {
   CHECK(triangulate({}).empty());
   const std::vector<Vec3d> line = {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}};
   CHECK(triangulate(line).empty());

@@ -75,7 +75,7 @@ TEST_CASE("the closed formula counts the objects, and every object has its place
   }
 }
 
-TEST_CASE("kinds of objects of other sizes") {
+TEST_CASE("every database of another size has the expected objects of each kind") {
   CHECK(counts(make_spd("tree", 1)) == Counts{3, 3, 1, 0});
   CHECK(counts(make_spd("balls", 1)) == Counts{10, 0, 1, 0});
   CHECK(counts(make_spd("gears", 2)) == Counts{0, 0, 1169, 0});
@@ -100,7 +100,7 @@ TEST_CASE("gears are 144-gons joined by quadrilaterals, some of them glass") {
   CHECK(transmitting == 1898);
 }
 
-TEST_CASE("boxes") {
+TEST_CASE("every database has the expected bounding box") {
   struct Expected {
     const char* name;
     Vec3d min, max;
@@ -122,7 +122,7 @@ TEST_CASE("boxes") {
   CHECK(box.max.equalWithAbsError(max, 0.0051));
 }
 
-TEST_CASE("views") {
+TEST_CASE("every database has the expected view") {
   struct Expected {
     const char* name;
     Vec3d from, at, up;

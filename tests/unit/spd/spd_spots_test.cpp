@@ -151,7 +151,7 @@ TEST_CASE("mount: the four glass spheres touch one another") {
   }
 }
 
-TEST_CASE("rings: six pentagons of equal edges") {
+TEST_CASE("rings: a cluster is six pentagons of equal edges") {
   const SceneDescription scene = make_spd("rings", 1);
   const double edge = (scene.cones[0].apex - scene.cones[0].base).length();
   for (const Cone& cone : scene.cones) {

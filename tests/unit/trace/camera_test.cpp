@@ -59,7 +59,7 @@ TEST_CASE("the image is not mirrored: x runs along forward x up, y downwards") {
   CHECK(ray_direction(camera, 32, 0).y > 0);
 }
 
-TEST_CASE("neither up nor the distance to the point looked at matters by its length") {
+TEST_CASE("neither the length of up nor the distance to the target changes the camera") {
   const CompiledScene scene = any_scene();
   View view = view_from({1, 2, 3}, {0, 0, 0});
   const Camera plain = scene.camera(view);

@@ -48,7 +48,7 @@ TEST_CASE("a number that is not finite is refused, with its place") {
   CHECK_THROWS_WITH(compile(light), Catch::StartsWith("test:2:1: error: "));
 }
 
-TEST_CASE("objects without extent are left out and told of") {
+TEST_CASE("objects without extent are left out and counted in the census") {
   SceneDescription scene = scene_with(Material());
   add_square(scene, 1, 0);
   add_sphere(scene, {{0, 0, 0}, 0, 0, {}});

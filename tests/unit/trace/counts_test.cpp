@@ -25,7 +25,7 @@ RayCounts published_counts(const SceneDescription& scene) {
 }  // namespace
 
 // The expected numbers are those of an independent ray counter; edge rays depend on rounding.
-TEST_CASE("rays of a small sphereflake and a small tree, counted as published") {
+TEST_CASE("ray counts of a small sphereflake and a small tree equal those of an independent counter") {
   const RayCounts balls = published_counts(make_spd("balls", 2));
   CHECK(balls.primary == 4225);
   CHECK(balls.eye_hits == 4225);

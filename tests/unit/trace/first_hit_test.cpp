@@ -39,7 +39,7 @@ TEST_CASE("normals of patches are interpolated unless the effect is ruled out") 
   CHECK(Tracer(flat, flat.camera(view)).first_hit(32, 32).normal.x == 0);
 }
 
-TEST_CASE("primitives have their place in the file, over all kinds, and materials theirs") {
+TEST_CASE("a first hit numbers its primitive and material as in the file") {
   SceneDescription scene = scene_with(Material());
   scene.materials.push_back({.color = {1, 0, 0}});
   add_square(scene, 50, -5);                  // the first: 1
@@ -57,7 +57,7 @@ TEST_CASE("primitives have their place in the file, over all kinds, and material
   CHECK(tracer.counts().primary == 0);
 }
 
-TEST_CASE("a miss is infinitely deep and nobody's") {
+TEST_CASE("a miss has infinite depth and no primitive") {
   SceneDescription scene = scene_with(Material());
   add_square(scene, 1, 0);
   const CompiledScene compiled = compile(scene);

@@ -91,7 +91,7 @@ SceneDescription all_kinds() {
 
 }  // namespace
 
-TEST_CASE("of all shapes at an image point the nearest is what an eye ray finds there, where it finds it") {
+TEST_CASE("the nearest projected shape at an image point is what the eye ray hits, at the same depth") {
   const CompiledScene scene = compile(all_kinds());
   const View view = square(view_from({0, 0, 10}, {0, 0, 0}), 256);
   CHECK(wrong(scene, view, 20000) <= 2);      // float against double on an outline
@@ -116,7 +116,7 @@ TEST_CASE("shapes stay where eye rays find them from far away and from just abov
   CHECK(wrong(compile(ground), square(view_from({0, 0, 2}, {10, 0, 0}, 60), 256), 10000) <= 3);
 }
 
-TEST_CASE("the sides that are not seen have no shape") {
+TEST_CASE("faces that are not visible have no shape") {
   SceneDescription scene = scene_with(Material());
   add_sphere(scene, {{0, 0, 0}, -2, 0, {}});  // seen from inside alone
   add_square(scene, 1, 0);
@@ -127,7 +127,7 @@ TEST_CASE("the sides that are not seen have no shape") {
   CHECK(wrong(compiled, square(view_from({0, 1, -10}, {0, 0, 0}), 64), 2000) == 0);
 }
 
-TEST_CASE("where the eye is inside a sphere or cone there is no shape, nor of what is no primitive") {
+TEST_CASE("where the eye is inside a sphere or cone there is no shape, nor for an unknown primitive") {
   SceneDescription scene = scene_with(Material());
   add_sphere(scene, {{0, 0, 0}, 5, 0, {}});
   add_cone(scene, {{0, 0, -20}, 2, {0, 0, 20}, 2, 0, {}});

@@ -32,7 +32,7 @@ View slanted(double degrees, double distance = 10) {
 
 }  // namespace
 
-TEST_CASE("Lambert: Kd, colour, cosine, weight and colour of each light, and the ambient term") {
+TEST_CASE("Lambert shading multiplies Kd, colour, cosine and light, and adds the ambient term") {
   Material material = colored(1, 0.5, 0.25);
   material.diffuse = 0.8;
   SceneDescription scene = scene_with(material, {{0, 0, 1000}});

@@ -66,7 +66,7 @@ TEST_CASE("culling removes the backs of opaque surfaces") {
   CHECK(hit_distance(tube, kMiddle, {5, 0, 0}, false) == Approx(1));
 }
 
-TEST_CASE("culling leaves transmitting surfaces both their sides") {
+TEST_CASE("culling keeps both faces of transmitting surfaces") {
   SceneDescription scene = scene_with(glass());
   add_square(scene, 1, 0);
   CHECK(hit_distance(scene, kBelow, kMiddle, true) == Approx(10));
@@ -91,7 +91,7 @@ TEST_CASE("a culled surface casts no shadow on what its back looks at") {
   CHECK(red(true) == Approx(0.55).epsilon(1e-4));
 }
 
-TEST_CASE("negative radii leave the inside only") {
+TEST_CASE("a negative radius makes only the inside visible") {
   SceneDescription ball = scene_with(matte());
   add_sphere(ball, {{0, 0, 0}, -2, 0, {}});
   CHECK(hit_distance(ball, kAbove, kMiddle) == Approx(12));
@@ -113,7 +113,7 @@ TEST_CASE("a cone is open at both ends, and a tip closes it") {
   CHECK(hit_distance(hat, {0.5, 0, -10}, {0.5, 0, 0}) == Approx(11.5));
 }
 
-TEST_CASE("a concave polygon has its notch") {
+TEST_CASE("a ray through the notch of a concave polygon misses it") {
   SceneDescription scene = scene_with(matte());
   add_polygon(scene, std::vector<Vec3d>{{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {0, -1, 0}, {-2, 2, 0}}, 0);
   CHECK(hit_distance(scene, {0, 0.5, 10}, {0, 0.5, 0}) < 0);

@@ -6,7 +6,7 @@
 namespace pprt {
 namespace {
 
-TEST_CASE("the example script says what it says") {
+TEST_CASE("the example script is read with all its values") {
   const ParsedAnimation result = parse_animation(kExample, "a.anim");
   CHECK(result.warnings.empty());
   const Animation& a = result.animation;
@@ -46,7 +46,7 @@ TEST_CASE("the example script says what it says") {
   CHECK(cut.ease_out == 0.5);
 }
 
-TEST_CASE("expressions") {
+TEST_CASE("an expression has the value that precedence and functions give it") {
   const auto [expression, expected] = GENERATE(table<const char*, double>({
       {"1", 1},
       {"1.", 1},
@@ -148,7 +148,7 @@ TEST_CASE("splines have their names, and tcb is the default") {
   CHECK(camera("spline catmull_rom").spline == SplineKind::kCatmullRom);
 }
 
-TEST_CASE("comments, blanks, line ends and a byte order mark mean nothing") {
+TEST_CASE("comments, blanks, line ends and a byte order mark have no meaning") {
   CHECK(parsed("\xef\xbb\xbf# first\r\n/**/animation/* * / */{//\r\nframes\t3#x\r}\f#declared is a comment")
             .frames == 3);
   CHECK(parsed("animation{frames 3 fps 2scene\"a b/c.nff\"}").scene == "a b/c.nff");

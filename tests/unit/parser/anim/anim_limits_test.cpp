@@ -82,7 +82,7 @@ TEST_CASE("expressions nest a hundred deep, and no deeper whatever nests") {
   CHECK(text.find("error: the expression nests deeper than 100 levels\n") != std::string::npos);
 }
 
-TEST_CASE("blocks that are skipped may nest at will") {
+TEST_CASE("skipped blocks may nest to any depth") {
   const std::string text =
       report("animation { what " + repeated("{", 100'000) + repeated("}", 100'000) + " frames 0 }");
   CHECK(text.find("unknown word 'what'") != std::string::npos);
@@ -102,7 +102,7 @@ TEST_CASE("keys, names and bytes are bounded") {
         "a.anim: error: longer than 16777216 bytes, the most for a script");
 }
 
-TEST_CASE("problems without number take neither memory nor time") {
+TEST_CASE("any number of problems takes bounded memory and time") {
   const std::string text = report(repeated("what {}\n", 200'000));
   CHECK(text.size() < 10'000);
   CHECK(text.ends_with("a.anim: 199950 further problems not shown"));

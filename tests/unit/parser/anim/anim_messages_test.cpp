@@ -48,7 +48,7 @@ a.anim:6:20: error: division by zero
                        ^)");
 }
 
-TEST_CASE("problems of the text") {
+TEST_CASE("each problem of the text has its message") {
   const auto [text, expected] = GENERATE(table<const char*, const char*>({
       {"", "a.anim:1:1: error: expected 'animation { ... }', found the end of the script"},
       {"// nothing", "a.anim:1:11: error: expected 'animation { ... }', found the end of the script"},
@@ -74,7 +74,7 @@ TEST_CASE("problems of the text") {
   CHECK(message(text) == expected);
 }
 
-TEST_CASE("problems of the animation") {
+TEST_CASE("each problem of the animation has its message") {
   const auto [body, expected] = GENERATE(table<const char*, const char*>({
       {"frames 0", "a.anim:1:19: error: 'frames' is a whole number from 1 to 1000000, not 0"},
       {"frames 2.5", "a.anim:1:19: error: 'frames' is a whole number from 1 to 1000000, not 2.5"},
@@ -107,7 +107,7 @@ TEST_CASE("problems of the animation") {
   CHECK(in_animation(body) == expected);
 }
 
-TEST_CASE("problems of the camera") {
+TEST_CASE("each problem of the camera has its message") {
   const auto [body, expected] = GENERATE(table<const char*, const char*>({
       {"spline tbc",
        "a.anim:1:25: error: expected linear, catmull_rom or tcb, found 'tbc'; did you mean 'tcb'?"},
@@ -134,7 +134,7 @@ TEST_CASE("problems of the camera") {
   CHECK(in_camera(body) == expected);
 }
 
-TEST_CASE("problems of a key") {
+TEST_CASE("each problem of a key has its message") {
   const auto [body, expected] = GENERATE(table<const char*, const char*>({
       {"form <1,2,3>", "a.anim:1:24: error: unknown word 'form'; did you mean 'from'?"},
       {"from 3", "a.anim:1:29: error: 'from' is a vector of three: <x, y, z>"},
@@ -159,7 +159,7 @@ TEST_CASE("problems of a key") {
   CHECK(in_key(body) == expected);
 }
 
-TEST_CASE("problems of expressions") {
+TEST_CASE("each problem of an expression has its message") {
   const auto [expression, expected] = GENERATE(table<const char*, const char*>({
       {"1/0", "a.anim:1:31: error: division by zero"},
       {"1/(2-2)", "a.anim:1:31: error: division by zero"},
@@ -210,13 +210,13 @@ TEST_CASE("an unknown name is compared with those declared") {
         "a.anim:1:47: error: unknown name 'Radios'; did you mean 'Radius'?");
 }
 
-TEST_CASE("a file that is not there") {
+TEST_CASE("a script file that is not there is reported") {
   CHECK_THROWS_WITH(read_animation("/nonexistent/a.anim"),
                     "cannot read '/nonexistent/a.anim': No such file or directory");
 }
 
 // Whatever a value was made from, what is said of it later needs its place.
-TEST_CASE("a field whose value is unknown and that has no effect is told of both") {
+TEST_CASE("a field with an erroneous value and without effect causes both messages") {
   const std::string camera = "animation { camera { spline linear key 1 { bias ";
   for (const char* value :
        {"X", "(X * 2)", "-X", "X - 1", "1 / 0", "abs(X)", "sqrt(-1)", "what(1)", "<X, 1>", "1e99 * 1e99"}) {
