@@ -76,7 +76,7 @@ class Worker {
   std::vector<Sample> cast_where_paying(const FrameOrder& order);
   std::vector<Sample> cast_at_rest(const FrameOrder& order);
   CastResult cast_into(const FrameOrder& order, const CastSettings& settings);
-  CastSurvivors known_of(const CastResult& cast) const;
+  CastSummary known_of(const CastResult& cast) const;
   void drop_hidden_of(std::vector<Sample>& survivors);
   std::vector<Sample> try_some(const FrameOrder& order, const std::vector<Sample>& survivors);
   void keep_affordable(const FrameOrder& order, double share, std::vector<Sample>& survivors) const;

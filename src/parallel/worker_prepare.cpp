@@ -153,7 +153,7 @@ void Worker::drop_hidden_of(std::vector<Sample>& survivors) {
   drop_hidden(survivors, [&](const Vec3f& hit, bool at_infinity) { return see(hit, at_infinity); });
 }
 
-CastSurvivors Worker::known_of(const CastResult& cast) const {
+CastSummary Worker::known_of(const CastResult& cast) const {
   const auto of_eye = std::count_if(cast.survivors.begin(), cast.survivors.end(),
                                     [](const Sample& s) { return s.ray.eye_dependent; });
   const double count = static_cast<double>(std::max<std::size_t>(cast.survivors.size(), 1));
@@ -176,7 +176,7 @@ std::vector<Sample> Worker::cast_where_paying(const FrameOrder& order) {
   CastSettings settings = verified(kLongLife);
   settings.one_of = tried_of / kDrawnForEachTried;
   CastResult drawn = cast_into(order, settings);
-  const CastSurvivors known = known_of(drawn);
+  const CastSummary known = known_of(drawn);
   CastEvidence evidence = order.evidence;
   evidence += own_evidence_;
   const int life = cast_life(evidence, known.eye_dependent);
@@ -184,7 +184,7 @@ std::vector<Sample> Worker::cast_where_paying(const FrameOrder& order) {
                 [&](const Sample& s) { return order.number - s.frame > life || !is_one_of(s, tried_of); });
   std::vector<Sample> tried = try_some(order, drawn.survivors);
   evidence += report_.evidence;
-  const CastLimits limits = cast_limits(evidence, known);
+  const CastLimits limits = cast_limits(evidence, known, cast_prices());
   if (limits.share == 0) return tried;
 
   settings = verified(life);
@@ -273,8 +273,8 @@ void Worker::settle(const FrameOrder& order, const std::vector<Sample>& survivor
   mesh_.end_many();
   const double lap = clock_->lap_ms();
   report_.cpu_ms.casting += lap;
-  report_.evidence.kept += static_cast<double>(own.size());
-  report_.evidence.kept_ms += lap;
+  report_.evidence.reinserted += static_cast<double>(own.size());
+  report_.evidence.reinserted_ms += lap;
 }
 
 void Worker::receive_seeds(const FrameOrder& order, std::vector<Sample>& survivors) {

@@ -13,10 +13,10 @@
 #include <mutex>
 #include <thread>
 
-#include "parallel/cast_choice.h"
 #include "parallel/clock/work_units.h"
 #include "parallel/virtual_ranks.h"
 #include "parser/anim_parser.h"
+#include "pipeline/preparation/cast_choice.h"
 #include "scene/animation.h"
 #include "spd/spd.h"
 #include "study/paper/runs.h"

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "pipeline/preparation/cast_choice.h"
+
 namespace pprt {
 
 // One unit is a nanosecond of one core of the machine that the prices were measured on.
@@ -40,6 +42,14 @@ constexpr WorkUnits price(Work work) {
       return 805;
   }
   return 0;
+}
+
+// What the choice of casting compares on this clock.
+constexpr CastPrices cast_prices() {
+  return {
+      .cast = static_cast<double>(price(Work::kCastSample) + price(Work::kRay) + price(Work::kKeptSample)),
+      .fresh = static_cast<double>(price(Work::kOwnSample)),
+      .ray = static_cast<double>(price(Work::kRay))};
 }
 
 // The virtual processor gets this many units a second: a twentieth of the machine measured, so that 32 of

@@ -10,8 +10,8 @@
 #include "base/vector.h"
 #include "parallel/balance/tile_cost.h"
 #include "parallel/balance/transfer_handshake.h"
-#include "parallel/cast_choice.h"
 #include "parallel/network/communicator.h"
+#include "pipeline/preparation/cast_choice.h"
 #include "pipeline/sample.h"
 
 namespace pprt {

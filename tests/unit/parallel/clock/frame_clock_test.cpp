@@ -136,5 +136,12 @@ TEST_CASE("of the last eight reconstructions the slowest counts") {
   CHECK(left_after(10) == Approx(1.25 * 0.01));
 }
 
+TEST_CASE("work clock: a cast sample is priced with its visibility ray, a fresh one without its rays") {
+  const CastPrices prices = cast_prices();
+  CHECK(prices.cast == 20 + 110 + 805);
+  CHECK(prices.fresh == 705);
+  CHECK(prices.ray == 110);
+}
+
 }  // namespace
 }  // namespace pprt
