@@ -41,7 +41,7 @@ const std::vector<Sample>& serial_samples() {
     SampleMesh mesh(Region::whole({kSize, kSize, 16}));
     for (const Vec2d& p : seed_points(kSize, kSize, 1)) mesh.insert(sample_at(p.x, p.y));
     while (mesh.samples().size() < kSamples) {
-      const Vec2d p = *mesh.next_point();
+      const Vec2d p = mesh.next_point()->point;
       mesh.insert(sample_at(p.x, p.y));
     }
     return std::vector<Sample>(mesh.samples().begin(), mesh.samples().end());

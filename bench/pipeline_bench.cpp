@@ -75,9 +75,9 @@ void refine(SampleMesh& mesh, std::size_t samples, const Trace& trace) {
   };
   for (const Vec2d& p : seed_points(kSize, kSize, 1)) add(p);
   while (mesh.samples().size() < samples) {
-    const std::optional<Vec2d> p = mesh.next_point();
-    if (!p) return;
-    add(*p);
+    const std::optional<Refinement> next = mesh.next_point();
+    if (!next) return;
+    add(next->point);
   }
 }
 
@@ -148,21 +148,19 @@ void casting(benchmark::State& state) {
 }
 BENCHMARK(casting)->Arg(16000)->Unit(benchmark::kMillisecond);
 
-// Cast samples put back, in the order of their refinement. The share of insert_and_queue that this is, run in
-// turns with it, is what counts.
-void put_back(benchmark::State& state) {
+// Reinserts samples in the order of their refinement. Its share of insert_and_queue, run in turns with it, is
+// what counts.
+void reinsert(benchmark::State& state) {
   look_up(0, 0);
   SampleMesh mesh(whole()), next(whole());
   refine(mesh, static_cast<std::size_t>(state.range(0)), look_up);
   for (auto _ : state) {
     next.clear();
-    next.begin_many();
-    for (const Sample& s : mesh.samples()) next.insert(s);
-    next.end_many();
+    next.insert_all(mesh.samples());
   }
   per_sample(state);
 }
-BENCHMARK(put_back)->Arg(16000)->Unit(benchmark::kMillisecond);
+BENCHMARK(reinsert)->Arg(16000)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 

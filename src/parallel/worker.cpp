@@ -146,11 +146,11 @@ bool Worker::refine_once(const FrameOrder& order) {
     seek_once();
     return true;
   }
-  const std::optional<Vec2d> point = mesh_.next_point();
-  if (!point) return false;
-  const Sample sample = trace(order, point->x, point->y);
+  const std::optional<Refinement> next = mesh_.next_point();
+  if (!next) return false;
+  const Sample sample = trace(order, next->point.x, next->point.y);
   if (measures_fresh_) {
-    const SampleMesh::Guess guess = mesh_.guess(sample.ray.primitive);
+    const SampleMesh::Guess guess = mesh_.guess(*next, sample.ray.primitive);
     ++report_.evidence.fresh;
     report_.evidence.fresh_error += guess.area * display_error(sample.ray.color, guess.color);
     report_.evidence.fresh_area += guess.area;
@@ -410,10 +410,14 @@ void Worker::account_for(const Sample& sample) {
 }
 
 bool Worker::insert(const Sample& sample, const Insertion& how) {
+  return note_insertion(sample, how, mesh_.insert(sample));
+}
+
+bool Worker::note_insertion(const Sample& sample, const Insertion& how, bool is_new) {
   const bool own = how.from == network_.rank();
   clock_->spend(!own ? Work::kReceivedSample : how.kept ? Work::kKeptSample : Work::kOwnSample, 1);
   if (!own) balancer_.received(static_cast<double>(price(Work::kReceivedSample)));
-  if (!mesh_.insert(sample)) return false;
+  if (!is_new) return false;
   in_region_ += mesh_.region().owns_point(sample.x, sample.y);
   if (!how.seed) {
     exchange_.inserted(how.from);

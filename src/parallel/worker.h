@@ -83,6 +83,7 @@ class Worker {
   bool see(const Vec3f& hit, bool at_infinity);
   void look_for_messages();
   bool put_back(const Sample& survivor);
+  bool note_put_back(const Sample& survivor, bool is_new);
   void account_for(const Sample& sample);
   void trace_seeds(const FrameOrder& order);
   void settle(const FrameOrder& order, const std::vector<Sample>& survivors);
@@ -113,6 +114,7 @@ class Worker {
 
   Sample trace(const FrameOrder& order, double x, double y);
   bool insert(const Sample& sample, const Insertion& how);
+  bool note_insertion(const Sample& sample, const Insertion& how, bool is_new);
   void await(const std::function<bool()>& arrived);
   void await_news();
   void note_rest(double seconds);

@@ -268,9 +268,7 @@ void Worker::settle(const FrameOrder& order, const std::vector<Sample>& survivor
   receive_seeds(order, own);
   report_.cpu_ms.sampling += clock_->lap_ms();
   keep_affordable(order, kCastShare, own);
-  mesh_.begin_many();
-  for (const Sample& s : own) put_back(s);
-  mesh_.end_many();
+  mesh_.insert_all(own, [&](const Sample& s, bool is_new) { note_put_back(s, is_new); });
   const double lap = clock_->lap_ms();
   report_.cpu_ms.casting += lap;
   report_.evidence.reinserted += static_cast<double>(own.size());
@@ -303,8 +301,12 @@ void Worker::receive_seeds(const FrameOrder& order, std::vector<Sample>& survivo
 
 // It counts like one traced here: a tile's quality is that of all its samples, and so is what it has taken.
 bool Worker::put_back(const Sample& survivor) {
+  return note_put_back(survivor, mesh_.insert(survivor));
+}
+
+bool Worker::note_put_back(const Sample& survivor, bool is_new) {
   look_for_messages();
-  if (!insert(survivor, {network_.rank(), {}, true})) return false;
+  if (!note_insertion(survivor, {network_.rank(), {}, true}, is_new)) return false;
   account_for(survivor);
   report_.samples_cast += survivor.frame != frame_number_;
   return true;

@@ -1,4 +1,4 @@
-// Four numbers dealt with at once.
+// Vectors of four numbers, in the compiler's own types.
 #pragma once
 
 #include <bit>
@@ -8,8 +8,8 @@
 
 #include "base/vector.h"
 
-// Four doubles fill a register of AVX2: a clone of the function is for hosts that have it, with the same
-// results to the bit (docs/decisions/0003-instruction-sets.md). Flat, so that what it calls is cloned too.
+// Compiles a second copy of the function for hosts with AVX2, whose registers hold four doubles. The results
+// are equal to the bit (docs/decisions/0003-instruction-sets.md). Flattened, so that callees are cloned too.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 #define PPRT_CLONED_FOR_WIDE_REGISTERS [[gnu::flatten, gnu::target_clones("default", "arch=x86-64-v3")]]
 #else
@@ -20,10 +20,10 @@ namespace pprt {
 
 inline constexpr int kLanes = 4;
 using float4 = float __attribute__((vector_size(kLanes * sizeof(float))));
-using Doubles = double __attribute__((vector_size(kLanes * sizeof(double))));
+using double4 = double __attribute__((vector_size(kLanes * sizeof(double))));
 using int4 = std::int32_t __attribute__((vector_size(kLanes * sizeof(std::int32_t))));
 
-// Whole numbers as floats: one, or four.
+// Converts one whole number to float, or four.
 template <class Number, class Whole>
 Number as_numbers(const Whole& whole) {
   if constexpr (std::is_same_v<Number, float>) {
@@ -53,11 +53,11 @@ Lanes max(const Lanes& a, const Lanes& b) {
   return a > b ? a : b;
 }
 template <class Lanes>
-Lanes size(const Lanes& a) {
+Lanes abs(const Lanes& a) {
   return a < 0 ? -a : a;
 }
 
-// The three channels of a colour that four more bytes follow in memory; the last lane is 0.
+// Returns red, green, blue and 0. Reads 16 bytes: four more bytes must follow the colour in memory.
 inline float4 channels_before_more(const void* color) {
   return std::bit_cast<float4>(std::bit_cast<int4>(load<float4>(color)) & int4{-1, -1, -1, 0});
 }
@@ -65,14 +65,14 @@ inline void store_channels(const float4& channels, Color& color) {
   std::memcpy(static_cast<void*>(&color), &channels, sizeof color);
 }
 
-// Of a comparison's answers.
+// Whether a comparison holds in any lane.
 inline bool any(const int4& lanes) {
   using Halves = std::int64_t __attribute__((vector_size(sizeof(int4))));
   const auto halves = std::bit_cast<Halves>(lanes);
   return (halves[0] | halves[1]) != 0;
 }
 
-// Rows become columns.
+// Transposes the 4 x 4 matrix whose rows are a, b, c and d.
 template <class Lanes>
 void transpose(Lanes& a, Lanes& b, Lanes& c, Lanes& d) {
   const Lanes ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5),

@@ -189,10 +189,11 @@ TEST_CASE("refinement among slivers asks for distinct points of the image and le
   }
   int outside = 0, refused = 0;
   for (int i = 0; i < kRefined; ++i) {
-    const std::optional<Vec2d> point = mesh.next_point();
-    REQUIRE(point);
-    outside += !(point->x >= 0 && point->y >= 0 && point->x <= kGrid.width && point->y <= kGrid.height);
-    refused += !put(point->x, point->y);
+    const std::optional<Refinement> next = mesh.next_point();
+    REQUIRE(next);
+    const Vec2d& point = next->point;
+    outside += !(point.x >= 0 && point.y >= 0 && point.x <= kGrid.width && point.y <= kGrid.height);
+    refused += !put(point.x, point.y);
   }
   CHECK(outside == 0);
   CHECK(refused == 0);

@@ -11,7 +11,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "pipeline/sampling/sample_mesh_impl.h"
+#include "pipeline/sampling/sample_mesh.h"
 
 namespace pprt {
 namespace {
@@ -54,7 +54,7 @@ Flight fly(const Sample& sample, const SampleMesh& mesh, const Camera& next, int
 // and any other at nearly its distance (paper s. 4.2). "Nearly": within one part in a hundred.
 void hide_behind_turned_triangles(const SampleMesh& mesh, std::vector<Flight>& flights) {
   constexpr double kNearly = 0.99;
-  for (const Delaunay::Triangle& t : mesh.impl().delaunay().triangles()) {
+  for (const Delaunay::Triangle& t : mesh.triangulation().triangles()) {
     if (!t.is_finite()) continue;
     const std::array<Flight*, 3> corner = {&flights[t.corners[0]], &flights[t.corners[1]],
                                            &flights[t.corners[2]]};

@@ -8,41 +8,41 @@
 
 #include "pipeline/reconstruction/scan_conversion.h"
 #include "pipeline/reconstruction/silhouette_patch.h"
-#include "pipeline/sampling/sample_mesh_impl.h"
+#include "pipeline/sampling/sample_mesh.h"
 #include "pipeline/simd.h"
 
 namespace pprt {
 namespace {
 
-std::array<Corner, 3> corners_of(const Delaunay::Triangle& triangle, const SampleMesh::Impl& mesh) {
+std::array<ScreenCorner, 3> corners_of(const Delaunay::Triangle& triangle, const SampleMesh& mesh) {
   const auto corner = [&](std::size_t i) {
     const Delaunay::Index index = triangle.corners[i];
-    const Vec2d& point = mesh.delaunay().points()[index];
-    return Corner{point.x, point.y, mesh.corners()[index].channels()};
+    const Vec2d& point = mesh.triangulation().points()[index];
+    return ScreenCorner{point.x, point.y, mesh.corners()[index].channels()};
   };
   return {corner(0), corner(1), corner(2)};
 }
 
-std::array<std::uint32_t, 3> primitives_of(const Delaunay::Triangle& triangle, const SampleMesh::Impl& mesh) {
+std::array<std::uint32_t, 3> primitives_of(const Delaunay::Triangle& triangle, const SampleMesh& mesh) {
   const auto& [a, b, c] = triangle.corners;
   const auto& corners = mesh.corners();
   return {corners[a].primitive, corners[b].primitive, corners[c].primitive};
 }
 
 // Slots hold triangles that lie anywhere. Prefetches the corners of one that comes up a little later.
-void prefetch_corners(std::size_t slot, const SampleMesh::Impl& mesh) {
+void prefetch_corners(std::size_t slot, const SampleMesh& mesh) {
   constexpr std::size_t kAhead = 8;
-  const auto& triangles = mesh.delaunay().triangles();
+  const auto& triangles = mesh.triangulation().triangles();
   if (slot + kAhead >= triangles.size()) return;
   for (const Delaunay::Index corner : triangles[slot + kAhead].corners) {
     if (corner == Delaunay::kInfinite) return;
-    __builtin_prefetch(&mesh.delaunay().points()[corner]);
+    __builtin_prefetch(&mesh.triangulation().points()[corner]);
     __builtin_prefetch(&mesh.corners()[corner]);
   }
 }
 
 // Whether a triangle has corners on different primitives, of colours that tell.
-bool may_show_edge(const Delaunay::Triangle& triangle, const SampleMesh::Impl& mesh) {
+bool may_show_edge(const Delaunay::Triangle& triangle, const SampleMesh& mesh) {
   constexpr float kLeastVariance = 3e-4F;
   const auto& [a, b, c] = triangle.corners;
   const auto& corners = mesh.corners();
@@ -53,11 +53,11 @@ bool may_show_edge(const Delaunay::Triangle& triangle, const SampleMesh::Impl& m
 
 // Whether it is worth looking at every part of a pixel that the triangle touches. Not at those of a sliver
 // right across the image.
-bool is_small(const Delaunay::Triangle& triangle, const SampleMesh::Impl& mesh) {
+bool is_small(const Delaunay::Triangle& triangle, const SampleMesh& mesh) {
   constexpr double kLargest = 1.5;  // square pixels
   constexpr double kLongest = 16;   // pixels
   const auto& [a, b, c] = triangle.corners;
-  const auto& points = mesh.delaunay().points();
+  const auto& points = mesh.triangulation().points();
   const Vec2d ab = points[b] - points[a], ac = points[c] - points[a];
   if (ab.x * ac.y - ab.y * ac.x > 2 * kLargest) return false;
   return std::max({ab.dot(ab), ac.dot(ac), (ab - ac).dot(ab - ac)}) <= kLongest * kLongest;
@@ -65,10 +65,10 @@ bool is_small(const Delaunay::Triangle& triangle, const SampleMesh::Impl& mesh) 
 
 // Whether every pixel lies in some triangle: as with the image's corners for the first samples, which all
 // frames begin with.
-bool covers_image(const SampleMesh::Impl& mesh) {
+bool covers_image(const SampleMesh& mesh) {
   const TileGrid& grid = mesh.region().grid();
   const double width = grid.width, height = grid.height;
-  const auto& points = mesh.delaunay().points();
+  const auto& points = mesh.triangulation().points();
   const std::array<Vec2d, 4> corners = {{{0, 0}, {width, 0}, {width, height}, {0, height}}};
   return points.size() > corners.size() && std::equal(corners.begin(), corners.end(), points.begin());
 }
@@ -76,8 +76,8 @@ bool covers_image(const SampleMesh::Impl& mesh) {
 // Which triangles surely lie beside the bounds: none if these are the image.
 class Beside {
  public:
-  Beside(const SampleMesh::Impl& mesh, const PixelRect& bounds)
-      : points_(mesh.delaunay().points().data()),
+  Beside(const SampleMesh& mesh, const PixelRect& bounds)
+      : points_(mesh.triangulation().points().data()),
         bounds_(bounds),
         is_image_(bounds.width() == mesh.region().grid().width &&
                   bounds.height() == mesh.region().grid().height) {}
@@ -117,7 +117,7 @@ Spans spans_at(const Outline& outline, int first_row, const PixelRect& bounds) {
 
 // Calls fill(row, left, right) for the pixel centres of one triangle: in each row those in [left, right).
 template <typename Fill>
-void for_each_span(const std::array<Corner, 3>& corner, const PixelRect& bounds, const Fill& fill) {
+void for_each_span(const std::array<ScreenCorner, 3>& corner, const PixelRect& bounds, const Fill& fill) {
   Outline outline(corner);
   const int top = std::max(first_center(outline.top()), bounds.y0);
   const int bottom = std::min(first_center(outline.bottom()), bounds.y1);
@@ -148,10 +148,10 @@ class Painter {
   Painter(RegionPixels& pixels, ReconstructionBuffers& buffers, PixelRule rule)
       : pixels_(pixels), bounds_(pixels.bounds), buffers_(buffers), rule_(rule) {}
 
-  void gather(const SampleMesh::Impl& mesh);
+  void gather(const SampleMesh& mesh);
   template <class Edge>
-  void paint(const std::array<Corner, 3>& corner, const Edge& edge);
-  void paint_by_area(const std::array<Corner, 3>& corner, const SilhouettePatch& edge);
+  void paint(const std::array<ScreenCorner, 3>& corner, const Edge& edge);
+  void paint_by_area(const std::array<ScreenCorner, 3>& corner, const SilhouettePatch& edge);
   void finish();
 
  private:
@@ -196,7 +196,7 @@ class Painter {
 };
 
 // Which pixels hold several samples, and of what colours.
-void Painter::gather(const SampleMesh::Impl& mesh) {
+void Painter::gather(const SampleMesh& mesh) {
   ReconstructionBuffers& b = buffers_;
   b.pixels.clear();
   if (rule_ == PixelRule::kCenter) return;
@@ -204,7 +204,7 @@ void Painter::gather(const SampleMesh::Impl& mesh) {
     bits->assign(words_per_row() * static_cast<std::size_t>(bounds_.height()), 0);
   b.sums.resize(bounds_.area());
   const TileGrid& grid = mesh.region().grid();
-  const auto& points = mesh.delaunay().points();
+  const auto& points = mesh.triangulation().points();
   for (std::size_t i = 0; i < points.size(); ++i) {
     const int x = std::min(static_cast<int>(points[i].x), grid.width - 1);
     const int y = std::min(static_cast<int>(points[i].y), grid.height - 1);
@@ -227,7 +227,7 @@ void Painter::add_sample(int x, int y, const float4& color) {
 }
 
 template <class Edge>
-void Painter::paint(const std::array<Corner, 3>& corner, const Edge& edge) {
+void Painter::paint(const std::array<ScreenCorner, 3>& corner, const Edge& edge) {
   Outline outline(corner);
   const bool area = takes_area();
   // Rows that the triangle touches or, where only centres count, whose centres it may hold.
@@ -319,7 +319,7 @@ void Painter::add_lines(const Outline& outline, const LinearPatch& patch, const 
 }
 
 // As paint(), of a small triangle: all pixels that it touches are shown by area.
-void Painter::paint_by_area(const std::array<Corner, 3>& corner, const SilhouettePatch& edge) {
+void Painter::paint_by_area(const std::array<ScreenCorner, 3>& corner, const SilhouettePatch& edge) {
   Outline outline(corner);
   const int top = std::max(floor_to_int(outline.top()), bounds_.y0);
   const int bottom = std::min(ceil_to_int(outline.bottom()), bounds_.y1);
@@ -383,40 +383,39 @@ PPRT_CLONED_FOR_WIDE_REGISTERS
 void reconstruct(const SampleMesh& mesh, const PixelRect& bounds, RegionPixels& pixels,
                  ReconstructionBuffers& buffers, PixelRule rule, ProjectedShapeCache* viewed) {
   pixels.bounds = bounds;
-  const SampleMesh::Impl& impl = mesh.impl();
-  if (covers_image(impl)) {
+  if (covers_image(mesh)) {
     pixels.colors.resize(pixels.bounds.area());
   } else {
     pixels.colors.assign(pixels.bounds.area(), Color(0, 0, 0));
   }
-  const auto& triangles = impl.delaunay().triangles();
-  const Beside is_beside(impl, bounds);
+  const auto& triangles = mesh.triangulation().triangles();
+  const Beside is_beside(mesh, bounds);
   Painter painter(pixels, buffers, rule);
-  painter.gather(impl);
+  painter.gather(mesh);
   // The small ones with edges first: they decide which pixels the others show by area.
   buffers.edges.assign(triangles.size(), TriangleEdge::kNone);
   SilhouettePatch edge;
   for (std::size_t i = 0; rule == PixelRule::kEdges && viewed && i < triangles.size(); ++i) {
-    prefetch_corners(i, impl);
+    prefetch_corners(i, mesh);
     const Delaunay::Triangle& t = triangles[i];
-    if (!t.is_finite() || !may_show_edge(t, impl) || is_beside(t)) continue;
-    if (!is_small(t, impl)) {
+    if (!t.is_finite() || !may_show_edge(t, mesh) || is_beside(t)) continue;
+    if (!is_small(t, mesh)) {
       buffers.edges[i] = TriangleEdge::kLarge;
       continue;
     }
-    const std::array<Corner, 3> corners = corners_of(t, impl);
-    if (!edge.set(corners, primitives_of(t, impl), *viewed, 0)) continue;
+    const std::array<ScreenCorner, 3> corners = corners_of(t, mesh);
+    if (!edge.set(corners, primitives_of(t, mesh), *viewed, 0)) continue;
     buffers.edges[i] = TriangleEdge::kSmall;
     painter.paint_by_area(corners, edge);
   }
   for (std::size_t i = 0; i < triangles.size(); ++i) {
-    prefetch_corners(i, impl);
+    prefetch_corners(i, mesh);
     const Delaunay::Triangle& t = triangles[i];
     if (!t.is_finite() || buffers.edges[i] == TriangleEdge::kSmall || is_beside(t)) continue;
-    const std::array<Corner, 3> corners = corners_of(t, impl);
+    const std::array<ScreenCorner, 3> corners = corners_of(t, mesh);
     constexpr float kHalfAPixel = 0.5F;
     if (viewed && buffers.edges[i] == TriangleEdge::kLarge &&
-        edge.set(corners, primitives_of(t, impl), *viewed, kHalfAPixel)) {
+        edge.set(corners, primitives_of(t, mesh), *viewed, kHalfAPixel)) {
       painter.paint(corners, edge);
     } else {
       painter.paint(corners, NoEdge());
@@ -428,9 +427,9 @@ void reconstruct(const SampleMesh& mesh, const PixelRect& bounds, RegionPixels& 
 std::vector<std::uint32_t> triangle_at_centers(const SampleMesh& mesh, const PixelRect& bounds) {
   std::vector<std::uint32_t> result(bounds.area(), kNoTriangle);
   std::uint32_t number = 0;
-  for (const Delaunay::Triangle& t : mesh.impl().delaunay().triangles()) {
+  for (const Delaunay::Triangle& t : mesh.triangulation().triangles()) {
     if (!t.is_finite()) continue;
-    for_each_span(corners_of(t, mesh.impl()), bounds, [&](int row, int left, int right) {
+    for_each_span(corners_of(t, mesh), bounds, [&](int row, int left, int right) {
       std::uint32_t* pixel = result.data() + row_start(bounds, row);
       std::fill(pixel + left, pixel + right, number);
     });

@@ -12,7 +12,7 @@
 
 namespace pprt {
 
-struct Corner {
+struct ScreenCorner {
   double x, y;
   float4 color;  // channels()
 };
@@ -37,7 +37,7 @@ inline int first_center(double coordinate) {
 inline constexpr int kLines = kLanes;
 using PerLine = float4;
 inline constexpr float4 kLineOffsets = {0.125F, 0.375F, 0.625F, 0.875F};  // from the row's beginning
-inline constexpr Doubles kCenterOffsets = {0.5, 1.5, 2.5, 3.5};           // of four rows, from the first's
+inline constexpr double4 kCenterOffsets = {0.5, 1.5, 2.5, 3.5};           // of four rows, from the first's
 
 inline float sum(const float4& v) {
   return (v[0] + v[1]) + (v[2] + v[3]);
@@ -55,14 +55,14 @@ struct ExtentPerLine {
   PerLine left, right;
 };
 struct ExactExtents {
-  Doubles left, right;
+  double4 left, right;
 };
 
 // first_center() of four.
-inline int4 first_centers(const Doubles& coordinates) {
-  const Doubles v = coordinates - 0.5;
+inline int4 first_centers(const double4& coordinates) {
+  const double4 v = coordinates - 0.5;
   const int4 towards_zero = __builtin_convertvector(v, int4);
-  const auto is_above = v > __builtin_convertvector(towards_zero, Doubles);  // -1 where it is
+  const auto is_above = v > __builtin_convertvector(towards_zero, double4);  // -1 where it is
   return towards_zero - __builtin_convertvector(is_above, int4);
 }
 
@@ -70,7 +70,7 @@ inline int4 first_centers(const Doubles& coordinates) {
 // triangles at it compute the same crossings to the last bit: they neither overlap nor leave gaps.
 class Outline {
  public:
-  explicit Outline(const std::array<Corner, 3>& corner) {
+  explicit Outline(const std::array<ScreenCorner, 3>& corner) {
     // Without a branch, for corners come in any order. Of two on one level either may be the upper: the edge
     // between them is never asked for. 3 and 4 cannot be.
     static constexpr std::array<std::array<std::uint8_t, 3>, 8> kDownwards = {
@@ -108,18 +108,18 @@ class Outline {
   }
 
   // At four levels, of no length where they miss the triangle.
-  ExactExtents at(const Doubles& y) const {
-    const Doubles below_top = y - top_.y;
-    const Doubles a = top_.x + below_top * whole_;
-    const Doubles b = y < middle_.y ? top_.x + below_top * upper_ : middle_.x + (y - middle_.y) * lower_;
+  ExactExtents at(const double4& y) const {
+    const double4 below_top = y - top_.y;
+    const double4 a = top_.x + below_top * whole_;
+    const double4 b = y < middle_.y ? top_.x + below_top * upper_ : middle_.x + (y - middle_.y) * lower_;
     const auto meets = (y >= top_.y) & (y < bottom_.y);
-    return {meets ? min(a, b) : Doubles{}, meets ? max(a, b) : Doubles{}};
+    return {meets ? min(a, b) : double4{}, meets ? max(a, b) : double4{}};
   }
 
   // Along the lines of a pixel row. Coordinates begin at a column, so that float has digits to spare.
   ExtentPerLine along(int row, int column) const {
-    const ExactExtents exact = at(__builtin_convertvector(kLineOffsets, Doubles) + row);
-    const auto from_column = [&](const Doubles& x) { return __builtin_convertvector(x - column, PerLine); };
+    const ExactExtents exact = at(__builtin_convertvector(kLineOffsets, double4) + row);
+    const auto from_column = [&](const double4& x) { return __builtin_convertvector(x - column, PerLine); };
     return {from_column(exact.left), from_column(exact.right)};
   }
 
@@ -127,7 +127,7 @@ class Outline {
   struct End {
     double x = 0, y = 0;
     End() = default;
-    End(const Corner& corner) : x(corner.x), y(corner.y) {}
+    End(const ScreenCorner& corner) : x(corner.x), y(corner.y) {}
   };
 
   // Horizontal edges are never asked for.
@@ -143,7 +143,7 @@ class Outline {
 // itself.
 class LinearPatch {
  public:
-  explicit LinearPatch(const std::array<Corner, 3>& corner)
+  explicit LinearPatch(const std::array<ScreenCorner, 3>& corner)
       : origin_(corner[0]),
         to_1_(corner[1].color - corner[0].color),
         to_2_(corner[2].color - corner[0].color) {
@@ -157,8 +157,8 @@ class LinearPatch {
 
   // At the centres of a pixel in each of four rows: red, green and blue.
   std::array<float4, 3> at_centers(const int4& column, int first_row) const {
-    const Doubles dx = __builtin_convertvector(column, Doubles) + (0.5 - origin_.x);
-    const Doubles dy = kCenterOffsets + (first_row - origin_.y);
+    const double4 dx = __builtin_convertvector(column, double4) + (0.5 - origin_.x);
+    const double4 dy = kCenterOffsets + (first_row - origin_.y);
     const auto share = [&](double per_x, double per_y) {
       const float4 v = __builtin_convertvector(per_x * dx + per_y * dy, float4);
       return max(float4{}, min(v, on_all(1)));
@@ -193,7 +193,7 @@ class LinearPatch {
   };
 
  private:
-  Corner origin_;
+  ScreenCorner origin_;
   float4 to_1_, to_2_;
   double ax_, ay_, bx_, by_;
 };

@@ -77,7 +77,7 @@ class SilhouettePatch {
  public:
   // Of the corners' primitives; false where one has no known shape, or all are the same. To be asked for
   // points within `margin` pixels, along the axes, of the triangle.
-  bool set(const std::array<Corner, 3>& corners, const std::array<std::uint32_t, 3>& primitives,
+  bool set(const std::array<ScreenCorner, 3>& corners, const std::array<std::uint32_t, 3>& primitives,
            ProjectedShapeCache& viewed, float margin);
 
   // What is shown where no primitive of the corners is: the background, if a corner has met it.
@@ -102,7 +102,8 @@ class SilhouettePatch {
   };
 
   void add_candidate(const float4& color, const ProjectedShapeCache::Shape& shape,
-                     const std::array<Corner, 3>& corners, const ProjectedShapeCache& viewed, float margin);
+                     const std::array<ScreenCorner, 3>& corners, const ProjectedShapeCache& viewed,
+                     float margin);
   PerPoint nearness(const Candidate& candidate, const PerPoint& x, const PerPoint& y) const;
   std::array<PerPoint, 3> shares(const PerPoint& x, const PerPoint& y, const PerPoint& weight) const;
 
@@ -113,8 +114,9 @@ class SilhouettePatch {
   std::vector<const ProjectedFacet*> facets_;  // that may cover some of the triangle
 };
 
-inline bool SilhouettePatch::set(const std::array<Corner, 3>& corners, const std::array<std::uint32_t, 3>& p,
-                                 ProjectedShapeCache& viewed, float margin) {
+inline bool SilhouettePatch::set(const std::array<ScreenCorner, 3>& corners,
+                                 const std::array<std::uint32_t, 3>& p, ProjectedShapeCache& viewed,
+                                 float margin) {
   if (p[0] == p[1] && p[1] == p[2]) return false;
   std::array<ProjectedShapeCache::Place, 3> places{};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -144,7 +146,7 @@ inline bool SilhouettePatch::set(const std::array<Corner, 3>& corners, const std
 }
 
 inline void SilhouettePatch::add_candidate(const float4& color, const ProjectedShapeCache::Shape& shape,
-                                           const std::array<Corner, 3>& corners,
+                                           const std::array<ScreenCorner, 3>& corners,
                                            const ProjectedShapeCache& viewed, float margin) {
   Candidate& candidate = candidates_[candidate_count_++];
   candidate.color = color;
@@ -157,11 +159,12 @@ inline void SilhouettePatch::add_candidate(const float4& color, const ProjectedS
     const auto [y0, y1] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
     const ImageBounds bounds = {static_cast<float>(x0) - margin, static_cast<float>(y0) - margin,
                                 static_cast<float>(x1) + margin, static_cast<float>(y1) + margin};
-    const auto per_corner = [&](double Corner::*coordinate, double origin) {
+    const auto per_corner = [&](double ScreenCorner::*coordinate, double origin) {
       const auto from_origin = [&](int i) { return static_cast<float>(corners[i].*coordinate - origin); };
       return float4{from_origin(0), from_origin(1), from_origin(2), from_origin(2)};
     };
-    const float4 x = per_corner(&Corner::x, shape.origin.x), y = per_corner(&Corner::y, shape.origin.y);
+    const float4 x = per_corner(&ScreenCorner::x, shape.origin.x),
+                 y = per_corner(&ScreenCorner::y, shape.origin.y);
     viewed.for_each_facet(shape, bounds, [&](const ProjectedFacet& f) {
       if (!misses(f, x, y, margin)) facets_.push_back(&f);
     });

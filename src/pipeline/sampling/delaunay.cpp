@@ -34,9 +34,8 @@ bool is_lexicographically_less(const Vec2d& a, const Vec2d& b) {
   return a.x != b.x ? a.x < b.x : a.y < b.y;
 }
 
-// in_circle() of points whose heights over the paraboloid are raised by as little as one likes, those that
-// come later in lexicographic order by infinitely more. The heights' determinant then has the sign of what
-// the last point contributes: no three points of a circle are collinear.
+// in_circle() under symbolic perturbation: the lexicographically later point dominates. Its contribution
+// decides the sign of the determinant, for no three points of a circle are collinear.
 bool lies_inside(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& d) {
   const int sign = in_circle(a, b, c, d);
   if (sign != 0) return sign > 0;
@@ -47,27 +46,26 @@ bool lies_inside(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& d)
   return false;
 }
 
-// Of three collinear points.
+// Whether p lies strictly between a and b, all collinear.
 bool lies_between(const Vec2d& p, const Vec2d& a, const Vec2d& b) {
   const auto [low, high] = std::minmax(a, b, is_lexicographically_less);
   return is_lexicographically_less(low, p) && is_lexicographically_less(p, high);
 }
 
-// Of four triangles that turn to the left, each with the corners a, b and the one all is seen from.
-void measure_circles(const Doubles& ax, const Doubles& ay, const Doubles& bx, const Doubles& by,
-                     std::array<Circumcircle, kLanes>& circles) {
-  const Doubles cross = ax * by - ay * bx;
-  const Doubles a2 = ax * ax + ay * ay, b2 = bx * bx + by * by;
-  const Doubles abx = bx - ax, aby = by - ay, ab2 = abx * abx + aby * aby;
-  const Doubles scale = 1 / (cross > kSmallestDoubleArea ? cross : Doubles{} + kSmallestDoubleArea);
-  Doubles x = (by * a2 - ay * b2) * scale, y = (ax * b2 - bx * a2) * scale;
-  // Counted in docs/numerics.md: products of at most N, a cross product of parts that add up to X.
-  const Doubles n = (size(ax) + size(ay)) * b2 + (size(bx) + size(by)) * a2,
-                parts = size(ax * by) + size(ay * bx);
-  constexpr double kCounted = 64 * 0x1p-53;
-  Doubles slack = cross > kSmallestDoubleArea ? kCounted * n * parts * scale * scale
-                                              : Doubles{} + std::numeric_limits<double>::infinity();
-  Doubles size2 = min(0.25 * (x * x + y * y), max(ab2, max(a2, b2)));
+// Computes the circles of four triangles that turn to the left. Corners a and b are relative to the third.
+// Scalar twin: circumcircle() in circumcircle.h.
+void circumcircles(const double4& ax, const double4& ay, const double4& bx, const double4& by,
+                   std::array<Circumcircle, kLanes>& circles) {
+  const double4 cross = ax * by - ay * bx;
+  const double4 a2 = ax * ax + ay * ay, b2 = bx * bx + by * by;
+  const double4 abx = bx - ax, aby = by - ay, ab2 = abx * abx + aby * aby;
+  const double4 scale = 1 / (cross > kSmallestDoubleArea ? cross : double4{} + kSmallestDoubleArea);
+  double4 x = (by * a2 - ay * b2) * scale, y = (ax * b2 - bx * a2) * scale;
+  // Counted in docs/numerics.md: N is the size of the numerators, X that of the cross product's parts.
+  const double4 n = (abs(ax) + abs(ay)) * b2 + (abs(bx) + abs(by)) * a2, parts = abs(ax * by) + abs(ay * bx);
+  double4 slack = cross > kSmallestDoubleArea ? kCircumcircleRounding * n * parts * scale * scale
+                                              : double4{} + std::numeric_limits<double>::infinity();
+  double4 size2 = min(0.25 * (x * x + y * y), max(ab2, max(a2, b2)));
   for (int i = 0; i < kLanes; ++i)
     circles[i] = {x[i], y[i], static_cast<float>(slack[i]), static_cast<float>(size2[i])};
 }
@@ -78,7 +76,7 @@ void Delaunay::clear() {
   points_.clear();
   triangles_.clear();
   created_.clear();
-  around_.clear();
+  boundary_corners_.clear();
 }
 
 Index Delaunay::locate(const Vec2d& point, Index from) const {
@@ -112,32 +110,43 @@ bool Delaunay::surely_holds(Index triangle, const Vec2d& point) const {
 bool Delaunay::destroys(const Vec2d& point, const Triangle& triangle) const {
   const int side =
       triangle.is_finite() ? side_of_circle(triangle.circle, point - points_[triangle.corners[2]]) : 0;
-  return side != 0 ? side > 0 : surely_destroys(point, triangle);
+  return side != 0 ? side > 0 : exactly_destroys(point, triangle);
 }
 
-// Where the circle does not tell.
-bool Delaunay::surely_destroys(const Vec2d& point, const Triangle& triangle) const {
+// For points so near the circle that rounding might decide.
+bool Delaunay::exactly_destroys(const Vec2d& point, const Triangle& triangle) const {
   const Vec2d &a = points_[triangle.corners[0]], &b = points_[triangle.corners[1]];
   if (triangle.is_finite()) return lies_inside(a, b, points_[triangle.corners[2]], point);
   const int side_of_hull = orientation(a, b, point);
   return side_of_hull > 0 || (side_of_hull == 0 && lies_between(point, a, b));
 }
 
+// The circles of the triangles 0, 1 and 2 hold p: they are its cavity. Its boundary is a b c d e. The three
+// slots and two new ones then hold a fan, one triangle from each edge of the boundary to p.
+//
+//      d ------- c           d ------- c
+//    / |      .' |         / `.   1  .'|
+//   /  | 1  .'   |        /  0 `.  .'  |
+//  e 0 |  .'     |       e ----- p   2 |
+//   \  |.'  p  2 |        \  4 .' `.   |
+//    \ |         |         \ .'  3  `. |
+//      a ------- b           a ------- b
 void Delaunay::insert(const Vec2d& point, Index at) {
-  dig(point, at);
+  find_cavity(point, at);
   points_.push_back(point);
   const auto apex = static_cast<Index>(points_.size() - 1);
-  look_around(apex);
-  fill(apex);
-  measure();
+  gather_boundary(apex);
+  retriangulate(apex);
+  compute_circles();
 }
 
-// The triangles that the point destroys hang together and hold no corner inside, so the way from one to the
-// next is a tree: its leaves, taken in order, go around the hole.
-void Delaunay::dig(const Vec2d& point, Index at) {
+// Fills created_ with the cavity's triangles, and boundary_ with its edges in their order around it. The
+// cavity is connected and has no corner in its interior. So the ways from triangle to triangle form a tree,
+// and its leaves, visited in order, are the boundary.
+void Delaunay::find_cavity(const Vec2d& point, Index at) {
   created_.clear();
   created_.push_back(at);
-  rim_.clear();
+  boundary_.clear();
   to_cross_.clear();
   for (const unsigned edge : {2u, 1u, 0u}) {
     to_cross_.push_back(side(at, edge));
@@ -155,24 +164,41 @@ void Delaunay::dig(const Vec2d& point, Index at) {
       to_cross_.push_back(side(neighbour, after(edge_of(beyond))));
       for (const Side next : triangles_[neighbour].across) __builtin_prefetch(&triangles_[triangle_of(next)]);
     } else {
-      rim_.push_back({inner.corners[after(edge_of(s))], inner.corners[before(edge_of(s))], beyond});
+      boundary_.push_back({inner.corners[after(edge_of(s))], inner.corners[before(edge_of(s))], beyond});
     }
   }
 }
 
-// A triangle from every edge of the rim to the point, in the slots of those destroyed and two more.
-void Delaunay::fill(Index point) {
-  for (std::size_t more = created_.size(); more < rim_.size(); ++more) {
+// Copies the boundary's corners, relative to the point, for compute_circles(). Done before retriangulate():
+// numbers stored one by one can be loaded four at a time only after a while.
+void Delaunay::gather_boundary(Index point) {
+  const std::size_t count = boundary_.size(), padded = (count + kLanes - 1) / kLanes * kLanes + 1;
+  boundary_corners_.resize(count);
+  from_point_x_.resize(padded), from_point_y_.resize(padded);
+  const Vec2d apex = points_[point];
+  for (std::size_t k = 0; k < count; ++k) {
+    boundary_corners_[k] = boundary_[k].from;
+    const Vec2d offset =
+        boundary_corners_[k] == kInfinite ? Vec2d(0, 0) : points_[boundary_corners_[k]] - apex;
+    from_point_x_[k] = offset.x, from_point_y_[k] = offset.y;
+  }
+  from_point_x_[count] = from_point_x_[0], from_point_y_[count] = from_point_y_[0];
+}
+
+// Makes a triangle from every edge of the boundary to the point, in the slots of the cavity and two more.
+void Delaunay::retriangulate(Index point) {
+  for (std::size_t more = created_.size(); more < boundary_.size(); ++more) {
     created_.push_back(static_cast<Index>(triangles_.size()));
     triangles_.emplace_back();
   }
-  // Where the edge's beginning stands among the corners, so that infinity comes last.
+  // The edge's beginning becomes this corner, so that infinity comes last.
   const auto turn = [](const Edge& edge) {
     return edge.from == kInfinite ? 2u : edge.to == kInfinite ? 1u : 0u;
   };
-  Side from_last = side(created_.back(), turn(rim_.back()));  // opposite the beginning: shared with the next
-  for (std::size_t k = 0; k < rim_.size(); ++k) {
-    const Edge& edge = rim_[k];
+  // The side opposite an edge's beginning is shared with the next triangle of the fan.
+  Side from_last = side(created_.back(), turn(boundary_.back()));
+  for (std::size_t k = 0; k < boundary_.size(); ++k) {
+    const Edge& edge = boundary_[k];
     const unsigned first = turn(edge), second = after(first), third = after(second);
     Triangle& t = triangles_[created_[k]];
     t.corners[first] = edge.from, t.corners[second] = edge.to, t.corners[third] = point;
@@ -184,28 +210,14 @@ void Delaunay::fill(Index point) {
   }
 }
 
-// Before fill(): what is stored number by number can be loaded four at a time only after a while.
-void Delaunay::look_around(Index point) {
-  const std::size_t count = rim_.size(), padded = (count + kLanes - 1) / kLanes * kLanes + 1;
-  around_.resize(count);
-  from_point_x_.resize(padded), from_point_y_.resize(padded);
-  const Vec2d apex = points_[point];
-  for (std::size_t k = 0; k < count; ++k) {
-    around_[k] = rim_[k].from;
-    const Vec2d offset = around_[k] == kInfinite ? Vec2d(0, 0) : points_[around_[k]] - apex;
-    from_point_x_[k] = offset.x, from_point_y_[k] = offset.y;
-  }
-  from_point_x_[count] = from_point_x_[0], from_point_y_[count] = from_point_y_[0];
-}
-
-// The circles of the triangles around the point, four at once.
+// Computes the circles of the fan's triangles, four at a time. A circle that is not finite has no meaning.
 PPRT_CLONED_FOR_WIDE_REGISTERS
-void Delaunay::measure() {
+void Delaunay::compute_circles() {
   std::array<Circumcircle, kLanes> circles;
   const std::size_t count = created_.size();
   for (std::size_t k = 0; k < count; k += kLanes) {
     const double *x = &from_point_x_[k], *y = &from_point_y_[k];
-    measure_circles(load<Doubles>(x), load<Doubles>(y), load<Doubles>(x + 1), load<Doubles>(y + 1), circles);
+    circumcircles(load<double4>(x), load<double4>(y), load<double4>(x + 1), load<double4>(y + 1), circles);
     for (std::size_t i = 0; i < kLanes && k + i < count; ++i) triangles_[created_[k + i]].circle = circles[i];
   }
 }
@@ -219,10 +231,10 @@ bool Delaunay::insert_before_planar(const Vec2d& point) {
   if (turn == 0) return true;
   span_first_triangle(turn > 0 ? 0 : 1, turn > 0 ? 1 : 0, apex);
   for (Index p = 2; p < apex; ++p) {
-    dig(points_[p], locate(points_[p], created_.empty() ? 0 : created_.front()));
-    look_around(p);
-    fill(p);
-    measure();
+    find_cavity(points_[p], locate(points_[p], created_.empty() ? 0 : created_.front()));
+    gather_boundary(p);
+    retriangulate(p);
+    compute_circles();
   }
   return true;
 }
@@ -241,11 +253,7 @@ void Delaunay::span_first_triangle(Index a, Index b, Index c) {
   join(side(1, 1), side(2, 0));  // from c to infinity
   join(side(2, 1), side(3, 0));  // from a
   join(side(3, 1), side(1, 0));  // from b
-  const Vec2d from_c_to_a = points_[a] - points_[c], from_c_to_b = points_[b] - points_[c];
-  const auto all = [](double v) { return Doubles{} + v; };
-  std::array<Circumcircle, kLanes> circles;
-  measure_circles(all(from_c_to_a.x), all(from_c_to_a.y), all(from_c_to_b.x), all(from_c_to_b.y), circles);
-  triangles_.front().circle = circles.front();
+  triangles_.front().circle = circumcircle(points_[a] - points_[c], points_[b] - points_[c]);
 }
 
 }  // namespace pprt

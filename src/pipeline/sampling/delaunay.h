@@ -1,5 +1,4 @@
-// The Delaunay triangulation of points that come one by one: exact, compact, in arrays that keep their
-// storage.
+// The Delaunay triangulation of points that are inserted one by one: exact, and in compact arrays.
 #pragma once
 
 #include <array>
@@ -13,11 +12,20 @@
 
 namespace pprt {
 
-// Points are numbered in the order of insertion, triangles by the slot that holds them. Outside every edge of
-// the convex hull stands a triangle whose third corner is kInfinite, so that each triangle has three
-// neighbours. Bowyer's and Watson's insertion (1981) over exact predicates. Of cocircular points the
-// triangulation is the one that Devillers and Teillaud's perturbation (2003) chooses, whatever their order of
-// insertion: two ranks that know the same points hold the same triangles.
+// What the owner of a triangulation remembers of a triangle. It stays in the slot, also when another triangle
+// takes the slot, until the owner changes it. In a new slot all fields are zero.
+struct TriangleRecord {
+  std::uint32_t stamp = 0;  // differs between triangles of one slot; 0: not counted in the statistics
+  float weight = 0;
+  std::int32_t tile = 0;  // that holds the refinement point
+  std::uint32_t bin = 0;  // of LearnedWeights
+};
+
+// Points are numbered in the order of insertion, triangles by the slot that holds them. Beyond every edge of
+// the convex hull lies a triangle whose third corner is kInfinite, so that each triangle has three
+// neighbours. The insertion is Bowyer's and Watson's (1981) over exact predicates. Among cocircular points
+// the perturbation of Devillers and Teillaud (2003) chooses the triangles, independent of the order of
+// insertion: two ranks with the same points have the same triangles.
 class Delaunay {
  public:
   using Index = std::uint32_t;
@@ -25,32 +33,23 @@ class Delaunay {
   static constexpr Index kInfinite = ~Index{0};
   static constexpr Index kNowhere = ~Index{0};  // no triangle
 
-  // A side is a triangle and one of its edges, 4 * triangle + edge; edge i lies opposite corner i.
+  // A triangle and one of its edges, as 4 * triangle + edge. Edge i lies opposite corner i.
   using Side = std::uint32_t;
 
-  // What whoever owns the triangulation remembers of a triangle. It stays in the slot until the owner changes
-  // it; in a new slot it is zero.
-  struct Note {
-    std::uint32_t stamp = 0;
-    float weight = 0;
-    std::int32_t tile = 0;
-    std::uint32_t kind = 0;
-  };
-
-  // One line of cache.
+  // Fills one cache line.
   struct alignas(64) Triangle {
     std::array<Index, 3> corners{};  // counter-clockwise; kInfinite only as the last
     std::array<Side, 3> across{};    // the sides of the neighbours
-    Circumcircle circle;             // seen from the last corner; of no meaning unless finite
-    Note note;
+    Circumcircle circle;             // relative to the last corner; without meaning unless finite
+    TriangleRecord record;
 
     bool is_finite() const { return corners[2] != kInfinite; }
   };
 
-  // Forgets all points; keeps the storage.
+  // Removes all points; keeps the storage.
   void clear();
 
-  // Whether there are triangles: three points that are not collinear.
+  // Whether there are triangles: there are once three points are not collinear.
   bool is_planar() const { return !triangles_.empty(); }
 
   const std::vector<Vec2d>& points() const { return points_; }
@@ -58,55 +57,55 @@ class Delaunay {
   // Every slot holds a triangle, finite or not.
   const std::vector<Triangle>& triangles() const { return triangles_; }
 
-  Note& note(Index triangle) { return triangles_[triangle].note; }
+  TriangleRecord& record(Index triangle) { return triangles_[triangle].record; }
 
-  // Of a finite triangle.
+  // Returns the circumcentre of a finite triangle.
   Vec2d circumcenter(Index triangle) const {
     return points_[triangles_[triangle].corners[2]] + triangles_[triangle].circle.to_center();
   }
 
-  // Some triangle whose circumcircle holds the point, found by walking from slot `from`: where an insertion
-  // begins. kNowhere when the point is there already. Needs is_planar().
+  // Finds a triangle whose circumcircle holds the point, walking from slot `from`: an insertion begins there.
+  // Returns kNowhere when the point is a corner already. Needs is_planar().
   Index locate(const Vec2d& point, Index from) const;
 
-  // The same, where a triangle is supposed to be the answer: true only if its circle strictly holds the
-  // point, which then is no corner of any triangle.
+  // Whether the triangle is finite and its circle strictly holds the point, which then is no corner of any
+  // triangle: a check of a guess, cheaper than locate().
   bool surely_holds(Index triangle, const Vec2d& point) const;
 
-  // Adds a point that locate() or surely_holds() found new. The slots of all triangles that it destroyed are
-  // among new_triangles(), which holds exactly the triangles around it.
+  // Adds a point, new by locate() or surely_holds(), which gave `at`. Afterwards new_triangles() holds the
+  // slots of exactly the triangles around the point; those of all triangles that it destroyed are among them.
   void insert(const Vec2d& point, Index at);
   std::span<const Index> new_triangles() const { return created_; }
 
-  // The new triangles' corners around the point, which all of them share: triangle k lies between number k
-  // and the next, the last between the last and the first. kInfinite where one of them is not finite.
-  std::span<const Index> around_new() const { return around_; }
+  // The corners around the newest point. New triangle k lies between corner k and the next, the last triangle
+  // between the last corner and the first. kInfinite where a triangle is not finite.
+  std::span<const Index> boundary_corners() const { return boundary_corners_; }
 
-  // Adds a point while there are no triangles, false when it is there already. When it is the first off the
-  // line, all triangles are new.
+  // Adds a point while there are no triangles; returns false when it is there already. After the first point
+  // off the line all triangles are new.
   bool insert_before_planar(const Vec2d& point);
 
  private:
-  // An edge of the hole that an insertion makes, counter-clockwise around it.
+  // An edge of a cavity's boundary, counter-clockwise around the cavity.
   struct Edge {
     Index from, to;
-    Side beyond;
+    Side beyond;  // of the triangle outside
   };
 
   bool destroys(const Vec2d& point, const Triangle& triangle) const;
-  [[gnu::noinline]] bool surely_destroys(const Vec2d& point, const Triangle& triangle) const;
-  void dig(const Vec2d& point, Index at);
-  void fill(Index point);
-  void look_around(Index point);
-  void measure();
+  [[gnu::noinline]] bool exactly_destroys(const Vec2d& point, const Triangle& triangle) const;
+  void find_cavity(const Vec2d& point, Index at);
+  void gather_boundary(Index point);
+  void retriangulate(Index point);
+  void compute_circles();
   void span_first_triangle(Index a, Index b, Index c);
 
   std::vector<Vec2d> points_;
   std::vector<Triangle> triangles_;
-  std::vector<Side> to_cross_;  // sides of the hole that dig() has not looked across yet
-  std::vector<Edge> rim_;       // of the hole
-  std::vector<Index> created_, around_;
-  std::vector<double> from_point_x_, from_point_y_;  // of those around it
+  std::vector<Side> to_cross_;  // sides of the cavity that find_cavity() has still to look across
+  std::vector<Edge> boundary_;  // of the cavity
+  std::vector<Index> created_, boundary_corners_;
+  std::vector<double> from_point_x_, from_point_y_;  // boundary corners, relative to the newest point
 };
 
 }  // namespace pprt

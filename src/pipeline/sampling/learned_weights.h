@@ -1,5 +1,5 @@
-// What refinement learns as it goes: how wrong a picture proves to be where samples come, in triangles of one
-// kind, against what their weights had said.
+// Corrects the weights of triangles by what refinement has learned: how wrong the picture proved to be where
+// samples came, against what the weights had predicted (docs/decisions/0018-learned-weights.md).
 #pragma once
 
 #include <algorithm>
@@ -14,32 +14,34 @@
 
 namespace pprt {
 
-// What a triangle's kind takes from a corner: how wrong the picture was where that sample came, and how many
-// rays it took, to their octaves. Traits of corners add up without mixing the two.
-using Trait = std::int16_t;
+// A sample's contribution to the bin of its triangles: the octave of the error that the picture had there
+// before, and the octave of the number of rays it took. The features of three corners add up without a carry
+// from one part to the other.
+using Feature = std::int16_t;
 inline constexpr std::int32_t kErrorOctaves = 16;  // the lowest: below 2^-14; the highest: 1
 inline constexpr std::int32_t kRayOctaves = 4;     // 1, 2 and 3, 4 to 7, 8 and more
 inline constexpr std::int32_t kPerRayOctave = 64;  // above three of the highest error octave
 
-// Of a squared error on the display scale.
-inline Trait trait_of(float squared_error, std::uint32_t rays) {
+// `squared_error` on the display scale; `rays` at least 1.
+inline Feature feature_of(float squared_error, std::uint32_t rays) {
   constexpr std::int32_t kLeast = 127 - (kErrorOctaves - 1);  // as a float's exponent
   const std::int32_t error = (std::bit_cast<std::int32_t>(squared_error) >> 23) - kLeast;
   const std::int32_t octave_of_rays = std::bit_width(rays) - 1;
-  return static_cast<Trait>(std::clamp(error, 0, kErrorOctaves - 1) +
-                            std::clamp(octave_of_rays, 0, kRayOctaves - 1) * kPerRayOctave);
+  return static_cast<Feature>(std::clamp(error, 0, kErrorOctaves - 1) +
+                              std::clamp(octave_of_rays, 0, kRayOctaves - 1) * kPerRayOctave);
 }
 
-// Kinds of triangles: by the sum of their corners' octaves of rays in twos, how many primitives the corners
-// lie on, the octaves of their colours' variance in twos, and the sum of their octaves of errors in eights.
-using TriangleKind = std::uint32_t;
-inline constexpr std::size_t kTriangleKinds = std::size_t{5} * 4 * 8 * 8;
+// A class of triangles that learn together. From the highest bits: the sum of the corners' ray octaves in
+// steps of two, the number of primitives under the corners, the octaves of their colours' variance in steps
+// of two, and the sum of their error octaves in steps of eight.
+using Bin = std::uint32_t;
+inline constexpr std::size_t kBins = std::size_t{5} * 4 * 8 * 8;
 
-// Of one triangle, or of four: the primitives that its corners lie on, the variance of their colours, and the
-// sum of their traits.
+// Returns the bin of one triangle (float, std::int32_t) or of four (float4, int4). Takes the primitives under
+// the corners, the variance of their colours, and the sum of their features.
+// Scalar twin: the instance for one triangle.
 template <class Number, class Whole>
-Whole triangle_kind(const Whole& a, const Whole& b, const Whole& c, const Number& variance,
-                    const Whole& traits) {
+Whole bin_of(const Whole& a, const Whole& b, const Whole& c, const Number& variance, const Whole& features) {
   constexpr std::int32_t kLeast = 55;  // half the exponent of a float of 2^-17
   const auto as_one = [](const auto& truth) {
     if constexpr (std::is_same_v<Whole, std::int32_t>) {
@@ -48,38 +50,38 @@ Whole triangle_kind(const Whole& a, const Whole& b, const Whole& c, const Number
       return truth & 1;
     }
   };
-  const Whole rays = traits >> 7, errors = (traits & (kPerRayOctave - 1)) >> 3;
+  const Whole rays = features >> 7, errors = (features & (kPerRayOctave - 1)) >> 3;
   const Whole more_primitives = as_one(a != b) + as_one((c != a) & (c != b));
   const Whole above = (std::bit_cast<Whole>(variance) >> 24) - kLeast;
   const Whole spread = above & ~(above >> 31);  // not below 0
   return (rays << 8) + (more_primitives << 6) + (spread << 3) + errors;
 }
 
-// By how much weights have said too much or too little, to be multiplied with them. What a weight had said is
-// compared with the squared error times the triangle's area, and with the time that its sample took.
+// Factors by which weights were too small or too large, per bin. A weight's prediction is compared with the
+// squared error times the triangle's area, per time that the sample took.
 class LearnedWeights {
  public:
   LearnedWeights() {
-    for (std::size_t kind = 0; kind < kTriangleKinds; ++kind)
-      corrections_[kind] = tempered(expected()[kind % kExpected]);
+    for (std::size_t bin = 0; bin < kBins; ++bin) corrections_[bin] = tempered(expected()[bin % kExpected]);
   }
 
-  // Above 1 for kinds that have proved worse than all together when they were last learned of.
-  float correction(TriangleKind kind) const { return corrections_[kind]; }
+  // Returns the factor to multiply a weight with. It is above 1 for bins that were worse than the average of
+  // all bins when something was last learned of them.
+  float correction(Bin bin) const { return corrections_[bin]; }
 
-  // A sample has refined a triangle of the kind and of that weight. The picture there was wrong by
-  // `squared_error` over `area` square pixels; the sample's ray tree has so many rays.
-  void learn(TriangleKind kind, float weight, float squared_error, float area, std::uint32_t rays) {
-    if (!(weight > 0)) return;          // it has said nothing
-    constexpr float kInsertion = 2.5F;  // takes as long as so many rays; painting is left out
-    constexpr float kDoubt = 10;        // what was expected counts as much as so many samples
+  // Learns from a sample that refined a triangle of this bin and weight. The picture there was wrong by
+  // `squared_error` over `area` square pixels; the sample's ray tree has `rays` rays.
+  void learn(Bin bin, float weight, float squared_error, float area, std::uint32_t rays) {
+    if (!(weight > 0)) return;          // it predicted nothing
+    constexpr float kInsertion = 2.5F;  // an insertion's time in rays; reconstruction is left out
+    constexpr float kDoubt = 10;        // samples that the initial expectation counts as
     const Evidence found{squared_error * area / weight, kInsertion + static_cast<float>(rays)};
-    Evidence& of_kind = kinds_[kind];
-    of_kind.remember(found, 1.0F / 512), all_.remember(found, 1.0F / 4096);
+    Evidence& of_bin = bins_[bin];
+    of_bin.remember(found, 1.0F / 512), all_.remember(found, 1.0F / 4096);
     samples_ += 1 - samples_ * (1.0F / 4096);
-    const float error = of_kind.error * samples_ + all_.error * kDoubt * expected()[kind % kExpected];
-    const float time = of_kind.time * samples_ + all_.time * kDoubt;
-    if (all_.error > 0) corrections_[kind] = tempered(error * all_.time / (time * all_.error));
+    const float error = of_bin.error * samples_ + all_.error * kDoubt * expected()[bin % kExpected];
+    const float time = of_bin.time * samples_ + all_.time * kDoubt;
+    if (all_.error > 0) corrections_[bin] = tempered(error * all_.time / (time * all_.error));
   }
 
  private:
@@ -93,25 +95,24 @@ class LearnedWeights {
     }
   };
 
-  // As long as nothing is known: more error where corners came unforeseen, and where they lie on three
-  // primitives, for there may be more of these between them. By the lowest bits of the kind.
+  // Errors expected before anything is learned, by the lowest bits of the bin. They are larger where corners
+  // came as a surprise, and where corners lie on three primitives, for there may be more between them.
   static constexpr std::size_t kExpected = 4 * 8 * 8;
   static const std::array<float, kExpected>& expected() {
     static const std::array<float, kExpected> table = [] {
       constexpr float kStep = 1.23114441F;    // .3 octaves
       constexpr float kLeast = 0.594603558F;  // two and a half such steps below 1
-      std::array<float, kExpected> by_kind{};
-      for (std::size_t kind = 0; kind < kExpected; ++kind) {
-        by_kind[kind] = kLeast;
-        for (std::size_t step = (kind & 7) + (kind >> 6 == 2 ? 1 : 0); step > 0; --step)
-          by_kind[kind] *= kStep;
+      std::array<float, kExpected> by_bin{};
+      for (std::size_t bin = 0; bin < kExpected; ++bin) {
+        by_bin[bin] = kLeast;
+        for (std::size_t step = (bin & 7) + (bin >> 6 == 2 ? 1 : 0); step > 0; --step) by_bin[bin] *= kStep;
       }
-      return by_kind;
+      return by_bin;
     }();
     return table;
   }
 
-  // To the power of 3/4, for what is learned is uncertain, and within bounds.
+  // Returns ratio^(3/4), for what is learned is uncertain, held to [1/32, 32].
   static float tempered(float ratio) {
     constexpr float kMost = 32;
     const float root = std::sqrt(ratio), power = root * std::sqrt(root);
@@ -119,10 +120,10 @@ class LearnedWeights {
     return from_below < kMost ? from_below : kMost;
   }
 
-  std::array<Evidence, kTriangleKinds> kinds_{};
+  std::array<Evidence, kBins> bins_{};
   Evidence all_;
   float samples_ = 0;  // in all_
-  std::array<float, kTriangleKinds> corrections_{};
+  std::array<float, kBins> corrections_{};
 };
 
 }  // namespace pprt

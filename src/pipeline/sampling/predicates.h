@@ -1,4 +1,4 @@
-// Exact signs of two determinants: what a triangulation must not get wrong.
+// The two geometric predicates of a Delaunay triangulation, exact for all inputs.
 #pragma once
 
 #include <algorithm>
@@ -8,13 +8,13 @@
 
 namespace pprt {
 
-// The same in exact arithmetic, whatever the points: where the filters below cannot tell.
+// The same predicates in exact arithmetic (CGAL): called where the filters below cannot decide.
 int exact_orientation(const Vec2d& a, const Vec2d& b, const Vec2d& c);
 int exact_in_circle(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& d);
 
-// 1 if a, b, c turn to the left (counter-clockwise with y upwards), -1 if to the right, 0 if they are
-// collinear. The filter is Shewchuk's (1997, "Adaptive precision floating-point arithmetic and fast robust
-// geometric predicates", s. 4.3: ccwerrboundA); the constant beside it outweighs all underflow.
+// Returns 1 if a, b, c turn to the left (counter-clockwise with y upwards), -1 if to the right, 0 if they
+// are collinear. The filter is Shewchuk's (1997, "Adaptive precision floating-point arithmetic and fast
+// robust geometric predicates", s. 4.3: ccwerrboundA); the constant beside it outweighs all underflow.
 inline int orientation(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
   constexpr double kError = 3.3306690738754716e-16, kUnderflow = 1e-280;
   const double left = (a.x - c.x) * (b.y - c.y), right = (a.y - c.y) * (b.x - c.x);
@@ -25,8 +25,8 @@ inline int orientation(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
   return exact_orientation(a, b, c);
 }
 
-// 1 if d lies inside the circle through a, b, c, which turn to the left; -1 outside, 0 on it. The filter is
-// Shewchuk's as well (iccerrboundA).
+// Returns 1 if d lies inside the circle through a, b, c, which turn to the left; -1 outside, 0 on it. The
+// filter is Shewchuk's as well (iccerrboundA).
 inline int in_circle(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& d) {
   constexpr double kError = 1.1102230246251577e-15, kUnderflow = 1e-200;
   const Vec2d ad = a - d, bd = b - d, cd = c - d;

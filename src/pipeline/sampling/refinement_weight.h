@@ -1,4 +1,4 @@
-// How much a Delaunay triangle wants to be refined (paper s. 3.6, after Eldar et al.).
+// The weight of a Delaunay triangle: its priority in refinement (paper s. 3.6, after Eldar et al.).
 #pragma once
 
 #include <algorithm>
@@ -21,11 +21,12 @@ struct TriangleShape {
   double longest_edge_squared = 0;  // square pixels
 };
 
-// Twice the area below which a triangle counts as having it, in square pixels: keeps the circumcircle of
-// collinear corners finite. Corners lie within 2^15 pixels and are rounded to 2^-38 of one, so twice the area
-// of a proper triangle is above 1e-6 unless its corners touch within rounding.
+// Lower bound of twice a triangle's area, square pixels. It keeps the circumcircle of collinear corners
+// finite. Corners lie within 2^15 pixels and are rounded to 2^-38 of one, so twice the area of a proper
+// triangle is above 1e-6 unless its corners touch within rounding.
 inline constexpr double kSmallestDoubleArea = 1e-9;
 
+// Corners counter-clockwise, pixels.
 inline TriangleShape triangle_shape(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
   const Vec2d ab = b - a, ac = c - a, bc = c - b;
   const double cross = std::max(ab.x * ac.y - ab.y * ac.x, kSmallestDoubleArea);
@@ -35,14 +36,20 @@ inline TriangleShape triangle_shape(const Vec2d& a, const Vec2d& b, const Vec2d&
   return {{a + to_center, to_center.dot(to_center)}, std::max({ab2, ac2, bc2})};
 }
 
-// Held to [0, 1], by value: std::clamp goes by reference, hence by branches, which noise makes dear.
+// Clamps to [0, 1] without a branch. std::clamp takes references, hence branches, which noisy colours make
+// slow.
 inline float held_to_unit(float v) {
   const float from_below = v > 0 ? v : 0;
   return from_below < 1 ? from_below : 1;
 }
 
-// Mean over the channels of the variance of three intensities on the display scale [0, 1]. The variance of
-// three numbers is a ninth of the sum of their squared differences.
+// Clamps red, green and blue to [0, 1]; the last lane becomes 0. Scalar twin: held_to_unit().
+inline float4 on_display(const float4& channels) {
+  return min(max(channels, float4{}), float4{1, 1, 1, 0});
+}
+
+// Returns the mean over the channels of the variance of three intensities on the display scale [0, 1]. The
+// variance of three numbers is a ninth of the sum of their squared differences.
 inline float display_variance(const Color& a, const Color& b, const Color& c) {
   const auto channel = [](float p, float q, float r) {
     p = held_to_unit(p), q = held_to_unit(q), r = held_to_unit(r);
@@ -51,18 +58,19 @@ inline float display_variance(const Color& a, const Color& b, const Color& c) {
   return (channel(a.x, b.x, c.x) + channel(a.y, b.y, c.y) + channel(a.z, b.z, c.z)) * (1.0f / 27);
 }
 
-// The reasons to refine that count: all of them, but where a study asks what each is worth. Without area and
-// variance there is no reason at all.
+// The terms of the weight that are in force. All of them, unless a study measures what each is worth. Without
+// area and variance every weight is 0.
 struct WeightTerms {
   bool area = true;        // Rad^2
   bool variance = true;    // log(1.01 + 500 Var)
-  bool pixel_rule = true;  // a triangle smaller than a pixel has its variance as its only reason
-  bool learned = true;     // times what error_by_kind.h has learned; below a pixel, less by its side
-  bool edges = true;       // learned of pictures that show primitives' edges (PixelRule::kEdges)
+  bool pixel_rule = true;  // below the size of a pixel only the variance counts
+  bool learned = true;     // multiplied by LearnedWeights; below a pixel also by its size
+  bool edges = true;       // errors are learned from pictures that show edges (PixelRule::kEdges)
 };
 
-// The natural logarithm of a positive, normal float or of four, to 4e-7 of itself; of 1 exactly 0. The
-// polynomial is the minimax one (Remez) for log(1 + f) / f over [sqrt(1/2), sqrt(2)] - 1.
+// Returns the natural logarithm of one positive, normal float or of four, with a relative error below 4e-7;
+// of 1 exactly 0. The polynomial is the minimax one (Remez) for log(1 + f) / f over [sqrt(1/2), sqrt(2)] - 1.
+// Scalar twin: the instance for one float.
 template <class Number>
 Number fast_logarithm(const Number& x) {
   using Bits = std::conditional_t<std::is_same_v<Number, float>, std::int32_t, int4>;
@@ -76,10 +84,11 @@ Number fast_logarithm(const Number& x) {
 
 inline constexpr float kPixelSizeSquared = 0.318309886F;  // 1 / pi: a circle of one square pixel
 
-// Weight(t) = Rad^2 log(1.01 + 500 Var), with two safeguards. Rad is at most the longest edge: a sliver on
-// the hull has a circumradius of any size. A triangle whose circle is smaller than a pixel keeps only its
-// variance as a reason (Painter and Sloan 1989): the constant 1.01 becomes 1, and a flat one has weight 0. Of
-// one triangle or of four, by the square of Rad in square pixels, and Var.
+// Returns Weight(t) = Rad^2 log(1.01 + 500 Var) of one triangle or of four, from Rad^2 in square pixels and
+// Var. Two safeguards. Rad is at most the longest edge: a sliver on the hull has a circumradius of any size.
+// Of a triangle whose circle is smaller than a pixel only the variance counts (Painter and Sloan 1989): the
+// constant 1.01 becomes 1, and a flat one has weight 0.
+// Scalar twin: the instance for one triangle.
 template <class Number>
 Number refinement_weight(const Number& size_squared, const Number& variance, const WeightTerms& terms = {}) {
   const Number nothing{};

@@ -134,9 +134,9 @@ class MeshPainter {
       if (i % kSamplesPerLook == 1)
         mesh_.expect_growth(samples / static_cast<double>(mesh_.samples().size()));
       if (i % kSamplesPerLook == 0 && clock() > end_s) return Stop::kTime;
-      const std::optional<Vec2d> point = mesh_.next_point();
-      if (!point) return Stop::kExhausted;
-      add(*point);
+      const std::optional<Refinement> next = mesh_.next_point();
+      if (!next) return Stop::kExhausted;
+      add(next->point);
     }
     return Stop::kSamples;
   }

@@ -63,9 +63,9 @@ void ExchangingRanks::seed() {
 void ExchangingRanks::refine(int most) {
   for (ExchangingRank& r : ranks_) {
     for (std::size_t n = random(static_cast<std::size_t>(most)); n > 0; --n) {
-      const auto point = r.mesh.next_point();
-      if (!point) break;
-      if (r.mesh.insert(sample_of(picture_, point->x, point->y))) r.exchange.inserted(r.rank);
+      const auto next = r.mesh.next_point();
+      if (!next) break;
+      if (r.mesh.insert(sample_of(picture_, next->point.x, next->point.y))) r.exchange.inserted(r.rank);
     }
     if (random(4) != 0) post(r);
   }

@@ -37,9 +37,9 @@ inline SampleMesh refine(const Region& region, const Picture& picture, int count
     mesh.insert(sample_of(picture, p.x, p.y));
   }
   for (int i = 0; i < count; ++i) {
-    const auto point = mesh.next_point();
-    if (!point) break;
-    mesh.insert(sample_of(picture, point->x, point->y));
+    const auto next = mesh.next_point();
+    if (!next) break;
+    mesh.insert(sample_of(picture, next->point.x, next->point.y));
   }
   return mesh;
 }

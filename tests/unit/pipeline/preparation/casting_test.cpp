@@ -39,9 +39,9 @@ SampleMesh seen_by(const Camera& camera, int frame) {
   SampleMesh mesh(Region::whole(kGrid));
   for (const Vec2d& p : seed_points(kSize, kSize, 1)) mesh.insert(look(camera, p.x, p.y, frame));
   for (int i = 0; i < 600; ++i) {
-    const auto p = mesh.next_point();
-    if (!p) break;
-    mesh.insert(look(camera, p->x, p->y, frame));
+    const auto next = mesh.next_point();
+    if (!next) break;
+    mesh.insert(look(camera, next->point.x, next->point.y, frame));
   }
   return mesh;
 }

@@ -65,9 +65,9 @@ SampleMesh mesh_of(int refinements) {
   };
   for (const Vec2d& p : seed_points(kGrid.width, kGrid.height, 5)) add(p.x, p.y);
   for (int i = 0; i < refinements; ++i) {
-    const auto point = mesh.next_point();
-    if (!point) break;
-    add(point->x, point->y);
+    const auto next = mesh.next_point();
+    if (!next) break;
+    add(next->point.x, next->point.y);
   }
   return mesh;
 }

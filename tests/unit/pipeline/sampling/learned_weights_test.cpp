@@ -15,30 +15,29 @@
 namespace pprt {
 namespace {
 
-constexpr TriangleKind kOne = 1, kOther = 2;
+constexpr Bin kOne = 1, kOther = 2;
 
 // As many samples of one ray each, whose triangles had an area and a weight of 1.
-void learn(LearnedWeights& errors, TriangleKind kind, float squared_error, int samples,
-           std::uint32_t rays = 1) {
+void learn(LearnedWeights& errors, Bin kind, float squared_error, int samples, std::uint32_t rays = 1) {
   for (int i = 0; i < samples; ++i) errors.learn(kind, 1, squared_error, 1, rays);
 }
 
 }  // namespace
 
 TEST_CASE("a trait keeps octaves of error and rays apart") {
-  CHECK(trait_of(0, 1) == 0);
-  CHECK(trait_of(0x1p-15F, 1) == 0);
-  CHECK(trait_of(0x1p-14F, 1) == 1);
-  CHECK(trait_of(0.5F, 1) == kErrorOctaves - 2);
-  CHECK(trait_of(1, 1) == kErrorOctaves - 1);
-  CHECK(trait_of(1, 3) - trait_of(1, 1) == kPerRayOctave);
-  CHECK(trait_of(0, 1'000'000) == 3 * kPerRayOctave);
+  CHECK(feature_of(0, 1) == 0);
+  CHECK(feature_of(0x1p-15F, 1) == 0);
+  CHECK(feature_of(0x1p-14F, 1) == 1);
+  CHECK(feature_of(0.5F, 1) == kErrorOctaves - 2);
+  CHECK(feature_of(1, 1) == kErrorOctaves - 1);
+  CHECK(feature_of(1, 3) - feature_of(1, 1) == kPerRayOctave);
+  CHECK(feature_of(0, 1'000'000) == 3 * kPerRayOctave);
   CHECK(3 * (kErrorOctaves - 1) < kPerRayOctave);
 }
 
 TEST_CASE("kinds of four triangles are those of one after the other, and no two alike are of two kinds") {
   std::mt19937 random(1);
-  std::set<TriangleKind> seen;
+  std::set<Bin> seen;
   for (int i = 0; i < 20000; ++i) {
     std::array<std::int32_t, kLanes> a{}, b{}, c{}, traits{};
     std::array<float, kLanes> variance{};
@@ -47,16 +46,15 @@ TEST_CASE("kinds of four triangles are those of one after the other, and no two 
       c[k] = static_cast<int>(random() % 3);
       variance[k] = random() % 8 == 0 ? 0 : std::exp2(-static_cast<float>(random() % 1000) / 50) * 2 / 9;
       for (int corner = 0; corner < 3; ++corner)
-        traits[k] += trait_of(std::exp2(-static_cast<float>(random() % 20)), 1U << random() % 6);
+        traits[k] += feature_of(std::exp2(-static_cast<float>(random() % 20)), 1U << random() % 6);
     }
-    std::array<TriangleKind, kLanes> kinds{};
+    std::array<Bin, kLanes> kinds{};
     const auto lanes = [](const std::array<std::int32_t, kLanes>& v) { return load<int4>(v.data()); };
-    store(triangle_kind(lanes(a), lanes(b), lanes(c), load<float4>(variance.data()), lanes(traits)),
-          kinds.data());
+    store(bin_of(lanes(a), lanes(b), lanes(c), load<float4>(variance.data()), lanes(traits)), kinds.data());
     for (std::size_t k = 0; k < kLanes; ++k) {
-      REQUIRE(kinds[k] < kTriangleKinds);
-      REQUIRE(static_cast<std::int32_t>(kinds[k]) == triangle_kind(a[k], b[k], c[k], variance[k], traits[k]));
-      REQUIRE(static_cast<std::int32_t>(kinds[k]) == triangle_kind(c[k], a[k], b[k], variance[k], traits[k]));
+      REQUIRE(kinds[k] < kBins);
+      REQUIRE(static_cast<std::int32_t>(kinds[k]) == bin_of(a[k], b[k], c[k], variance[k], traits[k]));
+      REQUIRE(static_cast<std::int32_t>(kinds[k]) == bin_of(c[k], a[k], b[k], variance[k], traits[k]));
       seen.insert(kinds[k]);
     }
   }
@@ -64,13 +62,12 @@ TEST_CASE("kinds of four triangles are those of one after the other, and no two 
 }
 
 TEST_CASE("the number of primitives, the variance, the errors and the rays each make another kind") {
-  const TriangleKind kind = static_cast<TriangleKind>(triangle_kind(1, 1, 1, 0.01F, 20));
-  CHECK(static_cast<TriangleKind>(triangle_kind(7, 7, 7, 0.01F, 20)) == kind);
-  std::set<TriangleKind> kinds = {kind};
-  for (const auto& other : {triangle_kind(1, 2, 1, 0.01F, 20), triangle_kind(1, 2, 3, 0.01F, 20),
-                            triangle_kind(1, 1, 1, 0.1F, 20), triangle_kind(1, 1, 1, 0.01F, 30),
-                            triangle_kind(1, 1, 1, 0.01F, 20 + 2 * kPerRayOctave)})
-    kinds.insert(static_cast<TriangleKind>(other));
+  const Bin kind = static_cast<Bin>(bin_of(1, 1, 1, 0.01F, 20));
+  CHECK(static_cast<Bin>(bin_of(7, 7, 7, 0.01F, 20)) == kind);
+  std::set<Bin> kinds = {kind};
+  for (const auto& other : {bin_of(1, 2, 1, 0.01F, 20), bin_of(1, 2, 3, 0.01F, 20), bin_of(1, 1, 1, 0.1F, 20),
+                            bin_of(1, 1, 1, 0.01F, 30), bin_of(1, 1, 1, 0.01F, 20 + 2 * kPerRayOctave)})
+    kinds.insert(static_cast<Bin>(other));
   CHECK(kinds.size() == 6);
 }
 
@@ -102,7 +99,7 @@ TEST_CASE("what is learned is uncertain at first, follows what comes, and stays 
 
   for (const float error : {0.0F, 1.0F}) {
     learn(errors, kOne, error, 100'000);
-    for (const TriangleKind kind : {kOne, kOther}) {
+    for (const Bin kind : {kOne, kOther}) {
       CHECK(std::isfinite(errors.correction(kind)));
       CHECK(errors.correction(kind) >= 1.0F / 32);
       CHECK(errors.correction(kind) <= 32);
@@ -125,9 +122,9 @@ TEST_CASE("a mesh forgets what it has learned with clear(), and not with restart
     for (const Vec2d& p : seed_points(grid.width, grid.height, 1))
       mesh.insert(sample_of(disc(grid), p.x, p.y));
     for (int i = 0; i < 500; ++i) {
-      const auto point = mesh.next_point();
-      REQUIRE(point);
-      mesh.insert(sample_of(disc(grid), point->x, point->y));
+      const auto next = mesh.next_point();
+      REQUIRE(next);
+      mesh.insert(sample_of(disc(grid), next->point.x, next->point.y));
     }
     std::vector<Vec2d> points;
     for (const Sample& s : mesh.samples()) points.emplace_back(s.x, s.y);
@@ -161,9 +158,9 @@ TEST_CASE("samples go where the picture proves wrong, and nowhere else if nothin
     SampleMesh mesh(Region::whole(grid), {.learned = learned});
     for (const Vec2d& p : seed_points(grid.width, grid.height, 1)) mesh.insert(sample_at(p, has_primitives));
     while (mesh.samples().size() < 6000) {
-      const auto point = mesh.next_point();
-      REQUIRE(point);
-      mesh.insert(sample_at(*point, has_primitives));
+      const auto next = mesh.next_point();
+      REQUIRE(next);
+      mesh.insert(sample_at(next->point, has_primitives));
     }
     const auto right = std::count_if(mesh.samples().begin(), mesh.samples().end(),
                                      [](const Sample& s) { return s.x >= 128; });

@@ -100,10 +100,10 @@ TEST_CASE("only the region's own points are wanted") {
   const Region left(kGrid, owned);
   SampleMesh mesh = refine(left, disc(kGrid), 0);
   for (int i = 0; i < 400; ++i) {
-    const auto point = mesh.next_point();
-    REQUIRE(point);
-    CHECK(left.owns_point(point->x, point->y));
-    mesh.insert(sample_of(disc(kGrid), point->x, point->y));
+    const auto next = mesh.next_point();
+    REQUIRE(next);
+    CHECK(left.owns_point(next->point.x, next->point.y));
+    mesh.insert(sample_of(disc(kGrid), next->point.x, next->point.y));
   }
 }
 
@@ -147,9 +147,9 @@ SampleMesh refine_told(const Tell& tell, std::size_t wanted, bool learned) {
   SampleMesh mesh = refine(Region::whole(kGrid), disc(kGrid), 100, 1, {.learned = learned});
   while (mesh.samples().size() < wanted) {
     tell(mesh, wanted);
-    const auto point = mesh.next_point();
-    REQUIRE(point);
-    mesh.insert(sample_of(disc(kGrid), point->x, point->y));
+    const auto next = mesh.next_point();
+    REQUIRE(next);
+    mesh.insert(sample_of(disc(kGrid), next->point.x, next->point.y));
   }
   return mesh;
 }
@@ -275,16 +275,19 @@ TEST_CASE("many samples at once make the mesh that they make one by one") {
     std::size_t i = 0;
     for (; i < 100; ++i) mesh.insert(before.samples()[i]);
     mesh.take_new_at_border(told);
-    if (at_once) mesh.begin_many();
-    for (; i < before.samples().size(); ++i) mesh.insert(before.samples()[i]);
-    if (at_once) mesh.end_many();
+    const std::span<const Sample> others = before.samples().subspan(i);
+    if (at_once) {
+      mesh.insert_all(others);
+    } else {
+      for (const Sample& s : others) mesh.insert(s);
+    }
     Result result;
     for (const auto& t : triangles(mesh)) result.triangles.insert(in_order(t));
     mesh.take_new_at_border(told);
     for (const BorderTriangle& t : told) result.told.insert(in_order(t.corners));
     result.weights.assign(mesh.tile_weights().begin(), mesh.tile_weights().end());
     result.refinement = mesh.refinement();
-    while (const auto point = mesh.next_point()) result.wanted.insert({point->x, point->y});
+    while (const auto next = mesh.next_point()) result.wanted.insert({next->point.x, next->point.y});
     return result;
   };
   const Result singly = result_of(false), at_once = result_of(true);
@@ -311,8 +314,9 @@ TEST_CASE("what is shown beside an edge is the colour of the same primitive's co
       sample.ray.color = i == 0 ? Color(0, 0, 0) : Color(0.9f, 0.9f, 0.9f);
       mesh.insert(sample);
     }
-    REQUIRE(mesh.next_point());
-    return mesh.guess(primitive).color.x;
+    const auto next = mesh.next_point();
+    REQUIRE(next);
+    return mesh.guess(*next, primitive).color.x;
   };
   CHECK(guess(1) == Approx(0.15));  // three quarters of black, a quarter of the mean
   CHECK(guess(2) == Approx(0.825));
@@ -330,9 +334,9 @@ TEST_CASE("collinear and cocircular samples do no harm") {
   CHECK(mesh.samples().size() == 17u * 13u);
   CHECK(total_area(mesh) == Approx(128.0 * 96.0).epsilon(1e-12));
   for (int i = 0; i < 500; ++i) {
-    const auto point = mesh.next_point();
-    REQUIRE(point);
-    REQUIRE(mesh.insert(sample_of(disc(kGrid), point->x, point->y)));
+    const auto next = mesh.next_point();
+    REQUIRE(next);
+    REQUIRE(mesh.insert(sample_of(disc(kGrid), next->point.x, next->point.y)));
   }
   CHECK(deepest_intrusion(mesh) < 1e-6);
 }
