@@ -1,4 +1,5 @@
-// What the primitives behind a picture's samples look like, asked once and kept while the eye rests.
+// The shapes of the primitives behind a picture's samples, as seen from the eye: computed once each, and kept
+// while the eye rests.
 #pragma once
 
 #include <array>
@@ -13,8 +14,8 @@
 
 namespace pprt {
 
-// Forms as in image_shape.h, over points given from a place that the shape covers, or nearly so: there float
-// has digits to spare.
+// Forms as in image_shape.h, of points relative to an origin in or near the shape: there float has digits to
+// spare (docs/numerics.md).
 struct NearLinear {
   float constant = 0, per_x = 0, per_y = 0;
 
@@ -68,11 +69,11 @@ struct ProjectedFacet {
 
 class ProjectedShapeCache {
  public:
-  // As Probe::view.
+  // Computes a primitive's shape, as Probe::view.
   using View = std::function<void(std::uint32_t primitive, ImageShape& shape)>;
   using Place = std::uint32_t;
 
-  // One of these, over points from the origin.
+  // A shape, relative to its origin. Its kind says whether the quadric or the facets count.
   struct Shape {
     ImageShape::Kind kind = ImageShape::Kind::kUnknown;
     Vec2d origin{0, 0};
@@ -82,7 +83,7 @@ class ProjectedShapeCache {
 
   explicit ProjectedShapeCache(View view) : view_(std::move(view)) {}
 
-  // The eye has moved. Keeps the storage.
+  // Removes all shapes, because the eye has moved; keeps the storage.
   void forget() {
     for (const std::uint32_t primitive : primitives_) places_[primitive] = kNotAsked;
     primitives_.clear();
@@ -91,8 +92,8 @@ class ProjectedShapeCache {
     bounds_.clear();
   }
 
-  // Of a primitive that a sample at the image point has met. The number may come from another rank: what
-  // nobody knows takes no storage.
+  // Returns where the shape of a primitive is kept, which a sample at this image point has hit. Primitives
+  // from other ranks may have any number: unknown ones take no storage.
   Place find(std::uint32_t primitive, const Vec2d& point) {
     if (primitive < places_.size() && places_[primitive] != kNotAsked) return places_[primitive];
     view_(primitive, asked_);
@@ -107,7 +108,8 @@ class ProjectedShapeCache {
 
   const Shape& shape(Place place) const { return shapes_[place]; }
 
-  // Calls visit(facet) for those whose bounds meet a rectangle.
+  // Calls visit(facet) for the shape's facets whose bounds meet a rectangle.
+  // Scalar twin: facets_meeting() in silhouette_patch_scalar.h.
   template <class Visit>
   void for_each_facet(const Shape& shape, const ImageBounds& rectangle, const Visit& visit) const {
     const ImageBounds& r = rectangle;
@@ -126,12 +128,12 @@ class ProjectedShapeCache {
  private:
   static constexpr Place kNotAsked = ~Place{0}, kUnknown = 0;
 
-  // Of four facets, a lane each.
+  // The bounds of four facets, one a lane.
   struct FourBounds {
     float x0[kLanes], y0[kLanes], x1[kLanes], y1[kLanes];
   };
 
-  // Each shape's facets begin with a new four.
+  // Each shape's facets begin a new FourBounds.
   Place keep_asked(const Vec2d& point) {
     facets_.resize(bounds_.size() * kLanes);
     shapes_.push_back({asked_.kind, point, {asked_.quadric, point}, facets_.size(), asked_.facets.size()});
@@ -149,10 +151,10 @@ class ProjectedShapeCache {
 
   View view_;
   std::vector<Place> places_;                          // by primitive
-  std::vector<std::uint32_t> primitives_;              // those asked for
+  std::vector<std::uint32_t> primitives_;              // those in places_
   std::vector<Shape> shapes_ = std::vector<Shape>(1);  // the first is kUnknown
   std::vector<ProjectedFacet> facets_;
-  std::vector<FourBounds> bounds_;  // of the facets: most are only asked for these
+  std::vector<FourBounds> bounds_;  // of the facets: for most of them only these are read
   ImageShape asked_;
 };
 

@@ -1,4 +1,5 @@
-// Triangles over pixel rows: what reconstruction is made of. Private to the pipeline.
+// Scan conversion: where a triangle meets pixel rows, and its interpolation there. Private to the pipeline.
+// Scalar twins that are not in this file: scan_conversion_scalar.h.
 #pragma once
 
 #include <algorithm>
@@ -7,18 +8,18 @@
 #include <cstdint>
 
 #include "base/vector.h"
-#include "pipeline/sampling/refinement_weight.h"
 #include "pipeline/simd.h"
+#include "pipeline/tile_grid.h"
 
 namespace pprt {
 
+// A triangle's corner as it is drawn.
 struct ScreenCorner {
-  double x, y;
-  float4 color;  // channels()
+  double x, y;   // image point, pixels
+  float4 color;  // red, green, blue and 0
 };
 
-// The largest whole number not above a coordinate, and the smallest not below it: without a call, which is
-// what the standard functions cost on the baseline instruction set.
+// Round down and up to a whole number, without the call that std::floor is on the baseline instruction set.
 inline int floor_to_int(double v) {
   const int towards_zero = static_cast<int>(v);
   return towards_zero - (v < towards_zero ? 1 : 0);
@@ -28,12 +29,13 @@ inline int ceil_to_int(double v) {
   return towards_zero + (v > towards_zero ? 1 : 0);
 }
 
-// The first pixel whose centre is at or beyond a coordinate.
+// Returns the first pixel whose centre is at or beyond a coordinate. Scalar twin of first_centers().
 inline int first_center(double coordinate) {
   return ceil_to_int(coordinate - 0.5);
 }
 
-// Lines of a row for the mean over a pixel's area, dealt with at once. Along a line the mean is exact.
+// The mean over a pixel's area is computed from this many lines of its row, all at once. Along a line it is
+// exact.
 inline constexpr int kLines = kLanes;
 using PerLine = float4;
 inline constexpr float4 kLineOffsets = {0.125F, 0.375F, 0.625F, 0.875F};  // from the row's beginning
@@ -46,11 +48,10 @@ inline float4 on_all(float value) {
   return float4{} + value;
 }
 
-// Where a triangle lies along a line.
+// Where a triangle lies along a line, four lines in float, or four rows in double. Pixels.
 struct Extent {
   double left, right;
 };
-
 struct ExtentPerLine {
   PerLine left, right;
 };
@@ -58,7 +59,7 @@ struct ExactExtents {
   double4 left, right;
 };
 
-// first_center() of four.
+// Returns first_center() of four coordinates.
 inline int4 first_centers(const double4& coordinates) {
   const double4 v = coordinates - 0.5;
   const int4 towards_zero = __builtin_convertvector(v, int4);
@@ -66,13 +67,26 @@ inline int4 first_centers(const double4& coordinates) {
   return towards_zero - __builtin_convertvector(is_above, int4);
 }
 
-// A triangle's edges, as functions of y. An edge's ends are taken in one fixed order, so that the two
-// triangles at it compute the same crossings to the last bit: they neither overlap nor leave gaps.
+// The parts of a row's lines that a triangle has in one pixel.
+struct LineParts {
+  PerLine from, to;  // pixels from the column that the extents count from
+  PerLine length;    // shares of the pixel's area
+};
+
+// `column` counts from the same column as the extents.
+inline LineParts parts_in_pixel(const ExtentPerLine& extents, int column) {
+  const auto begin = static_cast<float>(column);
+  const PerLine from = max(extents.left, on_all(begin)), to = min(extents.right, on_all(begin + 1));
+  return {from, to, max(to - from, PerLine{}) * (1.0f / kLines)};
+}
+
+// A triangle's left and right end as functions of y. Each edge is evaluated from its upper end, so both
+// triangles at an edge compute the same crossings to the bit: they neither overlap nor leave gaps.
 class Outline {
  public:
   explicit Outline(const std::array<ScreenCorner, 3>& corner) {
-    // Without a branch, for corners come in any order. Of two on one level either may be the upper: the edge
-    // between them is never asked for. 3 and 4 cannot be.
+    // Sorts without a branch, for corners come in any order. Of two on one level either may be the upper: the
+    // edge between them is never evaluated. Orders 3 and 4 cannot occur.
     static constexpr std::array<std::array<std::uint8_t, 3>, 8> kDownwards = {
         {{0, 1, 2}, {1, 0, 2}, {0, 2, 1}, {0, 1, 2}, {0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
     const unsigned order = static_cast<unsigned>(corner[1].y < corner[0].y) |
@@ -88,26 +102,22 @@ class Outline {
   double bottom() const { return bottom_.y; }
   double left() const { return left_; }
   double right() const { return right_; }
-  double area() const {
-    return 0.5 * std::abs((middle_.x - top_.x) * (bottom_.y - top_.y) -
-                          (bottom_.x - top_.x) * (middle_.y - top_.y));
-  }
 
-  // To be called before the first at(), once the triangle is known to matter.
+  // Computes the slopes. To be called before the first at(), once the triangle is known to be drawn.
   void prepare() {
     whole_ = slope(top_, bottom_);
     upper_ = slope(top_, middle_);
     lower_ = slope(middle_, bottom_);
   }
 
-  // Needs top() <= y < bottom().
+  // Needs top() <= y < bottom(). Scalar twin of the next.
   Extent at(double y) const {
     const double a = top_.x + (y - top_.y) * whole_;
     const double b = y < middle_.y ? top_.x + (y - top_.y) * upper_ : middle_.x + (y - middle_.y) * lower_;
     return {std::min(a, b), std::max(a, b)};
   }
 
-  // At four levels, of no length where they miss the triangle.
+  // At four levels; of no length where a level misses the triangle.
   ExactExtents at(const double4& y) const {
     const double4 below_top = y - top_.y;
     const double4 a = top_.x + below_top * whole_;
@@ -116,7 +126,8 @@ class Outline {
     return {meets ? min(a, b) : double4{}, meets ? max(a, b) : double4{}};
   }
 
-  // Along the lines of a pixel row. Coordinates begin at a column, so that float has digits to spare.
+  // Along the lines of a pixel row, in pixels from `column`: near the triangle, so that float has digits to
+  // spare.
   ExtentPerLine along(int row, int column) const {
     const ExactExtents exact = at(__builtin_convertvector(kLineOffsets, double4) + row);
     const auto from_column = [&](const double4& x) { return __builtin_convertvector(x - column, PerLine); };
@@ -130,7 +141,7 @@ class Outline {
     End(const ScreenCorner& corner) : x(corner.x), y(corner.y) {}
   };
 
-  // Horizontal edges are never asked for.
+  // The slope of a horizontal edge is never used.
   static double slope(const End& from, const End& to) { return (to.x - from.x) / (to.y - from.y); }
 
   End top_, middle_, bottom_;
@@ -138,9 +149,9 @@ class Outline {
   double whole_ = 0, upper_ = 0, lower_ = 0;
 };
 
-// Linear over one triangle: colour = c0 + a (c1 - c0) + b (c2 - c0) with barycentric a, b held to [0, 1], so
-// that a constant stays exactly constant and rounding in slivers never leaves the corners' range by more than
-// itself.
+// Interpolates linearly over one triangle: colour = c0 + a (c1 - c0) + b (c2 - c0), with barycentric a and b
+// clamped to [0, 1]. So a constant stays exactly constant, and in slivers rounding leaves the corners' range
+// by no more than itself.
 class LinearPatch {
  public:
   explicit LinearPatch(const std::array<ScreenCorner, 3>& corner)
@@ -155,7 +166,8 @@ class LinearPatch {
     bx_ = -y1 * scale, by_ = x1 * scale;
   }
 
-  // At the centres of a pixel in each of four rows: red, green and blue.
+  // Returns red, green and blue at the centres of a pixel in each of four rows.
+  // Scalar twin: color_at_center().
   std::array<float4, 3> at_centers(const int4& column, int first_row) const {
     const double4 dx = __builtin_convertvector(column, double4) + (0.5 - origin_.x);
     const double4 dy = kCenterOffsets + (first_row - origin_.y);
@@ -168,7 +180,7 @@ class LinearPatch {
     return {channel(0), channel(1), channel(2)};
   }
 
-  // The same along the lines of a pixel row, their coordinates beginning at a column.
+  // The same along the lines of a pixel row, in pixels from a column.
   class OnLines {
    public:
     OnLines(const LinearPatch& patch, int row, int column) : patch_(patch) {
@@ -177,7 +189,8 @@ class LinearPatch {
       b_ = static_cast<float>(patch.bx_ * dx + patch.by_ * dy) + static_cast<float>(patch.by_) * kLineOffsets;
     }
 
-    // The integral of the difference from `base` over parts of the lines that are so long about x.
+    // Returns the integral of the colour's difference from `base` over parts of the lines: x are their
+    // middles. Scalar twin: integral_on_lines().
     float4 integral(const PerLine& x, const PerLine& length, const float4& base) const {
       const auto share = [&](const PerLine& at_column, double slope) {
         const PerLine v = at_column + static_cast<float>(slope) * x;
@@ -197,5 +210,19 @@ class LinearPatch {
   float4 to_1_, to_2_;
   double ax_, ay_, bx_, by_;
 };
+
+// The pixels whose centres a triangle holds in four rows. A row has none where last < left.
+struct Spans {
+  int4 left, last;
+};
+
+// Scalar twin: span_at().
+inline Spans spans_at(const Outline& outline, int first_row, const PixelRect& bounds) {
+  const ExactExtents extents = outline.at(kCenterOffsets + first_row);
+  const int4 row = int4{0, 1, 2, 3} + first_row;
+  const int4 last = min(first_centers(extents.right), int4{} + bounds.x1) - 1;
+  const auto is_inside = (row >= bounds.y0) & (row < bounds.y1);
+  return {max(first_centers(extents.left), int4{} + bounds.x0), is_inside ? last : int4{} - 1};
+}
 
 }  // namespace pprt

@@ -1,5 +1,6 @@
-// A triangle whose corners lie on different primitives: each part of it belongs to that of them which is
-// nearest there. Private to the pipeline.
+// Triangles whose corners lie on different primitives: each of their points shows the primitive that is
+// nearest there (docs/decisions/0017-edges.md). Private to the pipeline.
+// Scalar twins: silhouette_patch_scalar.h.
 #pragma once
 
 #include <algorithm>
@@ -7,6 +8,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "pipeline/reconstruction/projected_shape_cache.h"
@@ -15,9 +18,14 @@
 
 namespace pprt {
 
-// Points dealt with at once: two on each line.
+// Points evaluated at once: two on each line of a row, or four in each of two pixels.
 inline constexpr int kPoints = 2 * kLines;
 using PerPoint = float __attribute__((vector_size(kPoints * sizeof(float))));
+
+// Where they lie. On a line, in shares of the triangle's part of it. In a pixel, no two in one row or column.
+inline constexpr PerPoint kPointsOnLine = {0.25F, 0.25F, 0.25F, 0.25F, 0.75F, 0.75F, 0.75F, 0.75F};
+inline constexpr PerPoint kPixelColumns = {0.125F, 0.625F, 0.375F, 0.875F, 1.125F, 1.625F, 1.375F, 1.875F};
+inline constexpr PerPoint kPixelRows = {0.375F, 0.125F, 0.875F, 0.625F, 0.375F, 0.125F, 0.875F, 0.625F};
 
 inline PerPoint value(const NearLinear& f, const PerPoint& x, const PerPoint& y) {
   return f.constant + f.per_x * x + f.per_y * y;
@@ -36,7 +44,7 @@ inline PerPoint square_root(const PerPoint& v) {
   return root;
 }
 
-// How near a shape is; 0 where it is not.
+// Returns the nearness of a shape (image_shape.h); 0 where the shape is not seen.
 inline PerPoint nearness(const ProjectedQuadric& q, const PerPoint& x, const PerPoint& y) {
   const PerPoint nothing{};
   const PerPoint discriminant = value(q.discriminant, x, y), middle = value(q.middle, x, y);
@@ -64,8 +72,8 @@ inline PerPoint nearness(const ProjectedFacet& f, const PerPoint& x, const PerPo
   return covered ? value(f.nearness, x, y) : PerPoint{};
 }
 
-// Whether one of a facet's edges parts it from all that lies within `margin` pixels, along the axes, of a
-// triangle, whose corners are in three of the lanes.
+// Whether one of a facet's edges separates it from all points within `margin` pixels, along the axes, of a
+// triangle. The triangle's corners are in three of the lanes.
 inline bool misses(const ProjectedFacet& facet, const float4& x, const float4& y, float margin) {
   return std::any_of(facet.edges.begin(), facet.edges.end(), [&](const NearLinear& edge) {
     const float reach = margin * (std::abs(edge.per_x) + std::abs(edge.per_y));
@@ -73,103 +81,131 @@ inline bool misses(const ProjectedFacet& facet, const float4& x, const float4& y
   });
 }
 
+// One triangle with the shapes behind it. Made by SilhouetteFinder.
 class SilhouettePatch {
  public:
-  // Of the corners' primitives; false where one has no known shape, or all are the same. To be asked for
-  // points within `margin` pixels, along the axes, of the triangle.
-  bool set(const std::array<ScreenCorner, 3>& corners, const std::array<std::uint32_t, 3>& primitives,
-           ProjectedShapeCache& viewed, float margin);
-
-  // What is shown where no primitive of the corners is: the background, if a corner has met it.
-  const float4& beyond() const { return beyond_; }
-
-  // The integral of the difference from `base` over parts of the lines of a row, which are so long and have
-  // the ends `from` and `to`, counted from `column`; each of them at most a pixel.
-  float4 integral(int row, int column, const PerLine& from, const PerLine& to, const PerLine& length,
-                  const float4& base) const;
-
-  // Of two pixels candidate by candidate, the first of which has its centre in the triangle and the second
-  // may: what they show but for the share of the interpolation.
-  std::array<float4, 2> at_pixels(int row, int column) const;
-
- private:
   // A primitive of the corners.
   struct Candidate {
-    float4 color;
+    float4 color;  // that it shows
     const ProjectedShapeCache::Shape* shape;
-    float x, y;               // the triangle's origin from the shape's
-    std::size_t first, last;  // among the facets
+    float x, y;               // from the shape's origin to the patch's
+    std::size_t first, last;  // of facets()
   };
 
-  void add_candidate(const float4& color, const ProjectedShapeCache::Shape& shape,
-                     const std::array<ScreenCorner, 3>& corners, const ProjectedShapeCache& viewed,
-                     float margin);
-  PerPoint nearness(const Candidate& candidate, const PerPoint& x, const PerPoint& y) const;
-  std::array<PerPoint, 3> shares(const PerPoint& x, const PerPoint& y, const PerPoint& weight) const;
+  // What is shown where no primitive of the corners is: the background if a corner has hit it, else the mean
+  // colour of the corners.
+  const float4& beyond() const { return beyond_; }
 
-  Vec2d origin_{0, 0};
+  // Returns the integral of the colour's difference from `base` over parts of the lines of a row. They count
+  // from `column`.
+  float4 integral(int row, int column, const LineParts& parts, const float4& base) const;
+
+  // Returns what two neighbouring pixels show, but for the interpolation's share. The centre of the first is
+  // in the triangle, that of the second may be.
+  std::array<float4, 2> at_pixels(int row, int column) const;
+
+  // For the scalar twin.
+  std::span<const Candidate> candidates() const { return {candidates_.data(), candidate_count_}; }
+  std::span<const ProjectedFacet* const> facets() const { return facets_; }
+  const Vec2d& origin() const { return origin_; }
+  const float4& share_of_all() const { return share_of_all_; }
+
+ private:
+  friend class SilhouetteFinder;
+  SilhouettePatch() = default;
+
+  PerPoint nearness(const Candidate& candidate, const PerPoint& x, const PerPoint& y) const;
+  std::array<PerPoint, 3> distribute(const PerPoint& weight, const PerPoint& x, const PerPoint& y) const;
+
+  Vec2d origin_{0, 0};  // the first corner
   std::array<Candidate, 3> candidates_;
   std::size_t candidate_count_ = 0;
   float4 beyond_{}, share_of_all_{};
-  std::vector<const ProjectedFacet*> facets_;  // that may cover some of the triangle
+  std::span<const ProjectedFacet* const> facets_;  // those that may cover some of the triangle
 };
 
-inline bool SilhouettePatch::set(const std::array<ScreenCorner, 3>& corners,
-                                 const std::array<std::uint32_t, 3>& p, ProjectedShapeCache& viewed,
-                                 float margin) {
-  if (p[0] == p[1] && p[1] == p[2]) return false;
+// Makes the patches of triangles.
+class SilhouetteFinder {
+ public:
+  explicit SilhouetteFinder(ProjectedShapeCache& shapes) : shapes_(shapes) {}
+
+  // Returns the patch of a triangle whose corners show these primitives. Returns nothing where one of them
+  // has no known shape, or all are the same. The patch may be evaluated within `margin` pixels, along the
+  // axes, of the triangle. It is valid until the next call.
+  std::optional<SilhouettePatch> find(const std::array<ScreenCorner, 3>& corners,
+                                      const std::array<std::uint32_t, 3>& primitives, float margin);
+
+ private:
+  void add_candidate(SilhouettePatch& patch, const float4& color, const ProjectedShapeCache::Shape& shape,
+                     const std::array<ScreenCorner, 3>& corners, float margin);
+  void add_facets(const ProjectedShapeCache::Shape& shape, const std::array<ScreenCorner, 3>& corners,
+                  float margin);
+
+  ProjectedShapeCache& shapes_;
+  std::vector<const ProjectedFacet*> facets_;  // of the last patch
+};
+
+inline std::optional<SilhouettePatch> SilhouetteFinder::find(const std::array<ScreenCorner, 3>& corners,
+                                                             const std::array<std::uint32_t, 3>& primitives,
+                                                             float margin) {
+  const std::array<std::uint32_t, 3>& p = primitives;
+  if (p[0] == p[1] && p[1] == p[2]) return std::nullopt;
   std::array<ProjectedShapeCache::Place, 3> places{};
   for (std::size_t i = 0; i < 3; ++i) {
     if (p[i] == 0) continue;
-    places[i] = viewed.find(p[i], {corners[i].x, corners[i].y});
-    if (viewed.shape(places[i]).kind == ImageShape::Kind::kUnknown) return false;
+    places[i] = shapes_.find(p[i], {corners[i].x, corners[i].y});
+    if (shapes_.shape(places[i]).kind == ImageShape::Kind::kUnknown) return std::nullopt;
   }
-  origin_ = {corners[0].x, corners[0].y};
-  candidate_count_ = 0;
+  SilhouettePatch patch;
+  patch.origin_ = {corners[0].x, corners[0].y};
   facets_.clear();
-  const float4 between = (corners[0].color + corners[1].color + corners[2].color) * (1.0F / 3);
-  share_of_all_ = between * (1 - kEdgeShare);
-  const auto shown = [&](const float4& c) { return c * kEdgeShare + share_of_all_; };
-  beyond_ = between;
+  const float4 mean = (corners[0].color + corners[1].color + corners[2].color) * (1.0F / 3);
+  patch.share_of_all_ = mean * (1 - kEdgeShare);
+  patch.beyond_ = mean;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t next = (i + 1) % 3, last = (i + 2) % 3;
-    if (p[i] == p[last]) continue;  // taken together there
+    if (p[i] == p[last]) continue;  // both are handled at the other corner
     const float4& own = corners[i].color;
-    const float4 color = shown(p[i] == p[next] ? (own + corners[next].color) * 0.5F : own);
+    const float4 on_primitive = p[i] == p[next] ? (own + corners[next].color) * 0.5F : own;
+    const float4 color = on_primitive * kEdgeShare + patch.share_of_all_;
     if (p[i] == 0) {
-      beyond_ = color;
+      patch.beyond_ = color;
     } else {
-      add_candidate(color, viewed.shape(places[i]), corners, viewed, margin);
+      add_candidate(patch, color, shapes_.shape(places[i]), corners, margin);
     }
   }
-  return true;
+  patch.facets_ = facets_;
+  return patch;
 }
 
-inline void SilhouettePatch::add_candidate(const float4& color, const ProjectedShapeCache::Shape& shape,
-                                           const std::array<ScreenCorner, 3>& corners,
-                                           const ProjectedShapeCache& viewed, float margin) {
-  Candidate& candidate = candidates_[candidate_count_++];
+inline void SilhouetteFinder::add_candidate(SilhouettePatch& patch, const float4& color,
+                                            const ProjectedShapeCache::Shape& shape,
+                                            const std::array<ScreenCorner, 3>& corners, float margin) {
+  SilhouettePatch::Candidate& candidate = patch.candidates_[patch.candidate_count_++];
   candidate.color = color;
   candidate.shape = &shape;
-  candidate.x = static_cast<float>(origin_.x - shape.origin.x),
-  candidate.y = static_cast<float>(origin_.y - shape.origin.y);
+  candidate.x = static_cast<float>(patch.origin_.x - shape.origin.x);
+  candidate.y = static_cast<float>(patch.origin_.y - shape.origin.y);
   candidate.first = facets_.size();
-  if (shape.kind == ImageShape::Kind::kFacets) {
-    const auto [x0, x1] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
-    const auto [y0, y1] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
-    const ImageBounds bounds = {static_cast<float>(x0) - margin, static_cast<float>(y0) - margin,
-                                static_cast<float>(x1) + margin, static_cast<float>(y1) + margin};
-    const auto per_corner = [&](double ScreenCorner::*coordinate, double origin) {
-      const auto from_origin = [&](int i) { return static_cast<float>(corners[i].*coordinate - origin); };
-      return float4{from_origin(0), from_origin(1), from_origin(2), from_origin(2)};
-    };
-    const float4 x = per_corner(&ScreenCorner::x, shape.origin.x),
-                 y = per_corner(&ScreenCorner::y, shape.origin.y);
-    viewed.for_each_facet(shape, bounds, [&](const ProjectedFacet& f) {
-      if (!misses(f, x, y, margin)) facets_.push_back(&f);
-    });
-  }
+  if (shape.kind == ImageShape::Kind::kFacets) add_facets(shape, corners, margin);
   candidate.last = facets_.size();
+}
+
+inline void SilhouetteFinder::add_facets(const ProjectedShapeCache::Shape& shape,
+                                         const std::array<ScreenCorner, 3>& corners, float margin) {
+  const auto [x0, x1] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
+  const auto [y0, y1] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
+  const ImageBounds bounds = {static_cast<float>(x0) - margin, static_cast<float>(y0) - margin,
+                              static_cast<float>(x1) + margin, static_cast<float>(y1) + margin};
+  const auto per_corner = [&](double ScreenCorner::*coordinate, double origin) {
+    const auto from_origin = [&](int i) { return static_cast<float>(corners[i].*coordinate - origin); };
+    return float4{from_origin(0), from_origin(1), from_origin(2), from_origin(2)};
+  };
+  const float4 x = per_corner(&ScreenCorner::x, shape.origin.x),
+               y = per_corner(&ScreenCorner::y, shape.origin.y);
+  shapes_.for_each_facet(shape, bounds, [&](const ProjectedFacet& f) {
+    if (!misses(f, x, y, margin)) facets_.push_back(&f);
+  });
 }
 
 inline PerPoint SilhouettePatch::nearness(const Candidate& candidate, const PerPoint& x,
@@ -185,9 +221,9 @@ inline PerPoint SilhouettePatch::nearness(const Candidate& candidate, const PerP
   return nearest;
 }
 
-// Of what is seen at points, so much each: the sides' shares.
-inline std::array<PerPoint, 3> SilhouettePatch::shares(const PerPoint& x, const PerPoint& y,
-                                                       const PerPoint& weight) const {
+// Gives each point's weight to the candidate that is nearest there; to several that are equally near.
+inline std::array<PerPoint, 3> SilhouettePatch::distribute(const PerPoint& weight, const PerPoint& x,
+                                                           const PerPoint& y) const {
   std::array<PerPoint, 3> near;
   PerPoint nearest{};
   for (std::size_t i = 0; i < candidate_count_; ++i) {
@@ -199,26 +235,23 @@ inline std::array<PerPoint, 3> SilhouettePatch::shares(const PerPoint& x, const 
   return near;
 }
 
-inline float4 SilhouettePatch::integral(int row, int column, const PerLine& from, const PerLine& to,
-                                        const PerLine& length, const float4& base) const {
+inline float4 SilhouettePatch::integral(int row, int column, const LineParts& parts,
+                                        const float4& base) const {
   const auto twice = [](const PerLine& v) { return __builtin_shufflevector(v, v, 0, 1, 2, 3, 0, 1, 2, 3); };
-  constexpr PerPoint kQuarters = {0.25F, 0.25F, 0.25F, 0.25F, 0.75F, 0.75F, 0.75F, 0.75F};
-  const PerPoint x = twice(from) + twice(to - from) * kQuarters + static_cast<float>(column - origin_.x);
+  const PerPoint x = twice(parts.from) + twice(parts.to - parts.from) * kPointsOnLine +
+                     static_cast<float>(column - origin_.x);
   const PerPoint y = twice(kLineOffsets) + static_cast<float>(row - origin_.y);
-  const std::array<PerPoint, 3> found = shares(x, y, twice(length) * 0.5F);
-  float4 integral = (beyond_ - base) * sum(length);
+  const std::array<PerPoint, 3> found = distribute(twice(parts.length) * 0.5F, x, y);
+  float4 integral = (beyond_ - base) * sum(parts.length);
   for (std::size_t i = 0; i < candidate_count_; ++i)
     integral += (candidates_[i].color - beyond_) * sum_of(found[i]);
   return integral;
 }
 
-// Four points a pixel, no two on one line or column.
 inline std::array<float4, 2> SilhouettePatch::at_pixels(int row, int column) const {
-  constexpr PerPoint kColumns = {0.125F, 0.625F, 0.375F, 0.875F, 1.125F, 1.625F, 1.375F, 1.875F};
-  constexpr PerPoint kRows = {0.375F, 0.125F, 0.875F, 0.625F, 0.375F, 0.125F, 0.875F, 0.625F};
-  const PerPoint x = kColumns + static_cast<float>(column - origin_.x);
-  const PerPoint y = kRows + static_cast<float>(row - origin_.y);
-  const std::array<PerPoint, 3> found = shares(x, y, PerPoint{} + 0.25F);
+  const PerPoint x = kPixelColumns + static_cast<float>(column - origin_.x);
+  const PerPoint y = kPixelRows + static_cast<float>(row - origin_.y);
+  const std::array<PerPoint, 3> found = distribute(PerPoint{} + 0.25F, x, y);
   std::array<float4, 2> colors = {beyond_ - share_of_all_, beyond_ - share_of_all_};
   for (std::size_t i = 0; i < candidate_count_; ++i) {
     const float4 difference = candidates_[i].color - beyond_;
