@@ -1,20 +1,17 @@
 #include "cli/launch.h"
 
-#include <fcntl.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
 
+#include "base/subprocess.h"
 #include "cli/exit.h"
 #include "cli/mpirun_messages.h"
 
@@ -61,24 +58,6 @@ std::vector<std::string> mpirun_command(int ranks, const std::string& hostfile, 
   return command;
 }
 
-[[noreturn]] void become(std::vector<std::string>& command, int standard_error) {
-  // mpirun in a process group of its own: a terminal's Ctrl-C must reach it through us alone. It dies with
-  // us.
-  setpgid(0, 0);
-  prctl(PR_SET_PDEATHSIG, SIGTERM);
-  dup2(standard_error, STDERR_FILENO);
-  std::vector<char*> words;
-  words.reserve(command.size() + 1);
-  for (std::string& word : command) words.push_back(word.data());
-  words.push_back(nullptr);
-  execvp(words[0], words.data());
-  _exit(127);
-}
-
-[[noreturn]] void throw_errno(const std::string& what) {
-  throw std::runtime_error(what + ": " + std::strerror(errno));
-}
-
 void show(std::string_view text) {
   while (!text.empty()) {
     const ssize_t count = write(STDERR_FILENO, text.data(), text.size());
@@ -88,56 +67,41 @@ void show(std::string_view text) {
 }
 
 // Hands on what mpirun and the ranks say until they end.
-MpirunMessages relay(int from, const std::function<void(std::string_view)>& overhear) {
+MpirunMessages relay(const Subprocess& mpirun, const std::function<void(std::string_view)>& overhear) {
   MpirunMessages messages;
   std::array<char, 4096> piece{};
-  for (ssize_t count = 0; (count = read(from, piece.data(), piece.size())) != 0;) {
-    if (count > 0) {
-      const std::string said = messages.take({piece.data(), static_cast<std::size_t>(count)});
-      show(said);
-      overhear(said);
-    } else if (errno != EINTR) {
-      throw_errno("cannot read from mpirun");
-    }
+  while (const std::size_t count = mpirun.read(piece)) {
+    const std::string said = messages.take({piece.data(), count});
+    show(said);
+    overhear(said);
   }
   show(messages.finish());
   return messages;
 }
 
-int wait_for(pid_t child) {
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR) throw_errno("cannot wait for mpirun");
-  }
-  return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
-}
+// mpirun in a process group of its own: a terminal's Ctrl-C must reach it through us alone.
+constexpr SubprocessSettings kMpirunSettings{
+    .errors = StreamTo::kPipe, .own_process_group = true, .ends_with_parent = true};
 
 }  // namespace
 
 int run_under_mpirun(int ranks, const std::string& hostfile, char** argv,
-                     const std::function<void(std::string_view)>& overhear) {
-  std::vector<std::string> command = mpirun_command(ranks, hostfile, argv);
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) throw_errno("cannot start mpirun");
-  const pid_t child = fork();
-  if (child < 0) throw_errno("cannot start mpirun");
-  if (child == 0) become(command, ends[1]);
-  close(ends[1]);
-  mpirun_pid = child;
+                     const std::function<void(std::string_view)>& overhear) try {
+  Subprocess mpirun(mpirun_command(ranks, hostfile, argv), kMpirunSettings);
+  mpirun_pid = mpirun.id();
   pass_signals_on();
-  const MpirunMessages messages = relay(ends[0], overhear);
-  const int code = wait_for(child);
-  close(ends[0]);
+  const MpirunMessages messages = relay(mpirun, overhear);
+  const int code = mpirun.wait().code;
   // A run that was to stop may fail at that; what mpirun makes of being ended itself says nothing.
   const bool failed = code >= kExitFailure && code <= kExitInput;
   if (stopped_by != 0 && (forced != 0 || !failed)) return 128 + stopped_by;
-  if (code == 127)
-    throw std::runtime_error("cannot start mpirun: it is not on the PATH (package openmpi-bin)");
   if (code > kExitInput) {
     throw std::runtime_error(messages.lost_rank().value_or("mpirun ended with code " + std::to_string(code)) +
                              "; frames that are in place are whole, and --resume goes on after them");
   }
   return code;
+} catch (const ProgramNotFound&) {
+  throw std::runtime_error("cannot start mpirun: it is not on the PATH (package openmpi-bin)");
 }
 
 bool on_terminal() {

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "image/display_bytes.h"
 #include "image/image_io.h"
 #include "image/picture_checks.h"
 
@@ -94,20 +95,7 @@ struct Reader {
   ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
 };
 
-// Exact: a float times 255 plus a half fits a double.
-png_byte to_byte(float value) {
-  constexpr double kHalf = 0.5;  // rounds what is not negative
-  return static_cast<png_byte>(std::clamp(double{value}, 0.0, 1.0) * 255 + kHalf);
-}
-
-std::vector<png_byte> to_bytes(const Image& image) {
-  std::vector<png_byte> bytes(image.pixels.size() * 3);
-  const float* channels = &image.pixels.front().x;
-  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = to_byte(channels[i]);
-  return bytes;
-}
-
-struct ToText {
+struct FactToText {
   std::string operator()(const std::string& text) const { return text; }
   std::string operator()(double number) const { return fmt::format("{}", number); }
   std::string operator()(std::int64_t number) const { return fmt::format("{}", number); }
@@ -178,8 +166,8 @@ float channel(const png_byte* big_endian) {
 
 std::string encode_png(const Image& image, const Metadata& metadata, PictureKind kind) {
   require_encodable(image);
-  const std::vector<png_byte> bytes = to_bytes(image);
-  Texts texts(metadata);
+  const std::vector<png_byte> bytes = display_bytes(image);
+  Texts texts(facts);
   Stream stream;
   Writer writer(stream);
   if (!write_rows(writer, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height),

@@ -1,22 +1,16 @@
 #include "render/film.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/socket.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <cerrno>
-#include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include "base/diagnostics.h"
+#include "base/subprocess.h"
+#include "image/display_bytes.h"
 #include "image/image_io.h"
 
 namespace pprt {
@@ -32,86 +26,14 @@ std::string container(const std::filesystem::path& film) {
   return film.extension() == ".mkv" ? "matroska" : "mp4";
 }
 
-// A program that is given pictures on its standard input, a socket: writing to one that has ended is an error
-// there and no signal.
-class Encoder {
- public:
-  explicit Encoder(std::vector<std::string> words) {
-    int ends[2];
-    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) throw_errno("socketpair");
-    input_ = ends[0];
-    const int error = start(words, ends[1]);
-    ::close(ends[1]);
-    if (error == 0) return;
-    ::close(input_);
-    if (error == ENOENT) throw std::runtime_error(kMissing);
-    throw std::runtime_error(words[0] + ": " + std::strerror(error));
+// ffmpeg in a process group of its own: a terminal's Ctrl-C asks us, who then let it come to its end.
+Subprocess start_encoder(std::vector<std::string> command, StreamTo input) {
+  try {
+    return Subprocess(std::move(command),
+                      {.input = input, .output = StreamTo::kNothing, .own_process_group = true});
+  } catch (const ProgramNotFound&) {
+    throw std::runtime_error(kMissing);
   }
-  Encoder(const Encoder&) = delete;
-  Encoder& operator=(const Encoder&) = delete;
-  ~Encoder() { finish(); }
-
-  // False: it takes no more, and finish() will tell why.
-  bool take(const std::vector<std::uint8_t>& bytes) const {
-    for (std::size_t at = 0; at < bytes.size();) {
-      const ssize_t sent = send(input_, bytes.data() + at, bytes.size() - at, MSG_NOSIGNAL);
-      if (sent < 0 && errno != EINTR) return false;
-      if (sent > 0) at += static_cast<std::size_t>(sent);
-    }
-    return true;
-  }
-
-  // The end of the input; returns its exit code, or 128 + the signal that ended it.
-  int finish() {
-    if (child_ == 0) return code_;
-    ::close(input_);
-    int status = 0;
-    while (waitpid(child_, &status, 0) < 0 && errno == EINTR) {
-    }
-    child_ = 0;
-    return code_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  }
-
- private:
-  [[noreturn]] static void throw_errno(const char* what) {
-    throw std::system_error(errno, std::generic_category(), what);
-  }
-
-  // In a process group of its own: a terminal's Ctrl-C asks us, who then let it come to its end.
-  int start(std::vector<std::string>& words, int input) {
-    std::vector<char*> pointers;
-    pointers.reserve(words.size() + 1);
-    for (std::string& word : words) pointers.push_back(word.data());
-    pointers.push_back(nullptr);
-    posix_spawn_file_actions_t files;
-    posix_spawn_file_actions_init(&files);
-    posix_spawn_file_actions_adddup2(&files, input, STDIN_FILENO);
-    posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawnattr_t attributes;
-    posix_spawnattr_init(&attributes);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-    const int error = posix_spawnp(&child_, words[0].c_str(), &files, &attributes, pointers.data(), environ);
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&files);
-    if (error != 0) child_ = 0;
-    return error;
-  }
-
-  int input_ = -1;
-  pid_t child_ = 0;
-  int code_ = 0;
-};
-
-// As a PNG has them.
-std::vector<std::uint8_t> display_bytes(const Image& image) {
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(3 * image.pixels.size());
-  for (const Color& pixel : image.pixels) {
-    for (const float value : {pixel.x, pixel.y, pixel.z}) {
-      bytes.push_back(static_cast<std::uint8_t>(std::lround(255 * std::clamp(value, 0.f, 1.f))));
-    }
-  }
-  return bytes;
 }
 
 // Films hold brightness and colour apart, at half the size, in the matrix of high definition.
@@ -154,16 +76,18 @@ std::vector<std::string> ffmpeg_command(const Image& first, double frames_per_se
 void encode(const std::filesystem::path& film, const std::filesystem::path& temporary,
             const std::vector<std::filesystem::path>& pictures, double frames_per_second) {
   const Image first = read_image(pictures.front());
-  Encoder encoder(ffmpeg_command(first, frames_per_second, container(film), temporary.string()));
+  Subprocess encoder = start_encoder(
+      ffmpeg_command(first, frames_per_second, container(film), temporary.string()), StreamTo::kPipe);
   for (const std::filesystem::path& picture : pictures) {
     const Image image = read_image(picture);
     if (image.width != first.width || image.height != first.height) {
       throw std::runtime_error("'" + picture.string() + "' has another size than '" +
                                pictures.front().string() + "'");
     }
-    if (!encoder.take(display_bytes(image))) break;
+    const std::vector<std::uint8_t> bytes = display_bytes(image);
+    if (!encoder.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()})) break;
   }
-  if (const int code = encoder.finish(); code != 0) {
+  if (const int code = encoder.wait().code; code != 0) {
     fail(film, fmt::format("ffmpeg ended with code {}", code));
   }
 }
@@ -177,7 +101,8 @@ void require_film_name(const std::filesystem::path& film) {
 
 void require_ffmpeg() {
   // Prints its version and ends: what is on the PATH can be run.
-  if (Encoder({"ffmpeg", "-loglevel", "quiet", "-version"}).finish() != 0) throw std::runtime_error(kMissing);
+  Subprocess ffmpeg = start_encoder({"ffmpeg", "-loglevel", "quiet", "-version"}, StreamTo::kSame);
+  if (ffmpeg.wait().code != 0) throw std::runtime_error(kMissing);
 }
 
 void write_film(const std::filesystem::path& film, const std::vector<std::filesystem::path>& pictures,

@@ -5,23 +5,22 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
 #include "base/diagnostics.h"
+#include "image/display_bytes.h"
 #include "scene/view_frame.h"
 
 namespace pprt {
 namespace {
 
-constexpr int kCoarse = 16;           // rays a side at first
-constexpr double kMostRays = 0x1p22;  // of all frames: some seconds
-using Level = std::array<int, 3>;     // of red, green and blue in a PNG
+constexpr int kCoarse = 16;                 // rays a side at first
+constexpr double kMostRays = 0x1p22;        // of all frames: some seconds
+using Level = std::array<std::uint8_t, 3>;  // of red, green and blue in a PNG
 
 Level level_of(const Color& color) {
-  const auto level = [](float v) {
-    return v > 0 ? static_cast<int>(std::lround(255 * std::min(v, 1.0f))) : 0;
-  };
-  return {level(color.x), level(color.y), level(color.z)};
+  return {display_byte(color.x), display_byte(color.y), display_byte(color.z)};
 }
 
 // What rays have found so far.

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <utility>
 
+#include "base/content_hash.h"
 #include "base/diagnostics.h"
 #include "cli/exit.h"
 #include "cli/launch.h"

@@ -1,9 +1,5 @@
 #include "render/render_job.h"
 
-#include <fmt/format.h>
-
-#include <cstdint>
-
 #include "parallel/network/wire.h"
 
 namespace pprt {
@@ -33,12 +29,6 @@ RenderJob decode_job(const Bytes& bytes) {
   in.get(job.scene_nff);
   in.expect_end();
   return job;
-}
-
-std::string content_hash(const std::string& text) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  return fmt::format("{:016x}", hash);
 }
 
 }  // namespace pprt

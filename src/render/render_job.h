@@ -19,7 +19,4 @@ struct RenderJob {
 Bytes encode(const RenderJob& job);
 RenderJob decode_job(const Bytes& bytes);
 
-// 16 hexadecimal digits that stand for a text's content (FNV-1a, 64 bits).
-std::string content_hash(const std::string& text);
-
 }  // namespace pprt

@@ -1,16 +1,9 @@
 #include "study/accuracy/foreign.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
 #include <stdlib.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -18,12 +11,12 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/subprocess.h"
 #include "convert/pov_writer.h"
 #include "image/contact_sheet.h"
 #include "image/image_io.h"
 #include "scene/nff_writer.h"
 #include "study/accuracy/reference.h"
-#include "study/report/gnuplot.h"
 #include "study/report/plot.h"
 
 namespace pprt {
@@ -50,33 +43,14 @@ class ScratchDirectory {
   std::filesystem::path path_;
 };
 
-double seconds_of(const timeval& t) {
-  return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-}
-
-// Runs a program in silence; returns the CPU seconds that it took. Throws MissingTool when there is none of
-// that name, std::runtime_error when it fails.
-double run_in_silence(std::vector<std::string> words) {
-  std::vector<char*> pointers;
-  pointers.reserve(words.size() + 1);
-  for (std::string& w : words) pointers.push_back(w.data());
-  pointers.push_back(nullptr);
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-    posix_spawn_file_actions_addopen(&files, descriptor, "/dev/null", O_RDWR, 0);
-  }
-  pid_t child = 0;
-  const int error = posix_spawnp(&child, words[0].c_str(), &files, nullptr, pointers.data(), environ);
-  posix_spawn_file_actions_destroy(&files);
-  if (error != 0) throw MissingTool(words[0] + " is not installed");
-  int status = 0;
-  rusage used{};
-  while (wait4(child, &status, 0, &used) < 0) {
-    if (errno != EINTR) throw std::runtime_error("lost " + words[0]);
-  }
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw std::runtime_error(words[0] + " failed");
-  return seconds_of(used.ru_utime) + seconds_of(used.ru_stime);
+// Runs a program in silence; returns the CPU seconds that it took. Throws ProgramNotFound, or
+// std::runtime_error when it fails.
+double run_in_silence(const std::vector<std::string>& command) {
+  constexpr StreamTo kNothing = StreamTo::kNothing;
+  Subprocess program(command, {.input = kNothing, .output = kNothing, .errors = kNothing});
+  const ExitStatus status = program.wait();
+  if (status.code != 0) throw std::runtime_error(command[0] + " failed");
+  return status.cpu_seconds;
 }
 
 // How a program is told to render: a picture of size x size pixels into the file.

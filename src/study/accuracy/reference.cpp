@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/content_hash.h"
 #include "image/metrics.h"
 #include "image/whole_file.h"
 #include "render/render_job.h"

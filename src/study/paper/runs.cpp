@@ -10,13 +10,13 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/content_hash.h"
 #include "base/diagnostics.h"
 #include "parallel/balance/partition.h"
 #include "parallel/serial_pattern.h"
 #include "parallel/virtual_ranks.h"
 #include "parser/anim_parser.h"
 #include "render/ledger.h"
-#include "render/render_job.h"
 #include "scene/animation.h"
 #include "spd/spd.h"
 #include "study/paper/pictures.h"

@@ -36,10 +36,4 @@ TEST_CASE("a job that asks for an effect that there is not is refused") {
   CHECK_THROWS_AS(decode_job(encode(job)), ProtocolError);
 }
 
-TEST_CASE("a content's hash is FNV-1a of 64 bits") {
-  CHECK(content_hash("") == "cbf29ce484222325");
-  CHECK(content_hash("a") == "af63dc4c8601ec8c");
-  CHECK(content_hash("foobar") == "85944171f73967e8");
-}
-
 }  // namespace pprt

@@ -1,0 +1,224 @@
+#include "base/subprocess.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <system_error>
+#include <utility>
+
+namespace pprt {
+namespace {
+
+[[noreturn]] void throw_errno(const std::string& what) {
+  throw std::system_error(errno, std::generic_category(), what);
+}
+
+// Closes itself. Every descriptor here has the close-on-exec flag.
+class Descriptor {
+ public:
+  Descriptor() = default;
+  Descriptor(int value, const char* what) : value_(value) {
+    if (value_ < 0) throw_errno(what);
+  }
+  Descriptor(Descriptor&& other) noexcept : value_(other.release()) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(value_, other.value_);
+    return *this;
+  }
+  ~Descriptor() {
+    if (value_ >= 0) close(value_);
+  }
+
+  int get() const { return value_; }
+  int release() { return std::exchange(value_, -1); }
+
+ private:
+  int value_ = -1;
+};
+
+struct Ends {
+  Descriptor ours, theirs;
+};
+
+// Read by us, written by the program.
+Ends make_pipe() {
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) throw_errno("pipe");
+  return {Descriptor(ends[0], "pipe"), Descriptor(ends[1], "pipe")};
+}
+
+// Written by us: of a socket, other than of a pipe, a write to a program that has ended can be had as an
+// error, without a signal.
+Ends make_socket() {
+  int ends[2];
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) throw_errno("socketpair");
+  return {Descriptor(ends[0], "socketpair"), Descriptor(ends[1], "socketpair")};
+}
+
+Descriptor open_nothing() {
+  return Descriptor(open("/dev/null", O_RDWR | O_CLOEXEC), "/dev/null");
+}
+
+// What becomes the program's standard streams; -1: the same as ours.
+using StandardStreams = std::array<int, 3>;
+
+// In the new process. Only async-signal-safe calls: this process may have other threads.
+[[noreturn]] void become(char* const* words, const StandardStreams& streams,
+                         const SubprocessSettings& settings, int report) {
+  if (settings.own_process_group) setpgid(0, 0);
+  if (settings.ends_with_parent) prctl(PR_SET_PDEATHSIG, SIGTERM);
+  bool ready = true;
+  for (int i = 0; i < 3; ++i) {
+    const int stream = streams[static_cast<std::size_t>(i)];
+    if (stream >= 0 && dup2(stream, i) < 0) ready = false;
+  }
+  if (ready) execvp(words[0], words);
+  const int error = errno;
+  [[maybe_unused]] const ssize_t told = ::write(report, &error, sizeof error);
+  _exit(127);
+}
+
+// The errno of a program that could not be started; 0: it runs.
+int start_error(int report) {
+  int error = 0;
+  ssize_t count = 0;
+  while ((count = ::read(report, &error, sizeof error)) < 0 && errno == EINTR) {
+  }
+  return count == sizeof error ? error : 0;
+}
+
+double seconds_of(const timeval& t) {
+  return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+}
+
+ExitStatus wait_for(pid_t child) {
+  int status = 0;
+  rusage used{};
+  while (wait4(child, &status, 0, &used) < 0) {
+    if (errno != EINTR) throw_errno("wait4");
+  }
+  const int code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+  return {code, seconds_of(used.ru_utime) + seconds_of(used.ru_stime)};
+}
+
+pid_t spawn(std::vector<std::string>& command, const StandardStreams& streams,
+            const SubprocessSettings& settings) {
+  std::vector<char*> words;
+  words.reserve(command.size() + 1);
+  for (std::string& word : command) words.push_back(word.data());
+  words.push_back(nullptr);
+
+  Ends report = make_pipe();  // closed by a successful exec
+  const pid_t child = fork();
+  if (child < 0) throw_errno("fork");
+  if (child == 0) become(words.data(), streams, settings, report.theirs.get());
+  report.theirs = {};
+  const int error = start_error(report.ours.get());
+  if (error == 0) return child;
+  wait_for(child);
+  if (error == ENOENT || error == EACCES) throw ProgramNotFound(command[0] + " is not installed");
+  throw std::system_error(error, std::generic_category(), command[0]);
+}
+
+// A file in memory.
+class MemoryFile {
+ public:
+  explicit MemoryFile(const char* name) : descriptor_(memfd_create(name, MFD_CLOEXEC), "memfd_create") {}
+
+  int descriptor() const { return descriptor_.get(); }
+
+  void fill(std::string_view text) const {
+    while (!text.empty()) {
+      const ssize_t count = ::write(descriptor(), text.data(), text.size());
+      if (count < 0 && errno != EINTR) throw_errno("write");
+      if (count > 0) text.remove_prefix(static_cast<std::size_t>(count));
+    }
+    lseek(descriptor(), 0, SEEK_SET);
+  }
+
+  std::string content() const {
+    lseek(descriptor(), 0, SEEK_SET);
+    std::string text;
+    std::array<char, 1 << 16> part{};
+    for (ssize_t count = 0; (count = ::read(descriptor(), part.data(), part.size())) != 0;) {
+      if (count < 0 && errno != EINTR) throw_errno("read");
+      if (count > 0) text.append(part.data(), static_cast<std::size_t>(count));
+    }
+    return text;
+  }
+
+ private:
+  Descriptor descriptor_;
+};
+
+}  // namespace
+
+Subprocess::Subprocess(std::vector<std::string> command, const SubprocessSettings& settings) {
+  const auto uses = [&](StreamTo to) {
+    return settings.input == to || settings.output == to || settings.errors == to;
+  };
+  const Descriptor nothing = uses(StreamTo::kNothing) ? open_nothing() : Descriptor();
+  Ends input, output;
+  if (settings.input == StreamTo::kPipe) input = make_socket();
+  if (settings.output == StreamTo::kPipe || settings.errors == StreamTo::kPipe) output = make_pipe();
+  const auto stream = [&](StreamTo to, const Ends& pipe) {
+    return to == StreamTo::kPipe ? pipe.theirs.get() : to == StreamTo::kNothing ? nothing.get() : -1;
+  };
+  id_ =
+      spawn(command,
+            {stream(settings.input, input), stream(settings.output, output), stream(settings.errors, output)},
+            settings);
+  input_ = input.ours.release();
+  output_ = output.ours.release();
+}
+
+Subprocess::~Subprocess() {
+  try {
+    wait();
+  } catch (const std::system_error&) {
+    // It has ended, and somebody else has asked for its status.
+  }
+  if (output_ >= 0) close(output_);
+}
+
+bool Subprocess::write(std::string_view bytes) const {
+  while (!bytes.empty()) {
+    const ssize_t sent = send(input_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+    if (sent < 0 && errno != EINTR) return false;
+    if (sent > 0) bytes.remove_prefix(static_cast<std::size_t>(sent));
+  }
+  return true;
+}
+
+std::size_t Subprocess::read(std::span<char> buffer) const {
+  ssize_t count = 0;
+  while ((count = ::read(output_, buffer.data(), buffer.size())) < 0) {
+    if (errno != EINTR) throw_errno("read");
+  }
+  return static_cast<std::size_t>(count);
+}
+
+ExitStatus Subprocess::wait() {
+  if (ended_) return status_;
+  ended_ = true;
+  if (input_ >= 0) close(std::exchange(input_, -1));
+  return status_ = wait_for(id_);
+}
+
+CapturedRun run_captured(std::vector<std::string> command, std::string_view input) {
+  const MemoryFile in("input"), out("output"), errors("errors");
+  in.fill(input);
+  const pid_t child = spawn(command, {in.descriptor(), out.descriptor(), errors.descriptor()}, {});
+  const ExitStatus status = wait_for(child);
+  return {status, out.content(), errors.content()};
+}
+
+}  // namespace pprt
