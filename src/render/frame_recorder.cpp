@@ -113,13 +113,14 @@ FrameRecorder::FrameRecorder(const RenderOptions& options, const RenderPlan& pla
 }
 
 void FrameRecorder::record(FinishedFrame&& frame) {
-  Json record = frame_record(frame);
-  Metadata facts = header_facts(record);
+  const FrameSummary summary = summarize(frame);
+  Json record = frame_record(summary);
+  Facts facts = header_facts(record);
   if (ledger_.enabled()) ledger_.write_frame(std::move(record), measurements_of(frame));
   {
     const std::scoped_lock lock(mutex_);
-    totals_.add(frame);
-    progress_.frame_done(frame, totals_);
+    totals_.add(summary);
+    progress_.frame_done(summary, totals_);
   }
   LayerMaker layers = layers_of(frame);
   writer_.submit({frame.order.number, std::move(frame.image), std::move(facts), std::move(layers)});
@@ -189,7 +190,7 @@ void FrameRecorder::finish(bool stopped) {
     make_film();
     if (serial_) serial_->catch_up();
     ledger_.finish();
-    ledger_.write(totals_.summary(has_rate_));
+    ledger_.write(summary_record(totals_, has_rate_));
   } catch (...) {
     note_written(writer_.take_finished());
     progress_.finish("failed", totals_, where_);

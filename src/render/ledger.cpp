@@ -2,9 +2,7 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <stdexcept>
@@ -22,125 +20,55 @@ Json rays_record(const RayCounts& rays) {
           {"visibility", rays.visibility}};
 }
 
-// Sums over the ranks of one frame.
-RankReport sum_of(const std::vector<RankReport>& ranks) {
-  RankReport sum;
-  for (const RankReport& r : ranks) {
-    sum.samples_new += r.samples_new;
-    sum.samples_cast += r.samples_cast;
-    sum.samples_received += r.samples_received;
-    sum.samples_known += r.samples_known;
-    sum.samples_in_region += r.samples_in_region;
-    sum.non_finite += r.non_finite;
-    sum.rays += r.rays;
-    sum.cpu_ms.sampling += r.cpu_ms.sampling;
-    sum.cpu_ms.casting += r.cpu_ms.casting;
-    sum.cpu_ms.reconstruction += r.cpu_ms.reconstruction;
-    sum.cpu_ms.balancing += r.cpu_ms.balancing;
-    sum.cpu_ms.idle += r.cpu_ms.idle;
-    sum.tiles_given += r.tiles_given;
-    sum.bytes_progress += r.bytes_progress;
-    sum.bytes_balance += r.bytes_balance;
-    sum.bytes_samples += r.bytes_samples;
-    sum.bytes_pixels += r.bytes_pixels;
-  }
-  return sum;
-}
-
-// Mean and standard deviation over ranks of their refinement (paper s. 6.2); ranks without triangles do not
-// count.
-std::pair<double, double> refinement_over_ranks(const std::vector<RankReport>& ranks) {
-  double sum = 0, squares = 0;
-  int count = 0;
-  for (const RankReport& r : ranks) {
-    if (r.triangles_in_region == 0) continue;
-    sum += r.refinement;
-    squares += r.refinement * r.refinement;
-    ++count;
-  }
-  if (count == 0) return {0, 0};
-  const double mean = sum / count;
-  return {mean, std::sqrt(std::max(0.0, squares / count - mean * mean))};
-}
-
-double percentile(const std::vector<double>& sorted, double share) {
-  if (sorted.empty()) return 0;
-  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
-  return sorted[std::clamp<std::size_t>(rank, 1, sorted.size()) - 1];
-}
-
 }  // namespace
 
-Json frame_record(const FinishedFrame& frame) {
-  const RankReport sum = sum_of(frame.ranks);
-  const auto [refinement, deviation] = refinement_over_ranks(frame.ranks);
+Json frame_record(const FrameSummary& frame) {
   return {{"record", "frame"},
-          {"frame", frame.order.number},
-          {"cut", frame.order.cut},
-          {"deadline_s", frame.order.deadline_s},
+          {"frame", frame.number},
+          {"cut", frame.camera_cut},
+          {"deadline_s", frame.deadline_s},
           {"finished_s", frame.finished_s},
           {"late_ms", frame.late_ms},
           {"late_ranks", frame.late_ranks},
           {"stale_tiles", frame.stale_tiles},
           {"overdue_pixels", frame.overdue_pixels},
-          {"samples_new", sum.samples_new},
-          {"samples_cast", sum.samples_cast},
-          {"samples", sum.samples_in_region},
-          {"samples_received", sum.samples_received},
-          {"samples_received_twice", sum.samples_known},
-          {"refinement", refinement},
-          {"refinement_dev", deviation},
-          {"rays", rays_record(sum.rays)},
+          {"samples_new", frame.samples_new},
+          {"samples_cast", frame.samples_cast},
+          {"samples", frame.samples},
+          {"samples_received", frame.samples_received},
+          {"samples_received_twice", frame.samples_received_twice},
+          {"refinement", frame.refinement},
+          {"refinement_dev", frame.refinement_deviation},
+          {"rays", rays_record(frame.rays)},
           {"cpu_ms",
-           {{"sampling", sum.cpu_ms.sampling},
-            {"casting", sum.cpu_ms.casting},
-            {"reconstruction", sum.cpu_ms.reconstruction},
-            {"balancing", sum.cpu_ms.balancing},
-            {"idle", sum.cpu_ms.idle}}},
+           {{"sampling", frame.cpu_ms.sampling},
+            {"casting", frame.cpu_ms.casting},
+            {"reconstruction", frame.cpu_ms.reconstruction},
+            {"balancing", frame.cpu_ms.balancing},
+            {"idle", frame.cpu_ms.idle}}},
           {"bytes",
-           {{"samples", sum.bytes_samples},
-            {"progress", sum.bytes_progress},
-            {"balance", sum.bytes_balance},
-            {"pixels", sum.bytes_pixels}}},
-          {"tiles_moved", sum.tiles_given},
-          {"global_balance", frame.global_balance},
-          {"non_finite", sum.non_finite}};
+           {{"samples", frame.bytes.samples},
+            {"progress", frame.bytes.progress},
+            {"balance", frame.bytes.balance},
+            {"pixels", frame.bytes.pixels}}},
+          {"tiles_moved", frame.tiles_moved},
+          {"global_balance", frame.repartitioned},
+          {"non_finite", frame.non_finite}};
 }
 
-void RunTotals::add(const FinishedFrame& frame) {
-  const RankReport sum = sum_of(frame.ranks);
-  ++frames_;
-  on_time_ += frame.late_ms <= 0;
-  with_late_ranks_ += !frame.late_ranks.empty();
-  samples_ += sum.samples_in_region;
-  non_finite_ += sum.non_finite;
-  rays_ += sum.rays;
-  late_ms_.push_back(frame.late_ms);
-}
-
-double RunTotals::samples_per_frame() const {
-  return frames_ > 0 ? static_cast<double>(samples_) / frames_ : 0;
-}
-
-double RunTotals::worst_late_ms() const {
-  return late_ms_.empty() ? 0 : *std::max_element(late_ms_.begin(), late_ms_.end());
-}
-
-Json RunTotals::summary(bool has_rate) const {
-  std::vector<double> sorted = late_ms_;
-  std::sort(sorted.begin(), sorted.end());
-  Json record = {{"record", "summary"}, {"frames", frames_}};
+Json summary_record(const RunTotals& totals, bool has_rate) {
+  Json record = {{"record", "summary"}, {"frames", totals.frames()}};
   if (has_rate) {
-    record["on_time"] = on_time_;
-    record["late_ms"] = {{"p50", percentile(sorted, 0.50)},
-                         {"p95", percentile(sorted, 0.95)},
-                         {"p99", percentile(sorted, 0.99)},
-                         {"max", worst_late_ms()}};
-    record["with_late_ranks"] = with_late_ranks_;
+    record["on_time"] = totals.on_time();
+    record["late_ms"] = {{"p50", totals.late_ms(0.50)},
+                         {"p95", totals.late_ms(0.95)},
+                         {"p99", totals.late_ms(0.99)},
+                         {"max", totals.worst_late_ms()}};
+    record["with_late_ranks"] = totals.with_late_ranks();
   }
-  record["samples"] = samples_;
-  record["rays"] = rays_record(rays_);
-  record["non_finite"] = non_finite_;
+  record["samples"] = totals.samples();
+  record["rays"] = rays_record(totals.rays());
+  record["non_finite"] = totals.non_finite();
   return record;
 }
 

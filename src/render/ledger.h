@@ -1,7 +1,6 @@
 // The ledger (--stats): what every frame took, one JSON object a line.
 #pragma once
 
-#include <cstdint>
 #include <deque>
 #include <fstream>
 #include <future>
@@ -10,14 +9,17 @@
 #include <string>
 #include <vector>
 
-#include "parallel/master.h"
+#include "render/frame_summary.h"
 
 namespace pprt {
 
 using Json = nlohmann::ordered_json;
 
-// What is said of a frame in the ledger and in its file's header, without the error to a reference.
-Json frame_record(const FinishedFrame& frame);
+// The ledger's record of a frame, without what is measured later: see Measurement.
+Json frame_record(const FrameSummary& frame);
+
+// The last record. `has_rate`: lateness means something.
+Json summary_record(const RunTotals& totals, bool has_rate);
 
 // A figure of a frame that is still being measured, beside the frame loop. One that cannot be is told on
 // standard error, once a run, and left out.
@@ -26,28 +28,6 @@ struct Measurement {
   std::string option;   // that asked for it, for messages
   bool may_lag = true;  // false: holds a picture, and only few frames may
   std::future<double> value;
-};
-
-// Keeps the sums that the summary tells.
-class RunTotals {
- public:
-  void add(const FinishedFrame& frame);
-
-  int frames() const { return frames_; }
-  int on_time() const { return on_time_; }
-  double samples_per_frame() const;
-  double worst_late_ms() const;
-  const RayCounts& rays() const { return rays_; }
-  Json summary(bool has_rate) const;
-
- private:
-  int frames_ = 0;
-  int on_time_ = 0;
-  int with_late_ranks_ = 0;  // frames
-  std::uint64_t samples_ = 0;
-  std::uint64_t non_finite_ = 0;
-  RayCounts rays_;
-  std::vector<double> late_ms_;
 };
 
 // Writes records in frame order; a frame of which something is still being measured holds back those after

@@ -8,6 +8,7 @@
 
 #include "cli/exit.h"
 #include "cli/launch.h"
+#include "render/ledger.h"
 
 namespace pprt {
 namespace {
@@ -71,13 +72,13 @@ void Progress::begin(const ProgressPlan& plan) {
   pace_ = Pace(std::chrono::steady_clock::now());
 }
 
-void Progress::frame_done(const FinishedFrame& frame, const RunTotals& totals) {
+void Progress::frame_done(const FrameSummary& frame, const RunTotals& totals) {
   done_ = totals.frames();
   pace_.frame(std::chrono::steady_clock::now());
   if (kind_ == ProgressKind::kTty) fmt::print(stderr, "{}{}{}", kOverLine, line(totals), kLineEnd);
   if (kind_ != ProgressKind::kJson) return;
   const Json record = {{"event", "frame"},
-                       {"frame", frame.order.number},
+                       {"frame", frame.number},
                        {"done", done_},
                        {"there", plan_.there},
                        {"frames", plan_.frames},

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "render/ledger.h"
+#include "render/frame_summary.h"
 
 namespace pprt {
 
@@ -44,7 +44,7 @@ class Progress {
   Progress(ProgressKind kind, bool quiet) : kind_(kind), quiet_(quiet) {}
 
   void begin(const ProgressPlan& plan);
-  void frame_done(const FinishedFrame& frame, const RunTotals& totals);
+  void frame_done(const FrameSummary& frame, const RunTotals& totals);
   void status(const RunTotals& totals) const;  // one line with the time elapsed, asked for by a signal
 
   // The summary, for people, of a run that is "done", "stopped" or "failed"; `where` the frames are.

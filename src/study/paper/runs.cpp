@@ -79,7 +79,7 @@ CameraSource cameras_of(const Setting& setting, const PaperRun& run) {
 
 // The ledger's figures of a frame.
 FrameMeasures measures_of(const FinishedFrame& frame) {
-  const Json record = frame_record(frame);
+  const Json record = frame_record(summarize(frame));
   const Json& cpu = record["cpu_ms"];
   const Json& bytes = record["bytes"];
   FrameMeasures m;

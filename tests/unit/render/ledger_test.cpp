@@ -43,8 +43,8 @@ std::vector<Measurement> one(Measurement measurement) {
 
 TEST_CASE("lateness by percentiles, nearest rank") {
   RunTotals totals;
-  for (int i = 100; i >= 1; --i) totals.add(frame_with(i - 98));  // -97 ... 2: 98 of them on time
-  const Json summary = totals.summary(true);
+  for (int i = 100; i >= 1; --i) totals.add(summarize(frame_with(i - 98)));  // -97 ... 2: 98 of them on time
+  const Json summary = summary_record(totals, true);
   CHECK(summary["frames"] == 100);
   CHECK(summary["on_time"] == 98);
   CHECK(summary["late_ms"]["p50"] == -48);
@@ -55,32 +55,32 @@ TEST_CASE("lateness by percentiles, nearest rank") {
 
 TEST_CASE("a frame's record names the ranks that were late") {
   FinishedFrame frame = frame_with(3);
-  CHECK(frame_record(frame)["late_ranks"] == Json::array());
+  CHECK(frame_record(summarize(frame))["late_ranks"] == Json::array());
   frame.late_ranks = {1, 4};
   frame.stale_tiles = 7, frame.overdue_pixels = 2;
-  const Json record = frame_record(frame);
+  const Json record = frame_record(summarize(frame));
   CHECK(record["late_ranks"] == Json::array({1, 4}));
   CHECK(record["stale_tiles"] == 7);
   CHECK(record["overdue_pixels"] == 2);
   RunTotals totals;
-  totals.add(frame), totals.add(frame_with(-3));
-  CHECK(totals.summary(true)["with_late_ranks"] == 1);
+  totals.add(summarize(frame)), totals.add(summarize(frame_with(-3)));
+  CHECK(summary_record(totals, true)["with_late_ranks"] == 1);
 }
 
 TEST_CASE("percentiles of few frames are frames that were") {
   RunTotals totals;
-  CHECK(totals.summary(true)["late_ms"]["p99"] == 0);  // of none
-  totals.add(frame_with(-5));
-  CHECK(totals.summary(true)["late_ms"]["p50"] == -5);
-  totals.add(frame_with(3));
-  CHECK(totals.summary(true)["late_ms"]["p50"] == -5);
-  CHECK(totals.summary(true)["late_ms"]["p95"] == 3);
+  CHECK(summary_record(totals, true)["late_ms"]["p99"] == 0);  // of none
+  totals.add(summarize(frame_with(-5)));
+  CHECK(summary_record(totals, true)["late_ms"]["p50"] == -5);
+  totals.add(summarize(frame_with(3)));
+  CHECK(summary_record(totals, true)["late_ms"]["p50"] == -5);
+  CHECK(summary_record(totals, true)["late_ms"]["p95"] == 3);
 }
 
 TEST_CASE("without a rate there is no being late") {
   RunTotals totals;
-  totals.add(frame_with(0));
-  const Json summary = totals.summary(false);
+  totals.add(summarize(frame_with(0)));
+  const Json summary = summary_record(totals, false);
   CHECK_FALSE(summary.contains("late_ms"));
   CHECK_FALSE(summary.contains("on_time"));
 }
@@ -88,13 +88,13 @@ TEST_CASE("without a rate there is no being late") {
 TEST_CASE("refinement is the mean and the standard deviation over ranks that have triangles") {
   FinishedFrame frame;
   frame.ranks = {report_with(2, 10), report_with(4, 1), report_with(99, 0), report_with(6, 3)};
-  const Json record = frame_record(frame);
+  const Json record = frame_record(summarize(frame));
   CHECK(record["refinement"].get<double>() == Approx(4));
   CHECK(record["refinement_dev"].get<double>() == Approx(std::sqrt(8.0 / 3)));
   frame.ranks = {report_with(99, 0)};
-  CHECK(frame_record(frame)["refinement"] == 0);
+  CHECK(frame_record(summarize(frame))["refinement"] == 0);
   frame.ranks = {report_with(0.1, 1), report_with(0.1, 1), report_with(0.1, 1)};
-  CHECK(frame_record(frame)["refinement_dev"].get<double>() == Approx(0).margin(1e-8));
+  CHECK(frame_record(summarize(frame))["refinement_dev"].get<double>() == Approx(0).margin(1e-8));
 }
 
 TEST_CASE("a frame's figures are sums over its ranks") {
@@ -107,7 +107,7 @@ TEST_CASE("a frame's figures are sums over its ranks") {
     r.cpu_ms = {1, 2, 3, 4, 5};
     r.bytes_samples = 640, r.bytes_pixels = 1200;
   }
-  const Json record = frame_record(frame);
+  const Json record = frame_record(summarize(frame));
   CHECK((record["frame"] == 7 && record["cut"] == true && record["deadline_s"] == 2));
   CHECK((record["samples_new"] == 20 && record["samples_cast"] == 6 && record["samples"] == 22));
   CHECK(record["non_finite"] == 2);
