@@ -17,7 +17,6 @@
 #include "base/content_hash.h"
 #include "image/metrics.h"
 #include "image/whole_file.h"
-#include "render/render_job.h"
 
 namespace pprt {
 namespace {
