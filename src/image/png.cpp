@@ -95,7 +95,7 @@ struct Reader {
   ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
 };
 
-struct FactToText {
+struct ToText {
   std::string operator()(const std::string& text) const { return text; }
   std::string operator()(double number) const { return fmt::format("{}", number); }
   std::string operator()(std::int64_t number) const { return fmt::format("{}", number); }
@@ -167,7 +167,7 @@ float channel(const png_byte* big_endian) {
 std::string encode_png(const Image& image, const Metadata& metadata, PictureKind kind) {
   require_encodable(image);
   const std::vector<png_byte> bytes = display_bytes(image);
-  Texts texts(facts);
+  Texts texts(metadata);
   Stream stream;
   Writer writer(stream);
   if (!write_rows(writer, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height),
