@@ -14,7 +14,7 @@
 #include "cli/help.h"
 #include "cli/launch.h"
 #include "cli/option_table.h"
-#include "cli/option_words.h"
+#include "cli/typed_options.h"
 #include "cli/version.h"
 
 namespace pprt {
@@ -30,14 +30,13 @@ void use_help(CLI::App& app) {
 // Prints the script and ends the parsing, whatever else the command line lacks: as --version does.
 void add_completion(CLI::App& app) {
   const auto print = [&app](const std::string& shell) {
-    const Shell which = shell == "bash" ? Shell::kBash : shell == "zsh" ? Shell::kZsh : Shell::kFish;
-    std::string script = completion_script(option_table(app), which);
+    std::string script = completion_script(option_table(app), find_word<Shell>(shell).value());
     script.pop_back();  // the line's end, which is printed behind it
     throw CLI::CallForVersion(script, 0);
   };
   auto* option = app.add_option_function<std::string>("--completion", print,
                                                       "Print a completion script for this shell and exit");
-  take_one_of(*option, {"bash", "zsh", "fish"});
+  take_one_of(*option, option_words<Shell>());
   option->configurable(false);
 }
 

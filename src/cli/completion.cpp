@@ -12,6 +12,22 @@ std::string joined(const std::vector<std::string>& words, std::string_view betwe
   return fmt::format("{}", fmt::join(words, between));
 }
 
+std::string joined(const std::vector<OptionWord>& words) {
+  std::vector<std::string> plain;
+  for (const OptionWord& entry : words) plain.push_back(entry.word);
+  return joined(plain);
+}
+
+// Each word followed by `tab` and its help in double quotes: what zsh and fish both show beside a word.
+std::string described(const std::vector<OptionWord>& words, std::string_view tab) {
+  std::string text;
+  for (const OptionWord& entry : words) {
+    text += (text.empty() ? "" : " ") + entry.word;
+    if (!entry.help.empty()) text += fmt::format("{}\"{}\"", tab, entry.help);
+  }
+  return text;
+}
+
 // The description up to its first aside: shells show one line.
 std::string gist(const std::string& description) {
   return description.substr(
@@ -75,7 +91,7 @@ std::string bash_cases(const OptionTable& table, const std::string& indent) {
   std::vector<std::string> words = subcommand_names(table);
   bool files = false;
   for (const OptionRow* row : rows_of(table, true)) {
-    words.insert(words.end(), row->words.begin(), row->words.end());
+    for (const OptionWord& entry : row->words) words.push_back(entry.word);
     files = files || row->value == ValueKind::kPath;
   }
   text += fmt::format("{}  *) if [[ $current == -* ]]; then choices='{}'; else choices='{}'{}; fi ;;\n",
@@ -125,7 +141,7 @@ std::string bash_script(const OptionTable& table) {
 std::string zsh_action(const OptionRow& row) {
   switch (row.value) {
     case ValueKind::kChoice:
-      return "(" + joined(row.words) + ")";
+      return "((" + described(row.words, R"(\:)") + "))";
     case ValueKind::kList:
       return fmt::format("_values -s , {} {}", row.label, joined(row.words));
     case ValueKind::kPath:
@@ -179,7 +195,7 @@ std::string fish_value(const OptionRow& row) {
     case ValueKind::kNone:
       return "";
     case ValueKind::kChoice:
-      return fmt::format(" -x -a '{}'", joined(row.words));
+      return fmt::format(" -x -a '{}'", described(row.words, R"(\t)"));
     case ValueKind::kList:
       return fmt::format(" -x -a '(__fish_append , {})'", joined(row.words));
     case ValueKind::kPath:

@@ -2,15 +2,20 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
+#include "base/words.h"
 #include "cli/option_table.h"
 
 namespace pprt {
 
 enum class Shell { kBash, kZsh, kFish };
 
-// A script that tells the shell all of the program's options and the words and files behind them.
+template <>
+inline constexpr std::array<Word<Shell>, 3> kWords<Shell>{
+    {{Shell::kBash, "bash", ""}, {Shell::kZsh, "zsh", ""}, {Shell::kFish, "fish", ""}}};
+
+// Returns a script that defines the completion of the program's options and their values. Zsh and fish show
+// the words' help beside them; bash cannot.
 std::string completion_script(const OptionTable& table, Shell shell);
 
 }  // namespace pprt

@@ -7,10 +7,10 @@
 
 namespace pprt {
 
-void set_up_log(const std::string& level, int rank) {
+void set_up_log(LogLevel level, int rank) {
   auto logger = std::make_shared<spdlog::logger>("pprt", std::make_shared<spdlog::sinks::stderr_sink_mt>());
   logger->set_pattern("%H:%M:%S.%e rank " + std::to_string(rank) + " %l: %v");
-  logger->set_level(spdlog::level::from_str(level));
+  logger->set_level(spdlog::level::from_str(std::string(word_for(level))));
   spdlog::set_default_logger(logger);
 }
 

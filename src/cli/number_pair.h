@@ -1,20 +1,28 @@
 // Options that are two numbers: "256x256", "1-40".
 #pragma once
 
-#include <optional>
 #include <string>
-#include <utility>
 
 namespace pprt {
 
-// Two integers with one of `separators` between them and nothing else.
-std::optional<std::pair<int, int>> parse_pair(const std::string& text, const std::string& separators);
+// Longest side of an image, pixels.
+inline constexpr int kLongestSide = 16384;
 
-struct FrameRange {
-  int first, last;
+struct ImageSize {
+  int width, height;  // pixels
 };
 
-// What --frames says: FIRST-LAST or a single frame, counted from 1. Throws UsageError.
+// Parses the value of --size, WIDTHxHEIGHT, each from 1 to kLongestSide. Throws UsageError.
+ImageSize parse_image_size(const std::string& text);
+
+struct FrameRange {
+  int first, last;  // counted from 1
+};
+
+// Parses the value of --frames: FIRST-LAST, or a single frame. Throws UsageError.
 FrameRange parse_frame_range(const std::string& text);
+
+// Returns the range as --frames takes it: "5-7", or "5" for one frame.
+std::string to_string(const FrameRange& range);
 
 }  // namespace pprt

@@ -12,37 +12,45 @@
 namespace pprt {
 namespace {
 
-// A check's name is the one thing that CLI11 keeps and gives back: "use:word,word".
+// A check's name is the one thing that CLI11 keeps and gives back: a line for the use, then one for each word
+// with its help after a tab.
 constexpr std::array<std::string_view, 3> kUses = {"one of", "some of", "path or"};
 
-std::string check_name(WordUse use, const std::vector<std::string>& words) {
-  return fmt::format("{}:{}", kUses[static_cast<std::size_t>(use)], fmt::join(words, ","));
+std::string check_name(WordUse use, const std::vector<OptionWord>& words) {
+  std::string name(kUses[static_cast<std::size_t>(use)]);
+  for (const OptionWord& entry : words) name += "\n" + entry.word + "\t" + entry.help;
+  return name;
 }
 
 CLI::Validator anything(WordUse use, const std::vector<std::string>& words) {
-  return CLI::Validator([](std::string&) { return std::string(); }, "", check_name(use, words));
+  return CLI::Validator([](std::string&) { return std::string(); }, "",
+                        check_name(use, std::vector<OptionWord>(words.begin(), words.end())));
 }
 
-std::vector<std::string> split(std::string_view text) {
-  std::vector<std::string> words;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    words.emplace_back(text.substr(begin, end - begin));
+// "a\nb" -> "a" and "b".
+std::vector<std::string> lines_of(std::string_view text) {
+  std::vector<std::string> lines;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    lines.emplace_back(text.substr(begin, end - begin));
     begin = end + 1;
   }
-  return words;
+  return lines;
 }
 
 }  // namespace
 
-void take_one_of(CLI::Option& option, const std::vector<std::string>& words) {
+void take_one_of(CLI::Option& option, const std::vector<OptionWord>& entries) {
+  std::vector<std::string> words;
+  words.reserve(entries.size());
+  for (const OptionWord& entry : entries) words.push_back(entry.word);
   const auto check = [words](const std::string& word) -> std::string {
     if (std::find(words.begin(), words.end(), word) != words.end()) return {};
     return fmt::format("'{}' is none of {}{}", word, fmt::join(words, ", "),
                        did_you_mean(word, std::vector<std::string_view>(words.begin(), words.end())));
   };
   option.check(CLI::Validator([check](std::string& word) { return check(word); }, "",
-                              check_name(WordUse::kOneOf, words)));
+                              check_name(WordUse::kOneOf, entries)));
   option.type_name(fmt::format("{}", fmt::join(words, "|")));
 }
 
@@ -55,19 +63,20 @@ void take_path_or(CLI::Option& option, const std::vector<std::string>& words) {
 }
 
 std::optional<OptionWords> words_of(CLI::Option& option) {
-  std::string name;
+  std::vector<std::string> lines;
   try {
-    name = option.get_validator(0)->get_name();
+    lines = lines_of(option.get_validator(0)->get_name());
   } catch (const CLI::OptionNotFound&) {
     return std::nullopt;  // it has no check at all
   }
-  for (const WordUse use : {WordUse::kOneOf, WordUse::kSomeOf, WordUse::kPathOr}) {
-    const std::string_view prefix = kUses[static_cast<std::size_t>(use)];
-    if (name.starts_with(prefix) && name.substr(prefix.size(), 1) == ":") {
-      return OptionWords{use, split(std::string_view(name).substr(prefix.size() + 1))};
-    }
+  const auto use = std::find(kUses.begin(), kUses.end(), lines.front());
+  if (use == kUses.end()) return std::nullopt;
+  OptionWords result{static_cast<WordUse>(use - kUses.begin()), {}};
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const std::size_t tab = lines[i].find('\t');
+    result.words.emplace_back(lines[i].substr(0, tab), lines[i].substr(tab + 1));
   }
-  return std::nullopt;
+  return result;
 }
 
 }  // namespace pprt

@@ -1,5 +1,5 @@
-// The words that may stand behind an option, told once: they are checked, completed by the shell, and offered
-// for a misspelled one. Private to src/app: shows CLI11.
+// The words that an option takes, given once: they are checked, completed by the shell, and offered for a
+// misspelled one. Private to the programs: shows CLI11.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -7,27 +7,29 @@
 #include <string>
 #include <vector>
 
+#include "cli/option_table.h"
+
 namespace pprt {
 
-// Each is to be the option's first check.
+// Each of these three must be the option's first check.
 
-// One of the words; the label is made of them. What is none of them is refused.
-void take_one_of(CLI::Option& option, const std::vector<std::string>& words);
+// Takes one of the words, of which the label is made; refuses any other.
+void take_one_of(CLI::Option& option, const std::vector<OptionWord>& words);
 
-// Some of the words, with commas between them; who reads the list checks it.
+// Takes some of the words, with commas between them. Whoever reads the list checks it.
 void take_some_of(CLI::Option& option, const std::vector<std::string>& words);
 
-// A path, for which the words may stand in; whatever the shell has no word for is right.
+// Takes a path, in whose place the words may stand. Refuses nothing.
 void take_path_or(CLI::Option& option, const std::vector<std::string>& words);
 
 enum class WordUse { kOneOf, kSomeOf, kPathOr };
 
 struct OptionWords {
   WordUse use;
-  std::vector<std::string> words;
+  std::vector<OptionWord> words;
 };
 
-// What the above was told.
+// Returns what one of the functions above was given for the option.
 std::optional<OptionWords> words_of(CLI::Option& option);
 
 }  // namespace pprt

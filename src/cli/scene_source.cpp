@@ -65,6 +65,19 @@ std::vector<std::string> generated_scenes() {
   return names;
 }
 
+bool is_script_name(const std::string& name) {
+  return std::filesystem::path(name).extension() == ".anim";
+}
+
+std::string scene_of_script(const Animation& script, const std::string& script_path) {
+  if (!script.scene) {
+    throw UsageError("the script " + script_path +
+                     " names no scene: give one before it, or add 'scene \"...\"' to it");
+  }
+  if (is_spd_name(*script.scene)) return *script.scene;
+  return (std::filesystem::path(script_path).parent_path() / *script.scene).string();
+}
+
 ParsedScene load_scene(const std::string& name, const NffOptions& options) {
   if (is_spd_name(name)) return {make_spd_scene(name), {}};
   if (name != "-") require_file(name);

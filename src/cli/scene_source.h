@@ -1,26 +1,33 @@
-// Where a scene named on a command line comes from.
+// Scenes and scripts named on a command line.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "parser/nff_parser.h"
+#include "scene/animation.h"
 
 namespace pprt {
 
-// "spd:NAME[:SIZE]" is generated; anything else is an NFF file, "-" standard input.
+// Reads a scene: "spd:NAME[:SIZE]" is generated, "-" is NFF on standard input, anything else an NFF file.
 // Throws InputError: no such database or file, too large, or rejected by the parser.
 ParsedScene load_scene(const std::string& name, const NffOptions& options = {});
 
-// "spd:tree" and the like, of every database.
+// Whether the name is that of an animation script, FILE.anim.
+bool is_script_name(const std::string& name);
+
+// Returns the scene that a script names, for load_scene(). A file's path in a script is relative to the
+// script's directory. Throws UsageError when the script names none.
+std::string scene_of_script(const Animation& script, const std::string& script_path);
+
+// Returns "spd:NAME" for every database.
 std::vector<std::string> generated_scenes();
 
-// "; did you mean 'spd:teapot'?" for the name of a file that is not there: a file beside where it should be,
-// or a scene that is generated; or nothing.
+// Returns "; did you mean 'spd:teapot'?" for the name of a file that does not exist. Candidates are files in
+// its directory and generated scenes; empty when none is close.
 std::string hint_at_meant(const std::string& name);
 
-// Throws InputError when there is no such file, with what could have been meant: a file beside where it
-// should be, or a scene that is generated.
+// Throws InputError, with such a hint, when there is no such file.
 void require_file(const std::string& path);
 
 }  // namespace pprt

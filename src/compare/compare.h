@@ -5,15 +5,16 @@
 #include <optional>
 #include <string>
 
+#include "cli/number_pair.h"
 #include "image/metrics.h"
 
 namespace pprt {
 
 struct CompareOptions {
-  std::string image;        // a file, or a pattern of numbered files (image/frame_pattern.h)
-  std::string reference;    // of the same kind
-  std::string frames;       // of sequences, as --frames has it; empty: all that are there
-  double threshold = 0.01;  // pixel errors above it count for the share; 2.55 of 255 levels
+  std::string image;                 // a file, or a pattern of numbered files (image/frame_pattern.h)
+  std::string reference;             // of the same kind
+  std::optional<FrameRange> frames;  // of sequences; empty: all that are there
+  double threshold = 0.01;           // pixel errors above it count for the share; 2.55 of 255 levels
   double pixels_per_degree = kFlipPixelsPerDegree;
   bool clamp = false;              // measure on values clamped to the display range
   std::optional<double> max_rmse;  // limits: what is not given is not checked

@@ -4,6 +4,7 @@
 
 #include "cli/command_line.h"
 #include "cli/exit.h"
+#include "cli/typed_options.h"
 
 namespace {
 
@@ -17,7 +18,9 @@ void add_options(CLI::App& app, pprt::CompareOptions& options) {
       ->required()
       ->type_name("FILE");
   app.add_option("B", options.reference, "Reference picture or sequence")->required()->type_name("FILE");
-  app.add_option("--frames", options.frames, "Compare only frames A to B of the sequences")->type_name("A-B");
+  pprt::add_parsed(app, "--frames", pprt::parse_frame_range, options.frames,
+                   "Compare only frames A to B of the sequences")
+      .type_name("A-B");
   app.add_flag("--clamp", options.clamp, "Clamp values to 0..1 first, as a display does");
   app.add_option("--threshold", options.threshold, "Error above which a pixel counts for the share")
       ->capture_default_str()

@@ -42,8 +42,8 @@ std::vector<int> frames_of_both(const FramePattern& image, const FramePattern& r
 
 std::vector<int> frames_to_compare(const FramePattern& image, const FramePattern& reference,
                                    const CompareOptions& options) {
-  if (options.frames.empty()) return frames_of_both(image, reference, options);
-  const FrameRange range = parse_frame_range(options.frames);
+  if (!options.frames) return frames_of_both(image, reference, options);
+  const FrameRange range = *options.frames;
   std::vector<int> frames;
   for (int frame = range.first; frame <= range.last; ++frame) {
     for (const FramePattern* pattern : {&image, &reference}) {
@@ -56,7 +56,7 @@ std::vector<int> frames_to_compare(const FramePattern& image, const FramePattern
 }
 
 std::vector<PicturePair> single_pair(const CompareOptions& options) {
-  if (!options.frames.empty()) throw UsageError("--frames is for sequences such as out/%04d.png");
+  if (options.frames) throw UsageError("--frames is for sequences such as out/%04d.png");
   if (options.max_flicker) throw UsageError("--max-flicker is for sequences such as out/%04d.png");
   return {{options.image, options.reference, options.difference_picture, std::nullopt}};
 }

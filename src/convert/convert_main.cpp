@@ -5,6 +5,7 @@
 #include "cli/exit.h"
 #include "cli/option_words.h"
 #include "cli/scene_source.h"
+#include "cli/typed_options.h"
 #include "convert/convert.h"
 #include "convert/tessellate.h"
 
@@ -29,12 +30,7 @@ void add_options(CLI::App& app, pprt::ConvertOptions& options) {
       ->type_name("E")
       ->check(CLI::Range(std::numeric_limits<double>::min(), std::numeric_limits<double>::max(), "POSITIVE"))
       ->excludes(divisions);
-  auto* up = app.add_option_function<std::string>(
-      "--up",
-      [&options](const std::string& axis) { options.up = axis == "z" ? pprt::UpAxis::kZ : pprt::UpAxis::kY; },
-      "Up axis of an added camera");
-  up->default_str("y");
-  pprt::take_one_of(*up, {"y", "z"});
+  pprt::add_choice(app, "--up", options.up, "Up axis of an added camera");
   app.add_flag("--strict", options.strict, "Reject what the NFF specification does not allow");
 }
 

@@ -83,13 +83,17 @@ FramePattern parse_frame_pattern(std::string_view text, FrameCount count, std::s
   const std::filesystem::path name = file_name(pattern, 0);
   if (name.extension() != ".exr" && name.extension() != ".png")
     reader.fail("the name must end in .exr or .png");
-  if (count == FrameCount::kMany && !pattern.digits) {
-    const std::filesystem::path path(text);
-    reader.fail(
-        fmt::format("several frames need a field for the frame number, as in '{}'",
-                    (path.parent_path() / path.stem()).string() + "_%04d" + path.extension().string()));
-  }
+  pattern.text = text;
+  if (count == FrameCount::kMany) require_field(pattern, what);
   return pattern;
+}
+
+void require_field(const FramePattern& pattern, std::string_view what) {
+  if (pattern.digits) return;
+  const std::filesystem::path path(pattern.text);
+  throw UsageError(
+      fmt::format("{} '{}': several frames need a field for the frame number, as in '{}'", what, pattern.text,
+                  (path.parent_path() / path.stem()).string() + "_%04d" + path.extension().string()));
 }
 
 FramePattern beside(const FramePattern& pattern, std::string_view name) {

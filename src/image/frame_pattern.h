@@ -15,6 +15,7 @@ struct FramePattern {
   std::string before;
   std::optional<int> digits;  // minimum number; empty: no field, one name for every frame
   std::string after;
+  std::string text = {};  // as it was given, for messages
 };
 
 enum class FrameCount { kOne, kMany };
@@ -22,6 +23,9 @@ enum class FrameCount { kOne, kMany };
 // Parses a pattern that ends in .exr or .png; several frames need a field. `what` names the option in
 // messages. Throws UsageError with the problem and its remedy.
 FramePattern parse_frame_pattern(std::string_view text, FrameCount count, std::string_view what = "output");
+
+// Throws the same UsageError for a pattern without a field, once it is known that there are several frames.
+void require_field(const FramePattern& pattern, std::string_view what = "output");
 
 // Returns the pattern of a further picture of each frame: "out/%04d.depth.png" for "out/%04d.png".
 FramePattern beside(const FramePattern& pattern, std::string_view name);

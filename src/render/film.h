@@ -1,4 +1,4 @@
-// The frames of a run as a film, which ffmpeg makes.
+// The frames of a run as a film, made by ffmpeg.
 #pragma once
 
 #include <filesystem>
@@ -9,13 +9,13 @@ namespace pprt {
 // Throws UsageError unless the name ends in .mp4 or .mkv.
 void require_film_name(const std::filesystem::path& film);
 
-// Throws std::runtime_error, which says what to install, when there is no ffmpeg on the PATH.
+// Throws std::runtime_error with the package to install when there is no ffmpeg on the PATH.
 void require_ffmpeg();
 
-// H.264 of what a PNG of each picture shows; an odd width or height gets a black line. Missing directories
-// are made, and a film that has its name is whole. Throws std::runtime_error: a picture that cannot be read
-// or has another size than the first, or "cannot write 'FILM': ...", what ffmpeg says of it being on standard
-// error.
+// Writes the pictures as H.264, each as its PNG shows it. An odd width or height gets a black line. Missing
+// directories are made; a film that has its name is whole. Throws std::runtime_error: a picture that cannot
+// be read or has another size than the first, or "cannot write 'FILM': ...". What ffmpeg says goes to
+// standard error.
 void write_film(const std::filesystem::path& film, const std::vector<std::filesystem::path>& pictures,
                 double frames_per_second);
 

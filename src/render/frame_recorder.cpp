@@ -14,13 +14,14 @@
 namespace pprt {
 namespace {
 
-std::string names_of(const RenderOptions& options) {
+// "a/%04d.png and b/#.exr"
+std::string names_of(const std::vector<FramePattern>& pictures) {
   std::string names;
-  for (const std::string& output : options.outputs) names += (names.empty() ? "" : " and ") + output;
-  return names.empty() ? kDefaultOutput : names;
+  for (const FramePattern& picture : pictures) names += (names.empty() ? "" : " and ") + picture.text;
+  return names;
 }
 
-// The record's entries as a header's: nested ones become "rays.primary" and the like, lists text.
+// Appends the record's entries: nested ones as "rays.primary" and the like, lists as text.
 void append_facts(Metadata& facts, const std::string& prefix, const Json& record) {
   for (const auto& [key, value] : record.items()) {
     const std::string name = prefix + "." + key;
@@ -48,9 +49,9 @@ Metadata header_facts(Json record) {
 }
 
 std::set<int> frames_in(const Manifest& manifest, const RenderPlan& plan) {
-  const std::vector<FramePattern> files = files_of_a_frame(plan);
+  const std::vector<FramePattern> files = files_of_a_frame(plan.output);
   std::vector<std::string> layers;
-  for (const Layer layer : plan.layers) layers.emplace_back(name_of(layer));
+  for (const Layer layer : plan.output.layers) layers.emplace_back(name_of(layer));
   std::set<int> frames;
   for (const PlannedFrame& frame : plan.frames) {
     if (manifest.has(frame.number, files, layers)) frames.insert(frame.number);
@@ -58,57 +59,57 @@ std::set<int> frames_in(const Manifest& manifest, const RenderPlan& plan) {
   return frames;
 }
 
-void require_new_files(const RenderOptions& options, const RenderPlan& plan) {
-  if (options.overwrite || options.resume) return;
+void require_new_files(const RenderPlan& plan) {
+  if (plan.output.existing != ExistingFiles::kRefuse) return;
   std::vector<std::filesystem::path> files;
   for (const PlannedFrame& frame : plan.frames) {
-    for (const FramePattern& file : files_of_a_frame(plan)) files.push_back(file_name(file, frame.number));
+    for (const FramePattern& file : files_of_a_frame(plan.output)) {
+      files.push_back(file_name(file, frame.number));
+    }
   }
-  if (!options.contact_sheet.empty()) files.emplace_back(options.contact_sheet);
-  if (!options.film.empty()) files.emplace_back(options.film);
+  for (const std::filesystem::path& file : {plan.output.contact_sheet, plan.output.film}) {
+    if (!file.empty()) files.push_back(file);
+  }
   for (const std::filesystem::path& file : files) {
     if (!std::filesystem::exists(file)) continue;
     throw UsageError(file.string() + " is there already; --overwrite replaces it, --resume goes on after it");
   }
 }
 
+bool resumes(const RenderPlan& plan) {
+  return plan.output.existing == ExistingFiles::kResume;
+}
+
 void require_references(const RenderPlan& plan) {
-  if (!plan.reference) return;
+  if (!plan.report.reference) return;
   for (const PlannedFrame& frame : plan.frames) {
-    const std::filesystem::path file = file_name(*plan.reference, frame.number);
+    const std::filesystem::path file = file_name(*plan.report.reference, frame.number);
     if (!std::filesystem::exists(file)) throw UsageError("--reference: there is no " + file.string());
   }
 }
 
 }  // namespace
 
-void check_files(const RenderOptions& options, const RenderPlan& plan) {
-  require_new_files(options, plan);
+void check_files(const RenderPlan& plan) {
+  require_new_files(plan);
   require_references(plan);
-  if (!options.film.empty()) require_ffmpeg();
+  if (!plan.output.film.empty()) require_ffmpeg();
 }
 
-FrameRecorder::FrameRecorder(const RenderOptions& options, const RenderPlan& plan, const CompiledScene& scene,
-                             const std::string& key, const Json& run, Progress& progress)
-    : scene_(scene),
-      has_rate_(plan.settings.frames_per_second > 0),
-      where_(names_of(options)),
-      contact_sheet_(options.contact_sheet),
-      film_(options.film),
-      film_rate_(plan.film_rate),
-      first_output_(plan.outputs.front()),
-      layers_(plan.layers),
-      reference_(plan.reference),
-      ledger_(options.stats, options.resume),
-      manifest_(manifest_path(plan.outputs.front()), key, options.resume),
+FrameRecorder::FrameRecorder(const RenderPlan& plan, const CompiledScene& scene, const std::string& key,
+                             const Json& run, ProgressReporter& progress)
+    : plan_(plan),
+      scene_(scene),
+      ledger_(plan.report.ledger, resumes(plan)),
+      manifest_(manifest_path(plan.output.pictures.front()), key, resumes(plan)),
       finished_before_(frames_in(manifest_, plan)),
       written_(finished_before_),
-      writer_(plan.outputs, {.overwrite = true}),
+      writer_(plan.output.pictures, {.overwrite = true}),
       progress_(progress) {
   progress_.begin({.frames = static_cast<int>(plan.frames.size()),
-                   .there = static_cast<int>(finished_before_.size()),
+                   .finished_before = static_cast<int>(finished_before_.size()),
                    .frames_per_second = plan.settings.frames_per_second});
-  if (options.compare_serial) serial_.emplace(scene, plan.settings);
+  if (plan.report.compare_serial) serial_.emplace(scene, plan.settings);
   ledger_.write(run);
 }
 
@@ -134,10 +135,10 @@ void FrameRecorder::status() const {
 
 // Made on the writer's thread, which asks a tracer of its own.
 LayerMaker FrameRecorder::layers_of(FinishedFrame& frame) const {
-  if (layers_.empty()) return {};
+  if (plan_.output.layers.empty()) return {};
   const int ranks = static_cast<int>(frame.ranks.size());
   return layer_maker(
-      layers_,
+      plan_.output.layers,
       {frame.order.number, tile_grid_for(frame.image.width, frame.image.height, ranks),
        std::move(frame.owners), std::move(frame.samples),
        [tracer = Tracer(scene_, frame.order.camera)](double x, double y) { return tracer.first_hit(x, y); }});
@@ -145,15 +146,21 @@ LayerMaker FrameRecorder::layers_of(FinishedFrame& frame) const {
 
 std::vector<Measurement> FrameRecorder::measurements_of(const FinishedFrame& frame) {
   std::vector<Measurement> measurements;
-  if (reference_) {
-    const auto measure = [image = frame.image, path = file_name(*reference_, frame.order.number)] {
+  if (const std::optional<FramePattern>& reference = plan_.report.reference) {
+    const auto measure = [image = frame.image, path = file_name(*reference, frame.order.number)] {
       return difference(image, read_image(path), 0).rmse;
     };
-    measurements.push_back({"rmse", "--reference", false, std::async(std::launch::async, measure)});
+    measurements.push_back({.key = "rmse",
+                            .option = "--reference",
+                            .may_lag = false,
+                            .value = std::async(std::launch::async, measure)});
   }
   if (serial_ && !frame.samples.empty()) {  // none have come when all ranks are late
-    measurements.push_back({"distance_to_serial", "--compare-serial", true,
-                            serial_->distance(frame.order.number, frame.order.camera, frame.samples)});
+    measurements.push_back(
+        {.key = "distance_to_serial",
+         .option = "--compare-serial",
+         .may_lag = true,
+         .value = serial_->distance(frame.order.number, frame.order.camera, frame.samples)});
   }
   return measurements;
 }
@@ -166,23 +173,26 @@ void FrameRecorder::note_written(const std::vector<WrittenFrame>& frames) {
 // From the files, when all are written: the frame loop is not delayed, and one picture of full size is held
 // at a time.
 void FrameRecorder::write_contact_sheet() const {
-  if (contact_sheet_.empty() || written_.empty()) return;
+  const std::filesystem::path& sheet = plan_.output.contact_sheet;
+  if (sheet.empty() || written_.empty()) return;
   const ContactSheetLayout layout;
   std::vector<Image> thumbnails;
   for (const int frame : written_) {
-    thumbnails.push_back(thumbnail(read_image(file_name(first_output_, frame)), layout.thumbnail_width));
+    const Image picture = read_image(file_name(plan_.output.pictures.front(), frame));
+    thumbnails.push_back(thumbnail(picture, layout.thumbnail_width));
   }
-  write_image(contact_sheet_, contact_sheet(thumbnails, layout));
+  write_image(sheet, contact_sheet(thumbnails, layout));
 }
 
 void FrameRecorder::make_film() const {
-  if (film_.empty() || written_.empty()) return;
+  if (plan_.output.film.empty() || written_.empty()) return;
   std::vector<std::filesystem::path> pictures;
-  for (const int frame : written_) pictures.push_back(file_name(first_output_, frame));
-  write_film(film_, pictures, film_rate_);
+  for (const int frame : written_) pictures.push_back(file_name(plan_.output.pictures.front(), frame));
+  write_film(plan_.output.film, pictures, plan_.output.film_rate);
 }
 
 void FrameRecorder::finish(bool stopped) {
+  const std::string where = names_of(plan_.output.pictures);
   try {
     writer_.finish();
     note_written(writer_.take_finished());
@@ -190,13 +200,13 @@ void FrameRecorder::finish(bool stopped) {
     make_film();
     if (serial_) serial_->catch_up();
     ledger_.finish();
-    ledger_.write(summary_record(totals_, has_rate_));
+    ledger_.write(summary_record(totals_, plan_.settings.frames_per_second > 0));
   } catch (...) {
     note_written(writer_.take_finished());
-    progress_.finish("failed", totals_, where_);
+    progress_.finish(RunEnd::kFailed, totals_, where);
     throw;
   }
-  progress_.finish(stopped ? "stopped" : "done", totals_, where_);
+  progress_.finish(stopped ? RunEnd::kStopped : RunEnd::kDone, totals_, where);
 }
 
 }  // namespace pprt

@@ -1,8 +1,7 @@
-// Where finished frames go: files, manifest, ledger, progress. All but the bookkeeping happens beside the
-// frame loop.
+// Where finished frames go: files, manifest, ledger, progress. Only the bookkeeping delays the frame loop;
+// the rest happens in threads of its own.
 #pragma once
 
-#include <filesystem>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -20,23 +19,25 @@ namespace pprt {
 
 class FrameRecorder {
  public:
-  // `key` stands for scene and options in the manifest; `run` is the ledger's first record.
-  // Scene and progress must outlive the recorder.
-  FrameRecorder(const RenderOptions& options, const RenderPlan& plan, const CompiledScene& scene,
-                const std::string& key, const Json& run, Progress& progress);
+  // `key` stands for scene and options in the manifest (run_key()); `run` is the ledger's first record. Plan,
+  // scene and progress must outlive the recorder.
+  FrameRecorder(const RenderPlan& plan, const CompiledScene& scene, const std::string& key, const Json& run,
+                ProgressReporter& progress);
 
   // Whether an earlier run has finished the frame (--resume).
   bool finished_before(int frame) const { return finished_before_.count(frame) != 0; }
 
   void record(FinishedFrame&& frame);
 
-  // Whether going on serves nothing: a frame could not be written.
+  // Whether a frame could not be written, so that going on serves nothing.
   bool failed() const { return writer_.error().has_value(); }
 
-  void status() const;  // from any thread
+  // Prints a line of status; may be called from any thread.
+  void status() const;
+
   const RunTotals& totals() const { return totals_; }
 
-  // Waits for the last file, writes contact sheet, film and summary; throws what kept a frame from being
+  // Waits for the last file, then writes contact sheet, film and summary. Throws what kept a frame from being
   // written.
   void finish(bool stopped);
 
@@ -47,15 +48,8 @@ class FrameRecorder {
   void write_contact_sheet() const;
   void make_film() const;
 
+  const RenderPlan& plan_;
   const CompiledScene& scene_;
-  bool has_rate_;
-  std::string where_;
-  std::filesystem::path contact_sheet_;  // empty: none
-  std::filesystem::path film_;           // empty: none
-  double film_rate_;                     // frames/s
-  FramePattern first_output_;
-  std::vector<Layer> layers_;
-  std::optional<FramePattern> reference_;
   std::optional<SerialComparison> serial_;
   Ledger ledger_;  // before the manifest, which must stand as it was when no ledger can be written
   Manifest manifest_;
@@ -63,12 +57,12 @@ class FrameRecorder {
   std::set<int> written_;  // frames whose files are whole, those of earlier runs too
   FrameWriter writer_;
   mutable std::mutex mutex_;  // guards what follows
-  Progress& progress_;
+  ProgressReporter& progress_;
   RunTotals totals_;
 };
 
-// Throws UsageError when an output is there already and may not be replaced, or a reference is not there, and
+// Throws UsageError when a file exists that may not be replaced, or a reference does not exist. Throws
 // std::runtime_error when a film is wanted and there is no ffmpeg.
-void check_files(const RenderOptions& options, const RenderPlan& plan);
+void check_files(const RenderPlan& plan);
 
 }  // namespace pprt

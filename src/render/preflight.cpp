@@ -25,13 +25,13 @@ Level level_of(const Color& color) {
 
 // What rays have found so far.
 struct Seen {
-  bool object = false;      // any at all
-  bool stands_out = false;  // some colour that is not the background's
+  bool object = false;      // any object
+  bool stands_out = false;  // a colour that is not the background's
   bool varied = false;      // two colours in one picture
 };
 
-// Through the middles of the picture's parts, as many a side as asked for but no more than there are pixels,
-// until two colours have been seen.
+// Traces side x side rays through the middles of equal parts of the picture, no more than it has pixels.
+// Stops when two colours have been seen.
 void look(Tracer& tracer, const View& view, int side, const Level& background, Seen& seen) {
   const int columns = std::min(side, view.width), rows = std::min(side, view.height);
   std::optional<Level> first;
@@ -66,8 +66,8 @@ Seen look_at_frames(const RenderPlan& plan, const CompiledScene& scene) {
   return seen;
 }
 
-// Where the corners of the objects' boxes lie: a box that lies wholly on the wrong side of the eye, or of one
-// side of the image, cannot be seen.
+// Where the bounding boxes of the objects lie. A box wholly behind the eye, or wholly beyond one side of the
+// image, cannot be seen.
 struct Whereabouts {
   bool before_the_eye = false;
   bool in_view = false;
@@ -121,7 +121,7 @@ std::string why_nothing_is_seen(const RenderPlan& plan, const Seen& seen) {
 
 }  // namespace
 
-std::string check_outlook(const RenderPlan& plan, const CompiledScene& scene) {
+std::string preflight(const RenderPlan& plan, const CompiledScene& scene) {
   const Seen seen = look_at_frames(plan, scene);
   const std::string& name = plan.scene.name;
   const std::string frames = plan.script_frames.size() > 1 ? " in any frame" : "";

@@ -1,5 +1,4 @@
-// What the frames of a run will show, found by some rays before anything is written: a run that would end
-// well with empty pictures does not begin.
+// A few rays before a run: one that would end well with empty pictures does not begin.
 #pragma once
 
 #include <string>
@@ -9,11 +8,12 @@
 
 namespace pprt {
 
-// Judges all frames of the script together, for one of them may well look at the sky: at first by 16 x 16
-// rays a frame, which is enough nearly always, at last by a ray through the middle of every pixel, but no
-// more than some four million in all. Throws InputError with the reason when no frame shows anything that
-// stands out from the background. Returns a warning when every frame shows one colour throughout, and when
-// there is no light; otherwise "".
-std::string check_outlook(const RenderPlan& plan, const CompiledScene& scene);
+// Judges all frames of the script together, as one of them may look at the sky. Traces 16 x 16 rays a frame,
+// which nearly always is enough. Otherwise traces a ray through the middle of every pixel, but at most about
+// four million in all.
+//
+// Throws InputError with the reason when no frame shows anything that differs from the background. Returns
+// warnings, each a line: the scene has no light; every frame shows one colour throughout.
+std::string preflight(const RenderPlan& plan, const CompiledScene& scene);
 
 }  // namespace pprt

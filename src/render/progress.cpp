@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "cli/exit.h"
@@ -37,18 +35,12 @@ std::string minutes(double seconds) {
   return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
-constexpr std::array<std::string_view, 3> kEnds = {"done", "stopped", "failed"};
-
-std::string head_of_end(std::string_view event) {
-  return fmt::format("{{\"event\":\"{}\"", event);
+// How the JSON object for the end begins.
+std::string head_of(RunEnd end) {
+  return fmt::format("{{\"event\":\"{}\"", word_for(end));
 }
 
 }  // namespace
-
-ProgressKind progress_kind(const std::string& word) {
-  if (word == "tty" || (word == "auto" && on_terminal())) return ProgressKind::kTty;
-  return word == "json" ? ProgressKind::kJson : ProgressKind::kNone;
-}
 
 void Pace::frame(Time when) {
   last_ = when;
@@ -66,13 +58,18 @@ double Pace::seconds_for(int frames) const {
   return rate > 0 ? frames / rate : 0;
 }
 
-void Progress::begin(const ProgressPlan& plan) {
-  plan_ = plan;
+ProgressReporter::ProgressReporter(ProgressKind kind) : kind_(kind) {
+  if (kind == ProgressKind::kAuto && on_terminal()) kind_ = ProgressKind::kTty;
+  if (launcher_rank() != 0) kind_ = ProgressKind::kNone;
+}
+
+void ProgressReporter::begin(const RunScope& scope) {
+  scope_ = scope;
   begun_ = true;
   pace_ = Pace(std::chrono::steady_clock::now());
 }
 
-void Progress::frame_done(const FrameSummary& frame, const RunTotals& totals) {
+void ProgressReporter::frame_done(const FrameSummary& frame, const RunTotals& totals) {
   done_ = totals.frames();
   pace_.frame(std::chrono::steady_clock::now());
   if (kind_ == ProgressKind::kTty) fmt::print(stderr, "{}{}{}", kOverLine, line(totals), kLineEnd);
@@ -80,84 +77,86 @@ void Progress::frame_done(const FrameSummary& frame, const RunTotals& totals) {
   const Json record = {{"event", "frame"},
                        {"frame", frame.number},
                        {"done", done_},
-                       {"there", plan_.there},
-                       {"frames", plan_.frames},
+                       {"there", scope_.finished_before},
+                       {"frames", scope_.frames},
                        {"on_time", totals.on_time()},
                        {"late_ms", frame.late_ms},
                        {"worst_late_ms", totals.worst_late_ms()},
                        {"samples_per_frame", totals.samples_per_frame()},
                        {"frames_per_second", pace_.frames_per_second()},
-                       {"seconds_left", pace_.seconds_for(plan_.frames - plan_.there - done_)}};
+                       {"seconds_left", pace_.seconds_for(frames_left())}};
   fmt::print(stderr, "{}\n", record.dump());
 }
 
-void Progress::status(const RunTotals& totals) const {
+void ProgressReporter::status(const RunTotals& totals) const {
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
   const char* over_line = kind_ == ProgressKind::kTty ? "\r\033[K" : "";
   fmt::print(stderr, "{}{}  {:.1f} s elapsed\n", over_line, line(totals), elapsed.count());
 }
 
-void Progress::finish(const std::string& event, const RunTotals& totals, const std::string& where) {
+void ProgressReporter::finish(RunEnd end, const RunTotals& totals, const std::string& where) {
   if (kind_ == ProgressKind::kTty && totals.frames() > 0) fmt::print(stderr, "\r\033[K");
-  if (quiet_ || kind_ == ProgressKind::kJson) return;
-  const std::string there = plan_.there > 0 ? fmt::format(" ({} were there already)", plan_.there) : "";
-  std::string text = fmt::format("{}: {} of {} frame{}{} in {}", event, totals.frames(), plan_.frames,
-                                 plan_.frames == 1 ? "" : "s", there, where);
+  if (kind_ == ProgressKind::kNone || kind_ == ProgressKind::kJson) return;
+  const std::string there =
+      scope_.finished_before > 0 ? fmt::format(" ({} were there already)", scope_.finished_before) : "";
+  std::string text = fmt::format("{}: {} of {} frame{}{} in {}", word_for(end), totals.frames(),
+                                 scope_.frames, scope_.frames == 1 ? "" : "s", there, where);
   if (totals.frames() > 0) {
-    if (plan_.frames_per_second > 0) {
+    if (scope_.frames_per_second > 0) {
       text += fmt::format("; {} on time at {:g} frames/s, the slowest {}", totals.on_time(),
-                          plan_.frames_per_second, lateness(totals.worst_late_ms()));
+                          scope_.frames_per_second, lateness(totals.worst_late_ms()));
     }
     text += fmt::format("; {} samples a frame", grouped(totals.samples_per_frame()));
   }
   fmt::print(stderr, "{}\n", text);
 }
 
-void Progress::fail(const std::string& why) {
-  tell_end("failed", why);
+void ProgressReporter::fail(const std::string& why) {
+  print_end(RunEnd::kFailed, why);
 }
 
-void Progress::close(int exit_code) {
-  tell_end(exit_code == kExitDone ? "done" : exit_code > 128 ? "stopped" : "failed", "");
+void ProgressReporter::close(int exit_code) {
+  const bool by_signal = exit_code > 128;
+  print_end(exit_code == kExitDone ? RunEnd::kDone : by_signal ? RunEnd::kStopped : RunEnd::kFailed, "");
 }
 
-void Progress::tell_end(const std::string& event, const std::string& why) {
-  if (kind_ != ProgressKind::kJson || ended_) return;
-  ended_ = true;
-  Json record = {{"event", event}};
+void ProgressReporter::print_end(RunEnd end, const std::string& why) {
+  if (kind_ != ProgressKind::kJson || end_printed_) return;
+  end_printed_ = true;
+  Json record = {{"event", word_for(end)}};
   if (begun_) {
     record["done"] = done_;
-    record["there"] = plan_.there;
-    record["frames"] = plan_.frames;
+    record["there"] = scope_.finished_before;
+    record["frames"] = scope_.frames;
   }
   if (!why.empty()) record["error"] = why;
   fmt::print(stderr, "{}\n", record.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
-void Progress::overhear(std::string_view text) {
-  if (kind_ != ProgressKind::kJson || ended_) return;
+void ProgressReporter::overhear(std::string_view text) {
+  if (kind_ != ProgressKind::kJson || end_printed_) return;
   overheard_ += text;
-  ended_ = std::any_of(kEnds.begin(), kEnds.end(), [&](std::string_view event) {
-    return overheard_.find(head_of_end(event)) != std::string::npos;
-  });
+  for (const Word<RunEnd>& end : kWords<RunEnd>) {
+    if (overheard_.find(head_of(end.value)) != std::string::npos) end_printed_ = true;
+  }
   constexpr std::size_t kLongestHead = 32;
   if (overheard_.size() > kLongestHead) overheard_.erase(0, overheard_.size() - kLongestHead);
 }
 
-std::string Progress::line(const RunTotals& totals) const {
-  std::string text = fmt::format("frame {} of {}", plan_.there + totals.frames(), plan_.frames);
+std::string ProgressReporter::line(const RunTotals& totals) const {
+  std::string text = fmt::format("frame {} of {}", scope_.finished_before + totals.frames(), scope_.frames);
   if (totals.frames() == 0) return text;
   const double per_second = pace_.frames_per_second();
   const std::string rate = fmt::format("{:.{}f}", per_second, per_second < 10 ? 2 : per_second < 100 ? 1 : 0);
-  if (plan_.frames_per_second > 0) {
+  if (scope_.frames_per_second > 0) {
     const double worst = totals.worst_late_ms();
-    text += fmt::format("  {} of {:g}/s", rate, plan_.frames_per_second);
+    text += fmt::format("  {} of {:g}/s", rate, scope_.frames_per_second);
     text += fmt::format("  worst {:.0f} ms {}", std::abs(worst), worst > 0 ? "late" : "early");
   } else {
     text += fmt::format("  {}/s", rate);
   }
   text += fmt::format("  {} samples a frame", grouped(totals.samples_per_frame()));
-  return text + fmt::format("  {} left", minutes(pace_.seconds_for(plan_.frames - plan_.there - done_)));
+  return text + fmt::format("  {} left", minutes(pace_.seconds_for(frames_left())));
 }
 
 }  // namespace pprt

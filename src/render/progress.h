@@ -1,20 +1,42 @@
-// What people, and programs that watch, are told on standard error while frames are made.
+// Progress of a run on standard error, for people and for programs that watch.
 #pragma once
 
 #include <chrono>
 #include <string>
 #include <string_view>
 
+#include "base/words.h"
 #include "render/frame_summary.h"
 
 namespace pprt {
 
-enum class ProgressKind { kTty, kJson, kNone };
+enum class ProgressKind {
+  kAuto,  // kTty on a terminal, otherwise the summary at the end alone
+  kTty,
+  kJson,
+  kNone
+};
 
-// "auto" is kTty on a terminal and otherwise kNone, which still tells the summary at the end.
-ProgressKind progress_kind(const std::string& word);
+template <>
+inline constexpr std::array<Word<ProgressKind>, 4> kWords<ProgressKind>{{
+    {ProgressKind::kAuto, "auto", "tty on a terminal"},
+    {ProgressKind::kTty, "tty", "one line that is rewritten"},
+    {ProgressKind::kJson, "json", "a JSON object for each frame"},
+    {ProgressKind::kNone, "none", "nothing"},
+}};
 
-// How fast frames come. The first one says little: ranks find each other in it, and nothing is carried over.
+// How a run ended.
+enum class RunEnd { kDone, kStopped, kFailed };
+
+template <>
+inline constexpr std::array<Word<RunEnd>, 3> kWords<RunEnd>{{
+    {RunEnd::kDone, "done", "all frames are written"},
+    {RunEnd::kStopped, "stopped", "ended early by a signal"},
+    {RunEnd::kFailed, "failed", "ended by an error"},
+}};
+
+// Measures how fast frames come. The first one says little: in it ranks find each other, and nothing is
+// carried over.
 class Pace {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -22,51 +44,56 @@ class Pace {
   explicit Pace(Time begin) : begin_(begin), first_(begin), last_(begin) {}
   void frame(Time when);
 
-  // Since the first frame, or with one alone since the beginning; 0 before it.
+  // Mean since the first frame; with one frame, since the beginning; 0 before it.
   double frames_per_second() const;
-  double seconds_for(int frames) const;  // to come
+
+  // Seconds that this many more frames will take at that rate.
+  double seconds_for(int frames) const;
 
  private:
-  Time begin_, first_, last_;  // the latter of the frames so far
+  Time begin_, first_, last_;  // the latter two: of the frames so far
   int frames_ = 0;
 };
 
-struct ProgressPlan {
+// What a run sets out to do.
+struct RunScope {
   int frames = 0;                // to make in all
-  int there = 0;                 // of which an earlier run has finished so many
+  int finished_before = 0;       // of these, by an earlier run
   double frames_per_second = 0;  // asked for; 0: no rate
 };
 
-// Of one run. What kJson prints ends with one object that tells the end, however the run ends.
-class Progress {
+// Reports one run; of the ranks of an MPI launcher only the first prints anything. With kJson the last object
+// printed names the end, however the run ends.
+class ProgressReporter {
  public:
-  // `quiet`: not even the summary.
-  Progress(ProgressKind kind, bool quiet) : kind_(kind), quiet_(quiet) {}
+  explicit ProgressReporter(ProgressKind kind);
 
-  void begin(const ProgressPlan& plan);
+  void begin(const RunScope& scope);
   void frame_done(const FrameSummary& frame, const RunTotals& totals);
-  void status(const RunTotals& totals) const;  // one line with the time elapsed, asked for by a signal
 
-  // The summary, for people, of a run that is "done", "stopped" or "failed"; `where` the frames are.
-  void finish(const std::string& event, const RunTotals& totals, const std::string& where);
+  // Prints one line with the time elapsed, when a signal asks for it.
+  void status(const RunTotals& totals) const;
 
-  // The end of the run, unless it has been told: why it failed, or by its exit code.
+  // Prints the summary for people. `where`: the frames' file names.
+  void finish(RunEnd end, const RunTotals& totals, const std::string& where);
+
+  // Print the JSON object for the end, unless it has been printed: for an error, or for an exit code.
   void fail(const std::string& why);
   void close(int exit_code);
 
-  // Other processes' words pass by here on their way to standard error; they may have told the end.
+  // Watches what other processes print on standard error, which may hold the JSON object for the end.
   void overhear(std::string_view text);
 
  private:
   std::string line(const RunTotals& totals) const;
-  void tell_end(const std::string& event, const std::string& why);
+  int frames_left() const { return scope_.frames - scope_.finished_before - done_; }
+  void print_end(RunEnd end, const std::string& why);
 
   ProgressKind kind_;
-  bool quiet_;
-  ProgressPlan plan_;
+  RunScope scope_;
   int done_ = 0;
   bool begun_ = false;
-  bool ended_ = false;     // and told so
+  bool end_printed_ = false;
   std::string overheard_;  // the last of it, which may go on
   Pace pace_{std::chrono::steady_clock::now()};
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();

@@ -1,8 +1,29 @@
-#include <algorithm>
+#include <iostream>
 
+#include "base/diagnostics.h"
 #include "cli/command_line.h"
 #include "cli/exit.h"
+#include "cli/launch.h"
 #include "render/render.h"
+#include "render/render_plan.h"
+
+namespace {
+
+// False: nothing is left to do. A usage error is also reported as --progress json wants it.
+bool read_options(CLI::App& app, pprt::RenderOptions& options, int argc, char** argv) {
+  try {
+    if (!pprt::parse_command_line(app, pprt::with_long_np(argc, argv))) return false;
+    pprt::check_usage(options);
+  } catch (const pprt::UsageError& e) {
+    pprt::ProgressReporter(options.progress).fail(e.what());
+    throw;
+  }
+  if (!options.write_config) return true;
+  if (pprt::launcher_rank() == 0) std::cout << pprt::options_in_force(app);
+  return false;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   return pprt::run_guarded("pprt-render", [&]() -> int {
@@ -12,8 +33,7 @@ int main(int argc, char** argv) {
     pprt::RenderOptions options;
     pprt::add_render_options(app, options);
     pprt::add_common_flags(app);
-    std::vector<std::string> words = pprt::with_long_np(argc, argv);
-    if (!pprt::parse_command_line(app, words)) return pprt::kExitDone;
-    return pprt::render(options, pprt::options_in_force(app), argc, argv);
+    if (!read_options(app, options, argc, argv)) return pprt::kExitDone;
+    return pprt::render(options, argc, argv);
   });
 }

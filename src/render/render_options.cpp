@@ -1,5 +1,8 @@
 #include "render/render_options.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <charconv>
 #include <cstdint>
 #include <cstdio>
@@ -7,8 +10,8 @@
 #include <system_error>
 
 #include "cli/command_line.h"
-#include "cli/option_words.h"
 #include "cli/scene_source.h"
+#include "cli/typed_options.h"
 #include "layers/layer.h"
 #include "trace/effects.h"
 
@@ -42,17 +45,29 @@ CLI::Validator count_from(std::uint64_t least, std::uint64_t most = ~std::uint64
       "");
 }
 
-std::vector<std::string> layer_words() {
-  std::vector<std::string> words = {"all"};
+std::vector<std::string> every_layer() {
+  std::vector<std::string> words;
   for (const Layer layer : kAllLayers) words.emplace_back(name_of(layer));
   return words;
 }
 
-std::vector<std::string> effect_words() {
-  std::vector<std::string> words = {"auto", "all", "none"};
+std::vector<std::string> every_effect_word() {
+  std::vector<std::string> words;
   for (const Effect effect : every_effect()) words.emplace_back(name(effect));
   return words;
 }
+
+std::string list_of(const std::vector<std::string>& words) {
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+std::vector<std::string> and_also(std::vector<std::string> first, const std::vector<std::string>& rest) {
+  first.insert(first.end(), rest.begin(), rest.end());
+  return first;
+}
+
+// The heading in the help of three functions' options.
+constexpr const char* kRun = "Run";
 
 void add_positionals(CLI::App& app, RenderOptions& o) {
   auto* scene = app.add_option(
@@ -66,87 +81,92 @@ void add_positionals(CLI::App& app, RenderOptions& o) {
 }
 
 void add_run_options(CLI::App& app, RenderOptions& o) {
-  const std::string group = "Run";
   app.add_option("--np", o.ranks,
                  "Number of ranks (also -np N, as in mpirun); starts mpirun if more than one")
       ->check(count_from(1, 4096))
       ->capture_default_str()
       ->type_name("N")
-      ->group(group);
+      ->group(kRun);
   app.add_option("--hostfile", o.hostfile, "Hosts to run on, passed to mpirun")
       ->type_name("FILE")
-      ->group(group);
+      ->group(kRun);
   app.add_option("--fps", o.fps,
                  "Frame rate, which gives every frame a deadline; 0: none (default: the script's)")
       ->check(number_between(0, 1000))
       ->type_name("F")
-      ->group(group);
-  auto* clock = app.add_option("--clock", o.clock,
-                               "Real time, or counted work: the same result on any machine under any load");
-  clock->capture_default_str()->group(group);
-  take_one_of(*clock, {"wall", "work"});
+      ->group(kRun);
+  add_choice(app, "--clock", o.clock,
+             "Real time, or counted work: the same result on any machine under any load")
+      .group(kRun);
   app.add_option("--budget", o.budget,
                  "Work units for each rank and frame, with --clock work (default: 50000000 / fps)")
       ->check(count_from(1))
       ->type_name("N")
-      ->group(group);
+      ->group(kRun);
+}
+
+void add_stop_rules(CLI::App& app, RenderOptions& o) {
   app.add_option("--time", o.time, "Without a rate: stop a frame after S seconds")
       ->check(number_between(1e-3, 1e9))
       ->type_name("S")
-      ->group(group);
+      ->group(kRun);
   app.add_option("--samples", o.samples, "Without a rate: stop a frame at N samples")
       ->check(count_from(1))
       ->type_name("N")
-      ->group(group);
+      ->group(kRun);
   app.add_option("--quality", o.quality,
                  "Without a rate: stop a frame at a mean triangle weight of Q (default: 0.005)")
       ->check(number_between(1e-12, 1e12))
       ->type_name("Q")
-      ->group(group);
-  auto* balance = app.add_option("--balance", o.balance, "How ranks share the load");
-  balance->capture_default_str()->group(group);
-  take_one_of(*balance, {"none", "local", "global", "combined"});
-  auto* cast = app.add_option("--cast", o.cast, "Which samples are carried to the next frame");
-  cast->capture_default_str()->group(group);
-  take_one_of(*cast, {"off", "paper", "verified", "auto"});
-  auto* keep = app.add_option("--keep-samples", o.keep_samples, "Keep carried samples at a repartition");
-  keep->capture_default_str()->group(group);
-  take_one_of(*keep, {"on", "off"});
-  auto* weights = app.add_option("--weights", o.weights, "Rule that chooses the next triangle to refine");
-  weights->capture_default_str()->group(group);
-  take_one_of(*weights, {"learned", "paper"});
+      ->group(kRun);
+}
+
+void add_method_options(CLI::App& app, RenderOptions& o) {
+  add_choice(app, "--balance", o.balance, "How ranks share the load").group(kRun);
+  add_choice(app, "--cast", o.cast, "Which samples are carried to the next frame").group(kRun);
+  add_choice(app, "--keep-samples", o.keep_samples, "Keep carried samples at a repartition").group(kRun);
+  add_choice(app, "--weights", o.weights, "Rule that chooses the next triangle to refine").group(kRun);
   app.add_option("--seed", o.seed, "Seed of the pattern that every frame starts from")
       ->check(count_from(0))
       ->capture_default_str()
       ->type_name("N")
-      ->group(group);
+      ->group(kRun);
 }
 
 void add_image_options(CLI::App& app, RenderOptions& o) {
   const std::string group = "Image";
-  app.add_option("-s,--size", o.size, "Width and height in pixels (default: the script's, or the scene's)")
-      ->type_name("WxH")
+  add_parsed(app, "-s,--size", parse_image_size, o.size,
+             "Width and height in pixels (default: the script's, or the scene's)")
+      .type_name("WxH")
       ->group(group);
-  app.add_option("-o,--output", o.outputs,
-                 "File names of the frames, .exr or .png, with %04d or #### for the frame number; may be "
-                 "given twice (default: " +
-                     std::string(kDefaultOutput) + ")")
+  const auto set_outputs = [&o](const std::vector<std::string>& names) {
+    o.outputs.clear();
+    for (const std::string& name : names) o.outputs.push_back(parse_frame_pattern(name, FrameCount::kOne));
+  };
+  app.add_option_function<std::vector<std::string>>(
+         "-o,--output", set_outputs,
+         "File names of the frames, .exr or .png, with %04d or #### for the frame number; may be "
+         "given twice (default: " +
+             std::string(kDefaultOutput) + ")")
       ->type_name("PATTERN")
       ->type_size(1)
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->allow_extra_args(false)
       ->group(group);
-  auto* pixels = app.add_option("--pixels", o.pixels, "Colour of a pixel with several samples or an edge");
-  pixels->capture_default_str()->group(group);
-  take_one_of(*pixels, {"edges", "area", "mean", "center"});
-  app.add_option("--frames", o.frames, "Render only frames A to B")->type_name("A-B")->group(group);
-  auto* layers = app.add_option(
-      "--layers", o.layers,
-      "Layers that show how a frame came about, as EXR channels or PNG pictures: all, or some of samples, "
-      "triangulation, regions, age, density, cost, confidence, depth, normal, id");
+  add_choice(app, "--pixels", o.pixels, "Colour of a pixel with several samples or an edge").group(group);
+  add_parsed(app, "--frames", parse_frame_range, o.frames, "Render only frames A to B")
+      .type_name("A-B")
+      ->group(group);
+  const auto set_layers = [&o](const std::string& list) {
+    o.layers = list.empty() ? std::vector<Layer>() : parse_layers(list);
+  };
+  auto* layers = app.add_option_function<std::string>(
+      "--layers", set_layers,
+      "Layers that show how a frame came about, as EXR channels or PNG pictures: all, or some of " +
+          list_of(every_layer()));
   layers->type_name("LIST")->group(group);
-  take_some_of(*layers, layer_words());
+  take_some_of(*layers, and_also({"all"}, every_layer()));
   app.add_option("--contact-sheet", o.contact_sheet,
                  "Write thumbnails of the finished frames to one picture, .exr or .png")
       ->type_name("FILE")
@@ -168,11 +188,15 @@ void add_effect_options(CLI::App& app, RenderOptions& o) {
       ->capture_default_str()
       ->type_name("N")
       ->group(group);
-  auto* effects = app.add_option("--effects", o.effects,
-                                 "Effects to simulate: auto (those that the scene calls for), all, none, "
-                                 "or some of shadows, highlights, reflection, refraction, smooth-normals");
-  effects->capture_default_str()->type_name("LIST")->group(group);
-  take_some_of(*effects, effect_words());
+  const auto set_effects = [&o](const std::string& list) {
+    o.effects = list == "auto" ? std::nullopt : std::optional(parse_effects(list));
+  };
+  auto* effects = app.add_option_function<std::string>(
+      "--effects", set_effects,
+      "Effects to simulate: auto (those that the scene calls for), all, none, or some of " +
+          list_of(every_effect_word()));
+  effects->default_str("auto")->type_name("LIST")->group(group);
+  take_some_of(*effects, and_also({"auto", "all", "none"}, every_effect_word()));
   app.add_flag("--cull", o.cull, "Show opaque surfaces from the front only")->group(group);
   app.add_flag("--census", o.census,
                "Print which effects the scene calls for and why; with -o also the rays of each kind")
@@ -185,20 +209,21 @@ void add_report_options(CLI::App& app, RenderOptions& o) {
   app.add_option("--stats", o.stats, "Write the ledger, one JSON object a line; - is standard output")
       ->type_name("FILE")
       ->group(group);
-  app.add_option("--reference", o.reference, "Reference pictures for the frames' errors")
-      ->type_name("PATTERN")
+  const auto parse_reference = [](const std::string& text) {
+    return parse_frame_pattern(text, FrameCount::kOne, "--reference");
+  };
+  add_parsed(app, "--reference", parse_reference, o.reference, "Reference pictures for the frames' errors")
+      .type_name("PATTERN")
       ->group(group);
   app.add_flag("--compare-serial", o.compare_serial,
                "Compare each frame's sample pattern with the serial one of as many samples")
       ->group(group);
-  auto* progress = app.add_option("--progress", o.progress,
-                                  "Progress reports: tty rewrites one line, json prints an object a frame; "
-                                  "auto: tty on a terminal");
-  progress->capture_default_str()->group(group);
-  take_one_of(*progress, {"auto", "tty", "json", "none"});
-  auto* log = app.add_option("--log", o.log, "Diagnostic logging on standard error");
-  log->capture_default_str()->group(group);
-  take_one_of(*log, {"trace", "debug", "info", "warning", "error", "off"});
+  add_choice(app, "--progress", o.progress,
+             "Progress reports: tty rewrites one line, json prints an object a frame; "
+             "auto: tty on a terminal")
+      .trigger_on_parse()  // errors in other options are reported accordingly
+      ->group(group);
+  add_choice(app, "--log", o.log, "Diagnostic logging on standard error").group(group);
   app.set_config("--config", "", "Read options from a file")->type_name("FILE")->group(group);
   app.get_config_formatter_base()->comment(';');  // '#' stands in file name patterns
   app.allow_config_extras(CLI::config_extras_mode::error);
@@ -212,6 +237,8 @@ void add_report_options(CLI::App& app, RenderOptions& o) {
 void add_render_options(CLI::App& app, RenderOptions& options) {
   add_positionals(app, options);
   add_run_options(app, options);
+  add_stop_rules(app, options);
+  add_method_options(app, options);
   add_image_options(app, options);
   add_effect_options(app, options);
   add_report_options(app, options);

@@ -1,10 +1,19 @@
-// pprt-render's command line as plain values.
+// The command line of pprt-render as plain values.
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "cli/log.h"
+#include "cli/number_pair.h"
+#include "image/frame_pattern.h"
+#include "layers/layer.h"
+#include "parallel/session_words.h"
+#include "render/progress.h"
+#include "trace/effects.h"
 
 namespace CLI {
 class App;
@@ -12,58 +21,59 @@ class App;
 
 namespace pprt {
 
-// Words and numbers as the user gave them; what they mean together is settled by plan_render().
+// What the user asked for, each value parsed; plan_render() settles what the values mean together.
 struct RenderOptions {
   std::string input;   // scene, or script that names its scene
   std::string script;  // empty: none, or `input` is one
 
   int ranks = 1;
-  std::string hostfile;
-  std::optional<double> fps;
-  std::string clock = "wall";
-  std::optional<std::uint64_t> budget;
-  std::optional<double> time;
-  std::optional<std::uint64_t> samples;
-  std::optional<double> quality;
-  std::string balance = "combined";
-  std::string cast = "auto";
-  std::string keep_samples = "on";
-  std::string weights = "learned";
-  std::string pixels = "edges";
+  std::string hostfile;       // empty: none
+  std::optional<double> fps;  // frames/s; 0: no rate
+  ClockKind clock = ClockKind::kWall;
+  std::optional<std::uint64_t> budget;   // work units for each rank and frame
+  std::optional<double> time;            // seconds
+  std::optional<std::uint64_t> samples;  // in the image
+  std::optional<double> quality;         // mean triangle weight
+  BalanceMode balance = BalanceMode::kCombined;
+  CastChoice cast = CastChoice::kAuto;
+  bool keep_samples = true;
+  WeightRule weights = WeightRule::kLearned;
+  PixelRule pixels = PixelRule::kEdges;
   std::uint64_t seed = 1;
 
-  std::string size;                  // "WxH"; empty: the script's or the scene's
-  std::vector<std::string> outputs;  // patterns; empty: kDefaultOutput
-  std::string frames;                // "A-B"; empty: all
-  std::string layers;                // names with commas between them; empty: none
-  std::string contact_sheet;         // picture of all frames; empty: none
-  std::string film;                  // of all frames; empty: none
+  std::optional<ImageSize> size;      // empty: the script's or the scene's
+  std::vector<FramePattern> outputs;  // empty: kDefaultOutput
+  std::optional<FrameRange> frames;   // empty: all
+  std::vector<Layer> layers;
+  std::filesystem::path contact_sheet;  // empty: none
+  std::filesystem::path film;           // empty: none
   bool overwrite = false;
   bool resume = false;
 
   int max_depth = 5;
-  std::string effects = "auto";
+  std::optional<EffectSet> effects;  // empty: what the scene calls for
   bool cull = false;
   bool census = false;
   bool strict = false;
 
-  std::string stats;      // the ledger's file; "-" standard output; empty: none
-  std::string reference;  // pattern of reference pictures; empty: none
+  std::string stats;                      // the ledger's file; "-": standard output; empty: none
+  std::optional<FramePattern> reference;  // pictures to measure errors against
   bool compare_serial = false;
-  std::string progress = "auto";
-  std::string log = "warning";
+  ProgressKind progress = ProgressKind::kAuto;
+  LogLevel log = LogLevel::kWarning;
   bool write_config = false;
 };
 
 inline constexpr const char* kDefaultOutput = "frame_%04d.png";
 
-// Binds the options to their names, with the help text in groups.
+// Binds the options to their names, with the help text in groups. While `app` parses, a value that cannot be
+// parsed throws UsageError or CLI::ParseError.
 void add_render_options(CLI::App& app, RenderOptions& options);
 
-// The options in force as a file for --config; those without a value, and flags that are off, are absent.
+// Returns the options in force as a file for --config, without unset options and flags that are off.
 std::string options_in_force(const CLI::App& app);
 
-// mpirun's spelling "-np N" in the form that other long options have.
+// Returns the words of the command line after the first, with mpirun's spelling "-np" as "--np".
 std::vector<std::string> with_long_np(int argc, const char* const* argv);
 
 }  // namespace pprt

@@ -15,98 +15,65 @@
 #include "parallel/session.h"
 #include "parser/anim_parser.h"
 #include "render/film.h"
-#include "spd/spd.h"
 
 namespace pprt {
 namespace {
 
-constexpr int kLongestSide = 16384;  // pixels
-
-struct Size {
-  int width, height;
-};
-
-std::optional<Size> requested_size(const RenderOptions& options) {
-  if (options.size.empty()) return std::nullopt;
-  const auto pair = parse_pair(options.size, "xX");
-  if (!pair || pair->first < 1 || pair->second < 1 || pair->first > kLongestSide ||
-      pair->second > kLongestSide) {
-    throw UsageError("--size " + options.size + ": want WIDTHxHEIGHT in pixels, each from 1 to " +
-                     std::to_string(kLongestSide) + ", such as 256x256");
-  }
-  return Size{pair->first, pair->second};
-}
-
-std::optional<FrameRange> requested_frames(const RenderOptions& options) {
-  if (options.frames.empty()) return std::nullopt;
-  return parse_frame_range(options.frames);
-}
-
-bool is_script_name(const std::string& name) {
-  return std::filesystem::path(name).extension() == ".anim";
-}
-
 struct Sources {
   ParsedScene scene;
   std::optional<ParsedAnimation> script;
+  std::string script_path;  // as it was given
 };
-
-// A script's scene file is named relative to the script.
-std::string scene_of_script(const Animation& animation, const std::string& path) {
-  if (!animation.scene) {
-    throw UsageError("the script " + path +
-                     " names no scene: give one before it, or add 'scene \"...\"' to it");
-  }
-  if (is_spd_name(*animation.scene)) return *animation.scene;
-  return (std::filesystem::path(path).parent_path() / *animation.scene).string();
-}
 
 Sources read_sources(const RenderOptions& options) {
   Sources sources;
   const bool only_script = options.script.empty() && is_script_name(options.input);
-  const std::string script = only_script ? options.input : options.script;
-  if (!script.empty()) {
-    require_file(script);
-    sources.script = read_animation(script);
+  sources.script_path = only_script ? options.input : options.script;
+  if (!sources.script_path.empty()) {
+    require_file(sources.script_path);
+    sources.script = read_animation(sources.script_path);
   }
-  const std::string scene = only_script ? scene_of_script(sources.script->animation, script) : options.input;
+  const std::string scene =
+      only_script ? scene_of_script(sources.script->animation, sources.script_path) : options.input;
   sources.scene = load_scene(scene, {.strict = options.strict});
   return sources;
 }
 
 // The scene's own view at the size that options, script or scene ask for, in this order.
 View base_view(const RenderOptions& options, const Sources& sources) {
+  const SceneDescription& scene = sources.scene.scene;
   View view;
   const bool script_has_camera = sources.script && !sources.script->animation.keys.empty();
-  if (sources.scene.scene.view) {
-    view = *sources.scene.scene.view;
+  if (scene.view) {
+    view = *scene.view;
   } else if (!script_has_camera) {
     throw InputError(
-        sources.scene.scene.name +
+        scene.name +
         ": error: the scene has no view ('v' ...) and no script gives a camera: nothing can be seen");
   }
   if (sources.script && sources.script->animation.width) {
     view.width = *sources.script->animation.width;
     view.height = *sources.script->animation.height;
   }
-  if (const std::optional<Size> size = requested_size(options)) {
-    view.width = size->width;
-    view.height = size->height;
+  if (options.size) {
+    view.width = options.size->width;
+    view.height = options.size->height;
   }
   if (view.width < 1 || view.height < 1 || view.width > kLongestSide || view.height > kLongestSide) {
-    throw InputError(sources.scene.scene.name + ": error: the view's resolution " +
-                     std::to_string(view.width) + "x" + std::to_string(view.height) +
-                     " is not between 1x1 and " + std::to_string(kLongestSide) +
-                     " a side; --size sets another");
+    throw InputError(fmt::format(
+        "{}: error: the view's resolution {}x{} is not between 1x1 and {} a side; --size sets another",
+        scene.name, view.width, view.height, kLongestSide));
   }
   return view;
 }
 
-void require_sound_cameras(const Animation& animation, const View& base, const std::string& path) {
+void require_sound_cameras(const Sources& sources, const View& base) {
+  if (!sources.script) return;
+  const Animation& animation = sources.script->animation;
   Diagnostics problems;
   check_cameras(animation, base, problems);
   if (!problems.has_errors()) return;
-  std::string report = format(problems, animation.name, read_whole_file(path));
+  std::string report = format(problems, animation.name, read_whole_file(sources.script_path));
   while (!report.empty() && report.back() == '\n') report.pop_back();
   throw InputError(report);
 }
@@ -125,30 +92,12 @@ std::vector<PlannedFrame> script_frames(const Sources& sources, const View& base
 
 std::vector<PlannedFrame> frames_to_render(const RenderOptions& options,
                                            const std::vector<PlannedFrame>& all) {
-  const std::optional<FrameRange> range = requested_frames(options);
-  if (!range) return all;
-  if (range->last > static_cast<int>(all.size())) {
-    throw UsageError("--frames " + options.frames + ": the last frame is " + std::to_string(all.size()));
+  if (!options.frames) return all;
+  if (options.frames->last > static_cast<int>(all.size())) {
+    throw UsageError(
+        fmt::format("--frames {}: the last frame is {}", to_string(*options.frames), all.size()));
   }
-  return {all.begin() + (range->first - 1), all.begin() + range->last};
-}
-
-CastChoice cast_choice(const std::string& word) {
-  if (word == "off") return CastChoice::kOff;
-  if (word == "paper") return CastChoice::kPaper;
-  return word == "verified" ? CastChoice::kVerified : CastChoice::kAuto;
-}
-
-BalanceMode balance_mode(const std::string& word) {
-  if (word == "none") return BalanceMode::kNone;
-  if (word == "local") return BalanceMode::kLocal;
-  return word == "global" ? BalanceMode::kGlobal : BalanceMode::kCombined;
-}
-
-PixelRule pixel_rule(const std::string& word) {
-  if (word == "center") return PixelRule::kCenter;
-  if (word == "mean") return PixelRule::kMean;
-  return word == "area" ? PixelRule::kArea : PixelRule::kEdges;
+  return {all.begin() + (options.frames->first - 1), all.begin() + options.frames->last};
 }
 
 double frame_rate(const RenderOptions& options, const Sources& sources) {
@@ -163,25 +112,9 @@ double film_rate(double fps, const Sources& sources) {
   return sources.script && sources.script->animation.fps > 0 ? sources.script->animation.fps : kCustomary;
 }
 
-std::vector<Layer> requested_layers(const RenderOptions& options) {
-  return options.layers.empty() ? std::vector<Layer>() : parse_layers(options.layers);
-}
-
-SessionSettings settle(const RenderOptions& options, const View& view, double fps) {
-  SessionSettings settings;
-  settings.width = view.width;
-  settings.height = view.height;
-  settings.clock = options.clock == "work" ? ClockKind::kWork : ClockKind::kWall;
+// When a frame is finished: by its rate's deadline, or by the stop rules.
+void settle_ends(const RenderOptions& options, double fps, SessionSettings& settings) {
   settings.frames_per_second = fps;
-  settings.balance = balance_mode(options.balance);
-  settings.cast = cast_choice(options.cast);
-  settings.keep_samples = options.keep_samples == "on";
-  settings.pixel_rule = pixel_rule(options.pixels);
-  settings.learned_weights = options.weights == "learned";
-  settings.seed = options.seed;
-  const std::vector<Layer> layers = requested_layers(options);
-  settings.report_samples =
-      options.compare_serial || std::any_of(layers.begin(), layers.end(), needs_samples);
   const bool has_stop_rule = options.time || options.samples || options.quality;
   if (fps > 0) {
     if (has_stop_rule) {
@@ -193,57 +126,64 @@ SessionSettings settle(const RenderOptions& options, const View& view, double fp
     settings.budget_units = options.budget.value_or(default_budget_units(fps));
   } else {
     if (options.budget) throw UsageError("--budget needs a frame rate (--fps)");
-    settings.stop = {options.time.value_or(0), options.samples.value_or(0),
-                     options.quality.value_or(has_stop_rule ? 0 : kStillQuality)};
+    settings.stop = {.seconds = options.time.value_or(0),
+                     .samples = options.samples.value_or(0),
+                     .quality = options.quality.value_or(has_stop_rule ? 0 : kStillQuality)};
   }
+}
+
+SessionSettings session_settings(const RenderOptions& options, const View& view, double fps) {
+  SessionSettings settings;
+  settings.width = view.width;
+  settings.height = view.height;
+  settings.clock = options.clock;
+  settings.balance = options.balance;
+  settings.cast = options.cast;
+  settings.keep_samples = options.keep_samples;
+  settings.pixel_rule = options.pixels;
+  settings.learned_weights = options.weights == WeightRule::kLearned;
+  settings.seed = options.seed;
+  settings.report_samples =
+      options.compare_serial || std::any_of(options.layers.begin(), options.layers.end(), needs_samples);
+  settle_ends(options, fps, settings);
   return settings;
 }
 
-CompileOptions compile_options(const RenderOptions& options) {
-  CompileOptions compile;
-  compile.max_depth = options.max_depth;
-  compile.cull = options.cull;
-  if (options.effects != "auto") compile.effects = parse_effects(options.effects);
-  return compile;
-}
-
-std::vector<FramePattern> parse_outputs(const RenderOptions& options, FrameCount count) {
-  const std::vector<std::string> names =
-      options.outputs.empty() ? std::vector<std::string>{kDefaultOutput} : options.outputs;
-  std::vector<FramePattern> outputs;
-  outputs.reserve(names.size());
-  for (const std::string& name : names) outputs.push_back(parse_frame_pattern(name, count));
-  return outputs;
-}
-
-std::optional<FramePattern> parse_reference(const RenderOptions& options) {
-  if (options.reference.empty()) return std::nullopt;
-  return parse_frame_pattern(options.reference, FrameCount::kOne, "--reference");
+OutputPlan output_plan(const RenderOptions& options, std::size_t frame_count, double rate_of_film) {
+  OutputPlan output;
+  output.pictures = options.outputs;
+  if (output.pictures.empty()) {
+    output.pictures.push_back(parse_frame_pattern(kDefaultOutput, FrameCount::kOne));
+  }
+  if (frame_count > 1) {
+    for (const FramePattern& picture : output.pictures) require_field(picture);
+  }
+  output.layers = options.layers;
+  if (options.overwrite) output.existing = ExistingFiles::kReplace;
+  if (options.resume) output.existing = ExistingFiles::kResume;
+  output.contact_sheet = options.contact_sheet;
+  output.film = options.film;
+  output.film_rate = rate_of_film;
+  return output;
 }
 
 }  // namespace
 
-std::vector<FramePattern> files_of_a_frame(const RenderPlan& plan) {
-  std::vector<FramePattern> files = plan.outputs;
-  for (const FramePattern& output : plan.outputs) {
-    if (holds_channels(output)) continue;
-    for (const Layer layer : plan.layers) files.push_back(beside(output, name_of(layer)));
+std::vector<FramePattern> files_of_a_frame(const OutputPlan& output) {
+  std::vector<FramePattern> files = output.pictures;
+  for (const FramePattern& picture : output.pictures) {
+    if (holds_channels(picture)) continue;
+    for (const Layer layer : output.layers) files.push_back(beside(picture, name_of(layer)));
   }
   return files;
 }
 
 void check_usage(const RenderOptions& options) {
-  const std::filesystem::path sheet(options.contact_sheet);
+  const std::filesystem::path& sheet = options.contact_sheet;
   if (!sheet.empty() && sheet.extension() != ".png" && sheet.extension() != ".exr") {
     throw UsageError("--contact-sheet " + sheet.string() + ": want a name that ends in .png or .exr");
   }
   if (!options.film.empty()) require_film_name(options.film);
-  requested_size(options);
-  requested_frames(options);
-  compile_options(options);
-  parse_outputs(options, FrameCount::kOne);
-  parse_reference(options);
-  requested_layers(options);
   if (options.compare_serial && options.stats.empty()) {
     throw UsageError("--compare-serial tells the ledger: it needs --stats");
   }
@@ -251,29 +191,34 @@ void check_usage(const RenderOptions& options) {
     throw UsageError(fmt::format("--fps {:g}: want 0, for no rate, or at least {:g}", *options.fps,
                                  kLeastFramesPerSecond));
   }
-  if (options.budget && options.clock != "work")
+  if (options.budget && options.clock != ClockKind::kWork)
     throw UsageError("--budget counts work: it needs --clock work");
 }
 
 RenderPlan plan_render(const RenderOptions& options) {
-  check_usage(options);
   Sources sources = read_sources(options);
   const View base = base_view(options, sources);
+  require_sound_cameras(sources, base);
+  const double fps = frame_rate(options, sources);
+
   RenderPlan plan;
-  if (sources.script) {
-    plan.script_name = sources.script->animation.name;
-    require_sound_cameras(sources.script->animation, base,
-                          options.script.empty() ? options.input : options.script);
-  }
   plan.script_frames = script_frames(sources, base);
   plan.frames = frames_to_render(options, plan.script_frames);
-  plan.outputs = parse_outputs(options, plan.frames.size() > 1 ? FrameCount::kMany : FrameCount::kOne);
-  plan.layers = requested_layers(options);
-  plan.reference = parse_reference(options);
-  plan.settings = settle(options, base, frame_rate(options, sources));
-  plan.film_rate = film_rate(plan.settings.frames_per_second, sources);
-  plan.compile = compile_options(options);
-  plan.warnings = sources.scene.warnings + (sources.script ? sources.script->warnings : "");
+  plan.renders = !options.census || !options.outputs.empty();
+  plan.output = output_plan(options, plan.frames.size(), film_rate(fps, sources));
+  plan.report = {.ledger = options.stats,
+                 .reference = options.reference,
+                 .compare_serial = options.compare_serial,
+                 .census = options.census};
+  plan.settings = session_settings(options, base, fps);
+  plan.compile.max_depth = options.max_depth;
+  plan.compile.cull = options.cull;
+  plan.compile.effects = options.effects;
+  plan.warnings = sources.scene.warnings;
+  if (sources.script) {
+    plan.script_name = sources.script->animation.name;
+    plan.warnings += sources.script->warnings;
+  }
   plan.scene = std::move(sources.scene.scene);
   return plan;
 }

@@ -1,7 +1,7 @@
-// What a command line asks for, checked and settled before anything is rendered.
+// What a run will do, settled before anything is rendered. After planning only the plan travels.
 #pragma once
 
-#include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,11 +16,36 @@
 
 namespace pprt {
 
-// One frame to render: its view, in scene space and of the image's size.
+// One frame of the script: its view, in scene space and of the image's size.
 struct PlannedFrame {
-  int number = 1;
+  int number = 1;  // from 1
   View view;
-  bool cut = false;
+  bool cut = false;  // the camera jumps to it
+};
+
+// What happens to files that exist already.
+enum class ExistingFiles {
+  kRefuse,   // the run does not begin
+  kReplace,  // --overwrite
+  kResume    // --resume: frames that the manifest lists as finished are skipped
+};
+
+// Files that the run writes.
+struct OutputPlan {
+  std::vector<FramePattern> pictures;  // of each frame; at least one
+  std::vector<Layer> layers;
+  ExistingFiles existing = ExistingFiles::kRefuse;
+  std::filesystem::path contact_sheet;  // empty: none
+  std::filesystem::path film;           // empty: none
+  double film_rate = 25;                // frames/s
+};
+
+// What the run reports about its frames.
+struct ReportPlan {
+  std::string ledger;                     // file; "-": standard output; empty: none
+  std::optional<FramePattern> reference;  // pictures to measure errors against
+  bool compare_serial = false;            // measure the distance to the serial sample pattern
+  bool census = false;                    // print the scene's effects, and with frames the rays
 };
 
 struct RenderPlan {
@@ -28,26 +53,26 @@ struct RenderPlan {
   std::string script_name;                  // empty: none
   std::vector<PlannedFrame> script_frames;  // all, rendered or not
   std::vector<PlannedFrame> frames;         // those to render
-  std::vector<FramePattern> outputs;
-  std::vector<Layer> layers;
-  std::optional<FramePattern> reference;
-  double film_rate = 25;  // frames/s
+  bool renders = true;                      // false: a census alone
+  OutputPlan output;
+  ReportPlan report;
   SessionSettings settings;
   CompileOptions compile;
-  std::string warnings;  // of scene and script, for people
+  std::string warnings;  // about scene and script, for people
 };
 
-// A still looks converged at this mean triangle weight: the structural similarity to a converged picture is
+// Mean triangle weight at which a still looks converged: the structural similarity to a converged picture is
 // at least 0.99 on every SPD scene tried (docs/decisions/0007-still-quality.md).
 inline constexpr double kStillQuality = 0.005;
 
-// Every file of a frame: the outputs and, beside those that cannot hold them, the layers' pictures.
-std::vector<FramePattern> files_of_a_frame(const RenderPlan& plan);
+// Returns every file of a frame: its pictures and, beside those that cannot hold layers, the layers' own.
+std::vector<FramePattern> files_of_a_frame(const OutputPlan& output);
 
-// What can be judged from the command line alone. Throws UsageError.
+// Checks what can be judged from the options alone. Throws UsageError.
 void check_usage(const RenderOptions& options);
 
-// Reads scene and script, once. Throws UsageError, or InputError with every problem of the file that has any.
+// Reads scene and script, once. The options must have passed check_usage(). Throws UsageError, or InputError
+// with every problem of the file.
 RenderPlan plan_render(const RenderOptions& options);
 
 }  // namespace pprt

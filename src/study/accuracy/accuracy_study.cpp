@@ -197,22 +197,11 @@ struct Inputs {
   std::optional<Animation> script;
 };
 
-bool is_script(const std::string& name) {
-  return std::filesystem::path(name).extension() == ".anim";
-}
-
-// A script's scene is told relative to the script.
-std::string scene_of(const Animation& script, const std::string& script_path) {
-  const std::string& scene = *script.scene;
-  if (scene.starts_with("spd:")) return scene;
-  return (std::filesystem::path(script_path).parent_path() / scene).string();
-}
-
 Inputs read_inputs(const AccuracyOptions& options) {
   Inputs inputs;
   std::string script_path;
   for (const std::string& name : options.inputs) {
-    if (!is_script(name)) {
+    if (!is_script_name(name)) {
       inputs.scenes.push_back(name);
       continue;
     }
@@ -222,7 +211,7 @@ Inputs read_inputs(const AccuracyOptions& options) {
   }
   if (inputs.scenes.empty()) {
     inputs.scenes = inputs.script && inputs.script->scene
-                        ? std::vector{scene_of(*inputs.script, script_path)}
+                        ? std::vector{scene_of_script(*inputs.script, script_path)}
                         : std::vector<std::string>{"spd:tree", "spd:gears", "spd:balls", "spd:tetra"};
   }
   return inputs;

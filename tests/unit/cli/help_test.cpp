@@ -19,7 +19,7 @@ OptionTable sample_table() {
   take_path_or(*option, {"spd:tree"});
   option = app.add_option("--clock", clock, "Which time counts");
   option->default_str("wall")->group("Run");
-  take_one_of(*option, {"wall", "work"});
+  take_one_of(*option, {{"wall", "real time"}, "work"});
   app.add_option("-n,--count", count, "How often")
       ->check(CLI::Range(1, 9))
       ->capture_default_str()
@@ -47,9 +47,9 @@ TEST_CASE("a table of options tells what stands behind each") {
   CHECK(row("SCENE").positional);
   CHECK(row("SCENE").required);
   CHECK(row("SCENE").value == ValueKind::kPath);
-  CHECK(row("SCENE").words == std::vector<std::string>{"spd:tree"});
+  CHECK(row("SCENE").words == std::vector<OptionWord>{"spd:tree"});
   CHECK(row("--clock").value == ValueKind::kChoice);
-  CHECK(row("--clock").words == std::vector<std::string>{"wall", "work"});
+  CHECK(row("--clock").words == std::vector<OptionWord>{{"wall", "real time"}, "work"});
   CHECK(row("--count").names == std::vector<std::string>{"-n", "--count"});
   CHECK(row("--count").value == ValueKind::kAny);
   CHECK(row("--count").label == "N");

@@ -22,16 +22,16 @@ RenderPlan plan_of(const std::string& text) {
   return plan;
 }
 
-std::string preflight(const RenderPlan& plan) {
+std::string outcome(const RenderPlan& plan) {
   try {
-    return check_outlook(plan, compile(plan.scene, plan.compile));
+    return preflight(plan, compile(plan.scene, plan.compile));
   } catch (const InputError& error) {
     return error.what();
   }
 }
 
-std::string preflight(const std::string& text) {
-  return preflight(plan_of(text));
+std::string outcome(const std::string& text) {
+  return outcome(plan_of(text));
 }
 
 std::string nothing(const std::string& reason) {
@@ -50,49 +50,49 @@ const std::string kNoLight =
 }  // namespace
 
 TEST_CASE("what can be seen is rendered without a word") {
-  CHECK_THAT(preflight(kLit + kBall), Equals(""));
-  CHECK_THAT(preflight(kLit + "s 1.8 -1.3 0 0.1"), Equals(""));  // in a corner, five pixels wide
-  CHECK_THAT(preflight(kLit + "p 3 -1e3 -1.85 0 1e3 -1.85 0 1e3 -9 0"),
+  CHECK_THAT(outcome(kLit + kBall), Equals(""));
+  CHECK_THAT(outcome(kLit + "s 1.8 -1.3 0 0.1"), Equals(""));  // in a corner, five pixels wide
+  CHECK_THAT(outcome(kLit + "p 3 -1e3 -1.85 0 1e3 -1.85 0 1e3 -9 0"),
              Equals(""));  // below, three pixels high
 }
 
 TEST_CASE("what lies elsewhere is not seen") {
-  CHECK_THAT(preflight(kLit + "s 0 0 7 1\nc 1 1 6 1 0 0 9 0\n"),
+  CHECK_THAT(outcome(kLit + "s 0 0 7 1\nc 1 1 6 1 0 0 9 0\n"),
              Equals(nothing("all objects lie behind the eye")));
-  CHECK_THAT(preflight(kLit + "s 9 0 0 1\ns 0 0 7 1\n"), Equals(nothing("all objects lie outside the view")));
+  CHECK_THAT(outcome(kLit + "s 9 0 0 1\ns 0 0 7 1\n"), Equals(nothing("all objects lie outside the view")));
   for (const char* aside : {"s 9 0 0 1", "s -9 0 0 1", "s 0 9 0 1", "s 0 -9 0 1"}) {
-    CHECK_THAT(preflight(kLit + aside), Equals(nothing("all objects lie outside the view")));
+    CHECK_THAT(outcome(kLit + aside), Equals(nothing("all objects lie outside the view")));
   }
-  CHECK_THAT(preflight(kLit + "s 9 0 0 1\ns 0 0 0 1"), Equals(""));
+  CHECK_THAT(outcome(kLit + "s 9 0 0 1\ns 0 0 0 1"), Equals(""));
 }
 
 TEST_CASE("what no ray meets is not seen") {
-  CHECK_THAT(preflight(kLit + "s 0 0 0 1e-6"), Equals(nothing(kTooSmall)));
-  CHECK_THAT(preflight(kLit + "s 0 0 0 -1"), Equals(""));        // a far wall seen through the near one
+  CHECK_THAT(outcome(kLit + "s 0 0 0 1e-6"), Equals(nothing(kTooSmall)));
+  CHECK_THAT(outcome(kLit + "s 0 0 0 -1"), Equals(""));          // a far wall seen through the near one
   RenderPlan plan = plan_of(kLit + "p 3 -1 -1 0 0 1 0 1 -1 0");  // its back
-  CHECK_THAT(preflight(plan), Equals(""));
+  CHECK_THAT(outcome(plan), Equals(""));
   plan.compile.cull = true;
-  CHECK_THAT(preflight(plan), Equals(nothing(kTooSmall)));
+  CHECK_THAT(outcome(plan), Equals(nothing(kTooSmall)));
 }
 
 TEST_CASE("what has the background's colour is not seen") {
   const std::string black = "f 0 0 0 1 0 0 0 1\n";
   const std::string same = "what is in view has the colour of the background";
-  CHECK_THAT(preflight(kView + black + kBall), Equals(nothing(same + " (no light and no background)")));
-  CHECK_THAT(preflight(kView + "b 0 0 0\n" + black + kBall), Equals(nothing(same + " (no light)")));
-  CHECK_THAT(preflight(kView + "l 5 5 5\n" + black + kBall), Equals(nothing(same)));
-  CHECK_THAT(preflight(kView + "b 0 0 1\n" + black + kBall), Equals(kNoLight));
+  CHECK_THAT(outcome(kView + black + kBall), Equals(nothing(same + " (no light and no background)")));
+  CHECK_THAT(outcome(kView + "b 0 0 0\n" + black + kBall), Equals(nothing(same + " (no light)")));
+  CHECK_THAT(outcome(kView + "l 5 5 5\n" + black + kBall), Equals(nothing(same)));
+  CHECK_THAT(outcome(kView + "b 0 0 1\n" + black + kBall), Equals(kNoLight));
 }
 
 TEST_CASE("a scene without light shows in ambient light, and that is told") {
-  CHECK_THAT(preflight(kView + "f 1 1 1 1 0 0 0 1\n" + kBall), Equals(kNoLight));
+  CHECK_THAT(outcome(kView + "f 1 1 1 1 0 0 0 1\n" + kBall), Equals(kNoLight));
 }
 
 TEST_CASE("a picture of one colour is told of") {
-  CHECK_THAT(preflight(kLit + "s 0 0 0 6"), Equals(kOneColour));  // the light is outside
-  CHECK_THAT(preflight(kLit + "s 0 0 0 6\ns 1.8 -1.3 0 0.1"),
+  CHECK_THAT(outcome(kLit + "s 0 0 0 6"), Equals(kOneColour));  // the light is outside
+  CHECK_THAT(outcome(kLit + "s 0 0 0 6\ns 1.8 -1.3 0 0.1"),
              Equals(kOneColour));  // and in the dark is all alike
-  CHECK_THAT(preflight(kLit + "s 0 0 0 6\nf 0 0 0 1 0 0 0 1\ns 1.8 -1.3 0 0.1"), Equals(""));
+  CHECK_THAT(outcome(kLit + "s 0 0 0 6\nf 0 0 0 1 0 0 0 1\ns 1.8 -1.3 0 0.1"), Equals(""));
 }
 
 TEST_CASE("a sequence needs one frame that shows something") {
@@ -100,16 +100,16 @@ TEST_CASE("a sequence needs one frame that shows something") {
   View away = plan.scene.view.value();
   away.at = {0, 0, 9};
   plan.script_frames.assign(40, {1, away, false});
-  CHECK_THAT(preflight(plan),
+  CHECK_THAT(outcome(plan),
              Equals("t.nff: error: nothing is to be seen in any frame: all objects lie behind the eye"));
   plan.script_frames[30].view = plan.scene.view.value();
-  CHECK_THAT(preflight(plan), Equals(""));
+  CHECK_THAT(outcome(plan), Equals(""));
 }
 
 TEST_CASE("colours that are no numbers are judged, too") {
   RenderPlan plan = plan_of(kLit + kBall);
   plan.scene.materials[0].color = Rgb(1e308, -1e308, 0) * 1e10;
-  CHECK_THAT(preflight(plan), !Catch::Contains("error"));
+  CHECK_THAT(outcome(plan), !Catch::Contains("error"));
 }
 
 }  // namespace pprt

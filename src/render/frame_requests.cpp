@@ -1,0 +1,50 @@
+#include "render/frame_requests.h"
+
+#include <cstddef>
+
+namespace pprt {
+namespace {
+
+// Index into the plan of the first frame to ask for. On the work clock a run begins where the samples of the
+// first missing frame came from. Where ranks share load that is the first frame of all: who owns what follows
+// from every frame before.
+std::size_t first_to_render(const RenderPlan& plan, int ranks, const FinishedBefore& finished_before) {
+  const std::vector<PlannedFrame>& frames = plan.frames;
+  std::size_t first = 0;
+  while (first < frames.size() && finished_before(frames[first].number)) ++first;
+  if (plan.settings.clock == ClockKind::kWall || first == frames.size()) return first;
+  if (ranks > 1 && plan.settings.balance != BalanceMode::kNone) return 0;
+  const auto follows = [&](std::size_t i) {
+    return plan.settings.cast != CastChoice::kOff && !frames[i].cut &&
+           frames[i].number == frames[i - 1].number + 1;
+  };
+  while (first > 0 && follows(first)) --first;
+  return first;
+}
+
+}  // namespace
+
+std::vector<FrameRequest> frame_requests(const RenderPlan& plan, const CompiledScene& scene, int ranks,
+                                         const FinishedBefore& finished_before) {
+  const bool again = plan.settings.clock == ClockKind::kWork;
+  std::vector<FrameRequest> requests;
+  std::size_t wanted = 0;  // requests up to the last frame that is missing
+  int before = 0;
+  for (std::size_t i = first_to_render(plan, ranks, finished_before); i < plan.frames.size(); ++i) {
+    const PlannedFrame& frame = plan.frames[i];
+    const bool finished = finished_before(frame.number);
+    if (finished && !again) continue;
+    // What does not follow its predecessor carries nothing over from it.
+    requests.push_back({.number = frame.number,
+                        .camera = scene.camera(frame.view),
+                        .cut = frame.cut,
+                        .carries_nothing = frame.number != before + 1,
+                        .left_out = static_cast<int>(i - requests.size())});
+    before = frame.number;
+    if (!finished) wanted = requests.size();
+  }
+  requests.resize(wanted);
+  return requests;
+}
+
+}  // namespace pprt
