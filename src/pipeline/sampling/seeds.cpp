@@ -4,25 +4,13 @@
 #include <array>
 #include <cmath>
 
+#include "base/hash.h"
+
 namespace pprt {
-namespace {
-
-// A number in [0, 1) addressed by its arguments (the finaliser of splitmix64 over a running mix).
-double uniform(std::uint64_t seed, std::uint64_t index) {
-  std::uint64_t h = seed;
-  for (const std::uint64_t word : {std::uint64_t{1}, index}) {
-    h = (h ^ word) + 0x9e3779b97f4a7c15u;
-    h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9u;
-    h = (h ^ (h >> 27)) * 0x94d049bb133111ebu;
-    h ^= h >> 31;
-  }
-  return static_cast<double>(h >> 11) * 0x1p-53;
-}
-
-}  // namespace
 
 std::vector<Vec2d> seed_points(int width, int height, std::uint64_t seed) {
-  constexpr double kJitter = 0.5;  // share of a cell: neighbours stay apart, and no three rows align
+  constexpr std::uint64_t kStream = 1;  // of random numbers: the same for every frame
+  constexpr double kJitter = 0.5;       // share of a cell: neighbours stay apart, and no three rows align
   const int columns = std::max(1, static_cast<int>(std::ceil(width / kSeedSpacing)));
   const int rows = std::max(1, static_cast<int>(std::ceil(height / kSeedSpacing)));
   const double w = width, h = height;
@@ -33,8 +21,8 @@ std::vector<Vec2d> seed_points(int width, int height, std::uint64_t seed) {
       const bool on_side = i == 0 || i == columns, on_end = j == 0 || j == rows;
       if (on_side && on_end) continue;  // a corner
       const auto index = 2 * (static_cast<std::uint64_t>(j) * 0x10000u + static_cast<std::uint64_t>(i));
-      const double dx = on_side ? 0 : kJitter * (uniform(seed, index) - 0.5);
-      const double dy = on_end ? 0 : kJitter * (uniform(seed, index + 1) - 0.5);
+      const double dx = on_side ? 0 : kJitter * (uniform(seed, kStream, index) - 0.5);
+      const double dy = on_end ? 0 : kJitter * (uniform(seed, kStream, index + 1) - 0.5);
       points.emplace_back((i + dx) / columns * w, (j + dy) / rows * h);
     }
   }

@@ -15,27 +15,18 @@
 #include <vector>
 
 #include "base/content_hash.h"
+#include "base/hash.h"
 #include "image/metrics.h"
 #include "image/whole_file.h"
 
 namespace pprt {
 namespace {
 
-// A number in [0, 1) that depends on its address alone (the finaliser of splitmix64 over a running mix).
-double uniform(std::uint64_t pixel, std::uint64_t index) {
-  std::uint64_t h = 0x2545f4914f6cdd1du;
-  for (const std::uint64_t word : {pixel, index}) {
-    h = (h ^ word) + 0x9e3779b97f4a7c15u;
-    h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9u;
-    h = (h ^ (h >> 27)) * 0x94d049bb133111ebu;
-    h ^= h >> 31;
-  }
-  return static_cast<double>(h >> 11) * 0x1p-53;
-}
-
 Color displayed(const Color& c) {
   return {std::clamp(c.x, 0.0f, 1.0f), std::clamp(c.y, 0.0f, 1.0f), std::clamp(c.z, 0.0f, 1.0f)};
 }
+
+constexpr std::uint64_t kSeed = 0x2545f4914f6cdd1du;  // another than any of the sampler's
 
 // Mean of one half's samples of a pixel. `half`: 0 or 1.
 Color pixel_mean(Tracer& tracer, int x, int y, int n, int half) {
@@ -46,8 +37,8 @@ Color pixel_mean(Tracer& tracer, int x, int y, int n, int half) {
     const std::uint64_t index =
         2 * (static_cast<std::uint64_t>(half) * cells + static_cast<std::uint64_t>(cell));
     const int row = cell / n, column = cell % n;
-    const double at_x = x + (column + uniform(pixel, index)) / n;
-    const double at_y = y + (row + uniform(pixel, index + 1)) / n;
+    const double at_x = x + (column + uniform(kSeed, pixel, index)) / n;
+    const double at_y = y + (row + uniform(kSeed, pixel, index + 1)) / n;
     sum += Vec3d(displayed(tracer.trace(at_x, at_y).color));
   }
   return Color(sum / (n * n));
