@@ -15,7 +15,7 @@ declare -A allowed=(
   [convert]="base scene spd parser image cli convert" [compare]="base image cli compare"
   [study]="base scene spd parser trace image pipeline layers parallel cli convert study")
 # Single headers of other rooms.
-declare -A besides=([study]="render/frame_summary.h render/ledger.h")
+declare -A besides=([study]="render/frame_summary.h")
 # Stages of the pipeline: sampling knows of neither of the two that follow it.
 declare -A closed=([pipeline/sampling]="pipeline/(reconstruction|preparation)/" [pipeline/reconstruction]="pipeline/preparation/"
   [pipeline/preparation]="pipeline/reconstruction/")

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <filesystem>
 #include <future>
 #include <iterator>
 #include <sstream>
@@ -14,31 +16,35 @@
 #include "parser/anim_parser.h"
 #include "scene/nff_writer.h"
 #include "study/accuracy/page.h"
-#include "study/accuracy/parts.h"
-#include "study/output.h"
+#include "study/accuracy/pictures.h"
+#include "study/accuracy/planner.h"
 
 namespace pprt {
 namespace {
 
-constexpr int kSequenceCells = 4;  // of a sequence's converged frames: 32 samples a pixel
-constexpr int kQuickSequenceCells = 2;
-constexpr int kMostFrames = 8;             // of a script
-constexpr int kMostFramesInRealTime = 40;  // where a rate is asked for
-constexpr int kOrbitFrames = 24;           // then, without a script
-constexpr int kFigureSize = 256;           // pixels
+constexpr int kSequenceCells = 4, kQuickSequenceCells = 2;  // n of a sequence's converged frames
+constexpr int kMostFrames = 8;                              // of a script
+constexpr int kMostFramesInRealTime = 40;                   // of a script, for --want-fps
+constexpr int kOrbitFrames = 24;                            // for --want-fps without a script
+constexpr int kFigureSize = 256;                            // pixels
+constexpr std::array kRates = {1.0, 2.0, 4.0, 8.0, 15.0, 24.0, 30.0, 60.0};
+constexpr std::array kQuickRates = {60.0, 120.0, 240.0};
+constexpr std::array kAllCasts = {CastChoice::kOff, CastChoice::kPaper, CastChoice::kVerified,
+                                  CastChoice::kAuto};
+constexpr std::array kAutoCast = {CastChoice::kAuto};
 
-// What is played without a script: always, and where a rate is asked for.
-constexpr const char* kRound = "Frames round the scene, with a jump after the third,";
-constexpr const char* kOrbit = "Frames that go round the scene by 14.4 degrees a second,";
+// Names of what is played without a script.
+constexpr const char* kRound = "Frames round the scene, with a camera cut after the third,";
+constexpr const char* kOrbit = "Frames that go round the scene by 14.4 degrees per second,";
 
-// What is done to one scene, told on standard error with the time that it took.
-class Progress {
+// Reports the steps of one scene on standard error, with the time of each.
+class StepTimer {
  public:
-  explicit Progress(std::string scene) : scene_(std::move(scene)) {}
-  void tell(const std::string& what) {
+  explicit StepTimer(std::string scene) : scene_(std::move(scene)) {}
+  void done(const std::string& step) {
     const auto now = std::chrono::steady_clock::now();
     const std::chrono::duration<double> passed = now - std::exchange(since_, now);
-    fmt::print(stderr, "pprt-study: {}: {}: {:.1f} s\n", scene_, what, passed.count());
+    fmt::print(stderr, "pprt-study: {}: {}: {:.1f} s\n", scene_, step, passed.count());
   }
 
  private:
@@ -46,143 +52,158 @@ class Progress {
   std::chrono::steady_clock::time_point since_ = std::chrono::steady_clock::now();
 };
 
-// A scene read, and what is needed to measure it.
-struct Stage {
-  std::string name;
-  SceneDescription description;
-  std::string nff;  // canonical: stands for the scene
-  CompiledScene scene;
+SceneDescription with_view(const std::string& name) {
+  SceneDescription scene = load_scene(name).scene;
+  if (!scene.view) throw InputError(fmt::format("{}: the scene has no view", name));
+  return scene;
+}
 
-  Camera camera(int size) const {
-    View view = *description.view;
-    view.width = view.height = size;
-    return scene.camera(view);
-  }
-};
-
-Stage make_stage(const std::string& name) {
-  SceneDescription description = load_scene(name).scene;
-  if (!description.view) throw InputError(fmt::format("{}: the scene has no view", name));
+std::string canonical(const SceneDescription& scene) {
   std::ostringstream nff;
-  write_nff(description, nff);
-  CompiledScene scene = compile(description);
-  return {name, std::move(description), nff.str(), std::move(scene)};
+  write_nff(scene, nff);
+  return nff.str();
 }
 
-// All that is measured.
-struct Results {
-  std::vector<SceneCurves> curves, small_curves;  // those beside other renderers are smaller
-  std::vector<ForeignResult> foreign;
-  std::vector<SceneEffects> effects;
-  std::vector<NamedPicture> pictures;
-  std::vector<RatePoint> rates;
-  std::vector<Punctuality> punctuality;
-};
+// One scene under study, and everything that is measured on it.
+class SceneStudy {
+ public:
+  // Throws InputError for a scene that cannot be read or has no view. `script` may be null.
+  SceneStudy(const std::string& name, const Animation* script, const AccuracyOptions& options)
+      : name_(name),
+        options_(options),
+        script_(script),
+        description_(with_view(name)),
+        nff_(canonical(description_)),
+        scene_(compile(description_)) {}
 
-// Of the pictures of sequences. The planner's are as large as was asked for.
-int sequence_size(const AccuracyOptions& options) {
-  if (options.directory.empty()) return options.size;
-  return options.quick ? options.size / 2 : options.size / 4;
-}
+  void measure(AccuracyResults& results) const;
 
-// A sequence with what it is judged by, and the rates to try.
-struct Sequence {
-  std::vector<Shot> shots;
-  std::vector<Image> references;
-  RateSettings settings;
-};
+  // Prints at which rate there is the error, or which error at the rate.
+  void answer_rate(double rmse) const;
+  void answer_error(double fps) const;
 
-std::vector<Shot> shots_of(const Stage& stage, const Animation* script, const AccuracyOptions& options) {
-  return sequence_of(stage.scene, *stage.description.view, script, sequence_size(options),
-                     options.quick ? kMostFrames / 2 : kMostFrames);
-}
-
-// Those that are played where a rate is asked for.
-std::vector<Shot> shots_at(double fps, const Stage& stage, const Animation* script,
-                           const AccuracyOptions& options) {
-  const View& view = *stage.description.view;
-  const int shortened = options.quick ? 2 : 1, size = sequence_size(options);
-  if (!script) return orbit_of(stage.scene, view, size, fps, kOrbitFrames / shortened);
-  return sequence_of(stage.scene, view, script, size, kMostFramesInRealTime / shortened);
-}
-
-Sequence make_sequence(const Stage& stage, std::vector<Shot> shots, const AccuracyOptions& options) {
-  Sequence sequence;
-  sequence.shots = std::move(shots);
-  for (const Shot& shot : sequence.shots) {
-    sequence.references.push_back(cached_reference(stage.nff, {stage.scene, shot.camera},
-                                                   options.quick ? kQuickSequenceCells : kSequenceCells,
-                                                   cache_directory(options))
-                                      .image);
+  // Describes the sequences; `without_script` names what is played then.
+  std::string rates_setup(const char* without_script) const {
+    return fmt::format(
+        "{} of {} x {} pixels on {} under the work clock, which counts work instead of seconds: a second is "
+        "what a "
+        "core of this machine does in a second, measured on each scene.",
+        script_ ? "The frames of " + script_->name : without_script, sequence_size(), sequence_size(),
+        options_.ranks == 1 ? "one rank" : fmt::format("{} ranks", options_.ranks));
   }
-  RateSettings& settings = sequence.settings;
-  settings.ranks = options.ranks;
-  settings.seed = options.seed;
-  settings.units_per_second = measured_units_per_second({stage.scene, sequence.shots.front().camera});
-  if (options.quick) settings.rates = {60, 120, 240};
-  return sequence;
+
+ private:
+  const View& view() const { return *description_.view; }
+
+  // Of the planner's sequences: as asked for; of the others a part of it.
+  int sequence_size() const {
+    return options_.directory.empty() ? options_.size : options_.size / (options_.quick ? 2 : 4);
+  }
+
+  Subject subject(int size) const {
+    View square = view();
+    square.width = square.height = size;
+    return {scene_, scene_.camera(square)};
+  }
+
+  Reference reference(const Subject& subject, int cells) const {
+    std::filesystem::path cache;
+    if (!options_.no_cache)
+      cache = options_.cache.empty() ? default_cache_directory().string() : options_.cache;
+    return cached_reference(nff_, subject, cells, cache);
+  }
+
+  std::vector<FrameRequest> script_frames(int most) const {
+    const int count = std::min(options_.quick ? most / 2 : most, script_->frames);
+    return frames_of(scene_, *script_, count, view(), sequence_size());
+  }
+
+  std::vector<FrameRequest> frames() const {
+    if (script_) return script_frames(kMostFrames);
+    return round_with_cut(scene_, view(), sequence_size(), options_.quick ? kMostFrames / 2 : kMostFrames);
+  }
+
+  std::vector<FrameRequest> frames_at(double fps) const {
+    if (script_) return script_frames(kMostFramesInRealTime);
+    return orbit(scene_, view(), sequence_size(), fps, options_.quick ? kOrbitFrames / 2 : kOrbitFrames);
+  }
+
+  Sequence sequence_of(std::vector<FrameRequest> frames) const {
+    Sequence sequence{name_, scene_, std::move(frames), {}, options_.ranks, 0, options_.seed};
+    for (const FrameRequest& frame : sequence.frames) {
+      sequence.references.push_back(
+          reference({scene_, frame.camera}, options_.quick ? kQuickSequenceCells : kSequenceCells).image);
+    }
+    sequence.units_per_second = measured_units_per_second({scene_, sequence.frames.front().camera});
+    return sequence;
+  }
+
+  std::span<const double> rates() const {
+    return options_.quick ? std::span<const double>(kQuickRates) : std::span<const double>(kRates);
+  }
+
+  std::string name_;
+  const AccuracyOptions& options_;
+  const Animation* script_;
+  SceneDescription description_;
+  std::string nff_;  // canonical: stands for the scene
+  CompiledScene scene_;
+};
+
+template <typename T>
+void append(std::vector<T>& all, std::vector<T> more) {
+  std::move(more.begin(), more.end(), std::back_inserter(all));
 }
 
-std::vector<RatePoint> rates_of(const Stage& stage, const Sequence& s) {
-  return measure_rates(stage.name, stage.scene, s.shots, s.references, s.settings);
-}
-
-// `without_script` names the frames that are played then.
-std::string rates_setting(const AccuracyOptions& options, const Animation* script,
-                          const std::string& without_script) {
-  return fmt::format(
-      "{} of {} x {} pixels on {} under the work clock, which counts work instead of seconds: a second is "
-      "what a core of this machine does in a second, measured on each scene.",
-      script ? "The frames of " + script->name : without_script, sequence_size(options),
-      sequence_size(options), options.ranks == 1 ? "one rank" : fmt::format("{} ranks", options.ranks));
-}
-
-// Other programs, and this one at their size.
-std::vector<ForeignResult> foreign_of(const Stage& stage, int size) {
-  return {measure_povray(stage.name, stage.description, size),
-          measure_tachyon(stage.name, stage.description, size)};
-}
-
-void measure_scene(const Stage& stage, const Animation* script, const AccuracyOptions& options,
-                   Results& results) {
-  Progress progress(stage.name);
-  const std::filesystem::path cache = cache_directory(options);
-  const Subject subject{stage.scene, stage.camera(options.size)};
-  const Reference reference = cached_reference(stage.nff, subject, options.reference_cells, cache);
-  progress.tell(fmt::format("converged frame, {} samples a pixel, its own rmse {:.5f}", reference.samples,
-                            reference.own_rmse));
-  const int small = options.size / 2;
-  const Subject small_subject{stage.scene, stage.camera(small)};
-  const Reference small_reference =
-      cached_reference(stage.nff, small_subject, options.reference_cells, cache);
-  // Other renderers go beside the curves, which CPU times allow.
-  auto foreign = std::async(std::launch::async, [&] { return foreign_of(stage, small); });
-  CurveSettings settings{options.repeats, CurveSettings().greatest_share, options.seed};
-  results.curves.push_back(
-      measure_curves(stage.name, subject, reference, accuracy_methods(), settings, thread_cpu_seconds));
-  progress.tell(fmt::format("{} pictures", results.curves.back().points.size()));
+void SceneStudy::measure(AccuracyResults& results) const {
+  StepTimer timer(name_);
+  const Subject large = subject(options_.size), small = subject(options_.size / 2);
+  const Reference converged = reference(large, options_.reference_cells);
+  timer.done(fmt::format("converged frame, {} samples a pixel, its own rmse {:.5f}", converged.samples,
+                         converged.own_rmse));
+  const Reference small_converged = reference(small, options_.reference_cells);
+  // Other renderers run beside the curves, which CPU times allow.
+  auto foreign = std::async(std::launch::async, [&]() -> std::vector<ForeignResult> {
+    return {measure_povray(name_, description_, options_.size / 2),
+            measure_tachyon(name_, description_, options_.size / 2)};
+  });
+  CurveSettings settings{options_.repeats, CurveSettings().greatest_share, options_.seed};
+  results.curves.push_back(measure_curves(name_, large, converged, accuracy_methods(), settings));
+  timer.done(fmt::format("{} pictures", results.curves.back().points.size()));
   settings.repeats = 1;
   const std::vector<Method> methods = {progressive_method(), uniform_method()};
-  results.small_curves.push_back(
-      measure_curves(stage.name, small_subject, small_reference, methods, settings, thread_cpu_seconds));
-  const std::vector<ForeignResult> others = foreign.get();
-  results.foreign.insert(results.foreign.end(), others.begin(), others.end());
-  progress.tell("other renderers");
-  results.effects.push_back(measure_effects(stage.name, stage.description, subject.camera, reference.image,
-                                            options.repeats, thread_cpu_seconds));
-  progress.tell("effects");
-  std::vector<NamedPicture> pictures = figure_pictures(
-      stage.name, file_word(stage.name), {stage.scene, stage.camera(std::min(options.size, kFigureSize))},
-      options.seed, thread_cpu_seconds);
-  std::move(pictures.begin(), pictures.end(), std::back_inserter(results.pictures));
-  const Sequence sequence = make_sequence(stage, shots_of(stage, script, options), options);
-  const std::vector<RatePoint> rates = rates_of(stage, sequence);
-  results.rates.insert(results.rates.end(), rates.begin(), rates.end());
-  progress.tell("frame rates");
-  const std::vector<Punctuality> punctuality =
-      measure_punctuality(stage.name, stage.scene, sequence.shots, sequence.references, sequence.settings);
-  results.punctuality.insert(results.punctuality.end(), punctuality.begin(), punctuality.end());
-  progress.tell("deadlines");
+  results.small_curves.push_back(measure_curves(name_, small, small_converged, methods, settings));
+  append(results.foreign, foreign.get());
+  timer.done("other renderers");
+  results.effects.push_back(
+      measure_effects(name_, description_, large.camera, converged.image, options_.repeats));
+  timer.done("effects");
+  append(results.pictures,
+         figure_pictures(name_, subject(std::min(options_.size, kFigureSize)), options_.seed));
+  const Sequence sequence = sequence_of(frames());
+  append(results.rates, measure_rates(sequence, rates(), kAllCasts));
+  timer.done("frame rates");
+  append(results.real_time, measure_in_real_time(sequence, rates()));
+  timer.done("deadlines");
+}
+
+void SceneStudy::answer_rate(double rmse) const {
+  const Sequence sequence = sequence_of(frames());
+  fmt::print(stderr, "pprt-study: {}: {}\n", name_, rates_setup(kRound));
+  fmt::print("{}\n", rate_with_error(measure_rates(sequence, rates(), kAutoCast), rmse));
+}
+
+void SceneStudy::answer_error(double fps) const {
+  Sequence sequence = sequence_of(frames_at(fps));
+  fmt::print(stderr, "pprt-study: {}: {}\n", name_, rates_setup(kOrbit));
+  fmt::print("{}\n", error_at_rate(measure_rates(sequence, std::array{fps}, kAutoCast), fps));
+  std::vector<RealTimeTurn> turns;
+  for (int turn = 0; turn < options_.repeats; ++turn, ++sequence.seed) {
+    const RealTimePoint with = measure_in_real_time(sequence, CastChoice::kAuto, fps);
+    const RealTimePoint without = measure_in_real_time(sequence, CastChoice::kOff, fps);
+    turns.push_back({with, without, uniform_rmse_in(options_.ranks / fps, sequence)});
+  }
+  fmt::print("{}\n", real_time_summary(turns));
 }
 
 Provenance facts_of(const AccuracyOptions& options, const std::string& command_line) {
@@ -217,48 +238,7 @@ Inputs read_inputs(const AccuracyOptions& options) {
   return inputs;
 }
 
-void tell(const Stage& stage, const std::string& setting) {
-  fmt::print(stderr, "pprt-study: {}: {}\n", stage.name, setting);
-}
-
-// At which rate there is the error.
-void answer_rate(double rmse, const Stage& stage, const Animation* script, const AccuracyOptions& options) {
-  Sequence sequence = make_sequence(stage, shots_of(stage, script, options), options);
-  sequence.settings.casts = {CastChoice::kAuto};
-  tell(stage, rates_setting(options, script, kRound));
-  fmt::print("{}\n", plan(stage.name, rates_of(stage, sequence), {rmse, {}}));
-}
-
-// Which error there is at the rate.
-void answer_error(double fps, const Stage& stage, const Animation* script, const AccuracyOptions& options) {
-  Sequence s = make_sequence(stage, shots_at(fps, stage, script, options), options);
-  s.settings.rates = {fps};
-  s.settings.casts = {CastChoice::kAuto};
-  tell(stage, rates_setting(options, script, kOrbit));
-  fmt::print("{}\n", plan(stage.name, rates_of(stage, s), {{}, fps}));
-  const auto run = [&](CastChoice cast) {
-    return measure_in_real_time(stage.name, stage.scene, s.shots, s.references, s.settings, cast, fps);
-  };
-  std::vector<Punctuality> with, without;
-  std::vector<double> uniform;
-  for (int turn = 0; turn < options.repeats; ++turn, ++s.settings.seed) {
-    with.push_back(run(CastChoice::kAuto));
-    without.push_back(run(CastChoice::kOff));
-    uniform.push_back(uniform_rmse_in(options.ranks / fps, stage.scene, s.shots, s.references));
-  }
-  fmt::print("{}\n", plan_in_real_time(with, without, uniform));
-}
-
-void answer(const Inputs& inputs, const Animation* script, const AccuracyOptions& options) {
-  for (const std::string& name : inputs.scenes) {
-    const Stage stage = make_stage(name);
-    if (options.want_rmse) answer_rate(*options.want_rmse, stage, script, options);
-    if (options.want_fps) answer_error(*options.want_fps, stage, script, options);
-  }
-}
-
-}  // namespace
-
+// Fills in the defaults.
 AccuracyOptions settled(AccuracyOptions options) {
   constexpr int kSize = 512, kQuickSize = 96, kPlannedSize = 128, kCells = 8, kQuickCells = 4;
   if (options.size == 0) {
@@ -268,28 +248,30 @@ AccuracyOptions settled(AccuracyOptions options) {
   return options;
 }
 
-std::filesystem::path cache_directory(const AccuracyOptions& options) {
-  if (options.no_cache) return {};
-  return options.cache.empty() ? default_cache_directory() : std::filesystem::path(options.cache);
-}
+}  // namespace
 
 void study_accuracy(const AccuracyOptions& asked, const std::string& command_line) {
   const AccuracyOptions options = settled(asked);
   const Inputs inputs = read_inputs(options);
   const Animation* script = inputs.script ? &*inputs.script : nullptr;
-  const bool asked_something = options.want_rmse || options.want_fps;
-  if (options.directory.empty() && !asked_something) throw UsageError("--output is required");
-  if (asked_something) answer(inputs, script, options);
+  const bool has_questions = options.want_rmse || options.want_fps;
+  if (options.directory.empty() && !has_questions) throw UsageError("--output is required");
+  for (const std::string& name : inputs.scenes) {
+    if (!has_questions) break;
+    const SceneStudy scene(name, script, options);
+    if (options.want_rmse) scene.answer_rate(*options.want_rmse);
+    if (options.want_fps) scene.answer_error(*options.want_fps);
+  }
   if (options.directory.empty()) return;
   StudyOutput output(options.directory, "What accuracy costs in time", facts_of(options, command_line));
-  Results results;
-  for (const std::string& name : inputs.scenes) measure_scene(make_stage(name), script, options, results);
-  write_curves(results.curves, output);
-  write_figures(results.pictures, output);
-  write_foreign(results.foreign, results.small_curves, options.size / 2, output);
-  write_effects(results.effects, output);
-  write_rates(results.rates, rates_setting(options, script, kRound), output);
-  write_punctuality(results.punctuality, output);
+  AccuracyResults results;
+  std::string setup;
+  for (const std::string& name : inputs.scenes) {
+    const SceneStudy scene(name, script, options);
+    scene.measure(results);
+    setup = scene.rates_setup(kRound);
+  }
+  write_accuracy(results, options.size / 2, setup, output);
   output.finish();
 }
 

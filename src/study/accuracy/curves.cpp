@@ -8,13 +8,13 @@
 
 #include "image/image_io.h"
 #include "image/metrics.h"
-#include "study/accuracy/verdicts.h"
+#include "study/accuracy/statistics.h"
 
 namespace pprt {
 namespace {
 
 CurvePoint judged(const std::string& method, int repeat, Rendering&& rendering, const Image& reference) {
-  constexpr double kThreshold = 1;  // the share of pixels beyond is not asked for
+  constexpr double kThreshold = 1;  // the share of pixels beyond it is not used
   replace_non_finite(rendering.image);
   const Image shown = clamped_to_display(rendering.image);
   CurvePoint point;
@@ -34,10 +34,10 @@ CurvePoint judged(const std::string& method, int repeat, Rendering&& rendering, 
   return point;
 }
 
-double one_sample_seconds(const Method& uniform, const Subject& subject, const SecondsClock& clock) {
+double one_sample_seconds(const Method& uniform, const Subject& subject) {
   constexpr std::array kOne = {1.0};
   double seconds = 0;
-  uniform.run(subject, {kOne}, clock, [&](Rendering&& rendering) { seconds = rendering.seconds; });
+  uniform.run({subject, kOne, 0, 1, [&](Rendering&& rendering) { seconds = rendering.seconds; }});
   return seconds;
 }
 
@@ -54,29 +54,51 @@ double set_shares(std::span<CurvePoint> points) {
 }  // namespace
 
 SceneCurves measure_curves(const std::string& scene, const Subject& subject, const Reference& reference,
-                           std::span<const Method> methods, const CurveSettings& settings,
-                           const SecondsClock& clock) {
+                           std::span<const Method> methods, const CurveSettings& settings) {
   const auto uniform =
       std::find_if(methods.begin(), methods.end(), [](const Method& m) { return m.name == kUniform; });
   if (uniform == methods.end()) throw std::invalid_argument("there is no uniform method to compare with");
   SceneCurves curves{scene, 0, reference.own_rmse, reference.samples, {}};
   const std::vector<double> densities = curve_densities();
-  one_sample_seconds(*uniform, subject, clock);  // warms caches
-  const double limit_s = settings.greatest_share * one_sample_seconds(*uniform, subject, clock);
+  one_sample_seconds(*uniform, subject);  // warms caches
+  const double limit_s = settings.greatest_share * one_sample_seconds(*uniform, subject);
   std::vector<double> one_sample;
   for (int repeat = 0; repeat < settings.repeats; ++repeat) {
     const std::size_t begin = curves.points.size();
     for (std::size_t i = 0; i < methods.size(); ++i) {
       const Method& method = methods[(i + static_cast<std::size_t>(repeat)) % methods.size()];
-      const CurveRange range{densities, limit_s, settings.seed + static_cast<std::uint64_t>(repeat)};
-      method.run(subject, range, clock, [&](Rendering&& rendering) {
-        curves.points.push_back(judged(method.name, repeat, std::move(rendering), reference.image));
-      });
+      method.run({subject, densities, limit_s, settings.seed + static_cast<std::uint64_t>(repeat),
+                  [&](Rendering&& rendering) {
+                    curves.points.push_back(
+                        judged(method.name, repeat, std::move(rendering), reference.image));
+                  }});
     }
     one_sample.push_back(set_shares(std::span(curves.points).subspan(begin)));
   }
   curves.one_sample_s = spread_of(one_sample).median;
   return curves;
+}
+
+Table points_table(const std::vector<SceneCurves>& scenes) {
+  struct Row : CurvePoint {
+    std::string scene;
+  };
+  std::vector<Row> rows;
+  for (const SceneCurves& scene : scenes) {
+    for (const CurvePoint& point : scene.points) rows.push_back({point, scene.scene});
+  }
+  return table_of<Row>(rows, {{"scene", &Row::scene},
+                              {"method", &Row::method},
+                              {"repeat", [](const Row& p) { return p.repeat + 1; }},
+                              {"samples a pixel", &Row::samples},
+                              {"cpu s", &Row::seconds},
+                              {"share of one sample a pixel", &Row::share},
+                              {"rmse", &Row::rmse},
+                              {"ssim", &Row::ssim},
+                              {"flip", &Row::flip},
+                              {"error of 99.9 %", &Row::error_p999},
+                              {"signed mean", &Row::signed_mean},
+                              {"exhausted", [](const Row& p) { return p.exhausted ? "yes" : "no"; }}});
 }
 
 }  // namespace pprt

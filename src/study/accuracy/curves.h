@@ -1,14 +1,13 @@
-// Error against time and against samples, measured: every method on one scene, in turns, on one thread.
+// Measures error against time and against samples: all methods on one scene, in turns, on one thread.
 #pragma once
 
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "study/accuracy/methods.h"
-#include "study/accuracy/reference.h"
 #include "study/report/plot.h"
+#include "study/report/table.h"
 
 namespace pprt {
 
@@ -16,35 +15,37 @@ namespace pprt {
 struct CurvePoint {
   std::string method;
   int repeat = 0;
-  double samples = 0;  // a pixel
-  double seconds = 0;
-  double share = 0;  // of the time that the uniform method took in the same repeat for one sample a pixel
+  double samples = 0;  // per pixel
+  double seconds = 0;  // CPU time
+  double share = 0;    // seconds / those of the uniform method for one sample per pixel in the same repeat
   double rmse = 0;
-  // Of the progressive and the uniform method in the first repeat: telling them takes longer than rendering.
+  // Progressive and uniform method in the first repeat only: measuring these takes longer than rendering.
   double ssim = kNoValue;
   double flip = kNoValue;
   double error_p999 = kNoValue;
   double signed_mean = kNoValue;
-  bool exhausted = false;
+  bool exhausted = false;  // nothing was left to refine
 };
 
 struct SceneCurves {
   std::string scene;
-  double one_sample_s = 0;  // median over repeats of what one sample per pixel took
+  double one_sample_s = 0;  // CPU time of one sample per pixel, median over the repeats
   double reference_rmse = 0;
-  int reference_samples = 0;  // a pixel
+  int reference_samples = 0;  // per pixel
   std::vector<CurvePoint> points;
 };
 
 struct CurveSettings {
   int repeats = 3;
-  double greatest_share = 4.05;  // of the time of one sample a pixel: where curves end
-  std::uint64_t seed = 1;        // of the first repeat; counts up
+  double greatest_share = 4.05;  // curves end at this share of the time of one sample per pixel
+  std::uint64_t seed = 1;        // of the first repeat; the others count up
 };
 
-// `methods` must hold one that is called kUniform. Each repeat runs all of them, another one first each time.
+// `methods` must hold one named kUniform. Each repeat runs all methods, starting with another one.
 SceneCurves measure_curves(const std::string& scene, const Subject& subject, const Reference& reference,
-                           std::span<const Method> methods, const CurveSettings& settings,
-                           const SecondsClock& clock);
+                           std::span<const Method> methods, const CurveSettings& settings);
+
+// Returns one row per picture.
+Table points_table(const std::vector<SceneCurves>& scenes);
 
 }  // namespace pprt

@@ -2,14 +2,13 @@
 
 #include <utility>
 
-#include "study/accuracy/curves.h"
-#include "study/accuracy/reference.h"
-#include "study/accuracy/verdicts.h"
+#include "study/accuracy/methods.h"
+#include "study/accuracy/statistics.h"
 
 namespace pprt {
 namespace {
 
-constexpr int kCells = 2;  // 8 samples a pixel: effects differ by more than the rest of its error
+constexpr int kCells = 2;  // 8 samples per pixel: their own error is small against that of a missing effect
 
 struct Variant {
   std::string name;
@@ -32,27 +31,25 @@ std::vector<Variant> variants_of(EffectSet effects) {
   return variants;
 }
 
-// Seconds for one sample a pixel, in scan lines.
-double scan_seconds(const Subject& subject, const SecondsClock& clock, RayCounts& counts) {
+// CPU time of one sample per pixel, in scan lines.
+double scan_seconds(const Subject& subject, RayCounts& counts) {
   Tracer tracer(subject.scene, subject.camera);
   float sum = 0;
-  const double begin = clock();
+  const double begin = thread_cpu_seconds();
   for (int y = 0; y < subject.camera.height; ++y) {
     for (int x = 0; x < subject.camera.width; ++x) sum += tracer.trace(x + 0.5, y + 0.5).color.x;
   }
-  const double seconds = clock() - begin;
+  const double seconds = thread_cpu_seconds() - begin;
   counts = tracer.counts();
-  // Uses the sum, so that nothing measured is left out by the compiler.
-  return sum < 0 ? 0 : seconds;
+  return sum < 0 ? 0 : seconds;  // uses the sum, so that the compiler leaves nothing out
 }
 
 }  // namespace
 
 SceneEffects measure_effects(const std::string& scene_name, const SceneDescription& description,
-                             const Camera& camera, const Image& reference, int repeats,
-                             const SecondsClock& clock) {
+                             const Camera& camera, const Image& reference, int repeats) {
   const CompiledScene whole = compile(description);
-  SceneEffects result{scene_name, whole.census(), {}};
+  SceneEffects result{whole.census(), {}};
   const std::vector<Variant> variants = variants_of(whole.effects());
   std::vector<CompiledScene> scenes;
   scenes.reserve(variants.size());
@@ -62,7 +59,7 @@ SceneEffects measure_effects(const std::string& scene_name, const SceneDescripti
   for (int repeat = 0; repeat < repeats; ++repeat) {
     double of_whole = 0;
     for (std::size_t i = 0; i < variants.size(); ++i) {
-      const double seconds = scan_seconds({scenes[i], camera}, clock, counts[i]);
+      const double seconds = scan_seconds({scenes[i], camera}, counts[i]);
       if (i == 0) of_whole = seconds;
       ratios[i].push_back(seconds / of_whole);
     }
@@ -77,13 +74,13 @@ SceneEffects measure_effects(const std::string& scene_name, const SceneDescripti
 }
 
 Table effects_table(const std::vector<SceneEffects>& scenes) {
-  Table table{{"scene", "simulated", "time", "rays an eye ray", "rmse"}, {}, {}};
-  for (const SceneEffects& scene : scenes) {
-    for (const EffectCost& c : scene.costs) {
-      table.rows.push_back({c.scene, c.variant, c.time_ratio, c.rays_per_eye, c.rmse});
-    }
-  }
-  return table;
+  std::vector<EffectCost> costs;
+  for (const SceneEffects& scene : scenes) costs.insert(costs.end(), scene.costs.begin(), scene.costs.end());
+  return table_of<EffectCost>(costs, {{"scene", &EffectCost::scene},
+                                      {"simulated", &EffectCost::variant},
+                                      {"time", &EffectCost::time_ratio},
+                                      {"rays an eye ray", &EffectCost::rays_per_eye},
+                                      {"rmse", &EffectCost::rmse}});
 }
 
 }  // namespace pprt

@@ -16,7 +16,7 @@
 #include "image/contact_sheet.h"
 #include "image/image_io.h"
 #include "scene/nff_writer.h"
-#include "study/accuracy/reference.h"
+#include "study/reference.h"
 #include "study/report/plot.h"
 
 namespace pprt {
@@ -43,8 +43,8 @@ class ScratchDirectory {
   std::filesystem::path path_;
 };
 
-// Runs a program in silence; returns the CPU seconds that it took. Throws ProgramNotFound, or
-// std::runtime_error when it fails.
+// Runs a program in silence and returns its CPU seconds. Throws ProgramNotFound, or std::runtime_error when
+// it fails.
 double run_in_silence(const std::vector<std::string>& command) {
   constexpr StreamTo kNothing = StreamTo::kNothing;
   Subprocess program(command, {.input = kNothing, .output = kNothing, .errors = kNothing});

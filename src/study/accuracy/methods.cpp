@@ -23,7 +23,7 @@ struct Size {
   int width, height;
 };
 
-// Of the grid that has so many samples a pixel.
+// Size of the grid with so many samples per pixel.
 Size grid_size(const Camera& camera, double density) {
   const auto along = [&](int pixels) {
     return std::max(2, static_cast<int>(std::lround(pixels * std::sqrt(density))));
@@ -35,7 +35,7 @@ double samples_per_pixel(double samples, const Camera& camera) {
   return samples / (static_cast<double>(camera.width) * camera.height);
 }
 
-// Where a pixel's centre lies between two samples of a row of `count`, the row's ends extended.
+// Place of a pixel's centre between two samples of a row.
 struct Between {
   int low;
   float share;  // of the one after `low`
@@ -85,21 +85,21 @@ Image uniform_picture(Tracer& tracer, const Camera& camera, const Size& size) {
                                    : resize(grid, camera.width, camera.height);
 }
 
-void run_uniform(const Subject& subject, const CurveRange& range, const SecondsClock& clock,
-                 const RenderingSink& sink) {
-  for (const double density : range.densities) {
-    const Size size = grid_size(subject.camera, density);
-    Tracer tracer(subject.scene, subject.camera);
-    const double begin = clock();
-    Image image = uniform_picture(tracer, subject.camera, size);
-    const double seconds = clock() - begin;
-    sink({samples_per_pixel(static_cast<double>(size.width) * size.height, subject.camera), seconds,
-          std::move(image)});
-    if (seconds > range.limit_s) return;
+void run_uniform(const CurveTask& task) {
+  const Camera& camera = task.subject.camera;
+  for (const double density : task.densities) {
+    const Size size = grid_size(camera, density);
+    Tracer tracer(task.subject.scene, camera);
+    const double begin = thread_cpu_seconds();
+    Image image = uniform_picture(tracer, camera, size);
+    const double seconds = thread_cpu_seconds() - begin;
+    task.sink({samples_per_pixel(static_cast<double>(size.width) * size.height, camera), seconds,
+               std::move(image)});
+    if (seconds > task.limit_s) return;
   }
 }
 
-// What is learned is learned of pictures by that rule.
+// The weights are learned from errors of pictures made by the same rule.
 WeightTerms learning_of(WeightTerms terms, PixelRule rule) {
   terms.edges = rule == PixelRule::kEdges;
   return terms;
@@ -127,13 +127,13 @@ class MeshPainter {
 
   enum class Stop : std::uint8_t { kSamples, kTime, kExhausted };
 
-  // Until there are so many samples, the clock shows `end_s`, or nothing is left to refine.
-  Stop refine_until(double samples, const SecondsClock& clock, double end_s) {
-    constexpr int kSamplesPerLook = 256;  // at the clock, which costs as much as a sample
+  // Refines until there are so many samples, the thread's CPU time is `end_s`, or nothing is left to refine.
+  Stop refine_until(double samples, double end_s) {
+    constexpr int kSamplesPerLook = 256;  // reading the clock costs as much as a sample
     for (int i = 1; static_cast<double>(mesh_.samples().size()) < samples; ++i) {
       if (i % kSamplesPerLook == 1)
         mesh_.expect_growth(samples / static_cast<double>(mesh_.samples().size()));
-      if (i % kSamplesPerLook == 0 && clock() > end_s) return Stop::kTime;
+      if (i % kSamplesPerLook == 0 && thread_cpu_seconds() > end_s) return Stop::kTime;
       const std::optional<Refinement> next = mesh_.next_point();
       if (!next) return Stop::kExhausted;
       add(next->point);
@@ -162,54 +162,50 @@ class MeshPainter {
   ReconstructionBuffers buffers_;
 };
 
-// One refinement, looked at on its way: a picture's time is that of all sampling before it, and its own
-// reconstruction. It is made twice, and the second time counts: the frames of a sequence find the storage
-// that those before them have left.
-void run_refinement(const WeightTerms& terms, PixelRule rule, const Subject& subject, const CurveRange& range,
-                    const SecondsClock& clock, const RenderingSink& sink) {
-  const Camera& camera = subject.camera;
+// Makes one refinement, with a picture at each density. A picture's time is that of all sampling before it
+// and of its own reconstruction. The refinement is made twice and the second counts: the frames of a
+// sequence, too, find the storage of those before them.
+void run_refinement(const WeightTerms& terms, PixelRule rule, const CurveTask& task) {
+  const Camera& camera = task.subject.camera;
   const double pixels = static_cast<double>(camera.width) * camera.height;
-  const std::vector<Vec2d> seeds = seed_points(camera.width, camera.height, range.seed);
-  MeshPainter painter(subject, terms, rule);
+  const std::vector<Vec2d> seeds = seed_points(camera.width, camera.height, task.seed);
+  MeshPainter painter(task.subject, terms, rule);
   for (const Vec2d& point : seeds) painter.add(point);
-  painter.refine_until(range.densities.back() * pixels, clock, clock() + range.limit_s);
+  painter.refine_until(task.densities.back() * pixels, thread_cpu_seconds() + task.limit_s);
   painter.picture();
   painter.clear();
 
-  double sampling = 0, begin = clock();
+  double sampling = 0, begin = thread_cpu_seconds();
   for (const Vec2d& point : seeds) painter.add(point);
-  for (const double density : range.densities) {
+  for (const double density : task.densities) {
     if (density < painter.density()) continue;
-    const auto stop = painter.refine_until(density * pixels, clock, begin + range.limit_s - sampling);
-    const double sampled = clock();
+    const auto stop = painter.refine_until(density * pixels, begin + task.limit_s - sampling);
+    const double sampled = thread_cpu_seconds();
     sampling += sampled - begin;
     Image image = painter.picture();
-    const double seconds = sampling + clock() - sampled;
-    const bool exhausted = stop == MeshPainter::Stop::kExhausted;
-    sink({painter.density(), seconds, std::move(image), exhausted});
-    if (stop != MeshPainter::Stop::kSamples || seconds > range.limit_s) return;
-    begin = clock();
+    const double seconds = sampling + thread_cpu_seconds() - sampled;
+    task.sink({painter.density(), seconds, std::move(image), stop == MeshPainter::Stop::kExhausted});
+    if (stop != MeshPainter::Stop::kSamples || seconds > task.limit_s) return;
+    begin = thread_cpu_seconds();
   }
 }
 
 Method refinement(std::string name, std::string description, const WeightTerms& terms,
                   PixelRule rule = PixelRule::kEdges) {
-  return {
-      std::move(name), std::move(description),
-      [terms, rule](const Subject& subject, const CurveRange& range, const SecondsClock& clock,
-                    const RenderingSink& sink) { run_refinement(terms, rule, subject, range, clock, sink); }};
+  return {std::move(name), std::move(description),
+          [=](const CurveTask& task) { run_refinement(terms, rule, task); }};
 }
 
-void run_stratified(const Subject& subject, const CurveRange& range, const SecondsClock& clock,
-                    const RenderingSink& sink) {
-  const Camera& camera = subject.camera;
+void run_stratified(const CurveTask& task) {
+  const Camera& camera = task.subject.camera;
   const double w = camera.width, h = camera.height;
-  for (const double density : range.densities) {
+  for (const double density : task.densities) {
     const Size size = grid_size(camera, density);
-    std::mt19937_64 random(range.seed);
+    std::mt19937_64 random(task.seed);
     const auto jitter = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
-    const double begin = clock();
-    MeshPainter painter(subject, {.area = false, .variance = false, .learned = false}, PixelRule::kEdges);
+    const double begin = thread_cpu_seconds();
+    MeshPainter painter(task.subject, {.area = false, .variance = false, .learned = false},
+                        PixelRule::kEdges);
     for (const Vec2d& corner : {Vec2d(0, 0), Vec2d(w, 0), Vec2d(w, h), Vec2d(0, h)}) painter.add(corner);
     for (int y = 0; y < size.height; ++y) {
       for (int x = 0; x < size.width; ++x) {
@@ -218,9 +214,9 @@ void run_stratified(const Subject& subject, const CurveRange& range, const Secon
       }
     }
     Image image = painter.picture();
-    const double seconds = clock() - begin;
-    sink({painter.density(), seconds, std::move(image)});
-    if (seconds > range.limit_s) return;
+    const double seconds = thread_cpu_seconds() - begin;
+    task.sink({painter.density(), seconds, std::move(image)});
+    if (seconds > task.limit_s) return;
   }
 }
 
@@ -233,7 +229,7 @@ double thread_cpu_seconds() {
 }
 
 Method progressive_method() {
-  return refinement(kProgressive, "this renderer, one rank: the heaviest triangle is refined", {});
+  return refinement(kProgressive, "this renderer on one rank: the heaviest triangle is refined", {});
 }
 
 Method uniform_method() {
@@ -241,44 +237,41 @@ Method uniform_method() {
           run_uniform};
 }
 
-Image uniform_picture_in(double seconds, const Subject& subject, const SecondsClock& clock) {
-  // Each trial tells the next what a sample takes.
-  constexpr int kTrials = 3;
-  constexpr double kFirst = 0.05;  // samples a pixel
-  double density = kFirst;
+Image uniform_picture_in(double seconds, const Subject& subject) {
+  constexpr int kTrials = 3;  // each finds the density for the next
+  double density = 0.05;      // samples per pixel
   Image image;
   for (int trial = 0; trial < kTrials; ++trial) {
     Tracer tracer(subject.scene, subject.camera);
-    const double begin = clock();
+    const double begin = thread_cpu_seconds();
     image = uniform_picture(tracer, subject.camera, grid_size(subject.camera, density));
-    const double taken = std::max(clock() - begin, 1e-9);
-    if (trial + 1 < kTrials) density *= seconds / taken;
+    density *= seconds / std::max(thread_cpu_seconds() - begin, 1e-9);
   }
   return image;
 }
 
 std::vector<Method> accuracy_methods() {
-  return {progressive_method(),
-          uniform_method(),
-          {kControl, "the uniform grid once more: how far figures differ by noise alone", run_uniform},
-          refinement("paper weights", "progressive by the paper's weights, whatever errors are found",
-                     {.learned = false}),
-          refinement("area only", "the same by the triangles' size, whatever their colours",
-                     {.variance = false, .pixel_rule = false, .learned = false}),
-          refinement("variance only", "the same by the colours' variance, whatever the size",
-                     {.area = false, .learned = false}),
-          refinement("no pixel rule", "the same, flat triangles below a pixel refined like others",
-                     {.pixel_rule = false, .learned = false}),
-          refinement("pixel area",
-                     "progressive, a pixel with several samples shows the interpolation's mean over its area",
-                     {}, PixelRule::kArea),
-          refinement("mean of samples",
-                     "progressive, a pixel with several samples shows their mean: the paper's rule", {},
-                     PixelRule::kMean),
-          refinement("pixel centers", "progressive, every pixel shows the interpolation at its centre", {},
-                     PixelRule::kCenter),
-          {"stratified random", "no queue: a jittered grid, triangulated and reconstructed alike",
-           run_stratified}};
+  return {
+      progressive_method(),
+      uniform_method(),
+      {kControl, "the uniform method again: its difference to the first is noise", run_uniform},
+      refinement("paper weights", "progressive with the paper's weights, nothing learned from errors found",
+                 {.learned = false}),
+      refinement("area only", "paper weights without the variance of colours",
+                 {.variance = false, .pixel_rule = false, .learned = false}),
+      refinement("variance only", "paper weights without the area", {.area = false, .learned = false}),
+      refinement("no pixel rule", "paper weights; flat triangles below a pixel are refined like others",
+                 {.pixel_rule = false, .learned = false}),
+      refinement("pixel area",
+                 "progressive; a pixel with several samples shows the interpolation's mean over its area", {},
+                 PixelRule::kArea),
+      refinement("mean of samples",
+                 "progressive; a pixel with several samples shows their mean, as in the paper", {},
+                 PixelRule::kMean),
+      refinement("pixel centers", "progressive; every pixel shows the interpolation at its centre", {},
+                 PixelRule::kCenter),
+      {"stratified random", "no queue: a jittered grid, triangulated and reconstructed alike",
+       run_stratified}};
 }
 
 std::vector<double> curve_densities() {

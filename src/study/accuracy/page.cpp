@@ -4,50 +4,60 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
 
-#include "study/accuracy/verdicts.h"
+#include "study/accuracy/comparison.h"
+#include "study/accuracy/pictures.h"
 
 namespace pprt {
 namespace {
 
-// What the points of a curve are drawn over.
+// Abscissa of the curves.
 struct Abscissa {
   const char* label;
   double CurvePoint::*value;
   double factor;
 };
-constexpr Abscissa kTime = {"CPU time, % of one sample a pixel", &CurvePoint::share, 100};
-constexpr Abscissa kSamples = {"samples a pixel", &CurvePoint::samples, 1};
+constexpr Abscissa kTime = {"CPU time, % of one sample per pixel", &CurvePoint::share, 100};
+constexpr Abscissa kSamples = {"samples per pixel", &CurvePoint::samples, 1};
 
-// Medians over repeats, point by point, with the spread of the errors.
-Curve curve_over(const SceneCurves& scene, const std::string& method, const Abscissa& x, int colour) {
-  Curve curve{method, {}, CurveStyle::kLine, colour};
+Panel log_panel(const std::string& title, const char* x, const char* y) {
+  return {title, {x, 10}, {y, 10}, {}, PanelKind::kCurves};
+}
+
+template <typename Items, typename MakePanel>
+void add_plot(const char* name, const char* caption, const Items& items, StudyOutput& output,
+              const MakePanel& make_panel) {
+  Plot plot{name, {}, 2};
+  for (const auto& item : items) plot.panels.push_back(make_panel(item));
+  output.add_figure(plot, caption);
+}
+
+// Medians over the repeats, point by point, with the spread of the errors.
+Curve median_curve(const SceneCurves& scene, const std::string& method, const Abscissa& x) {
   std::vector<std::vector<CurvePoint>> repeats;
-  for (int r = 0;; ++r) {
-    std::vector<CurvePoint> points = curve_of(scene, method, r);
-    if (points.empty()) break;
+  for (std::vector<CurvePoint> points = points_of(scene, method, 0); !points.empty();
+       points = points_of(scene, method, static_cast<int>(repeats.size()))) {
     repeats.push_back(std::move(points));
   }
-  for (std::size_t i = 0;; ++i) {
+  std::size_t count = repeats.empty() ? 0 : repeats.front().size();
+  for (const auto& points : repeats) count = std::min(count, points.size());
+  Curve curve{method, {}};
+  for (std::size_t i = 0; i < count; ++i) {
     std::vector<double> at, errors;
-    for (const std::vector<CurvePoint>& points : repeats) {
-      if (i >= points.size()) return curve;
+    for (const auto& points : repeats) {
       at.push_back(points[i].*x.value * x.factor);
       errors.push_back(points[i].rmse);
     }
     const Spread error = spread_of(std::move(errors));
     curve.points.push_back({spread_of(std::move(at)).median, error.median, error.low, error.high});
-    if (repeats.empty()) return curve;
   }
+  return curve;
 }
 
 Panel curves_panel(const SceneCurves& scene, const Abscissa& x, const std::vector<std::string>& methods) {
-  Panel panel{scene.scene, {x.label, 10}, {"RMSE", 10}, {}, PanelKind::kCurves};
-  for (const std::string& method : methods) {
-    panel.curves.push_back(curve_over(scene, method, x, static_cast<int>(panel.curves.size())));
-  }
+  Panel panel = log_panel(scene.scene, x.label, "RMSE");
+  for (const std::string& method : methods) panel.curves.push_back(median_curve(scene, method, x));
   return panel;
 }
 
@@ -59,7 +69,7 @@ Panel ratio_panel(const SceneCurves& scene) {
               {},
               PanelKind::kCurves};
   for (const char* method : {kProgressive, kControl}) {
-    Curve curve{method, {}, CurveStyle::kLine};
+    Curve curve{method, {}};
     for (const double share : shares_by(kStep)) {
       const Spread s = ratio_at_equal_time(scene, method, share);
       if (!std::isnan(s.median)) curve.points.push_back({100 * share, s.median, s.low, s.high});
@@ -71,49 +81,41 @@ Panel ratio_panel(const SceneCurves& scene) {
 }
 
 Panel perceived_panel(const SceneCurves& scene) {
-  Panel panel{scene.scene, {kTime.label, 10}, {"FLIP, 1 - SSIM", 10}, {}, PanelKind::kCurves};
-  for (const char* method : {kProgressive, kUniform}) {
-    Curve flip{fmt::format("{}, FLIP", method), {}, CurveStyle::kLine};
-    Curve ssim{fmt::format("{}, SSIM", method), {}, CurveStyle::kMarkedLine};
-    for (const CurvePoint& p : curve_of(scene, method, 0)) {
-      flip.points.push_back({kTime.factor * p.share, p.flip});
-      ssim.points.push_back({kTime.factor * p.share, 1 - p.ssim});
-    }
-    flip.colour = ssim.colour = static_cast<int>(panel.curves.size() / 2);
-    panel.curves.push_back(std::move(flip));
-    panel.curves.push_back(std::move(ssim));
+  Panel panel = log_panel(scene.scene, kTime.label, "FLIP, 1 - SSIM");
+  const auto time = [](const CurvePoint& p) { return kTime.factor * p.share; };
+  const auto dissimilarity = [](const CurvePoint& p) { return 1 - p.ssim; };
+  int colour = 0;
+  for (const std::string method : {kProgressive, kUniform}) {
+    const std::vector<CurvePoint> points = points_of(scene, method, 0);
+    panel.curves.push_back(
+        curve_over(method + ", FLIP", points, time, &CurvePoint::flip, CurveStyle::kLine, colour));
+    panel.curves.push_back(
+        curve_over(method + ", SSIM", points, time, dissimilarity, CurveStyle::kMarkedLine, colour++));
   }
   return panel;
 }
 
-template <typename MakePanel>
-void add_plot(const std::string& name, const char* caption, const std::vector<SceneCurves>& scenes,
-              StudyOutput& output, const MakePanel& make_panel) {
-  Plot plot{name, {}, 2};
-  for (const SceneCurves& scene : scenes) plot.panels.push_back(make_panel(scene));
-  output.add_figure(plot, caption);
-}
-
 std::vector<std::string> ablations(const SceneCurves& scene) {
-  std::vector<std::string> names = {kProgressive};
-  for (const std::string& name : rivals(scene)) {
-    if (name != kProgressive && name != kControl) names.push_back(name);
-  }
+  std::vector<std::string> names = rivals(scene);
+  std::erase(names, kControl);
+  std::stable_partition(names.begin(), names.end(),
+                        [](const std::string& name) { return name == kProgressive; });
   return names;
 }
 
 Table references_table(const std::vector<SceneCurves>& scenes) {
-  Table table{{"scene", "samples a pixel", "own rmse", "least rmse measured"}, {}, {}};
-  for (const SceneCurves& s : scenes) {
-    const auto least = std::min_element(s.points.begin(), s.points.end(),
-                                        [](const auto& a, const auto& b) { return a.rmse < b.rmse; });
-    table.rows.push_back({s.scene, std::int64_t{s.reference_samples}, s.reference_rmse,
-                          least == s.points.end() ? kNoValue : least->rmse});
-  }
-  return table;
+  const auto least = [](const SceneCurves& s) {
+    double rmse = kNoValue;
+    for (const CurvePoint& p : s.points) rmse = std::fmin(rmse, p.rmse);
+    return rmse;
+  };
+  return table_of<SceneCurves>(scenes, {{"scene", &SceneCurves::scene},
+                                        {"samples a pixel", &SceneCurves::reference_samples},
+                                        {"own rmse", &SceneCurves::reference_rmse},
+                                        {"least rmse measured", least}});
 }
 
-// At every budget of the tables where the median is above 1.
+// Names the budgets of the tables at which the median is above 1.
 std::string losses(const SceneCurves& scene) {
   std::string text;
   for (const double share : kBudgets) {
@@ -123,67 +125,176 @@ std::string losses(const SceneCurves& scene) {
   return text.empty() ? "It loses at none of the budgets." : "It loses at " + text + ".";
 }
 
-void write_verdicts(const std::vector<SceneCurves>& scenes, StudyOutput& output) {
+void write_ratios(const std::vector<SceneCurves>& scenes, StudyOutput& output) {
   Page& page = output.page();
   page.heading("Progressive against uniform at equal time");
   page.paragraph(
-      "Errors of the progressive picture over those of the uniform one that takes as much CPU time of one "
-      "thread with the same tracing kernel. Below 1 progressive is better. Times are shares of what one "
-      "sample a pixel takes, its picture included, so that below some share neither has a picture to show. "
-      "Of each method the best picture counts that the time allows. The geometric mean at a budget is over "
-      "the scenes that have a picture by then.");
+      "Error of the progressive picture over that of the uniform picture that takes the same CPU time. Both "
+      "use one "
+      "thread and the same tracing kernel. Below 1, progressive is better. Times are shares of the time of "
+      "one sample "
+      "per pixel, reconstruction included; for very small shares neither method has a picture. Each method "
+      "shows its "
+      "best picture so far. The geometric mean at a budget is over the scenes that have a picture.");
   output.add_table("ratios", ratio_table(scenes));
   for (const SceneCurves& s : scenes) {
     page.paragraph(fmt::format("{}: {} {}", s.scene, to_sentence(break_even(s, kProgressive), "Progressive"),
                                losses(s)));
   }
+  add_plot("ratios",
+           "Medians of the repeats with their spread. The control is the uniform method again: its ratio "
+           "shows the "
+           "noise.",
+           scenes, output, ratio_panel);
+}
+
+void write_curves(const std::vector<SceneCurves>& scenes, StudyOutput& output) {
+  const auto both_over = [](const Abscissa& x) {
+    return [x](const SceneCurves& s) { return curves_panel(s, x, {kProgressive, kUniform}); };
+  };
+  Page& page = output.page();
+  page.heading("Error against time and against samples");
+  add_plot("error-time", "Root mean square error on the display scale against CPU time of one thread.",
+           scenes, output, both_over(kTime));
+  add_plot("error-samples", "The same error against the number of samples.", scenes, output,
+           both_over(kSamples));
+  add_plot("perceived",
+           "Perceived error: mean FLIP (67 pixels per degree) and 1 - SSIM against CPU time, first repeat.",
+           scenes, output, perceived_panel);
+  page.heading("What each part of the method is worth");
+  add_plot("ablations", "Progressive, and without one of its parts.", scenes, output,
+           [](const SceneCurves& s) { return curves_panel(s, kTime, ablations(s)); });
+  page.table(table_of<Method>(accuracy_methods(),
+                              {{"method", &Method::name}, {"what it is", &Method::description}}));
+  page.heading("Errors at equal time");
+  page.paragraph("Over those of the uniform method, medians of the repeats. comparisons.csv has the spread.");
+  page.table(equal_time_table(scenes));
+  page.heading("Times at equal error");
+  page.paragraph(
+      "Time for the error that the uniform method has at each budget, over the time of the uniform method. "
+      "Below 1 the "
+      "method is faster. A dash: the method has no picture as coarse as that, or none as good.");
+  page.table(equal_error_table(scenes));
+  page.heading("What errors are measured against");
+  page.paragraph(
+      "Converged frames: the mean of two independent halves, each with one sample at a random place of every "
+      "cell of a "
+      "grid in every pixel. Samples are clamped to the display's range before the mean. Their own error is "
+      "half the "
+      "difference of the halves.");
+  page.table(references_table(scenes));
+  output.write_table("curves", points_table(scenes));
+  output.write_table("comparisons", comparisons_table(scenes));
+}
+
+// This renderer's curves, then each program's plain pictures as a line and its adaptive ones as marks.
+Panel foreign_panel(const SceneCurves& own, const std::vector<ForeignResult>& results) {
+  Panel panel = log_panel(own.scene, "CPU time, % of the renderer's own plain picture",
+                          "RMSE against its own converged picture");
+  const auto percent = [](const auto& point) { return 100 * point.share; };
+  int colour = 0;
+  for (const char* method : {kProgressive, kUniform}) {
+    panel.curves.push_back(curve_over(method, points_of(own, method, 0), percent, &CurvePoint::rmse,
+                                      CurveStyle::kLine, colour++));
+  }
+  for (const ForeignResult& r : results) {
+    if (r.scene != own.scene) continue;
+    for (const bool adaptive : {false, true}) {
+      std::vector<ForeignPoint> points = r.points;
+      std::erase_if(points, [&](const ForeignPoint& p) { return p.adaptive != adaptive; });
+      if (points.empty()) continue;
+      panel.curves.push_back(curve_over(r.program + (adaptive ? ", adaptive" : ""), points, percent,
+                                        &ForeignPoint::rmse,
+                                        adaptive ? CurveStyle::kMarks : CurveStyle::kMarkedLine, colour));
+    }
+    ++colour;
+  }
+  return panel;
+}
+
+void write_foreign(const AccuracyResults& results, int size, StudyOutput& output) {
+  output.page().heading("Other renderers");
+  output.page().paragraph(
+      fmt::format("Each program against its own converged picture at {0} x {0} pixels. Time is a share of "
+                  "its own plain picture "
+                  "with one sample per pixel, on one thread and without reading the scene. Tachyon writes 8 "
+                  "bits per channel, "
+                  "which adds an error of 0.001.",
+                  size));
+  add_plot("renderers", "Error against time, each on its own scale.", results.small_curves, output,
+           [&](const SceneCurves& own) { return foreign_panel(own, results.foreign); });
+  output.add_table("renderers", foreign_table(results.foreign));
+}
+
+void write_effects(const std::vector<SceneEffects>& scenes, StudyOutput& output) {
+  Page& page = output.page();
+  page.heading("What effects cost, and what their absence costs");
+  page.paragraph(
+      "CPU time of one sample per pixel over that of the whole scene, and the error of a picture with eight "
+      "samples "
+      "per pixel against the converged frame. The first row's error is that of so few samples alone. Only "
+      "effects that "
+      "a scene calls for are simulated. The general kernel traces the same rays with code for all effects.");
+  output.add_table("effects", effects_table(scenes));
+  page.paragraph("Effects that the scenes call for:");
+  for (const SceneEffects& scene : scenes) page.listing(scene.census);
+}
+
+Panel rates_panel(const std::string& scene, const std::vector<RatePoint>& all, const char* label,
+                  double RatePoint::*value) {
+  Panel panel{scene, {"frames per second", 2}, {label, 10}, {}, PanelKind::kCurves};
+  for (const std::string_view word : kCastWords) {
+    std::vector<RatePoint> points = all;
+    std::erase_if(points, [&](const RatePoint& p) { return p.scene != scene || to_word(p.cast) != word; });
+    if (points.empty()) continue;
+    panel.curves.push_back(
+        curve_over(fmt::format("cast {}", word), points, &RatePoint::fps, value, CurveStyle::kMarkedLine));
+  }
+  return panel;
+}
+
+void write_rates(const AccuracyResults& results, const std::string& setup, StudyOutput& output) {
+  output.page().heading("Which frame rate is worth having");
+  output.page().paragraph(setup);
+  std::vector<std::string> scenes;
+  for (const SceneCurves& s : results.curves) scenes.push_back(s.scene);
+  const auto add = [&](const char* name, const char* caption, const char* label, double RatePoint::*value) {
+    add_plot(name, caption, scenes, output,
+             [&](const std::string& scene) { return rates_panel(scene, results.rates, label, value); });
+  };
+  add("rates", "Mean error of a sequence's frames against the frame rate.", "RMSE", &RatePoint::rmse);
+  add("after-cut", "Error of the frames right after a camera cut, and of the first frame.", "RMSE",
+      &RatePoint::rmse_after_cut);
+  add("flicker", "Flicker: error of the change from frame to frame over the reference's own change.", "ratio",
+      &RatePoint::flicker);
+  output.add_table("rates", rates_table(results.rates));
+  output.page().heading("Deadlines in real time");
+  output.page().paragraph(
+      "The same sequences in real time, repeated for at least two seconds: the share of frames that met "
+      "their "
+      "deadline, and their lateness (below 0: early). Errors and samples that differ from those above show "
+      "how far the "
+      "work clock's second is from this machine's. Uniform rmse: a uniform grid of samples that takes all of "
+      "the "
+      "ranks' time, with nothing lost to deadlines.");
+  output.add_table("punctuality", real_time_table(results.real_time));
 }
 
 }  // namespace
 
-void write_curves(const std::vector<SceneCurves>& scenes, StudyOutput& output) {
-  Page& page = output.page();
-  write_verdicts(scenes, output);
-  add_plot("ratios",
-           "Medians of the repeats with their spread. The control is the uniform sampler once more: "
-           "what differs there is noise.",
-           scenes, output, ratio_panel);
-  page.heading("Error against time and against samples");
-  add_plot("error-time", "Root mean square error on the display scale against CPU time of one thread.",
-           scenes, output, [](const SceneCurves& s) {
-             return curves_panel(s, kTime, {kProgressive, kUniform});
-           });
-  add_plot("error-samples", "The same against the number of samples, whatever they cost.", scenes, output,
-           [](const SceneCurves& s) {
-             return curves_panel(s, kSamples, {kProgressive, kUniform});
-           });
-  add_plot(
-      "perceived",
-      "What the eye is shown: mean FLIP (67 pixels per degree) and 1 - SSIM against CPU time, first repeat.",
-      scenes, output, perceived_panel);
-  page.heading("What each part of the method is worth");
-  add_plot("ablations", "Progressive, and with a part of it taken out.", scenes, output,
-           [](const SceneCurves& s) { return curves_panel(s, kTime, ablations(s)); });
-  Table methods{{"method", "what it is"}, {}, {}};
-  for (const Method& m : accuracy_methods()) methods.rows.push_back({m.name, m.description});
-  page.table(methods);
-  page.heading("Errors at equal time");
-  page.paragraph("Over the uniform sampler's, medians of the repeats; comparisons.csv has their spread.");
-  page.table(equal_time_table(scenes));
-  page.heading("Times at equal error");
-  page.paragraph(
-      "Time for the error that the uniform sampler has after so long, over the uniform sampler's; below 1 "
-      "the method gets there sooner. A dash: it has no picture that coarse, or none that good within the "
-      "range.");
-  page.table(equal_error_table(scenes));
-  page.heading("What errors are measured against");
-  page.paragraph(
-      "Converged frames of two independent halves, each one sample at a random place of every cell of a grid "
-      "in every pixel; samples clamped to the display's range, then the mean over the pixel. Their own error "
-      "is half of what the halves differ by.");
-  page.table(references_table(scenes));
-  output.write_table("curves", points_table(scenes));
-  output.write_table("comparisons", comparisons_table(scenes));
+void write_accuracy(const AccuracyResults& results, int small_size, const std::string& rates_setup,
+                    StudyOutput& output) {
+  write_ratios(results.curves, output);
+  write_curves(results.curves, output);
+  output.page().heading(fmt::format("Where {} samples go", kFigureSamples));
+  output.page().paragraph(
+      "As in the paper's figure 1: the cost of each pixel's sample, the places that refinement chooses, "
+      "their "
+      "triangulation, and the picture from them.");
+  output.add_gallery(results.pictures);
+  write_foreign(results, small_size, output);
+  write_effects(results.effects, output);
+  write_rates(results, rates_setup, output);
 }
 
 }  // namespace pprt

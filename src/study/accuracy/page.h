@@ -1,14 +1,29 @@
-// The accuracy study as tables, plots and a page.
+// The accuracy study's results, and the page, tables and plots made of them.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "study/accuracy/curves.h"
-#include "study/output.h"
+#include "study/accuracy/effects.h"
+#include "study/accuracy/foreign.h"
+#include "study/accuracy/rates.h"
+#include "study/report/output.h"
 
 namespace pprt {
 
-// Curves, tables at equal time and equal error, break-even points, and in words where progressive loses.
-void write_curves(const std::vector<SceneCurves>& scenes, StudyOutput& output);
+struct AccuracyResults {
+  std::vector<SceneCurves> curves;
+  std::vector<SceneCurves> small_curves;  // at the size of the other renderers' pictures
+  std::vector<ForeignResult> foreign;
+  std::vector<SceneEffects> effects;
+  std::vector<Picture> pictures;
+  std::vector<RatePoint> rates;
+  std::vector<RealTimePoint> real_time;
+};
+
+// `small_size` is that of small_curves, pixels; `rates_setup` describes the sequences in a sentence.
+void write_accuracy(const AccuracyResults& results, int small_size, const std::string& rates_setup,
+                    StudyOutput& output);
 
 }  // namespace pprt

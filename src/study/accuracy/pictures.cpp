@@ -5,20 +5,19 @@
 #include <algorithm>
 #include <cctype>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "image/image_io.h"
 #include "layers/frame_layers.h"
 #include "layers/pictures.h"
 #include "parallel/balance/partition.h"
-#include "parallel/virtual_ranks.h"
-#include "trace/tracer_probe.h"
+#include "study/accuracy/methods.h"
+#include "study/frame_series.h"
 
 namespace pprt {
 namespace {
 
-// One frame of one rank, of so many samples.
+// One frame of one rank with kFigureSamples samples.
 FinishedFrame sampled_frame(const Subject& subject, std::uint64_t seed) {
   SessionSettings settings;
   settings.width = subject.camera.width;
@@ -29,20 +28,14 @@ FinishedFrame sampled_frame(const Subject& subject, std::uint64_t seed) {
   settings.cast = CastChoice::kOff;
   settings.balance = BalanceMode::kNone;
   settings.report_samples = true;
-  Tracer tracer(subject.scene, subject.camera);
   FinishedFrame frame;
-  run_virtual_ranks(
-      1, settings, [&](int) { return probe_of(tracer); },
-      [&](int index) -> std::optional<FrameRequest> {
-        if (index > 0) return std::nullopt;
-        return FrameRequest{1, subject.camera, false, true};
-      },
-      [&](FinishedFrame&& finished) { frame = std::move(finished); });
+  render_series(subject.scene, {{1, subject.camera}}, 1, settings,
+                [&](FinishedFrame&& finished) { frame = std::move(finished); });
   return frame;
 }
 
-// Dark where a sample takes long; the least of some tries, so that no interruption shows.
-Image complexity_map(const Subject& subject, const SecondsClock& clock) {
+// Dark where a sample takes long. The least of some tries, so that no interruption shows.
+Image complexity_map(const Subject& subject) {
   constexpr int kTries = 3;
   constexpr double kShown = 0.999;  // of the pixels lie within the map's range
   const Camera& camera = subject.camera;
@@ -53,9 +46,9 @@ Image complexity_map(const Subject& subject, const SecondsClock& clock) {
     auto least = seconds.begin();
     for (int y = 0; y < camera.height; ++y) {
       for (int x = 0; x < camera.width; ++x, ++least) {
-        const double begin = clock();
+        const double begin = thread_cpu_seconds();
         tracer.trace(x + 0.5, y + 0.5);
-        *least = std::min(*least, static_cast<float>(clock() - begin));
+        *least = std::min(*least, static_cast<float>(thread_cpu_seconds() - begin));
       }
     }
   }
@@ -71,31 +64,23 @@ Image complexity_map(const Subject& subject, const SecondsClock& clock) {
 
 }  // namespace
 
-std::string file_word(const std::string& scene) {
-  std::string word = scene;
-  std::replace_if(
-      word.begin(), word.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '-');
-  return word;
-}
-
-std::vector<NamedPicture> figure_pictures(const std::string& scene, const std::string& word,
-                                          const Subject& subject, std::uint64_t seed,
-                                          const SecondsClock& clock) {
+std::vector<Picture> figure_pictures(const std::string& scene, const Subject& subject, std::uint64_t seed) {
   const FinishedFrame frame = sampled_frame(subject, seed);
   const TileGrid grid = tile_grid_for(frame.image.width, frame.image.height, 1);
   FrameLayers layers({frame.order.number, grid, frame.owners, frame.samples, {}});
-  std::vector<NamedPicture> pictures;
-  const auto add = [&](const char* what, const std::string& caption, const Image& image,
-                       PictureKind kind = PictureKind::kDrawn) {
-    pictures.push_back({fmt::format("{}-{}.png", word, what), fmt::format("{}: {}", scene, caption),
-                        encode_png(image, {}, kind)});
+  std::string word = scene;
+  std::replace_if(
+      word.begin(), word.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '-');
+  const auto picture = [&](const char* what, const std::string& caption, const Image& image,
+                           PictureKind kind = PictureKind::kDrawn) {
+    return Picture{fmt::format("{}: {}", scene, caption), encode_png(image, {}, kind),
+                   fmt::format("{}-{}.png", word, what)};
   };
-  add("complexity", "CPU time of each pixel's sample, darker is dearer", complexity_map(subject, clock));
-  add("samples", fmt::format("{} samples", frame.samples.size()),
-      layers.picture(Layer::kSamples, frame.image));
-  add("triangulation", "their triangulation", layers.picture(Layer::kTriangulation, frame.image));
-  add("reconstruction", "the picture from these samples", frame.image, PictureKind::kRendered);
-  return pictures;
+  return {picture("complexity", "CPU time of each pixel's sample, darker is longer", complexity_map(subject)),
+          picture("samples", fmt::format("{} samples", frame.samples.size()),
+                  layers.picture(Layer::kSamples, frame.image)),
+          picture("triangulation", "their triangulation", layers.picture(Layer::kTriangulation, frame.image)),
+          picture("reconstruction", "the picture from these samples", frame.image, PictureKind::kRendered)};
 }
 
 }  // namespace pprt

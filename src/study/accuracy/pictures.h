@@ -4,25 +4,15 @@
 #include <string>
 #include <vector>
 
-#include "study/accuracy/methods.h"
+#include "study/reference.h"
+#include "study/report/page.h"
 
 namespace pprt {
 
-struct NamedPicture {
-  std::string name;  // of its file
-  std::string caption;
-  std::string png;
-};
-
-// The letters and digits of a scene's name, "-" for all else.
-std::string file_word(const std::string& scene);
-
 inline constexpr int kFigureSamples = 1000;
 
-// Complexity map (CPU time of each pixel's sample), sample pattern, triangulation and reconstruction, of a
-// picture of `camera`. `word` begins the files' names.
-std::vector<NamedPicture> figure_pictures(const std::string& scene, const std::string& word,
-                                          const Subject& subject, std::uint64_t seed,
-                                          const SecondsClock& clock);
+// Returns complexity map (CPU time of each pixel's sample), sample pattern, triangulation and reconstruction.
+// Their files are named after the scene, with "-" for all but letters and digits.
+std::vector<Picture> figure_pictures(const std::string& scene, const Subject& subject, std::uint64_t seed);
 
 }  // namespace pprt

@@ -1,117 +1,86 @@
-// Error at a fixed frame rate: what each rate is worth, for every way of casting; and the planner that
-// answers which rate goes with which error.
+// Error of sequences at fixed frame rates, under the work clock and in real time.
 #pragma once
 
-#include <functional>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "parallel/session_settings.h"
-#include "scene/animation.h"
-#include "study/accuracy/methods.h"
+#include "study/frame_series.h"
+#include "study/reference.h"
+#include "study/report/plot.h"
 #include "study/report/table.h"
 
 namespace pprt {
 
-struct Shot {
-  Camera camera;
-  bool cut = false;  // nothing leads from the frame before to it
-};
-
-// The script's frames, the first `most` of them; without a script six that go round the scene's target by
-// two degrees a frame, with a jump in the middle. Pictures of size x size pixels.
-std::vector<Shot> sequence_of(const CompiledScene& scene, const View& view, const Animation* script, int size,
-                              int most);
-
-// Frames that go round the scene's target at one speed whatever the rate, 14.4 degrees a second: at 24 frames
-// a second as slowly as films do, so that most of a frame was seen in the one before.
-std::vector<Shot> orbit_of(const CompiledScene& scene, const View& view, int size, double fps, int frames);
-
-struct RateSettings {
-  std::vector<double> rates = {1, 2, 4, 8, 15, 24, 30, 60};  // frames a second
-  std::vector<CastChoice> casts = {CastChoice::kOff, CastChoice::kPaper, CastChoice::kVerified,
-                                   CastChoice::kAuto};
+// A sequence, what its frames are judged by, and how it is played.
+struct Sequence {
+  std::string name;  // of the scene
+  const CompiledScene& scene;
+  std::vector<FrameRequest> frames;
+  std::vector<Image> references;  // converged, one per frame
   int ranks = 1;
   double units_per_second = 1e9;  // of the work clock, each rank
   std::uint64_t seed = 1;
 };
 
-// A sequence at one rate. Errors are of frames on the display scale, against converged ones.
+// Returns six frames that go round the scene's target by two degrees each, with a camera cut of 120 degrees
+// after the third; of these at most `most`. Pictures have size x size pixels.
+std::vector<FrameRequest> round_with_cut(const CompiledScene& scene, const View& view, int size, int most);
+
+// Returns frames that go round the scene's target by 14.4 degrees per second whatever the rate.
+std::vector<FrameRequest> orbit(const CompiledScene& scene, const View& view, int size, double fps,
+                                int count);
+
+// A sequence at one rate under the work clock. Errors are on the display scale.
 struct RatePoint {
   std::string scene;
   CastChoice cast = CastChoice::kOff;
   double fps = 1;
   double rmse = 0;            // mean over the frames
-  double rmse_after_cut = 0;  // mean over the first frames after a cut, the sequence's first among them
-  double recovery = 0;        // frames after a cut until the error is within 10 % of the other frames' median
-  double flicker = 0;         // error of the change from frame to frame over the reference's own change
-  double samples = 0;         // a pixel and frame
+  double rmse_after_cut = 0;  // mean over the frames right after a camera cut, and the first
+  double recovery = 0;  // frames from a camera cut until the error is within 10 % of the other frames' median
+  double flicker = 0;   // error of the change between frames / the reference's change
+  double samples = 0;   // per pixel and frame
 };
 
-// A sequence at one rate in real time.
-struct Punctuality {
+// A sequence at one rate in real time. Lateness below 0 is early.
+struct RealTimePoint {
   std::string scene;
   CastChoice cast = CastChoice::kAuto;
   double fps = 1;
   int ranks = 1;
   int frames = 0;
-  double on_time = 1;                                                         // share of the frames
-  double late_p50_ms = 0, late_p95_ms = 0, late_p99_ms = 0, late_max_ms = 0;  // below 0: early
-  double rmse = 0;                                                            // mean over the frames
-  double samples = 0;                                                         // a pixel and frame
+  double on_time = 1;  // share of the frames
+  double late_p50_ms = 0, late_p95_ms = 0, late_p99_ms = 0, late_max_ms = 0;
+  double rmse = 0;            // mean over the frames
+  double samples = 0;         // per pixel and frame
   double fewest_samples = 0;  // of any frame after the fifth, when balancing has settled
-  double uniform_rmse = 0;    // uniform_rmse_in() the ranks' time, if that was measured
+  double uniform_rmse = 0;    // of uniform grids that take all of the ranks' time
 };
 
-// Work units that a rank does in a second of this machine's CPU on this scene.
+// Returns the work units that a rank does per second of CPU time on this machine and scene.
 double measured_units_per_second(const Subject& subject);
 
-// Under the work clock, as many runs at a time as the host has cores. `references`: a converged frame each.
-std::vector<RatePoint> measure_rates(const std::string& name, const CompiledScene& scene,
-                                     const std::vector<Shot>& shots, const std::vector<Image>& references,
-                                     const RateSettings& settings);
+// Fills in the errors of a sequence's pictures. Throws std::invalid_argument unless each frame has one.
+void judge_sequence(const Sequence& sequence, const std::vector<Image>& pictures, RatePoint& point);
 
-// In real time on this machine, one rate after the other, the sequence again and again for two seconds at
-// least.
-std::vector<Punctuality> measure_punctuality(const std::string& name, const CompiledScene& scene,
-                                             const std::vector<Shot>& shots,
-                                             const std::vector<Image>& references,
-                                             const RateSettings& settings);
+// Plays the sequence at each rate with each way of casting, under the work clock, several runs at a time.
+std::vector<RatePoint> measure_rates(const Sequence& sequence, std::span<const double> rates,
+                                     std::span<const CastChoice> casts);
 
-// A sequence's figures from its frames' pictures.
-void judge_sequence(const std::vector<Shot>& shots, const std::vector<Image>& pictures,
-                    const std::vector<Image>& references, RatePoint& point);
+// Plays the sequence in real time, again and again for at least two seconds. Leaves out uniform_rmse.
+RealTimePoint measure_in_real_time(const Sequence& sequence, CastChoice cast, double fps);
 
-// A sequence in real time at one rate, by one way of casting; nothing of uniform grids.
-Punctuality measure_in_real_time(const std::string& name, const CompiledScene& scene,
-                                 const std::vector<Shot>& shots, const std::vector<Image>& references,
-                                 const RateSettings& settings, CastChoice cast, double fps);
+// Plays it at each rate with auto casting, and adds the error of uniform grids.
+std::vector<RealTimePoint> measure_in_real_time(const Sequence& sequence, std::span<const double> rates);
 
-// The fewest samples of any frame after the fifth; of the last one where there are no more.
+// Returns the fewest samples of any frame after the fifth; of the last one where there are no more.
 double fewest_after_fifth(std::span<const double> samples_of_frames);
 
-// Mean error of the frames by uniform grids that have so many seconds of one thread for each: ranks that
-// share a frame have their number times its time, if they lost none of it.
-double uniform_rmse_in(double seconds, const CompiledScene& scene, const std::vector<Shot>& shots,
-                       const std::vector<Image>& references);
-
-// In a sentence what a sequence did in real time, turn by turn with casting, without, and by uniform grids.
-// The error is the median, and the ratios are medians of those of a turn.
-std::string plan_in_real_time(std::span<const Punctuality> with, std::span<const Punctuality> without,
-                              std::span<const double> uniform_rmse);
-
-// What is wanted of a sequence: one of the two.
-struct Wish {
-  std::optional<double> rmse;
-  std::optional<double> fps;
-};
-
-// In a sentence what the other will be, from the points of --cast auto.
-std::string plan(const std::string& scene, const std::vector<RatePoint>& points, const Wish& wish);
+// Returns the mean error of uniform grids that have so many seconds of one thread for each frame.
+double uniform_rmse_in(double seconds, const Sequence& sequence);
 
 Table rates_table(const std::vector<RatePoint>& points);
-Table punctuality_table(const std::vector<Punctuality>& points);
+Table real_time_table(const std::vector<RealTimePoint>& points);
 
 }  // namespace pprt

@@ -1,5 +1,4 @@
-// What the runs of the paper's experiments come to: means over frames and ratios between runs. What was not
-// measured is kNoValue.
+// Figures of whole runs: means over frames and ratios between runs. NaN is what was not measured.
 #pragma once
 
 #include <functional>
@@ -13,73 +12,67 @@ namespace pprt {
 
 inline constexpr double kNever = std::numeric_limits<double>::infinity();
 
-// From the first to the last, both included.
+// A range of frames, both ends included.
 struct Frames {
   int first, last;
 };
 
+// Parts of the simple sequence.
+inline constexpr Frames kStart = {1, 10}, kStill = {5, 10}, kAfterCameraCut = {31, 40}, kWhole = {1, 40};
+
+// A member of FrameMeasures, or a function.
 using Measure = std::function<double(const FrameMeasures&)>;
 
-inline double relative_deviation(const FrameMeasures& m) {
-  return m.deviation / m.refinement;
-}
-inline double distance(const FrameMeasures& m) {
-  return m.distance;
-}
-inline double samples(const FrameMeasures& m) {
-  return m.samples;
-}
-inline double refinement(const FrameMeasures& m) {
-  return m.refinement;
-}
+double relative_deviation(const FrameMeasures& m);   // deviation / mean of refinement
+double received_per_sample(const FrameMeasures& m);  // other ranks that receive a sample, on average
+double cpu_ms(const FrameMeasures& m);               // all stages
 
-// Of a sample, how many other ranks take it in.
-inline double received_per_sample(const FrameMeasures& m) {
-  return m.samples_received / m.samples;
-}
-
-// Milliseconds of all stages.
-inline double cpu_ms(const FrameMeasures& m) {
-  return m.cpu_ms.sampling + m.cpu_ms.casting + m.cpu_ms.reconstruction + m.cpu_ms.balancing;
-}
-
+// Mean over the frames of the range that were run.
 double mean(const MeasuredRun& run, Frames frames, const Measure& measure);
 
-// How many frames of the part pass until the relative deviation is down at `level` for good, its first frame
-// counting as 1; kNever when it never is; kNoValue where the part was not run to its end.
+// Frames of `part` until the mean relative deviation of the rest is at most `level`, counted from 1. kNever
+// when it never is; NaN when `part` was not run to its end.
 double frames_to_settle(const MeasuredRun& run, Frames part, double level);
 
-// The greatest loss of samples, 0 .. 1, from one frame to the next where the image was cut anew.
+// The greatest loss of samples at a repartition, as a share of the samples of the frame before.
 double worst_loss(const MeasuredRun& run);
 
-// How often the image was cut anew.
 int repartitions(const MeasuredRun& run);
 
-// The results by experiment. A run that was not made is one without frames.
+// The runs of each experiment. A run that was not made has no frames.
 class Runs {
  public:
   explicit Runs(const PaperResults& results) : results_(results) {}
 
-  std::vector<const MeasuredRun*> all(std::string_view experiment) const;
-  const MeasuredRun& find(std::string_view experiment,
-                          const std::function<bool(const PaperRun&)>& choice) const;
+  using Choice = std::function<bool(const PaperRun&)>;
+
+  // All runs of the experiment that `choice` admits; find() returns the first of them.
+  std::vector<const MeasuredRun*> all(std::string_view experiment, const Choice& choice = {}) const;
+  const MeasuredRun& find(std::string_view experiment, const Choice& choice) const;
   const MeasuredRun& find(std::string_view experiment, int ranks, BalanceMode balance) const;
 
-  // Increasing, each once.
-  std::vector<int> ranks_of(std::string_view experiment) const;
-  std::vector<int> sides_of(std::string_view experiment) const;
+  // The distinct values, increasing.
+  std::vector<int> ranks_of(std::string_view experiment) const {
+    return values_of(experiment, &PaperRun::ranks);
+  }
+  std::vector<int> sides_of(std::string_view experiment) const {
+    return values_of(experiment, &PaperRun::side);
+  }
 
  private:
+  std::vector<int> values_of(std::string_view experiment, int PaperRun::*member) const;
+
   const PaperResults& results_;
   MeasuredRun none_;
 };
 
-// Figure 8: what `ranks` achieve against one, by the mean refinement of still frames.
+// The paper's AchievementSpeedup (figure 8): mean refinement of still frames on one rank over that on
+// `ranks`.
 struct Speedup {
   int ranks = 1;
-  int side = 0;       // of the picture, pixels
-  double first = 0;   // Refine(1, f) / Refine(p, f), s. 6.3: the rank alone has as much time a frame
-  double turned = 0;  // Refine(1, f/p) / Refine(p, f), s. 7.1: it has p times as much; 1 is ideal
+  int side = 0;           // of the picture, pixels
+  double same_frame = 0;  // Refine(1, f) / Refine(p, f), s. 6.3: one rank in the same frame time
+  double same_work = 0;   // Refine(1, f/p) / Refine(p, f), s. 7.1: one rank in p times the time; 1 is ideal
 };
 std::vector<Speedup> speedups(const Runs& runs);
 

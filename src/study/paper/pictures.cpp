@@ -7,7 +7,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 
 #include "image/contact_sheet.h"
 #include "image/image_io.h"
@@ -17,9 +16,9 @@
 namespace pprt {
 namespace {
 
-constexpr int kDrawingWidth = 512;  // pixels, at most: drawings come larger
+constexpr int kDrawingWidth = 512;  // pixels, at most
 
-// The frame itself where no layer is named.
+// A layer, or the frame itself.
 using Shown = std::optional<Layer>;
 
 bool is_among(int frame, std::span<const int> frames) {
@@ -57,23 +56,22 @@ std::string caption_of(const PaperRun& run, int frame, const Shown& view) {
 
 }  // namespace
 
-std::vector<Picture> pictures_of(const PaperOptions& options, const PaperRun& run,
-                                 const FinishedFrame& frame) {
+void add_pictures(const PaperOptions& options, const PaperRun& run, const FinishedFrame& frame,
+                  PaperResults& results) {
   const int number = frame.order.number;
-  const std::vector<Shown> of_sequence = views_of_sequences(options, run, number);
-  const std::vector<Shown> views =
-      of_sequence.empty() ? views_of_patterns(options, run, number) : of_sequence;
-  if (views.empty()) return {};
   const TileGrid grid = tile_grid_for(frame.image.width, frame.image.height, run.ranks);
-  FrameLayers layers({number, grid, frame.owners, frame.samples, {}});
-  std::vector<Picture> pictures;
-  for (const Shown& view : views) {
-    Image picture = view ? layers.picture(*view, frame.image) : frame.image;
-    if (picture.width > kDrawingWidth) picture = thumbnail(picture, kDrawingWidth);
-    pictures.push_back({of_sequence.empty(), caption_of(run, number, view),
-                        encode_png(picture, {}, view ? PictureKind::kDrawn : PictureKind::kRendered)});
-  }
-  return pictures;
+  const auto add = [&](const std::vector<Shown>& views, std::vector<Picture>& pictures) {
+    if (views.empty()) return;
+    FrameLayers layers({number, grid, frame.owners, frame.samples, {}});
+    for (const Shown& view : views) {
+      Image picture = view ? layers.picture(*view, frame.image) : frame.image;
+      if (picture.width > kDrawingWidth) picture = thumbnail(picture, kDrawingWidth);
+      pictures.push_back({caption_of(run, number, view),
+                          encode_png(picture, {}, view ? PictureKind::kDrawn : PictureKind::kRendered), ""});
+    }
+  };
+  add(views_of_sequences(options, run, number), results.sequence_pictures);
+  add(views_of_patterns(options, run, number), results.pattern_pictures);
 }
 
 }  // namespace pprt

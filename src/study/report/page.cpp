@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <utility>
 
 namespace pprt {
 namespace {
@@ -50,25 +53,13 @@ std::string html_table(const Table& table) {
 }  // namespace
 
 std::string escape_html(std::string_view text) {
+  constexpr std::array<std::pair<char, std::string_view>, 4> kEntities = {
+      {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}}};
   std::string escaped;
-  escaped.reserve(text.size());
   for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += c;
-    }
+    const auto* entity =
+        std::find_if(kEntities.begin(), kEntities.end(), [c](const auto& e) { return e.first == c; });
+    escaped += entity == kEntities.end() ? std::string_view(&c, 1) : entity->second;
   }
   return escaped;
 }
@@ -89,20 +80,8 @@ std::string to_base64(std::string_view bytes) {
   return text;
 }
 
-void Page::heading(std::string_view text) {
-  body_ += fmt::format("<h2>{}</h2>\n", escape_html(text));
-}
-
-void Page::paragraph(std::string_view text) {
-  body_ += fmt::format("<p>{}</p>\n", escape_html(text));
-}
-
-void Page::note(std::string_view text) {
-  body_ += fmt::format("<p class=\"note\">{}</p>\n", escape_html(text));
-}
-
-void Page::listing(std::string_view text) {
-  body_ += fmt::format("<pre>{}</pre>\n", escape_html(text));
+void Page::element(std::string_view tag, std::string_view attributes, std::string_view text) {
+  body_ += fmt::format("<{0}{1}>{2}</{0}>\n", tag, attributes, escape_html(text));
 }
 
 void Page::table(const Table& table) {
@@ -113,24 +92,19 @@ void Page::figure(std::string_view svg, std::string_view caption) {
   body_ += fmt::format("<figure>\n{}\n<figcaption>{}</figcaption>\n</figure>\n", svg, escape_html(caption));
 }
 
-void Page::picture(std::string_view png, std::string_view caption) {
-  const std::string text = escape_html(caption);
-  body_ += fmt::format(
-      "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
-      text, to_base64(png));
-}
-
-void Page::begin_gallery() {
+void Page::gallery(std::span<const Picture> pictures) {
   body_ += "<div class=\"gallery\">\n";
-}
-
-void Page::end_gallery() {
+  for (const Picture& picture : pictures) {
+    body_ += fmt::format(
+        "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
+        escape_html(picture.caption), to_base64(picture.png));
+  }
   body_ += "</div>\n";
 }
 
 std::string Page::html(const Provenance& provenance) const {
-  Table facts{{"", ""}, {}, {}};
-  for (const auto& [name, value] : provenance) facts.rows.push_back({name, value});
+  using Fact = Provenance::value_type;
+  const Table facts = table_of<Fact>(provenance, {{"", &Fact::first}, {"", &Fact::second}});
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width\">\n<title>{0}</title>\n<style>{1}</style>\n"

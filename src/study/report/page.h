@@ -1,6 +1,7 @@
-// A report to be read: one HTML file that needs nothing else, neither network nor script.
+// A report as one HTML file, which needs neither network nor script.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -9,30 +10,37 @@
 
 namespace pprt {
 
-// Text for HTML, in elements and in attributes.
+// Escapes text for HTML elements and attributes.
 std::string escape_html(std::string_view text);
 
+// Encodes by RFC 4648, section 4.
 std::string to_base64(std::string_view bytes);
 
-// Built from top to bottom. All text is escaped; an SVG is taken as it is.
+struct Picture {
+  std::string caption;
+  std::string png;   // bytes of the file
+  std::string file;  // name in the study's directory; empty: on the page only
+};
+
+// Collects a report from top to bottom. Escapes all text; takes SVG as it is.
 class Page {
  public:
   explicit Page(std::string title) : title_(std::move(title)) {}
 
-  void heading(std::string_view text);
-  void paragraph(std::string_view text);
-  void note(std::string_view text);     // stands out: something is missing
-  void listing(std::string_view text);  // in lines of their own, letters of one width
+  void heading(std::string_view text) { element("h2", "", text); }
+  void paragraph(std::string_view text) { element("p", "", text); }
+  void note(std::string_view text) { element("p", " class=\"note\"", text); }  // highlighted
+  void listing(std::string_view text) { element("pre", "", text); }            // keeps its lines, fixed pitch
   void table(const Table& table);
   void figure(std::string_view svg, std::string_view caption);
-  void picture(std::string_view png, std::string_view caption);
-  void begin_gallery();  // pictures up to end_gallery() stand beside each other
-  void end_gallery();
+  void gallery(std::span<const Picture> pictures);
 
-  // The whole file; the provenance stands at its end.
+  // Returns the whole file, which ends with the provenance.
   std::string html(const Provenance& provenance) const;
 
  private:
+  void element(std::string_view tag, std::string_view attributes, std::string_view text);
+
   std::string title_;
   std::string body_;
 };

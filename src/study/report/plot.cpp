@@ -77,19 +77,9 @@ const char* colour_of(const Curve& curve, std::size_t place) {
   return kPalette[(curve.colour >= 0 ? static_cast<std::size_t>(curve.colour) : place) % kPalette.size()];
 }
 
-std::string style_of(CurveStyle style) {
-  switch (style) {
-    case CurveStyle::kLine:
-      return "lines lw 2";
-    case CurveStyle::kMarkedLine:
-      return "linespoints lw 2 pt 7 ps 0.5";
-    case CurveStyle::kMarks:
-      return "points pt 8 ps 0.9 lw 1.5";
-    case CurveStyle::kReference:
-      return "lines lw 1 dt 2";
-  }
-  return "lines";
-}
+// Indexed by CurveStyle.
+constexpr std::array kStyles = {"lines lw 2", "linespoints lw 2 pt 7 ps 0.5", "points pt 8 ps 0.9 lw 1.5",
+                                "lines lw 1 dt 2"};
 
 std::string plot_curves(const Panel& panel, std::size_t at) {
   std::string list;
@@ -102,7 +92,8 @@ std::string plot_curves(const Panel& panel, std::size_t at) {
           ", {} using 1:3:4 with filledcurves fs transparent solid 0.15 noborder lc rgb '{}' notitle", block,
           colour);
     }
-    list += fmt::format(", {} using 1:2 with {} lc rgb '{}' {}", block, style_of(curve.style), colour,
+    list += fmt::format(", {} using 1:2 with {} lc rgb '{}' {}", block,
+                        kStyles[static_cast<std::size_t>(curve.style)], colour,
                         curve.name.empty() ? "notitle" : "title " + quoted(curve.name));
   }
   return list;

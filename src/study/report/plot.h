@@ -1,7 +1,8 @@
-// What a study plots, as plain values. gnuplot draws it (report/gnuplot.h).
+// Plots as plain values. report/gnuplot.h draws them.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -10,8 +11,7 @@ namespace pprt {
 
 inline constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
-// A value of a curve, with the least and the greatest of those it stands for. A value that is no number
-// leaves a gap.
+// A point of a curve and the range of the values that it stands for. NaN leaves a gap.
 struct PlotPoint {
   double x = 0;
   double y = 0;
@@ -23,26 +23,38 @@ enum class CurveStyle : std::uint8_t {
   kLine,
   kMarkedLine,  // few points, each with a mark
   kMarks,       // events on a curve
-  kReference    // a thin dashed line to compare with
+  kReference    // thin and dashed, to compare with
 };
 
 struct Curve {
   std::string name;  // empty: not in the legend
   std::vector<PlotPoint> points;
   CurveStyle style = CurveStyle::kLine;
-  int colour = -1;  // of the palette; -1: by its place in the panel
+  int colour = -1;  // index into the palette; -1: the curve's place in its panel
 };
+
+// Returns a curve with a point for each of `rows`; `x` and `y` are members of a row, or functions of it.
+template <typename Rows, typename X, typename Y>
+Curve curve_over(std::string name, const Rows& rows, const X& x, const Y& y,
+                 CurveStyle style = CurveStyle::kLine, int colour = -1) {
+  Curve curve{std::move(name), {}, style, colour};
+  for (const auto& row : rows) {
+    curve.points.push_back(
+        {static_cast<double>(std::invoke(x, row)), static_cast<double>(std::invoke(y, row))});
+  }
+  return curve;
+}
 
 struct Axis {
   std::string label;       // with the unit
   double log_base = 0;     // 0: linear
-  double from = kNoValue;  // kNoValue: as the data want it
+  double from = kNoValue;  // NaN: from the data
   double to = kNoValue;
 };
 
 enum class PanelKind : std::uint8_t {
   kCurves,
-  kStackedBars  // a bar for each x of the first curve, of as many parts as there are curves
+  kStackedBars  // one bar for each x of the first curve, one part for each curve
 };
 
 struct Panel {
@@ -55,12 +67,12 @@ struct Panel {
 
 // Panels in rows of `columns`.
 struct Plot {
-  std::string name;  // of its files: letters, digits and "-"
+  std::string name;  // file name without extension: letters, digits and "-"
   std::vector<Panel> panels;
   int columns = 2;
 };
 
-// The gnuplot commands that print the plot as SVG, data included.
+// Returns the gnuplot commands that print the plot as SVG, data included.
 std::string gnuplot_script(const Plot& plot);
 
 }  // namespace pprt

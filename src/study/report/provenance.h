@@ -1,4 +1,4 @@
-// Where results come from: what a reader needs to judge and to repeat them.
+// Where results come from: the facts needed to judge and to repeat them.
 #pragma once
 
 #include <string>
@@ -7,11 +7,11 @@
 
 namespace pprt {
 
-// Names and values, in the order in which they are told.
+// Names and values in the order shown.
 using Provenance = std::vector<std::pair<std::string, std::string>>;
 
-// The facts of this moment and machine: date (UTC), host, CPU model, cores, load (mean of the last minute),
-// operating system, and the compiler that built this program. What cannot be found out is "unknown".
+// Returns date (UTC), host, CPU model, cores, load (mean of the last minute), operating system and the
+// compiler of this program. A fact that cannot be read is "unknown".
 Provenance provenance_of_host();
 
 }  // namespace pprt

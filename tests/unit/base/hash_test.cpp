@@ -10,7 +10,7 @@ TEST_CASE("a word is mixed as splitmix64 does it") {
   CHECK(mixed(0, 0) == 0xe220a8397b1dcdafu);  // its first number for seed 0
 }
 
-TEST_CASE("uniform numbers fill [0, 1) evenly") {
+TEST_CASE("uniform numbers lie evenly between 0 and 1") {
   constexpr int kCells = 16, kPerCell = 1000;
   std::array<int, kCells> counts{};
   for (std::uint64_t i = 0; i < kCells * kPerCell; ++i) {

@@ -7,7 +7,7 @@
 
 #include "base/diagnostics.h"
 #include "study/paper/measures.h"
-#include "study/paper/page.h"
+#include "study/paper/paper_study.h"
 
 using namespace pprt;
 
@@ -26,7 +26,7 @@ std::ptrdiff_t count(const std::vector<PaperRun>& runs, std::string_view experim
 
 }  // namespace
 
-TEST_CASE("what is left open is as in the paper, or small when quick") {
+TEST_CASE("paper study: defaults are the paper's, or small ones if quick") {
   CHECK(settled({}).ranks == std::vector{32, 62});
   CHECK(settled({}).frames == 40);
   PaperOptions quick;
@@ -39,7 +39,7 @@ TEST_CASE("what is left open is as in the paper, or small when quick") {
   CHECK_THROWS_AS(settled(wrong), UsageError);
 }
 
-TEST_CASE("a machine's network can be set apart from its processors") {
+TEST_CASE("paper study: a machine's network can be set apart from its processors") {
   PaperOptions options;
   options.machine = "sp2";
   CHECK(machine_of(options).bytes_per_second == sp2_machine().bytes_per_second);
@@ -50,7 +50,7 @@ TEST_CASE("a machine's network can be set apart from its processors") {
   CHECK(machine_of(options).units_per_second == sp2_machine().units_per_second);
 }
 
-TEST_CASE("the paper's experiments as runs") {
+TEST_CASE("paper study: each experiment of the paper has its runs") {
   const PaperOptions options = settled({});
   const std::vector<PaperRun> runs = paper_runs(options, even(options.ranks));
   CHECK(count(runs, kSimple) == 8);    // four modes, two numbers of ranks
@@ -65,7 +65,7 @@ TEST_CASE("the paper's experiments as runs") {
   }
 }
 
-TEST_CASE("a quick study measures every frame of every run") {
+TEST_CASE("paper study: a quick study measures every frame of every run") {
   PaperOptions options;
   options.quick = true;
   options.ranks = {2};
@@ -73,8 +73,8 @@ TEST_CASE("a quick study measures every frame of every run") {
   options = settled(options);
   std::vector<std::string> told;
   const PaperResults results = run_paper(options, [&](const std::string& run) { told.push_back(run); });
-  CHECK(told.size() == results.runs.size() + cast_trial(options).sequences.size());
-  CHECK(results.cast_errors.size() == 16);
+  CHECK(told.size() == results.runs.size() + casting_trial(options).sequences.size());
+  CHECK(results.casting_errors.size() == 16);
   CHECK(results.calibration.share.at(2) == 1);
   std::size_t rows = 0;
   for (const MeasuredRun& r : results.runs) {
@@ -91,13 +91,12 @@ TEST_CASE("a quick study measures every frame of every run") {
 
   const Runs runs(results);
   // As many a pixel as 19,000 on 256 x 256 are 2672 on 96 x 96; calibrated within 5 %.
-  CHECK(mean(runs.find(kSimple, 2, BalanceMode::kCombined), {4, 5}, samples) == Approx(2672).epsilon(0.05));
-  CHECK(mean(runs.find(kScaling, 1, BalanceMode::kNone), {1, 5}, distance) == 0);
-  CHECK(mean(runs.find(kSimple, 2, BalanceMode::kNone), {1, 5}, distance) > 0.01);
+  CHECK(mean(runs.find(kSimple, 2, BalanceMode::kCombined), {4, 5}, &FrameMeasures::samples) ==
+        Approx(2672).epsilon(0.05));
+  CHECK(mean(runs.find(kScaling, 1, BalanceMode::kNone), {1, 5}, &FrameMeasures::distance) == 0);
+  CHECK(mean(runs.find(kSimple, 2, BalanceMode::kNone), {1, 5}, &FrameMeasures::distance) > 0.01);
   // Three views each of frame 1 of the simple sequence, and of 1 and 5 of the casting one; one rank's pattern
   // in four, nine ranks' in one and two.
-  const auto patterns = std::count_if(results.pictures.begin(), results.pictures.end(),
-                                      [](const Picture& picture) { return picture.of_pattern; });
-  CHECK(patterns == 7);
-  CHECK(results.pictures.size() == 7 + 9);
+  CHECK(results.pattern_pictures.size() == 7);
+  CHECK(results.sequence_pictures.size() == 9);
 }

@@ -23,7 +23,7 @@ Plot two_panels() {
 
 }  // namespace
 
-TEST_CASE("gnuplot draws what a plot holds") {
+TEST_CASE("gnuplot: draws what a plot holds") {
   const std::string svg = draw_svg(two_panels());
   CHECK(svg.starts_with("<svg"));
   CHECK(svg.ends_with("</svg>"));
@@ -34,25 +34,25 @@ TEST_CASE("gnuplot draws what a plot holds") {
   CHECK_FALSE(contains(svg, "<script"));
 }
 
-TEST_CASE("a panel without data is drawn empty beside the others") {
+TEST_CASE("gnuplot: a panel without data is drawn empty") {
   Plot plot = two_panels();
   for (Curve& curve : plot.panels[0].curves) curve.points = {{1, kNoValue}};
   CHECK(contains(draw_svg(plot), "sampling"));
 }
 
-TEST_CASE("a lot of data goes through") {
+TEST_CASE("gnuplot: twenty thousand points go through") {
   Plot plot = two_panels();
   for (int i = 3; i < 20'000; ++i) plot.panels[0].curves[0].points.push_back({1.0 * i, 0.5 * (i % 7)});
   CHECK(contains(draw_svg(plot), "sampling"));
 }
 
-TEST_CASE("what gnuplot says of a script that it refuses is told") {
+TEST_CASE("gnuplot: its message on a refused script is in the exception") {
   Plot plot = two_panels();
   plot.panels[0].x.log_base = std::numeric_limits<double>::infinity();
   CHECK_THROWS_WITH(draw_svg(plot), Catch::Matchers::StartsWith("cannot draw a plot: gnuplot ended with "));
 }
 
-TEST_CASE("a missing gnuplot is told with its package") {
+TEST_CASE("gnuplot: where it is missing the exception names its package") {
   CHECK_THROWS_AS(draw_svg(two_panels(), "no-such-gnuplot"), MissingTool);
   CHECK_THROWS_WITH(draw_svg(two_panels(), "no-such-gnuplot"),
                     "no-such-gnuplot is not installed (Debian package gnuplot-nox)");

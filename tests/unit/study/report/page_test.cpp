@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <string>
+#include <vector>
 
 using namespace pprt;
 
@@ -15,7 +16,7 @@ std::size_t count(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("text cannot become markup") {
+TEST_CASE("page: text cannot become markup") {
   CHECK(escape_html("<a href=\"x\">&</a>") == "&lt;a href=&quot;x&quot;&gt;&amp;&lt;/a&gt;");
   const std::string evil = "<script>alert(1)</script>";
   Page page(evil);
@@ -24,13 +25,13 @@ TEST_CASE("text cannot become markup") {
   page.note(evil);
   page.table({{evil}, {{evil}}, {}});
   page.figure("<svg></svg>", evil);
-  page.picture("png", evil);
+  page.gallery(std::vector<Picture>{{evil, "png", ""}});
   const std::string html = page.html({{evil, evil}});
   CHECK(count(html, "<script") == 0);
   CHECK(count(html, "&lt;script&gt;") == 12);
 }
 
-TEST_CASE("bytes as base 64") {
+TEST_CASE("page: bytes are encoded as base 64") {
   // The examples of RFC 4648, section 10.
   CHECK(to_base64("").empty());
   CHECK(to_base64("f") == "Zg==");
@@ -40,9 +41,9 @@ TEST_CASE("bytes as base 64") {
   CHECK(to_base64("\xff\xef\xbf") == "/++/");
 }
 
-TEST_CASE("a page needs nothing but itself, and tells where its results come from") {
+TEST_CASE("page: it needs no other file, and shows the provenance") {
   Page page("A study");
-  page.picture("\x89PNG", "a frame");
+  page.gallery(std::vector<Picture>{{"a frame", "\x89PNG", ""}});
   page.table({{"finding", "measured"}, {{"one", 0.25}, {"two", 1.0}}, {Tone::kGood, Tone::kBad}});
   const std::string html = page.html({{"cpu", "a model"}});
   CHECK(count(html, "http") == 0);
@@ -52,7 +53,7 @@ TEST_CASE("a page needs nothing but itself, and tells where its results come fro
   CHECK(count(html, "<td>cpu</td><td>a model</td>") == 1);
 }
 
-TEST_CASE("this machine's facts have a value each") {
+TEST_CASE("provenance: each fact of this machine has a value") {
   const Provenance facts = provenance_of_host();
   CHECK(facts.size() == 7);
   for (const auto& [name, value] : facts) {

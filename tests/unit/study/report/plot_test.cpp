@@ -34,7 +34,7 @@ Plot small_plot() {
 
 }  // namespace
 
-TEST_CASE("what is plotted comes back from the script to the bit") {
+TEST_CASE("plot: data in the gnuplot script is exact") {
   const std::string script = gnuplot_script(small_plot());
   const std::vector<PlotPoint> points = data_in(script, "$p0c0");
   REQUIRE(points.size() == 3);
@@ -47,7 +47,7 @@ TEST_CASE("what is plotted comes back from the script to the bit") {
   CHECK(data_in(script, "$p0c1").size() == 2);
 }
 
-TEST_CASE("axes, titles and styles reach the script") {
+TEST_CASE("plot: axes, titles and styles reach the gnuplot script") {
   const std::string script = gnuplot_script(small_plot());
   CHECK(contains(script, "set title 'it''s   one'\n"));
   CHECK(contains(script, "set xlabel 'ranks'\nset xrange [1:64]\nset logscale x 2\n"));
@@ -57,7 +57,7 @@ TEST_CASE("axes, titles and styles reach the script") {
   CHECK(contains(script, "$p0c1 using 1:2 with lines lw 1 dt 2"));
 }
 
-TEST_CASE("a text cannot leave its quotes") {
+TEST_CASE("plot: text cannot leave its quotes") {
   Plot plot = small_plot();
   plot.panels[0].curves[0].name = "'; system('touch x');'\nEOD";
   CHECK(contains(gnuplot_script(plot), "title '''; system(''touch x'');'' EOD'"));

@@ -3,10 +3,12 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 using namespace pprt;
 
-TEST_CASE("a table as CSV: names, rows, and what needs quotes") {
+TEST_CASE("table: CSV has names, rows, and quotes where needed") {
   Table table{{"mode", "Q, mean"}, {}, {}};
   table.rows.push_back({"none", std::int64_t{32}});
   table.rows.push_back({"a \"b\", c\nd", 0.5});
@@ -14,24 +16,37 @@ TEST_CASE("a table as CSV: names, rows, and what needs quotes") {
   CHECK(to_csv(table) == "mode,\"Q, mean\"\nnone,32\n\"a \"\"b\"\", c\nd\",0.5\n\"# no comment\",\n");
 }
 
-TEST_CASE("doubles come back from a CSV as they were") {
+TEST_CASE("table: doubles in a CSV are exact") {
   for (const double value : {0.1, 1.0 / 3, 1e-300, 123456789.123456789, -0.0}) {
     const std::string csv = to_csv({{"x"}, {{value}}, {}});
     CHECK(std::stod(csv.substr(2)) == value);
   }
 }
 
-TEST_CASE("the provenance stands above a CSV as comments of one line each") {
+TEST_CASE("table: the provenance stands above a CSV as comments of one line each") {
   const Table table{{"x"}, {{std::int64_t{1}}}, {}};
   CHECK(to_csv(table, {{"host", "a"}, {"command", "b\nc"}}) == "# host: a\n# command: b c\nx\n1\n");
 }
 
-TEST_CASE("a row that does not fit is refused") {
+TEST_CASE("table: a row of another length is refused") {
   CHECK_THROWS_AS(to_csv({{"x", "y"}, {{1.0}}, {}}), std::invalid_argument);
 }
 
-TEST_CASE("cells for people") {
+TEST_CASE("table: cells for people have four digits, or a dash") {
   CHECK(to_text(Cell(1.0 / 3)) == "0.3333");
   CHECK(to_text(Cell(std::int64_t{123456})) == "123456");
   CHECK(to_text(Cell(std::nan(""))) == "–");
+}
+
+TEST_CASE("table: columns are members or functions of a row") {
+  struct Run {
+    std::string name;
+    int ranks;
+    double share;
+  };
+  const std::vector<Run> runs = {{"a", 2, 0.5}, {"b", 4, 0.25}};
+  const Table table = table_of<Run>(
+      runs,
+      {{"name", &Run::name}, {"ranks", &Run::ranks}, {"%", [](const Run& r) { return 100 * r.share; }}});
+  CHECK(to_csv(table) == "name,ranks,%\na,2,50\nb,4,25\n");
 }

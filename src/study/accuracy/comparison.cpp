@@ -1,4 +1,4 @@
-#include "study/accuracy/verdicts.h"
+#include "study/accuracy/comparison.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -19,13 +19,6 @@ int repeats_of(const SceneCurves& curves) {
   return repeats;
 }
 
-// y at x on the line through two points, in logarithms.
-double log_linear(double x, double x0, double y0, double x1, double y1) {
-  if (x1 == x0 || x0 <= 0 || y0 <= 0 || y1 <= 0) return y1;
-  const double t = std::log(x / x0) / std::log(x1 / x0);
-  return y0 * std::pow(y1 / y0, t);
-}
-
 using Ratio = std::function<double(const std::vector<CurvePoint>&, const std::vector<CurvePoint>&)>;
 
 // The best picture that each time allows: an error is never above that of one made sooner.
@@ -34,14 +27,14 @@ std::vector<CurvePoint> best_so_far(std::vector<CurvePoint> curve) {
   return curve;
 }
 
-// Over the repeats, of a method's and the uniform one's curve.
+// Spread over the repeats of a ratio between a method's curve and the uniform one's.
 Spread over_repeats(const SceneCurves& curves, const std::string& method, const Ratio& ratio) {
   std::vector<double> ratios;
   const int repeats = repeats_of(curves);
   ratios.reserve(static_cast<std::size_t>(repeats));
   for (int r = 0; r < repeats; ++r) {
     ratios.push_back(
-        ratio(best_so_far(curve_of(curves, method, r)), best_so_far(curve_of(curves, kUniform, r))));
+        ratio(best_so_far(points_of(curves, method, r)), best_so_far(points_of(curves, kUniform, r))));
   }
   return spread_of(std::move(ratios));
 }
@@ -56,16 +49,6 @@ std::string percent(double share) {
 
 Cell with_digits(double value, int digits) {
   return std::isnan(value) ? Cell(kNoValue) : Cell(fmt::format("{:.{}f}", value, digits));
-}
-
-// NaN when none of them is a number.
-double geometric_mean(const std::vector<double>& values) {
-  double sum = 0;
-  int count = 0;
-  for (const double v : values) {
-    if (!std::isnan(v)) sum += std::log(v), ++count;
-  }
-  return count == 0 ? kNoValue : std::exp(sum / count);
 }
 
 template <typename RatioAt>
@@ -84,15 +67,7 @@ Table budgets_table(const std::vector<SceneCurves>& scenes, const RatioAt& ratio
 
 }  // namespace
 
-Spread spread_of(std::vector<double> values) {
-  std::erase_if(values, [](double v) { return std::isnan(v); });
-  if (values.empty()) return {kNoValue, kNoValue, kNoValue};
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return {0.5 * (values[(n - 1) / 2] + values[n / 2]), values.front(), values.back()};
-}
-
-std::vector<CurvePoint> curve_of(const SceneCurves& curves, const std::string& method, int repeat) {
+std::vector<CurvePoint> points_of(const SceneCurves& curves, const std::string& method, int repeat) {
   std::vector<CurvePoint> curve;
   std::copy_if(curves.points.begin(), curves.points.end(), std::back_inserter(curve),
                [&](const CurvePoint& p) { return p.method == method && p.repeat == repeat; });
@@ -220,36 +195,29 @@ Table ratio_table(const std::vector<SceneCurves>& scenes) {
 }
 
 Table comparisons_table(const std::vector<SceneCurves>& scenes) {
-  Table table{{"scene", "method", "share of one sample a pixel", "error ratio", "least error ratio",
-               "greatest error ratio", "time ratio", "least time ratio", "greatest time ratio"},
-              {},
-              {}};
+  struct Row {
+    std::string scene, method;
+    double share;
+    Spread error, time;
+  };
+  std::vector<Row> rows;
   for (const SceneCurves& scene : scenes) {
     for (const std::string& method : rivals(scene)) {
       for (const double share : kBudgets) {
-        const Spread error = ratio_at_equal_time(scene, method, share);
-        const Spread time = ratio_at_equal_error(scene, method, share);
-        table.rows.push_back({scene.scene, method, share, error.median, error.low, error.high, time.median,
-                              time.low, time.high});
+        rows.push_back({scene.scene, method, share, ratio_at_equal_time(scene, method, share),
+                        ratio_at_equal_error(scene, method, share)});
       }
     }
   }
-  return table;
-}
-
-Table points_table(const std::vector<SceneCurves>& scenes) {
-  Table table{{"scene", "method", "repeat", "samples a pixel", "cpu s", "share of one sample a pixel", "rmse",
-               "ssim", "flip", "error of 99.9 %", "signed mean", "exhausted"},
-              {},
-              {}};
-  for (const SceneCurves& scene : scenes) {
-    for (const CurvePoint& p : scene.points) {
-      table.rows.push_back({scene.scene, p.method, std::int64_t{p.repeat + 1}, p.samples, p.seconds, p.share,
-                            p.rmse, p.ssim, p.flip, p.error_p999, p.signed_mean,
-                            std::string(p.exhausted ? "yes" : "no")});
-    }
-  }
-  return table;
+  return table_of<Row>(rows, {{"scene", &Row::scene},
+                              {"method", &Row::method},
+                              {"share of one sample a pixel", &Row::share},
+                              {"error ratio", [](const Row& r) { return r.error.median; }},
+                              {"least error ratio", [](const Row& r) { return r.error.low; }},
+                              {"greatest error ratio", [](const Row& r) { return r.error.high; }},
+                              {"time ratio", [](const Row& r) { return r.time.median; }},
+                              {"least time ratio", [](const Row& r) { return r.time.low; }},
+                              {"greatest time ratio", [](const Row& r) { return r.time.high; }}});
 }
 
 }  // namespace pprt

@@ -1,4 +1,4 @@
-// The accuracy study: what it measures, what it concludes, and that it cannot flatter.
+// Methods, curves and their comparison, with controls: a sampler compared with itself, and a slower one.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
@@ -9,20 +9,20 @@
 
 #include "scene/nff_writer.h"
 #include "spd/spd.h"
+#include "study/accuracy/comparison.h"
 #include "study/accuracy/curves.h"
-#include "study/accuracy/reference.h"
-#include "study/accuracy/verdicts.h"
+#include "study/reference.h"
 
 using namespace pprt;
 
 namespace {
 
-struct Stage {
+struct TreeSetup {
   SceneDescription description = make_spd("tree", 4);
   CompiledScene scene = compile(description);
   Camera camera;
 
-  explicit Stage(int size = 64) {
+  explicit TreeSetup(int size = 64) {
     View view = *description.view;
     view.width = view.height = size;
     camera = scene.camera(view);
@@ -38,23 +38,21 @@ struct Stage {
 // The same pictures under another name, and their times what samples cost at a fixed price: the same each
 // time.
 Method priced(const Method& method, std::string name, double seconds_per_sample) {
-  return {std::move(name), method.description,
-          [run = method.run, seconds_per_sample](const Subject& subject, const CurveRange& range,
-                                                 const SecondsClock& clock, const RenderingSink& sink) {
-            CurveRange all = range;
+  return {std::move(name), method.description, [run = method.run, seconds_per_sample](const CurveTask& task) {
+            CurveTask all = task;
             all.limit_s = 1e9;
-            run(subject, all, clock, [&](Rendering&& r) {
+            all.sink = [&](Rendering&& r) {
               r.seconds = seconds_per_sample * r.samples;
-              if (r.samples < 8) sink(std::move(r));
-            });
+              if (r.samples < 8) task.sink(std::move(r));
+            };
+            run(all);
           }};
 }
 
-SceneCurves curves_of(const Stage& stage, const std::vector<Method>& methods, int repeats) {
+SceneCurves curves_of(const TreeSetup& tree, const std::vector<Method>& methods, int repeats) {
   CurveSettings settings;
   settings.repeats = repeats;
-  return measure_curves("tree", stage.subject(), converged_reference(stage.subject(), 4), methods, settings,
-                        thread_cpu_seconds);
+  return measure_curves("tree", tree.subject(), converged_reference(tree.subject(), 4), methods, settings);
 }
 
 SceneCurves made_up(const std::vector<std::pair<double, double>>& progressive, bool exhausted = false) {
@@ -71,8 +69,8 @@ SceneCurves made_up(const std::vector<std::pair<double, double>>& progressive, b
 
 }  // namespace
 
-TEST_CASE("errors and times between pictures are interpolated in logarithms") {
-  const std::vector<CurvePoint> curve = curve_of(made_up({}), kUniform, 0);
+TEST_CASE("comparison: errors and times are interpolated in logarithms") {
+  const std::vector<CurvePoint> curve = points_of(made_up({}), kUniform, 0);
   REQUIRE(curve.size() == 4);
   for (const double share : {0.01, 0.02, 0.1, 0.5, 4.0, 10.0}) {
     CAPTURE(share);
@@ -85,18 +83,18 @@ TEST_CASE("errors and times between pictures are interpolated in logarithms") {
   CHECK(std::isnan(share_at(curve, 10)));
 }
 
-TEST_CASE("who has a better picture made sooner shows that") {
+TEST_CASE("comparison: a method shows its best picture so far") {
   const SceneCurves curves = made_up({{0.1, 0.2}, {0.2, 0.05}, {0.4, 0.1}, {1, 0.2}});
   CHECK(ratio_at_equal_time(curves, kProgressive, 1).median == Approx(0.5));
 }
 
-TEST_CASE("a method with nothing left to refine keeps its error") {
+TEST_CASE("comparison: a method with nothing left to refine keeps its error") {
   const SceneCurves curves = made_up({{0.1, 0.2}, {0.5, 0.1}}, true);
-  CHECK(error_at(curve_of(curves, kProgressive, 0), 4) == 0.1);
+  CHECK(error_at(points_of(curves, kProgressive, 0), 4) == 0.1);
   CHECK(ratio_at_equal_time(curves, kProgressive, 4).median == Approx(2));
 }
 
-TEST_CASE("break-even points are where the ratio of errors passes 1") {
+TEST_CASE("comparison: break-even points are where the ratio of errors passes 1") {
   // Twice the uniform error at 10 %, half of it at 1000 %: equal in the middle, at 100 %.
   const SceneCurves curves = made_up({{0.1, 0.2 / std::sqrt(0.1)}, {10, 0.05 / std::sqrt(10.0)}});
   const BreakEven at = break_even(curves, kProgressive);
@@ -112,7 +110,7 @@ TEST_CASE("break-even points are where the ratio of errors passes 1") {
         "There is no budget for which both have a picture.");
 }
 
-TEST_CASE("the table of ratios ends with the geometric mean of its scenes") {
+TEST_CASE("comparison: the table of ratios ends with the geometric mean") {
   const auto scene = [](const char* name, double first_share, double ratio) {
     std::vector<std::pair<double, double>> points;
     for (const double share : {first_share, 10.0}) points.emplace_back(share, ratio * 0.1 / std::sqrt(share));
@@ -134,10 +132,10 @@ TEST_CASE("the table of ratios ends with the geometric mean of its scenes") {
   CHECK(ratio_table({scene("a", 0.1, 0.5)}).rows.size() == 1);
 }
 
-TEST_CASE("the uniform sampler under the name progressive has ratio 1") {
-  const Stage stage;
+TEST_CASE("control: the uniform sampler under the name progressive has ratio 1") {
+  const TreeSetup tree;
   const SceneCurves exact =
-      curves_of(stage, {priced(uniform_method(), kProgressive, 1), priced(uniform_method(), kUniform, 1)}, 2);
+      curves_of(tree, {priced(uniform_method(), kProgressive, 1), priced(uniform_method(), kUniform, 1)}, 2);
   for (const double share : kBudgets) {
     CAPTURE(share);
     CHECK(ratio_at_equal_time(exact, kProgressive, share).median == Approx(1).epsilon(1e-9));
@@ -147,11 +145,11 @@ TEST_CASE("the uniform sampler under the name progressive has ratio 1") {
   CHECK(break_even(exact, kProgressive).crossings.empty());
 }
 
-TEST_CASE("so it has by the processor's clock, within noise") {
-  const Stage stage(128);
+TEST_CASE("control: it has ratio 1 by the processor's clock, within noise") {
+  const TreeSetup tree(128);
   Method impostor = uniform_method();
   impostor.name = kProgressive;
-  const SceneCurves curves = curves_of(stage, {impostor, uniform_method()}, 5);
+  const SceneCurves curves = curves_of(tree, {impostor, uniform_method()}, 5);
   for (const double share : {0.1, 0.25, 0.5, 1.0, 2.0}) {
     CAPTURE(share);
     const double ratio = ratio_at_equal_time(curves, kProgressive, share).median;
@@ -160,10 +158,10 @@ TEST_CASE("so it has by the processor's clock, within noise") {
   }
 }
 
-TEST_CASE("a sampler that takes twice the time is seen to") {
-  const Stage stage;
+TEST_CASE("control: a sampler that takes twice the time has ratios above 1") {
+  const TreeSetup tree;
   const SceneCurves curves =
-      curves_of(stage, {priced(uniform_method(), kProgressive, 2), priced(uniform_method(), kUniform, 1)}, 1);
+      curves_of(tree, {priced(uniform_method(), kProgressive, 2), priced(uniform_method(), kUniform, 1)}, 1);
   for (const double share : {0.1, 0.5, 1.0, 2.0}) {
     CAPTURE(share);
     CHECK(ratio_at_equal_time(curves, kProgressive, share).median > 1.02);
@@ -171,14 +169,14 @@ TEST_CASE("a sampler that takes twice the time is seen to") {
   }
 }
 
-TEST_CASE("uniform pictures are the tracer's own, and means of it") {
-  const Stage stage(16);
+TEST_CASE("uniform method: pictures are the tracer's samples, interpolated or averaged") {
+  const TreeSetup tree(16);
   std::vector<Image> images;
   const std::vector<double> densities = {0.25, 1, 4};
-  uniform_method().run(stage.subject(), {densities, 1e9}, thread_cpu_seconds,
-                       [&](Rendering&& r) { images.push_back(std::move(r.image)); });
+  uniform_method().run(
+      {tree.subject(), densities, 1e9, 1, [&](Rendering&& r) { images.push_back(std::move(r.image)); }});
   REQUIRE(images.size() == 3);
-  Tracer tracer(stage.scene, stage.camera);
+  Tracer tracer(tree.scene, tree.camera);
   for (const auto& [x, y] : {std::pair(3, 5), std::pair(8, 9), std::pair(15, 15)}) {
     CAPTURE(x, y);
     CHECK(images[1].at(x, y) == tracer.trace(x + 0.5, y + 0.5).color);
@@ -194,22 +192,22 @@ TEST_CASE("uniform pictures are the tracer's own, and means of it") {
   CHECK(images[0].at(7, 9).y == Approx(0.75f * top + 0.25f * bottom).margin(1e-5));
 }
 
-TEST_CASE("every method makes finite pictures whose errors fall") {
-  const Stage stage;
-  for (const SceneCurves curves = curves_of(stage, accuracy_methods(), 1);
+TEST_CASE("methods: each makes finite pictures whose errors fall") {
+  const TreeSetup tree;
+  for (const SceneCurves curves = curves_of(tree, accuracy_methods(), 1);
        const std::string& method : rivals(curves)) {
     CAPTURE(method);
-    const std::vector<CurvePoint> curve = curve_of(curves, method, 0);
+    const std::vector<CurvePoint> curve = points_of(curves, method, 0);
     REQUIRE(curve.size() >= 3);
     CHECK(curve.back().rmse < curve.front().rmse);
     for (const CurvePoint& p : curve) CHECK(std::isfinite(p.rmse));
   }
 }
 
-TEST_CASE("a converged frame tells its own error, which is true") {
-  const Stage stage(32);
-  const Reference coarse = converged_reference(stage.subject(), 2),
-                  fine = converged_reference(stage.subject(), 8);
+TEST_CASE("converged frame: the estimate of its own error is right") {
+  const TreeSetup tree(32);
+  const Reference coarse = converged_reference(tree.subject(), 2),
+                  fine = converged_reference(tree.subject(), 8);
   CHECK(coarse.samples == 8);
   CHECK(fine.own_rmse < 0.5 * coarse.own_rmse);
   double sum = 0;
@@ -221,24 +219,24 @@ TEST_CASE("a converged frame tells its own error, which is true") {
   CHECK(coarse.own_rmse == Approx(measured).epsilon(0.25));
 }
 
-TEST_CASE("converged frames are kept by scene, view and number of samples") {
+TEST_CASE("converged frames: the cache tells scene, view and number of samples apart") {
   const std::filesystem::path cache = std::filesystem::temp_directory_path() / "pprt-accuracy-test";
   std::filesystem::remove_all(cache);
-  const Stage stage(32), other(24);
+  const TreeSetup tree(32), other(24);
   const auto files = [&] {
     return std::distance(std::filesystem::directory_iterator(cache), std::filesystem::directory_iterator());
   };
-  const Reference made = cached_reference(stage.nff(), stage.subject(), 2, cache);
-  const Reference kept = cached_reference(stage.nff(), stage.subject(), 2, cache);
+  const Reference made = cached_reference(tree.nff(), tree.subject(), 2, cache);
+  const Reference kept = cached_reference(tree.nff(), tree.subject(), 2, cache);
   CHECK(files() == 1);
   CHECK(kept.image.pixels == made.image.pixels);
   CHECK(kept.own_rmse == made.own_rmse);
   CHECK(kept.samples == made.samples);
-  cached_reference(stage.nff(), stage.subject(), 3, cache);
+  cached_reference(tree.nff(), tree.subject(), 3, cache);
   cached_reference(other.nff(), other.subject(), 2, cache);
   CHECK(files() == 3);
   // A broken file is made anew.
   for (const auto& file : std::filesystem::directory_iterator(cache)) std::filesystem::resize_file(file, 5);
-  CHECK(cached_reference(stage.nff(), stage.subject(), 2, cache).image.pixels == made.image.pixels);
+  CHECK(cached_reference(tree.nff(), tree.subject(), 2, cache).image.pixels == made.image.pixels);
   std::filesystem::remove_all(cache);
 }

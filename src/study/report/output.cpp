@@ -1,4 +1,4 @@
-#include "study/output.h"
+#include "study/report/output.h"
 
 #include <fmt/format.h>
 
@@ -38,8 +38,11 @@ void StudyOutput::add_table(const std::string& name, const Table& table) {
   write_table(name, table);
 }
 
-void StudyOutput::write_picture(const std::string& file, std::string_view bytes) const {
-  write_whole_file(directory_ / file, bytes);
+void StudyOutput::add_gallery(std::span<const Picture> pictures) {
+  for (const Picture& picture : pictures) {
+    if (!picture.file.empty()) write_whole_file(directory_ / picture.file, picture.png);
+  }
+  page_.gallery(pictures);
 }
 
 void StudyOutput::add_figure(const Plot& plot, std::string_view caption) {

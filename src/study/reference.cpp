@@ -1,23 +1,21 @@
-#include "study/accuracy/reference.h"
+#include "study/reference.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <optional>
 #include <span>
-#include <stdexcept>
-#include <thread>
 #include <vector>
 
 #include "base/content_hash.h"
 #include "base/hash.h"
 #include "image/metrics.h"
 #include "image/whole_file.h"
+#include "study/frame_series.h"
 
 namespace pprt {
 namespace {
@@ -26,28 +24,30 @@ Color displayed(const Color& c) {
   return {std::clamp(c.x, 0.0f, 1.0f), std::clamp(c.y, 0.0f, 1.0f), std::clamp(c.z, 0.0f, 1.0f)};
 }
 
-constexpr std::uint64_t kSeed = 0x2545f4914f6cdd1du;  // another than any of the sampler's
-
-// Mean of one half's samples of a pixel. `half`: 0 or 1.
-Color pixel_mean(Tracer& tracer, int x, int y, int n, int half) {
-  const auto pixel = static_cast<std::uint64_t>(y) * 0x10000u + static_cast<std::uint64_t>(x);
-  const auto cells = static_cast<std::uint64_t>(n) * static_cast<std::uint64_t>(n);
+// Returns the mean of n x n samples of a pixel; `place` maps a cell's number to a place within the cell.
+template <typename Place>
+Color pixel_mean(Tracer& tracer, int x, int y, int n, const Place& place) {
   Vec3d sum(0, 0, 0);
   for (int cell = 0; cell < n * n; ++cell) {
-    const std::uint64_t index =
-        2 * (static_cast<std::uint64_t>(half) * cells + static_cast<std::uint64_t>(cell));
-    const int row = cell / n, column = cell % n;
-    const double at_x = x + (column + uniform(kSeed, pixel, index)) / n;
-    const double at_y = y + (row + uniform(kSeed, pixel, index + 1)) / n;
-    sum += Vec3d(displayed(tracer.trace(at_x, at_y).color));
+    const Vec2d at = place(cell);
+    sum += Vec3d(displayed(tracer.trace(x + (cell % n + at.x) / n, y + (cell / n + at.y) / n).color));
   }
   return Color(sum / (n * n));
 }
 
-void add_row(Tracer& tracer, int y, int n, Image& first, Image& second) {
+void trace_row(const Subject& subject, int y, int n, Image& first, Image& second) {
+  constexpr std::uint64_t kSeed = 0x2545f4914f6cdd1du;  // unlike those of the samplers
+  Tracer tracer(subject.scene, subject.camera);
   for (int x = 0; x < first.width; ++x) {
-    first.at(x, y) = pixel_mean(tracer, x, y, n, 0);
-    second.at(x, y) = pixel_mean(tracer, x, y, n, 1);
+    const auto pixel = static_cast<std::uint64_t>(y) * 0x10000u + static_cast<std::uint64_t>(x);
+    const auto half = [&](int first_cell) {
+      return pixel_mean(tracer, x, y, n, [&](int cell) {
+        const std::uint64_t index = 2 * static_cast<std::uint64_t>(first_cell + cell);
+        return Vec2d(uniform(kSeed, pixel, index), uniform(kSeed, pixel, index + 1));
+      });
+    };
+    first.at(x, y) = half(0);
+    second.at(x, y) = half(n * n);
   }
 }
 
@@ -94,19 +94,22 @@ std::optional<Reference> from_file(const std::filesystem::path& path, const Came
 
 }  // namespace
 
+Image supersampled(const Subject& subject, int n) {
+  Tracer tracer(subject.scene, subject.camera);
+  Image image(subject.camera.width, subject.camera.height);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      image.at(x, y) = pixel_mean(tracer, x, y, n, [](int) { return Vec2d(0.5, 0.5); });
+    }
+  }
+  return image;
+}
+
 Reference converged_reference(const Subject& subject, int n) {
   const Camera& camera = subject.camera;
   Image first(camera.width, camera.height), second = first;
-  std::atomic<int> next_row = 0;
-  {
-    std::vector<std::jthread> workers(std::max(1u, std::thread::hardware_concurrency()));
-    for (std::jthread& worker : workers) {
-      worker = std::jthread([&] {
-        Tracer tracer(subject.scene, camera);
-        for (int y = next_row++; y < camera.height; y = next_row++) add_row(tracer, y, n, first, second);
-      });
-    }
-  }
+  run_concurrently(static_cast<std::size_t>(camera.height),
+                   [&](std::size_t y) { trace_row(subject, static_cast<int>(y), n, first, second); });
   Reference reference{Image(camera.width, camera.height), 2 * n * n};
   reference.own_rmse = 0.5 * difference(first, second, 1).rmse;
   for (std::size_t i = 0; i < first.pixels.size(); ++i) {

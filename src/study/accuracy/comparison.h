@@ -1,0 +1,63 @@
+// Comparison of methods by their curves: errors at equal time, times at equal error, break-even points.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "study/accuracy/curves.h"
+#include "study/accuracy/statistics.h"
+#include "study/report/table.h"
+
+namespace pprt {
+
+// Budgets of the tables: shares of the time of one sample per pixel.
+inline constexpr std::array kBudgets = {0.01, 0.02, 0.05, 0.1, 0.25, 0.5, 1.0, 2.0, 4.0};
+
+// Returns a method's points of one repeat by increasing time.
+std::vector<CurvePoint> points_of(const SceneCurves& curves, const std::string& method, int repeat);
+
+// Interpolates between logarithms. NaN before the first picture and after the last; an exhausted method keeps
+// its last error.
+double error_at(const std::vector<CurvePoint>& curve, double share);
+
+// Returns the least share at which the error is reached; NaN when it never is.
+double share_at(const std::vector<CurvePoint>& curve, double rmse);
+
+// Returns shares from 0.01 to 4, each `step` times the one before.
+std::vector<double> shares_by(double step);
+
+// Returns the method's error over that of the uniform method, in the same time. Each method shows its best
+// picture so far. Spread over the repeats.
+Spread ratio_at_equal_time(const SceneCurves& curves, const std::string& method, double share);
+
+// Returns the method's time over that of the uniform method, for the error that the latter has at `share`.
+Spread ratio_at_equal_error(const SceneCurves& curves, const std::string& method, double share);
+
+// Where the ratio at equal time passes 1. Shares of the time of one sample per pixel.
+struct BreakEven {
+  double first_share = 0;  // both have a picture from here
+  double last_share = 0;   // to here; 0: nowhere
+  bool ahead_at_first = false;
+  std::vector<double> crossings;  // increasing
+};
+BreakEven break_even(const SceneCurves& curves, const std::string& method);
+
+// Names the budgets at which the method is ahead, and those at which it is behind.
+std::string to_sentence(const BreakEven& at, const std::string& method);
+
+// Returns the methods in the order of their first points, without the uniform one.
+std::vector<std::string> rivals(const SceneCurves& curves);
+
+// Returns one row per scene: progressive over uniform at 10 to 400 %, and the break-even points. With several
+// scenes the last row is their geometric mean, at each budget over those that have a picture.
+Table ratio_table(const std::vector<SceneCurves>& scenes);
+
+// Return one row per scene and method: medians at each budget.
+Table equal_time_table(const std::vector<SceneCurves>& scenes);
+Table equal_error_table(const std::vector<SceneCurves>& scenes);
+
+// Returns one row per scene, method and budget: both ratios with their spread.
+Table comparisons_table(const std::vector<SceneCurves>& scenes);
+
+}  // namespace pprt

@@ -1,0 +1,44 @@
+// A study's directory: tables as CSV, plots as SVG, pictures as PNG, one page to read, and the provenance.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "study/report/page.h"
+#include "study/report/plot.h"
+#include "study/report/provenance.h"
+#include "study/report/table.h"
+
+namespace pprt {
+
+class StudyOutput {
+ public:
+  // Makes the directory. Adds version, build and host to `facts`. All functions that write throw
+  // std::runtime_error where that fails.
+  StudyOutput(const std::filesystem::path& directory, const std::string& title, const Provenance& facts);
+
+  Page& page() { return page_; }
+
+  // Writes NAME.csv; add_table also shows the table on the page.
+  void write_table(const std::string& name, const Table& table) const;
+  void add_table(const std::string& name, const Table& table);
+
+  // Shows the pictures side by side, and writes those that name a file.
+  void add_gallery(std::span<const Picture> pictures);
+
+  // Writes NAME.svg and shows it. Without gnuplot the page notes the missing plot.
+  void add_figure(const Plot& plot, std::string_view caption);
+
+  // Writes index.html. Warns on standard error when plots are missing.
+  void finish() const;
+
+ private:
+  std::filesystem::path directory_;
+  Provenance provenance_;
+  Page page_;
+  std::string missing_;  // why there are no plots
+};
+
+}  // namespace pprt
