@@ -8,106 +8,84 @@
 
 namespace {
 
-CLI::App* add_counts(CLI::App& app, pprt::CountsOptions& options) {
-  CLI::App* command = app.add_subcommand("counts", "Compares rays by kind with Haines' published table");
-  auto* scenes = command->add_option(
-      "SCENE", options.scenes,
-      "FILE.nff, - (NFF on standard input) or spd:NAME[:SIZE] (default: the seven published)");
-  scenes->type_name("");
-  pprt::take_path_or(*scenes, pprt::generated_scenes());
-  command->add_option("--tolerance", options.tolerance_percent, "Greatest allowed difference, in percent")
+// Adds an option. `label` stands for its value in the help.
+template <typename T>
+CLI::Option* add(CLI::App& app, const char* names, const char* label, T& value, const char* help) {
+  return app.add_option(names, value, help)->type_name(label);
+}
+
+CLI::App& add_counts(CLI::App& app, pprt::CountsOptions& options) {
+  CLI::App& command = *app.add_subcommand("counts", "Compares rays by kind with Haines' published table");
+  pprt::take_path_or(
+      *add(command, "SCENE", "", options.scenes,
+           "FILE.nff, - (NFF on standard input) or spd:NAME[:SIZE] (default: the seven published)"),
+      pprt::generated_scenes());
+  add(command, "--tolerance", "PERCENT", options.tolerance_percent, "Greatest allowed difference, in percent")
       ->check(CLI::NonNegativeNumber)
-      ->capture_default_str()
-      ->type_name("PERCENT");
-  command->add_option("--corners", options.corners, "Number of eye rays in each direction")
+      ->capture_default_str();
+  add(command, "--corners", "N", options.corners, "Number of eye rays in each direction")
       ->check(CLI::Range(2, 16385))
-      ->capture_default_str()
-      ->type_name("N");
-  command->add_flag("--two-sided", options.two_sided, "Show opaque surfaces from both sides in every scene");
-  command->add_flag("--json", options.json, "Print a JSON object a line for each scene");
+      ->capture_default_str();
+  command.add_flag("--two-sided", options.two_sided, "Show opaque surfaces from both sides in every scene");
+  command.add_flag("--json", options.json, "Print a JSON object a line for each scene");
   return command;
 }
 
-CLI::App* add_paper(CLI::App& app, pprt::PaperOptions& options) {
-  CLI::App* command = app.add_subcommand("paper", "Repeats the paper's experiments, figures 5 to 9");
-  command->add_option("-o,--output", options.directory, "Directory for tables, plots and index.html")
-      ->required()
-      ->type_name("DIR");
-  command->add_flag("--quick", options.quick, "A trial: small pictures of a small tree on few ranks");
-  command
-      ->add_option("--ranks", options.ranks,
-                   "Numbers of ranks for figures 5 to 7 (default: 32,62; quick: 4,6)")
+CLI::App& add_paper(CLI::App& app, pprt::PaperOptions& options) {
+  CLI::App& command = *app.add_subcommand("paper", "Repeats the paper's experiments, figures 5 to 9");
+  add(command, "-o,--output", "DIR", options.directory, "Directory for tables, plots and index.html")
+      ->required();
+  command.add_flag("--quick", options.quick, "A trial: small pictures of a small tree on few ranks");
+  add(command, "--ranks", "N,...", options.ranks,
+      "Numbers of ranks for figures 5 to 7 (default: 32,62; quick: 4,6)")
       ->delimiter(',')
-      ->check(CLI::Range(1, 512))
-      ->type_name("N,...");
-  command
-      ->add_option("--frames", options.frames,
-                   "Render the first N frames of each sequence (default: 40; quick: 6)")
-      ->check(CLI::Range(5, 40))
-      ->type_name("N");
-  auto* machine = command->add_option("--machine", options.machine, "Simulated processors and network");
-  machine->capture_default_str();
-  pprt::take_one_of(*machine, {"cluster", "sp2"});
-  command
-      ->add_option("--latency", options.latency_us, "Network latency, microseconds (default: the machine's)")
-      ->check(CLI::NonNegativeNumber)
-      ->type_name("US");
-  command
-      ->add_option("--bandwidth", options.bandwidth_mb_s,
-                   "Bandwidth of a rank's link, MB/s (default: the machine's)")
-      ->check(CLI::PositiveNumber)
-      ->type_name("MB/S");
-  command->add_option("--seed", options.seed, "Seed of the seed samples' positions")
-      ->capture_default_str()
-      ->type_name("N");
+      ->check(CLI::Range(1, 512));
+  add(command, "--frames", "N", options.frames,
+      "Render the first N frames of each sequence (default: 40; quick: 6)")
+      ->check(CLI::Range(5, 40));
+  auto* machine = command.add_option("--machine", options.machine, "Simulated processors and network");
+  pprt::take_one_of(*machine->capture_default_str(), {"cluster", "sp2"});
+  add(command, "--latency", "US", options.latency_us,
+      "Network latency, microseconds (default: the machine's)")
+      ->check(CLI::NonNegativeNumber);
+  add(command, "--bandwidth", "MB/S", options.bandwidth_mb_s,
+      "Bandwidth of a rank's link, MB/s (default: the machine's)")
+      ->check(CLI::PositiveNumber);
+  add(command, "--seed", "N", options.seed, "Seed of the seed samples' positions")->capture_default_str();
   return command;
 }
 
-CLI::App* add_accuracy(CLI::App& app, pprt::AccuracyOptions& options) {
-  CLI::App* command = app.add_subcommand("accuracy", "Measures what a better picture costs in time");
-  auto* scenes = command->add_option(
-      "SCENE", options.inputs,
-      "FILE.nff or spd:NAME[:SIZE] (default: tree, gears, balls and tetra), and FILE.anim for the sequence "
-      "at fixed rates");
-  scenes->type_name("");
-  pprt::take_path_or(*scenes, pprt::generated_scenes());
-  command->add_option("-o,--output", options.directory, "Directory for tables, plots and index.html")
-      ->type_name("DIR");
-  command->add_flag("--quick", options.quick, "A trial: small pictures");
-  command->add_option("--size", options.size, "Pictures of N x N pixels (default: 512; quick: 96)")
-      ->check(CLI::Range(16, 4096))
-      ->type_name("N");
-  command->add_option("--repeats", options.repeats, "Repeats of each measurement")
+CLI::App& add_accuracy(CLI::App& app, pprt::AccuracyOptions& options) {
+  CLI::App& command = *app.add_subcommand("accuracy", "Measures what a better picture costs in time");
+  pprt::take_path_or(*add(command, "SCENE", "", options.inputs,
+                          "FILE.nff or spd:NAME[:SIZE] (default: tree, gears, balls and tetra), and "
+                          "FILE.anim for the sequence "
+                          "at fixed rates"),
+                     pprt::generated_scenes());
+  add(command, "-o,--output", "DIR", options.directory, "Directory for tables, plots and index.html");
+  command.add_flag("--quick", options.quick, "A trial: small pictures");
+  add(command, "--size", "N", options.size, "Pictures of N x N pixels (default: 512; quick: 96)")
+      ->check(CLI::Range(16, 4096));
+  add(command, "--repeats", "N", options.repeats, "Repeats of each measurement")
       ->check(CLI::Range(1, 100))
-      ->capture_default_str()
-      ->type_name("N");
-  command
-      ->add_option("--reference", options.reference_cells,
-                   "Converged frames have 2 N x N samples a pixel (default: 8; quick: 4)")
-      ->check(CLI::Range(2, 64))
-      ->type_name("N");
-  command
-      ->add_option("--cache", options.cache,
-                   "Directory that keeps converged frames (default: pprt in the user's cache directory)")
-      ->type_name("DIR");
-  command->add_flag("--no-cache", options.no_cache, "Neither keep converged frames nor use kept ones");
-  command->add_option("--ranks", options.ranks, "Number of ranks for the sequences at fixed rates")
+      ->capture_default_str();
+  add(command, "--reference", "N", options.reference_cells,
+      "Converged frames have 2 N x N samples a pixel (default: 8; quick: 4)")
+      ->check(CLI::Range(2, 64));
+  add(command, "--cache", "DIR", options.cache,
+      "Directory that keeps converged frames (default: pprt in the user's cache directory)");
+  command.add_flag("--no-cache", options.no_cache, "Neither keep converged frames nor use kept ones");
+  add(command, "--ranks", "N", options.ranks, "Number of ranks for the sequences at fixed rates")
       ->check(CLI::Range(1, 512))
-      ->capture_default_str()
-      ->type_name("N");
-  command
-      ->add_option("--want-rmse", options.want_rmse,
-                   "Print the frame rate that gives this error; without -o measure nothing else")
-      ->check(CLI::PositiveNumber)
-      ->type_name("E");
-  command
-      ->add_option("--want-fps", options.want_fps,
-                   "Print the error at this frame rate, under the work clock and in real time")
-      ->check(CLI::PositiveNumber)
-      ->type_name("F");
-  command->add_option("--seed", options.seed, "Seed of the seed samples' positions in the first repeat")
-      ->capture_default_str()
-      ->type_name("N");
+      ->capture_default_str();
+  add(command, "--want-rmse", "E", options.want_rmse,
+      "Print the frame rate that gives this error; without -o measure nothing else")
+      ->check(CLI::PositiveNumber);
+  add(command, "--want-fps", "F", options.want_fps,
+      "Print the error at this frame rate, under the work clock and in real time")
+      ->check(CLI::PositiveNumber);
+  add(command, "--seed", "N", options.seed, "Seed of the seed samples' positions in the first repeat")
+      ->capture_default_str();
   return command;
 }
 
@@ -127,13 +105,13 @@ int main(int argc, char** argv) {
     pprt::PaperOptions paper;
     pprt::AccuracyOptions accuracy;
     add_counts(app, counts);
-    const CLI::App* paper_command = add_paper(app, paper);
-    const CLI::App* accuracy_command = add_accuracy(app, accuracy);
+    const CLI::App& paper_command = add_paper(app, paper);
+    const CLI::App& accuracy_command = add_accuracy(app, accuracy);
     pprt::add_common_flags(app);
     if (!pprt::parse_command_line(app, argc, argv)) return pprt::kExitDone;
-    if (paper_command->parsed()) {
+    if (paper_command.parsed()) {
       pprt::study_paper(paper, words(argc, argv));
-    } else if (accuracy_command->parsed()) {
+    } else if (accuracy_command.parsed()) {
       pprt::study_accuracy(accuracy, words(argc, argv));
     } else {
       return pprt::study_counts(counts) ? pprt::kExitDone : pprt::kExitFailure;
