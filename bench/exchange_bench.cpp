@@ -1,5 +1,5 @@
-// What the samples of other ranks cost: insertion with the update rule, and their way through a message. The
-// work clock's prices for them stand on these figures.
+// Measures the cost of samples from other ranks: inserting them, applying the update rule, and sending them
+// as messages. The work clock's prices are set from these figures.
 
 #include <benchmark/benchmark.h>
 
@@ -21,7 +21,7 @@ constexpr int kSize = 512, kRanks = 64, kRank = 27;
 constexpr std::size_t kSamples = 76'000;  // the paper's per pixel
 constexpr std::size_t kBatch = 40;        // about what a round brings
 
-// Rings of changing width: as much fine detail as the SPD tree has, everywhere.
+// Rings of changing width: everywhere as much fine detail as in the SPD tree.
 Sample sample_at(double x, double y) {
   Sample s;
   s.x = x, s.y = y;
@@ -35,7 +35,7 @@ Partition equal_squares() {
   return bisect(grid, std::vector<double>(static_cast<std::size_t>(grid.tile_count()), 1.0), kRanks);
 }
 
-// All samples of a serial run, in the order in which they were wanted.
+// Returns all samples of a serial run, in the order in which they were requested.
 const std::vector<Sample>& serial_samples() {
   static const std::vector<Sample> samples = [] {
     SampleMesh mesh(Region::whole({kSize, kSize, 16}));
@@ -49,9 +49,9 @@ const std::vector<Sample>& serial_samples() {
   return samples;
 }
 
-// One rank's own samples and, in batches between them, those within a few pixels of its region. Timed are the
-// latter, the update rule by triangle that it looks at, or how much longer the region's reconstruction takes
-// with all of them.
+// One rank's own samples and, in batches between them, samples within a few pixels of its region. Three costs
+// are timed. kReceived: inserting the latter. kUpdateRule: the update rule, per triangle examined.
+// kReconstruction: the extra time of the region's reconstruction.
 enum class Timed { kReceived, kUpdateRule, kReconstruction };
 
 double reconstruction_seconds(const SampleMesh& mesh) {

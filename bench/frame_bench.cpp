@@ -1,9 +1,9 @@
-// What a frame costs a rank besides samples: a session of one rank in this process, whose budget is spent
-// before sampling begins, so that orders, seeds, reconstruction, and the way of the pixels to the master's
-// picture are left. And what bundles of samples cost to write and read.
+// Measures the cost of a frame on one rank apart from its samples, and of encoding and decoding bundles of
+// samples.
 //
-// "ms_per_frame" is the CPU time of the whole; "reconstruction_ms" that of the same seeds alone; "beyond_ms"
-// the difference.
+// A session of one rank runs in this process with a budget that is spent before sampling begins. Its cost is
+// that of orders, seeds, reconstruction and pixel transfer. "ms_per_frame" is the CPU time of the frame,
+// "reconstruction_ms" that of reconstructing the same seeds alone, "beyond_ms" the difference.
 
 #include <benchmark/benchmark.h>
 
@@ -45,12 +45,12 @@ SessionSettings settings_without_time() {
   return settings;
 }
 
-// Of this process's CPU: a session of one rank is one thread, and other programs must not count.
+// Returns this process's CPU time, ms. The session is one thread, and other programs do not count.
 double cpu_ms() {
   return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-// The seeds of one frame, reconstructed as often as the session does.
+// Returns the time to reconstruct the seeds of one frame, as often as the session does.
 double reconstruction_ms() {
   const TileGrid grid(kSize, kSize, 32);
   SampleMesh mesh(Region::whole(grid));
@@ -66,7 +66,7 @@ double reconstruction_ms() {
   return (cpu_ms() - start) / kFrames;
 }
 
-// The camera rests: with casting off every frame begins with its seeds anew, else they stay.
+// The camera does not move. Without casting every frame starts from new seeds, otherwise the seeds are kept.
 void frame_overhead(benchmark::State& state, CastChoice cast) {
   SessionSettings settings = settings_without_time();
   settings.cast = cast;

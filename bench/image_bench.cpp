@@ -1,4 +1,4 @@
-// What one frame costs to encode, to write, and to compare.
+// Measures encoding, writing and comparing one frame.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 using namespace pprt;
 
-// Ball `number` of a scatter over the picture, lit from the upper left, with a highlight.
+// Draws ball `number` of a scatter over the picture, lit from the upper left, with a highlight.
 void draw_ball(Image& image, int number) {
   const auto n = static_cast<float>(number);
   const float radius = 0.25f * static_cast<float>(image.height) / (2 + 0.15f * n);
@@ -36,7 +36,7 @@ void draw_ball(Image& image, int number) {
   }
 }
 
-// Like the pictures of procedural databases: a plain background, a lit ground, balls of many sizes.
+// Draws a picture like those of the SPD scenes: plain background, lit ground, balls of many sizes.
 Image shaded_balls(int width, int height) {
   Image image(width, height, Color(0.078f, 0.361f, 0.753f));
   for (int y = height / 3; y < height; ++y) {
@@ -80,7 +80,7 @@ void writing_exr(benchmark::State& state) {
 }
 BENCHMARK(writing_exr)->Apply(sizes);
 
-// `measure` of a picture and the same picture in a PNG's levels.
+// Applies `measure` to a picture and the same picture in the levels of a PNG.
 template <typename Measure>
 void comparing(benchmark::State& state, const Measure& measure) {
   const Image image = picture_for(state);

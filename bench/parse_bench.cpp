@@ -1,4 +1,4 @@
-// How fast scenes are read: bytes a second of NFF as SPD's programs write it.
+// Measures the speed of the NFF reader, in bytes per second, on files as SPD's programs write them.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
-// What a progressive sample costs besides its rays, by stage, and what reconstruction and casting cost.
+// Measures the cost of a progressive sample apart from its rays, by stage, and of reconstruction and casting.
 //
-// The picture is the SPD tree at 512x512, traced once beforehand to a fine grid that the probe looks up, so
-// that "insert" is the triangulation and the queue alone; "sample" traces for real.
+// The picture is the SPD tree at 512x512. It is traced once to a fine grid, where the probe looks colours up.
+// "insert" is thus the triangulation and the queue alone; "sample" traces rays.
 
 #include <benchmark/benchmark.h>
 
@@ -40,8 +40,8 @@ Tree& tree() {
   return instance;
 }
 
-// The pixel's colour and primitive, from a table that fits a cache: its misses must not count as the
-// triangulation's.
+// Returns the pixel's colour and primitive from a table small enough for the cache: its misses must not count
+// for the triangulation.
 RaySample look_up(double x, double y) {
   struct Entry {
     Color color;
@@ -148,8 +148,8 @@ void casting(benchmark::State& state) {
 }
 BENCHMARK(casting)->Arg(16000)->Unit(benchmark::kMillisecond);
 
-// Reinserts samples in the order of their refinement. Its share of insert_and_queue, run in turns with it, is
-// what counts.
+// Reinserts cast samples in the order of their refinement. Compare with insert_and_queue, run in turns with
+// it.
 void reinsert(benchmark::State& state) {
   look_up(0, 0);
   SampleMesh mesh(whole()), next(whole());

@@ -1,5 +1,6 @@
-// Rays per second of the tracer, one thread: eye rays in scan-line order and in random order (as the sampler
-// asks for them), with the whole tree of each, over three databases of different kinds of primitives.
+// Measures rays per second of the tracer in one thread, over three databases with different primitives. Eye
+// rays come in scan-line order and in random order, as the sampler asks for them, each with its whole ray
+// tree.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -23,7 +24,7 @@ std::vector<int> pixels_in(Order order, int count) {
   return pixels;
 }
 
-// One sample per pixel at 512 x 512; the time of an iteration is that of the whole picture.
+// Traces one sample per pixel at 512 x 512; an iteration is a whole picture.
 void picture(benchmark::State& state, const std::string& database, Order order) {
   const SceneDescription description = make_spd(database);
   const CompiledScene scene = compile(description);

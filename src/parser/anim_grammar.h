@@ -95,8 +95,8 @@ struct expression : seq<product, star<sor<plus_product, minus_product>>> {};
 
 struct quoted : seq<one<'"'>, star<not_one<'"', '\n', '\r'>>, opt<one<'"'>>> {};
 
-// Skips from an error to the place where reading continues: the next keyword of a statement, the end of the
-// block, or the end of a nested block.
+// Skips from an error to the place where reading continues. That is the next keyword of a statement, the end
+// of the block, or the end of a nested block.
 struct skipped_block {
   using rule_t = skipped_block;
   using subs_t = pegtl::empty_list;

@@ -178,7 +178,7 @@ Tangents<T> key_rates(const T& before, const T& after, const Segment& in, const 
 }
 
 // Limits the pitch rate so that the pitch never passes a pole. A cubic stays in the convex hull of its
-// control points: the pitch may use half of what is left to the pole within a third of either segment.
+// control points. So within a third of either segment the pitch may use half of what is left to the pole.
 double limited_pitch_rate(double rate, double pitch, double longest_segment) {
   const double most = 1.5 * (kHalfPi - std::abs(pitch)) / longest_segment;
   return std::clamp(rate, -most, most);
@@ -220,8 +220,8 @@ struct KeyMotion {
   Tangents<Vec3d> line;  // velocity of the line of sight
 };
 
-// Returns the movement at a key. The eye has one velocity on both sides, though the pivots may differ: the
-// pivot's velocity minus the turning of the line of sight about it.
+// Returns the movement at a key. The eye has one velocity on both sides, though the pivots may differ. It is
+// the pivot's velocity minus the turning of the line of sight about it.
 //
 // A segment with a fixed pivot decides the pivot. Between two such segments with different pivots (an orbit,
 // then a turn on the spot) the camera comes to rest.

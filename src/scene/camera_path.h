@@ -9,7 +9,7 @@
 namespace pprt {
 
 // Returns the camera at `frame` between keys[first] and keys[first + 1]. `keys` are two to four valid cameras
-// without a cut between them: these two keys, plus the key before and the key after where they exist.
+// without a cut between them: these two, and their neighbours where they exist.
 CameraKey camera_between(std::span<const CameraKey> keys, std::size_t first, double frame, SplineKind spline);
 
 // Maps share `u` of the time to the share of the way, both in [0, 1]. The camera accelerates over `ease_in`

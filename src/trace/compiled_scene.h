@@ -21,8 +21,8 @@ struct CompileOptions {
   int max_depth = 5;                 // an eye ray has depth 1
   bool cull = false;                 // show only the front of opaque surfaces
   std::optional<EffectSet> effects;  // effects that may be simulated; absent: all that the scene calls for
-  // Count rays as Haines' tables do: every hit on T > 0 spawns a reflection ray even where Ks = 0, and rays
-  // are followed to the full depth whatever their weight.
+  // Count rays as Haines' tables do. Every hit on T > 0 spawns a reflection ray, even where Ks = 0. Rays are
+  // followed to the full depth whatever their weight.
   bool count_as_published = false;
   // Use the kernel for all effects, whatever the scene calls for. Pictures are the same; this measures what
   // the specialised kernels gain.

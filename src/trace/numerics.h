@@ -37,9 +37,9 @@ inline constexpr double kCrossingError = 64 * 0x1p-50;
 // Returns the height above a sphere or cone at which a leaving ray starts.
 //
 // Counted from: the rounding of the origin along the normal, and kCrossingError. As much again for the
-// rounding across the normal: it turns the surface by rounding / radius and costs rounding^2 / (2 radius),
-// less than the rounding itself for every radius above half of it. Test: leaving_rays_test.cpp, "rays leave
-// ...".
+// rounding across the normal. It turns the surface by rounding / radius and costs rounding^2 / (2 radius).
+// That is less than the rounding itself for every radius above half of it. Test: leaving_rays_test.cpp, "rays
+// leave ...".
 constexpr double quadric_offset(double sum_of_coordinates) {
   return 2 * (origin_rounding(sum_of_coordinates) + kCrossingError);
 }

@@ -61,8 +61,8 @@ inline Crossings crossings(const SphereRecord& sphere, const Vec3d& origin, cons
 
 // Intersects a line with an open cone or cylinder.
 //
-// With q a point relative to the base, L the axis' length, m = q . axis, r0 the base radius and dr the radius
-// change, the surface is L^2 |q x axis|^2 = (r0 L^2 + dr m)^2. The form has no division. The body is where
+// Let q be a point relative to the base, L the axis' length, m = q . axis, r0 the base radius, dr the radius
+// change. The surface is L^2 |q x axis|^2 = (r0 L^2 + dr m)^2. The form has no division. The body is where
 // the left side is smaller.
 inline Crossings crossings(const ConeRecord& cone, const Vec3d& origin, const Vec3d& direction) {
   const Vec3d from_base = origin - cone.base;

@@ -1,8 +1,9 @@
-// pixel_rays SCENE SIZE FLAT.png SHADED.png [tachyon]: one ray for every pixel of a SIZE x SIZE image,
-// through its centre, which is what POV-Ray does without anti-aliasing. Tachyon takes NFF's coordinates for
-// left-handed ones, so that its picture is mirrored, and sends rays through the pixels' upper corners. FLAT
-// shows the material's colour of what is seen first, black where nothing is; SHADED the whole ray trees.
-// Prints the number of shadow rays.
+// pixel_rays SCENE SIZE FLAT.png SHADED.png [tachyon]: traces one ray through the centre of each pixel of a
+// SIZE x SIZE image, as POV-Ray does without anti-aliasing. FLAT shows the colour of the material first hit,
+// black for a miss; SHADED the whole ray trees. Prints the number of shadow rays.
+//
+// With "tachyon" rays go as in Tachyon: it takes NFF's coordinates for left-handed, so its picture is
+// mirrored, and sends rays through the pixels' upper corners.
 #include <cstdlib>
 #include <iostream>
 #include <stdexcept>

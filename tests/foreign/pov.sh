@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# pov.sh SCENE SIZE MAX_SHADOW_DIFFERENCE MAX_RMSE check|control: POV-Ray renders what pprt-convert makes of the scene
-# as our rays through the pixels' centres do. What is seen first may differ in 0.2 % of the pixels, the number of shadow
-# rays by so many per cent. "SCENE@INDEX" gives the scene's glass that refractive index. "control" mirrors the camera and takes a light away, and fails unless both are noticed.
+# pov.sh SCENE SIZE MAX_SHADOW_DIFFERENCE MAX_RMSE check|control: compares POV-Ray's picture of a converted scene with
+# pixel_rays. First hits may differ in 0.2 % of the pixels, the number of shadow rays by MAX_SHADOW_DIFFERENCE per cent.
+# "SCENE@INDEX" sets the refractive index of the scene's glass. "control" mirrors the camera and removes a light; it
+# fails unless both are noticed.
 set -euo pipefail
 scene=$1 size=$2 max_shadow=$3 max_rmse=$4 mode=$5
 command -v povray >/dev/null || { echo "povray is not installed"; exit 77; }
@@ -21,7 +22,7 @@ our_shadows=$(pixel_rays scene.nff "$size" flat.png shaded.png)
 if [[ $mode == control ]]; then
   sed -i 's/^  right /&-1 * /; 0,/^light_source/{/^light_source/d}' scene.pov
 fi
-# Quality 0 shows the plain colours of what is seen, opaque; nothing is black.
+# Quality 0 shows plain, opaque colours; a miss is black.
 sed 's/^background .*/background { rgb <0, 0, 0> }/' scene.pov >plain.pov
 render plain.pov pov_flat.png +Q0
 render scene.pov pov_shaded.png

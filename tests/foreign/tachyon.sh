@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# tachyon.sh SCENE check|control: Tachyon reads the .nff that pprt-convert writes, and sees something where we do, in all
-# but 0.05 % of the pixels. It has a field of view of its own, whatever the file says; "control" leaves ours at the
-# file's, and fails unless that is noticed.
+# tachyon.sh SCENE check|control: Tachyon reads the .nff of pprt-convert and hits objects where pprt does, in all but
+# 0.05 % of the pixels. Tachyon ignores the file's field of view and has its own. "control" keeps the file's in pprt; it
+# fails unless that is noticed.
 set -euo pipefail
 scene=$1 mode=$2 size=256
 command -v tachyon >/dev/null || { echo "tachyon is not installed"; exit 77; }

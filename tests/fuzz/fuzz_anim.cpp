@@ -1,4 +1,4 @@
-// libFuzzer entry: any bytes are an animation or an InputError, and an animation has a camera at every frame.
+// libFuzzer entry. Any bytes must be an InputError or an animation with a camera at every frame.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

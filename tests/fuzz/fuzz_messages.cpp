@@ -1,5 +1,5 @@
-// libFuzzer entry: any bytes are one of the ranks' messages or a ProtocolError, and a message that was read
-// is written and read again as the same. The first byte says which message the others are taken for.
+// libFuzzer entry. Any bytes must be a ProtocolError or a message of the ranks that reads back unchanged
+// after it is written. The first byte selects the kind of message.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

@@ -1,5 +1,5 @@
-// libFuzzer entry: whatever the bytes, a scene or an InputError; and a scene that was read is read again, the
-// same, from the canonical text that the ranks are sent.
+// libFuzzer entry. Any bytes must be an InputError or a scene. A scene must read back unchanged from the
+// canonical text that ranks receive.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

@@ -1,5 +1,5 @@
-// message_seeds DIRECTORY: a message of each kind for fuzz_messages to begin with, as the encoders make them
-// now.
+// message_seeds DIRECTORY: writes one message of each kind as seeds for fuzz_messages, encoded by the current
+// encoders.
 #include <cstdio>
 #include <filesystem>
 #include <fstream>

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # golden.sh RANKS|control SCENE MAX_RMSE MAX_SHARE EVIDENCE_DIR: compares a scene's picture with the approved one.
-# "control" moves the scene's lights by half their distance and fails unless the comparison does.
-# What was rendered and the difference stay in EVIDENCE_DIR when they differ and should not.
+# "control" moves the scene's lights by half their distance; it fails unless the comparison notices.
+# When the comparison fails, the rendered picture and the difference are kept in EVIDENCE_DIR.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 source "$here/lib.sh"

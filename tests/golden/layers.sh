@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# layers.sh RANKS|control EVIDENCE_DIR: compares the pictures of layers with the approved ones. "control" takes 3
-# ranks and no reflection, and fails unless the comparison with those of 4 ranks does. What was rendered and the
-# difference stay in EVIDENCE_DIR when they differ and should not.
+# layers.sh RANKS|control EVIDENCE_DIR: compares the pictures of layers with the approved ones. "control" renders on 3
+# ranks without reflection; it fails unless the comparison with those of 4 ranks notices. When the comparison fails, the
+# rendered pictures and the differences are kept in EVIDENCE_DIR.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 source "$here/lib.sh"

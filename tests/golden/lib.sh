@@ -1,6 +1,6 @@
-# What the golden tests and scripts/approve-goldens share. Needs pprt-render on the PATH.
+# Shared by the golden tests and scripts/approve-goldens. Needs pprt-render on the PATH.
 
-readonly golden_units=150000000  # of counted work for the whole picture, however many ranks share it
+readonly golden_units=150000000  # work units for the whole picture, shared by the ranks
 readonly golden_threshold=0.05   # error above which a pixel counts for the share
 
 # golden_picture SCENE RANKS OUT
@@ -16,12 +16,12 @@ golden_picture() {
 # golden_name SCENE: "tree" for "spd:tree:6".
 golden_name() { local rest=${1#spd:}; echo "${rest%%:*}"; }
 
-# Layers whose pictures are approved, with the largest rmse and the largest share of pixels with an error above
-# 0.05. The tolerances are half as much again as what another --seed makes of them.
+# Layers with approved pictures, each with the largest RMSE and the largest share of pixels with an error above 0.05.
+# The tolerances are 1.5 times what another --seed causes.
 readonly golden_layer_scene=spd:gears:2
 golden_layers() { printf '%s\n' "cost 0.0145 0.0105" "regions 0.0025 0.0005"; }
 
-# golden_layer_picture LAYER RANKS OUT [OPTION...]: without balancing, whose thresholds are found by measurement.
+# golden_layer_picture LAYER RANKS OUT [OPTION...]: renders without balancing, because balancing uses measured times.
 golden_layer_picture() {
   local folder
   folder=$(mktemp -d)

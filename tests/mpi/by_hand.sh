@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# mpirun pprt-render does what pprt-render -np does.
+# mpirun pprt-render gives the same files as pprt-render -np.
 source "$(dirname "$0")/lib.sh"
 
 mpirun_by_hand -np 3 pprt-render spd:tree:5 "$here/short.anim" --clock work --progress none -o 'hand/%04d.png'

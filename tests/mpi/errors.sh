@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What is wrong with the input is told once, by one rank, and every rank leaves with its code.
+# An error in the input is reported once, by one rank, and every rank exits with its code.
 source "$(dirname "$0")/lib.sh"
 
 printf 'v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 30\nhither 1\nresolution 8 8\ns 0 0\n' >broken.nff
@@ -15,7 +15,7 @@ for way in own hand; do
     { cat told >&2; fail "one report of the error was wanted ($way)"; }
   [[ ! -e broken.png ]] || fail "a picture was written"
 done
-# Every rank meets a command line that makes no sense; one speaks.
+# Every rank finds the wrong option; only one reports it.
 code=0
 mpirun_by_hand -np 3 pprt-render broken.nff --bogus 2>told || code=$?
 [[ $code == 2 && $(grep -c -- --bogus told) == 1 ]] || { cat told >&2; fail "a usage error ended with code $code"; }

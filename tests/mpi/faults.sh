@@ -1,23 +1,23 @@
 #!/usr/bin/env bash
-# faults.sh FAULT [TIMES]: does something bad to a run and sees that nothing is lost. Tells what it measured in one
-# line, "fault | what was done | what came of it".
+# faults.sh FAULT [TIMES]: causes a fault during a run and checks that nothing is lost. Prints the result in one line,
+# "fault | what was done | what happened".
 #
-#   stopped         one rank stands still for 2 s at 4 frames/s
-#   stopped-master  rank 0 does
+#   stopped         one rank is stopped for 2 s at 4 frames/s
+#   stopped-master  the same for rank 0
 #   lost            one rank is killed
 #   killed          the whole run is killed, TIMES times at random moments
 #   full            the disk is full
 #   read-only       the directory cannot be written to
-#   slow-network    two of four ranks are on another host, 5 to 10 ms away; 5 of 1000 packets are lost
+#   slow-network    two of four ranks on another host, 5 to 10 ms away; 5 of 1000 packets are lost
 #   bad-network     the same, 40 to 60 ms away, and 10 of 1000 are lost
 #
-# Ends with 77 where the machine does not let a test mount a file system, or make a network, of its own.
+# Exits with 77 (skipped) where a test may not mount a file system or make a network.
 source "$(dirname "$0")/lib.sh"
 fault=$1 times=${2:-10}
 script=$here/moving.anim
 frames=28
 
-# What a killed MPI leaves behind goes with the test's directory.
+# Temporary files of a killed MPI are removed with the test's directory.
 mkdir tmp
 export OMPI_MCA_orte_tmpdir_base=$work/tmp OMPI_MCA_btl_vader_backing_directory=$work/tmp
 
@@ -54,7 +54,7 @@ await_frames() {
   fail "$1 does not come to hold $2 frames"
 }
 
-# Every file in place is a picture, and stands in the manifest unless the run was killed in between.
+# Checks that every file is a whole picture, and is in the manifest unless the run was killed in between.
 expect_whole() {
   local file
   for file in "$1"/????.png; do
@@ -69,17 +69,17 @@ expect_equal() {
   done
 }
 
-# In counted time, so that runs can be compared: a second or two for all frames.
+# Under the work clock, so that runs can be compared: a second or two for all frames.
 counted=(pprt-render spd:tree:5 "$script" -np 3 --clock work --budget 6000000 --progress none)
 undisturbed() { "${counted[@]}" -o 'reference/%04d.png'; }
 
-# In the ledger, in the order of the script, each once.
+# Checks that the ledger has every frame once, in the order of the script.
 expect_every_frame_told() {
   grep -o '"record":"frame","frame":[0-9]*' ledger.ndjson | grep -o '[0-9]*$' | cmp - <(seq $frames) ||
     fail "the ledger does not tell of every frame in its turn"
 }
 
-# Of the ledger, a frame a line: how late it came, ms, and which ranks were, between commas.
+# Prints per frame of the ledger its lateness, ms, and the late ranks between commas.
 late_frames() {
   sed -n 's/.*"late_ms":\([-0-9.e]*\),"late_ranks":\[\([0-9,]*\)\].*/\1 ,\2,/p' ledger.ndjson
 }
@@ -99,7 +99,7 @@ stand_still() {
   expect_whole out
   expect_every_frame_told
   late_frames >late
-  # How many frames lack its pixels, after how many from the first of these a whole one comes, how late the latest is.
+  # Prints the frames without its pixels, the frames from the first of these to the next whole one, and the most late.
   awk -v rank=",$rank," '
     index($2, rank) { ++missed; if (!first) first = NR }
     first && !back && !index($2, rank) { back = NR - first }
@@ -107,8 +107,8 @@ stand_still() {
     END { printf "%d %d %.1f\n", missed, back, most }' late
 }
 
-# A host "far" beside this one: a network namespace at the other end of slow_wire, which mpirun enters where it would
-# use ssh. Leaves the hostfile "hosts".
+# Makes a second host "far": a network namespace at the other end of slow_wire, which mpirun enters instead of using
+# ssh. Writes the hostfile "hosts".
 make_network() {
   local delay=$1 jitter=$2 loss=$3
   ip link set lo up
@@ -179,7 +179,7 @@ case $fault in
       # shellcheck disable=SC2046 # one word a process
       kill -KILL $(processes_of $run) 2>/dev/null || true
       wait $run 2>/dev/null || true
-      # A rank that began in this moment ends without its mpirun, or now.
+      # A rank that starts at this moment ends without its mpirun, or is killed here.
       while processes=$(pgrep -f "$work/out"); do
         # shellcheck disable=SC2086 # one word a process
         kill -KILL $processes 2>/dev/null || true
@@ -243,7 +243,7 @@ case $fault in
     counted=(pprt-render spd:tree:5 "$script" -np 4 --clock work --budget 6000000 --frames 1-4 --progress none)
     make_network "${distance[@]}"
     undisturbed
-    # Counted time: the network makes no difference to the result.
+    # Work clock: the network must not change the result.
     "${counted[@]}" --hostfile hosts -o 'out/%04d.png'
     expect_frames out png 4
     expect_equal out

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# 32 ranks, however few the cores: counted time is kept.
+# 32 ranks on any number of cores keep the work clock.
 source "$(dirname "$0")/lib.sh"
 
 pprt-render spd:tree:6 "$here/short.anim" --frames 2-4 -np 32 --clock work --progress none -o 'out/%04d.png' \

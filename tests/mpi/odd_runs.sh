@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
-# odd_runs.sh: images of one tile, of fewer tiles than ranks, and of one row, under every way of balancing; and cameras
-# that turn round, jump and zoom by a million from one frame to the next, under every way of casting. Nobody divides by
-# what is nothing, no sample is none, and every frame is whole.
+# odd_runs.sh: images of one tile, of fewer tiles than ranks, and of one row, with every --balance; and cameras that
+# turn round, jump and zoom by a million between frames, with every --cast. Every frame must be whole and finite.
 source "$(dirname "$0")/lib.sh"
 cat >odd.anim <<'SCRIPT'
 animation {

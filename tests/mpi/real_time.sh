@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# A sequence in real time ends with every frame. Whether each was on time depends on the machine's load, which a
-# test does not control: the benchmarks tell it.
+# A run in real time ends with every frame. Whether each was on time depends on the machine's load, so the benchmarks
+# measure it.
 source "$(dirname "$0")/lib.sh"
 
 pprt-render spd:tree:5 "$here/short.anim" --fps 2 -np 2 --progress none -o 'out/####.png' --stats ledger.ndjson

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# resume.sh RANKS SCENE BUDGET OPTIONS...: in counted time, a run that goes on makes the files that an undisturbed
-# one makes, bit by bit, and only those that are missing.
+# resume.sh RANKS SCENE BUDGET OPTIONS...: under the work clock a resumed run writes the missing files only, equal to
+# those of an undisturbed run to the byte.
 source "$(dirname "$0")/lib.sh"
 ranks=$1 scene=$2 budget=$3
 shift 3
@@ -12,7 +12,7 @@ render() {
 
 render "$@"
 cp -rp out undisturbed
-# Within the first move, at the end of it, and behind the cut.
+# Within the first movement, at its end, and after the cut.
 rm out/0010.png out/0011.exr out/0018.png out/0021.png out/0022.exr out/0022.png
 touch -d '1 hour ago' out/*.png out/*.exr
 render "$@" --resume
@@ -21,15 +21,15 @@ for file in undisturbed/*.{exr,png}; do
 done
 made=$(find out -name '*.png' -newer undisturbed/manifest.ndjson -mmin -30 | wc -l)
 [[ $made == 5 ]] || fail "$made pictures were made where 5 were missing"
-# Behind the cut alone: what was before it has left no trace.
+# After the cut: the frames before it must make no difference.
 if [[ $ranks == 1 || " $* " == *" --balance none "* ]]; then
   rm out/0019.exr out/0020.exr out/0022.png out/0024.exr
   render "$@" --resume
   for file in undisturbed/*.{exr,png}; do
-    cmp "$file" "out/${file##*/}" || fail "${file##*/}, behind the cut, differs from that of an undisturbed run"
+    cmp "$file" "out/${file##*/}" || fail "${file##*/}, after the cut, differs from that of an undisturbed run"
   done
 fi
-# Nothing is missing: nothing is made.
+# Nothing is missing, so nothing is written.
 touch -d '1 hour ago' out/*.png out/*.exr
 render "$@" --resume
 [[ -z $(find out -name '0*' -mmin -30) ]] || fail "pictures were made again that were there"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# same_twice.sh SCENE RANKS: two runs on the work clock give the same files, bit by bit, in every way of casting.
+# same_twice.sh SCENE RANKS: two runs under the work clock give the same files to the byte, with every --cast.
 source "$(dirname "$0")/lib.sh"
 scene=$1 ranks=$2
 

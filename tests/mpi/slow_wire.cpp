@@ -1,7 +1,9 @@
-// slow_wire NEAR FAR DELAY_MS JITTER_MS LOSS: a wire between two hosts that are network namespaces. Makes the
-// TUN devices NEAR and FAR, says "ready", and passes packets from one to the other until it is ended, each
-// later by DELAY_MS and up to JITTER_MS more, in their order; of LOSS in a thousand none arrives. For kernels
+// slow_wire NEAR FAR DELAY_MS JITTER_MS LOSS: a slow connection between two network namespaces, for kernels
 // without netem.
+//
+// Makes the TUN devices NEAR and FAR and prints "ready". Then it passes packets between them until it is
+// ended. Each packet is delayed by DELAY_MS to DELAY_MS + JITTER_MS, in order; LOSS of 1000 packets are
+// dropped.
 #include <fcntl.h>
 #include <linux/if.h>
 #include <linux/if_tun.h>
@@ -45,7 +47,7 @@ int open_device(const char* name) {
   return device;
 }
 
-// One way of the wire.
+// One direction of the connection.
 class Way {
  public:
   Way(int from, int to, const Wire& wire, unsigned seed) : from_(from), to_(to), wire_(wire), random_(seed) {}
@@ -69,7 +71,7 @@ class Way {
     }
   }
 
-  // Milliseconds until something is due; at most a second.
+  // Returns the milliseconds until a packet is due, at most 1000.
   int rest() const {
     if (under_way_.empty()) return 1000;
     const auto left = under_way_.front().due - Clock::now();

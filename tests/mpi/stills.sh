@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Frames without a rate end by agreement of the ranks: run after run, none waits for a message that has come.
+# Frames without a rate end by agreement of the ranks. Repeated runs check that no rank waits for a
+# message that has come.
 source "$(dirname "$0")/lib.sh"
 
 for run in {1..12}; do

@@ -1,4 +1,4 @@
-// The renderer's pictures against those of a brute-force tracer in long double.
+// Compares the renderer's pictures with those of a brute-force tracer in long double (oracle.h).
 #include <fmt/format.h>
 #include <array>
 
@@ -36,7 +36,7 @@ Vec3d point(Random& random) {
   return direction(random) * (3 * std::cbrt(uniform(random, 0, 1)));
 }
 
-// A star in a plane of any direction: concave, and of an even number of corners.
+// Returns a star in a plane of any direction: concave, with an even number of vertices.
 std::vector<Vec3d> star(Random& random) {
   const Vec3d middle = point(random), normal = direction(random);
   const Vec3d across = normal.cross(direction(random)).normalized(), along = normal.cross(across);
@@ -67,7 +67,7 @@ Material material(Random& random) {
           some(0.8), random() % 3 == 0 ? 0 : uniform(random, 1, 1.7)};
 }
 
-// Every kind of primitive and material, one-sided ones among them, in a heap.
+// Returns a random scene of every kind of primitive and material, one-sided ones included.
 SceneDescription heap(unsigned seed) {
   Random random(seed);
   SceneDescription scene;
@@ -89,10 +89,12 @@ SceneDescription heap(unsigned seed) {
 
 }  // namespace
 
-// What differs is a ray that passes an edge on the other side. A float direction leads 1e-7 of the scene
-// aside, some 1e-4 of a pixel; each bounce off a curved mirror multiplies that by ten or so. Measured at 96 x
-// 96: at most 1 pixel of 9216, at 160 x 160 at most 7 of 25600 (balls, five bounces deep). Which pixels they
-// are depends on the instruction set that Embree finds, hence the factor of four.
+// Largest share of pixels that may differ: rays that pass an edge on the other side.
+//
+// Counted from: a float direction is off by 1e-7 of the scene, some 1e-4 of a pixel. Each bounce off a curved
+// mirror multiplies that by about ten. Measured: at most 1 pixel of 9216 at 96 x 96, at most 7 of 25600 at
+// 160 x 160 (balls, five bounces). The pixels depend on the instruction set that Embree finds, hence the
+// factor of four.
 constexpr double kShareOfEdges = 0.001;
 
 TEST_CASE("pictures of the SPD scenes are those of the oracle") {
@@ -111,7 +113,8 @@ TEST_CASE("pictures of the SPD scenes are those of the oracle") {
          worst.percent());
 }
 
-// What SPD lacks: cones that taper, patches that transmit, surfaces seen from inside alone, coloured lights.
+// These scenes have what SPD lacks: tapered cones, transmitting patches, surfaces visible from inside only,
+// coloured lights.
 TEST_CASE("pictures of random heaps of everything are those of the oracle") {
   double sum = 0;
   constexpr unsigned kHeaps = 30;

@@ -1,4 +1,4 @@
-// Samples cast into views that are as far from the former one as views can be.
+// Casts samples into views that differ as much as possible from the one before.
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
@@ -65,7 +65,7 @@ std::vector<Move> moves(const CompiledScene& scene, const View& view, const Samp
   return all;
 }
 
-// Samples that are lost, doubled, no numbers or outside the image.
+// Returns the number of samples that are lost, duplicated, not finite or outside the image.
 std::size_t faults(const SampleMesh& mesh, const CastResult& cast) {
   const std::size_t gone = cast.out_of_view + cast.hidden + cast.too_old;
   std::size_t count = gone + cast.survivors.size() == mesh.samples().size() ? 0 : 1;

@@ -1,4 +1,4 @@
-// Materials and lights at the ends of their ranges give colours that are numbers.
+// Shading of materials and lights at the ends of their ranges.
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
@@ -15,7 +15,8 @@ using namespace pprt::test;
 
 namespace {
 
-// One primitive of each kind, all of the same material; a ray goes exactly through the sphere's middle.
+// Returns a scene with one primitive of each kind, all of one material. A ray goes exactly through the
+// sphere's centre.
 SceneDescription four_kinds(const Material& material, std::initializer_list<Vec3d> lights) {
   SceneDescription scene = scene_with(material, lights);
   add_square(scene, 4, 0);
@@ -78,8 +79,8 @@ TEST_CASE("lights in the plane, on the surface, at the eye and far off give fini
          "every colour a number, none negative", "", wrong == 0 ? "so" : fmt::format("{} pixels", wrong));
 }
 
-// At the critical angle the refracted ray grazes the surface, and a rounding decides whether there is one:
-// the ring of these pixels may differ, as edges may.
+// At the critical angle the refracted ray grazes the surface, and rounding decides whether there is one. The
+// ring of these pixels may differ, as edges may.
 TEST_CASE("shading at its limits is that of the oracle") {
   struct Case {
     const char* name;

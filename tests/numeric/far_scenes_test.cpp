@@ -1,4 +1,4 @@
-// Where a scene lies, how large it is and which way it is turned does not show in its picture.
+// Position, size and orientation of a scene must not change its picture.
 #include <Imath/ImathMatrix.h>
 
 #include <algorithm>
@@ -22,8 +22,8 @@ constexpr double kShareOfEdges = 0.001;
 
 constexpr const char* kBound = "0.1 %";
 
-// The scene under a linear map that keeps lengths; one that turns the image over reverses the windings, too,
-// for what is inside of glass.
+// Applies a linear map that keeps lengths. `mirror`: the map mirrors the scene, so windings are reversed too,
+// for the inside of glass.
 SceneDescription turned(const SceneDescription& scene, const Imath::M33d& map, bool mirrors) {
   SceneDescription result = scene;
   const auto turn = [&](Vec3d& p) { p = p * map; };
@@ -45,7 +45,7 @@ SceneDescription turned(const SceneDescription& scene, const Imath::M33d& map, b
   return result;
 }
 
-// Left for right.
+// Mirrors a picture left to right.
 std::vector<Rgb> turned_over(std::vector<Rgb> picture) {
   for (auto row = picture.begin(); row != picture.end(); row += kSize) std::reverse(row, row + kSize);
   return picture;
@@ -68,8 +68,9 @@ TEST_CASE("a tiny or huge scene gives the picture that it gives at home") {
          "scaled to size 1 by a power of two, which rounds nothing", worst.percent());
 }
 
-// A coordinate at 1e9 is rounded by up to 2^-24 before the renderer sees it. The renderer itself rounds by up
-// to 2^-25 of the scene's size, raised to a power of two: 2^-24 again for the smallest of these, of size 1.5.
+// A coordinate at 1e9 is rounded by up to 2^-24 before the renderer sees it. The renderer rounds by up to
+// 2^-25 of the scene's size, raised to a power of two. For the smallest scene here, of size 1.5, that is
+// 2^-24 again.
 TEST_CASE("a scene up to 1e9 away gives the picture that it gives at home") {
   Worst worst;
   for (const SceneDescription& scene : spd_scenes()) {
@@ -86,9 +87,9 @@ TEST_CASE("a scene up to 1e9 away gives the picture that it gives at home") {
          worst.percent());
 }
 
-// Beyond that no renderer can tell what the file has lost. Brought home, which is exact, the scene has lost
-// the same, and gives the same picture at both places (measured: no pixel differs), while that of home is
-// another by up to 0.8 % of its pixels.
+// Farther away, the file itself has lost digits. Moving the scene back is exact, so both scenes have lost the
+// same and give the same picture (measured: no pixel differs). The undamaged scene differs in up to 0.8 % of
+// the pixels.
 TEST_CASE("a scene farther away loses only what its coordinates have lost") {
   Worst worst;
   for (const SceneDescription& scene : spd_scenes()) {

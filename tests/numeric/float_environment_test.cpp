@@ -1,5 +1,5 @@
-// Tracing leaves the floating-point environment as CGAL's exact predicates need it, and they leave it as
-// tracing does.
+// Tracing must leave the floating-point environment as CGAL's exact predicates need it, and the other way
+// round.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cfenv>
@@ -31,7 +31,7 @@ bool denormals_count() {
          tiny_float + tiny_float > tiny_float;
 }
 
-// Sign of the orientation of corners that are small multiples of kTiniest.
+// Returns the sign of the orientation of points that are small multiples of kTiniest.
 double orientation(const Sample& a, const Sample& b, const Sample& c) {
   const auto count = [](double from, double to) { return to / kTiniest - from / kTiniest; };
   return count(a.x, b.x) * count(a.y, c.y) - count(a.y, b.y) * count(a.x, c.x);

@@ -1,4 +1,4 @@
-// Rays and surfaces at their limits, picture by picture against the brute-force tracer in long double.
+// Rays and surfaces at their limits, compared with the brute-force tracer in long double.
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
@@ -18,14 +18,14 @@ namespace {
 
 constexpr int kSize = 96;
 
-// A ray may pass an edge on the other side, see agreement_test.cpp.
+// A ray may pass an edge on the other side: see agreement_test.cpp.
 constexpr double kShareOfEdges = 0.001;
 
 const Material kMatte{.color = {0.9, 0.6, 0.3}, .diffuse = 0.8};
 const Material kMirror{.color = {0.4, 0.5, 0.6}, .diffuse = 0.4, .specular = 0.5};
 const Material kGlass{.color = {1, 1, 1}, .diffuse = 0.1, .transmittance = 0.8, .refractive_index = 1.5};
 
-// Material 0 matte, 1 a mirror, 2 glass; two lights, a background, no object.
+// Returns a scene without objects: material 0 matte, 1 a mirror, 2 glass; two lights and a background.
 SceneDescription stage(const Vec3d& from, const Vec3d& at, double angle, const Vec3d& up = {0, 1, 0}) {
   SceneDescription scene = scene_with(kMatte, {{30, 50, 70}, {-60, 10, 40}});
   scene.materials = {kMatte, kMirror, kGlass};

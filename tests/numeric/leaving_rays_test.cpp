@@ -1,5 +1,5 @@
-// Rays that leave a surface must not find it again. Every scene here is such that no point can shade another;
-// so whatever the lights, a picture with shadows equals one without, ray by ray.
+// Rays that leave a surface must not find it again. No point of these scenes can shade another, whatever the
+// lights. A picture with shadows must therefore equal one without, ray by ray.
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
@@ -18,7 +18,7 @@ namespace {
 constexpr int kLights = 25;
 constexpr int kSize = 100;
 
-// Lights all around; many of them graze whatever surface there is.
+// Adds lights in all directions; many of them graze any surface.
 void add_lights(SceneDescription& scene, double distance) {
   std::mt19937 engine(5);
   std::normal_distribution<double> normal;
@@ -28,7 +28,7 @@ void add_lights(SceneDescription& scene, double distance) {
   }
 }
 
-// Of all shadow rays, for the report.
+// Shadow rays that met their own surface, for the report.
 int returned = 0;
 
 void report_leaving(const std::string& what, std::uint64_t rays) {
@@ -37,7 +37,7 @@ void report_leaving(const std::string& what, std::uint64_t rays) {
   returned = 0;
 }
 
-// Shadow rays traced; requires that none was stopped.
+// Requires that no shadow ray is stopped. Returns the number of shadow rays.
 std::uint64_t check_no_shadow(SceneDescription scene, const View& view, double light_distance = 50) {
   scene.lights.clear();
   add_lights(scene, light_distance);
@@ -59,7 +59,7 @@ std::uint64_t check_no_shadow(SceneDescription scene, const View& view, double l
   return a.counts().shadow;
 }
 
-// Pictures of the scene from around it until enough rays have left it.
+// Checks pictures from all around the scene until enough rays have left it.
 std::uint64_t check_around(const SceneDescription& scene, double distance) {
   std::uint64_t rays = 0;
   for (int i = 0; rays < static_cast<std::uint64_t>(trials(100'000)); ++i) {
@@ -108,7 +108,7 @@ TEST_CASE("rays leave cylinders and cones and never meet them again") {
   add_cone(cylinder, {{0, 0, -50}, 1, {0, 0, 50}, 1, 0, {}});
   SceneDescription cone = matte();
   add_cone(cone, {{0, 0, -2}, 1, {0, 0, 2}, 0, 0, {}});
-  // Seen from its sides only: through the open ends the inside would be seen, which does lie in shadow.
+  // Seen from its sides only: through the open ends the inside would be visible, which is in shadow.
   std::uint64_t all = 0;
   for (const SceneDescription& scene : {cylinder, cone}) {
     std::uint64_t rays = 0;
@@ -166,7 +166,7 @@ TEST_CASE("rays leave triangles of any shape in any plane and never meet them ag
 
 TEST_CASE("rays leave a patch and never meet it again") {
   SceneDescription scene = matte();
-  // Its normals are those of its plane: others would light points that do lie in the patch's own shadow.
+  // The normals are those of its plane. Others would light points that are in the patch's own shadow.
   const Vec3d a(-1, -1, 0), b(1, -1, 0.1), c(0.3, 1, 0);
   const Vec3d normal = (b - a).cross(c - a);
   const PatchVertex corners[] = {{a, normal}, {b, normal}, {c, normal}};

@@ -1,4 +1,4 @@
-// A picture that is a linear function of place comes out of the pipeline as it went in.
+// A picture that is a linear function of position must pass through the pipeline unchanged.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 constexpr int kSamples = 100'000;
 const TileGrid kGrid{320, 240, 32};
 
-// In [0, 1], another slope in each channel.
+// Returns values in [0, 1], with another slope in each channel.
 std::array<double, 3> ramp(double x, double y) {
   const double u = x / kGrid.width, v = y / kGrid.height;
   return {0.7 * u + 0.3 * v, 0.5 + 0.25 * (u - v), 1 - 0.9 * v};
@@ -33,7 +33,7 @@ double distance(const Color& color, const std::array<double, 3>& wanted) {
       {std::abs(color.x - wanted[0]), std::abs(color.y - wanted[1]), std::abs(color.z - wanted[2])});
 }
 
-// What the average rule asks for in a pixel: the mean of its samples.
+// The mean of a pixel's samples, which the average rule must give.
 struct PixelMean {
   std::array<double, 3> sum{};
   int samples = 0;
@@ -56,12 +56,14 @@ std::vector<PixelMean> means_of(const SampleMesh& mesh) {
 
 }  // namespace
 
-// u = 2^-24 times a value of at most 1. A sample's colour is rounded once (u / 2); c0 + a (c1 - c0) + b (c2 -
-// c0) takes weights rounded to float (2 u / 2), two differences, two products and two sums (6 u / 2): with
-// the samples' own 4.5 u in all; measured 1.4 u, although going from one end of a span to the
-// other takes a difference, a product and a sum more (3 u / 2). A sum of n colours in float errs by n / 2 u
-// of itself, and so does their mean. The mean over a pixel's area adds what is left of differences below 1 /
-// 100 to a sample's colour: a sum more (u / 2).
+// Bounds, with u = 2^-24 times a value of at most 1:
+//   a sample's colour is rounded once                             u / 2
+//   c0 + a (c1 - c0) + b (c2 - c0), weights rounded to float      2 u / 2
+//   its two differences, two products and two sums                6 u / 2
+//   together, between samples                                     4.5 u, measured 1.4 u
+// Going along a span takes a difference, a product and a sum more (3 u / 2). A sum of n colours in float, and
+// their mean, errs by n / 2 u of itself. The mean over a pixel's area adds the rest of differences below 1 /
+// 100 to a sample's colour: one sum more (u / 2).
 TEST_CASE("a linear picture is reconstructed to rounding from 100,000 samples by every rule") {
   constexpr double kUnit = 0x1p-24;
   const SampleMesh mesh = refine(Region::whole(kGrid), ramp_color, kSamples);

@@ -16,8 +16,8 @@ using Vec = Imath::Vec3<Real>;
 constexpr int kMaxDepth = 5;
 constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
 
-// A ray that leaves a surface does not meet it again nearer than this share of the scene's size: far above
-// the rounding of long double (1e-19), far below any detail of a scene.
+// Least distance of a new hit from the surface that a ray leaves, as a share of the scene's size. Far above
+// the rounding of long double (1e-19) and far below any detail.
 constexpr Real kLeaving = 1e-12L;
 
 // From NFF's conventions, Haines' reader, and the tracer's documented choices.
@@ -48,7 +48,7 @@ Vec at(const Ray& ray, Real t) {
   return ray.origin + ray.direction * t;
 }
 
-// Polygon or patch with what every ray asks of it.
+// A polygon or patch with the values that every ray needs.
 struct Plate {
   std::vector<Vec> corners;
   std::vector<Vec> normals;  // of a patch, unit or zero
@@ -76,7 +76,7 @@ Plate plate_of(std::vector<Vec> corners, MaterialIndex material) {
   return plate;
 }
 
-// Even-odd: how many sides a line along u from the point crosses.
+// Even-odd rule: counts the edges that a line along u from the point crosses.
 bool holds(const Plate& plate, const Vec& p) {
   bool inside = false;
   const auto& c = plate.corners;
@@ -88,7 +88,7 @@ bool holds(const Plate& plate, const Vec& p) {
   return inside;
 }
 
-// Mean of the corners' normals, weighted by the areas opposite to them.
+// Returns the mean of the vertices' normals, weighted by the opposite areas.
 Vec interpolated_normal(const Plate& patch, const Vec& p) {
   Vec sum(0, 0, 0);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -109,7 +109,7 @@ void meet(const Plate& plate, const Ray& ray, Hit& hit) {
   hit = {t, p, plate.normal, shading, plate.material};
 }
 
-// A crossing with a closed or open curved surface: its outward normal decides which side is seen.
+// Considers a crossing with a curved surface. Its outward normal decides which face is seen.
 void consider(const Ray& ray, Real t, const Vec& outwards, bool inside_only, MaterialIndex material,
               Hit& hit) {
   if (!(t > ray.nearest && t < std::min(ray.farthest, hit.t))) return;
@@ -117,7 +117,7 @@ void consider(const Ray& ray, Real t, const Vec& outwards, bool inside_only, Mat
   hit = {t, at(ray, t), outwards, outwards, material};
 }
 
-// From where the ray passes the centre, half the chord either way.
+// Starts where the ray passes the centre; the hits are half the chord away on both sides.
 void meet(const Sphere& sphere, const Ray& ray, Hit& hit) {
   const Vec center(sphere.center);
   const Real middle = (center - ray.origin).dot(ray.direction);
@@ -131,9 +131,8 @@ void meet(const Sphere& sphere, const Ray& ray, Hit& hit) {
   }
 }
 
-// In cylindrical coordinates about the axis: the distance from it is a linear function of the height. The
-// squares would cancel far from the cone, and far above a flat one: the ray is taken from where it comes
-// near.
+// In cylindrical coordinates the distance from the axis is linear in the height. Squares would cancel far
+// from the cone, and far above a flat one, so the ray starts near it.
 void meet(const Cone& cone, const Ray& ray, Hit& hit) {
   const Vec base(cone.base), apex(cone.apex);
   const Real length = std::sqrt((apex - base).dot(apex - base));
@@ -232,7 +231,7 @@ class Oracle {
     const Vec direction = way / length;
     const Real cosine = hit.shading.dot(direction);
     if (!(cosine > 0)) return Vec(0, 0, 0);
-    // A patch shadows itself where a light lies behind it, whatever its interpolated normal says.
+    // A patch shadows itself where a light is behind it, whatever its interpolated normal.
     const bool behind = !(hit.normal.dot(direction) > 0);
     if (behind || first_hit({hit.position, direction, leaving_, length})) return Vec(0, 0, 0);
     const Vec color = Vec(light.color.value_or(Rgb(1, 1, 1))) * light_weight_;
@@ -249,7 +248,8 @@ class Oracle {
     return direction - normal * (2 * direction.dot(normal));
   }
 
-  // Snell's law by components along and across the normal; empty for total internal reflection.
+  // Refracts by Snell's law, with components along and across the normal. Empty for total internal
+  // reflection.
   static std::optional<Vec> refracted(const Vec& direction, const Vec& normal, const Material& material,
                                       bool entering) {
     const Real index = material.refractive_index > 0 ? static_cast<Real>(material.refractive_index) : 1;

@@ -1,5 +1,5 @@
-// A second opinion on pictures: every ray against every primitive, in long double, straight from the scene
-// description. No hierarchy, no compiled space, no offsets; shares no code with src/trace.
+// An independent brute-force tracer: every ray against every primitive, in long double, straight from the
+// scene description. No BVH, no compiled space, no offsets; it shares no code with src/trace.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace pprt::test {
 
-// The scene's own view at size x size pixels, a ray through the middle of each: linear colours, row by row
-// from the top. Surfaces are two-sided (but for negative radii), ray trees at most 5 deep. Patches must be
-// triangles.
+// Renders the scene's own view at size x size pixels, one ray through the centre of each: linear colours, row
+// by row from the top. Surfaces are two-sided unless a radius is negative, ray trees at most 5 deep. Patches
+// must be triangles.
 std::vector<Rgb> oracle_picture(const SceneDescription& scene, int size);
 
 }  // namespace pprt::test

@@ -1,4 +1,4 @@
-// Pictures as the renderer traces them, and how much of one is not as in another.
+// Traces pictures and compares them.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,8 @@
 
 namespace pprt::test {
 
-// The scene's own view at size x size pixels, a ray through the middle of each, row by row from the top.
+// Traces the scene's own view at size x size pixels, one ray through the centre of each, row by row from the
+// top.
 inline std::vector<Rgb> traced_picture(const SceneDescription& scene, int size) {
   const CompiledScene compiled = compile(scene);
   View view = scene.view.value();
@@ -24,7 +25,7 @@ inline std::vector<Rgb> traced_picture(const SceneDescription& scene, int size) 
   return picture;
 }
 
-// One of each database, small enough for brute force.
+// Returns one scene of each database, small enough for brute force.
 inline std::vector<SceneDescription> spd_scenes() {
   std::vector<SceneDescription> scenes;
   for (const char* name : {"tree:4", "balls:2", "gears:1", "rings:1", "mount:3", "lattice:1", "jacks:2",
@@ -34,7 +35,7 @@ inline std::vector<SceneDescription> spd_scenes() {
   return scenes;
 }
 
-// Share of pixels that differ by more than one display step of 1/255 in some channel; no number differs.
+// Returns the share of pixels that differ by more than 1/255 in some channel. Requires finite values.
 inline double share_different(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {

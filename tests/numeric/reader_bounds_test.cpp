@@ -1,4 +1,4 @@
-// The two bounds of the NFF reader: when a polygon counts as having no area, and a view as having no up.
+// The two bounds of the NFF reader: when a polygon has no area, and when a view has no usable up.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,12 +18,12 @@
 namespace pprt {
 namespace {
 
-// Polygons over decimals with six digits after the point: exact as integers, rounded as doubles.
+// Coordinates are decimals with six digits after the point: exact as integers, rounded as doubles.
 __extension__ using Exact = __int128;
 using Micro = std::array<long long, 3>;
 constexpr double kMicro = 1e-6;
 
-// Corners on one straight line; the last one may stand off it.
+// Returns vertices on a straight line; the last one may lie off it.
 std::vector<Micro> nearly_collinear(std::mt19937& random) {
   const auto within = [&](double limit) {
     return std::llround(std::uniform_real_distribution<double>(-limit, limit)(random));
@@ -115,8 +115,8 @@ TEST_CASE("a view's up may stand off the line of sight by little more than 1e-9"
   CHECK_THROWS_AS(parse_nff(view_with_up("0.9e-9 0 1"), "test"), InputError);
 }
 
-// Unit vectors in double err by some 2^-52 in each coordinate, which turns the image by sqrt(3) 2^-52 over
-// the sine: 3.5e-7. Measured: 1.2e-7.
+// Unit vectors in double err by some 2^-52 per coordinate. That turns the image by sqrt(3) 2^-52 over the
+// sine: 3.5e-7. Measured: 1.2e-7.
 TEST_CASE("where up is that close to the line of sight the image is turned by less than 4e-7") {
   constexpr double kSine = 1.1e-9;
   SceneDescription scene = test::scene_with(Material());

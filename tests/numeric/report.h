@@ -1,19 +1,19 @@
-// The table of docs/numerics.md: every test here tells what it tried and what it found.
+// Reports for the table of docs/numerics.md: every test here reports what it tried and measured.
 #pragma once
 
 #include <string>
 
 namespace pprt::test {
 
-// A row of the table, for scripts/numeric-table; nothing unless that asks for it (PPRT_NUMERIC_TABLE names a
-// file). Whoever tells a row also checks it.
+// Appends a row to the table for scripts/numeric-table, if the environment variable PPRT_NUMERIC_TABLE names
+// a file. The caller must also check what it reports.
 void report(const std::string& what, const std::string& bound, const std::string& counted_from,
             const std::string& measured);
 
-// How often something is tried: ten times as often for the table as in every run of the tests.
+// Returns the number of trials: ten times `usual` when the table is made.
 int trials(int usual);
 
-// The largest of some shares, and of what.
+// Keeps the largest of some shares and what it belongs to.
 class Worst {
  public:
   void add(double share, const std::string& of);

@@ -1,4 +1,4 @@
-// A million hard points in the triangulation, judged in exact arithmetic.
+// A million hard points in the triangulation, checked in exact arithmetic.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,18 +19,18 @@ namespace {
 
 const TileGrid kGrid{256, 192, 4};
 
-// All coordinates are multiples of this, some 1e-12 pixels: below 2^48 as integers, so that an orientation
-// (products of differences) is below 2^100.
+// All coordinates are multiples of this step, some 1e-12 pixels. As integers they are below 2^48, so an
+// orientation (a sum of products of differences) is below 2^100.
 constexpr double kStep = 0x1p-40;
 __extension__ using Exact = __int128;
 
-// Twice the area in square steps.
+// Returns twice the area in square steps.
 Exact orientation(const Sample& a, const Sample& b, const Sample& c) {
   const auto steps = [](double difference) { return static_cast<Exact>(difference / kStep); };
   return steps(b.x - a.x) * steps(c.y - a.y) - steps(b.y - a.y) * steps(c.x - a.x);
 }
 
-// As sampling does, it stays in one neighbourhood for a while: what costs time there is not the way there.
+// Stays in one neighbourhood for a while, as sampling does, so that point location costs little.
 class HardPoints {
  public:
   Vec2d next() {
@@ -78,7 +78,7 @@ Sample sample_at(const Vec2d& p) {
   return sample;
 }
 
-// How far, in pixels, a point lies outside a triangle; negative within.
+// Returns how far a point lies outside a triangle, pixels; negative inside.
 double outside_by(const SampleMesh& mesh, const std::array<std::uint32_t, 3>& corners, const Sample& point) {
   double most = -std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < 3; ++k) {
@@ -89,8 +89,7 @@ double outside_by(const SampleMesh& mesh, const std::array<std::uint32_t, 3>& co
   return most;
 }
 
-// Of the triangles that pixels are given, how far the pixel's centre lies outside at most; infinity where a
-// pixel is given none.
+// Returns how far a pixel's centre lies outside its triangle at most; infinite when a pixel has none.
 double farthest_center(const SampleMesh& mesh) {
   const auto corners = triangles(mesh);
   const std::vector<std::uint32_t> at = triangle_at_centers(mesh, {0, 0, kGrid.width, kGrid.height});
@@ -103,7 +102,7 @@ double farthest_center(const SampleMesh& mesh) {
   return most;
 }
 
-// Whether the finite triangles tile the image: each turns to the left, and their areas add up exactly.
+// Checks that the finite triangles tile the image: each turns left, and their areas add up exactly.
 void check_tiling(const SampleMesh& mesh) {
   Exact area = 0;
   std::size_t turned = 0, count = 0;
@@ -169,7 +168,8 @@ TEST_CASE("a million hard points leave a valid triangulation") {
                fmt::format("{:.1g} pixels", outside));
 }
 
-// Points along the border and round a corner, so near to a line or a circle that circumcentres lie anywhere.
+// Points along the border and around a circle are so near to a line or a circle that circumcentres lie
+// anywhere.
 TEST_CASE("refinement among slivers asks for distinct points of the image and leaves a valid triangulation") {
   constexpr int kRefined = 50'000;
   SampleMesh mesh(Region::whole(kGrid));
@@ -198,7 +198,7 @@ TEST_CASE("refinement among slivers asks for distinct points of the image and le
   CHECK(outside == 0);
   CHECK(refused == 0);
   CHECK(std::isfinite(mesh.refinement()));
-  // Circumcentres are no multiples of a step: their areas add up as exactly as long double can.
+  // Circumcentres are no multiples of the step, so areas are summed in long double.
   long double area = 0;
   for (const auto& t : triangles(mesh)) {
     const Sample &a = mesh.samples()[t[0]], &b = mesh.samples()[t[1]], &c = mesh.samples()[t[2]];

@@ -1,4 +1,4 @@
-// Rays inside a closed mesh stay inside, wherever the mesh lies.
+// Rays inside a closed mesh must stay inside, wherever the mesh lies.
 #include <fmt/format.h>
 
 #include <array>
@@ -28,15 +28,16 @@ Vec3d direction(Random& random) {
   return v.normalized();
 }
 
-// Without lights: all that can be seen from inside is the mesh, its ambient light, or the background.
+// Returns a scene without lights: from inside, only the mesh, its ambient light or the background can be
+// seen.
 SceneDescription empty_scene(const Material& material) {
   SceneDescription scene = scene_with(material, {});
   scene.background = Rgb(100, 100, 100);
   return scene;
 }
 
-// 24 x 48 facets inscribed in the unit sphere: quadrangles, triangles at the poles. Neighbours share their
-// corners to the last bit.
+// Returns 24 x 48 facets inscribed in the unit sphere: quadrangles, and triangles at the poles. Neighbours
+// share their vertices to the last bit.
 SceneDescription ball(const Material& material) {
   constexpr int kRows = 24, kColumns = 48;
   const auto corner = [](int row, int column) {
@@ -57,7 +58,7 @@ SceneDescription ball(const Material& material) {
   return scene;
 }
 
-// A cube whose faces are 10 x 10 squares, turned so that no side lies along an axis.
+// Returns a cube whose faces are 10 x 10 squares, turned so that no edge is parallel to an axis.
 SceneDescription box(const Material& material) {
   constexpr int kCells = 10;
   const Vec3d x = Vec3d(1, 2, 2) / 3, y = Vec3d(2, 1, -2) / 3, z = Vec3d(2, -2, 1) / 3;
@@ -85,7 +86,7 @@ SceneDescription box(const Material& material) {
 
 enum class Aim { kAnywhere, kEdges, kVertices };  // of facets; rays at them pass within a rounding to float
 
-// The answers to kRays rays from anywhere near the middle.
+// Calls back with the results of kRays rays from random points near the middle.
 void look_around(const SceneDescription& scene, const Vec3d& middle, Aim aim,
                  const std::function<void(const RaySample&)>& answer) {
   Random random(1);
@@ -136,10 +137,12 @@ TEST_CASE("no ray from inside a closed mesh misses it") {
          missed == 0 ? "none" : fmt::format("{}", missed));
 }
 
-// Embree's robust test gives both triangles at a side the same answer to the last bit, but the sides around
-// a corner round each on its own: none of its triangles may hold the ray. Measured: at most 96 of 100,000.
-// Quadrangles whose corners lie in no plane are cut into triangles, which share their sides with the
+// Quadrangles whose vertices lie in no plane are cut into triangles, which share their edges with the
 // neighbours.
+//
+// Embree's robust test gives both triangles at an edge the same answer to the last bit. The edges around a
+// vertex round independently, so that none of its triangles may contain the ray. Measured: at most 96 of
+// 100,000.
 TEST_CASE("no ray from inside a closed mesh of facets that are not flat misses it") {
   SceneDescription scene = ball(Material());
   const auto displaced = [](const Vec3d& p) {  // the same wherever it occurs
@@ -182,7 +185,7 @@ TEST_CASE("control: rays from inside a mesh that lacks a facet miss it") {
   CHECK(misses(scene, {0, 0, 0}, Aim::kAnywhere) > 0);
 }
 
-// Mirrors: four reflections more, each off the inside. Light and background would show at once.
+// Mirrors: four more reflections, each off the inside. Light or background would show at once.
 TEST_CASE("nothing from outside comes into a closed mesh of mirrors") {
   int all = 0;
   const Material mirror{.color = {1, 1, 1}, .diffuse = 1, .specular = 1};

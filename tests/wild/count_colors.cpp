@@ -1,4 +1,4 @@
-// count_colors PICTURE...: how many different colours each holds, by the levels of a PNG.
+// count_colors PICTURE...: prints the number of different colours of each picture, by the levels of a PNG.
 #include <array>
 #include <cmath>
 #include <cstdio>

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# score.sh FILE...: what becomes of NFF files as people have them, one a line: "NAME OURS TACHYON".
+# score.sh FILE...: prints the outcome of each NFF file, one per line: "NAME PPRT TACHYON".
 #
 #   as-plain         the picture of plain.nff, to the last bit
 #   picture          exit 0, and more than one colour
 #   one-colour-told  exit 0, one colour, and a warning that says so
 #   refused          exit 3 and a message; no file is left
-#   BLANK            exit 0 and one colour without a word
+#   BLANK            exit 0 and one colour without a warning
 #   FAILED-CODE      anything else
 #
-# Tachyon, an NFF reader of long standing, says little: picture, blank, failed; "-" where it is not installed.
+# Outcomes of Tachyon, another NFF reader: picture, blank, failed; "-" where it is not installed.
 # Needs pprt-render, pprt-compare and count_colors on the PATH.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
@@ -38,7 +38,7 @@ tachyons() {
   local picture=$scratch/theirs.png
   rm -f "$picture"
   command -v tachyon >/dev/null || { echo -; return; }
-  # It may ask for gigabytes, too.
+  # It may also ask for gigabytes.
   if (ulimit -v 4000000; timeout 20 tachyon "$1" -res 48 48 -format PNG -o "$picture") &>/dev/null && [[ -s $picture ]]
   then
     if [[ $(count_colors "$picture") -gt 1 ]]; then echo picture; else echo blank; fi

@@ -12,8 +12,8 @@ View at(const Animation& animation, double frame) {
   return view_at(animation, frame, View{});
 }
 
-// Largest difference of the velocity just before and just after a key, over the larger velocity,
-// or over a tenth of a unit a frame where the camera is at rest.
+// Returns the largest difference of the velocity just before and just after a key, relative to the larger
+// velocity. Where the camera is at rest it is relative to a tenth of a unit per frame.
 template <typename Channel>
 double velocity_jump(const Animation& animation, double frame, Channel channel) {
   const double h = 1e-5;
@@ -23,7 +23,7 @@ double velocity_jump(const Animation& animation, double frame, Channel channel) 
   return (after - before).length() / std::max({before.length(), after.length(), 0.1});
 }
 
-// Degrees per frame that the picture turns by at a frame, about any axis.
+// Returns the turning rate of the picture at a frame about any axis, degrees per frame.
 double turning(const Animation& animation, double frame, double h = 1e-3) {
   const View a = at(animation, frame);
   const View b = at(animation, frame + h);
@@ -31,7 +31,7 @@ double turning(const Animation& animation, double frame, double h = 1e-3) {
          h;
 }
 
-// Keys of a lively but proper walk: all kinds of movement mixed.
+// Returns keys of a random but valid camera path with all kinds of movement.
 std::vector<CameraKey> random_walk(unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(-1, 1);
@@ -148,7 +148,7 @@ TEST_CASE("zooms look even: equal factors of size in equal times") {
 }
 
 TEST_CASE("with equal direction and distance the eye follows the Kochanek-Bartels curve itself") {
-  // A camera carried along without turning: positions only, over legs of 2, 6 and 3 frames.
+  // A camera that moves without turning: positions only, over segments of 2, 6 and 3 frames.
   const Vec3d p[] = {{0, 0, 0}, {1, 3, 0}, {4, 2, 1}, {5, 5, 5}};
   const double frames[] = {0, 2, 8, 11};
   const double t = GENERATE(0.0, 0.4), c = GENERATE(0.0, -0.3), b = GENERATE(0.0, 0.5);
@@ -159,7 +159,8 @@ TEST_CASE("with equal direction and distance the eye follows the Kochanek-Bartel
     keys.back().continuity = c;
     keys.back().bias = b;
   }
-  // Tangents of the paper over the middle leg: outgoing at key 1, incoming at key 2; 2 N / (N + N') adjusts.
+  // Tangents of the paper over the middle segment: outgoing at key 1, incoming at key 2. The factor 2 N / (N
+  // + N') adjusts for unequal lengths.
   const Vec3d out =
       ((p[1] - p[0]) * (1 - t) * (1 + c) * (1 + b) / 2 + (p[2] - p[1]) * (1 - t) * (1 - c) * (1 - b) / 2) *
       (2.0 * 6 / (2 + 6));

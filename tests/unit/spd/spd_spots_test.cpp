@@ -1,5 +1,5 @@
-// Single objects against what the SPD programs themselves wrote, to the six digits that they write; and
-// geometry that a generator with a slip in it would not have.
+// Compares single objects with the output of the SPD programs, to their six digits, and checks geometry that
+// a wrong generator would not have.
 #include <catch2/catch.hpp>
 
 #include <algorithm>

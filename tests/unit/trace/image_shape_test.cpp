@@ -14,7 +14,7 @@ using namespace pprt::test;
 
 namespace {
 
-// How near a shape is at an image point, in plain double; 0 where it is not.
+// Returns the nearness of a shape at an image point, in double; 0 where it is not.
 double nearness(const ImageFacet& f, double x, double y) {
   for (const LinearForm& edge : f.edges) {
     if (edge.at(x, y) < 0) return 0;
@@ -41,8 +41,8 @@ double nearness(const ImageShape& shape, double x, double y) {
   return nearest;
 }
 
-// Of so many random image points, how many see another primitive than that whose shape is nearest there, or
-// see it elsewhere. `shift`: by how many pixels the shapes are asked beside the points.
+// Returns how many random image points hit another primitive than the nearest shape there, or hit it at
+// another depth. `shift` moves the shapes, pixels.
 int wrong(const CompiledScene& scene, const View& view, int points, double shift = 0) {
   const Camera camera = scene.camera(view);
   Tracer tracer(scene, camera);

@@ -10,8 +10,8 @@ namespace {
 
 constexpr int kRays = 100000;
 
-// A point at most 4 from the origin costs a handful of operations with numbers below 8, each of which errs by
-// 2^-50 at most; the crossings take some sixty of them.
+// kCrossingError of trace/numerics.h, counted here again. A point within 4 of the origin costs a handful of
+// operations on numbers below 8, each off by at most 2^-50. A crossing takes some sixty.
 constexpr double kTolerance = 64 * 0x1p-50;
 
 // Discriminants this close to zero may fall on either side.
@@ -45,7 +45,8 @@ double height(const ConeRecord& c, const Vec3d& p) {
   return (p - c.base).dot(c.axis) / c.axis.length2();
 }
 
-// Whether the outside is left (front) or entered (back) at t, by looking a little before and behind.
+// Checks the sense of a crossing by looking a little before and behind it: the outside is left (front) or
+// entered (back).
 template <class Record>
 void check_sense(const Record& record, const Vec3d& o, const Vec3d& d, const Crossings& found) {
   const double step = 1e-7;

@@ -17,7 +17,7 @@ Animation script(const std::string& name) {
   return result.animation;
 }
 
-// Where the cameras of all frames must stay: outside a ball round the scene, above its ground.
+// Checks that the cameras of all frames stay outside a ball around the scene and above its ground.
 void check_stays_outside(const Animation& animation, const Vec3d& center, double radius, double ground) {
   for (double frame = 1; frame <= animation.frames; frame += 0.25) {
     const View view = view_at(animation, frame, View{});
@@ -27,8 +27,8 @@ void check_stays_outside(const Animation& animation, const Vec3d& center, double
   }
 }
 
-// The SPD tree without its ground lies within 1.5 of <0, 0, 1.5>, the sphereflake within 1.6 of its centre,
-// the gears in [-2, 2] x [-2, 2] x [0, 1].
+// The SPD tree without its ground lies within 1.5 of <0, 0, 1.5>, and the sphereflake within 1.6 of its
+// centre. The gears lie in [-2, 2] x [-2, 2] x [0, 1].
 TEST_CASE("the scripts in scenes/ keep the eye above the ground and outside the objects") {
   for (const char* name : {"tree-simple", "tree-casting", "demo"}) {
     const Animation animation = script(name);
