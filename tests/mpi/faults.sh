@@ -99,7 +99,7 @@ stand_still() {
   expect_whole out
   expect_every_frame_told
   late_frames >late
-  # Prints the frames without its pixels, the frames from the first of these to the next whole one, and the most late.
+  # Prints: frames without its pixels; frames from the first of these to the next whole one; largest lateness.
   awk -v rank=",$rank," '
     index($2, rank) { ++missed; if (!first) first = NR }
     first && !back && !index($2, rank) { back = NR - first }
