@@ -11,6 +11,7 @@
 
 namespace pprt {
 
+// Position, axes and image of a pinhole camera.
 struct Camera {
   Vec3d eye{0, 0, 0};
   Vec3d right{1, 0, 0};  // unit, orthogonal; forward x up

@@ -13,6 +13,7 @@ namespace pprt {
 
 enum class Severity { kWarning, kError };
 
+// One problem: its place and what is wrong.
 struct Diagnostic {
   Severity severity = Severity::kError;
   SourceLocation location;
@@ -25,6 +26,7 @@ class Diagnostics {
  public:
   static constexpr std::size_t kMaxKept = 50;
 
+  // Each adds a problem. An error makes the text unusable, a warning does not.
   void error(SourceLocation at, std::string message);
   void warning(SourceLocation at, std::string message);
 
@@ -32,6 +34,7 @@ class Diagnostics {
   bool empty() const { return error_count_ + warning_count_ == 0; }
   std::size_t error_count() const { return error_count_; }
   std::size_t warning_count() const { return warning_count_; }
+  // Returns the problems that are kept, in the order in which they were added.
   const std::vector<Diagnostic>& kept() const { return kept_; }
 
  private:

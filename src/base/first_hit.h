@@ -8,6 +8,7 @@
 
 namespace pprt {
 
+// The defaults describe a miss.
 struct FirstHit {
   float depth = std::numeric_limits<float>::infinity();  // distance along the direction of view, scene units;
                                                          // a miss: infinite

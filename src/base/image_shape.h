@@ -20,6 +20,7 @@ struct LinearForm {
   double at(double x, double y) const { return constant + per_x * x + per_y * y; }
 };
 
+// A quadratic function f(x, y) of image points, pixels.
 struct QuadraticForm {
   double constant = 0, per_x = 0, per_y = 0, per_xx = 0, per_xy = 0, per_yy = 0;
 

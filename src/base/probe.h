@@ -11,6 +11,7 @@
 
 namespace pprt {
 
+// Functions that a Tracer, or a substitute in a test, provides.
 struct Probe {
   // Sets the camera of all later calls.
   std::function<void(const Camera&)> look_from;

@@ -15,6 +15,7 @@ struct RayCounts {
   std::uint64_t total_internal_reflection = 0;  // hits that asked for a refracted ray and got none
   std::uint64_t visibility = 0;                 // rays that ask whether an earlier hit point is still visible
 
+  // Returns the number of rays traced, of all kinds.
   std::uint64_t traced() const { return primary + shadow + reflection + refraction + visibility; }
 };
 

@@ -7,6 +7,7 @@
 
 namespace pprt {
 
+// Colour and first hit of one eye ray.
 struct RaySample {
   Color color{0, 0, 0};      // linear, not clamped
   Vec3f hit{0, 0, 0};        // first hit point in the compiled scene's space; a miss: unit direction

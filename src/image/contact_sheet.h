@@ -11,6 +11,7 @@ namespace pprt {
 // covers (box filter). The picture must not be empty.
 Image resize(const Image& image, int width, int height);
 
+// Measures of a contact sheet, pixels.
 struct ContactSheetLayout {
   int columns = 8;
   int gap = 4;                // pixels between thumbnails and around them, black

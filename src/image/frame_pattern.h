@@ -18,6 +18,7 @@ struct FramePattern {
   std::string text = {};  // as it was given, for messages
 };
 
+// Whether a pattern must serve one frame or several.
 enum class FrameCount { kOne, kMany };
 
 // Parses a pattern that ends in .exr or .png; several frames need a field. `what` names the option in

@@ -19,6 +19,7 @@
 
 namespace pprt {
 
+// A frame as it is submitted.
 struct FrameToWrite {
   int frame = 0;
   Image image;  // all values finite: see replace_non_finite
@@ -26,12 +27,14 @@ struct FrameToWrite {
   LayerMaker layers = {};  // become channels of each EXR, and pictures beside each PNG
 };
 
+// A frame whose files are complete.
 struct WrittenFrame {
   int frame = 0;
   std::vector<std::filesystem::path> files;  // per output: the frame, then the pictures of its layers
   std::vector<std::string> layers = {};      // their names
 };
 
+// Settings of a FrameWriter.
 struct FrameWriterOptions {
   bool overwrite = false;  // false: an existing file is an error
 

@@ -8,6 +8,7 @@
 
 namespace pprt {
 
+// Pixel (x, y) is pixels[y * width + x]; (0, 0) is the upper left.
 struct Image {
   int width = 0;
   int height = 0;

@@ -5,6 +5,7 @@
 
 namespace pprt {
 
+// The value at (x, y) is values[y * width + x].
 struct Plane {
   int width = 0;
   int height = 0;

@@ -8,6 +8,7 @@
 
 namespace pprt {
 
+// An animation and the warnings of its reading.
 struct ParsedAnimation {
   Animation animation;
   std::string warnings;  // each as file:line:column, line, caret; empty when there are none

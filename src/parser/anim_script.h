@@ -14,6 +14,7 @@
 
 namespace pprt::anim {
 
+// Fields of a key.
 enum Field : std::size_t {
   kFrom,
   kAt,
@@ -41,6 +42,7 @@ struct WrittenKey {
   std::array<std::optional<Value>, kFieldCount> fields;
 };
 
+// A script after parsing, before its values are checked.
 struct WrittenScript {
   bool has_animation = false;
   bool has_camera = false;

@@ -26,6 +26,7 @@ enum class Operation { kAdd, kSubtract, kMultiply, kDivide, kPower };
 // returns size 0.
 Value calculate(Operation operation, const Value& a, const Value& b, const char* place, Problems& problems);
 
+// Returns -a, at the same place.
 Value negated(const Value& a);
 
 // Calls sin, cos, tan (of degrees), sqrt, abs (one number each), min or max (one or more). `place` is the

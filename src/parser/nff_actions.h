@@ -24,6 +24,7 @@ struct ParseFailure {
   bool fatal = false;
 };
 
+// The parts of a view.
 enum class ViewItem : unsigned { kFrom, kAt, kUp, kAngle, kHither, kYon, kResolution };
 
 // Thrown after NffOptions::max_errors errors.

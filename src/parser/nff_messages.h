@@ -104,11 +104,13 @@ enum class Deviation {
   kCount
 };
 
+// What is said of a deviation: the problem, and what the lenient reading does.
 struct DeviationText {
   const char* problem;
   const char* reading;  // what the lenient reading does; nullptr: no warning
 };
 
+// Returns the texts of a deviation.
 constexpr DeviationText text_of(Deviation deviation) {
   switch (deviation) {
     case Deviation::kPercentComment:

@@ -22,6 +22,7 @@ struct NffOptions {
   std::size_t max_errors = 1'000;         // reading stops here
 };
 
+// A scene and the warnings of its reading.
 struct ParsedScene {
   SceneDescription scene;
   std::string warnings;  // formatted with their places, each line ended; empty when there are none

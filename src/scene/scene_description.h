@@ -78,6 +78,7 @@ struct Polygon {
   SourceLocation location;
 };
 
+// A vertex of a patch.
 struct PatchVertex {
   Vec3d position{0, 0, 0};
   Vec3d normal{0, 0, 0};  // as given, not necessarily of unit length
@@ -117,6 +118,7 @@ struct SceneDescription {
   std::vector<PatchVertex> patch_vertices;
   std::vector<PrimitiveRef> order;  // every primitive once, in file order
 
+  // Each returns the vertices of a polygon or patch of this scene.
   std::span<const Vec3d> vertices(const Polygon& polygon) const {
     return std::span(polygon_vertices).subspan(polygon.first_vertex, polygon.vertex_count);
   }

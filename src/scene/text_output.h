@@ -9,6 +9,7 @@
 
 namespace pprt {
 
+// How doubles are written.
 enum class NumberFormat {
   kShortest,   // the fewest digits that read back as the same double
   kSixDigits,  // printf's %g, as the SPD programs write

@@ -11,6 +11,7 @@
 
 namespace pprt::spd {
 
+// Converts degrees to radians.
 constexpr double radians(double degrees) {
   return degrees * (std::numbers::pi / 180);
 }
@@ -34,15 +35,18 @@ struct Fill {
   double refractive_index = 0;
 };
 
+// Builds a scene object by object. Coordinates are those of the scene.
 class SceneBuilder {
  public:
   // Sets SPD's view: angle 45, 512 x 512, sky-blue background.
   void view(const Vec3d& from, const Vec3d& at, const Vec3d& up, double hither);
+  // Adds white lights.
   void lights(std::initializer_list<Vec3d> positions);
 
   // Sets the surface of all objects that follow.
   void fill(const Fill& fill);
 
+  // Each adds one object with the current surface.
   void sphere(const Vec3d& center, double radius);
   void cone(const Vec3d& base, double base_radius, const Vec3d& apex, double apex_radius);
   void cylinder(const Vec3d& base, const Vec3d& apex, double radius) { cone(base, radius, apex, radius); }

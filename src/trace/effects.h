@@ -10,6 +10,7 @@
 
 namespace pprt {
 
+// Effects that can be left out of the simulation, with what in a scene calls for each.
 enum class Effect : std::uint8_t {
   kShadows = 1 << 0,        // the scene has a light; without shadow rays lights shine through objects
   kHighlights = 1 << 1,     // a light, and a material with Ks > 0 and a visible highlight
@@ -37,10 +38,12 @@ class EffectSet {
 
 // Returns the option's word: shadows, highlights, reflection, refraction, smooth-normals.
 std::string_view name(Effect effect);
+// Returns all effects, in the order of their bits.
 std::vector<Effect> every_effect();
 
 // Parses "shadows,reflection", "none" or "all". Throws UsageError that names an unknown word.
 EffectSet parse_effects(std::string_view list);
+// Returns the words of a set, separated by commas, or "none". parse_effects reads it back.
 std::string to_string(EffectSet effects);
 
 // Returns the effects that the scene's lights, materials and patches call for.

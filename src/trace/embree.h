@@ -15,6 +15,7 @@
 
 namespace pprt {
 
+// Releases a handle with the given Embree function.
 template <auto kRelease>
 struct EmbreeRelease {
   template <class Handle>
@@ -23,6 +24,7 @@ struct EmbreeRelease {
   }
 };
 
+// Owns an Embree handle; move-only.
 template <class Handle, auto kRelease>
 using EmbreeOwner = std::unique_ptr<std::remove_pointer_t<Handle>, EmbreeRelease<kRelease>>;
 

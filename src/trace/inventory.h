@@ -8,6 +8,7 @@
 
 namespace pprt {
 
+// Numbers of primitives by kind, lights and materials.
 struct Inventory {
   std::size_t spheres = 0, cones = 0, polygons = 0, patches = 0;
   std::size_t lights = 0;
@@ -18,7 +19,9 @@ struct Inventory {
   std::size_t brightening = 0;   // of these, with Ks + T > 1: brighter than what they reflect and transmit
 };
 
+// Counts what a scene contains.
 Inventory take_inventory(const SceneDescription& scene);
+// Returns the effects that these contents call for.
 EffectSet effects_called_for(const Inventory& inventory);
 
 }  // namespace pprt

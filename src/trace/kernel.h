@@ -25,6 +25,8 @@ struct VisibleSurface {
   std::uint32_t primitive = 0;
   MaterialIndex material = 0;
 };
+
+// Returns the first hit of an eye ray, if any. Origin and unit direction are in the compiled space.
 std::optional<VisibleSurface> visible_surface(const CompiledScene::Impl& scene, const Vec3f& origin,
                                               const Vec3f& direction);
 

@@ -20,6 +20,7 @@ struct Facet {
 };
 static_assert(sizeof(Facet) == 16);
 
+// An indexed triangle mesh.
 struct Mesh {
   std::vector<Vec3f> vertices;
   std::vector<Vec3f> normals;  // per vertex, unit, or zero where none was given; empty: flat shading

@@ -16,6 +16,7 @@ struct Normalisation {
   Vec3d center{0, 0, 0};
   double scale = 1;
 
+  // Each maps a point or a length of scene space to the compiled space.
   Vec3d point(const Vec3d& p) const { return (p - center) * scale; }
   double length(double l) const { return l * scale; }
 };
@@ -35,6 +36,7 @@ inline Normalisation normalising(const Box3d& box, const Vec3d& center) {
   return result;
 }
 
+// The same with the middle of the box as the origin.
 inline Normalisation normalising(const Box3d& box) {
   return normalising(box, box.min * 0.5 + box.max * 0.5);
 }

@@ -13,6 +13,7 @@
 
 namespace pprt {
 
+// A sphere in the compiled space.
 struct SphereRecord {
   Vec3d center{0, 0, 0};
   double radius = 1;  // positive
@@ -34,11 +35,13 @@ struct Crossings {
   double back = std::numeric_limits<double>::quiet_NaN();   // leaves the body, through its inner face
 };
 
+// A point of a surface with its geometric normal.
 struct SurfacePoint {
   Vec3d position{0, 0, 0};
   Vec3d normal{0, 0, 1};  // unit, outwards
 };
 
+// Returns v / |v|; v must not be zero.
 inline Vec3d unit(const Vec3d& v) {
   return v * (1 / std::sqrt(v.dot(v)));
 }
@@ -119,6 +122,7 @@ inline SurfacePoint on_surface(const ConeRecord& cone, const Vec3d& near) {
   return {on_axis + radial * radius, unit(radial - cone.axis * (cone.radius_change * per_length2))};
 }
 
+// Returns the axis-parallel bounding box, exact up to rounding.
 inline Box3d bounds(const SphereRecord& sphere) {
   const Vec3d half(sphere.radius);
   return {sphere.center - half, sphere.center + half};

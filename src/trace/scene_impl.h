@@ -29,6 +29,7 @@ struct ShadingMaterial {
   bool lit = false;             // whether lights contribute to it at all
 };
 
+// A light prepared for shading.
 struct ShadingLight {
   Vec3d position{0, 0, 0};
   Color color{1, 1, 1};  // colour times the light's weight
@@ -43,6 +44,7 @@ struct ScenePart {
   std::vector<std::uint32_t> primitives;  // place in SceneDescription::order, by Embree's primitive number
 };
 
+// Figures of the compilation, for the census.
 struct BuildFigures {
   double seconds = 0;
   std::size_t hierarchy_bytes = 0;  // memory of Embree's BVH
