@@ -133,7 +133,7 @@ std::vector<Sample> Worker::cast(const FrameOrder& order, bool eye_rests) {
     return eye_rests ? cast_at_rest(order) : cast_where_paying(order);
   const bool by_paper = order.carry == Carry::kCastPaper;
   std::vector<Sample> survivors =
-      cast_into(order, by_paper ? CastSettings() : verified(kVerifiedMaxAge)).survivors;
+      cast_into(order, by_paper ? CastSettings() : verified(kVerifiedMaxAge)).samples;
   keep_affordable(order, kCastShare, survivors);
   if (!by_paper && !eye_rests) drop_hidden_of(survivors);
   return survivors;
@@ -154,9 +154,9 @@ void Worker::drop_hidden_of(std::vector<Sample>& survivors) {
 }
 
 CastSummary Worker::known_of(const CastResult& cast) const {
-  const auto of_eye = std::count_if(cast.survivors.begin(), cast.survivors.end(),
+  const auto of_eye = std::count_if(cast.samples.begin(), cast.samples.end(),
                                     [](const Sample& s) { return s.ray.eye_dependent; });
-  const double count = static_cast<double>(std::max<std::size_t>(cast.survivors.size(), 1));
+  const double count = static_cast<double>(std::max<std::size_t>(cast.samples.size(), 1));
   return {cast.moved, static_cast<double>(of_eye) / count,
           static_cast<double>(in_region_) / static_cast<double>(mesh_.region().pixel_count())};
 }
@@ -164,9 +164,9 @@ CastSummary Worker::known_of(const CastResult& cast) const {
 std::vector<Sample> Worker::cast_at_rest(const FrameOrder& order) {
   CastResult cast = cast_into(order, verified(kLongLife));
   const CastLimits limits = cast_limits_at_rest(known_of(cast));
-  if (limits.one_a_pixel) keep_youngest_of_pixels(cast.survivors);
-  keep_affordable(order, limits.share, cast.survivors);
-  return std::move(cast.survivors);
+  if (limits.one_a_pixel) keep_youngest_of_pixels(cast.samples);
+  keep_affordable(order, limits.share, cast.samples);
+  return std::move(cast.samples);
 }
 
 // Whether casting pays is found out from a few samples before the others are touched: where it does not, it
@@ -180,16 +180,16 @@ std::vector<Sample> Worker::cast_where_paying(const FrameOrder& order) {
   CastEvidence evidence = order.evidence;
   evidence += own_evidence_;
   const int life = cast_life(evidence, known.eye_dependent);
-  std::erase_if(drawn.survivors,
+  std::erase_if(drawn.samples,
                 [&](const Sample& s) { return order.number - s.frame > life || !is_one_of(s, tried_of); });
-  std::vector<Sample> tried = try_some(order, drawn.survivors);
+  std::vector<Sample> tried = try_some(order, drawn.samples);
   evidence += report_.evidence;
   const CastLimits limits = cast_limits(evidence, known, cast_prices());
   if (limits.share == 0) return tried;
 
   settings = verified(life);
   if (!limits.eye_dependent) settings.max_age_eye_dependent = 0;
-  std::vector<Sample> survivors = cast_into(order, settings).survivors;
+  std::vector<Sample> survivors = cast_into(order, settings).samples;
   std::erase_if(survivors, [&](const Sample& s) { return is_one_of(s, tried_of); });
   keep_affordable(order, limits.share, survivors);
   drop_hidden_of(survivors);

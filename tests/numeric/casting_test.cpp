@@ -68,8 +68,8 @@ std::vector<Move> moves(const CompiledScene& scene, const View& view, const Samp
 // Returns the number of samples that are lost, duplicated, not finite or outside the image.
 std::size_t faults(const SampleMesh& mesh, const CastResult& cast) {
   const std::size_t gone = cast.out_of_view + cast.hidden + cast.too_old;
-  std::size_t count = gone + cast.survivors.size() == mesh.samples().size() ? 0 : 1;
-  for (const Sample& s : cast.survivors) {
+  std::size_t count = gone + cast.samples.size() == mesh.samples().size() ? 0 : 1;
+  for (const Sample& s : cast.samples) {
     count += !(s.x >= 0 && s.x <= kGrid.width && s.y >= 0 && s.y <= kGrid.height);
   }
   return count + !std::isfinite(cast.moved);
@@ -90,7 +90,7 @@ TEST_CASE("samples cast into any view are finite points of its image, and none i
         CAPTURE(scene.name, move.name);
         const std::size_t found = faults(mesh, cast);
         CHECK(found == 0);
-        if (move.none_survives) CHECK(cast.survivors.empty());
+        if (move.none_survives) CHECK(cast.samples.empty());
         wrong += found, ++casts;
       }
     }

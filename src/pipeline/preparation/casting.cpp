@@ -16,61 +16,75 @@
 namespace pprt {
 namespace {
 
-enum class Fate : std::uint8_t { kForeign, kOutOfView, kTooOld, kHidden, kSurvives };
+enum class CastOutcome : std::uint8_t { kForeign, kOutOfView, kTooOld, kHidden, kCast };
 
-struct Flight {
-  Vec2d point{0, 0};    // in the next image
+// A sample as the next camera sees it.
+struct ProjectedSample {
+  Vec2d point{0, 0};    // in the next image, pixels
   double distance = 0;  // from the next eye; infinite for the background
-  Fate fate = Fate::kForeign;
-  bool projected = false;
+  CastOutcome outcome = CastOutcome::kForeign;
+  bool is_before_eye = false;  // else `point` has no meaning
 };
 
-Flight fly(const Sample& sample, const SampleMesh& mesh, const Camera& next, int next_frame,
-           const CastSettings& settings) {
-  Flight flight;
+ProjectedSample project_sample(const Sample& sample, const SampleMesh& mesh, const Camera& next,
+                               int next_frame, const CastSettings& settings) {
+  ProjectedSample projected;
   const Vec3d hit(sample.ray.hit);
   const Vec3d from_eye = sample.ray.at_infinity ? hit : hit - next.eye;
-  flight.distance = sample.ray.at_infinity ? std::numeric_limits<double>::infinity() : from_eye.length();
+  projected.distance = sample.ray.at_infinity ? std::numeric_limits<double>::infinity() : from_eye.length();
   const std::optional<Vec2d> point = project(next, from_eye);
   if (point) {
-    flight.point = *point;
-    flight.projected = true;
+    projected.point = *point;
+    projected.is_before_eye = true;
   }
-  if (!mesh.region().owns_point(sample.x, sample.y)) return flight;
+  if (!mesh.region().owns_point(sample.x, sample.y)) return projected;
   const bool in_view =
       point && point->x >= 0 && point->x <= next.width && point->y >= 0 && point->y <= next.height;
   const int max_age = sample.ray.eye_dependent ? settings.max_age_eye_dependent : settings.max_age;
   if (!in_view) {
-    flight.fate = Fate::kOutOfView;
+    projected.outcome = CastOutcome::kOutOfView;
   } else if (next_frame - sample.frame > max_age) {
-    flight.fate = Fate::kTooOld;
+    projected.outcome = CastOutcome::kTooOld;
   } else {
-    flight.fate = Fate::kSurvives;
+    projected.outcome = CastOutcome::kCast;
   }
-  return flight;
+  return projected;
 }
 
-// A triangle of the old triangulation that turned over holds a hidden sample: the one farthest from the eye,
-// and any other at nearly its distance (paper s. 4.2). "Nearly": within one part in a hundred.
-void hide_behind_turned_triangles(const SampleMesh& mesh, std::vector<Flight>& flights) {
+// The orientation test (paper s. 4.2). A triangle of the old triangulation that turned over holds a hidden
+// sample: the one farthest from the eye, and any other at nearly its distance. "Nearly": within one part in a
+// hundred.
+void hide_behind_turned_triangles(const SampleMesh& mesh, std::vector<ProjectedSample>& samples) {
   constexpr double kNearly = 0.99;
   for (const Delaunay::Triangle& t : mesh.triangulation().triangles()) {
     if (!t.is_finite()) continue;
-    const std::array<Flight*, 3> corner = {&flights[t.corners[0]], &flights[t.corners[1]],
-                                           &flights[t.corners[2]]};
-    if (!corner[0]->projected || !corner[1]->projected || !corner[2]->projected) continue;
+    const std::array<ProjectedSample*, 3> corner = {&samples[t.corners[0]], &samples[t.corners[1]],
+                                                    &samples[t.corners[2]]};
+    if (!corner[0]->is_before_eye || !corner[1]->is_before_eye || !corner[2]->is_before_eye) continue;
     const Vec2d ab = corner[1]->point - corner[0]->point, ac = corner[2]->point - corner[0]->point;
-    // Corners are counter-clockwise, so a triangle that keeps its sense has a positive cross product.
+    // Corners are counter-clockwise: a triangle that keeps its orientation has a positive cross product.
     if (ab.x * ac.y - ab.y * ac.x > 0) continue;
     const double farthest = std::max({corner[0]->distance, corner[1]->distance, corner[2]->distance});
-    for (Flight* flight : corner) {
-      if (flight->distance >= kNearly * farthest && flight->fate == Fate::kSurvives)
-        flight->fate = Fate::kHidden;
+    for (ProjectedSample* sample : corner) {
+      if (sample->distance >= kNearly * farthest && sample->outcome == CastOutcome::kCast)
+        sample->outcome = CastOutcome::kHidden;
     }
   }
 }
 
-// A number that looks random, different for every id.
+void collect(const Sample& sample, const ProjectedSample& projected, CastResult& result) {
+  result.out_of_view += projected.outcome == CastOutcome::kOutOfView;
+  result.too_old += projected.outcome == CastOutcome::kTooOld;
+  result.hidden += projected.outcome == CastOutcome::kHidden;
+  if (projected.outcome != CastOutcome::kCast) return;
+  Sample& cast = result.samples.emplace_back(sample);
+  cast.x = projected.point.x;
+  cast.y = projected.point.y;
+  const Vec2d way(cast.x - sample.x, cast.y - sample.y);
+  result.moved += std::sqrt(way.dot(way));
+}
+
+// Returns a pseudo-random number, different for every id.
 std::uint64_t scattered(SampleId id) {
   id = (id ^ (id >> 31)) * 0x9E3779B97F4A7C15u;
   return (id ^ (id >> 29)) * 0xBF58476D1CE4E5B9u;
@@ -85,30 +99,19 @@ bool is_younger(const Sample& a, const Sample& b) {
 CastResult cast_samples(const SampleMesh& mesh, const Camera& next, int next_frame,
                         const CastSettings& settings) {
   CastResult result;
-  const auto land = [&](const Sample& sample, const Flight& flight) {
-    result.out_of_view += flight.fate == Fate::kOutOfView;
-    result.too_old += flight.fate == Fate::kTooOld;
-    result.hidden += flight.fate == Fate::kHidden;
-    if (flight.fate != Fate::kSurvives) return;
-    Sample& survivor = result.survivors.emplace_back(sample);
-    survivor.x = flight.point.x;
-    survivor.y = flight.point.y;
-    const Vec2d way(survivor.x - sample.x, survivor.y - sample.y);
-    result.moved += std::sqrt(way.dot(way));
-  };
   const std::span<const Sample> samples = mesh.samples();
-  const auto flight_of = [&](const Sample& s) { return fly(s, mesh, next, next_frame, settings); };
+  const auto projected = [&](const Sample& s) { return project_sample(s, mesh, next, next_frame, settings); };
   if (settings.method == CastMethod::kPaper) {
-    std::vector<Flight> flights(samples.size());
-    std::transform(samples.begin(), samples.end(), flights.begin(), flight_of);
-    hide_behind_turned_triangles(mesh, flights);
-    for (std::size_t i = 0; i < samples.size(); ++i) land(samples[i], flights[i]);
+    std::vector<ProjectedSample> all(samples.size());
+    std::transform(samples.begin(), samples.end(), all.begin(), projected);
+    hide_behind_turned_triangles(mesh, all);
+    for (std::size_t i = 0; i < samples.size(); ++i) collect(samples[i], all[i], result);
   } else {
     for (const Sample& s : samples) {
-      if (is_one_of(s, settings.one_of)) land(s, flight_of(s));
+      if (is_one_of(s, settings.one_of)) collect(s, projected(s), result);
     }
   }
-  if (!result.survivors.empty()) result.moved /= static_cast<double>(result.survivors.size());
+  if (!result.samples.empty()) result.moved /= static_cast<double>(result.samples.size());
   return result;
 }
 
@@ -140,11 +143,11 @@ void keep_youngest_of_pixels(std::vector<Sample>& samples) {
     const Sample*& here = youngest[pixel_of(s)];
     if (here == nullptr || is_younger(s, *here)) here = &s;
   }
-  std::vector<Sample> kept;
+  std::vector<Sample> chosen;
   for (const Sample& s : samples) {
-    if (youngest.at(pixel_of(s)) == &s) kept.push_back(s);
+    if (youngest.at(pixel_of(s)) == &s) chosen.push_back(s);
   }
-  samples = std::move(kept);
+  samples = std::move(chosen);
 }
 
 }  // namespace pprt

@@ -1,4 +1,4 @@
-// Samples carried to the next frame (paper s. 4.1, 4.2; Badt 1988).
+// Casting: projects a frame's samples into the next camera's image (paper s. 4.1, 4.2; Badt 1988).
 #pragma once
 
 #include <cstddef>
@@ -12,51 +12,51 @@
 namespace pprt {
 
 enum class CastMethod {
-  kPaper,    // hidden samples are guessed, by the orientation test
+  kPaper,    // hidden samples are guessed by the orientation test
   kVerified  // nothing is guessed: drop_hidden() finds them
 };
 
 struct CastSettings {
   CastMethod method = CastMethod::kPaper;
-  // Frames that a sample may live: those older are the oldest share that each frame drops.
-  int max_age = 8;
-  // The same for colour that depends on the eye (highlight, reflection, refraction): stale when the eye
-  // moves.
+  int max_age = 8;  // frames; those that are older are the oldest share that each frame drops
+  // The same for colour that depends on the eye (highlight, reflection, refraction): it goes stale when the
+  // eye moves.
   int max_age_eye_dependent = 2;
-  // kVerified: of the samples one in so many, drawn by is_one_of(). The orientation test needs them all.
+  // kVerified: casts one sample in so many, drawn by is_one_of(). The orientation test needs all samples.
   std::uint64_t one_of = 1;
 };
 
-// Of samples that are verified, how old they may be: outlines have moved, and older ones tell little of them
+// Largest age of verified samples, frames. Outlines have moved by then, and older samples tell little of them
 // (docs/decisions/0013-casting.md).
 inline constexpr int kVerifiedMaxAge = 2;
 
 struct CastResult {
-  std::vector<Sample> survivors;  // at their points in the next image, time stamps kept
-  std::size_t out_of_view = 0;    // behind the eye or outside the image
-  std::size_t hidden = 0;         // by the orientation test
+  std::vector<Sample> samples;  // at their points in the next image, with their old time stamps
+  // Counts of the others.
+  std::size_t out_of_view = 0;  // behind the eye or outside the image
+  std::size_t hidden = 0;       // by the orientation test
   std::size_t too_old = 0;
-  double moved = 0;  // by how much the survivors have moved, mean, pixels
+  double moved = 0;  // mean distance of `samples` from their old points, pixels
 };
 
-// Whether nothing lies between the next eye and a hit point.
+// Whether nothing lies between the next eye and a hit point, or in its direction if that is at infinity.
 using Visibility = std::function<bool(const Vec3f& hit, bool at_infinity)>;
 
 // Casts the samples of the mesh's region into the next camera's image, for the frame numbered `next_frame`.
 CastResult cast_samples(const SampleMesh& mesh, const Camera& next, int next_frame,
                         const CastSettings& settings);
 
-// Drops the samples that are hidden and tells how many they were; asks for each of them.
+// Removes the samples that are hidden and returns their number. Calls visible() once for each sample.
 std::size_t drop_hidden(std::vector<Sample>& samples, const Visibility& visible);
 
-// One of so many samples, whatever their order and age: by their id alone.
+// Whether a sample is drawn when one in `many` is. Depends on its id alone, not on its order and age.
 bool is_one_of(const Sample& sample, std::uint64_t many);
 
-// Drops the oldest samples beyond `limit`; of equal age a choice that prefers neither a frame's first samples
-// nor its last. The rest keep their order.
+// Removes the oldest samples beyond `limit`. Among those of equal age the choice prefers neither a frame's
+// first samples nor its last. The others keep their order.
 void keep_youngest(std::vector<Sample>& samples, std::size_t limit);
 
-// Of the samples that lie in one pixel keeps the youngest, in the same sense. The rest keep their order.
+// Removes all but the youngest sample of each pixel, in the same sense. The others keep their order.
 void keep_youngest_of_pixels(std::vector<Sample>& samples);
 
 }  // namespace pprt

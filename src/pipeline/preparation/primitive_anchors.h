@@ -1,5 +1,6 @@
-// A sample on each primitive that the frames before have seen, where the next one looks for it. What
-// refinement comes upon by chance, small things late or never, is so found again for the price of a ray.
+// Primitive anchors: one sample on each primitive that earlier frames have seen. The next frame sends a ray
+// to each anchor whose primitive it has not seen yet. Refinement finds small primitives late, by chance or
+// never; so they are found again for one ray (docs/decisions/0019-landmarks.md).
 #pragma once
 
 #include <cstddef>
@@ -16,44 +17,42 @@ namespace pprt {
 
 class PrimitiveAnchors {
  public:
-  // Of primitives numbered from 1 to `primitives`, as in RaySample; others have none.
+  // For primitives numbered from 1 to `primitives`, as in RaySample. Samples on others have no anchor.
   explicit PrimitiveAnchors(std::uint32_t primitives) : slots_(primitives) {}
 
-  // A frame is over. Of its samples on a primitive, those whose colour does not depend on the eye, that in
-  // their middle marks it. PrimitiveAnchors are kept in the order in which the frame has found their
-  // primitives, as refinement finds large things first; those of primitives that it has not seen come after,
-  // for kLife frames.
+  // Takes over the samples of a finished frame. A primitive's anchor becomes the sample nearest to the mean
+  // of all samples on it; samples whose colour depends on the eye do not count. Anchors are kept in the order
+  // in which the frame found their primitives, for refinement finds large ones first. Those of primitives
+  // that it has not seen come after them, for kLife frames.
   void note(std::span<const Sample> samples);
 
-  // The anchors of primitives that none of the samples lies on, at the image points where the camera would
-  // see them, which lie in the region; at most so many, the first ones. Whether something hides them a ray
-  // must tell.
+  // Returns the anchors of primitives that none of the samples lies on, at the points of the region where the
+  // camera would see them: the first `most` of them. A visibility ray must tell whether one is hidden.
   std::vector<Sample> unseen(std::span<const Sample> samples, const Camera& camera, const Region& region,
                              std::size_t most);
 
-  // Nothing has been seen. Keeps the storage.
+  // Removes all anchors; keeps the storage.
   void clear() { anchors_.clear(); }
 
  private:
-  static constexpr int kLife = 4;
+  static constexpr int kLife = 4;  // frames without a sample on the primitive
 
-  struct PrimitiveAnchor {
+  struct Anchor {
     Sample sample;
-    int frames_unseen = 0;  // since the one that noted it
-    bool is_met = false;    // by a sample, when it was last asked
-    // Of all samples on the primitive: how many, the sum of their image points, and how far from their middle
-    // this one is, square pixels.
+    int frames_unseen = 0;  // since the frame that it was taken from
+    bool is_seen = false;   // a sample lies on its primitive; set by unseen()
+    // Over all samples on the primitive in the frame that it was taken from.
     std::uint32_t samples = 0;
-    Vec2d sum{0, 0};
-    double from_middle2 = std::numeric_limits<double>::infinity();
+    Vec2d sum{0, 0};                                              // of image points
+    double from_mean2 = std::numeric_limits<double>::infinity();  // of `sample`, square pixels
   };
 
-  PrimitiveAnchor* find(std::vector<PrimitiveAnchor>& among, std::uint32_t primitive) const;
-  void add(std::vector<PrimitiveAnchor>& to, const PrimitiveAnchor& anchor);
+  Anchor* find(std::vector<Anchor>& among, std::uint32_t primitive) const;
+  void add(std::vector<Anchor>& to, const Anchor& anchor);
 
-  // By primitive: where its anchor is, if it is there.
-  std::vector<std::uint32_t> slots_;
-  std::vector<PrimitiveAnchor> anchors_, noted_;
+  std::vector<std::uint32_t> slots_;  // per primitive: index of its anchor, if it has one
+  std::vector<Anchor> anchors_;
+  std::vector<Anchor> next_;  // storage of note()
 };
 
 }  // namespace pprt

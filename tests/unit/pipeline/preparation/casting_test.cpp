@@ -52,11 +52,11 @@ TEST_CASE("under a camera at rest every sample lands where it was") {
   const SampleMesh mesh = seen_by(straight(), 1);
   const CastResult cast = cast_samples(mesh, straight(), 2, {});
   // Samples on the border itself may leave it by the rounding of their hit points.
-  CHECK(cast.survivors.size() + cast.out_of_view == mesh.samples().size());
+  CHECK(cast.samples.size() + cast.out_of_view == mesh.samples().size());
   CHECK(cast.out_of_view < 60);
   CHECK(cast.hidden == 0);
   double worst = 0;
-  for (const Sample& s : cast.survivors) {
+  for (const Sample& s : cast.samples) {
     const Sample again = look(straight(), s.x, s.y, 1);
     worst = std::max<double>(worst, (again.ray.hit - s.ray.hit).length());
   }
@@ -70,7 +70,7 @@ TEST_CASE("a sideways step hides wall samples behind the square, and the orienta
   const SampleMesh mesh = seen_by(before, 1);
   const auto wrong = [&](const CastResult& cast) {
     int count = 0;
-    for (const Sample& s : cast.survivors) {
+    for (const Sample& s : cast.samples) {
       count += look(after, s.x, s.y, 2).ray.color != s.ray.color;
     }
     return count;
@@ -96,11 +96,11 @@ TEST_CASE("a visibility ray per sample leaves none wrong") {
   };
   CastSettings verified;
   verified.method = CastMethod::kVerified;
-  std::vector<Sample> survivors = cast_samples(seen_by(before, 1), after, 2, verified).survivors;
-  const std::size_t cast = survivors.size(), hidden = drop_hidden(survivors, visible);
-  for (const Sample& s : survivors) CHECK(look(after, s.x, s.y, 2).ray.color == s.ray.color);
+  std::vector<Sample> samples = cast_samples(seen_by(before, 1), after, 2, verified).samples;
+  const std::size_t cast = samples.size(), hidden = drop_hidden(samples, visible);
+  for (const Sample& s : samples) CHECK(look(after, s.x, s.y, 2).ray.color == s.ray.color);
   CHECK(hidden > 10);
-  CHECK(survivors.size() + hidden == cast);
+  CHECK(samples.size() + hidden == cast);
 }
 
 TEST_CASE("samples die of age, those that depend on the eye sooner") {
@@ -115,9 +115,9 @@ TEST_CASE("samples die of age, those that depend on the eye sooner") {
   CastSettings settings;
   settings.method = CastMethod::kVerified;
   const CastResult cast = cast_samples(mesh, straight(), 11, settings);
-  CHECK(cast.survivors.size() == 8 + 2);
+  CHECK(cast.samples.size() == 8 + 2);
   CHECK(cast.too_old == 2 + 8);
-  for (const Sample& s : cast.survivors) CHECK(11 - s.frame <= (s.ray.eye_dependent ? 2 : 8));
+  for (const Sample& s : cast.samples) CHECK(11 - s.frame <= (s.ray.eye_dependent ? 2 : 8));
 }
 
 TEST_CASE("behind the eye, at the eye and at infinity") {
@@ -140,11 +140,11 @@ TEST_CASE("behind the eye, at the eye and at infinity") {
   Camera away = straight();
   away.eye = {500, 0, 0};
   const CastResult near = cast_samples(mesh, straight(), 2, settings);
-  REQUIRE(near.survivors.size() == 1);
-  CHECK(near.survivors[0].x == Approx(32));
+  REQUIRE(near.samples.size() == 1);
+  CHECK(near.samples[0].x == Approx(32));
   const CastResult far = cast_samples(mesh, away, 2, settings);
-  REQUIRE(far.survivors.size() == 1);  // the background does not move when the eye does
-  CHECK(far.survivors[0].x == Approx(32));
+  REQUIRE(far.samples.size() == 1);  // the background does not move when the eye does
+  CHECK(far.samples[0].x == Approx(32));
 }
 
 TEST_CASE("the youngest are kept, and of one age neither the first nor the last alone") {
@@ -199,13 +199,13 @@ TEST_CASE("where one in so many is cast, it is those drawn by id that survive, a
   settings.one_of = 4;
   const CastResult drawn = cast_samples(mesh, straight(), 2, settings);
   std::vector<SampleId> expected, found;
-  for (const Sample& s : all.survivors) {
+  for (const Sample& s : all.samples) {
     if (is_one_of(s, 4)) expected.push_back(s.id);
   }
-  for (const Sample& s : drawn.survivors) found.push_back(s.id);
+  for (const Sample& s : drawn.samples) found.push_back(s.id);
   CHECK(found == expected);
   CHECK_FALSE(found.empty());
-  CHECK(found.size() < all.survivors.size() / 2);
+  CHECK(found.size() < all.samples.size() / 2);
 }
 
 TEST_CASE("only the region's own samples are cast") {
@@ -214,8 +214,8 @@ TEST_CASE("only the region's own samples are cast") {
   SampleMesh mesh = seen_by(straight(), 1);
   mesh.set_region(Region(kGrid, owned));
   const CastResult cast = cast_samples(mesh, straight(), 2, {});
-  CHECK(cast.survivors.size() > 5);
-  for (const Sample& s : cast.survivors) CHECK(kGrid.tile_at(s.x, s.y) == 5);
+  CHECK(cast.samples.size() > 5);
+  for (const Sample& s : cast.samples) CHECK(kGrid.tile_at(s.x, s.y) == 5);
 }
 
 }  // namespace pprt
