@@ -1,4 +1,4 @@
-// Dots and lines with soft edges.
+// Masks of dots and lines with soft edges.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace pprt {
 
-// How much of each pixel is covered, 0 to 1, row after row. Where shapes overlap, the greater cover counts: a
-// bundle of lines is no darker than one.
+// The covered share of each pixel, 0 to 1, row by row from the top. Where shapes overlap the larger share
+// counts: a bundle of lines is no darker than one.
 struct CoverageMask {
   int width;
   int height;
@@ -23,12 +23,13 @@ struct CoverageMask {
   }
 };
 
-// Coordinates as for image points: pixel (i, j) is the square [i, i+1] x [j, j+1]. A pixel's cover falls from
-// 1 to 0 over the one pixel of distance about the shape's edge. What lies outside is left out.
-void draw_line(CoverageMask& coverage, const Vec2d& from, const Vec2d& to, double width);  // with round ends
-void draw_dot(CoverageMask& coverage, const Vec2d& center, double diameter);
+// Draw a line with round ends, and a dot. Coordinates are image points: pixel (i, j) is the square
+// [i, i+1] x [j, j+1]. The cover falls from 1 to 0 over one pixel of distance across the shape's edge. Parts
+// outside the mask are left out.
+void draw_line(CoverageMask& mask, const Vec2d& from, const Vec2d& to, double width);
+void draw_dot(CoverageMask& mask, const Vec2d& center, double diameter);
 
-// Lays the colour on where there is coverage; both of the same size.
-void paint(Image& image, const CoverageMask& coverage, const Color& color);
+// Mixes the colour into each pixel by its cover. Image and mask must have the same size.
+void paint(Image& image, const CoverageMask& mask, const Color& color);
 
 }  // namespace pprt

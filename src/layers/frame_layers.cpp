@@ -12,14 +12,14 @@
 namespace pprt {
 namespace {
 
-// A drawing at the frame's size: the share of each pixel that is covered.
-std::vector<float> shrunk(const CoverageMask& coverage, int scale) {
-  const int width = coverage.width / scale, height = coverage.height / scale;
+// Returns the covered share of each pixel of the frame, from a drawing `scale` times as large.
+std::vector<float> shrunk(const CoverageMask& mask, int scale) {
+  const int width = mask.width / scale, height = mask.height / scale;
   std::vector<float> shares(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
-  for (int y = 0; y < coverage.height; ++y) {
-    for (int x = 0; x < coverage.width; ++x) {
+  for (int y = 0; y < mask.height; ++y) {
+    for (int x = 0; x < mask.width; ++x) {
       shares[static_cast<std::size_t>(y / scale) * static_cast<std::size_t>(width) +
-             static_cast<std::size_t>(x / scale)] += coverage.at(x, y) / static_cast<float>(scale * scale);
+             static_cast<std::size_t>(x / scale)] += mask.at(x, y) / static_cast<float>(scale * scale);
     }
   }
   return shares;

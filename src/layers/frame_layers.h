@@ -1,4 +1,4 @@
-// The layers of one frame, made when they are asked for.
+// The layers of one frame, each computed when it is asked for.
 #pragma once
 
 #include <cstddef>
@@ -15,25 +15,25 @@
 
 namespace pprt {
 
-// What a frame's layers are made of.
+// The inputs of a frame's layers.
 struct LayerSources {
   int frame_number = 1;
   TileGrid grid;
-  std::vector<std::int32_t> owners;  // per tile; negative: nobody's
+  std::vector<std::int32_t> owners;  // rank per tile; negative: no rank
   std::vector<Sample> samples;       // of all ranks
-  // What lies behind an image point, in pixels; asked for depth, normal and id alone.
+  // Returns what lies behind an image point, in pixels. Called for depth, normal and id alone.
   std::function<FirstHit(double x, double y)> first_hit;
 };
 
-// Samples are triangulated and hits traced once, when a layer first needs them. Not for several threads.
+// Triangulates the samples and traces the hits once, when a layer first needs them. Not thread-safe.
 class FrameLayers {
  public:
   explicit FrameLayers(LayerSources sources);
 
-  // The layer as it stands in an EXR of the frame's size; see pprt-render(1).
+  // Returns the layer's channels for an EXR of the frame's size, as pprt-render(1) lists them.
   std::vector<Channel> channels(Layer layer);
 
-  // The layer for people; `frame` is the picture it belongs to.
+  // Returns the layer as a picture to look at. `frame` is the picture it belongs to.
   Image picture(Layer layer, const Image& frame);
 
  private:
@@ -45,7 +45,7 @@ class FrameLayers {
   std::vector<FirstHit> hits_;
 };
 
-// For the frame writer.
+// Returns what the frame writer needs to make these layers.
 LayerMaker layer_maker(const std::vector<Layer>& layers, LayerSources sources);
 
 }  // namespace pprt

@@ -11,7 +11,7 @@
 namespace pprt {
 namespace {
 
-// By Layer; the last stands for all of them.
+// Names by Layer; the last one stands for all layers.
 constexpr std::array<std::string_view, kAllLayers.size() + 1> kWords = {
     "samples",    "triangulation", "regions", "age", "density", "cost",
     "confidence", "depth",         "normal",  "id",  "all"};

@@ -1,4 +1,4 @@
-// The pictures beside a frame that show how it came about (--layers).
+// The kinds of pictures beside a frame that show how it was made (--layers).
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ enum class Layer : std::uint8_t {
   kId,  // of primitive and material
 };
 
-// In the order in which the layers are told and written.
+// In the order in which the layers are listed and written.
 inline constexpr std::array kAllLayers = {
     Layer::kSamples, Layer::kTriangulation, Layer::kRegions, Layer::kAge,    Layer::kDensity,
     Layer::kCost,    Layer::kConfidence,    Layer::kDepth,   Layer::kNormal, Layer::kId};
@@ -30,10 +30,11 @@ inline constexpr std::array kAllLayers = {
 // "samples", "triangulation", ...
 std::string_view name_of(Layer layer);
 
-// Names with commas between them, or "all"; in the order of kAllLayers, each once. Throws UsageError.
+// Parses names separated by commas, or "all". Returns the layers in the order of kAllLayers, each once.
+// Throws UsageError on an unknown name.
 std::vector<Layer> parse_layers(std::string_view list);
 
-// Whether the layer is made from the frame's samples.
+// Whether the layer is computed from the frame's samples.
 bool needs_samples(Layer layer);
 
 }  // namespace pprt

@@ -1,4 +1,4 @@
-// What can be measured of a frame's samples, one value a pixel, row after row from the top.
+// Measures of a frame's samples: one value per pixel, row by row from the top.
 #pragma once
 
 #include <vector>
@@ -7,21 +7,22 @@
 
 namespace pprt {
 
-// Samples in each pixel; those on the lower and right border of the image count for the last one.
+// Returns the number of samples in each pixel. Those on the lower and right border of the image count in the
+// last pixel.
 std::vector<float> sample_counts(const Triangulation& frame);
 
-// Frames since the samples around were traced, interpolated. `frame_number`: the present one.
+// Returns the age of the samples, interpolated, in frames before number `frame_number`.
 std::vector<float> ages(const Triangulation& frame, int frame_number);
 
-// Samples per square pixel, smooth: at a sample the reciprocal of a third of its triangles' area, which is
-// its share of the image, and linear in between.
+// Returns the samples per square pixel. At a sample that is the reciprocal of its share of the image, a third
+// of its triangles' area; in between it is interpolated.
 std::vector<float> densities(const Triangulation& frame);
 
-// Rays in the trees of the samples around, interpolated (paper fig. 1b).
+// Returns the number of rays in a sample's ray tree, interpolated (paper fig. 1b).
 std::vector<float> costs(const Triangulation& frame);
 
-// The refinement weight of the triangle that holds the pixel's centre: the smaller, the more can the pixel be
-// trusted; infinite where no triangle is.
+// Returns the refinement weight of the triangle that holds the pixel's centre; infinite where none does. A
+// pixel of small weight can be trusted more.
 std::vector<float> weights(const Triangulation& frame);
 
 }  // namespace pprt

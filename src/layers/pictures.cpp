@@ -8,7 +8,7 @@
 namespace pprt {
 namespace {
 
-constexpr int kDrawingSide = 1024;  // pixels, at least, of the longer side
+constexpr int kDrawingSide = 1024;  // least length of a drawing's longer side, pixels
 
 Image enlarged(const Image& image, int scale) {
   Image result(image.width * scale, image.height * scale);
@@ -22,13 +22,13 @@ Color mix(const Color& a, const Color& b, float share) {
   return a + (b - a) * share;
 }
 
-// Of a display value, 0 to 1.
+// Returns the lightness of a display value, 0 to 1.
 float lightness(const Color& color) {
   const auto channel = [](float v) { return std::clamp(v, 0.0f, 1.0f); };
   return 0.3f * channel(color.x) + 0.59f * channel(color.y) + 0.11f * channel(color.z);
 }
 
-// A colour of full strength; hues go round once from 0 to 1.
+// Returns a fully saturated colour. Hues go round the circle once from 0 to 1.
 Color from_hue(double hue) {
   const auto channel = [&](double phase) {
     const double h = std::abs(std::fmod(hue + phase, 1.0) * 6 - 3);
@@ -37,13 +37,13 @@ Color from_hue(double hue) {
   return {channel(0), channel(2.0 / 3), channel(1.0 / 3)};
 }
 
-// Multiples of the golden ratio: any few in a row lie far apart on the colour circle.
+// Returns a hue from multiples of the golden ratio: those of successive numbers lie far apart.
 double hue_of(std::uint32_t number) {
   return std::fmod(number * 0.6180339887498949, 1.0);
 }
 
-// From dark to light through blue, red and yellow; lightness grows all the way, so that it reads without
-// colour.
+// Maps 0 to 1 to dark to light, through blue, red and yellow. Lightness grows all the way, so the picture
+// reads without colour.
 Color heat(double value) {
   static constexpr std::array<std::array<float, 3>, 6> kStops = {{{0.03f, 0.03f, 0.12f},
                                                                   {0.22f, 0.12f, 0.45f},
@@ -65,29 +65,29 @@ Image picture_of(std::span<const Value> values, int width, int height, const ToC
   return image;
 }
 
-// Mean distance between samples in a drawing, pixels.
+// Returns the mean distance between samples in a drawing, pixels.
 double spacing(const Triangulation& frame, int scale) {
   const double area = static_cast<double>(frame.width) * frame.height;
   const auto samples = static_cast<double>(std::max<std::size_t>(frame.samples.size(), 1));
   return scale * std::sqrt(area / samples);
 }
 
-// Where the owner changes: every side of a tile that another rank's tile lies behind.
+// Draws every side of a tile that separates different owners.
 CoverageMask region_borders(const TileGrid& grid, std::span<const std::int32_t> owners, int scale,
                             double width) {
-  CoverageMask coverage(grid.width * scale, grid.height * scale);
+  CoverageMask mask(grid.width * scale, grid.height * scale);
   const auto owner = [&](int tile) { return owners[static_cast<std::size_t>(tile)]; };
   const auto corner = [&](int x, int y) { return Vec2d(x, y) * static_cast<double>(scale); };
   for (int tile = 0; tile < grid.tile_count(); ++tile) {
     const PixelRect r = grid.pixels(tile);
     if (r.x1 < grid.width && owner(tile) != owner(tile + 1)) {
-      draw_line(coverage, corner(r.x1, r.y0), corner(r.x1, r.y1), width);
+      draw_line(mask, corner(r.x1, r.y0), corner(r.x1, r.y1), width);
     }
     if (r.y1 < grid.height && owner(tile) != owner(tile + grid.columns())) {
-      draw_line(coverage, corner(r.x0, r.y1), corner(r.x1, r.y1), width);
+      draw_line(mask, corner(r.x0, r.y1), corner(r.x1, r.y1), width);
     }
   }
-  return coverage;
+  return mask;
 }
 
 }  // namespace
@@ -97,38 +97,38 @@ int drawing_scale(int width, int height) {
   return (kDrawingSide + longer - 1) / longer;
 }
 
-// Dots shrink as samples come closer, down to what still shows.
+// Dots shrink as samples come closer, down to a visible size.
 CoverageMask sample_dots(const Triangulation& frame) {
   const int scale = drawing_scale(frame.width, frame.height);
   const double diameter = std::clamp(0.16 * spacing(frame, scale), 1.6, 5.0);
-  CoverageMask coverage(frame.width * scale, frame.height * scale);
+  CoverageMask mask(frame.width * scale, frame.height * scale);
   for (const Sample& s : frame.samples)
-    draw_dot(coverage, Vec2d(s.x, s.y) * static_cast<double>(scale), diameter);
-  return coverage;
+    draw_dot(mask, Vec2d(s.x, s.y) * static_cast<double>(scale), diameter);
+  return mask;
 }
 
 CoverageMask triangle_edges(const Triangulation& frame) {
   const int scale = drawing_scale(frame.width, frame.height);
   const double width = std::clamp(0.05 * spacing(frame, scale), 0.3, 1.2);
-  CoverageMask coverage(frame.width * scale, frame.height * scale);
+  CoverageMask mask(frame.width * scale, frame.height * scale);
   const auto place = [&](std::uint32_t sample) {
     return Vec2d(frame.samples[sample].x, frame.samples[sample].y) * static_cast<double>(scale);
   };
   for (const auto& corners : frame.triangles) {
     for (std::size_t i = 0; i < 3; ++i)
-      draw_line(coverage, place(corners[i]), place(corners[(i + 1) % 3]), width);
+      draw_line(mask, place(corners[i]), place(corners[(i + 1) % 3]), width);
   }
-  return coverage;
+  return mask;
 }
 
-Image black_on_white(const CoverageMask& coverage) {
-  Image image(coverage.width, coverage.height, Color(1, 1, 1));
-  paint(image, coverage, Color(0, 0, 0));
+Image black_on_white(const CoverageMask& mask) {
+  Image image(mask.width, mask.height, Color(1, 1, 1));
+  paint(image, mask, Color(0, 0, 0));
   return image;
 }
 
-// The frame in grey, so that its own colours do not mix with the ranks', and lightened, as pictures mostly
-// are dark.
+// The frame is grey, so that its own colours do not mix with the ranks', and lightened, for most pictures are
+// dark.
 Image region_picture(const Image& frame, const TileGrid& grid, std::span<const std::int32_t> owners) {
   const int scale = drawing_scale(frame.width, frame.height);
   Image tinted = frame;
@@ -144,7 +144,7 @@ Image region_picture(const Image& frame, const TileGrid& grid, std::span<const s
     }
   }
   Image picture = enlarged(tinted, scale);
-  // Light within dark: seen on any ground.
+  // A light line within a dark one is visible on any ground.
   paint(picture, region_borders(grid, owners, scale, 5), Color(0, 0, 0));
   paint(picture, region_borders(grid, owners, scale, 2), Color(1, 1, 1));
   return picture;

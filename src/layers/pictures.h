@@ -1,4 +1,4 @@
-// Each layer as a picture for people. Colours are display values.
+// Draws layers as pictures to look at. Colours are display values.
 #pragma once
 
 #include <cstdint>
@@ -13,35 +13,34 @@
 
 namespace pprt {
 
-// Drawings are larger than the frame by this whole factor, so that the longer side has at least 1024 pixels
-// and single samples can be told apart.
+// Returns the whole factor by which drawings are larger than the frame. Their longer side has at least 1024
+// pixels, so that single samples can be told apart.
 int drawing_scale(int width, int height);
 
-// Black dots on white (paper fig. 1c).
+// Draw a dot per sample (paper fig. 1c), and the triangles' edges (fig. 1d), at that scale.
 CoverageMask sample_dots(const Triangulation& frame);
-// The edges (fig. 1d).
 CoverageMask triangle_edges(const Triangulation& frame);
-Image black_on_white(const CoverageMask& coverage);
+Image black_on_white(const CoverageMask& mask);
 
-// The frame, tinted by owner, with the borders between regions drawn over it (fig. 2e, 4b). `owners` per
-// tile; negative: nobody's, which stays as it is.
+// Draws the frame in grey, tinted by owner, and the borders between regions (fig. 2e, 4b). `owners` has a
+// rank per tile; negative: no rank, and no tint.
 Image region_picture(const Image& frame, const TileGrid& grid, std::span<const std::int32_t> owners);
 
-// A measure from its `low` (dark) to its `high` (light), equal steps for equal factors. Both positive.
+// Draws a measure from `low` (dark) to `high` (light), both positive. Equal factors make equal steps.
 Image heat_picture(std::span<const float> values, int width, int height, double low, double high);
 
-// The complexity map: darker is dearer (fig. 1b), white is one ray, black kMostRays or more.
+// Draws the complexity map (fig. 1b): white is one ray, black kMostRays or more.
 inline constexpr double kMostRays = 64;
 Image cost_picture(std::span<const float> values, int width, int height);
 
-// Near is light; equal steps for equal differences of 1 / depth between the frame's nearest and farthest
-// point. Misses are black.
+// Draws depth: near is light, misses are black. Steps are equal in 1 / depth, between the frame's nearest and
+// farthest point.
 Image depth_picture(std::span<const FirstHit> hits, int width, int height);
 
-// Components -1 to 1 as colour 0 to 1; misses are black.
+// Draws normals: components -1 to 1 become channels 0 to 1. Misses are black.
 Image normal_picture(std::span<const FirstHit> hits, int width, int height);
 
-// A hue for each material, a lightness for each primitive; misses are black.
+// Draws ids: a hue per material, a lightness per primitive. Misses are black.
 Image id_picture(std::span<const FirstHit> hits, int width, int height);
 
 }  // namespace pprt

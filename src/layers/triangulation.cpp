@@ -16,8 +16,8 @@ double cross(const Vec2d& a, const Vec2d& b) {
 
 }  // namespace
 
-// In the order of their ids, for messages come in any; where four samples lie on a circle, the order decides
-// which way the diagonal runs.
+// Inserts the samples in the order of their ids, for messages arrive in any order: so the numbers of samples
+// and triangles do not depend on it.
 Triangulation triangulate_frame(std::vector<Sample> samples, const TileGrid& grid) {
   std::sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) {
     return std::tie(a.id, a.y, a.x) < std::tie(b.id, b.y, b.x);

@@ -6,8 +6,9 @@
 namespace pprt {
 namespace {
 
-// Per tile: how many tiles at least lie between it and any that is not owned, in rows, columns or diagonals;
-// -1 for those themselves. Two sweeps over the grid, each taking over what the neighbours before found.
+// Returns per tile the number of tiles between it and the nearest that is not owned, in rows, columns or
+// diagonals; -1 for a tile that is not owned. Two sweeps over the grid: each takes the minimum over the
+// neighbours that it has passed.
 std::vector<int> tiles_between(const TileGrid& grid, const std::vector<std::uint8_t>& owned) {
   const int columns = grid.columns(), rows = grid.rows();
   std::vector<int> between(owned.size());

@@ -24,9 +24,10 @@ class Region {
   const std::vector<int>& tiles() const { return tiles_; }  // ascending
   const PixelRect& bounds() const { return bounds_; }       // smallest rectangle that holds every owned pixel
   std::size_t pixel_count() const { return pixel_count_; }
-  bool is_whole() const { return tiles_.size() == owned_.size(); }  // no border to any other
+  bool is_whole() const { return tiles_.size() == owned_.size(); }  // there is no other region
 
-  // Whether a circle surely lies in the region, as far as it lies in the image.
+  // Whether the part of a circle inside the image certainly lies in the region. May return false for a circle
+  // that does.
   bool surely_holds(const Circle& circle) const {
     const Vec2d& c = circle.center;
     if (!(c.x >= 0 && c.y >= 0 && c.x <= grid_.width && c.y <= grid_.height)) return false;
@@ -45,7 +46,7 @@ class Region {
   TileGrid grid_;
   std::vector<std::uint8_t> owned_;
   std::vector<int> tiles_;
-  std::vector<double> inside_by_;  // per tile: pixels that at least lie between it and any other region
+  std::vector<double> inside_by_;  // per tile: lower bound of its distance from any other region, pixels
   PixelRect bounds_;
   std::size_t pixel_count_ = 0;
 };

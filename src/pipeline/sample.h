@@ -1,4 +1,4 @@
-// A sample: one eye ray's answer at one image point.
+// A sample: what one eye ray found at one image point.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,8 @@
 
 namespace pprt {
 
-// Unique over all ranks while one triangulation lives: the creator's rank above, its running number below.
+// Unique over all ranks during one triangulation: the rank that traced the sample in the upper bits, its
+// running number in the lower 40.
 using SampleId = std::uint64_t;
 
 struct Sample {

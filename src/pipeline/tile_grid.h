@@ -1,4 +1,4 @@
-// The image cut into equal square tiles: the unit of ownership and of statistics (paper s. 3.3).
+// The grid of equal square tiles over the image: the units of ownership and of statistics (paper s. 3.3).
 #pragma once
 
 #include <algorithm>
@@ -38,12 +38,12 @@ class TileGrid {
   int rows() const { return rows_; }
   int tile_count() const { return columns_ * rows_; }
 
-  // The tile that holds an image point; points on the right and lower border belong to the last tile.
+  // Returns the tile that holds an image point. Points on the right and lower border belong to the last tile.
   int tile_at(double x, double y) const { return column_at(x) + columns_ * row_at(y); }
   int column_at(double x) const { return lane(x, columns_); }
   int row_at(double y) const { return lane(y, rows_); }
 
-  // The pixels of a column or a row of tiles.
+  // Return the pixels of a column or a row of tiles.
   PixelSpan column(int column) const {
     return {column * tile_size, std::min((column + 1) * tile_size, width)};
   }
@@ -61,9 +61,9 @@ class TileGrid {
   int tile_size;
 
  private:
-  // Column or row of a coordinate. From the middle of its pixel, so that the product never rounds into the
-  // next tile; a division would cost more than the rest of a triangle's bookkeeping. Circles may reach far
-  // outside the image.
+  // Returns the column or row of a coordinate, which may lie far outside the image. Multiplies the middle of
+  // its pixel, so that rounding never reaches the next tile. A division would cost more than the rest of a
+  // triangle's bookkeeping.
   int lane(double coordinate, int count) const {
     const double inside = std::clamp(coordinate, 0.0, static_cast<double>(count) * tile_size - 1);
     return static_cast<int>((static_cast<int>(inside) + 0.5) * tiles_per_pixel_);

@@ -12,22 +12,22 @@
 
 namespace pprt {
 
-// Sixteen buckets an octave, so the entry popped weighs at least 1/1.0625 of the heaviest; newest first
-// inside a bucket. Above a floor, one bucket an octave: what is sure to be popped needs no finer order, and
-// newest first then means that one neighbourhood is dealt with after the other. Push and pop in constant
+// Sixteen buckets an octave, so the entry popped weighs at least 1/1.0625 of the heaviest. Inside a bucket
+// the newest entry comes first. Above a floor there is one bucket an octave: what is certain to be popped
+// needs no finer order, and newest first then means neighbour after neighbour. Push and pop take constant
 // time. Weights are positive, finite floats.
 template <typename Entry>
 class BucketQueue {
  public:
   BucketQueue() : buckets_(kBuckets) {}
 
-  // For entries to come. Infinity, as at first: nothing lies above it.
+  // Sets the floor for entries pushed from now on. Infinity, as at first: nothing lies above it.
   void set_floor(float weight) { floor_ = fine_bucket(weight); }
 
-  // Whether an entry above the floor waits.
+  // Whether an entry above the floor is left.
   bool is_above_floor() const { return summary_ != 0 && top() > floor_; }
 
-  // The least that an entry of the bucket which is popped next may weigh; 0 when there is none.
+  // Returns the lower bound of the weights in the bucket that is popped next; 0 when the queue is empty.
   float level() const {
     return summary_ == 0 ? 0 : std::bit_cast<float>(static_cast<std::uint32_t>(top() << kDroppedBits));
   }
@@ -45,28 +45,29 @@ class BucketQueue {
     const std::size_t bucket = top();
     const Entry entry = buckets_[bucket].back();
     buckets_[bucket].pop_back();
-    if (buckets_[bucket].empty()) retire(bucket);
+    if (buckets_[bucket].empty()) mark_empty(bucket);
     return entry;
   }
 
-  // What is popped that many pops later unless something is pushed; nothing where another bucket holds it.
+  // Returns the entry that is popped after `pops` others unless something is pushed; null where it is in
+  // another bucket.
   const Entry* ahead(std::size_t pops) const {
     if (summary_ == 0) return nullptr;
     const std::vector<Entry>& bucket = buckets_[top()];
     return bucket.size() > pops ? &bucket[bucket.size() - 1 - pops] : nullptr;
   }
 
-  // Forgets every entry; keeps the storage.
+  // Removes every entry; keeps the storage.
   void clear() {
     while (summary_ != 0) {
       const std::size_t bucket = top();
       buckets_[bucket].clear();
-      retire(bucket);
+      mark_empty(bucket);
     }
   }
 
  private:
-  // Of a float's 23 mantissa bits four are left.
+  // Four of a float's 23 mantissa bits are left.
   static constexpr int kDroppedBits = 19;
   static constexpr std::size_t kPerOctave = 16, kBuckets = 4096;
 
@@ -80,7 +81,7 @@ class BucketQueue {
     return word * 64 + static_cast<std::size_t>(63 - std::countl_zero(words_[word]));
   }
 
-  void retire(std::size_t bucket) {
+  void mark_empty(std::size_t bucket) {
     words_[bucket / 64] &= ~(std::uint64_t{1} << (bucket % 64));
     if (words_[bucket / 64] == 0) summary_ &= ~(std::uint64_t{1} << (bucket / 64));
   }

@@ -1,4 +1,4 @@
-// The coarse set of points that every frame starts from.
+// Seeds: the coarse set of points that every new triangulation starts from.
 #pragma once
 
 #include <cstdint>
@@ -13,11 +13,12 @@ namespace pprt {
 // dense enough that small features are met and every rank's region holds several.
 inline constexpr double kSeedSpacing = 16;
 
-// A jittered grid over the image, borders and corners included (points there keep to their border exactly).
-// The first four are the image's corners. The same for every rank and frame: depends on size and seed alone.
+// Returns a jittered grid over the image, in pixels, with points exactly on its borders and corners. The
+// first four are the image's corners. It depends on size and seed alone: it is the same for every rank and
+// frame.
 std::vector<Vec2d> seed_points(int width, int height, std::uint64_t seed);
 
-// Those points with their Delaunay triangles, whose corners index them.
+// Those points with their Delaunay triangles. Corners index `points`.
 struct SeedPattern {
   std::vector<Vec2d> points;
   std::vector<MeshTriangle> triangles;

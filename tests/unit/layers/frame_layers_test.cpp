@@ -24,7 +24,7 @@ const std::vector<float>& floats(const Channel& channel) {
 
 }  // namespace
 
-TEST_CASE("channels are named after their layer, and every one has the frame's size") {
+TEST_CASE("layers: channels are named after their layer and have the frame's size") {
   int asked = 0;
   FrameLayers layers(sources(asked));
   std::vector<std::string> names;
@@ -39,7 +39,7 @@ TEST_CASE("channels are named after their layer, and every one has the frame's s
                                           "normal.Z", "id.primitive", "id.material"});
 }
 
-TEST_CASE("channels hold what they say") {
+TEST_CASE("layers: each channel holds its measure") {
   int asked = 0;
   FrameLayers layers(sources(asked));
   CHECK(floats(layers.channels(Layer::kSamples)[0])[10] == 1);  // the middle: pixel (2, 2)
@@ -57,7 +57,7 @@ TEST_CASE("channels hold what they say") {
   CHECK(floats(edges[0])[5] < 0.02f);
 }
 
-TEST_CASE("rays are traced only for what needs them, and once") {
+TEST_CASE("layers: rays are traced once, and only for layers that need them") {
   int asked = 0;
   FrameLayers layers(sources(asked));
   const Image frame(4, 4);
@@ -69,7 +69,7 @@ TEST_CASE("rays are traced only for what needs them, and once") {
   CHECK(asked == 16);
 }
 
-TEST_CASE("the maker answers for the layers asked for") {
+TEST_CASE("layers: the maker gives the layers asked for") {
   int asked = 0;
   const LayerMaker maker = layer_maker({Layer::kAge, Layer::kId}, sources(asked));
   CHECK(maker.names == std::vector<std::string>{"age", "id"});

@@ -7,14 +7,14 @@
 
 using namespace pprt;
 
-TEST_CASE("layers are named in any order and come in theirs, each once") {
+TEST_CASE("layer names: any order is accepted, and each layer comes once in the fixed order") {
   CHECK(parse_layers("id,samples,id") == std::vector<Layer>{Layer::kSamples, Layer::kId});
   CHECK(parse_layers("depth") == std::vector<Layer>{Layer::kDepth});
   CHECK(parse_layers("all") == std::vector<Layer>(kAllLayers.begin(), kAllLayers.end()));
   for (const Layer layer : kAllLayers) CHECK(parse_layers(name_of(layer)) == std::vector<Layer>{layer});
 }
 
-TEST_CASE("what is no layer is refused with what was meant") {
+TEST_CASE("layer names: an unknown one is refused with a suggestion") {
   CHECK_THROWS_WITH(
       parse_layers("samples,dephts"),
       "--layers samples,dephts: 'dephts' is none of samples, triangulation, regions, age, density, "
@@ -23,7 +23,7 @@ TEST_CASE("what is no layer is refused with what was meant") {
   CHECK_THROWS_AS(parse_layers("depth,"), UsageError);
 }
 
-TEST_CASE("only what is made of samples asks for them") {
+TEST_CASE("layers: only those made of samples need samples") {
   CHECK(std::count_if(kAllLayers.begin(), kAllLayers.end(), needs_samples) == 6);
   CHECK(needs_samples(Layer::kConfidence));
   CHECK_FALSE(needs_samples(Layer::kRegions));

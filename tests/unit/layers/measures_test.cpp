@@ -18,7 +18,7 @@ float at(const std::vector<float>& values, int x, int y) {
 
 }  // namespace
 
-TEST_CASE("the triangulation is of all samples, whatever the order in which they came") {
+TEST_CASE("layers: the triangulation holds all samples, and their order does not matter") {
   std::vector<Sample> samples = corners_and_middle();
   const Triangulation frame = triangulate_frame(samples, kFourByFour);
   CHECK(frame.samples.size() == 5);
@@ -29,7 +29,7 @@ TEST_CASE("the triangulation is of all samples, whatever the order in which they
   CHECK(reversed.triangle_at == frame.triangle_at);
 }
 
-TEST_CASE("samples are counted where they lie, those on the border in the last pixel") {
+TEST_CASE("layers: samples on the border count in the last pixel, all others where they lie") {
   std::vector<Sample> samples = corners_and_middle();
   samples.push_back(sample(2.5, 2.5));
   const std::vector<float> counts = sample_counts(triangulate_frame(samples, kFourByFour));
@@ -39,7 +39,7 @@ TEST_CASE("samples are counted where they lie, those on the border in the last p
   CHECK(at(counts, 1, 1) == 0);
 }
 
-TEST_CASE("age and cost are linear between samples") {
+TEST_CASE("layers: age and cost are linear between samples") {
   const Triangulation frame = triangulate_frame(corners_and_middle(), kFourByFour);
   // The middle was traced in frame 3, the corners in frame 1. Pixel (1, 1)'s centre lies three quarters of
   // the way from the corner to the middle, that of (0, 1) has 1/4 of the middle and 3/4 of the left side.
@@ -49,7 +49,7 @@ TEST_CASE("age and cost are linear between samples") {
   CHECK(at(costs(frame), 3, 1) == Approx(0.75 * 3 + 0.25 * 11));
 }
 
-TEST_CASE("density is the reciprocal of a sample's share of the image") {
+TEST_CASE("layers: density is the reciprocal of a sample's share of the image") {
   const Triangulation frame = triangulate_frame(corners_and_middle(), kFourByFour);
   // A third of each triangle: the middle has 4 of them, 16/3 square pixels; a corner 2, 8/3.
   const double middle = 3.0 / 16, corner = 3.0 / 8;
@@ -57,7 +57,7 @@ TEST_CASE("density is the reciprocal of a sample's share of the image") {
   CHECK(at(densities(frame), 0, 1) == Approx(0.75 * corner + 0.25 * middle));
 }
 
-TEST_CASE("confidence is the weight of the triangle that holds the pixel") {
+TEST_CASE("layers: confidence is the weight of the triangle that holds the pixel's centre") {
   const Triangulation frame = triangulate_frame(corners_and_middle(), kFourByFour);
   // Right-angled, with the hypotenuse of 4 as diameter. Red varies by 1 at one of three corners: variance
   // 2/9, a third of it over the three channels.
@@ -65,7 +65,7 @@ TEST_CASE("confidence is the weight of the triangle that holds the pixel") {
   for (const float weight : weights(frame)) CHECK(weight == Approx(expected));
 }
 
-TEST_CASE("where no triangle is, nothing is measured and nothing is sure") {
+TEST_CASE("layers: without a triangle measures are 0, and the weight is infinite") {
   // What a rank that is missing leaves behind.
   const Triangulation torn =
       triangulate_frame({sample(0, 0, 1, 7), sample(4, 0, 1, 7), sample(0, 4, 1, 7)}, kFourByFour);

@@ -18,7 +18,7 @@ FirstHit hit(float depth, const Vec3f& normal, std::uint32_t primitive, std::uin
 
 }  // namespace
 
-TEST_CASE("drawings have at least 1024 pixels on the longer side") {
+TEST_CASE("layer pictures: drawings have at least 1024 pixels on the longer side") {
   CHECK(drawing_scale(256, 256) == 4);
   CHECK(drawing_scale(160, 120) == 7);
   CHECK(drawing_scale(500, 1023) == 2);
@@ -26,21 +26,21 @@ TEST_CASE("drawings have at least 1024 pixels on the longer side") {
   CHECK(drawing_scale(1920, 1080) == 1);
 }
 
-TEST_CASE("a sample is a black dot on white, where it lies") {
+TEST_CASE("layer pictures: a sample is a black dot on white, where it lies") {
   const Image picture = black_on_white(sample_dots(triangulate_frame({sample(1, 3)}, kFourByFour)));
   REQUIRE((picture.width == 1024 && picture.height == 1024));
   CHECK(picture.at(256, 768) == kBlack);
   CHECK(picture.at(768, 256) == kWhite);
 }
 
-TEST_CASE("edges run from sample to sample, and nowhere else") {
+TEST_CASE("layer pictures: edges run from sample to sample, and nowhere else") {
   const Image picture = black_on_white(triangle_edges(triangulate_frame(corners_and_middle(), kFourByFour)));
   CHECK(picture.at(300, 300).x < 0.5f);  // on the diagonal
   CHECK(picture.at(300, 723).x < 0.5f);  // on the other one
   CHECK(picture.at(512, 200) == kWhite);
 }
 
-TEST_CASE("regions have a colour each and a border between them, where both sides are one rank's none") {
+TEST_CASE("layer pictures: each region has a colour, with a border only between different ranks") {
   const Image frame(4, 4, Color(0.5f));
   const std::vector<std::int32_t> owners = {0, 1, 0, -1};  // two tiles of rank 0 on the left
   const Image picture = region_picture(frame, kFourByFour, owners);
@@ -54,7 +54,7 @@ TEST_CASE("regions have a colour each and a border between them, where both side
   CHECK(picture.at(100, 512) == left);
 }
 
-TEST_CASE("heat grows lighter all the way, by factors") {
+TEST_CASE("layer pictures: heat grows lighter with every factor") {
   const std::vector<float> values = {0, 1, 10, 100, 1000};
   const Image picture = heat_picture(values, 5, 1, 1, 100);
   const auto light = [&](int x) { return picture.at(x, 0).x + picture.at(x, 0).y + picture.at(x, 0).z; };
@@ -63,7 +63,7 @@ TEST_CASE("heat grows lighter all the way, by factors") {
   CHECK(light(3) == light(4));
 }
 
-TEST_CASE("the dearer the darker") {
+TEST_CASE("layer pictures: more rays are darker") {
   const std::vector<float> rays = {0, 1, 8, 64, 1000};
   const Image picture = cost_picture(rays, 5, 1);
   CHECK(picture.at(0, 0) == kWhite);
@@ -73,7 +73,7 @@ TEST_CASE("the dearer the darker") {
   CHECK(picture.at(4, 0) == kBlack);
 }
 
-TEST_CASE("depth is light near by, black where nothing is") {
+TEST_CASE("layer pictures: near depths are light, misses black") {
   const std::vector<FirstHit> hits = {hit(1, {0, 0, 1}, 1, 1), hit(2, {0, 0, 1}, 1, 1),
                                       hit(4, {0, 0, 1}, 1, 1), FirstHit()};
   const Image picture = depth_picture(hits, 4, 1);
@@ -86,7 +86,7 @@ TEST_CASE("depth is light near by, black where nothing is") {
   CHECK(depth_picture(std::vector<FirstHit>(4), 4, 1).at(0, 0) == kBlack);
 }
 
-TEST_CASE("normals are colours, and ids tell materials and primitives apart") {
+TEST_CASE("layer pictures: normals are colours, and ids show materials and primitives apart") {
   const std::vector<FirstHit> hits = {hit(1, {-1, 0, 1}, 1, 1), hit(1, {0, 0, 1}, 2, 1),
                                       hit(1, {0, 0, 1}, 2, 2), FirstHit()};
   const Image normals = normal_picture(hits, 4, 1);

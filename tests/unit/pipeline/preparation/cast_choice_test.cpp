@@ -55,7 +55,7 @@ TEST_CASE("cast choice: eye-dependent colour is not carried without evidence of 
   no_fresh.fresh = 0, no_fresh.fresh_area = 0, no_fresh.fresh_error = 0, no_fresh.fresh_rays = 0;
   CHECK_FALSE(limits_of(no_stale, {1, 0, 0.5}).eye_dependent);
   CHECK_FALSE(limits_of(no_fresh, {1, 0, 0.5}).eye_dependent);
-  CHECK(limits_of({}, {1, 0, 0.5}).share == 0.5);  // others are carried and tell of themselves
+  CHECK(limits_of({}, {1, 0, 0.5}).share == 0.5);  // other samples are carried, to be measured
 }
 
 TEST_CASE(

@@ -48,7 +48,7 @@ SampleMesh seen_by(const Camera& camera, int frame) {
 
 }  // namespace
 
-TEST_CASE("under a camera at rest every sample lands where it was") {
+TEST_CASE("casting: under a camera at rest every sample stays where it was") {
   const SampleMesh mesh = seen_by(straight(), 1);
   const CastResult cast = cast_samples(mesh, straight(), 2, {});
   // Samples on the border itself may leave it by the rounding of their hit points.
@@ -63,7 +63,7 @@ TEST_CASE("under a camera at rest every sample lands where it was") {
   CHECK(worst < 1e-5);
 }
 
-TEST_CASE("a sideways step hides wall samples behind the square, and the orientation test finds most") {
+TEST_CASE("casting: the orientation test finds most samples that a sideways step of the eye hides") {
   const Camera before = straight();
   Camera after = before;
   after.eye.x = 0.15;
@@ -84,7 +84,7 @@ TEST_CASE("a sideways step hides wall samples behind the square, and the orienta
   CHECK(paper.hidden > 0);
 }
 
-TEST_CASE("a visibility ray per sample leaves none wrong") {
+TEST_CASE("casting: a visibility ray per sample leaves no wrong sample") {
   const Camera before = straight();
   Camera after = before;
   after.eye.x = 0.15;
@@ -103,7 +103,7 @@ TEST_CASE("a visibility ray per sample leaves none wrong") {
   CHECK(samples.size() + hidden == cast);
 }
 
-TEST_CASE("samples die of age, those that depend on the eye sooner") {
+TEST_CASE("casting: samples are dropped by age, eye-dependent ones earlier") {
   SampleMesh mesh(Region::whole(kGrid));
   for (int frame = 1; frame <= 10; ++frame) {
     Sample plain = look(straight(), 4.0 * frame, 20, frame);
@@ -120,7 +120,7 @@ TEST_CASE("samples die of age, those that depend on the eye sooner") {
   for (const Sample& s : cast.samples) CHECK(11 - s.frame <= (s.ray.eye_dependent ? 2 : 8));
 }
 
-TEST_CASE("behind the eye, at the eye and at infinity") {
+TEST_CASE("casting: hit points behind the eye and at it are dropped, those at infinity do not move with it") {
   SampleMesh mesh(Region::whole(kGrid));
   const auto put = [&](double x, const Vec3f& hit, bool at_infinity) {
     Sample sample;
@@ -147,7 +147,7 @@ TEST_CASE("behind the eye, at the eye and at infinity") {
   CHECK(far.samples[0].x == Approx(32));
 }
 
-TEST_CASE("the youngest are kept, and of one age neither the first nor the last alone") {
+TEST_CASE("casting: the youngest samples are kept, and of one age neither only the first nor only the last") {
   std::vector<Sample> samples(3000);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     samples[i].id = i;
@@ -164,7 +164,7 @@ TEST_CASE("the youngest are kept, and of one age neither the first nor the last 
   CHECK(early == Approx(500).margin(80));  // five standard deviations
 }
 
-TEST_CASE("of a pixel's samples the youngest is kept, in the order they had") {
+TEST_CASE("casting: the youngest sample of each pixel is kept, in the old order") {
   std::vector<Sample> samples(4);
   for (std::size_t i = 0; i < samples.size(); ++i) samples[i].id = i, samples[i].y = 7.5;
   samples[0].x = 2.1, samples[0].frame = 1;
@@ -177,7 +177,7 @@ TEST_CASE("of a pixel's samples the youngest is kept, in the order they had") {
   CHECK(samples[1].id == 2);
 }
 
-TEST_CASE("one of so many is drawn by id, evenly") {
+TEST_CASE("casting: one sample in 64 is drawn evenly by id") {
   int drawn = 0;
   for (SampleId id = 0; id < 64000; ++id) {
     Sample sample;
@@ -187,7 +187,7 @@ TEST_CASE("one of so many is drawn by id, evenly") {
   CHECK(drawn == Approx(1000).margin(160));
 }
 
-TEST_CASE("where one in so many is cast, it is those drawn by id that survive, as if all were cast") {
+TEST_CASE("casting: one sample in four cast alone equals that sample when all are cast") {
   const SampleMesh seen = seen_by(straight(), 1);
   SampleMesh mesh(Region::whole(kGrid));
   for (Sample s : seen.samples()) {
@@ -208,7 +208,7 @@ TEST_CASE("where one in so many is cast, it is those drawn by id that survive, a
   CHECK(found.size() < all.samples.size() / 2);
 }
 
-TEST_CASE("only the region's own samples are cast") {
+TEST_CASE("casting: only samples of the own region are cast") {
   std::vector<std::uint8_t> owned(16, 0);
   owned[5] = 1;
   SampleMesh mesh = seen_by(straight(), 1);

@@ -30,7 +30,9 @@ Sample seen_at(double x, double y, std::uint32_t primitive) {
 
 }  // namespace
 
-TEST_CASE("a anchor is the sample in the middle of those on its primitive, where the next camera sees it") {
+TEST_CASE(
+    "anchors: an anchor is the sample nearest to the mean on its primitive, at the next camera's image "
+    "point") {
   PrimitiveAnchors anchors(3);
   anchors.note(std::vector{seen_at(10, 10, 2), seen_at(30, 12, 2), seen_at(19, 11, 2), seen_at(22, 40, 2)});
   const std::vector<Sample> sought = anchors.unseen({}, camera_at(-5), kWhole, kAll);
@@ -39,8 +41,7 @@ TEST_CASE("a anchor is the sample in the middle of those on its primitive, where
   CHECK(sought[0].y == Approx(11).margin(1e-4));
 }
 
-TEST_CASE(
-    "primitives that a sample lies on are not sought, the others in the order in which they were found") {
+TEST_CASE("anchors: primitives with a sample are left out, the others come in the order they were found") {
   PrimitiveAnchors anchors(5);
   anchors.note(std::vector{seen_at(1, 1, 4), seen_at(2, 2, 1), seen_at(3, 3, 5), seen_at(4, 4, 4)});
   const std::vector<Sample> sought =
@@ -52,7 +53,7 @@ TEST_CASE(
   CHECK(anchors.unseen({}, camera_at(0), kWhole, 0).empty());
 }
 
-TEST_CASE("anchors out of view, of another region or of nothing are not sought") {
+TEST_CASE("anchors: those out of view, in another region or of the background are left out") {
   PrimitiveAnchors anchors(2);
   anchors.note(std::vector{seen_at(20, 20, 1), seen_at(50, 50, 2), seen_at(5, 5, 0), seen_at(6, 6, 3)});
   CHECK(anchors.unseen({}, camera_at(0), kWhole, kAll).size() == 2);
@@ -66,7 +67,7 @@ TEST_CASE("anchors out of view, of another region or of nothing are not sought")
   CHECK(sought[0].x == Approx(20).margin(1e-4));
 }
 
-TEST_CASE("a sample whose colour depends on the eye is no anchor, but its primitive is met") {
+TEST_CASE("anchors: an eye-dependent sample is no anchor, but its primitive counts as seen") {
   PrimitiveAnchors anchors(1);
   Sample shining = seen_at(20, 20, 1);
   shining.ray.eye_dependent = true;
@@ -79,7 +80,7 @@ TEST_CASE("a sample whose colour depends on the eye is no anchor, but its primit
   CHECK(anchors.unseen(std::vector{shining}, camera_at(0), kWhole, kAll).empty());
 }
 
-TEST_CASE("what is not seen any more is sought in four frames, and not at all once everything is forgotten") {
+TEST_CASE("anchors: a primitive out of sight keeps its anchor for four frames, and none after clear()") {
   PrimitiveAnchors anchors(2);
   const std::vector both = {seen_at(20, 20, 1), seen_at(30, 30, 2)}, one = {seen_at(31, 30, 2)};
   anchors.note(both);

@@ -37,7 +37,7 @@ const Picture kLinear = [](double x, double y) {
 
 }  // namespace
 
-TEST_CASE("a linear picture is reconstructed to rounding, a constant exactly") {
+TEST_CASE("reconstruction: a linear picture is exact to rounding, a constant to the bit") {
   const RegionPixels pixels = rebuild(refine(Region::whole(kGrid), kLinear, 0));
   for (int y = 0; y < kGrid.height; ++y) {
     for (int x = 0; x < kGrid.width; ++x) {
@@ -49,7 +49,7 @@ TEST_CASE("a linear picture is reconstructed to rounding, a constant exactly") {
   }
 }
 
-TEST_CASE("every pixel is covered, slivers and points on pixel centres included") {
+TEST_CASE("reconstruction: every pixel is covered, with slivers and with samples on pixel centres") {
   // Samples on the centres and corners of pixels: the worst case for edges through centres.
   SampleMesh mesh(Region::whole(kGrid));
   const Picture one = [](double, double) { return Color(1, 1, 1); };
@@ -61,7 +61,8 @@ TEST_CASE("every pixel is covered, slivers and points on pixel centres included"
   for (const Color& c : pixels.colors) CHECK(c == Color(1, 1, 1));
 }
 
-TEST_CASE("a constant stays exactly constant by every rule, however crowded its pixels") {
+TEST_CASE(
+    "reconstruction: a constant picture stays constant to the bit by every rule, in crowded pixels too") {
   const Picture odd = [](double, double) { return Color(0.1f, 0.7f, 1.3f); };
   SampleMesh mesh = refine(Region::whole(kGrid), odd, 300);
   std::mt19937 random(8);
@@ -72,7 +73,7 @@ TEST_CASE("a constant stays exactly constant by every rule, however crowded its 
   }
 }
 
-TEST_CASE("a linear picture is linear by area as well") {
+TEST_CASE("reconstruction: a linear picture is exact to rounding by area as well") {
   SampleMesh mesh = refine(Region::whole(kGrid), kLinear, 20000);
   REQUIRE(mesh.samples().size() > mesh.region().pixel_count());
   const RegionPixels pixels = rebuild(mesh);
@@ -85,7 +86,7 @@ TEST_CASE("a linear picture is linear by area as well") {
   }
 }
 
-TEST_CASE("a pixel that holds several samples shows the interpolation's mean over its area") {
+TEST_CASE("reconstruction: a pixel with several samples shows the interpolation's mean over its area") {
   // Columns of samples, so that the picture depends on x alone; two of them lie in every pixel.
   std::vector<std::pair<double, double>> columns;
   for (int i = 0; i <= 200; ++i) columns.emplace_back(0.5 * i, (i * 7919 % 101) / 100.0);
@@ -107,7 +108,7 @@ TEST_CASE("a pixel that holds several samples shows the interpolation's mean ove
   CHECK(std::abs(center.at(50, 30).x - mean_between(columns, 50, 51)) > 0.01);
 }
 
-TEST_CASE("a pixel that holds one sample shows the interpolation at its centre by every rule") {
+TEST_CASE("reconstruction: a pixel with one sample shows the interpolation at its centre by every rule") {
   SampleMesh mesh = refine(
       Region::whole(kGrid), [](double, double) { return Color(0, 0, 0); }, 0);
   mesh.insert(sample_of([](double, double) { return Color(1, 1, 1); }, 40.1, 20.2));
@@ -117,7 +118,7 @@ TEST_CASE("a pixel that holds one sample shows the interpolation at its centre b
     CHECK(rebuild(mesh, rule).at(40, 20).x == center);
 }
 
-TEST_CASE("a pixel with several samples shows their average by the paper's rule") {
+TEST_CASE("reconstruction: a pixel with several samples shows their mean by the paper's rule") {
   SampleMesh mesh = refine(
       Region::whole(kGrid), [](double, double) { return Color(0, 0, 0); }, 0);
   const auto add = [&](double x, double y, float v) {
@@ -131,7 +132,7 @@ TEST_CASE("a pixel with several samples shows their average by the paper's rule"
   CHECK(pixels.at(60, 50).x == 0.0f);
 }
 
-TEST_CASE("regions reconstruct the same pixels as the whole") {
+TEST_CASE("reconstruction: a region has the same pixels as the whole image") {
   const SampleMesh whole = refine(Region::whole(kGrid), disc(kGrid), 800);
   std::vector<std::uint8_t> owned(static_cast<std::size_t>(kGrid.tile_count()), 0);
   for (int tile : {9, 10, 16, 17, 18}) owned[static_cast<std::size_t>(tile)] = 1;
@@ -156,7 +157,7 @@ TEST_CASE("regions reconstruct the same pixels as the whole") {
   CHECK(largest_difference(PixelRule::kArea) < 1e-6f);  // triangles add up in another order
 }
 
-TEST_CASE("the picture comes nearer to the truth with more samples, and by area nearest") {
+TEST_CASE("reconstruction: more samples reduce the error, and the rule by area has the smallest") {
   const auto truth = [](int x, int y) {  // the mean over the pixel
     constexpr int kSide = 16;
     double sum = 0;

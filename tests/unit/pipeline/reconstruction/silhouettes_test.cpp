@@ -109,7 +109,7 @@ float largest_difference(const RegionPixels& a, const RegionPixels& b) {
 
 }  // namespace
 
-TEST_CASE("where primitives are known their edges are where they belong") {
+TEST_CASE("silhouettes: edges of known primitives are drawn where they are") {
   for (const int refinements : {80, 250, 600, 1500}) {  // in triangles larger than pixels, and smaller
     const SampleMesh mesh = mesh_of(refinements);
     const double area = error_of(rebuild(mesh, PixelRule::kArea));
@@ -126,7 +126,7 @@ TEST_CASE("where primitives are known their edges are where they belong") {
   }
 }
 
-TEST_CASE("what is wholly on a primitive of a large triangle's corners has three quarters of their colour") {
+TEST_CASE("silhouettes: a pixel wholly on a corner's primitive has three quarters of that corner's colour") {
   const SampleMesh mesh = mesh_of(20);
   const auto of_all = triangles(mesh);
   const std::vector<std::uint32_t> triangle = triangle_at_centers(mesh, mesh.region().bounds());
@@ -160,7 +160,7 @@ TEST_CASE("what is wholly on a primitive of a large triangle's corners has three
   CHECK(largest < 1e-5f);
 }
 
-TEST_CASE("of how many facets a shape is made changes no picture") {
+TEST_CASE("silhouettes: cutting a shape into more facets changes no picture") {
   // As above, but cut into strips narrower than a pixel.
   const auto in_strips = [](std::uint32_t primitive, ImageShape& shape) {
     view(primitive, shape);
@@ -182,7 +182,7 @@ TEST_CASE("of how many facets a shape is made changes no picture") {
   }
 }
 
-TEST_CASE("where no primitive is known, or all samples are of one, edges change nothing") {
+TEST_CASE("silhouettes: unknown primitives, or one for all samples, change nothing") {
   const SampleMesh mesh = mesh_of(800);
   const RegionPixels area = rebuild(mesh, PixelRule::kArea);
   const auto nobody_knows = [](std::uint32_t, ImageShape& shape) { shape.kind = ImageShape::Kind::kUnknown; };
@@ -200,7 +200,7 @@ TEST_CASE("where no primitive is known, or all samples are of one, edges change 
   CHECK(largest_difference(rebuild(mesh, PixelRule::kEdges), area) > 0.1f);
 }
 
-TEST_CASE("no pixel is left out between edges, thin triangles through centres included") {
+TEST_CASE("silhouettes: no pixel is left out between edges, not even by thin triangles through centres") {
   SampleMesh mesh(Region::whole(kGrid));
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> unit(0, 1);
@@ -223,7 +223,7 @@ TEST_CASE("no pixel is left out between edges, thin triangles through centres in
   CHECK(greatest->x < 1 + 1e-4f);
 }
 
-TEST_CASE("a part of the image shows the same edges") {
+TEST_CASE("silhouettes: a region shows the same edges as the whole image") {
   const int refinements = GENERATE(80, 1500);  // in triangles larger than pixels, and smaller
   const SampleMesh whole = mesh_of(refinements);
   std::vector<std::uint8_t> owned(static_cast<std::size_t>(kGrid.tile_count()), 0);
@@ -242,7 +242,7 @@ TEST_CASE("a part of the image shows the same edges") {
   CHECK(largest < 1e-5f);  // triangles add up in another order
 }
 
-TEST_CASE("shapes are asked for once until the eye moves") {
+TEST_CASE("projected shapes: each is computed once until the eye moves") {
   int asked = 0;
   ProjectedShapeCache viewed([&](std::uint32_t, ImageShape& shape) {
     ++asked;
@@ -258,7 +258,7 @@ TEST_CASE("shapes are asked for once until the eye moves") {
   CHECK(asked == 3);
 }
 
-TEST_CASE("a primitive that nobody knows is of unknown shape, whatever its number") {
+TEST_CASE("projected shapes: an unknown primitive of any number has an unknown shape, and takes no storage") {
   int asked = 0;
   ProjectedShapeCache viewed([&](std::uint32_t primitive, ImageShape& shape) {
     ++asked;
@@ -275,7 +275,7 @@ TEST_CASE("a primitive that nobody knows is of unknown shape, whatever its numbe
   CHECK(asked == 3);
 }
 
-TEST_CASE("of a shape's facets those are visited that a rectangle meets") {
+TEST_CASE("projected shapes: the facets whose bounds meet a rectangle are visited") {
   ProjectedShapeCache viewed([&](std::uint32_t primitive, ImageShape& shape) {
     shape.kind = ImageShape::Kind::kFacets;
     shape.facets.clear();
@@ -299,7 +299,7 @@ TEST_CASE("of a shape's facets those are visited that a rectangle meets") {
   CHECK(visited(few, {4, 1, 50, 12}).empty());
 }
 
-TEST_CASE("far from where a shape was met its outline is in place") {
+TEST_CASE("projected shapes: an outline far from the shape's origin is in place") {
   constexpr double kRadius = 1400, kCenter = 1500;
   const double scale = 1 / (kRadius * kRadius);  // as the forms of a sphere are of the size of 1
   ImageQuadric disc;

@@ -85,7 +85,7 @@ std::vector<Vec2d> fan_points() {
 
 }  // namespace
 
-TEST_CASE("the triangulation is CGAL's, whatever the points and their order") {
+TEST_CASE("delaunay: the triangles are CGAL's, whatever the points and their order") {
   std::mt19937 random(3);
   const auto seed = GENERATE(range(0, 5));
   random.seed(static_cast<unsigned>(seed));
@@ -102,7 +102,7 @@ TEST_CASE("the triangulation is CGAL's, whatever the points and their order") {
   }
 }
 
-TEST_CASE("the triangulation holds after every single insertion") {
+TEST_CASE("delaunay: the triangles are CGAL's after every single insertion") {
   std::mt19937 random(11);
   std::vector<Vec2d> points = grid_points(6);
   for (const Vec2d& p : random_points(random, 40)) points.push_back(p / 20.0);
@@ -115,12 +115,12 @@ TEST_CASE("the triangulation holds after every single insertion") {
   }
 }
 
-TEST_CASE("what a circle tells of a point is what exact arithmetic does") {
+TEST_CASE("delaunay: a circle and a point are judged as in exact arithmetic, unless rounding might decide") {
   std::mt19937 random(17);
   std::uniform_real_distribution<double> angle(0, 6.283185307179586), share(0, 1);
   std::vector<Vec2d> far_off = random_points(random, 400);
   for (Vec2d& p : far_off) p = p * 1e-3 + Vec2d(32000, 31000);
-  int told = 0, asked = 0;
+  int decided = 0, tried = 0;
   for (const auto& points :
        {random_points(random, 400), grid_points(16), circle_points(), fan_points(), far_off}) {
     const Delaunay delaunay = triangulation(points);
@@ -136,14 +136,14 @@ TEST_CASE("what a circle tells of a point is what exact arithmetic does") {
         const int side = side_of_circle(t.circle, p - corner(2));
         const int exact = exact_in_circle(corner(0), corner(1), corner(2), p);
         if (side != 0) REQUIRE(side == exact);
-        if (away != 1) told += side != 0, ++asked;
+        if (away != 1) decided += side != 0, ++tried;
       }
     }
   }
-  CHECK(told > 0.9 * asked);
+  CHECK(decided > 0.9 * tried);
 }
 
-TEST_CASE("points on a line wait for the first beside it") {
+TEST_CASE("delaunay: points on a line make no triangle until one lies off the line") {
   Delaunay delaunay;
   for (const double x : {3.0, 1.0, 2.0, 9.0, 4.0}) CHECK(insert(delaunay, {x, 2 * x}));
   CHECK_FALSE(insert(delaunay, {9, 18}));
@@ -158,7 +158,7 @@ TEST_CASE("points on a line wait for the first beside it") {
   CHECK(delaunay.points().empty());
 }
 
-TEST_CASE("what an insertion makes are the triangles around the point") {
+TEST_CASE("delaunay: new triangles are exactly those around the inserted point") {
   std::mt19937 random(5);
   Delaunay delaunay = triangulation(random_points(random, 300));
   for (const Vec2d& p : random_points(random, 300)) {
@@ -177,7 +177,7 @@ TEST_CASE("what an insertion makes are the triangles around the point") {
   }
 }
 
-TEST_CASE("a known triangle is where an insertion may begin only if its circle strictly holds the point") {
+TEST_CASE("delaunay: surely_holds() accepts only a circle that strictly holds the point") {
   const Delaunay delaunay = triangulation({{0, 0}, {4, 0}, {0, 4}, {10, 10}});
   for (Delaunay::Index t = 0; t < delaunay.triangles().size(); ++t) {
     const auto& corners = delaunay.triangles()[t].corners;
@@ -191,7 +191,7 @@ TEST_CASE("a known triangle is where an insertion may begin only if its circle s
   CHECK_FALSE(delaunay.surely_holds(0, {4, 4}));  // on the circle of the first three
 }
 
-TEST_CASE("predicates are exact where rounding would decide") {
+TEST_CASE("delaunay: predicates are exact where rounding would decide") {
   // An orientation below half a unit in the last place, as in Kettner et al. (2008).
   const double ulp = std::ldexp(1.0, -53);
   int wrong = 0, left = 0;

@@ -18,13 +18,13 @@ namespace {
 constexpr Bin kOne = 1, kOther = 2;
 
 // As many samples of one ray each, whose triangles had an area and a weight of 1.
-void learn(LearnedWeights& errors, Bin kind, float squared_error, int samples, std::uint32_t rays = 1) {
-  for (int i = 0; i < samples; ++i) errors.learn(kind, 1, squared_error, 1, rays);
+void learn(LearnedWeights& errors, Bin bin, float squared_error, int samples, std::uint32_t rays = 1) {
+  for (int i = 0; i < samples; ++i) errors.learn(bin, 1, squared_error, 1, rays);
 }
 
 }  // namespace
 
-TEST_CASE("a trait keeps octaves of error and rays apart") {
+TEST_CASE("learned weights: a feature keeps the octaves of error and rays apart") {
   CHECK(feature_of(0, 1) == 0);
   CHECK(feature_of(0x1p-15F, 1) == 0);
   CHECK(feature_of(0x1p-14F, 1) == 1);
@@ -35,43 +35,44 @@ TEST_CASE("a trait keeps octaves of error and rays apart") {
   CHECK(3 * (kErrorOctaves - 1) < kPerRayOctave);
 }
 
-TEST_CASE("kinds of four triangles are those of one after the other, and no two alike are of two kinds") {
+TEST_CASE(
+    "learned weights: bins of four triangles are those of one at a time, whatever the order of corners") {
   std::mt19937 random(1);
   std::set<Bin> seen;
   for (int i = 0; i < 20000; ++i) {
-    std::array<std::int32_t, kLanes> a{}, b{}, c{}, traits{};
+    std::array<std::int32_t, kLanes> a{}, b{}, c{}, features{};
     std::array<float, kLanes> variance{};
     for (std::size_t k = 0; k < kLanes; ++k) {
       a[k] = static_cast<int>(random() % 3), b[k] = static_cast<int>(random() % 3);
       c[k] = static_cast<int>(random() % 3);
       variance[k] = random() % 8 == 0 ? 0 : std::exp2(-static_cast<float>(random() % 1000) / 50) * 2 / 9;
       for (int corner = 0; corner < 3; ++corner)
-        traits[k] += feature_of(std::exp2(-static_cast<float>(random() % 20)), 1U << random() % 6);
+        features[k] += feature_of(std::exp2(-static_cast<float>(random() % 20)), 1U << random() % 6);
     }
-    std::array<Bin, kLanes> kinds{};
+    std::array<Bin, kLanes> bins{};
     const auto lanes = [](const std::array<std::int32_t, kLanes>& v) { return load<int4>(v.data()); };
-    store(bin_of(lanes(a), lanes(b), lanes(c), load<float4>(variance.data()), lanes(traits)), kinds.data());
+    store(bin_of(lanes(a), lanes(b), lanes(c), load<float4>(variance.data()), lanes(features)), bins.data());
     for (std::size_t k = 0; k < kLanes; ++k) {
-      REQUIRE(kinds[k] < kBins);
-      REQUIRE(static_cast<std::int32_t>(kinds[k]) == bin_of(a[k], b[k], c[k], variance[k], traits[k]));
-      REQUIRE(static_cast<std::int32_t>(kinds[k]) == bin_of(c[k], a[k], b[k], variance[k], traits[k]));
-      seen.insert(kinds[k]);
+      REQUIRE(bins[k] < kBins);
+      REQUIRE(static_cast<std::int32_t>(bins[k]) == bin_of(a[k], b[k], c[k], variance[k], features[k]));
+      REQUIRE(static_cast<std::int32_t>(bins[k]) == bin_of(c[k], a[k], b[k], variance[k], features[k]));
+      seen.insert(bins[k]);
     }
   }
   CHECK(seen.size() > 500);
 }
 
-TEST_CASE("the number of primitives, the variance, the errors and the rays each make another kind") {
-  const Bin kind = static_cast<Bin>(bin_of(1, 1, 1, 0.01F, 20));
-  CHECK(static_cast<Bin>(bin_of(7, 7, 7, 0.01F, 20)) == kind);
-  std::set<Bin> kinds = {kind};
+TEST_CASE("learned weights: primitives, variance, errors and rays each change the bin") {
+  const Bin bin = static_cast<Bin>(bin_of(1, 1, 1, 0.01F, 20));
+  CHECK(static_cast<Bin>(bin_of(7, 7, 7, 0.01F, 20)) == bin);
+  std::set<Bin> bins = {bin};
   for (const auto& other : {bin_of(1, 2, 1, 0.01F, 20), bin_of(1, 2, 3, 0.01F, 20), bin_of(1, 1, 1, 0.1F, 20),
                             bin_of(1, 1, 1, 0.01F, 30), bin_of(1, 1, 1, 0.01F, 20 + 2 * kPerRayOctave)})
-    kinds.insert(static_cast<Bin>(other));
-  CHECK(kinds.size() == 6);
+    bins.insert(static_cast<Bin>(other));
+  CHECK(bins.size() == 6);
 }
 
-TEST_CASE("a kind that proves more wrong than its weights said counts more, and one that is dearer less") {
+TEST_CASE("learned weights: a bin with larger errors than predicted counts more, one with more rays less") {
   LearnedWeights errors, by_rays;
   for (int i = 0; i < 2000; ++i) {
     learn(errors, kOne, 0.16F, 1), learn(errors, kOther, 0.01F, 1);
@@ -85,7 +86,7 @@ TEST_CASE("a kind that proves more wrong than its weights said counts more, and 
   CHECK(by_time == Approx(std::pow((12 + 2.5) / (1 + 2.5), 0.75)).epsilon(0.05));
 }
 
-TEST_CASE("what is learned is uncertain at first, follows what comes, and stays within bounds") {
+TEST_CASE("learned weights: corrections are cautious at first, follow the samples, and stay within bounds") {
   LearnedWeights errors;
   const float expected = errors.correction(kOne);
   learn(errors, kOther, 0.01F, 1000);
@@ -99,10 +100,10 @@ TEST_CASE("what is learned is uncertain at first, follows what comes, and stays 
 
   for (const float error : {0.0F, 1.0F}) {
     learn(errors, kOne, error, 100'000);
-    for (const Bin kind : {kOne, kOther}) {
-      CHECK(std::isfinite(errors.correction(kind)));
-      CHECK(errors.correction(kind) >= 1.0F / 32);
-      CHECK(errors.correction(kind) <= 32);
+    for (const Bin bin : {kOne, kOther}) {
+      CHECK(std::isfinite(errors.correction(bin)));
+      CHECK(errors.correction(bin) >= 1.0F / 32);
+      CHECK(errors.correction(bin) <= 32);
     }
   }
   const float before = errors.correction(kOne);
@@ -114,7 +115,7 @@ TEST_CASE("what is learned is uncertain at first, follows what comes, and stays 
   CHECK(right.correction(kOne) == unknown);
 }
 
-TEST_CASE("a mesh forgets what it has learned with clear(), and not with restart()") {
+TEST_CASE("learned weights: a mesh forgets them with clear(), and keeps them with restart()") {
   const TileGrid grid{128, 96, 32};
   const auto points_after = [&](const auto& begin) {
     SampleMesh mesh = refine(Region::whole(grid), disc(grid), 1500);
@@ -140,7 +141,9 @@ TEST_CASE("a mesh forgets what it has learned with clear(), and not with restart
 
 // On the left stripes of a primitive each, so that samples are foreseen wherever their stripe has one; on the
 // right specks that nobody foresees, of less contrast.
-TEST_CASE("samples go where the picture proves wrong, and nowhere else if nothing can be learned") {
+TEST_CASE(
+    "learned weights: samples go where the picture proves wrong, and nowhere else if nothing can be "
+    "learned") {
   const TileGrid grid{256, 256, 32};
   const auto sample_at = [](const Vec2d& p, bool has_primitives) {
     Sample sample;

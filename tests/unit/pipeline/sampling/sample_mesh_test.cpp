@@ -46,7 +46,7 @@ const TileGrid kGrid{128, 96, 16};
 
 }  // namespace
 
-TEST_CASE("the mesh stays Delaunay and covers the image exactly") {
+TEST_CASE("sample mesh: it stays Delaunay and covers the image exactly") {
   const SampleMesh mesh = refine(Region::whole(kGrid), disc(kGrid), 600);
   REQUIRE(mesh.samples().size() > 600);
   CHECK(deepest_intrusion(mesh) < 1e-6);
@@ -56,7 +56,7 @@ TEST_CASE("the mesh stays Delaunay and covers the image exactly") {
   }
 }
 
-TEST_CASE("samples gather at an edge of the picture") {
+TEST_CASE("sample mesh: samples gather at an edge of the picture") {
   const SampleMesh mesh = refine(Region::whole(kGrid), disc(kGrid), 1500);
   int near_edge = 0, in_flat = 0;
   for (const Sample& s : mesh.samples()) {
@@ -68,7 +68,7 @@ TEST_CASE("samples gather at an edge of the picture") {
   CHECK(near_edge / edge_area > 5 * in_flat / flat_area);
 }
 
-TEST_CASE("a flat picture is refined evenly, borders like the inside") {
+TEST_CASE("sample mesh: a flat picture is refined evenly, at borders as inside") {
   const auto flat = [](double, double) { return Color(0.5f, 0.5f, 0.5f); };
   const SampleMesh mesh = refine(Region::whole(kGrid), flat, 3000);
   double border = 0, inside = 0;
@@ -81,7 +81,7 @@ TEST_CASE("a flat picture is refined evenly, borders like the inside") {
   CHECK(border / border_area == Approx(inside / inside_area).epsilon(0.2));
 }
 
-TEST_CASE("border samples lie exactly on the border") {
+TEST_CASE("sample mesh: border samples lie exactly on the border") {
   const SampleMesh mesh = refine(Region::whole(kGrid), disc(kGrid), 2000);
   int on_border = 0;
   for (const Sample& s : mesh.samples()) {
@@ -94,7 +94,7 @@ TEST_CASE("border samples lie exactly on the border") {
   CHECK(on_border > 30);
 }
 
-TEST_CASE("only the region's own points are wanted") {
+TEST_CASE("sample mesh: only points of the own region are wanted") {
   std::vector<std::uint8_t> owned(static_cast<std::size_t>(kGrid.tile_count()), 0);
   for (int tile = 0; tile < kGrid.tile_count(); ++tile) owned[static_cast<std::size_t>(tile)] = tile % 8 < 4;
   const Region left(kGrid, owned);
@@ -107,7 +107,7 @@ TEST_CASE("only the region's own points are wanted") {
   }
 }
 
-TEST_CASE("running statistics equal a fresh count") {
+TEST_CASE("sample mesh: running statistics equal a fresh count") {
   SampleMesh mesh = refine(Region::whole(kGrid), disc(kGrid), 2000);
   const std::vector<TileWeights> running(mesh.tile_weights().begin(), mesh.tile_weights().end());
   const double quality = mesh.refinement();
@@ -122,7 +122,7 @@ TEST_CASE("running statistics equal a fresh count") {
   CHECK(quality == Approx(mesh.refinement()).epsilon(1e-6));
 }
 
-TEST_CASE("refinement falls as samples come") {
+TEST_CASE("sample mesh: the mean weight falls as samples come") {
   const SampleMesh few = refine(Region::whole(kGrid), disc(kGrid), 200);
   const SampleMesh many = refine(Region::whole(kGrid), disc(kGrid), 2000);
   CHECK(many.refinement() < 0.25 * few.refinement());
@@ -141,12 +141,12 @@ float heaviest_weights(const SampleMesh& mesh) {
   return std::accumulate(weights.begin(), weights.begin() + few, 0.0F) / static_cast<float>(few);
 }
 
-using Tell = std::function<void(SampleMesh&, std::size_t wanted)>;
+using Hint = std::function<void(SampleMesh&, std::size_t wanted)>;
 
-SampleMesh refine_told(const Tell& tell, std::size_t wanted, bool learned) {
+SampleMesh refine_with(const Hint& hint, std::size_t wanted, bool learned) {
   SampleMesh mesh = refine(Region::whole(kGrid), disc(kGrid), 100, 1, {.learned = learned});
   while (mesh.samples().size() < wanted) {
-    tell(mesh, wanted);
+    hint(mesh, wanted);
     const auto next = mesh.next_point();
     REQUIRE(next);
     mesh.insert(sample_of(disc(kGrid), next->point.x, next->point.y));
@@ -154,17 +154,17 @@ SampleMesh refine_told(const Tell& tell, std::size_t wanted, bool learned) {
   return mesh;
 }
 
-TEST_CASE("whoever tells how many samples there will be gets nearly as fine a pattern, by shorter ways") {
+TEST_CASE("sample mesh: expected growth gives nearly as fine a pattern, by shorter ways") {
   struct Pattern {
     float coarse = 0;
     double way = 0;
   };
   const bool learned = GENERATE(false, true);
   // Over several ends: where in an octave refinement ends is chance.
-  const auto pattern = [&](const Tell& tell) {
+  const auto pattern = [&](const Hint& hint) {
     Pattern sum;
     for (const std::size_t wanted : {1500, 1700, 2000, 2300, 2600, 3000}) {
-      const SampleMesh mesh = refine_told(tell, wanted, learned);
+      const SampleMesh mesh = refine_with(hint, wanted, learned);
       sum.coarse += heaviest_weights(mesh);
       for (std::size_t i = wanted / 2; i < wanted; ++i) {
         const Sample &a = mesh.samples()[i - 1], &b = mesh.samples()[i];
@@ -174,17 +174,17 @@ TEST_CASE("whoever tells how many samples there will be gets nearly as fine a pa
     return sum;
   };
   const Pattern heaviest_first = pattern([](SampleMesh&, std::size_t) {});
-  const Pattern told = pattern([](SampleMesh& mesh, std::size_t wanted) {
+  const Pattern hinted = pattern([](SampleMesh& mesh, std::size_t wanted) {
     mesh.expect_growth(static_cast<double>(wanted) / static_cast<double>(mesh.samples().size()));
   });
-  const Pattern told_wrongly = pattern([](SampleMesh& mesh, std::size_t) { mesh.expect_growth(1e6); });
-  CHECK(told.way < 0.9 * heaviest_first.way);
-  CHECK(told.coarse < 1.1F * heaviest_first.coarse);
+  const Pattern hinted_wrongly = pattern([](SampleMesh& mesh, std::size_t) { mesh.expect_growth(1e6); });
+  CHECK(hinted.way < 0.9 * heaviest_first.way);
+  CHECK(hinted.coarse < 1.1F * heaviest_first.coarse);
   // The heaviest by the paper's weights are not those by what is learned.
-  if (!learned) CHECK(told_wrongly.coarse > 1.15F * heaviest_first.coarse);
+  if (!learned) CHECK(hinted_wrongly.coarse > 1.15F * heaviest_first.coarse);
 }
 
-TEST_CASE("a taken point and one outside the image are refused") {
+TEST_CASE("sample mesh: a taken point and one outside the image are refused") {
   SampleMesh mesh = refine(Region::whole(kGrid), disc(kGrid), 10);
   const std::size_t before = mesh.samples().size();
   const Sample first = mesh.samples()[5];
@@ -195,24 +195,24 @@ TEST_CASE("a taken point and one outside the image are refused") {
   CHECK(mesh.samples().size() == before);
 }
 
-TEST_CASE("new triangles at the border are told once, while they stand") {
+TEST_CASE("sample mesh: new triangles at the border are reported once, while they exist") {
   // The left half of the image.
   std::vector<std::uint8_t> owned(static_cast<std::size_t>(kGrid.tile_count()), 0);
   for (int tile = 0; tile < kGrid.tile_count(); ++tile) {
     owned[static_cast<std::size_t>(tile)] = kGrid.pixels(tile).x0 < kGrid.width / 2;
   }
   SampleMesh mesh = refine(Region(kGrid, owned), disc(kGrid), 300);
-  std::vector<BorderTriangle> told;
-  mesh.take_new_at_border(told);
-  std::set<std::array<std::uint32_t, 3>> standing, told_once;
+  std::vector<BorderTriangle> reported;
+  mesh.take_new_at_border(reported);
+  std::set<std::array<std::uint32_t, 3>> standing, reported_once;
   const auto in_order = [](std::array<std::uint32_t, 3> t) {
     std::sort(t.begin(), t.end());
     return t;
   };
   for (const auto& t : triangles(mesh)) standing.insert(in_order(t));
-  for (const BorderTriangle& t : told) {
+  for (const BorderTriangle& t : reported) {
     CHECK(standing.count(in_order(t.corners)) == 1);
-    CHECK(told_once.insert(in_order(t.corners)).second);
+    CHECK(reported_once.insert(in_order(t.corners)).second);
     for (std::size_t i = 0; i < 3; ++i) {
       const Sample& corner = mesh.samples()[t.corners[i]];
       CHECK(t.own[i] == mesh.region().owns_point(corner.x, corner.y));
@@ -222,39 +222,39 @@ TEST_CASE("new triangles at the border are told once, while they stand") {
   for (const auto& t : triangles(mesh)) {
     const auto x = [&](std::size_t i) { return mesh.samples()[t[i]].x; };
     const double left = std::min({x(0), x(1), x(2)}), right = std::max({x(0), x(1), x(2)});
-    if (left < kGrid.width / 2 && right > kGrid.width / 2) CHECK(told_once.count(in_order(t)) == 1);
+    if (left < kGrid.width / 2 && right > kGrid.width / 2) CHECK(reported_once.count(in_order(t)) == 1);
   }
-  CHECK(told.size() < standing.size());
-  mesh.take_new_at_border(told);
-  CHECK(told.empty());
+  CHECK(reported.size() < standing.size());
+  mesh.take_new_at_border(reported);
+  CHECK(reported.empty());
 }
 
-TEST_CASE("a region that is the whole image has no border: not even where circles reach beyond the image") {
+TEST_CASE("sample mesh: a region that is the whole image has no border, even where circles leave the image") {
   SampleMesh mesh = refine(Region::whole(kGrid), disc(kGrid), 300);
-  std::vector<BorderTriangle> told;
-  mesh.take_new_at_border(told);
-  CHECK(told.empty());
+  std::vector<BorderTriangle> reported;
+  mesh.take_new_at_border(reported);
+  CHECK(reported.empty());
 }
 
-TEST_CASE("new triangles of others' samples alone are told only when asked for") {
+TEST_CASE("sample mesh: new triangles of other ranks' samples alone are reported only on request") {
   std::vector<std::uint8_t> owned(static_cast<std::size_t>(kGrid.tile_count()), 0);
   owned[0] = 1;
-  const auto told_of_others = [&](bool ask) {
+  const auto reported_of_others = [&](bool ask) {
     SampleMesh mesh{Region(kGrid, owned)};
     if (ask) mesh.note_foreign();
     for (const Vec2d& p : seed_points(kGrid.width, kGrid.height, 1))
       mesh.insert(sample_of(disc(kGrid), p.x, p.y));
-    std::vector<BorderTriangle> told;
-    mesh.take_new_at_border(told);
-    CHECK(told.size() > 0);
-    return std::count_if(told.begin(), told.end(),
+    std::vector<BorderTriangle> reported;
+    mesh.take_new_at_border(reported);
+    CHECK(reported.size() > 0);
+    return std::count_if(reported.begin(), reported.end(),
                          [](const BorderTriangle& t) { return !t.own[0] && !t.own[1] && !t.own[2]; });
   };
-  CHECK(told_of_others(false) == 0);
-  CHECK(told_of_others(true) > 0);
+  CHECK(reported_of_others(false) == 0);
+  CHECK(reported_of_others(true) > 0);
 }
 
-TEST_CASE("many samples at once make the mesh that they make one by one") {
+TEST_CASE("sample mesh: samples inserted all at once make the mesh that they make one by one") {
   std::vector<std::uint8_t> owned(static_cast<std::size_t>(kGrid.tile_count()), 0);
   for (int tile = 0; tile < kGrid.tile_count(); tile += 2) owned[static_cast<std::size_t>(tile)] = 1;
   const Region region(kGrid, owned);
@@ -264,17 +264,17 @@ TEST_CASE("many samples at once make the mesh that they make one by one") {
     return t;
   };
   struct Result {
-    std::set<std::array<std::uint32_t, 3>> triangles, told;
+    std::set<std::array<std::uint32_t, 3>> triangles, reported;
     std::vector<TileWeights> weights;
     double refinement;
     std::set<std::pair<double, double>> wanted;
   };
   const auto result_of = [&](bool at_once) {
     SampleMesh mesh(region);
-    std::vector<BorderTriangle> told;
+    std::vector<BorderTriangle> reported;
     std::size_t i = 0;
     for (; i < 100; ++i) mesh.insert(before.samples()[i]);
-    mesh.take_new_at_border(told);
+    mesh.take_new_at_border(reported);
     const std::span<const Sample> others = before.samples().subspan(i);
     if (at_once) {
       mesh.insert_all(others);
@@ -283,8 +283,8 @@ TEST_CASE("many samples at once make the mesh that they make one by one") {
     }
     Result result;
     for (const auto& t : triangles(mesh)) result.triangles.insert(in_order(t));
-    mesh.take_new_at_border(told);
-    for (const BorderTriangle& t : told) result.told.insert(in_order(t.corners));
+    mesh.take_new_at_border(reported);
+    for (const BorderTriangle& t : reported) result.reported.insert(in_order(t.corners));
     result.weights.assign(mesh.tile_weights().begin(), mesh.tile_weights().end());
     result.refinement = mesh.refinement();
     while (const auto next = mesh.next_point()) result.wanted.insert({next->point.x, next->point.y});
@@ -292,7 +292,7 @@ TEST_CASE("many samples at once make the mesh that they make one by one") {
   };
   const Result singly = result_of(false), at_once = result_of(true);
   CHECK(at_once.triangles == singly.triangles);
-  CHECK(at_once.told == singly.told);
+  CHECK(at_once.reported == singly.reported);
   CHECK(at_once.wanted == singly.wanted);
   CHECK(singly.wanted.size() > 100);
   CHECK(at_once.refinement == Approx(singly.refinement));
@@ -302,7 +302,7 @@ TEST_CASE("many samples at once make the mesh that they make one by one") {
   }
 }
 
-TEST_CASE("what is shown beside an edge is the colour of the same primitive's corners") {
+TEST_CASE("sample mesh: a guess beside an edge has the colour of the same primitive's corners") {
   // A triangle of corners on the primitives 1, 2, 2, whose circumcentre is wanted.
   const auto guess = [](std::uint32_t primitive, bool edges = true) {
     SampleMesh mesh(Region::whole({64, 64, 32}), {.edges = edges});
@@ -324,7 +324,7 @@ TEST_CASE("what is shown beside an edge is the colour of the same primitive's co
   CHECK(guess(1, false) == Approx(0.6));
 }
 
-TEST_CASE("collinear and cocircular samples do no harm") {
+TEST_CASE("sample mesh: collinear and cocircular samples are handled") {
   SampleMesh mesh(Region::whole(kGrid));
   for (int x = 0; x <= 128; x += 8) mesh.insert(sample_of(disc(kGrid), x, 48));  // a line: no triangle yet
   CHECK_FALSE(mesh.next_point());
@@ -341,13 +341,13 @@ TEST_CASE("collinear and cocircular samples do no harm") {
   CHECK(deepest_intrusion(mesh) < 1e-6);
 }
 
-TEST_CASE("a sliver on the hull has a bounded weight") {
+TEST_CASE("refinement weight: a sliver on the hull has a bounded weight") {
   const TriangleShape sliver = triangle_shape({0, 0}, {100, 0}, {50, 1e-9});
   CHECK(refinement_weight(sliver, 0.1) < 100.0 * 100.0 * std::log(1.01 + 50) + 1);
   CHECK(std::isfinite(refinement_weight(triangle_shape({0, 0}, {1, 1}, {2, 2}), 0.1)));
 }
 
-TEST_CASE("weight follows the paper's formula above a pixel and variance alone below") {
+TEST_CASE("refinement weight: the paper's formula above a pixel, the variance alone below") {
   const TriangleShape right_angle = triangle_shape({0, 0}, {6, 0}, {0, 8});  // radius 5
   CHECK(refinement_weight(right_angle, 0.02) == Approx(25 * std::log(1.01 + 10)));
   const TriangleShape tiny = triangle_shape({0, 0}, {0.3, 0}, {0, 0.4});
@@ -355,7 +355,7 @@ TEST_CASE("weight follows the paper's formula above a pixel and variance alone b
   CHECK(refinement_weight(tiny, 0.02) == Approx(0.0625 * std::log(1 + 10)));
 }
 
-TEST_CASE("the logarithm of weights keeps to its bound, one or four at once") {
+TEST_CASE("refinement weight: the fast logarithm keeps to its bound, and four at once equal one at a time") {
   std::mt19937 random(23);
   std::uniform_real_distribution<float> variance(0, 1);
   CHECK(fast_logarithm(1.0f) == 0);
@@ -374,14 +374,14 @@ TEST_CASE("the logarithm of weights keeps to its bound, one or four at once") {
   CHECK(worst < 4e-7);
 }
 
-TEST_CASE("display variance clamps and averages channels") {
+TEST_CASE("refinement weight: the display variance clamps and averages channels") {
   const Color black(0, 0, 0), bright(9, 1, 0);
   CHECK(display_variance(black, black, black) == 0);
   // Red and green: (0, 0, 1) has variance 2/9; blue has none.
   CHECK(display_variance(black, black, bright) == Approx(2 * (2.0 / 9) / 3));
 }
 
-TEST_CASE("the bucket queue knows what it pops later") {
+TEST_CASE("bucket queue: ahead() gives the entry popped later from the same bucket") {
   BucketQueue<int> queue;
   CHECK_FALSE(queue.ahead(0));
   for (const int entry : {1, 2, 3}) queue.push(1, entry);
@@ -393,7 +393,7 @@ TEST_CASE("the bucket queue knows what it pops later") {
   CHECK(*queue.ahead(0) == 2);
 }
 
-TEST_CASE("the bucket queue pops within a sixteenth of the heaviest") {
+TEST_CASE("bucket queue: an entry popped is within a sixteenth of the heaviest") {
   std::mt19937 random(7);
   std::lognormal_distribution<float> weights(0, 4);
   BucketQueue<float> queue;
@@ -414,7 +414,7 @@ TEST_CASE("the bucket queue pops within a sixteenth of the heaviest") {
   CHECK_FALSE(queue.pop());
 }
 
-TEST_CASE("above its floor the bucket queue pops the newest of an octave, and nothing below before it") {
+TEST_CASE("bucket queue: above its floor the newest of an octave is popped, and nothing below before it") {
   BucketQueue<float> queue;
   queue.set_floor(5);
   CHECK(queue.level() == 0);
