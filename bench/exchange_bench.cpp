@@ -84,18 +84,18 @@ void exchange_samples(benchmark::State& state, Timed timed) {
       const auto began = Clock::now();
       announcing += began - before;
       for (const Sample& s : batch) {
-        if (mesh.insert(s)) exchange.inserted(kRank + 1);
+        exchange.insert(mesh, s, kRank + 1);
       }
       spent += Clock::now() - began;
       received += batch.size();
       batch.clear();
     };
     for (const Vec2d& p : {Vec2d(0, 0), Vec2d(kSize, 0), Vec2d(kSize, kSize), Vec2d(0, kSize)}) {
-      if (mesh.insert(sample_at(p.x, p.y))) exchange.inserted(kRank);
+      exchange.insert(mesh, sample_at(p.x, p.y), kRank);
     }
     for (const Sample& s : serial_samples()) {
       if (region.owns_point(s.x, s.y)) {
-        if (mesh.insert(s)) exchange.inserted(kRank);
+        exchange.insert(mesh, s, kRank);
       } else if (s.x > own.x0 - kReach && s.x < own.x1 + kReach && s.y > own.y0 - kReach &&
                  s.y < own.y1 + kReach) {
         batch.push_back(s);

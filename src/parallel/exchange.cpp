@@ -40,7 +40,7 @@ std::int32_t owner_at(const Partition& partition, int column, int row) {
                          static_cast<std::size_t>(column)];
 }
 
-// Ranks that are marked, ascending, `except` one.
+// Returns the ranks that are marked, ascending, without `except`.
 std::vector<int> members(std::span<const std::uint8_t> marked, int except) {
   std::vector<int> ranks;
   for (int r = 0; r < static_cast<int>(marked.size()); ++r) {
@@ -81,6 +81,20 @@ SampleExchange::SampleExchange(const Partition& partition, int rank, SeedPattern
 }
 
 void SampleExchange::repartition(SampleMesh& mesh, const Partition& partition) {
+  set_owners(mesh, partition);
+  mesh.set_region(region_of(partition_, rank_));
+}
+
+bool SampleExchange::transfer(SampleMesh& mesh, const Partition& partition) {
+  set_owners(mesh, partition);
+  Region own = region_of(partition_, rank_);
+  if (own.tiles() == mesh.region().tiles()) return false;
+  mesh.set_region(own);
+  return true;
+}
+
+// A new region makes all triangles look old: what is new is announced first.
+void SampleExchange::set_owners(SampleMesh& mesh, const Partition& partition) {
   announce_new(mesh);
   for (std::size_t tile = 0; tile < was_own_.size(); ++tile) {
     if (partition_.owner[tile] == rank_) was_own_[tile] = 1;
@@ -92,11 +106,11 @@ void SampleExchange::repartition(SampleMesh& mesh, const Partition& partition) {
   seeds_are_planned_ = false;
 }
 
-// The update rule, applied to the triangles that all seeds together will make.
+// Applies the update rule to the triangles that all seeds together will make.
 void SampleExchange::plan_seeds() {
   const Region region = region_of(partition_, rank_);
   std::vector<std::uint8_t> is_peer(static_cast<std::size_t>(partition_.ranks), 0);
-  told_seed_.assign(seeds_.points.size(), {});
+  seed_receivers_.assign(seeds_.points.size(), {});
   for (const MeshTriangle& triangle : seeds_.triangles) {
     if (distance_squared(triangle.circumcircle.center, region.bounds()) >
         triangle.circumcircle.radius_squared)
@@ -106,10 +120,11 @@ void SampleExchange::plan_seeds() {
     for (const std::uint32_t seed : triangle.corners) {
       const int owner = owner_of(seeds_.points[seed].x, seeds_.points[seed].y);
       if (owner == rank_) {
-        std::vector<int>& told = told_seed_[seed];
+        std::vector<int>& receivers = seed_receivers_[seed];
         for (const int rank : touched_) {
           is_peer[static_cast<std::size_t>(rank)] = 1;
-          if (std::find(told.begin(), told.end(), rank) == told.end()) told.push_back(rank);
+          if (std::find(receivers.begin(), receivers.end(), rank) == receivers.end())
+            receivers.push_back(rank);
         }
       } else if (meets_own) {
         is_peer[static_cast<std::size_t>(owner)] = 1;
@@ -142,11 +157,11 @@ void SampleExchange::introduce(const SampleMesh& mesh, std::span<const int> tile
       return distance_squared(circle.center, partition_.grid.pixels(tile)) <= circle.radius_squared;
     });
     if (!meets) continue;
-    for (const std::uint32_t sample : t) tell(mesh, sample, taker);
+    for (const std::uint32_t sample : t) post(mesh, sample, taker);
   }
 }
 
-void SampleExchange::pass_on(SampleMesh& mesh, int tile) {
+void SampleExchange::forward_tile(SampleMesh& mesh, int tile) {
   const auto t = static_cast<std::size_t>(tile);
   if (partition_.owner[t] == rank_) return;
   was_own_[t] = 1;
@@ -180,8 +195,27 @@ void SampleExchange::note_newest(int from) {
   known_by_.add(newest, from);
 }
 
-void SampleExchange::inserted(int from) {
+bool SampleExchange::insert(SampleMesh& mesh, const Sample& sample, int from) {
+  if (!mesh.insert(sample)) return false;
   note_newest(from);
+  return true;
+}
+
+void SampleExchange::insert_all(SampleMesh& mesh, std::span<const Sample> samples, int from,
+                                const SampleMesh::Inserted& done) {
+  mesh.insert_all(samples, [&](const Sample& sample, bool is_new) {
+    if (is_new) note_newest(from);
+    done(sample, is_new);
+  });
+}
+
+bool SampleExchange::insert_seed(SampleMesh& mesh, const Sample& sample, std::uint32_t seed) {
+  const int owner = owner_of(sample.x, sample.y);
+  if (!insert(mesh, sample, owner)) return false;
+  if (owner != rank_) return true;
+  const auto newest = static_cast<std::uint32_t>(mesh.samples().size() - 1);
+  for (const int rank : seed_receivers_[seed]) post(mesh, newest, rank);
+  return true;
 }
 
 std::size_t SampleExchange::announce(SampleMesh& mesh) {
@@ -194,24 +228,24 @@ void SampleExchange::announce_new(SampleMesh& mesh) {
   const std::size_t first_new = std::exchange(announced_, mesh.samples().size());
   if (partition_.ranks == 1) return;
   for (const BorderTriangle& triangle : at_border_) {
-    tell_own_corners(mesh, triangle);
+    post_own_corners(mesh, triangle);
     if (forwards_) forward_corners(mesh, triangle, first_new);
   }
   looked_at_ += at_border_.size();
 }
 
-void SampleExchange::tell_own_corners(const SampleMesh& mesh, const BorderTriangle& triangle) {
+void SampleExchange::post_own_corners(const SampleMesh& mesh, const BorderTriangle& triangle) {
   if (std::none_of(triangle.own.begin(), triangle.own.end(), [](bool own) { return own; })) return;
   touch_others(triangle.circumcircle);
   for (const int rank : touched_) {
     for (std::size_t i = 0; i < 3; ++i) {
-      if (triangle.own[i]) tell(mesh, triangle.corners[i], rank);
+      if (triangle.own[i]) post(mesh, triangle.corners[i], rank);
     }
   }
 }
 
-// New samples of others: their owners may have told them to this rank for the sake of a tile that is
-// another's by now.
+// Forwards new samples of others: their owners may have sent them here for the sake of a tile that is another
+// rank's by now.
 void SampleExchange::forward_corners(const SampleMesh& mesh, const MeshTriangle& triangle,
                                      std::size_t first_new) {
   const std::span<const Sample> samples = mesh.samples();
@@ -228,27 +262,17 @@ void SampleExchange::forward_corners(const SampleMesh& mesh, const MeshTriangle&
       if (was_own_[static_cast<std::size_t>(tile)] == 0) continue;
       if (distance_squared(circle.center, grid.pixels(tile)) > circle.radius_squared) continue;
       for (const std::uint32_t corner : triangle.corners) {
-        if (is_others_and_new(corner)) tell(mesh, corner, partition_.owner[static_cast<std::size_t>(tile)]);
+        if (is_others_and_new(corner)) post(mesh, corner, partition_.owner[static_cast<std::size_t>(tile)]);
       }
     }
   }
-}
-
-void SampleExchange::seeded_here(const SampleMesh& mesh, std::uint32_t seed) {
-  note_newest(rank_);
-  const auto newest = static_cast<std::uint32_t>(mesh.samples().size() - 1);
-  for (const int rank : told_seed_[seed]) tell(mesh, newest, rank);
-}
-
-void SampleExchange::seeded_elsewhere(int from) {
-  note_newest(from);
 }
 
 std::vector<Sample> SampleExchange::take_outbox(int rank) {
   return std::exchange(outbox_[static_cast<std::size_t>(rank)], {});
 }
 
-void SampleExchange::tell(const SampleMesh& mesh, std::uint32_t sample, int rank) {
+void SampleExchange::post(const SampleMesh& mesh, std::uint32_t sample, int rank) {
   if (known_by_.contains(sample, rank)) return;
   known_by_.add(sample, rank);
   outbox_[static_cast<std::size_t>(rank)].push_back(mesh.samples()[sample]);

@@ -1,4 +1,4 @@
-// Which samples other ranks need to know: the update rule (paper s. 3.4).
+// Which samples other ranks need: the update rule (paper s. 3.4).
 #pragma once
 
 #include <cstddef>
@@ -13,69 +13,82 @@
 
 namespace pprt {
 
-// Kept in step with one rank's mesh. Each rank tells its own samples, and nobody else does: when a new
-// triangle's circumcircle meets another rank's region, that rank is told the triangle's corners that lie in
-// the own one. Who has given a tile away passes on what others still tell it for that tile's sake. Once all
-// messages have arrived, every triangle whose circumcircle meets the regions of two
-// ranks is in both their triangulations (docs/decisions/0012-owners-tell.md has the proof).
+// One rank's exchange, kept in step with its mesh: every sample enters the mesh through one of the
+// insert functions. Each rank sends its own samples, and nobody else does. When the circumcircle of a new
+// triangle meets another rank's region, that rank is sent the triangle's corners that lie in the own region.
+// A rank that has given a tile away forwards what others still send it because of that tile. Once all
+// messages have arrived, every triangle whose circumcircle meets the regions of two ranks is in both their
+// triangulations (docs/decisions/0012-owners-tell.md has the proof).
 class SampleExchange {
  public:
   SampleExchange(const Partition& partition, int rank, SeedPattern seeds);
 
-  // The mesh starts anew.
+  // The mesh has been emptied: no rank knows a sample of it. Call it after every SampleMesh::clear() and
+  // restart().
   void clear();
 
-  // Every successful insert is followed by exactly one of these three. `from` is the rank that the sample
-  // came from, or this one.
-  void inserted(int from);
-  void seeded_here(const SampleMesh& mesh, std::uint32_t seed);  // an own seed: which triangles it will be in
-                                                                 // is known before the mesh has them
-  void seeded_elsewhere(int from);                               // another rank's seed
+  // Inserts a sample into the mesh; false if its point already holds one or lies outside the image. `from`:
+  // the rank that sent it, or this one.
+  bool insert(SampleMesh& mesh, const Sample& sample, int from);
+
+  // Inserts samples in their order, weighed once at the end; see SampleMesh::insert_all() for `done`.
+  void insert_all(SampleMesh& mesh, std::span<const Sample> samples, int from,
+                  const SampleMesh::Inserted& done);
+
+  // Inserts the seed of that number, traced here. Which triangles an own seed will be in is known before the
+  // mesh has them: it is sent to the ranks that they concern. Another rank's seed counts as sent by its
+  // owner.
+  bool insert_seed(SampleMesh& mesh, const Sample& sample, std::uint32_t seed);
 
   const Partition& partition() const { return partition_; }
   const SeedPattern& seeds() const { return seeds_; }
 
-  // Tiles have new owners; the mesh keeps its samples, and has its new region set after this call, for that
-  // makes all triangles look old: what is new is announced first. Who does not know yet goes on telling this
-  // rank what touches a tile that it no longer has: until clear() that is passed on to the new owner.
+  // Tiles have new owners: the mesh keeps its samples and gets its new region. Ranks that do not know yet
+  // keep sending this one what touches a tile that it no longer has; until clear() that is forwarded to the
+  // new owner. O(triangles).
   void repartition(SampleMesh& mesh, const Partition& partition);
 
-  // A tile was given to this rank, but it has another owner already: what has been told with the transfer,
-  // and will be, is passed on as if this rank had had the tile.
-  void pass_on(SampleMesh& mesh, int tile);
+  // The same for tiles that changed hands one by one. Returns whether own tiles came or went; if not, the
+  // mesh stays as it is.
+  bool transfer(SampleMesh& mesh, const Partition& partition);
 
-  // Tells `taker` every corner of the triangles whose circumcircle meets one of these tiles. Call it before
-  // the tiles are the taker's.
+  // A tile was transferred to this rank, but it has another owner already. What has been sent because of it,
+  // and will be, is forwarded to that owner as if this rank had had the tile.
+  void forward_tile(SampleMesh& mesh, int tile);
+
+  // Sends `taker` every corner of the triangles whose circumcircle meets one of these tiles. Call it before
+  // the tiles are the taker's. O(triangles).
   void introduce(const SampleMesh& mesh, std::span<const int> tiles, int taker);
 
-  // How many samples of each tile `rank` knows.
+  // Number of samples of each tile that `rank` knows.
   std::vector<std::uint32_t> known_in_tiles(const SampleMesh& mesh, int rank) const;
 
-  // Other ranks that are told seeds by this one or tell it theirs, from clear() on. Symmetric: i is j's peer
-  // when j is i's.
+  // Other ranks that this one sends seeds or gets seeds from, after clear(); ascending. Symmetric: i is j's
+  // peer when j is i's.
   const std::vector<int>& seed_peers() const { return seed_peers_; }
 
-  // Other ranks that have a tile beside one of the own ones.
+  // Other ranks that have a tile beside one of the own ones; ascending.
   const std::vector<int>& neighbours() const { return neighbours_; }
 
   int owner_of(double x, double y) const {
     return partition_.owner[static_cast<std::size_t>(partition_.grid.tile_at(x, y))];
   }
 
-  // The update rule, applied to the triangles at the border that were made since the last call and still are.
-  // Returns how many they were, with those that repartition() has looked at.
+  // Applies the update rule to the triangles at the border that were made since the last call and still
+  // exist. Returns their number, those that repartition() has looked at included.
   std::size_t announce(SampleMesh& mesh);
 
-  // Samples that `rank` must be told; emptied by the call.
+  // Returns the samples to send to `rank`, and empties that outbox.
   std::vector<Sample> take_outbox(int rank);
 
  private:
+  void set_owners(SampleMesh& mesh, const Partition& partition);
   void plan_seeds();
   void forward_from_now_on(SampleMesh& mesh);
   void note_newest(int from);
-  void tell(const SampleMesh& mesh, std::uint32_t sample, int rank);
+  void post(const SampleMesh& mesh, std::uint32_t sample, int rank);
   void announce_new(SampleMesh& mesh);
-  void tell_own_corners(const SampleMesh& mesh, const BorderTriangle& triangle);
+  void post_own_corners(const SampleMesh& mesh, const BorderTriangle& triangle);
   void forward_corners(const SampleMesh& mesh, const MeshTriangle& triangle, std::size_t first_new);
   void touch_others(const Circle& circle);  // fills touched_
 
@@ -89,8 +102,8 @@ class SampleExchange {
   std::vector<std::uint8_t> was_own_;        // per tile: given away since clear()
   bool forwards_ = false;                    // whether there are such tiles
   SeedPattern seeds_;
-  std::vector<std::vector<int>> told_seed_;  // per seed of the own region: ranks to tell
-  bool seeds_are_planned_ = false;           // for this partition
+  std::vector<std::vector<int>> seed_receivers_;  // per seed of the own region: ranks to send it to
+  bool seeds_are_planned_ = false;                // for this partition
   std::vector<int> seed_peers_;
   std::vector<int> neighbours_;
   std::vector<int> touched_;

@@ -3,35 +3,40 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "image/image.h"
+#include "parallel/balance/global_balance.h"
 #include "parallel/balance/partition.h"
-#include "parallel/clock/frame_clock.h"
-#include "parallel/mosaic.h"
+#include "parallel/clock/delivery_clock.h"
+#include "parallel/clock/host_time.h"
+#include "parallel/clock/reserve_estimator.h"
+#include "parallel/frame_assembly.h"
 #include "parallel/network/communicator.h"
 #include "parallel/network/messages.h"
 #include "parallel/session_settings.h"
 
 namespace pprt {
 
-// The next frame's camera, asked for one frame ahead; empty: the sequence is over. A script answers now; a
-// live view may.
+// The camera of one frame.
 struct FrameRequest {
-  int number = 1;
+  int number = 1;  // as the script counts
   Camera camera;
   bool cut = false;              // the camera jumped to it
   bool carries_nothing = false;  // it does not follow the request before, cut or not
-  int left_out =
-      0;  // frames of the sequence before it that were not asked for; work clock: its time counts them
+  int left_out = 0;              // frames of the script before it that were not asked for; on the work clock
+                                 // their time counts
 };
+
+// Answers with the next frame's camera, asked for one frame ahead; empty: the sequence is over. A script
+// answers now, a live view may.
 using CameraSource = std::function<std::optional<FrameRequest>(int index)>;
 
-// Wall clock with a rate: how long a frame waits for the last ranks' pixels once rank 0 sees that its
+// Wall clock with a rate: seconds that a frame waits for the last ranks' pixels once rank 0 sees that its
 // deadline has passed. What is on its way arrives within this (docs/decisions/0010-late-ranks.md).
 inline constexpr double kGraceSeconds = 0.003;
 
@@ -51,90 +56,75 @@ struct FinishedFrame {
 };
 using FrameSink = std::function<void(FinishedFrame&&)>;
 
-// With a rate on the wall clock a frame is delivered once it is whole, or at its deadline (and a grace) with
-// what has come: the tiles of late ranks show what they showed last. Only the first frame, before which there
-// is nothing to show, waits for all ranks; so does every frame without a rate or on the work clock.
+// Delivers frames in order. With a rate on the wall clock a frame is delivered once it is whole, or a grace
+// after its deadline with what has come. The tiles of late ranks show what they showed last. The first frame
+// waits for all ranks, for there is nothing to show before it. So does every frame without a rate or on the
+// work clock.
 class Master {
  public:
   // The sink is called in frame order, on the caller's thread. `now` tells the time as monotonic_seconds()
-  // does.
+  // does. `ranks_per_core`: number of ranks that share a core, at least 1.
   Master(Communicator& network, const SessionSettings& settings, const Partition& partition,
          double ranks_per_core, CameraSource source, FrameSink sink,
          std::function<double()> now = monotonic_seconds);
 
-  // Sends every rank the order for the next frame; `start_s` is the sequence's start by monotonic_seconds().
+  // Sends every rank the order for the first frame; `start_s` is the sequence's start by monotonic_seconds().
   void begin_sequence(double start_s);
 
   // Rank 0 has begun a frame: time for the order of the one after.
   void frame_begun();
 
-  // Takes in a rank's pixels, also those of a frame that did not wait for them.
+  // Takes in a rank's pixels, also those of a frame that did not wait for them. Throws ProtocolError for
+  // pixels of a frame that was not ordered, and for those that come twice.
   void handle(const Message& message);
 
   // Delivers what is due: to be called whenever all that has arrived has been taken in.
   void keep_deadlines();
 
   // Whether rank 0 may begin a frame, or has to look after the one before.
-  bool may_begin(int index) const;
+  bool may_begin(int index) const { return delivered_ >= index || clock_->may_overlap(index); }
 
   // Whether every frame ordered has been delivered.
-  bool idle() const { return assemblies_.empty(); }
+  bool idle() const { return frames_.empty(); }
 
  private:
-  struct Assembly {
-    FrameOrder order;
-    Mosaic picture;
-    std::vector<RankReport> ranks;
-    std::vector<std::vector<TileReport>> tiles;  // per rank
-    std::vector<std::uint8_t> has_come;          // per rank: its pixels
-    std::vector<Sample> samples;
-    int missing = 0;                        // ranks whose pixels have not come
-    double after_sampling_s = 0;            // the longest of those that have, besides reconstruction
-    std::optional<double> overdue_since_s;  // seen by rank 0, which may have been away at the deadline
+  // A frame that was ordered and is not delivered.
+  struct PendingFrame {
+    FrameAssembly assembly;
+    double after_sampling_s = 0;                 // the longest of those whose pixels have come
+    std::optional<double> overdue_since_s = {};  // seen by rank 0, which may have been away at the deadline
   };
 
   void order_if_due();
   void order_next();
+  FrameOrder make_order(const FrameRequest& request);
   Carry carry_into(const FrameRequest& request) const;
-  Assembly start_assembly(const FrameOrder& order) const;
+  void send(FrameOrder order);
   void handle_overdue(int from, const PixelMessage& pixels);
-  bool is_due(const Assembly& assembly) const;
-  void deliver_first();
-  void deliver(Assembly& assembly);
-  void tell_when(FinishedFrame& frame) const;
-  void balance_globally(const Assembly& assembly);
-  bool can_afford_to_hand_over() const;
   double after_sampling_s(const RankReport& report) const;
-  void learn_reserve(double after_sampling_s);
-  double reserve_s() const;
-  double deadline_s(int index) const { return (index + 1) / settings_.frames_per_second; }
-  double sequence_s() const { return now_() - start_s_; }
+  bool is_due(const PendingFrame& frame) const;
+  void deliver_first();
+  void learn_from(const PendingFrame& frame);
+  FinishedFrame finish(PendingFrame& frame);
 
   Communicator& network_;
   SessionSettings settings_;
-  Partition partition_;
-  double ranks_per_core_;
+  TileGrid grid_;
+  std::unique_ptr<DeliveryClock> clock_;
+  ReserveEstimator reserve_;
+  GlobalBalancer balancer_;
   CameraSource source_;
   FrameSink sink_;
-  std::function<double()> now_;
-  bool keeps_deadlines_;                // delivers at a deadline whatever is missing
-  std::map<int, Assembly> assemblies_;  // by frame index
+  std::map<int, PendingFrame> frames_;  // by frame index
   Mosaic shown_;            // with deadlines: the frame delivered last, and what came for it since
   int overdue_pixels_ = 0;  // since that frame was delivered
-  std::optional<FrameRequest> before_;     // the frame ordered last
-  std::vector<std::int32_t> next_owners_;  // a new partition, for the next order
-  std::vector<TileEstimate> found_;        // per tile, what that partition stands on
-  std::vector<double> handed_over_;        // per rank: samples it will have to take in with that partition
-  CastEvidence evidence_;                  // of the frames delivered, the latest counting most
-  int evidence_since_ = 0;                 // index of the last frame that nothing was carried into
-  std::uint32_t generation_ = 0;           // of the partition ordered last
-  std::uint64_t samples_delivered_ = 0;    // in the frame delivered last
-  int delivered_ = 0;                      // frames
-  bool order_is_due_ = false;              // but too many frames are not delivered yet
+  std::optional<FrameRequest> before_;  // the frame ordered last
+  CastEvidence evidence_;               // of the frames delivered, the latest counting most
+  int evidence_since_ = 0;              // index of the last frame that nothing was carried into
+  int delivered_ = 0;                   // frames
+  bool order_is_due_ = false;           // but too many frames are not delivered yet
   bool ended_ = false;
   int next_index_ = 0;
-  double start_s_ = 0;
-  std::deque<double> after_sampling_s_;  // of the last frames: between sampling and whole frame
 };
 
 }  // namespace pprt

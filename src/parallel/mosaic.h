@@ -11,16 +11,17 @@
 
 namespace pprt {
 
-// Knows of every tile whose pixels it shows and of which frame. Nothing older ever replaces something newer,
-// and in one frame nothing from a tile's former owner what its owner has sent.
+// Remembers for every tile whose pixels it shows and of which frame. Older pixels never replace newer ones.
+// In one frame pixels of a tile's former owner never replace those of its owner.
 class Mosaic {
  public:
   explicit Mosaic(const TileGrid& grid);
 
-  // Throws ProtocolError on a message whose pixels are not those of its tiles.
+  // Pastes the tiles of a message from the rank, where they are newer than what is shown. Throws
+  // ProtocolError for a message whose pixels are not those of its tiles.
   void paste(int from, const PixelMessage& message);
 
-  // Takes tiles that nobody has sent from an earlier picture; returns how many.
+  // Takes tiles that nobody has sent from an earlier picture; returns their number.
   int fill_gaps(const Mosaic& before);
 
   const Image& image() const { return image_; }

@@ -1,4 +1,4 @@
-// A set of ranks as bits, any number of them.
+// Sets of ranks as bits; any number of ranks.
 #pragma once
 
 #include <bit>
@@ -8,7 +8,7 @@
 
 namespace pprt {
 
-// Many sets of equal width in one array: set i is who knows sample i.
+// Many sets of equal width in one array. In the exchange, set i holds the ranks that know sample i.
 class RankSets {
  public:
   explicit RankSets(int ranks) : words_(static_cast<std::size_t>((ranks + 63) / 64)) {}

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "parallel/clock/frame_clock.h"
+#include "parallel/clock/make_clocks.h"
 #include "parallel/clock/work_units.h"
 #include "parallel/network/inbox.h"
 #include "parallel/network/wire.h"
@@ -20,7 +20,7 @@ namespace {
 constexpr int kPings = 8;
 constexpr double kHeadStart = 0.005;  // seconds between the start message and the sequence's start
 
-// Ranks that were told to start earlier may already be sending what belongs to the first frame.
+// Ranks that started earlier may already be sending what belongs to the first frame.
 Message wait_for(Communicator& network, Inbox& inbox, Tag tag) {
   while (true) {
     std::optional<Message> message = network.receive();

@@ -1,4 +1,4 @@
-// What one run of all ranks is told before its first frame.
+// Settings of one run, equal on all ranks.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ enum class CastChoice : std::uint8_t { kOff, kPaper, kVerified, kAuto };
 enum class BalanceMode : std::uint8_t {
   kNone,
   kLocal,    // tiles move between neighbours during a frame
-  kGlobal,   // the image is cut anew after every frame, in force one frame later
+  kGlobal,   // the image is repartitioned after every frame, in force two frames later
   kCombined  // local, and global when the imbalance is great
 };
 
@@ -44,7 +44,8 @@ struct SessionSettings {
   StopRules stop;
   BalanceMode balance = BalanceMode::kCombined;
   CastChoice cast = CastChoice::kAuto;
-  bool keep_samples = true;  // when the image is cut anew: hand samples over, or drop them as the paper does
+  bool keep_samples =
+      true;  // on a repartition: hand samples over, instead of dropping them as the paper does
   PixelRule pixel_rule = PixelRule::kEdges;
   bool learned_weights = true;  // refinement corrects the paper's weights by what it learns
   std::uint64_t seed = 1;

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "parallel/clock/make_clocks.h"
+
 namespace pprt {
 namespace {
 
@@ -12,7 +14,7 @@ std::size_t first_to_render(const RenderPlan& plan, int ranks, const FinishedBef
   const std::vector<PlannedFrame>& frames = plan.frames;
   std::size_t first = 0;
   while (first < frames.size() && finished_before(frames[first].number)) ++first;
-  if (plan.settings.clock == ClockKind::kWall || first == frames.size()) return first;
+  if (!is_reproducible(plan.settings) || first == frames.size()) return first;
   if (ranks > 1 && plan.settings.balance != BalanceMode::kNone) return 0;
   const auto follows = [&](std::size_t i) {
     return plan.settings.cast != CastChoice::kOff && !frames[i].cut &&
@@ -26,7 +28,7 @@ std::size_t first_to_render(const RenderPlan& plan, int ranks, const FinishedBef
 
 std::vector<FrameRequest> frame_requests(const RenderPlan& plan, const CompiledScene& scene, int ranks,
                                          const FinishedBefore& finished_before) {
-  const bool again = plan.settings.clock == ClockKind::kWork;
+  const bool again = is_reproducible(plan.settings);
   std::vector<FrameRequest> requests;
   std::size_t wanted = 0;  // requests up to the last frame that is missing
   int before = 0;

@@ -5,6 +5,7 @@
 
 #include "base/content_hash.h"
 #include "cli/version.h"
+#include "parallel/clock/make_clocks.h"
 #include "parallel/session_words.h"
 
 namespace pprt {
@@ -32,7 +33,7 @@ Json options_record(const RenderPlan& plan) {
                   {"seed", s.seed},
                   {"max_depth", plan.compile.max_depth},
                   {"cull", plan.compile.cull}};
-  if (s.clock == ClockKind::kWork) options["budget"] = s.budget_units;
+  if (is_reproducible(s)) options["budget"] = s.budget_units;
   if (s.frames_per_second <= 0) {
     options["time"] = s.stop.seconds;
     options["samples"] = s.stop.samples;

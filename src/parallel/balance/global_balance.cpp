@@ -3,8 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
+
+#include "parallel/balance/partition.h"
+#include "parallel/clock/work_units.h"
 
 namespace pprt {
+namespace {
+
+// In `combined` the image is repartitioned when the ranks' mean weights deviate by more than this share of
+// their mean. Found by measurement (docs/decisions/0009-balancing.md).
+constexpr double kImbalanceTrigger = 0.2;
+
+}  // namespace
 
 double imbalance(std::span<const std::vector<TileReport>> of_rank) {
   double sum = 0, squares = 0;
@@ -58,6 +69,53 @@ std::vector<double> predicted_costs(const TileGrid& grid, std::span<const std::v
     if (cost < 0) cost = known > 0 ? sum / known : 1;
   }
   return costs;
+}
+
+void GlobalBalancer::consider(std::span<const std::vector<TileReport>> of_rank, bool is_whole,
+                              std::uint64_t samples) {
+  samples_ = samples;
+  const bool always = settings_.balance == BalanceMode::kGlobal;
+  if (!always && settings_.balance != BalanceMode::kCombined) return;
+  if (ranks_ == 1 || !is_whole || (!always && imbalance(of_rank) <= kImbalanceTrigger)) return;
+  next_owners_ = bisect(grid_, predicted_costs(grid_, of_rank), ranks_).owner;
+  found_ = tile_estimates(grid_, of_rank);
+  handed_over_.assign(of_rank.size(), 0);
+  for (std::size_t rank = 0; rank < of_rank.size(); ++rank) {
+    for (const TileReport& tile : of_rank[rank]) {
+      const auto taker = static_cast<std::size_t>(next_owners_[static_cast<std::size_t>(tile.tile)]);
+      // A triangulation has about two triangles a sample.
+      if (taker != rank) handed_over_[taker] += 0.5 * tile.triangles;
+    }
+  }
+}
+
+// Cast samples are reinserted anyhow, by their new owners.
+void GlobalBalancer::add_partition(FrameOrder& order) {
+  const bool hands_over = order.carry == Carry::kAccumulate && settings_.keep_samples;
+  if (hands_over && !can_afford_to_hand_over()) next_owners_.clear();
+  if (!next_owners_.empty()) ++generation_;
+  order.owners = std::exchange(next_owners_, {});
+  order.generation = generation_;
+}
+
+// Whether every rank can take in the samples of its new tiles in a twentieth of a frame; their former owner
+// has to look for them, too. Where a camera has rested for long there are more samples than that: then local
+// balancing works alone.
+bool GlobalBalancer::can_afford_to_hand_over() const {
+  if (next_owners_.empty() || settings_.frames_per_second <= 0) return true;
+  const auto pixels =
+      static_cast<std::uint64_t>(settings_.width) * static_cast<std::uint64_t>(settings_.height);
+  if (samples_ > pixels) return false;  // fine enough as it is
+  const double most = *std::max_element(handed_over_.begin(), handed_over_.end());
+  return most * static_cast<double>(price(Work::kReceivedSample)) <= 0.05 * units_per_frame_;
+}
+
+std::vector<TileEstimate> GlobalBalancer::estimates_for(const FrameOrder& order, int rank) const {
+  std::vector<TileEstimate> estimates;
+  for (std::size_t tile = 0; tile < order.owners.size(); ++tile) {
+    if (order.owners[tile] == rank) estimates.push_back(found_[tile]);
+  }
+  return estimates;
 }
 
 }  // namespace pprt

@@ -1,29 +1,60 @@
-// Global balancing: the master cuts the image anew from what every tile has cost (paper s. 4.4, 4.5).
+// Global balancing: the master repartitions the image from what every tile has cost (paper s. 4.4, 4.5).
 #pragma once
 
+#include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
-#include "parallel/balance/partition.h"
 #include "parallel/balance/tile_cost.h"
+#include "parallel/network/messages.h"
+#include "parallel/session_settings.h"
+#include "pipeline/tile_grid.h"
 
 namespace pprt {
 
-// In `combined` the image is cut anew when the ranks' mean weights deviate by more than this share of their
-// mean. Found by measurement (docs/decisions/0009-balancing.md).
-inline constexpr double kImbalanceTrigger = 0.2;
-
-// Dev / AvgWeight of s. 4.5 over the ranks that have triangles: standard deviation by mean of the ranks' mean
-// weights. `of_rank[k]` are rank k's tiles.
+// Dev / AvgWeight of s. 4.5: standard deviation by mean of the ranks' mean weights, over the ranks that have
+// triangles. `of_rank[k]` are rank k's tiles.
 double imbalance(std::span<const std::vector<TileReport>> of_rank);
 
-// What each tile of the grid took; zero for tiles nobody reported.
+// Returns what each tile of the grid took; zero for tiles that nobody reported.
 std::vector<TileEstimate> tile_estimates(const TileGrid& grid,
                                          std::span<const std::vector<TileReport>> of_rank);
 
-// Cost(i) of s. 4.4 for every tile of the grid: what it takes to bring it to the mean weight A of the whole
-// image, besides its reconstruction and preparation. Tiles nobody reported cost the mean of the others.
+// Returns Cost(i) of s. 4.4 for every tile of the grid, work units: bringing it to the mean weight A of the
+// whole image, its reconstruction and its preparation. Tiles that nobody reported cost the mean of the
+// others.
 std::vector<double> predicted_costs(const TileGrid& grid, std::span<const std::vector<TileReport>> of_rank);
+
+// Turns the reports of a delivered frame into a new partition for the next order, where the mode asks for it.
+class GlobalBalancer {
+ public:
+  // `units_per_frame`: work units that a rank can do in one frame's period; with a rate only.
+  GlobalBalancer(const SessionSettings& settings, const TileGrid& grid, int ranks, double units_per_frame)
+      : settings_(settings), grid_(grid), ranks_(ranks), units_per_frame_(units_per_frame) {}
+
+  // Considers a frame's reports: `of_rank[k]` are rank k's tiles, `samples` the count in the whole image. A
+  // frame that some ranks did not report (`is_whole` false) says nothing of the balance.
+  void consider(std::span<const std::vector<TileReport>> of_rank, bool is_whole, std::uint64_t samples);
+
+  // Puts the new partition, if there is one, into the order, and the generation in force. A partition whose
+  // samples would have to be handed over is dropped where that costs too much.
+  void add_partition(FrameOrder& order);
+
+  // What the tiles that the order's new partition gives to a rank were found to be, ascending by tile.
+  std::vector<TileEstimate> estimates_for(const FrameOrder& order, int rank) const;
+
+ private:
+  bool can_afford_to_hand_over() const;
+
+  SessionSettings settings_;
+  TileGrid grid_;
+  int ranks_;
+  double units_per_frame_;
+  std::vector<std::int32_t> next_owners_;  // of a new partition, for the next order
+  std::vector<TileEstimate> found_;        // per tile, what that partition stands on
+  std::vector<double> handed_over_;  // per rank: samples that it will have to take in with that partition
+  std::uint64_t samples_ = 0;        // in the frame considered last
+  std::uint32_t generation_ = 0;     // of the partition ordered last
+};
 
 }  // namespace pprt

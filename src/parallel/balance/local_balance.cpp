@@ -10,7 +10,7 @@
 namespace pprt {
 namespace {
 
-// A tile's side neighbours, those that exist.
+// The tiles that share a side with this one, at most four.
 std::vector<int> beside(const TileGrid& grid, int tile) {
   const int column = tile % grid.columns(), row = tile / grid.columns();
   std::vector<int> tiles;
@@ -21,6 +21,7 @@ std::vector<int> beside(const TileGrid& grid, int tile) {
   return tiles;
 }
 
+// How many of a tile's four sides border on the giver's tiles, and on the taker's.
 struct Sides {
   int giver = 0, taker = 0;
 };
@@ -57,8 +58,8 @@ bool ring_is_whole(const Partition& partition, int tile, int rank) {
   return pieces <= 1;
 }
 
-// Whether the giver's tiles hang together without this one as they do with it. Only those around the tile can
-// lose touch: if they are one piece among themselves nothing is lost; if not, the whole region tells.
+// Whether the giver's region stays connected without this tile. Only the tiles around it can lose touch: if
+// they are one piece among themselves the region is too; if not, the whole region is searched.
 bool can_spare(Partition& partition, int tile, int giver, int taker) {
   std::int32_t& owner = partition.owner[static_cast<std::size_t>(tile)];
   owner = taker;
@@ -75,7 +76,7 @@ std::vector<int> tiles_of(const Partition& partition, int rank) {
   return tiles;
 }
 
-// How regions stay compact: a tile should be nearer to the middle of who has it than to that of others.
+// Keeps regions compact: a tile should be nearer to the middle of its owner's region than to that of others.
 class Shape {
  public:
   Shape(const Partition& partition, int giver, int taker)
@@ -134,42 +135,56 @@ double target_quality(double quality) {
   return std::exp2(std::floor(std::log2(quality)));
 }
 
+namespace {
+
+// The best of the candidates by the paper's three terms and the regions' shapes; null if none may be given.
+// `to_move`: work units; `room`: samples that the taker may still take in.
+const Candidate* best_candidate(const LocalBalanceSettings& settings, Partition& partition, int giver,
+                                int taker, const std::vector<Candidate>& candidates, const Shape& shape,
+                                double to_move, double insertion_cost, double room) {
+  double most_relief = 0;
+  for (const Candidate& c : candidates) most_relief = std::max(most_relief, c.offer.future_cost);
+  const Candidate* best = nullptr;
+  double best_grade = 0;
+  for (const Candidate& c : candidates) {
+    const double unknown = c.offer.samples - c.offer.known_to_taker;
+    // More than what is left to move would only turn the imbalance round.
+    if (c.offer.future_cost > 1.5 * to_move || unknown > room) continue;
+    const double relief = c.offer.future_cost - insertion_cost * unknown;
+    const double balance = most_relief > 0 ? relief / most_relief : 0;
+    const double known = c.offer.samples > 0 ? c.offer.known_to_taker / c.offer.samples : 1;
+    const double longer_border = 0.25 * (c.sides.giver - c.sides.taker);
+    const double grade = settings.balance_weight * balance + settings.communication_weight * known -
+                         settings.border_weight * longer_border -
+                         settings.shape_weight * shape.detour(c.tile);
+    if ((best == nullptr || grade > best_grade) && can_spare(partition, c.tile, giver, taker))
+      best = &c, best_grade = grade;
+  }
+  return best;
+}
+
+}  // namespace
+
 std::vector<int> tiles_to_give(const LocalBalanceSettings& settings, const Partition& before, int giver,
-                               int taker, double difference, double insertion_cost, double most_samples,
+                               int taker, const TransferBounds& bounds,
                                const std::function<TileOffer(int tile)>& offer) {
   Partition partition = before;
-  std::vector<int> given, own = tiles_of(before, giver);
+  std::vector<int> chosen, own = tiles_of(before, giver);
   const Shape shape(before, giver, taker);
-  double to_move = settings.share * difference;
+  double to_move = settings.share * bounds.difference, room = bounds.most_samples;
   // At most a quarter of the region at once, for the estimates are no better.
   for (std::size_t left = own.size() / 4; to_move > 0 && left > 0; --left) {
     const std::vector<Candidate> candidates = candidates_of(partition, own, giver, taker, offer);
-    double most_relief = 0;
-    for (const Candidate& c : candidates) most_relief = std::max(most_relief, c.offer.future_cost);
-    const Candidate* best = nullptr;
-    double best_grade = 0;
-    for (const Candidate& c : candidates) {
-      const double unknown = c.offer.samples - c.offer.known_to_taker;
-      // More than what is left to move would only turn the imbalance round.
-      if (c.offer.future_cost > 1.5 * to_move || unknown > most_samples) continue;
-      const double relief = c.offer.future_cost - insertion_cost * unknown;
-      const double balance = most_relief > 0 ? relief / most_relief : 0;
-      const double known = c.offer.samples > 0 ? c.offer.known_to_taker / c.offer.samples : 1;
-      const double longer_border = 0.25 * (c.sides.giver - c.sides.taker);
-      const double grade = settings.balance_weight * balance + settings.communication_weight * known -
-                           settings.border_weight * longer_border -
-                           settings.shape_weight * shape.detour(c.tile);
-      if ((best == nullptr || grade > best_grade) && can_spare(partition, c.tile, giver, taker))
-        best = &c, best_grade = grade;
-    }
+    const Candidate* best = best_candidate(settings, partition, giver, taker, candidates, shape, to_move,
+                                           bounds.insertion_cost, room);
     if (best == nullptr) break;
     partition.owner[static_cast<std::size_t>(best->tile)] = taker;
-    given.push_back(best->tile);
+    chosen.push_back(best->tile);
     to_move -= best->offer.future_cost;
-    most_samples -= best->offer.samples - best->offer.known_to_taker;
+    room -= best->offer.samples - best->offer.known_to_taker;
     own.erase(std::find(own.begin(), own.end(), best->tile));
   }
-  return given;
+  return chosen;
 }
 
 }  // namespace pprt

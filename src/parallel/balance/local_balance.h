@@ -12,22 +12,23 @@ namespace pprt {
 
 // Found by measurement (docs/decisions/0009-balancing.md).
 struct LocalBalanceSettings {
-  double giving_ratio = 1.03;         // begin to give when the neighbours have so much less to pay
-  double quality_ratio = 1.0;         // give to those whose quality is so much better, and
-  double cost_ratio = 1.4;            // future cost so much lower,
-  double share = 0.3;                 // at once, this share of the difference in future cost
-  double balance_weight = 0.5;        // w1: what a tile takes away, by the most that any takes away
-  double communication_weight = 0.1;  // w2: share of its samples that the taker knows
-  double border_weight = 0.15;        // w3: change of the border's length, and
-  double shape_weight = 0.25;         // of the regions' shapes
+  double giving_ratio = 1.03;   // a rank gives once its future cost is this multiple of its neighbours',
+  double quality_ratio = 1.0;   // to those whose quality is better by this factor
+  double cost_ratio = 1.4;      // and whose future cost is lower by this one
+  double share = 0.3;           // of the difference in future cost that moves at once
+  double balance_weight = 0.5;  // w1, of what a tile takes away, by the most that any takes away
+  double communication_weight = 0.1;  // w2, of the share of its samples that the taker knows
+  double border_weight = 0.15;        // w3, of the change of the border's length
+  double shape_weight = 0.25;         // of the change of the regions' shapes
 };
 
-// Whether a rank should give tiles to the neighbour that sent `theirs`; `own_future_cost` is at
+// Whether a rank should give tiles to the neighbour that sent `theirs`. `own_future_cost`: work units, at
 // theirs.target.
 bool should_give(const LocalBalanceSettings& settings, double own_quality, double own_future_cost,
                  const RankProgress& theirs);
 
-// A target quality that a rank at `quality` names: a power of two below it, so that estimates are comparable.
+// A target quality that a rank at `quality` > 0 names: the power of two at or below it, so that estimates are
+// comparable.
 double target_quality(double quality);
 
 // What the giver knows of one of its tiles.
@@ -37,12 +38,18 @@ struct TileOffer {
   double known_to_taker = 0;  // U(j, s)
 };
 
-// Which of the giver's tiles along its border with the taker to give, one after the other by their grade,
-// until its share of `difference` (Delta, the ranks' difference in future cost) has moved. The giver's region
-// stays connected and keeps at least one tile, and the taker need not take in more than `most_samples`.
-// `offer` is asked for tiles of the giver only; `insertion_cost` is Icost, work units.
+// What bounds one transfer.
+struct TransferBounds {
+  double difference = 0;      // Delta: by how much the giver's future cost exceeds the taker's, work units
+  double insertion_cost = 0;  // Icost: of one sample at the taker, work units
+  double most_samples = 0;    // that the taker need take in
+};
+
+// Returns the giver's tiles along its border with the taker to transfer, best grade first, until the share of
+// the difference that moves at once is reached. At most a quarter of the giver's tiles; its region stays
+// connected and keeps at least one tile. `offer` is asked for tiles of the giver only.
 std::vector<int> tiles_to_give(const LocalBalanceSettings& settings, const Partition& partition, int giver,
-                               int taker, double difference, double insertion_cost, double most_samples,
+                               int taker, const TransferBounds& bounds,
                                const std::function<TileOffer(int tile)>& offer);
 
 }  // namespace pprt

@@ -11,30 +11,32 @@
 namespace pprt {
 
 // Invariant: exactly one owner a tile, each in [0, ranks). Only a tile's owner gives it away, and with a
-// higher version; so whatever the order in which ranks hear of it, the highest version tells the owner.
+// higher version; so the highest version names the owner, in whatever order messages arrive.
 struct Partition {
   TileGrid grid;
   int ranks = 1;
-  std::vector<std::int32_t> owner;     // per tile
-  std::vector<std::uint64_t> version;  // per tile: generation of the partition << 32 | times given since
+  std::vector<std::int32_t> owner;  // per tile
+  std::vector<std::uint64_t>
+      version;  // per tile: generation of the partition << 32 | times transferred since
 };
 
-// The first version of a partition's tiles: higher than any of a generation before.
+// First version of the tiles of a generation: higher than any of the generation before.
 inline std::uint64_t first_version(std::uint32_t generation) {
   return std::uint64_t{generation} << 32;
 }
 
-// Square tiles, about 100 a rank so that balancing can be fine, between 2 and 32 pixels wide.
+// Returns a grid of square tiles: about 100 a rank so that balancing can be fine, 2 to 32 pixels wide.
 TileGrid tile_grid_for(int width, int height, int ranks);
 
-// Greedy recursive bisection (paper s. 4.4): each cut runs across the longer side, at the tile line that best
-// shares `tile_costs` in proportion to the ranks on either side. Regions are rectangles. With fewer tiles
-// than ranks some ranks own none. Costs must not be negative; all zero counts as all equal.
+// Partitions the image by greedy recursive bisection (paper s. 4.4). Each cut runs across the longer side, at
+// the tile line where both sides' `tile_costs` are nearest to their shares of the ranks. Regions are
+// rectangles. With fewer tiles than ranks some ranks own none. Costs must not be negative; all zero counts as
+// all equal.
 Partition bisect(const TileGrid& grid, std::span<const double> tile_costs, int ranks);
 
 Region region_of(const Partition& partition, int rank);
 
-// Whether the rank's tiles hang together by their sides (an empty region does).
+// Whether the rank's tiles are connected by their sides; true for an empty region.
 bool is_connected(const Partition& partition, int rank);
 
 }  // namespace pprt

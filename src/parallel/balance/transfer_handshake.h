@@ -1,5 +1,16 @@
-// Whether a rank takes tiles or gives them, and how neighbours come to know it without a question and an
-// answer before each transfer.
+// Agreement between ranks on who gives tiles and who accepts them, without a question and an answer before
+// each transfer.
+//
+// Example: rank 0 accepts tiles at first and gives tiles later. Time runs downwards, an arrow is a bundle:
+//
+//   rank 0                                        rank 1
+//   phase 0 (accepts), sends {0, 0, 0}        ->  accepts(0): it may send tiles to rank 0
+//   set_giving(true): phase 1. may_transfer()     sends a tile, counts it: transfer_sent(0)
+//   is false, for rank 1 may still send tiles
+//   sends {1, 0, 0}                           ->  accepts(0) is false; has_pending_reply(0)
+//   transfer_received(1)                      <-  the tile arrives first: messages keep their order
+//   receives; may_transfer() is true now      <-  sends {0, 1, 0}: acknowledges phase 1
+//   sends {1, 0, 1}                           ->  has_confirmed_transfers(0)
 #pragma once
 
 #include <cstddef>
@@ -10,94 +21,100 @@ namespace pprt {
 
 // Travels in every bundle.
 struct HandshakeState {
-  std::uint32_t handshake = 0;  // the sender's: even while it takes, odd while it gives; counts its changes
-  std::uint32_t heard = 0;      // the receiver's handshake as the sender knows it
-  std::uint32_t taken = 0;      // how many transfers of the receiver's the sender has taken in
+  std::uint32_t phase = 0;  // the sender's: even while it accepts tiles, odd while it gives; each change
+                            // adds 1
+  std::uint32_t acknowledged = 0;        // the receiver's phase as the sender knows it
+  std::uint32_t transfers_received = 0;  // transfers by the receiver that the sender has taken in
 
   friend bool operator==(const HandshakeState&, const HandshakeState&) = default;
 };
 
-// A rank that takes must not give: the tile that joins what it is about to receive with its region might go.
-// Rules: give only to ranks last heard taking; and, having changed to giving, not before everybody who was
-// told that this rank takes has acknowledged that it no longer does. Words of one rank to another arrive in
-// order, so whoever acknowledges gives nothing more, and what it gave before has arrived.
+// One rank's side. A rank that accepts tiles must not give any: the tile that joins what it is about to
+// receive with its region might go. Two rules ensure it:
+//   - Give only to ranks whose last bundle says that they accept.
+//   - After a change to giving, give nothing until every rank that may think this one accepts has
+//     acknowledged the change. Messages of one rank to another arrive in order. So a rank that acknowledges
+//     sends no more tiles, and those it sent before have arrived.
 class TransferHandshake {
  public:
   explicit TransferHandshake(int ranks) : peers_(static_cast<std::size_t>(ranks)) {}
 
-  // Takes the side that is wanted; repeating it changes nothing.
-  void decide(bool to_give) {
-    if (to_give != is_giving()) ++handshake_;
+  // Changes to giving or to accepting. Repeating it changes nothing.
+  void set_giving(bool giving) {
+    if (giving != is_giving()) ++phase_;
   }
 
-  bool is_giving() const { return handshake_ % 2 == 1; }
+  bool is_giving() const { return phase_ % 2 == 1; }
 
-  // Whether transfers are in order now: everybody concerned knows that this rank gives.
-  bool may_give() const {
+  // Whether this rank may give tiles now: everybody concerned knows that it gives.
+  bool may_transfer() const {
     if (!is_giving()) return false;
     for (const Peer& p : peers_) {
-      if (p.told_taking && p.acknowledged != handshake_) return false;
+      if (p.may_think_accepting && p.acknowledged != phase_) return false;
     }
     return true;
   }
 
-  // Whether the rank has said that it takes, and nothing since.
-  bool takes(int rank) const { return peer(rank).has_spoken && peer(rank).handshake % 2 == 0; }
+  // Whether the rank has said that it accepts tiles, and nothing since.
+  bool accepts(int rank) const { return peer(rank).has_sent && peer(rank).phase % 2 == 0; }
 
-  // Whether a rank waits for a word: that this one gives now, or that its own change is known.
-  bool owes_word(int rank) const {
+  // Whether a rank waits for a message: that this one gives now, or that its own change is known.
+  bool has_pending_reply(int rank) const {
     const Peer& p = peer(rank);
-    return (is_giving() && p.told_taking && p.told != handshake_) ||
-           (p.has_spoken && p.handshake != p.told_heard);
+    return (is_giving() && p.may_think_accepting && p.sent_phase != phase_) ||
+           (p.has_sent && p.phase != p.sent_acknowledged);
   }
 
-  // What to tell the rank; it counts as told.
-  HandshakeState tell(int rank) {
+  // Returns what to send to the rank, and counts it as sent.
+  HandshakeState send(int rank) {
     Peer& p = peers_[static_cast<std::size_t>(rank)];
-    p.told = handshake_;
-    p.told_heard = p.handshake;
-    p.told_taking = p.told_taking || !is_giving();
-    return {handshake_, p.handshake, p.taken};
+    p.sent_phase = phase_;
+    p.sent_acknowledged = p.phase;
+    p.may_think_accepting = p.may_think_accepting || !is_giving();
+    return {.phase = phase_, .acknowledged = p.phase, .transfers_received = p.transfers_received};
   }
 
-  // A transfer goes to the rank; one has come from it.
-  void gave(int rank) { ++peers_[static_cast<std::size_t>(rank)].given; }
-  void took(int rank) { ++peers_[static_cast<std::size_t>(rank)].taken; }
+  // Takes in what the rank has sent. Call it in the order of sending.
+  void receive(int rank, const HandshakeState& state) {
+    Peer& p = peers_[static_cast<std::size_t>(rank)];
+    p.has_sent = true;
+    p.phase = state.phase;
+    p.acknowledged = state.acknowledged;
+    p.transfers_confirmed = state.transfers_received;
+    // A rank that knows that this one gives needs no further message until this one accepts again.
+    if (is_giving() && state.acknowledged == phase_) p.may_think_accepting = false;
+  }
 
-  // Whether what was heard from the rank takes all transfers to it into account.
-  bool has_counted_gifts(int rank) const { return peer(rank).given == peer(rank).given_and_counted; }
+  // Counts a transfer to the rank, or one that has come from it; any number of tiles in one message.
+  void transfer_sent(int rank) { ++peers_[static_cast<std::size_t>(rank)].transfers_sent; }
+  void transfer_received(int rank) { ++peers_[static_cast<std::size_t>(rank)].transfers_received; }
+
+  // Whether what the rank said last takes all transfers to it into account.
+  bool has_confirmed_transfers(int rank) const {
+    return peer(rank).transfers_sent == peer(rank).transfers_confirmed;
+  }
 
   // Equal handshakes answer every call alike from now on.
   friend bool operator==(const TransferHandshake&, const TransferHandshake&) = default;
 
-  void hear(int rank, const HandshakeState& word) {
-    Peer& p = peers_[static_cast<std::size_t>(rank)];
-    p.has_spoken = true;
-    p.handshake = word.handshake;
-    p.acknowledged = word.heard;
-    p.given_and_counted = word.taken;
-    // Who knows that this rank gives needs no further word of it, until it is told otherwise again.
-    if (is_giving() && word.heard == handshake_) p.told_taking = false;
-  }
-
  private:
   struct Peer {
-    bool has_spoken = false;
-    std::uint32_t handshake = 0;          // as heard
-    std::uint32_t acknowledged = 0;       // of this rank's handshakes, the latest that it has confirmed
-    std::uint32_t told = 0;               // of this rank's handshakes, the latest that it was told
-    std::uint32_t told_heard = 0;         // of its own handshakes, the latest confirmed to it
-    std::uint32_t given = 0;              // transfers to it
-    std::uint32_t given_and_counted = 0;  // of those, what it has said to have taken in
-    std::uint32_t taken = 0;              // transfers from it
-    bool told_taking = false;             // it may believe that this rank takes
+    bool has_sent = false;
+    std::uint32_t phase = 0;                // its own, as received
+    std::uint32_t acknowledged = 0;         // this rank's latest phase that it has acknowledged
+    std::uint32_t sent_phase = 0;           // this rank's latest phase that was sent to it
+    std::uint32_t sent_acknowledged = 0;    // its latest phase that was acknowledged to it
+    std::uint32_t transfers_sent = 0;       // to it
+    std::uint32_t transfers_confirmed = 0;  // of those, how many it has confirmed
+    std::uint32_t transfers_received = 0;   // from it
+    bool may_think_accepting = false;       // it may believe that this rank accepts tiles
 
     friend bool operator==(const Peer&, const Peer&) = default;
   };
 
   const Peer& peer(int rank) const { return peers_[static_cast<std::size_t>(rank)]; }
 
-  std::uint32_t handshake_ = 0;
+  std::uint32_t phase_ = 0;
   std::vector<Peer> peers_;
 };
 

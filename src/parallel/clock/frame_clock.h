@@ -1,83 +1,89 @@
-// When a rank samples, exchanges and stops: real time or counted work, behind one interface (paper
-// s. 4.3, 4.6).
+// When a rank samples and when it stops: real time or counted work, behind one interface (paper s. 4.3, 4.6).
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <optional>
 
 #include "parallel/clock/work_units.h"
 #include "parallel/network/messages.h"
-#include "parallel/session_settings.h"
 
 namespace pprt {
 
+// One rank's clock. make_clocks.h makes it; wall_clock.h and work_clock.h are the two kinds.
 class FrameClock {
  public:
   virtual ~FrameClock() = default;
 
-  // Whether a frame may begin. Where ranks share cores, not before the deadline of the one before: who is
-  // ready would take the time of those who still reconstruct it.
+  // --- Frames
+
+  // Whether a frame may begin. Where ranks share cores it may not before the deadline of the frame before:
+  // a rank that is ready would take the time of those that still reconstruct.
   virtual bool may_begin(const FrameOrder& order) const = 0;
+
+  // Whether the order's deadline has passed, so that the rank leaves the frame out. Never for the first
+  // frame.
+  virtual bool is_past(const FrameOrder& order) const = 0;
 
   // A frame begins.
   virtual void begin_frame(const FrameOrder& order) = 0;
 
-  // Counts work (a no-op for wall time: it passes by itself).
-  virtual void spend(Work work, std::uint64_t count) = 0;
+  // The frame is sent. `reconstruction_ms`: what its reconstruction took by used_ns(), from which the clock
+  // learns what the next frames must leave.
+  virtual void end_frame(double reconstruction_ms) = 0;
 
-  // The rank had nothing to do for so long (a no-op for counted work).
-  virtual void rested(double seconds) = 0;
+  // Number of pixels that this rank reconstructs from now on.
+  virtual void region_changed(std::size_t pixels) = 0;
 
-  // Sampling goes in packets with an exchange of messages after each. `samples`: of the region so far, which
+  // --- Packets of samples
+
+  // Begins a packet; ranks exchange messages after each. `samples`: count in the region so far, all of which
   // reconstruction will have to deal with.
   virtual void begin_packet(std::uint64_t samples) = 0;
   virtual bool packet_over() = 0;
 
-  // With a rate: whether what must follow needs the rest of the frame's time; the end is put off a little
-  // where a rank was not let run. Without: never.
+  // With a rate: whether the rest of the frame's time is needed for what follows sampling. Puts the end off a
+  // little where the rank was not let run. Without a rate: false.
   virtual bool sampling_over() = 0;
 
-  // The frame is sent. What its reconstruction took of this rank's CPU, in milliseconds as lap_ms() has it,
-  // tells what the next frames must leave.
-  virtual void end_frame(double reconstruction_ms) = 0;
-
-  // With a rate: how often a piece of work fits into a share of one frame's time.
-  virtual std::size_t affordable(Work work, double share) const = 0;
-
-  // Whether all ranks take the same packets and wait for each other's messages after each.
-  virtual bool in_lockstep() const = 0;
-
-  // In lockstep: how many rounds after the one that they were sent in samples arrive that are so long under
-  // way. 0 on the wall clock, where the network itself takes its time.
-  virtual int rounds_under_way(double seconds) const = 0;
-
-  // Milliseconds of this rank's CPU (work clock: units / 1e6) since the last call.
-  virtual double lap_ms() = 0;
-
-  // How much of the frame's sampling time has passed, in (0, 1]; 1 without a rate.
+  // Share of the frame's sampling time that has passed, in (0, 1]; 0.5 without a rate.
   virtual double sampling_share() const = 0;
 
-  // The region has so many pixels from now on.
-  virtual void region_changed(std::size_t pixels) = 0;
+  // Factor by which the samples will have grown at the frame's end, if they keep
+  // coming as from the `begin` ones to the `now` ones. Empty without a rate, and where the order of samples
+  // cannot save time.
+  virtual std::optional<double> expected_growth(std::size_t begin, std::size_t now) const = 0;
 
-  // Seconds since this frame began (work clock: units / kWorkUnitsPerSecond).
+  // --- Work
+
+  // Counts work. Does nothing on the wall clock: time passes by itself.
+  virtual void spend(Work work, std::uint64_t count) = 0;
+
+  // With a rate: how often a piece of work fits into this share of one frame's time.
+  virtual std::size_t affordable(Work work, double share) const = 0;
+
+  // Notes seconds in which the rank had nothing to do. Returns the milliseconds of them to report as idle:
+  // none on the work clock, where waiting costs no virtual time.
+  virtual double rested(double seconds) = 0;
+
+  // --- Readings
+
+  // CPU time of this rank, nanoseconds since some fixed moment. Work clock: work units spent.
+  virtual std::int64_t used_ns() const = 0;
+
+  // The time measured for some work, milliseconds, as evidence of what that work costs. 0 on the work clock,
+  // whose table of prices decides instead.
+  virtual double as_evidence_ms(double measured_ms) const = 0;
+
+  // Seconds since this frame began. Work clock: units / kWorkUnitsPerSecond.
   virtual double frame_seconds() const = 0;
 
-  // When this frame's sampling had to end, or began if that was later: seconds since the sequence began. What
-  // comes after it is what a frame must leave room for, the last exchange included.
+  // When this frame's sampling had to end, or when it began if that was later: seconds since the sequence
+  // began. A frame must leave room for what follows, the last exchange included.
   virtual double sampling_end_seconds() const = 0;
-
-  // Seconds since the sequence began; work clock: of this rank's virtual time.
-  virtual double sequence_seconds() const = 0;
 };
 
-// `start_s` is the moment the sequence begins in terms of monotonic_seconds(); the work clock ignores it.
-// `region_pixels` is what reconstruction will have to fill.
-std::unique_ptr<FrameClock> make_frame_clock(const SessionSettings& settings, double start_s,
-                                             std::size_t region_pixels, double ranks_per_core);
-
-// Seconds on this host's steady clock.
-double monotonic_seconds();
+// sampling_share() of frames without a rate, whose end nobody knows.
+inline constexpr double kShareWithoutEnd = 0.5;
 
 }  // namespace pprt

@@ -1,4 +1,4 @@
-// The machine that the work clock pretends to run on: how fast its processors count, what its network takes.
+// The virtual machine of the work clock: its processors' speed and its network.
 #pragma once
 
 #include "parallel/clock/work_units.h"
@@ -7,8 +7,8 @@ namespace pprt {
 
 struct Machine {
   double units_per_second = kWorkUnitsPerSecond;  // of one processor
-  double latency_s = 2e-6;                        // from the end of sending to the beginning of receiving
-  double bytes_per_second = 12.5e9;               // of one rank's way into the network, and of its way out
+  double latency_s = 2e-6;           // seconds from the end of sending to the beginning of receiving
+  double bytes_per_second = 12.5e9;  // of one rank's way into the network, and of its way out
 
   friend bool operator==(const Machine&, const Machine&) = default;
 };
@@ -19,10 +19,10 @@ inline Machine cluster_machine() {
   return {1e9, 2e-6, 12.5e9};
 }
 
-// The paper's IBM SP2 (s. 6.1): POWER2 processors of 66 MHz, 40 MB/s in and out of each at once. How fast
-// they count is derived from what the paper tells: 62 of them took 19,000 samples in a quarter of a second at
-// 256x256 pixels, which costs 450,000 units each. The paper gives less than a microsecond for the switch
-// alone; 40 are what a message took between two programs.
+// The paper's IBM SP2 (s. 6.1): POWER2 processors of 66 MHz, 40 MB/s in and out of each at once. Their speed
+// is derived: 62 of them took 19,000 samples in a quarter of a second at 256x256 pixels, which costs 450,000
+// units each. Latency: the paper gives less than a microsecond for the switch alone; 40 microseconds are what
+// a message took between two programs.
 inline Machine sp2_machine() {
   return {1.8e6, 40e-6, 40e6};
 }

@@ -1,5 +1,4 @@
-// The work clock's prices. The paper has no such clock; docs/decisions/0006-work-clock.md says why and
-// whence.
+// The work clock's prices (docs/decisions/0006-work-clock.md). The paper has no such clock.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +13,12 @@ using WorkUnits = std::uint64_t;
 enum class Work : std::uint8_t {
   kRay,             // a ray of any kind, its share of shading included
   kOwnSample,       // choosing a point, inserting a sample traced here, queueing and painting its triangles
-  kUpdateRule,      // whom a new triangle at the border concerns
+  kUpdateRule,      // finding the ranks that a new triangle at the border concerns
   kReceivedSample,  // decoding and inserting another rank's sample, painting its triangles
   kSentSample,      // encoding, per sample and receiver
   kPixel,           // of reconstruction: what a pixel costs beside the triangles
   kCastSample,      // projecting and testing one sample of the frame before
-  kKeptSample       // inserting one of them anew, queueing and painting its triangles
+  kKeptSample       // reinserting one of them, queueing and painting its triangles
 };
 
 constexpr WorkUnits price(Work work) {
@@ -52,14 +51,14 @@ constexpr CastPrices cast_prices() {
       .ray = static_cast<double>(price(Work::kRay))};
 }
 
-// The virtual processor gets this many units a second: a twentieth of the machine measured, so that 32 of
-// them fit on two cores. --budget overrides what follows from it.
+// Speed of the virtual processor, work units a second: a twentieth of the machine measured, so that 32 of
+// them fit on two cores. --budget overrides the frame budget that follows from it.
 inline constexpr double kWorkUnitsPerSecond = 5e7;
 
-// The sampling time of a frame with a rate is cut into this many rounds; messages are delivered between them.
+// Rounds in the sampling time of a frame with a rate; messages are delivered between them.
 inline constexpr int kRoundsPerFrame = 24;
 
-// A round's length in frames without a rate.
+// Work units of a round in frames without a rate.
 inline constexpr WorkUnits kUnitsPerFreeRound = 250'000;
 
 }  // namespace pprt

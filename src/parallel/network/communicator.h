@@ -10,13 +10,13 @@ namespace pprt {
 
 using Bytes = std::vector<std::byte>;
 
-// What a message is; its sender, receiver and reason. docs/protocol.md tells more.
+// Kind of a message: its sender, receiver and reason. docs/protocol.md has more.
 enum class Tag : int {
   kClockPing = 1,  // master -> rank, before the sequence: what time is it?
   kClockPong,      // rank -> master: its time
   kStart,          // master -> rank: when the sequence begins, in the rank's own time
   kFrameOrder,     // master -> rank, one frame ahead: the next frame, or the end
-  kBundle,         // rank -> rank, in and after sampling: samples its region needs to know
+  kBundle,         // rank -> rank, before and during sampling: samples that the receiver's region needs
   kPixels,         // rank -> master, after reconstruction: pixels and what they cost
 };
 

@@ -1,4 +1,4 @@
-// What has arrived and waits for its turn.
+// Messages that have arrived and wait for their turn.
 #pragma once
 
 #include <deque>
@@ -20,20 +20,20 @@ class Inbox {
     Bundle bundle;
   };
 
-  // `to_master` gets what is not for a worker (pixels); never called where no master lives. `after_look` is
-  // called at the end of every pump(): rank 0 keeps the deadlines by it.
+  // `to_master` is called with pixels, which are for rank 0 alone. `after_look` is called at the end of every
+  // pump(): rank 0 keeps the deadlines by it.
   Inbox(
       Communicator& network, std::function<void(const Message&)> to_master,
       std::function<void()> after_look = [] {})
       : network_(network), to_master_(std::move(to_master)), after_look_(std::move(after_look)) {}
 
-  // Takes in all that has arrived; false when there was nothing.
+  // Takes in all messages that have arrived; returns false when there were none.
   bool pump();
 
-  // Takes in one message. Throws ProtocolError for one that has no place in a sequence.
+  // Takes in one message. Throws ProtocolError for a kind that has no place in a sequence.
   void accept(const Message& message);
 
-  // The order for a frame, if it has come.
+  // Takes the order for a frame; empty if it has not arrived.
   std::optional<FrameOrder> take_order(int index);
 
   // Removes and returns the bundles that `wanted` accepts, in order of rank and then of sending.

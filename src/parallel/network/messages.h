@@ -47,11 +47,11 @@ struct Bundle {
   std::int32_t epoch = 0;  // index of the frame in which the sender's triangulation began
   std::int32_t round = 0;
   bool done = false;                  // the sender has reached its goal (frames without a rate)
-  std::int32_t rounds_under_way = 0;  // lockstep: the samples are the receiver's so many rounds later
-  RankProgress progress;              // of the sender
-  HandshakeState handshake;
-  std::vector<TileTransfer> transfers;  // tiles that the sender has given away
-  std::vector<Sample> samples;
+  std::int32_t rounds_under_way = 0;  // work clock: rounds until the receiver gets the samples
+  RankProgress progress = {};         // of the sender
+  HandshakeState handshake = {};
+  std::vector<TileTransfer> transfers = {};  // tiles that the sender has given away
+  std::vector<Sample> samples = {};
 };
 
 // CPU time by stage, milliseconds (work clock: work units / 1e6).
@@ -85,7 +85,8 @@ struct RankReport {
   double sampling_ended_s = 0;  // wall clock: since the start of the sequence
 };
 
-// Rank to master: the pixels of its tiles and of those it has given away, tile after tile, rows from the top.
+// Rank to master: the pixels of its tiles and of those it has given away in this frame. Tile after tile, rows
+// from the top.
 struct PixelMessage {
   std::int32_t frame_index = 0;
   RankReport report;

@@ -269,7 +269,8 @@ void write_figures(const Runs& runs, const PaperResults& results, const PaperOpt
        {bars_panel(runs, "(a) Time by stage, all ranks", "ms of work per frame", kStages),
         bars_panel(runs, "(b) Bytes by kind, all ranks", "kB per frame", kKilobytes), growth_panel(runs)},
        2},
-      "The first ten frames of the casting sequence, combined balancing.");
+      "The first ten frames of the casting sequence, combined balancing. On the work clock the decisions of "
+      "balancing have no price; the samples that it moves count as sampling.");
   page.heading("Where communication begins to hurt");
   output.add_figure(
       {"network",

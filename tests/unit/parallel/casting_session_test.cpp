@@ -49,7 +49,7 @@ double distance_to_region(const Region& region, const Sample& s) {
 
 }  // namespace
 
-TEST_CASE("cast samples serve the next frame, the same each time") {
+TEST_CASE("casting: cast samples serve the next frame, the same each time") {
   for (const CastChoice cast : {CastChoice::kPaper, CastChoice::kVerified}) {
     const SessionSettings settings = casting_settings(cast);
     const VirtualRun run = run_session(kRanks, settings, still_or_pan(settings, 4, 3));
@@ -74,7 +74,8 @@ TEST_CASE("cast samples serve the next frame, the same each time") {
   }
 }
 
-TEST_CASE("auto carries what pays, the same each time, and knows of the frames before") {
+TEST_CASE(
+    "casting: auto carries samples where they pay, the same each time, and learns from the frames before") {
   const SessionSettings settings = casting_settings(CastChoice::kAuto);
   const VirtualRun run = run_session(kRanks, settings, still_or_pan(settings, 4, 3), {.more_rays = 4});
   const VirtualRun again =
@@ -89,7 +90,7 @@ TEST_CASE("auto carries what pays, the same each time, and knows of the frames b
   }
 }
 
-TEST_CASE("where casting does not pay it costs a few samples, not all") {
+TEST_CASE("casting: where it does not pay it costs a few samples, not all") {
   // Rays are cheap: one carried sample costs 935 units, and a fresh one 815.
   const auto casting_ms = [](CastChoice cast) {
     double sum = 0;
@@ -104,7 +105,7 @@ TEST_CASE("where casting does not pay it costs a few samples, not all") {
   CHECK(by_choice < 0.05 * of_all);
 }
 
-TEST_CASE("in real time ranks measure what samples cost, and nowhere else") {
+TEST_CASE("casting: ranks measure what samples cost in real time, and on no other clock") {
   for (const ClockKind clock : {ClockKind::kWall, ClockKind::kWork}) {
     SessionSettings settings = casting_settings(CastChoice::kAuto);
     settings.clock = clock;
@@ -121,7 +122,8 @@ TEST_CASE("in real time ranks measure what samples cost, and nowhere else") {
   }
 }
 
-TEST_CASE("where the eye rests and the view turns nothing is asked for, and samples live for four frames") {
+TEST_CASE(
+    "casting: where the eye rests and the view turns no ray checks samples, and they live for four frames") {
   const SessionSettings settings = casting_settings(CastChoice::kAuto);
   const CameraSource turning = [&](int index) -> std::optional<FrameRequest> {
     if (index >= 7) return std::nullopt;
@@ -142,7 +144,7 @@ TEST_CASE("where the eye rests and the view turns nothing is asked for, and samp
   CHECK(oldest == 3);
 }
 
-TEST_CASE("frames that carry many samples are on time") {
+TEST_CASE("casting: frames that carry many samples are on time") {
   for (const CastChoice cast : {CastChoice::kPaper, CastChoice::kVerified, CastChoice::kAuto}) {
     const SessionSettings settings = casting_settings(cast);
     for (const FinishedFrame& frame : run_session(kRanks, settings, still_or_pan(settings, 8, 1)).frames) {
@@ -152,7 +154,7 @@ TEST_CASE("frames that carry many samples are on time") {
   }
 }
 
-TEST_CASE("a cast sample that crosses a border is told back to the rank it came from") {
+TEST_CASE("casting: a cast sample that crosses a border is announced to the rank it came from") {
   // Its triangles reach over the border it has crossed: the former owner needs it as much as any. So near to
   // the border no other sample comes between.
   constexpr double kReach = 0.25;  // pixels
@@ -160,10 +162,10 @@ TEST_CASE("a cast sample that crosses a border is told back to the rank it came 
   const Partition partition = partition_of(settings);
   const VirtualRun run = run_session(kRanks, settings, still_or_pan(settings, 2, 3));
   REQUIRE(run.frames.size() == 2);
-  std::set<std::pair<int, SampleId>> told;  // receiver, sample: after the first exchange of frame 1
+  std::set<std::pair<int, SampleId>> sent;  // receiver, sample: after the first exchange of frame 1
   for (const SentBundle& b : run.bundles) {
     if (b.bundle.frame_index != 1 || b.bundle.round == 0) continue;
-    for (const Sample& s : b.bundle.samples) told.emplace(b.to, s.id);
+    for (const Sample& s : b.bundle.samples) sent.emplace(b.to, s.id);
   }
   int crossed = 0, back = 0;
   for (const SentBundle& b : run.bundles) {
@@ -172,7 +174,7 @@ TEST_CASE("a cast sample that crosses a border is told back to the rank it came 
       const bool guest = s.frame == 1 && region_of(partition, b.to).owns_point(s.x, s.y);
       if (!guest || distance_to_region(region_of(partition, b.from), s) > kReach) continue;
       ++crossed;
-      back += told.count({b.from, s.id}) != 0;
+      back += sent.count({b.from, s.id}) != 0;
     }
   }
   INFO(back << " of " << crossed);

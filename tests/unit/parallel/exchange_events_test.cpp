@@ -34,7 +34,7 @@ void happen(ExchangingRanks& run, const Events& events, const Partition& first, 
       if (events.transfers) run.give_somewhere();
       break;
     case 2:
-      if (events.cuts) run.cut_anew(another());
+      if (events.cuts) run.repartition(another());
       break;
     case 3:
       if (events.frames) {
@@ -85,23 +85,25 @@ void check_events(const Events& events) {
 
 }  // namespace
 
-TEST_CASE("triangles at borders are known to both sides while tiles move", "[exchange]") {
+TEST_CASE("exchange: both sides know the triangles at borders while tiles are transferred", "[exchange]") {
   check_events({.transfers = true});
 }
 
-TEST_CASE("triangles at borders are known to both sides when the image is cut anew", "[exchange]") {
+TEST_CASE("exchange: both sides know the triangles at borders when the image is repartitioned",
+          "[exchange]") {
   check_events({.cuts = true});
 }
 
-TEST_CASE("triangles at borders are known to both sides in frame after frame", "[exchange]") {
+TEST_CASE("exchange: both sides know the triangles at borders in frame after frame", "[exchange]") {
   check_events({.frames = true});
 }
 
-TEST_CASE("triangles at borders are known to both sides whatever happens", "[exchange]") {
+TEST_CASE("exchange: both sides know the triangles at borders with transfers, repartitions and frames",
+          "[exchange]") {
   check_events({.transfers = true, .cuts = true, .frames = true});
 }
 
-TEST_CASE("and when seeds come late", "[exchange]") {
+TEST_CASE("exchange: both sides know the triangles at borders when seeds come late", "[exchange]") {
   check_events({.transfers = true, .cuts = true, .frames = true, .late_seeds = true});
 }
 

@@ -65,7 +65,7 @@ void ExchangingRanks::refine(int most) {
     for (std::size_t n = random(static_cast<std::size_t>(most)); n > 0; --n) {
       const auto next = r.mesh.next_point();
       if (!next) break;
-      if (r.mesh.insert(sample_of(picture_, next->point.x, next->point.y))) r.exchange.inserted(r.rank);
+      r.exchange.insert(r.mesh, sample_of(picture_, next->point.x, next->point.y), r.rank);
     }
     if (random(4) != 0) post(r);
   }
@@ -73,7 +73,7 @@ void ExchangingRanks::refine(int most) {
 
 void ExchangingRanks::deliver_some() {
   for (ExchangingRank& r : ranks_) {
-    if (random(4) == 0) hear_of_cut(r);
+    if (random(4) == 0) learn_partition(r);
     for (int from = 0; from < static_cast<int>(ranks_.size()); ++from) {
       for (std::size_t n = random(4); n > 0; --n) take_in_one(r, from);
     }
@@ -102,36 +102,36 @@ void ExchangingRanks::give_somewhere() {
   }
   if (tiles.empty()) return;
   giver.exchange.introduce(giver.mesh, tiles, taker);
-  std::vector<Gift> transfers;
+  std::vector<MovedTile> transfers;
   for (const int tile : tiles) {
     const auto t = static_cast<std::size_t>(tile);
     next.owner[t] = taker;
     transfers.push_back({tile, taker, ++next.version[t]});
   }
-  gifts_ += static_cast<int>(transfers.size());
+  transfers_ += static_cast<int>(transfers.size());
   set_partition(giver, next);
   post(giver, transfers);
 }
 
-void ExchangingRanks::cut_anew(const Partition& partition) {
-  cuts_.push_back(partition);
-  std::fill(cuts_.back().version.begin(), cuts_.back().version.end(),
-            first_version(static_cast<std::uint32_t>(cuts_.size())));
+void ExchangingRanks::repartition(const Partition& partition) {
+  partitions_.push_back(partition);
+  std::fill(partitions_.back().version.begin(), partitions_.back().version.end(),
+            first_version(static_cast<std::uint32_t>(partitions_.size())));
 }
 
 void ExchangingRanks::begin_frame(const Vec2d& shift, const Partition* partition, bool seeds_late) {
-  hear_everything();
-  if (partition != nullptr) cut_anew(*partition);
+  learn_everything();
+  if (partition != nullptr) repartition(*partition);
   std::vector<std::vector<Sample>> settled;
   for (ExchangingRank& r : ranks_) {
-    const std::vector<Sample> survivors = moved_samples(r, shift);
-    if (partition != nullptr) set_partition(r, cuts_.back()), ++r.frame;
+    const std::vector<Sample> cast = moved_samples(r, shift);
+    if (partition != nullptr) set_partition(r, partitions_.back()), ++r.frame;
     r.mesh.clear();
     r.exchange.clear();
     ++r.epoch;
     trace_seeds(r);
     std::vector<std::vector<Sample>> by_owner(ranks_.size());
-    for (const Sample& s : survivors)
+    for (const Sample& s : cast)
       by_owner[static_cast<std::size_t>(r.exchange.owner_of(s.x, s.y))].push_back(s);
     settled.push_back(std::exchange(by_owner[static_cast<std::size_t>(r.rank)], {}));
     post(r, {}, true, by_owner);
@@ -139,7 +139,7 @@ void ExchangingRanks::begin_frame(const Vec2d& shift, const Partition* partition
   for (ExchangingRank& r : ranks_) take_in_seeds(r, seeds_late);
   for (ExchangingRank& r : ranks_) {
     for (const Sample& s : settled[static_cast<std::size_t>(r.rank)]) {
-      if (r.mesh.insert(s)) r.exchange.inserted(r.rank);
+      r.exchange.insert(r.mesh, s, r.rank);
     }
     post(r);
   }
@@ -149,7 +149,7 @@ int ExchangingRanks::quieten() {
   for (int round = 1;; ++round) {
     bool quiet = true;
     for (ExchangingRank& r : ranks_) {
-      while (r.frame < static_cast<int>(cuts_.size())) hear_of_cut(r);
+      while (r.frame < static_cast<int>(partitions_.size())) learn_partition(r);
       post(r);
     }
     for (ExchangingRank& r : ranks_) {
@@ -164,13 +164,13 @@ int ExchangingRanks::quieten() {
 
 // --- What a rank does, as parallel/worker does it ---
 
-void ExchangingRanks::post(ExchangingRank& r, const std::vector<Gift>& transfers, bool seeds,
+void ExchangingRanks::post(ExchangingRank& r, const std::vector<MovedTile>& transfers, bool seeds,
                            const std::vector<std::vector<Sample>>& guests) {
   if (!seeds) r.exchange.announce(r.mesh);
   for (ExchangingRank& to : ranks_) {
     if (to.rank == r.rank) continue;
     std::vector<Sample> samples = r.exchange.take_outbox(to.rank);
-    for (const Sample& s : samples) repeats_ += !told_.insert({r.epoch, r.rank, to.rank, s.x, s.y}).second;
+    for (const Sample& s : samples) repeats_ += !sent_.insert({r.epoch, r.rank, to.rank, s.x, s.y}).second;
     if (!guests.empty()) {
       const auto& landed = guests[static_cast<std::size_t>(to.rank)];
       samples.insert(samples.end(), landed.begin(), landed.end());
@@ -182,28 +182,28 @@ void ExchangingRanks::post(ExchangingRank& r, const std::vector<Gift>& transfers
 }
 
 bool ExchangingRanks::take_in_one(ExchangingRank& r, int from) {
-  std::deque<Letter>& letters = r.inbox[static_cast<std::size_t>(from)];
-  if (letters.empty() || letters.front().frame > r.frame) return false;
-  const Letter letter = std::move(letters.front());
-  letters.pop_front();
-  apply(r, letter);
-  if (letter.epoch != r.epoch) return true;
-  for (const Gift& transfer : letter.transfers) {
-    if (transfer.owner == r.rank) r.exchange.pass_on(r.mesh, transfer.tile);
+  std::deque<ExchangeMessage>& messages = r.inbox[static_cast<std::size_t>(from)];
+  if (messages.empty() || messages.front().frame > r.frame) return false;
+  const ExchangeMessage message = std::move(messages.front());
+  messages.pop_front();
+  apply(r, message);
+  if (message.epoch != r.epoch) return true;
+  for (const MovedTile& transfer : message.transfers) {
+    if (transfer.owner == r.rank) r.exchange.forward_tile(r.mesh, transfer.tile);
   }
-  if (letter.seeds) {
-    take_in_late_seeds(r, letter);
+  if (message.seeds) {
+    take_in_late_seeds(r, message);
     return true;
   }
-  for (const Sample& s : letter.samples) {
-    if (r.mesh.insert(s)) r.exchange.inserted(from);
+  for (const Sample& s : message.samples) {
+    r.exchange.insert(r.mesh, s, from);
   }
   return true;
 }
 
-void ExchangingRanks::hear_of_cut(ExchangingRank& r) {
-  if (r.frame == static_cast<int>(cuts_.size())) return;
-  const Partition& next = cuts_[static_cast<std::size_t>(r.frame++)];
+void ExchangingRanks::learn_partition(ExchangingRank& r) {
+  if (r.frame == static_cast<int>(partitions_.size())) return;
+  const Partition& next = partitions_[static_cast<std::size_t>(r.frame++)];
   for (int taker = 0; taker < next.ranks; ++taker) {
     std::vector<int> moved;
     for (const int tile : r.mesh.region().tiles()) {
@@ -217,24 +217,23 @@ void ExchangingRanks::hear_of_cut(ExchangingRank& r) {
 
 void ExchangingRanks::set_partition(ExchangingRank& r, const Partition& partition) {
   r.exchange.repartition(r.mesh, partition);
-  r.mesh.set_region(region_of(partition, r.rank));
 }
 
-void ExchangingRanks::apply(ExchangingRank& r, const Letter& letter) {
+void ExchangingRanks::apply(ExchangingRank& r, const ExchangeMessage& message) {
   Partition next = r.exchange.partition();
-  for (const Gift& transfer : letter.transfers) {
+  for (const MovedTile& transfer : message.transfers) {
     const auto t = static_cast<std::size_t>(transfer.tile);
     if (transfer.version <= next.version[t]) continue;
     next.owner[t] = transfer.owner;
     next.version[t] = transfer.version;
   }
-  if (!letter.transfers.empty()) set_partition(r, next);
+  if (!message.transfers.empty()) set_partition(r, next);
 }
 
-// Whether the sender keeps a sample is not known: a seed it does, a survivor that landed here it does not.
-void ExchangingRanks::take_in_late_seeds(ExchangingRank& r, const Letter& letter) {
-  for (const Sample& s : letter.samples) {
-    if (r.mesh.insert(s)) r.exchange.inserted(r.rank);
+// Whether the sender keeps a sample is not known: a seed it does, a cast sample that landed here it does not.
+void ExchangingRanks::take_in_late_seeds(ExchangingRank& r, const ExchangeMessage& message) {
+  for (const Sample& s : message.samples) {
+    r.exchange.insert(r.mesh, s, r.rank);
   }
 }
 
@@ -254,47 +253,37 @@ void ExchangingRanks::trace_seeds(ExchangingRank& r) {
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     const Vec2d& p = points[i];
     const bool own = r.mesh.region().owns_point(p.x, p.y);
-    if ((i >= 4 && !own) || !r.mesh.insert(sample_of(picture_, p.x, p.y))) continue;
-    if (own) {
-      r.exchange.seeded_here(r.mesh, i);
-    } else {
-      r.exchange.seeded_elsewhere(r.exchange.owner_of(p.x, p.y));
-    }
+    if (i < 4 || own) r.exchange.insert_seed(r.mesh, sample_of(picture_, p.x, p.y), i);
   }
 }
 
 // First the seeds of all, then what landed here.
 void ExchangingRanks::take_in_seeds(ExchangingRank& r, bool some_late) {
-  std::vector<std::pair<int, Letter>> come;
+  std::vector<std::pair<int, ExchangeMessage>> come;
   for (std::size_t from = 0; from < ranks_.size(); ++from) {
     if (r.inbox[from].empty() || (some_late && random(3) == 0)) continue;
     come.emplace_back(static_cast<int>(from), std::move(r.inbox[from].front()));
     r.inbox[from].pop_front();
   }
   for (const bool own : {false, true}) {
-    for (const auto& [from, letter] : come) {
-      for (const Sample& s : letter.samples) {
-        if (r.mesh.region().owns_point(s.x, s.y) != own || !r.mesh.insert(s)) continue;
-        if (own) {
-          r.exchange.inserted(r.rank);
-        } else {
-          r.exchange.seeded_elsewhere(from);
-        }
+    for (const auto& [from, message] : come) {
+      for (const Sample& s : message.samples) {
+        if (r.mesh.region().owns_point(s.x, s.y) == own) r.exchange.insert(r.mesh, s, own ? r.rank : from);
       }
     }
   }
 }
 
 // Before a triangulation begins all know who owns what. Samples that are still under way are of no more use,
-// and are not heard.
-void ExchangingRanks::hear_everything() {
+// and are dropped.
+void ExchangingRanks::learn_everything() {
   for (ExchangingRank& r : ranks_) {
-    while (r.frame < static_cast<int>(cuts_.size())) hear_of_cut(r);
+    while (r.frame < static_cast<int>(partitions_.size())) learn_partition(r);
   }
   for (ExchangingRank& r : ranks_) {
-    for (std::deque<Letter>& letters : r.inbox) {
-      for (const Letter& letter : letters) apply(r, letter);
-      letters.clear();
+    for (std::deque<ExchangeMessage>& messages : r.inbox) {
+      for (const ExchangeMessage& message : messages) apply(r, message);
+      messages.clear();
     }
   }
 }

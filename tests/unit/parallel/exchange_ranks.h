@@ -1,5 +1,6 @@
 // Ranks that exchange samples in one thread: messages arrive when the test wants it, tiles change hands, the
-// image is cut anew and frames begin. What they know in the end is compared with one serial triangulation.
+// image is repartitioned and frames begin. What they know in the end is compared with one serial
+// triangulation.
 #pragma once
 
 #include <deque>
@@ -13,18 +14,18 @@
 
 namespace pprt {
 
-struct Gift {
+struct MovedTile {
   int tile = 0;
   int owner = 0;
   std::uint64_t version = 0;
 };
 
 // What one rank sends another at a time, as a bundle does.
-struct Letter {
+struct ExchangeMessage {
   int frame = 0;       // orders that the sender had carried out; the receiver must have, too
   int epoch = 0;       // triangulations that it had begun
-  bool seeds = false;  // and survivors that landed with the receiver
-  std::vector<Gift> transfers;
+  bool seeds = false;  // and cast that landed with the receiver
+  std::vector<MovedTile> transfers;
   std::vector<Sample> samples;
 };
 
@@ -32,7 +33,7 @@ struct ExchangingRank {
   int rank;
   SampleMesh mesh;
   SampleExchange exchange;
-  std::vector<std::deque<Letter>> inbox;  // per sender, in order of sending
+  std::vector<std::deque<ExchangeMessage>> inbox;  // per sender, in order of sending
   int frame = 0;
   int epoch = 0;
 
@@ -53,7 +54,7 @@ class ExchangingRanks {
   // Each rank refines by a random number of samples, or not at all; most send what others must know.
   void refine(int most);
 
-  // Some of what is under way arrives; some ranks hear of a new cut.
+  // Some messages arrive; some ranks learn of a repartition.
   void deliver_some();
 
   // The two, one after the other.
@@ -63,45 +64,46 @@ class ExchangingRanks {
   // given, and regions may fall apart: the exchange does not care.
   void give_somewhere();
 
-  // The image is cut anew and all samples stay: each rank learns it at a moment of its own.
-  void cut_anew(const Partition& partition);
+  // The image is repartitioned and all samples stay: each rank learns it at a moment of its own.
+  void repartition(const Partition& partition);
 
   // The camera moves by so many pixels: samples move with what they show, some die, and all begin a
   // triangulation with seeds and what is left. A new partition may come with it. With `seeds_late` some ranks
   // go on before all that the others send at first has come.
   void begin_frame(const Vec2d& shift, const Partition* partition, bool seeds_late);
 
-  // Delivers until nothing is under way and all have heard of every cut; returns the number of rounds.
+  // Delivers until no message is under way and all ranks know every repartition; returns the number of
+  // rounds.
   int quieten();
 
   const std::deque<ExchangingRank>& ranks() const { return ranks_; }
-  int repeats() const { return repeats_; }  // samples that a rank told another a second time
-  int transfers() const { return gifts_; }
+  int repeats() const { return repeats_; }  // samples that a rank sent another a second time
+  int transfers() const { return transfers_; }
 
   // The serial triangulation of every sample that any rank has.
   SampleMesh all_samples() const;
 
  private:
   std::size_t random(std::size_t below) { return random_() % below; }
-  void post(ExchangingRank& rank, const std::vector<Gift>& transfers = {}, bool seeds = false,
+  void post(ExchangingRank& rank, const std::vector<MovedTile>& transfers = {}, bool seeds = false,
             const std::vector<std::vector<Sample>>& guests = {});
   bool take_in_one(ExchangingRank& rank, int from);
-  void hear_of_cut(ExchangingRank& rank);
+  void learn_partition(ExchangingRank& rank);
   void set_partition(ExchangingRank& rank, const Partition& partition);
-  void apply(ExchangingRank& rank, const Letter& letter);
-  void take_in_late_seeds(ExchangingRank& rank, const Letter& letter);
+  void apply(ExchangingRank& rank, const ExchangeMessage& message);
+  void take_in_late_seeds(ExchangingRank& rank, const ExchangeMessage& message);
   std::vector<Sample> moved_samples(const ExchangingRank& rank, const Vec2d& shift);
   void trace_seeds(ExchangingRank& rank);
   void take_in_seeds(ExchangingRank& rank, bool some_late);
-  void hear_everything();
+  void learn_everything();
 
   Picture picture_;
   std::mt19937 random_;
   std::deque<ExchangingRank> ranks_;
-  std::vector<Partition> cuts_;  // in the order of their generations
-  std::set<std::tuple<int, int, int, double, double>> told_;
+  std::vector<Partition> partitions_;  // in the order of their generations
+  std::set<std::tuple<int, int, int, double, double>> sent_;
   int repeats_ = 0;
-  int gifts_ = 0;
+  int transfers_ = 0;
 };
 
 struct Findings {

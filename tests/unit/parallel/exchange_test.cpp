@@ -24,7 +24,7 @@ void check_invariant(const Partition& partition, unsigned seed) {
 
 }  // namespace
 
-TEST_CASE("all ranks have the triangles that meet their regions: rectangles") {
+TEST_CASE("exchange: all ranks have the triangles that meet their rectangular regions") {
   for (const int ranks : {2, 3, 5, 9, 16}) {
     for (unsigned seed = 1; seed <= 4; ++seed) {
       check_invariant(random_rectangles(TileGrid(128, 96, 8), ranks, seed), seed);
@@ -32,7 +32,7 @@ TEST_CASE("all ranks have the triangles that meet their regions: rectangles") {
   }
 }
 
-TEST_CASE("all ranks have the triangles that meet their regions: ragged regions") {
+TEST_CASE("exchange: all ranks have the triangles that meet their ragged regions") {
   for (const int ranks : {2, 4, 9}) {
     for (unsigned seed = 11; seed <= 14; ++seed) {
       check_invariant(random_growths(TileGrid(120, 100, 10), ranks, seed), seed);
@@ -40,14 +40,14 @@ TEST_CASE("all ranks have the triangles that meet their regions: ragged regions"
   }
 }
 
-TEST_CASE("all ranks have the triangles that meet their regions: regions smaller than the seeds' spacing") {
+TEST_CASE("exchange: all ranks have the triangles that meet regions smaller than the seeds' spacing") {
   for (unsigned seed = 21; seed <= 23; ++seed) {
     check_invariant(random_rectangles(TileGrid(64, 64, 4), 30, seed), seed);
     check_invariant(random_growths(TileGrid(64, 64, 4), 30, seed), seed);
   }
 }
 
-TEST_CASE("without the exchange the same comparison finds many triangles wrong") {
+TEST_CASE("control: without the exchange many triangles at borders are missing") {
   const Partition partition = random_rectangles(TileGrid(128, 96, 8), 9, 1);
   ExchangingRanks run(partition, 1);
   run.seed();
@@ -56,7 +56,7 @@ TEST_CASE("without the exchange the same comparison finds many triangles wrong")
   CHECK(findings.unknown > 20);
 }
 
-TEST_CASE("each rank is told the seeds that its triangles need") {
+TEST_CASE("exchange: each rank is sent the seeds that its triangles need") {
   for (unsigned seed = 1; seed <= 40; ++seed) {
     ExchangingRanks run(random_rectangles(TileGrid(200, 150, 10), 7, seed), seed);
     run.seed();
@@ -66,7 +66,7 @@ TEST_CASE("each rank is told the seeds that its triangles need") {
   }
 }
 
-TEST_CASE("peers for seeds are mutual, and no rank is its own") {
+TEST_CASE("exchange: seed peers are mutual, and no rank is its own") {
   const Partition partition = random_growths(TileGrid(400, 300, 10), 20, 5);
   std::vector<std::vector<int>> peers;
   for (int rank = 0; rank < 20; ++rank)
@@ -80,7 +80,7 @@ TEST_CASE("peers for seeds are mutual, and no rank is its own") {
   }
 }
 
-TEST_CASE("a sample is told to a rank once") {
+TEST_CASE("exchange: a sample is sent to a rank once") {
   ExchangingRanks run(random_rectangles(TileGrid(128, 96, 8), 5, 3), 3);
   run.seed();
   for (int round = 0; round < 8; ++round) run.sample_round(25);

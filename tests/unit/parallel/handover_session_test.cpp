@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kRanks = 5;
 
-// No rate, for at a fixed one the master puts off a cut that hands over more than fits into a frame: each
+// No rate, for at a fixed one the master drops a partition that hands over more than fits into a frame: each
 // frame takes so many seconds. No rank is late, and tiles change hands in every packet.
 SessionSettings settings_for(BalanceMode balance, ClockKind clock) {
   SessionSettings settings;
@@ -100,7 +100,7 @@ CameraSource still_with_disc_aside(const SessionSettings& settings, int frames) 
 
 }  // namespace
 
-TEST_CASE("no new cut and no transfer costs a sample while the camera rests, and every tile has one owner") {
+TEST_CASE("handover: no repartition and no transfer loses a sample at rest, and every tile has one owner") {
   for (const BalanceMode balance : {BalanceMode::kLocal, BalanceMode::kGlobal, BalanceMode::kCombined}) {
     const SessionSettings settings = settings_for(balance, ClockKind::kWork);
     const VirtualRun run = run_session(kRanks, settings, still_with_disc_aside(settings, 8));
@@ -118,7 +118,7 @@ TEST_CASE("no new cut and no transfer costs a sample while the camera rests, and
   }
 }
 
-TEST_CASE("samples that are not kept are lost to a new cut") {
+TEST_CASE("handover: a repartition that does not keep samples loses them") {
   SessionSettings settings = settings_for(BalanceMode::kGlobal, ClockKind::kWork);
   settings.keep_samples = false;
   const VirtualRun run = run_session(kRanks, settings, still_with_disc_aside(settings, 5));
@@ -127,7 +127,7 @@ TEST_CASE("samples that are not kept are lost to a new cut") {
   CHECK(missing_from(points_of(run.frames[4]), points_of(run.frames[0])) > 100);
 }
 
-TEST_CASE("no sample is lost in real time either whatever the order in which messages arrive") {
+TEST_CASE("handover: in real time no sample is lost whatever the order in which messages arrive") {
   constexpr int kFrames = 6;
   const std::vector<Conditions> all_conditions = {{.slow_at_random = true, .arrive_at_random = true},
                                                   {.bundle_delay_s = 0.003}};
@@ -139,7 +139,7 @@ TEST_CASE("no sample is lost in real time either whatever the order in which mes
       REQUIRE(run.error.empty());
       REQUIRE(run.frames.size() == kFrames);
       check_one_owner(run);
-      // A sample that goes to another rank is on its way for a while, in which nobody tells it as its own.
+      // A sample that goes to another rank is on its way for a while, in which nobody reports it as its own.
       std::set<Point> last;
       for (int i = kFrames - 3; i < kFrames; ++i)
         last.merge(points_of(run.frames[static_cast<std::size_t>(i)]));

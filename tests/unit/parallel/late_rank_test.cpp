@@ -148,7 +148,7 @@ const Step kFirst{0, Carry::kNothing};
 
 }  // namespace
 
-TEST_CASE("a late rank leaves out what is past and joins the frame whose deadline is to come") {
+TEST_CASE("late rank: leaves out frames that are past and joins at the first whose deadline is to come") {
   Pair pair;
   pair.step(kFirst);
   for (int i = 1; i <= 4; ++i) pair.step({2.0 * i}, true);
@@ -160,7 +160,7 @@ TEST_CASE("a late rank leaves out what is past and joins the frame whose deadlin
   pair.check_last_frame_is_whole();
 }
 
-TEST_CASE("the first frame is never left out") {
+TEST_CASE("late rank: the first frame is never left out") {
   Pair pair;
   pair.step(kFirst, true);
   pair.step({2}, true);
@@ -170,7 +170,7 @@ TEST_CASE("the first frame is never left out") {
   pair.check_last_frame_is_whole();
 }
 
-TEST_CASE("a rank that slept while the camera rested has kept its samples, and hears what it was told") {
+TEST_CASE("late rank: after a rest of the camera it has kept its samples, and takes in what it was sent") {
   Pair pair;
   pair.step(kFirst);
   const std::uint64_t before = pair.last_of(1).report.samples_in_region;
@@ -184,7 +184,7 @@ TEST_CASE("a rank that slept while the camera rested has kept its samples, and h
   pair.check_last_frame_is_whole();
 }
 
-TEST_CASE("a rank that missed where the others' triangulation began begins anew") {
+TEST_CASE("late rank: one that missed the beginning of the others' triangulation begins anew") {
   Pair pair;
   pair.step(kFirst);
   pair.step({3}, true);
@@ -196,14 +196,14 @@ TEST_CASE("a rank that missed where the others' triangulation began begins anew"
   CHECK(report.samples_new > 100);
   CHECK(report.samples_received > 0);  // the other's seeds and samples of the frames left out
   pair.check_last_frame_is_whole();
-  // From here on it accumulates with the others, and they hear of its samples.
+  // From here on it accumulates with the others, and they receive its samples.
   pair.step({3, Carry::kAccumulate});
   CHECK(pair.last_of(1).report.samples_cast > 100);
   CHECK(pair.last_of(0).report.samples_received > 0);
   pair.check_last_frame_is_whole();
 }
 
-TEST_CASE("nothing is carried across a cut that was left out") {
+TEST_CASE("late rank: nothing is carried across a camera cut that was left out") {
   Pair pair;
   pair.step(kFirst);
   pair.step({3, Carry::kNothing}, true);
@@ -215,7 +215,7 @@ TEST_CASE("nothing is carried across a cut that was left out") {
   pair.check_last_frame_is_whole();
 }
 
-TEST_CASE("a partition that comes with a frame left out is in force all the same") {
+TEST_CASE("late rank: a partition that comes with a frame left out is in force all the same") {
   for (const Carry carry : {Carry::kCastPaper, Carry::kAccumulate, Carry::kNothing}) {
     for (const bool keep : {true, false}) {
       Pair pair(keep);

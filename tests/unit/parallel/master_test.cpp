@@ -108,7 +108,7 @@ class Stage {
 
 }  // namespace
 
-TEST_CASE("a whole frame is delivered at once") {
+TEST_CASE("master: a whole frame is delivered at once") {
   Stage stage;
   stage.begin();
   stage.at(0.2);
@@ -120,7 +120,7 @@ TEST_CASE("a whole frame is delivered at once") {
   CHECK(stage.delivered[0].late_ms == Approx(-50));
 }
 
-TEST_CASE("a frame whose ranks are late is delivered after the grace, with what they showed last") {
+TEST_CASE("master: a frame with late ranks is delivered after the grace, and shows their earlier pixels") {
   Stage stage;
   stage.begin();
   stage.send_all(0);
@@ -141,7 +141,7 @@ TEST_CASE("a frame whose ranks are late is delivered after the grace, with what 
   CHECK(std::count(frame.owners.begin(), frame.owners.end(), 1) == 2);
 }
 
-TEST_CASE("pixels that arrive within the grace are shown") {
+TEST_CASE("master: pixels that arrive within the grace are shown") {
   Stage stage;
   stage.begin();
   stage.send_all(0);
@@ -154,7 +154,7 @@ TEST_CASE("pixels that arrive within the grace are shown") {
   CHECK(stage.shown(stage.delivered[1], 1) == Stage::value(1, 1));
 }
 
-TEST_CASE("the first frame waits for all ranks, and those after it for their turn") {
+TEST_CASE("master: the first frame waits for all ranks, and later frames wait for it") {
   Stage stage;
   stage.begin();
   stage.send(0, 0), stage.send(1, 0), stage.send(0, 1), stage.send(1, 1);
@@ -171,7 +171,7 @@ TEST_CASE("the first frame waits for all ranks, and those after it for their tur
   CHECK(stage.shown(stage.delivered[1], 2) == Stage::value(2, 0));
 }
 
-TEST_CASE("pixels of a frame already delivered are counted and fill the next gap") {
+TEST_CASE("master: pixels of a frame already delivered are counted and fill the next gap") {
   Stage stage;
   for (int frame = 0; frame < 3; ++frame) stage.begin();
   stage.send_all(0);
@@ -194,7 +194,7 @@ TEST_CASE("pixels of a frame already delivered are counted and fill the next gap
   CHECK(stage.shown(stage.delivered[3], 2) == Stage::value(2, 3));
 }
 
-TEST_CASE("pixels of a frame that was not ordered are refused, and pixels that come twice") {
+TEST_CASE("master: pixels of a frame that was not ordered are refused, and pixels that come twice") {
   Stage stage;
   CHECK_THROWS_AS(stage.send(1, 7), ProtocolError);
   CHECK_THROWS_AS(stage.send(1, -1), ProtocolError);
@@ -205,7 +205,7 @@ TEST_CASE("pixels of a frame that was not ordered are refused, and pixels that c
   CHECK_THROWS_AS(counted.send(1, 0), ProtocolError);  // nobody can be late there
 }
 
-TEST_CASE("a rank 0 that was away hears what has come before it judges") {
+TEST_CASE("master: a rank 0 that was away takes in all messages before it calls a rank late") {
   Stage stage;
   stage.begin();
   stage.send_all(0);
@@ -224,7 +224,7 @@ TEST_CASE("a rank 0 that was away hears what has come before it judges") {
   CHECK(stage.shown(stage.delivered[3], 1) == Stage::value(1, 1));
 }
 
-TEST_CASE("without a rate, and on the work clock, every frame waits for all ranks") {
+TEST_CASE("master: without a rate, and on the work clock, every frame waits for all ranks") {
   for (const ClockKind clock : {ClockKind::kWall, ClockKind::kWork}) {
     Stage stage(clock, clock == ClockKind::kWall ? 0 : 1 / kPeriod);
     stage.begin();
@@ -239,7 +239,7 @@ TEST_CASE("without a rate, and on the work clock, every frame waits for all rank
   }
 }
 
-TEST_CASE("rank 0 does not begin a frame while the one before needs it") {
+TEST_CASE("master: rank 0 does not begin a frame while it must still deliver the one before") {
   Stage shared(ClockKind::kWall, 1 / kPeriod, 2);
   shared.begin();
   CHECK(shared.master().may_begin(0));
@@ -254,7 +254,7 @@ TEST_CASE("rank 0 does not begin a frame while the one before needs it") {
   CHECK_FALSE(alone.master().may_begin(1));
 }
 
-TEST_CASE("no new partition follows from a frame that a rank did not report") {
+TEST_CASE("master: a frame that lacks a rank's report leads to no new partition") {
   for (const bool late : {false, true}) {
     Stage stage;
     stage.begin();
@@ -272,7 +272,7 @@ TEST_CASE("no new partition follows from a frame that a rank did not report") {
   }
 }
 
-TEST_CASE("a late rank teaches the reserve what it needs, one that stood still nothing") {
+TEST_CASE("master: the reserve learns from a late rank, but not from one that stood still") {
   // The reserve in the order after three frames, the third of which lacks rank 2 until `came_s` after its
   // deadline.
   const auto reserve_after = [](double came_s) {
@@ -297,7 +297,7 @@ TEST_CASE("a late rank teaches the reserve what it needs, one that stood still n
   CHECK(still == Approx(1.7 * 0.01 + 0.001).margin(0.002));
 }
 
-TEST_CASE("the reserve in an order leaves out reconstruction, for which each rank leaves room itself") {
+TEST_CASE("master: the reserve excludes reconstruction, for which each rank leaves room itself") {
   const auto reserve_after = [](double reconstruction_ms) {
     Stage stage;
     stage.begin();

@@ -25,7 +25,7 @@ float value_of(const Mosaic& mosaic, int tile) {
 
 }  // namespace
 
-TEST_CASE("an owner's pixels stand above those of a former one, in whatever order they come") {
+TEST_CASE("mosaic: an owner's pixels replace those of a former owner, in whatever order they come") {
   for (const bool owner_first : {true, false}) {
     Mosaic mosaic(kGrid);
     if (owner_first) mosaic.paste(1, pixels(0, {2}, {}, 0.5f));
@@ -40,7 +40,7 @@ TEST_CASE("an owner's pixels stand above those of a former one, in whatever orde
   }
 }
 
-TEST_CASE("gaps are filled from an earlier picture, and nothing else is") {
+TEST_CASE("mosaic: gaps are filled from an earlier picture, and nothing else is") {
   Mosaic before(kGrid);
   before.paste(0, pixels(3, {0, 1}, {}, 0.125f));
   before.paste(1, pixels(3, {2, 3}, {}, 0.25f));
@@ -53,7 +53,7 @@ TEST_CASE("gaps are filled from an earlier picture, and nothing else is") {
   CHECK(now.fill_gaps(before) == 0);
 }
 
-TEST_CASE("late pixels replace older ones only") {
+TEST_CASE("mosaic: late pixels replace older ones only") {
   Mosaic shown(kGrid);
   shown.paste(0, pixels(7, {0}, {}, 0.5f));
   shown.paste(1, pixels(4, {1}, {}, 0.25f));
@@ -63,7 +63,7 @@ TEST_CASE("late pixels replace older ones only") {
   CHECK(value_of(shown, 2) == 0.75f);
 }
 
-TEST_CASE("pixels that are not those of their tiles are refused") {
+TEST_CASE("mosaic: pixels that are not those of their tiles are refused") {
   Mosaic mosaic(kGrid);
   CHECK_THROWS_AS(mosaic.paste(0, pixels(0, {4}, {}, 0)), ProtocolError);
   CHECK_THROWS_AS(mosaic.paste(0, pixels(0, {}, {-1}, 0)), ProtocolError);

@@ -15,7 +15,7 @@ constexpr int kSize = 96;
 constexpr double kPeriod = 0.25, kNow = 0;
 constexpr double kDepth = 10, kPixel = 0.1;
 
-// Nothing else is carried: by the evidence that is told, most samples prove hidden.
+// Nothing else is carried: by the evidence in the order, most samples prove hidden.
 CastEvidence evidence_against_casting() {
   CastEvidence e;
   e.asked = 2000, e.hidden = 1900, e.fresh = 100, e.fresh_rays = 100;
@@ -58,13 +58,13 @@ class Session {
     const TileGrid grid(kSize, kSize, 8);
     return bisect(grid, std::vector<double>(static_cast<std::size_t>(grid.tile_count()), 1), 1);
   }
-  void hear(const Message& message) {
+  void take_in(const Message& message) {
     if (message.tag == Tag::kPixels) samples_ = decode_pixels(message.payload).samples;
   }
 
   LocalNetwork network_{1};
   LocalCommunicator communicator_{network_, 0};
-  Inbox inbox_{communicator_, [this](const Message& message) { hear(message); }};
+  Inbox inbox_{communicator_, [this](const Message& message) { take_in(message); }};
   std::vector<Sample> samples_;
   std::unique_ptr<Worker> worker_;
   int index_ = -1;
@@ -162,7 +162,7 @@ class Squares {
 
 }  // namespace
 
-TEST_CASE("what the frame before has seen is found again, however small it has become") {
+TEST_CASE("primitive anchors: what the frame before has shown is found again, however small it has become") {
   Scene scene(false);
   const Vec2d anchor = middle_one(scene.render(Carry::kNothing, kCenter, kLarge));
   for (int frame = 2; frame < 7; ++frame) {
@@ -172,7 +172,7 @@ TEST_CASE("what the frame before has seen is found again, however small it has b
   }
 }
 
-TEST_CASE("what is hidden is not put back, nor what would have a stale colour") {
+TEST_CASE("primitive anchors: hidden samples are not reinserted, nor those with a stale colour") {
   for (const bool shines : {false, true}) {
     CAPTURE(shines);
     Scene scene(shines);
@@ -181,7 +181,7 @@ TEST_CASE("what is hidden is not put back, nor what would have a stale colour") 
   }
 }
 
-TEST_CASE("what refinement finds by itself is not sought") {
+TEST_CASE("primitive anchors: primitives that refinement finds by itself are not sought") {
   Scene scene(false);
   const Vec2d anchor = middle_one(scene.render(Carry::kNothing, kCenter, kLarge));
   const std::vector<Sample> found = scene.render(Carry::kCastWherePaying, kCenter, kLarge);
@@ -189,7 +189,7 @@ TEST_CASE("what refinement finds by itself is not sought") {
   for (const Sample& s : found) CHECK((Vec2d(s.ray.hit.x, s.ray.hit.y) - anchor).length() > kTiny);
 }
 
-TEST_CASE("a tenth of the samples at most is spent on what was seen before") {
+TEST_CASE("primitive anchors: at most a tenth of the samples is spent on them") {
   Squares squares;
   const std::size_t before = squares.render(Carry::kNothing, false).size();
   const std::vector<Sample>& after = squares.render(Carry::kCastWherePaying, true);
@@ -199,7 +199,7 @@ TEST_CASE("a tenth of the samples at most is spent on what was seen before") {
   CHECK(put_back >= 0.05 * static_cast<double>(before));
 }
 
-TEST_CASE("a cut forgets what was seen before it") {
+TEST_CASE("primitive anchors: a camera cut forgets them") {
   for (const bool has_cut : {false, true}) {
     CAPTURE(has_cut);
     Scene scene(false);

@@ -53,7 +53,7 @@ FinishedFrame third_frame(int ranks, SessionSettings s) {
 
 }  // namespace
 
-TEST_CASE("the distance of two patterns is the share of samples in other buckets") {
+TEST_CASE("serial pattern: the distance of two patterns is the share of samples in other buckets") {
   const std::vector<Sample> a = at({{1, 1}, {9.99, 9.99}, {15, 5}, {5, 25}});
   CHECK(bucket_distance(a, a) == 0);
   CHECK(bucket_distance(a, at({{5, 5}, {3, 3}, {11, 1}, {1, 29}})) == 0);
@@ -64,7 +64,7 @@ TEST_CASE("the distance of two patterns is the share of samples in other buckets
   CHECK(bucket_distance(a, {}) == 1);
 }
 
-TEST_CASE("samples near borders are those from which a step leads to another region") {
+TEST_CASE("serial pattern: samples near borders are those from which a step leads to another region") {
   // Two columns of tiles, 8 pixels wide, and two owners.
   const TileGrid grid(16, 16, 8);
   const std::vector<std::int32_t> owners = {0, 1, 0, 1};
@@ -73,7 +73,9 @@ TEST_CASE("samples near borders are those from which a step leads to another reg
   CHECK(samples_near_borders(at({{7, 7}}), grid, std::vector<std::int32_t>(4, 3), 2) == 0);
 }
 
-TEST_CASE("the serial sampler makes as many samples as are asked for, where the picture calls for them") {
+TEST_CASE(
+    "serial pattern: the serial sampler makes as many samples as asked for, where the picture calls for "
+    "them") {
   const SessionSettings s = settings();
   const std::vector<Sample> samples = serial_samples(s, camera_before_disc(96, 96), 1500, diagonal());
   CHECK(samples.size() == 1500);
@@ -82,7 +84,7 @@ TEST_CASE("the serial sampler makes as many samples as are asked for, where the 
   CHECK(near_edge > 750);  // of a fifth of the area
 }
 
-TEST_CASE("one rank has the serial pattern, many without balancing have not") {
+TEST_CASE("serial pattern: one rank has it, many without balancing have not") {
   SessionSettings s = settings();
   s.learned_weights = GENERATE(true, false);
   s.pixel_rule = GENERATE(PixelRule::kEdges, PixelRule::kArea);

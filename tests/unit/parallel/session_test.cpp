@@ -52,7 +52,7 @@ void check_shows_disc(const Image& image) {
 
 }  // namespace
 
-TEST_CASE("frames of counted work are whole, on time, and the same each time") {
+TEST_CASE("session: frames of counted work are whole, on time, and the same each time") {
   const SessionSettings settings = work_settings();
   for (const int ranks : {1, 2, 3, 5, 8}) {
     INFO(ranks << " ranks");
@@ -73,7 +73,7 @@ TEST_CASE("frames of counted work are whole, on time, and the same each time") {
   }
 }
 
-TEST_CASE("another seed gives another pattern, more budget a finer one") {
+TEST_CASE("session: another seed gives another pattern, more budget a finer one") {
   SessionSettings settings = work_settings();
   const VirtualRun one = run_session(2, settings, still_or_pan(settings, 1));
   settings.seed = 2;
@@ -83,7 +83,7 @@ TEST_CASE("another seed gives another pattern, more budget a finer one") {
   CHECK(finer.frames.at(0).ranks[1].refinement < one.frames.at(0).ranks[1].refinement);
 }
 
-TEST_CASE("samples accumulate while the camera rests, unless casting is off") {
+TEST_CASE("session: samples accumulate while the camera rests, unless casting is off") {
   SessionSettings settings = work_settings();
   settings.cast = CastChoice::kAuto;
   const VirtualRun rest = run_session(3, settings, still_or_pan(settings, 4));
@@ -102,7 +102,7 @@ TEST_CASE("samples accumulate while the camera rests, unless casting is off") {
   CHECK(total(off.frames[1], &RankReport::samples_cast) == 0);
 }
 
-TEST_CASE("nothing is carried across a cut") {
+TEST_CASE("session: nothing is carried across a camera cut") {
   SessionSettings settings = work_settings();
   settings.cast = CastChoice::kPaper;
   const auto source = [&](int index) -> std::optional<FrameRequest> {
@@ -115,7 +115,7 @@ TEST_CASE("nothing is carried across a cut") {
   CHECK(run.frames[2].order.carry == Carry::kNothing);
 }
 
-TEST_CASE("a stop rule on samples counts those of the whole image") {
+TEST_CASE("session: a stop rule on samples counts those of the whole image") {
   for (const int ranks : {1, 3, 5}) {
     const SessionSettings settings = free_settings(ClockKind::kWork, {.samples = 2000});
     const VirtualRun run = run_session(ranks, settings, still_or_pan(settings, 1));
@@ -127,7 +127,7 @@ TEST_CASE("a stop rule on samples counts those of the whole image") {
   }
 }
 
-TEST_CASE("a stop rule on quality holds in every region") {
+TEST_CASE("session: a stop rule on quality holds in every region") {
   for (const int ranks : {1, 3, 5}) {
     const SessionSettings settings = free_settings(ClockKind::kWork, {.quality = 0.1});
     const VirtualRun run = run_session(ranks, settings, still_or_pan(settings, 1));
@@ -139,7 +139,7 @@ TEST_CASE("a stop rule on quality holds in every region") {
   }
 }
 
-TEST_CASE("a stop rule on time counts work") {
+TEST_CASE("session: a stop rule on time counts work") {
   const SessionSettings settings = free_settings(ClockKind::kWork, {.seconds = 0.03});
   const VirtualRun run = run_session(2, settings, still_or_pan(settings, 1));
   REQUIRE(run.frames.size() == 1);
@@ -150,14 +150,14 @@ TEST_CASE("a stop rule on time counts work") {
   }
 }
 
-TEST_CASE("the first stop rule reached ends the frame") {
+TEST_CASE("session: the first stop rule reached ends the frame") {
   const SessionSettings settings = free_settings(ClockKind::kWork, {.samples = 600, .quality = 1e-9});
   const VirtualRun run = run_session(2, settings, still_or_pan(settings, 1));
   REQUIRE(run.frames.size() == 1);
   CHECK(total(run.frames[0], &RankReport::samples_in_region) < 610);
 }
 
-TEST_CASE("colours that are no numbers are counted and never shown") {
+TEST_CASE("session: colours that are not finite are counted and never shown") {
   const SessionSettings settings = work_settings();
   const VirtualRun run = run_session(3, settings, still_or_pan(settings, 2), {.no_number_every = 40});
   REQUIRE(run.frames.size() == 2);
@@ -173,7 +173,7 @@ TEST_CASE("colours that are no numbers are counted and never shown") {
   CHECK(counted == asked);
 }
 
-TEST_CASE("more ranks than tiles still make a whole picture") {
+TEST_CASE("session: more ranks than tiles still make a whole picture") {
   SessionSettings settings = work_settings();
   settings.width = 9, settings.height = 7;  // six tiles
   for (const ClockKind clock : {ClockKind::kWork, ClockKind::kWall}) {
@@ -193,7 +193,7 @@ TEST_CASE("more ranks than tiles still make a whole picture") {
   }
 }
 
-TEST_CASE("a budget too small for anything still gives a whole picture, and says it is late") {
+TEST_CASE("session: a budget too small for anything still gives a whole picture, and says it is late") {
   SessionSettings settings = work_settings();
   settings.budget_units = 1;
   const VirtualRun run = run_session(3, settings, still_or_pan(settings, 2));
@@ -204,26 +204,26 @@ TEST_CASE("a budget too small for anything still gives a whole picture, and says
   }
 }
 
-TEST_CASE("the reports of a frame add up to what was asked of the tracers") {
+TEST_CASE("session: the ranks' reports add up to the rays that were traced") {
   const SessionSettings settings = work_settings();
   const VirtualRun run = run_session(3, settings, still_or_pan(settings, 3, 1));
   REQUIRE(run.frames.size() == 3);
   for (std::size_t i = 0; i < 3; ++i) {
-    std::uint64_t asked = 0, told = 0;
+    std::uint64_t asked = 0, reported = 0;
     for (const auto& of_rank : run.traced) {
       asked += static_cast<std::uint64_t>(std::count_if(of_rank.begin(), of_rank.end(), [&](const Traced& t) {
         return t.frame == static_cast<int>(i) + 1;
       }));
     }
-    for (const RankReport& r : run.frames[i].ranks) told += r.rays.primary;
-    CHECK(told == asked);
+    for (const RankReport& r : run.frames[i].ranks) reported += r.rays.primary;
+    CHECK(reported == asked);
     // Each rank traces the image's corners for itself, and their owners alone count them.
     const std::uint64_t foreign_corners = 4 * (3 - 1);
     CHECK(total(run.frames[i], &RankReport::samples_new) + foreign_corners == asked);
   }
 }
 
-TEST_CASE("a sequence in real time delivers every frame") {
+TEST_CASE("session: a sequence in real time delivers every frame") {
   SessionSettings settings = work_settings();
   settings.clock = ClockKind::kWall;
   settings.frames_per_second = 10;
@@ -236,7 +236,28 @@ TEST_CASE("a sequence in real time delivers every frame") {
   }
 }
 
-TEST_CASE("a rank that stands still is named, and keeps no frame back") {
+TEST_CASE(
+    "session: balancing takes CPU time in real time, none without balancing, and has no price in work "
+    "units") {
+  const auto balancing_ms = [](ClockKind clock, BalanceMode mode) {
+    SessionSettings settings = work_settings();
+    settings.clock = clock;
+    settings.frames_per_second = 10;
+    settings.balance = mode;
+    const VirtualRun run = run_session(4, settings, still_or_pan(settings, 3, 1));
+    REQUIRE(run.frames.size() == 3);
+    double sum = 0;
+    for (const FinishedFrame& frame : run.frames) {
+      for (const RankReport& r : frame.ranks) sum += r.cpu_ms.balancing;
+    }
+    return sum;
+  };
+  CHECK(balancing_ms(ClockKind::kWall, BalanceMode::kLocal) > 0);
+  CHECK(balancing_ms(ClockKind::kWall, BalanceMode::kNone) == 0);
+  CHECK(balancing_ms(ClockKind::kWork, BalanceMode::kLocal) == 0);
+}
+
+TEST_CASE("session: a rank that stands still is reported late, and delays no frame") {
   SessionSettings settings = work_settings();
   settings.clock = ClockKind::kWall;
   settings.frames_per_second = 10;
@@ -260,8 +281,8 @@ TEST_CASE("a rank that stands still is named, and keeps no frame back") {
   }
 }
 
-TEST_CASE("frames without a rate end in real time, whenever the last messages arrive") {
-  // The end of each frame is told by messages: none may be overlooked.
+TEST_CASE("session: frames without a rate end in real time, whenever the last messages arrive") {
+  // Messages say when a frame may end: none may be overlooked.
   for (int repeat = 0; repeat < 5; ++repeat) {
     const SessionSettings settings = free_settings(ClockKind::kWall, {.quality = 0.5});
     const VirtualRun run =
@@ -271,14 +292,15 @@ TEST_CASE("frames without a rate end in real time, whenever the last messages ar
   }
 }
 
-TEST_CASE("an empty sequence ends at once") {
+TEST_CASE("session: an empty sequence ends at once") {
   const SessionSettings settings = work_settings();
   const VirtualRun run = run_session(3, settings, still_or_pan(settings, 0));
   CHECK(run.error.empty());
   CHECK(run.frames.empty());
 }
 
-TEST_CASE("a slow network between virtual ranks costs samples told twice, and a fast one nothing") {
+TEST_CASE(
+    "session: a slow simulated network delays samples past the frame's end, a fast one changes nothing") {
   SessionSettings settings = work_settings();
   const auto received = [&](double latency_s) {
     settings.machine.latency_s = latency_s;

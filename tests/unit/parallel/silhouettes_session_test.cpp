@@ -50,7 +50,7 @@ double error_of(const VirtualRun& run, int index) {
 
 }  // namespace
 
-TEST_CASE("moving frames of several ranks show edges where their own camera sees them") {
+TEST_CASE("silhouettes: moving frames of several ranks show edges where their own camera sees them") {
   for (const int ranks : {1, 3}) {
     const SessionSettings area = settings_of(PixelRule::kArea), edges = settings_of(PixelRule::kEdges);
     const auto run = [&](const SessionSettings& settings) {

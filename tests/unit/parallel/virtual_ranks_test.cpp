@@ -1,4 +1,4 @@
-// Ranks that are threads of one process, and what the master is told of every sample.
+// Ranks that are threads of one process, and what the master learns of every sample.
 #include "parallel/virtual_ranks.h"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ Probe grey_probe() {
 
 }  // namespace
 
-TEST_CASE("a frame tells every sample once, and who owns each tile") {
+TEST_CASE("virtual ranks: a frame reports every sample once, and the owner of each tile") {
   const SessionSettings s = settings();
   std::vector<FinishedFrame> frames;
   run_virtual_ranks(
@@ -54,7 +54,7 @@ TEST_CASE("a frame tells every sample once, and who owns each tile") {
   }
 }
 
-TEST_CASE("samples stay with their ranks unless they are asked for") {
+TEST_CASE("virtual ranks: samples stay with their ranks unless the settings ask for them") {
   SessionSettings s = settings();
   s.report_samples = false;
   bool empty = false;
@@ -64,7 +64,7 @@ TEST_CASE("samples stay with their ranks unless they are asked for") {
   CHECK(empty);
 }
 
-TEST_CASE("a rank that fails ends the run of all") {
+TEST_CASE("virtual ranks: a rank that fails ends the run of all") {
   const SessionSettings s = settings();
   const auto failing = [](int rank) {
     Probe probe = grey_probe();

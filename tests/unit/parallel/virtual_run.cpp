@@ -10,7 +10,7 @@
 #include <thread>
 #include <utility>
 
-#include "parallel/clock/frame_clock.h"
+#include "parallel/clock/host_time.h"
 #include "parallel/network/local_communicator.h"
 
 namespace pprt {

@@ -1,4 +1,4 @@
-// One worker among ranks whose words the test chooses: what comes late is neither lost nor misunderstood.
+// One worker among ranks whose messages the test chooses: what comes late is neither lost nor misunderstood.
 #include "parallel/worker.h"
 
 #include <algorithm>
@@ -18,13 +18,15 @@ constexpr double kNow = 0;  // all the time
 // Three ranks; the middle third of the image is rank 1's, which is real.
 class Scene {
  public:
-  Scene() {
+  explicit Scene(BalanceMode balance = BalanceMode::kLocal) : settings_(make_settings(balance)) {
     for (int rank = 0; rank < 3; ++rank) {
       communicators_.push_back(std::make_unique<LocalCommunicator>(network_, rank));
     }
     inbox_ = std::make_unique<Inbox>(*communicators_[1], [](const Message&) {});
+    auto clock = std::make_unique<SetClock>(20, kPeriod, kNow);
+    clock_ = clock.get();
     worker_ = std::make_unique<Worker>(*communicators_[1], *inbox_, settings_, partition_, probe(),
-                                       std::make_unique<SetClock>(20, kPeriod, kNow));
+                                       std::move(clock));
   }
 
   void render(Carry carry, const std::vector<std::int32_t>& owners = {}) {
@@ -47,7 +49,7 @@ class Scene {
   void send_while_tracing(int from, const Bundle& bundle) { pending_.emplace_back(from, bundle); }
 
   // Bundles that rank 1 has sent to a rank since the last call.
-  std::vector<Bundle> said_to(int rank) {
+  std::vector<Bundle> sent_to(int rank) {
     std::vector<Bundle> bundles;
     while (const std::optional<Message> m = communicators_[static_cast<std::size_t>(rank)]->receive()) {
       if (m->tag == Tag::kBundle) bundles.push_back(decode_bundle(m->payload));
@@ -55,6 +57,17 @@ class Scene {
     return bundles;
   }
 
+  // Rank 1's report of the frame rendered last.
+  RankReport report() {
+    std::optional<RankReport> report;
+    while (const std::optional<Message> m = communicators_[0]->receive()) {
+      if (m->tag == Tag::kPixels) report = decode_pixels(m->payload).report;
+    }
+    REQUIRE(report);
+    return *report;
+  }
+
+  const SetClock& clock() const { return *clock_; }
   const Partition& partition() const { return partition_; }
 
   // A sample in the middle of a tile.
@@ -79,11 +92,11 @@ class Scene {
             },
             [](const Vec3f&, bool) { return true; }, [] { return RayCounts(); }};
   }
-  static SessionSettings make_settings() {
+  static SessionSettings make_settings(BalanceMode balance) {
     SessionSettings settings;
     settings.width = 96, settings.height = 64;
     settings.frames_per_second = 1 / kPeriod;
-    settings.balance = BalanceMode::kLocal;
+    settings.balance = balance;
     return settings;
   }
   static Partition thirds() {
@@ -96,58 +109,59 @@ class Scene {
     return partition;
   }
 
-  SessionSettings settings_ = make_settings();
+  SessionSettings settings_;
   Partition partition_ = thirds();
   LocalNetwork network_{3};
   std::vector<std::unique_ptr<LocalCommunicator>> communicators_;
   std::unique_ptr<Inbox> inbox_;
   std::unique_ptr<Worker> worker_;
+  const SetClock* clock_ = nullptr;  // the worker's
   std::vector<std::pair<int, Bundle>> pending_;
   int index_ = -1;
 };
 
-bool tells(const std::vector<Bundle>& bundles, SampleId id) {
+bool contain(const std::vector<Bundle>& bundles, SampleId id) {
   return std::any_of(bundles.begin(), bundles.end(), [id](const Bundle& b) {
     return std::any_of(b.samples.begin(), b.samples.end(), [id](const Sample& s) { return s.id == id; });
   });
 }
 
 constexpr SampleId kMarked = 4711;
-constexpr int kSeedRound = 0;
 
 }  // namespace
 
-TEST_CASE("a word of the frame before is heard before this frame's seeds that came with it") {
+TEST_CASE("worker: bundles of the frame before are read before this frame's seeds that came with them") {
   Scene scene;
   scene.render(Carry::kNothing);
-  scene.said_to(0);
+  scene.sent_to(0);
   // Rank 0 took while it sent its last bundle of frame 0, and gives when it sends its seeds of frame 1.
-  scene.send_while_tracing(0, {0, 0, 24, false, 0, {}, {0, 0, 0}, {}, {}});
-  scene.send_while_tracing(0, {1, 1, kSeedRound, false, 0, {}, {1, 0, 0}, {}, {}});
+  scene.send_while_tracing(0, {.frame_index = 0, .epoch = 0, .round = 24, .handshake = {.phase = 0}});
+  scene.send_while_tracing(0, {.frame_index = 1, .epoch = 1, .round = kSeedRound, .handshake = {.phase = 1}});
   scene.render(Carry::kNothing);
-  std::uint32_t heard = 0;
-  for (const Bundle& b : scene.said_to(0)) {
-    CHECK(b.handshake.heard >= heard);
-    heard = b.handshake.heard;
+  std::uint32_t acknowledged = 0;
+  for (const Bundle& b : scene.sent_to(0)) {
+    CHECK(b.handshake.acknowledged >= acknowledged);
+    acknowledged = b.handshake.acknowledged;
   }
-  CHECK(heard == 1);
+  CHECK(acknowledged == 1);
 }
 
-TEST_CASE("samples that come with a transfer whose tile has gone elsewhere reach its owner") {
+TEST_CASE("worker: samples that come with a tile that has another owner by now reach that owner") {
   Scene scene;
   const int tile = 2 * 12 + 3;  // rank 0's, beside rank 1's
   scene.render(Carry::kNothing);
-  scene.said_to(2);
-  // The image is cut anew; in it the tile is rank 2's. Rank 0 gave it to rank 1 before it heard of that.
+  scene.sent_to(2);
+  // After a repartition the tile is rank 2's. Rank 0 gave it to rank 1 before it learned of that.
   std::vector<std::int32_t> owners = scene.partition().owner;
   owners[static_cast<std::size_t>(tile)] = 2;
-  scene.send_while_tracing(
-      0, {0, 0, 5, false, 0, {}, {}, {{tile, 1, 1, {}, {}}}, {scene.sample_in(tile, kMarked)}});
+  scene.send_while_tracing(0, {.round = 5,
+                               .transfers = {{.tile = tile, .owner = 1, .version = 1}},
+                               .samples = {scene.sample_in(tile, kMarked)}});
   scene.render(Carry::kAccumulate, owners);
-  CHECK(tells(scene.said_to(2), kMarked));
+  CHECK(contain(scene.sent_to(2), kMarked));
 }
 
-TEST_CASE("a survivor that comes late reaches the owner of its tile, even the rank that sent it") {
+TEST_CASE("worker: a cast sample that comes late reaches the owner of its tile, even the rank that sent it") {
   for (const int taker : {0, 2}) {
     Scene scene;
     const int tile = 2 * 12 + 5;  // rank 1's
@@ -155,11 +169,44 @@ TEST_CASE("a survivor that comes late reaches the owner of its tile, even the ra
     std::vector<std::int32_t> owners = scene.partition().owner;
     owners[static_cast<std::size_t>(tile)] = taker;
     scene.render(Carry::kAccumulate, owners);
-    scene.said_to(taker);
-    scene.send(0, {0, 0, kSeedRound, false, 0, {}, {}, {}, {scene.sample_in(tile, kMarked)}});
+    scene.sent_to(taker);
+    scene.send(0, {.round = kSeedRound, .samples = {scene.sample_in(tile, kMarked)}});
     scene.render(Carry::kAccumulate);
-    CHECK(tells(scene.said_to(taker), kMarked));
+    CHECK(contain(scene.sent_to(taker), kMarked));
   }
+}
+
+TEST_CASE(
+    "worker: balancing takes CPU time where tiles are given away, none without, and the stages add up") {
+  for (const BalanceMode mode : {BalanceMode::kLocal, BalanceMode::kNone}) {
+    Scene scene(mode);
+    // Both neighbours accept tiles, have hardly anything left to do, and know already that rank 1 gives.
+    for (const int from : {0, 2}) {
+      scene.send(from, {.round = 1,
+                        .progress = {.quality = 1e-6, .target = 1e-6, .future_cost = 1},
+                        .handshake = {.phase = 0, .acknowledged = 1}});
+    }
+    scene.render(Carry::kNothing);
+    const RankReport report = scene.report();
+    const StageTimes& ms = report.cpu_ms;
+    const bool balances = mode == BalanceMode::kLocal;
+    CHECK((report.tiles_given > 0) == balances);
+    CHECK((ms.balancing > 0) == balances);
+    CHECK(ms.sampling > 0);
+    // Every reading of the clock is a millisecond after the one before.
+    CHECK(ms.sampling + ms.casting + ms.reconstruction + ms.balancing ==
+          Approx(scene.clock().readings() - 1));
+  }
+}
+
+TEST_CASE("worker: a new partition is charged to balancing") {
+  Scene scene(BalanceMode::kGlobal);
+  scene.render(Carry::kNothing);
+  CHECK(scene.report().cpu_ms.balancing == 0);
+  std::vector<std::int32_t> owners = scene.partition().owner;
+  owners[2 * 12 + 5] = 0;
+  scene.render(Carry::kAccumulate, owners);
+  CHECK(scene.report().cpu_ms.balancing > 0);
 }
 
 }  // namespace pprt

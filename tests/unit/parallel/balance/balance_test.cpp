@@ -46,26 +46,27 @@ double unevenness(const FinishedFrame& frame) {
 
 }  // namespace
 
-TEST_CASE("a rank gives only when it is behind in quality and in cost") {
+TEST_CASE("local balancing: a rank gives only when it is behind in quality and in cost") {
   LocalBalanceSettings settings;
   settings.quality_ratio = settings.cost_ratio = 1.1;
   CHECK(should_give(settings, 2.0, 200, {1.0, 0.5, 100}));
   CHECK_FALSE(should_give(settings, 1.05, 200, {1.0, 0.5, 100}));
   CHECK_FALSE(should_give(settings, 2.0, 105, {1.0, 0.5, 100}));
-  CHECK_FALSE(should_give(settings, 2.0, 200, {}));  // nothing was heard
+  CHECK_FALSE(should_give(settings, 2.0, 200, {}));  // no progress was received
 }
 
-TEST_CASE("targets are powers of two, at most the quality") {
+TEST_CASE("local balancing: target qualities are powers of two, at most the quality") {
   CHECK(target_quality(1.0) == 1.0);
   CHECK(target_quality(0.9) == 0.5);
   CHECK(target_quality(3.0) == 2.0);
 }
 
-TEST_CASE("its share of the difference moves, along the border, and the giver stays whole") {
+TEST_CASE(
+    "local balancing: a share of the difference moves, along the border, and the giver stays connected") {
   const Partition partition = halves();
   const auto offer = [](int) { return TileOffer{100, 10, 0}; };
   const std::vector<int> tiles =
-      tiles_to_give({}, partition, 0, 1, 1000, 1, kUnlimited, offer);  // three tenths: three tiles
+      tiles_to_give({}, partition, 0, 1, {1000, 1, kUnlimited}, offer);  // three tenths: three tiles
   CHECK(tiles.size() == 3);
   Partition after = partition;
   for (const int tile : tiles) {
@@ -76,38 +77,40 @@ TEST_CASE("its share of the difference moves, along the border, and the giver st
   CHECK(is_connected(after, 1));
 }
 
-TEST_CASE("a transfer is bounded: by what is left to move, by the taker's room, by a quarter of the region") {
+TEST_CASE(
+    "local balancing: a transfer is bounded by what is left to move, the taker's room and a quarter of the "
+    "region") {
   const Partition partition = halves();
   const auto costly = [](int) { return TileOffer{1000, 10, 0}; };
-  CHECK(tiles_to_give({}, partition, 0, 1, 1200, 1, kUnlimited, costly).empty());
+  CHECK(tiles_to_give({}, partition, 0, 1, {1200, 1, kUnlimited}, costly).empty());
   const auto plain = [](int) { return TileOffer{100, 10, 0}; };
-  CHECK(tiles_to_give({}, partition, 0, 1, 1200, 1, 25, plain).size() == 2);
+  CHECK(tiles_to_give({}, partition, 0, 1, {1200, 1, 25}, plain).size() == 2);
   const auto known = [](int) { return TileOffer{100, 10, 10}; };
-  CHECK(tiles_to_give({}, partition, 0, 1, 1000, 1, 0, known).size() == 3);  // nothing to take in
-  CHECK(tiles_to_give({}, partition, 0, 1, 1e9, 1, kUnlimited, plain).size() == 4);
+  CHECK(tiles_to_give({}, partition, 0, 1, {1000, 1, 0}, known).size() == 3);  // nothing to take in
+  CHECK(tiles_to_give({}, partition, 0, 1, {1e9, 1, kUnlimited}, plain).size() == 4);
 }
 
-TEST_CASE("a tile that costs the taker more than it relieves the giver comes last") {
+TEST_CASE("local balancing: a tile that costs the taker more than it relieves the giver comes last") {
   const auto offer = [](int tile) { return tile == 19 ? TileOffer{100, 1, 0} : TileOffer{100, 1000, 0}; };
-  const std::vector<int> tiles = tiles_to_give({}, halves(), 0, 1, 400, 1, kUnlimited, offer);
+  const std::vector<int> tiles = tiles_to_give({}, halves(), 0, 1, {400, 1, kUnlimited}, offer);
   REQUIRE(tiles.size() == 1);
   CHECK(tiles[0] == 19);
 }
 
-TEST_CASE("tiles without cost are given on the way to those that have one") {
+TEST_CASE("local balancing: tiles without cost are given on the way to those that have one") {
   // Only the column behind the border costs anything.
   const auto offer = [](int tile) { return tile % 8 == 2 ? TileOffer{1000, 10, 0} : TileOffer{0, 0, 0}; };
-  CHECK_FALSE(tiles_to_give({}, halves(), 0, 1, 4000, 1, kUnlimited, offer).empty());
+  CHECK_FALSE(tiles_to_give({}, halves(), 0, 1, {4000, 1, kUnlimited}, offer).empty());
 }
 
-TEST_CASE("tiles that the taker knows go first") {
+TEST_CASE("local balancing: tiles that the taker knows go first") {
   const auto offer = [](int tile) { return TileOffer{100, 10, tile == 19 ? 10.0 : 0.0}; };
-  const std::vector<int> tiles = tiles_to_give({}, halves(), 0, 1, 400, 1, kUnlimited, offer);
+  const std::vector<int> tiles = tiles_to_give({}, halves(), 0, 1, {400, 1, kUnlimited}, offer);
   REQUIRE(tiles.size() == 1);
   CHECK(tiles[0] == 19);
 }
 
-TEST_CASE("regions that touch at a corner only exchange nothing") {
+TEST_CASE("local balancing: regions that touch at a corner only transfer nothing") {
   Partition partition = halves();
   for (int tile = 0; tile < 32; ++tile) {
     partition.owner[static_cast<std::size_t>(tile)] =
@@ -115,10 +118,10 @@ TEST_CASE("regions that touch at a corner only exchange nothing") {
   }
   partition.ranks = 3;
   const auto offer = [](int) { return TileOffer{100, 10, 0}; };
-  CHECK(tiles_to_give({}, partition, 0, 1, 1200, 1, kUnlimited, offer).empty());
+  CHECK(tiles_to_give({}, partition, 0, 1, {1200, 1, kUnlimited}, offer).empty());
 }
 
-TEST_CASE("imbalance is the ranks' standard deviation by their mean") {
+TEST_CASE("global balancing: imbalance is the ranks' standard deviation by their mean") {
   // Mean weights 1, 2 and 3: mean 2, variance 2/3. A rank without triangles does not count.
   const std::vector<std::vector<TileReport>> ranks = {
       {report(0, 1, 2, 1), report(1, 1, 2, 3)}, {report(2, 1, 4, 8)}, {report(3, 1, 1, 3)}, {}};
@@ -126,18 +129,18 @@ TEST_CASE("imbalance is the ranks' standard deviation by their mean") {
   CHECK(imbalance({}) == 0);
 }
 
-TEST_CASE("a tile's predicted cost grows with its weight over the image's") {
+TEST_CASE("global balancing: a tile's predicted cost grows with its weight over the image's") {
   // Image: 10 triangles, weight 10, so A = 1. Tile 0 is at weight 4: four times its cost; tile 1 at 0.75.
   const std::vector<std::vector<TileReport>> ranks = {{report(0, 100, 1, 4)}, {report(1, 100, 8, 6)}};
   std::vector<double> costs = predicted_costs(TileGrid(30, 10, 10), ranks);
   const double a = 10.0 / 9;
   CHECK(costs[0] == Approx(100 * 4 / a));
   CHECK(costs[1] == Approx(100 * 0.75 / a));
-  CHECK(costs[2] == Approx((costs[0] + costs[1]) / 2));  // nobody told
+  CHECK(costs[2] == Approx((costs[0] + costs[1]) / 2));  // nobody reported it
   for (const double c : predicted_costs(TileGrid(30, 10, 10), {})) CHECK(c == 1);
 }
 
-TEST_CASE("every way of balancing evens the refinement out") {
+TEST_CASE("balancing: every mode evens the refinement out") {
   const auto evened = [&](BalanceMode mode) {
     const SessionSettings settings = without_carrying(mode);
     const VirtualRun run = run_session(9, settings, still_or_pan(settings, 16, 0));
@@ -160,7 +163,7 @@ TEST_CASE("every way of balancing evens the refinement out") {
   CHECK(combined < 0.5 * none);
 }
 
-TEST_CASE("a new cut is in force two frames after the frame it was made from") {
+TEST_CASE("global balancing: a new partition is in force two frames after the frame it was made from") {
   const SessionSettings settings = without_carrying(BalanceMode::kGlobal);
   const VirtualRun run = run_session(4, settings, still_or_pan(settings, 5, 0));
   REQUIRE(run.frames.size() == 5);

@@ -14,7 +14,7 @@ bool same(const TileTransfer& a, const TileTransfer& b) {
   return a.tile == b.tile && a.owner == b.owner && a.version == b.version;
 }
 
-bool same(const OwnershipLetter& a, const OwnershipLetter& b) {
+bool same(const OwnershipMessage& a, const OwnershipMessage& b) {
   return a.frame == b.frame && a.handshake == b.handshake &&
          std::equal(a.transfers.begin(), a.transfers.end(), b.transfers.begin(), b.transfers.end(),
                     [](const TileTransfer& x, const TileTransfer& y) { return same(x, y); });
@@ -33,15 +33,15 @@ bool are_beside(const TileGrid& grid, int a, int b) {
 }  // namespace
 
 bool operator==(const OwnershipState& a, const OwnershipState& b) {
-  const auto same_letters = [](const auto& x, const auto& y) {
+  const auto same_messages = [](const auto& x, const auto& y) {
     return std::equal(x.begin(), x.end(), y.begin(), y.end(),
-                      [](const OwnershipLetter& p, const OwnershipLetter& q) { return same(p, q); });
+                      [](const OwnershipMessage& p, const OwnershipMessage& q) { return same(p, q); });
   };
-  return a.cuts == b.cuts && a.left == b.left &&
+  return a.repartitions == b.repartitions && a.left == b.left &&
          std::equal(a.ranks.begin(), a.ranks.end(), b.ranks.begin(), b.ranks.end(),
                     [](const OwnershipRank& x, const OwnershipRank& y) { return same(x, y); }) &&
          std::equal(a.under_way.begin(), a.under_way.end(), b.under_way.begin(), b.under_way.end(),
-                    same_letters);
+                    same_messages);
 }
 
 // Of what can be seen; operator== looks at the rest, too.
@@ -50,39 +50,40 @@ std::size_t OwnershipStateHash::operator()(const OwnershipState& state) const {
   const auto mix = [&hash](std::uint64_t value) {
     hash = (hash ^ value) * 1099511628211u, hash ^= hash >> 29;
   };
-  mix(static_cast<std::uint64_t>(state.cuts * 4096 + state.left.decisions * 256 + state.left.words * 16 +
-                                 state.left.transfers));
+  mix(static_cast<std::uint64_t>(state.repartitions * 4096 + state.left.decisions * 256 +
+                                 state.left.unasked * 16 + state.left.transfers));
   for (std::size_t k = 0; k < state.ranks.size(); ++k) {
     const OwnershipRank& rank = state.ranks[k];
     for (const std::int32_t owner : rank.partition.owner) mix(static_cast<std::uint64_t>(owner));
     for (const std::uint64_t version : rank.partition.version) mix(version);
     mix(static_cast<std::uint64_t>(rank.frame));
-    mix(rank.handshake.may_give());
+    mix(rank.handshake.may_transfer());
     TransferHandshake copy = rank.handshake;
     for (int other = 0; other < static_cast<int>(state.ranks.size()); ++other) {
-      mix(rank.handshake.owes_word(other) * 4u + rank.handshake.takes(other) * 2u +
-          rank.handshake.has_counted_gifts(other));
-      const HandshakeState word = copy.tell(other);
-      mix(word.handshake), mix(word.heard), mix(word.taken);
+      mix(rank.handshake.has_pending_reply(other) * 4u + rank.handshake.accepts(other) * 2u +
+          rank.handshake.has_confirmed_transfers(other));
+      const HandshakeState state_sent = copy.send(other);
+      mix(state_sent.phase), mix(state_sent.acknowledged), mix(state_sent.transfers_received);
     }
   }
-  for (const auto& letters : state.under_way) {
-    mix(letters.size());
-    for (const OwnershipLetter& letter : letters) {
-      mix(letter.handshake.handshake), mix(letter.handshake.heard), mix(letter.handshake.taken);
-      for (const TileTransfer& transfer : letter.transfers)
+  for (const auto& messages : state.under_way) {
+    mix(messages.size());
+    for (const OwnershipMessage& message : messages) {
+      mix(message.handshake.phase), mix(message.handshake.acknowledged),
+          mix(message.handshake.transfers_received);
+      for (const TileTransfer& transfer : message.transfers)
         mix(transfer.version), mix(static_cast<std::uint64_t>(transfer.tile));
     }
   }
   return static_cast<std::size_t>(hash);
 }
 
-OwnershipModel::OwnershipModel(const Partition& first, std::vector<Partition> cuts,
+OwnershipModel::OwnershipModel(const Partition& first, std::vector<Partition> repartitions,
                                const OwnershipLimits& limits, const OwnershipRules& rules)
-    : first_(first), cuts_(std::move(cuts)), limits_(limits), rules_(rules) {
-  for (std::size_t i = 0; i < cuts_.size(); ++i) {
-    const auto generation = rules_.cuts_raise_version ? static_cast<std::uint32_t>(i + 1) : 0;
-    std::fill(cuts_[i].version.begin(), cuts_[i].version.end(), first_version(generation));
+    : first_(first), repartitions_(std::move(repartitions)), limits_(limits), rules_(rules) {
+  for (std::size_t i = 0; i < repartitions_.size(); ++i) {
+    const auto generation = rules_.repartitions_raise_version ? static_cast<std::uint32_t>(i + 1) : 0;
+    std::fill(repartitions_[i].version.begin(), repartitions_[i].version.end(), first_version(generation));
   }
 }
 
@@ -96,12 +97,12 @@ OwnershipState OwnershipModel::start() const {
   return state;
 }
 
-std::vector<OwnershipLetter>& OwnershipModel::letters(OwnershipState& state, int from, int to) const {
+std::vector<OwnershipMessage>& OwnershipModel::messages(OwnershipState& state, int from, int to) const {
   return state.under_way[static_cast<std::size_t>(from * rank_count() + to)];
 }
 
-const std::vector<OwnershipLetter>& OwnershipModel::letters(const OwnershipState& state, int from,
-                                                            int to) const {
+const std::vector<OwnershipMessage>& OwnershipModel::messages(const OwnershipState& state, int from,
+                                                              int to) const {
   return state.under_way[static_cast<std::size_t>(from * rank_count() + to)];
 }
 
@@ -109,23 +110,24 @@ const std::vector<OwnershipLetter>& OwnershipModel::letters(const OwnershipState
 
 std::vector<OwnershipStep> OwnershipModel::steps(const OwnershipState& state) const {
   std::vector<OwnershipStep> steps;
-  if (state.cuts < static_cast<int>(cuts_.size())) steps.push_back({Kind::kOrderCut, 0, 0, {}, 0});
+  if (state.repartitions < static_cast<int>(repartitions_.size()))
+    steps.push_back({Kind::kOrderRepartition, 0, 0, {}, 0});
   for (int rank = 0; rank < rank_count(); ++rank) {
     const OwnershipRank& r = state.ranks[static_cast<std::size_t>(rank)];
-    if (state.left.decisions > 0) steps.push_back({Kind::kChangeStance, rank, 0, {}, 0});
-    if (r.frame < state.cuts) steps.push_back({Kind::kHearCut, rank, 0, {}, 0});
+    if (state.left.decisions > 0) steps.push_back({Kind::kChangeSide, rank, 0, {}, 0});
+    if (r.frame < state.repartitions) steps.push_back({Kind::kReceiveRepartition, rank, 0, {}, 0});
     for (int other = 0; other < rank_count(); ++other) {
       if (other == rank) continue;
-      const bool owed = rules_.acknowledges && r.handshake.owes_word(other);
-      if (owed || state.left.words > 0) steps.push_back({Kind::kTell, rank, other, {}, 0});
-      const auto& coming = letters(state, other, rank);
+      const bool owed = rules_.acknowledges && r.handshake.has_pending_reply(other);
+      if (owed || state.left.unasked > 0) steps.push_back({Kind::kSend, rank, other, {}, 0});
+      const auto& coming = messages(state, other, rank);
       for (std::size_t i = 0; i < coming.size(); ++i) {
-        if (i > 0 && rules_.words_keep_order) break;
+        if (i > 0 && rules_.messages_keep_order) break;
         if (can_deliver(state, rank, coming[i])) steps.push_back({Kind::kDeliver, rank, other, {}, i});
       }
       if (!may_give(state, rank, other)) continue;
       for (int tile = 0; tile < first_.grid.tile_count(); ++tile) {
-        if (can_spare(state, rank, other, tile)) steps.push_back({Kind::kGive, rank, other, {tile}, 0});
+        if (can_spare(state, rank, other, tile)) steps.push_back({Kind::kTransfer, rank, other, {tile}, 0});
       }
     }
   }
@@ -134,12 +136,13 @@ std::vector<OwnershipStep> OwnershipModel::steps(const OwnershipState& state) co
 
 bool OwnershipModel::may_give(const OwnershipState& state, int giver, int taker) const {
   const TransferHandshake& handshake = state.ranks[static_cast<std::size_t>(giver)].handshake;
-  const bool gives = rules_.waits_for_acknowledgement ? handshake.may_give() : handshake.is_giving();
-  return state.left.transfers > 0 && gives && handshake.takes(taker) && handshake.has_counted_gifts(taker);
+  const bool gives = rules_.waits_for_acknowledgement ? handshake.may_transfer() : handshake.is_giving();
+  return state.left.transfers > 0 && gives && handshake.accepts(taker) &&
+         handshake.has_confirmed_transfers(taker);
 }
 
-bool OwnershipModel::can_deliver(const OwnershipState& state, int to, const OwnershipLetter& letter) const {
-  return letter.frame <= state.ranks[static_cast<std::size_t>(to)].frame || !rules_.words_wait_for_frame;
+bool OwnershipModel::can_deliver(const OwnershipState& state, int to, const OwnershipMessage& message) const {
+  return message.frame <= state.ranks[static_cast<std::size_t>(to)].frame || !rules_.messages_wait_for_frame;
 }
 
 // Beside the taker's, and what is left of the giver's hangs together: as the giver sees it.
@@ -159,10 +162,9 @@ bool OwnershipModel::can_spare(const OwnershipState& state, int giver, int taker
 }
 
 std::vector<int> OwnershipModel::graded_tiles(const OwnershipState& state, int giver, int taker) const {
-  return tiles_to_give({}, state.ranks[static_cast<std::size_t>(giver)].partition, giver, taker, 10, 0, 1e9,
-                       [](int) {
-                         return TileOffer{1, 1, 0};
-                       });
+  return tiles_to_give({}, state.ranks[static_cast<std::size_t>(giver)].partition, giver, taker,
+                       {.difference = 10, .insertion_cost = 0, .most_samples = 1e9},
+                       [](int) { return TileOffer{.future_cost = 1, .samples = 1}; });
 }
 
 // --- What it does ---
@@ -170,42 +172,42 @@ std::vector<int> OwnershipModel::graded_tiles(const OwnershipState& state, int g
 std::optional<std::string> OwnershipModel::take(OwnershipState& state, const OwnershipStep& step) const {
   OwnershipRank& rank = state.ranks[static_cast<std::size_t>(step.rank)];
   switch (step.kind) {
-    case Kind::kChangeStance:
-      rank.handshake.decide(!rank.handshake.is_giving());
+    case Kind::kChangeSide:
+      rank.handshake.set_giving(!rank.handshake.is_giving());
       --state.left.decisions;
       break;
-    case Kind::kTell:
-      if (!rank.handshake.owes_word(step.other)) --state.left.words;
-      tell(state, step.rank, step.other, {});
+    case Kind::kSend:
+      if (!rank.handshake.has_pending_reply(step.other)) --state.left.unasked;
+      send(state, step.rank, step.other, {});
       break;
-    case Kind::kGive:
+    case Kind::kTransfer:
       return give(state, step);
     case Kind::kDeliver:
       deliver(state, step.rank, step.other, step.position);
       break;
-    case Kind::kOrderCut:
-      ++state.cuts;
+    case Kind::kOrderRepartition:
+      ++state.repartitions;
       break;
-    case Kind::kHearCut:
-      hear_cut(state, step.rank);
+    case Kind::kReceiveRepartition:
+      receive_repartition(state, step.rank);
       break;
   }
   return std::nullopt;
 }
 
-void OwnershipModel::tell(OwnershipState& state, int from, int to,
+void OwnershipModel::send(OwnershipState& state, int from, int to,
                           const std::vector<TileTransfer>& transfers) const {
   OwnershipRank& rank = state.ranks[static_cast<std::size_t>(from)];
-  letters(state, from, to).push_back({rank.frame, rank.handshake.tell(to), transfers});
+  messages(state, from, to).push_back({rank.frame, rank.handshake.send(to), transfers});
 }
 
-// All ranks are told, as Worker::send_bundles does.
+// Sends the transfers to all ranks, as Worker::send_bundles does.
 std::optional<std::string> OwnershipModel::give(OwnershipState& state, const OwnershipStep& step) const {
   OwnershipRank& giver = state.ranks[static_cast<std::size_t>(step.rank)];
   std::optional<std::string> wrong;
   for (int from = 0; from < rank_count(); ++from) {
-    for (const OwnershipLetter& letter : letters(state, from, step.rank)) {
-      for (const TileTransfer& transfer : letter.transfers) {
+    for (const OwnershipMessage& message : messages(state, from, step.rank)) {
+      for (const TileTransfer& transfer : message.transfers) {
         if (transfer.owner == step.rank &&
             transfer.version >= giver.partition.version[static_cast<std::size_t>(transfer.tile)])
           wrong = "a rank gives while a tile is on its way to it";
@@ -215,72 +217,72 @@ std::optional<std::string> OwnershipModel::give(OwnershipState& state, const Own
   std::vector<TileTransfer> transfers;
   for (const int tile : step.tiles) {
     const auto t = static_cast<std::size_t>(tile);
-    giver.partition.version[t] += rules_.gifts_raise_version;
+    giver.partition.version[t] += rules_.transfers_raise_version;
     giver.partition.owner[t] = step.other;
     transfers.push_back({tile, step.other, giver.partition.version[t], {}, {}});
   }
-  giver.handshake.gave(step.other);
+  giver.handshake.transfer_sent(step.other);
   --state.left.transfers;
   for (int to = 0; to < rank_count(); ++to) {
-    if (to != step.rank) tell(state, step.rank, to, transfers);
+    if (to != step.rank) send(state, step.rank, to, transfers);
   }
   return wrong;
 }
 
 void OwnershipModel::deliver(OwnershipState& state, int to, int from, std::size_t position) const {
-  auto& coming = letters(state, from, to);
-  const OwnershipLetter letter = std::move(coming[position]);
+  auto& coming = messages(state, from, to);
+  const OwnershipMessage message = std::move(coming[position]);
   coming.erase(coming.begin() + static_cast<std::ptrdiff_t>(position));
   OwnershipRank& rank = state.ranks[static_cast<std::size_t>(to)];
-  rank.handshake.hear(from, letter.handshake);
-  bool has_transfer = false;
-  for (const TileTransfer& transfer : letter.transfers) {
+  rank.handshake.receive(from, message.handshake);
+  bool is_taker = false;
+  for (const TileTransfer& transfer : message.transfers) {
     const auto t = static_cast<std::size_t>(transfer.tile);
-    has_transfer = has_transfer || transfer.owner == to;
+    is_taker = is_taker || transfer.owner == to;
     if (transfer.version <= rank.partition.version[t]) continue;
     rank.partition.owner[t] = transfer.owner;
     rank.partition.version[t] = transfer.version;
   }
-  if (has_transfer) rank.handshake.took(from);
+  if (is_taker) rank.handshake.transfer_received(from);
 }
 
-void OwnershipModel::hear_cut(OwnershipState& state, int rank) const {
+void OwnershipModel::receive_repartition(OwnershipState& state, int rank) const {
   OwnershipRank& r = state.ranks[static_cast<std::size_t>(rank)];
-  r.partition = cuts_[static_cast<std::size_t>(r.frame++)];
+  r.partition = repartitions_[static_cast<std::size_t>(r.frame++)];
 }
 
 // --- What must hold ---
 
-// What anybody says of a tile, or is about to hear.
+// What any rank knows of a tile, or is about to receive.
 std::vector<TileTransfer> OwnershipModel::claims(const OwnershipState& state, int tile) const {
   const auto t = static_cast<std::size_t>(tile);
   std::vector<TileTransfer> claims;
   for (const OwnershipRank& r : state.ranks) {
     claims.push_back({tile, r.partition.owner[t], r.partition.version[t], {}, {}});
   }
-  for (const auto& letters : state.under_way) {
-    for (const OwnershipLetter& letter : letters) {
-      for (const TileTransfer& transfer : letter.transfers) {
+  for (const auto& messages : state.under_way) {
+    for (const OwnershipMessage& message : messages) {
+      for (const TileTransfer& transfer : message.transfers) {
         if (transfer.tile == tile) claims.push_back(transfer);
       }
     }
   }
-  for (int cut = 0; cut < state.cuts; ++cut) {
-    const Partition& partition = cuts_[static_cast<std::size_t>(cut)];
+  for (int repartition = 0; repartition < state.repartitions; ++repartition) {
+    const Partition& partition = repartitions_[static_cast<std::size_t>(repartition)];
     claims.push_back({tile, partition.owner[t], partition.version[t], {}, {}});
   }
   return claims;
 }
 
-// Or will know: the word of it is on its way to the owner.
+// Or will know: the transfer is on its way to the owner.
 bool OwnershipModel::owner_knows(const OwnershipState& state, const TileTransfer& truth) const {
   const OwnershipRank& owner = state.ranks[static_cast<std::size_t>(truth.owner)];
   const auto t = static_cast<std::size_t>(truth.tile);
   if (owner.partition.version[t] == truth.version && owner.partition.owner[t] == truth.owner) return true;
-  if (owner.frame < state.cuts) return true;
+  if (owner.frame < state.repartitions) return true;
   for (int from = 0; from < rank_count(); ++from) {
-    for (const OwnershipLetter& letter : letters(state, from, truth.owner)) {
-      if (std::any_of(letter.transfers.begin(), letter.transfers.end(),
+    for (const OwnershipMessage& message : messages(state, from, truth.owner)) {
+      if (std::any_of(message.transfers.begin(), message.transfers.end(),
                       [&](const TileTransfer& transfer) { return same(transfer, truth); }))
         return true;
     }
@@ -315,27 +317,27 @@ std::optional<std::string> OwnershipModel::fault(const OwnershipState& state) co
     if (!is_connected(truth, rank)) return "a region has fallen apart";
   }
   const bool quiet = std::all_of(state.under_way.begin(), state.under_way.end(),
-                                 [](const auto& letters) { return letters.empty(); });
+                                 [](const auto& messages) { return messages.empty(); });
   for (const OwnershipRank& r : state.ranks) {
-    if (quiet && r.frame == state.cuts && state.ranks.front().frame == state.cuts &&
+    if (quiet && r.frame == state.repartitions && state.ranks.front().frame == state.repartitions &&
         (r.partition.owner != state.ranks.front().partition.owner))
       return "ranks that have heard everything disagree";
   }
   return std::nullopt;
 }
 
-// All that is under way arrives, and whoever is owed a word gets it.
+// Delivers all messages, and sends all pending replies.
 void OwnershipModel::quieten(OwnershipState& state) const {
   for (bool quiet = false; !quiet;) {
     quiet = true;
     for (int rank = 0; rank < rank_count(); ++rank) {
       OwnershipRank& r = state.ranks[static_cast<std::size_t>(rank)];
-      while (r.frame < state.cuts) hear_cut(state, rank);
+      while (r.frame < state.repartitions) receive_repartition(state, rank);
       for (int other = 0; other < rank_count(); ++other) {
         if (other == rank) continue;
-        for (; !letters(state, other, rank).empty(); quiet = false) deliver(state, rank, other, 0);
-        if (!rules_.acknowledges || !r.handshake.owes_word(other)) continue;
-        tell(state, rank, other, {});
+        for (; !messages(state, other, rank).empty(); quiet = false) deliver(state, rank, other, 0);
+        if (!rules_.acknowledges || !r.handshake.has_pending_reply(other)) continue;
+        send(state, rank, other, {});
         quiet = false;
       }
     }
@@ -346,14 +348,15 @@ bool OwnershipModel::all_can_come_to_give(OwnershipState& state) const {
   quieten(state);
   for (int giver = 0; giver < rank_count(); ++giver) {
     for (int rank = 0; rank < rank_count(); ++rank) {
-      state.ranks[static_cast<std::size_t>(rank)].handshake.decide(rank == giver);
-      if (rank != giver) tell(state, rank, giver, {});
+      state.ranks[static_cast<std::size_t>(rank)].handshake.set_giving(rank == giver);
+      if (rank != giver) send(state, rank, giver, {});
     }
     quieten(state);
     const TransferHandshake& handshake = state.ranks[static_cast<std::size_t>(giver)].handshake;
-    if (!handshake.may_give()) return false;
+    if (!handshake.may_transfer()) return false;
     for (int rank = 0; rank < rank_count(); ++rank) {
-      if (rank != giver && (!handshake.takes(rank) || !handshake.has_counted_gifts(rank))) return false;
+      if (rank != giver && (!handshake.accepts(rank) || !handshake.has_confirmed_transfers(rank)))
+        return false;
     }
   }
   return true;

@@ -17,26 +17,26 @@ namespace pprt {
 // The rules that the protocol stands on; a test breaks one to see that the model finds out.
 struct OwnershipRules {
   bool waits_for_acknowledgement = true;  // who has changed to giving, before the first transfer
-  bool gifts_raise_version = true;
+  bool transfers_raise_version = true;
   bool only_owners_give = true;
-  bool cuts_raise_version = true;
-  bool words_keep_order = true;      // from one rank to another
-  bool words_wait_for_frame = true;  // the receiver hears of a cut before what was sent after it
-  bool keeps_regions_whole = true;   // the giver its own
-  bool acknowledges = true;          // whoever is owed a word gets one
+  bool repartitions_raise_version = true;
+  bool messages_keep_order = true;      // from one rank to another
+  bool messages_wait_for_frame = true;  // the receiver learns of a repartition before what was sent after it
+  bool keeps_regions_whole = true;      // the giver its own
+  bool acknowledges = true;             // a pending reply is sent
 };
 
 // How often something may still happen, on all ranks together.
 struct OwnershipLimits {
   int decisions = 0;  // changes of handshake
-  int words = 0;      // that nobody waits for
+  int unasked = 0;    // messages that nobody waits for
   int transfers = 0;
 
   friend bool operator==(const OwnershipLimits&, const OwnershipLimits&) = default;
 };
 
-struct OwnershipLetter {
-  int frame = 0;  // how many cuts the sender had heard of
+struct OwnershipMessage {
+  int frame = 0;  // number of repartitions that the sender had received
   HandshakeState handshake;
   std::vector<TileTransfer> transfers;
 };
@@ -44,13 +44,13 @@ struct OwnershipLetter {
 struct OwnershipRank {
   Partition partition;  // as it sees it
   TransferHandshake handshake;
-  int frame = 0;  // how many cuts it has heard of
+  int frame = 0;  // number of repartitions that it has received
 };
 
 struct OwnershipState {
   std::vector<OwnershipRank> ranks;
-  std::vector<std::vector<OwnershipLetter>> under_way;  // [from * ranks + to], the oldest first
-  int cuts = 0;                                         // ordered by the master
+  std::vector<std::vector<OwnershipMessage>> under_way;  // [from * ranks + to], the oldest first
+  int repartitions = 0;                                  // ordered by the master
   OwnershipLimits left;
 
   friend bool operator==(const OwnershipState& a, const OwnershipState& b);
@@ -62,19 +62,19 @@ struct OwnershipStateHash {
 
 // One thing that can happen.
 struct OwnershipStep {
-  enum class Kind { kChangeStance, kTell, kGive, kDeliver, kOrderCut, kHearCut };
+  enum class Kind { kChangeSide, kSend, kTransfer, kDeliver, kOrderRepartition, kReceiveRepartition };
   Kind kind{};
-  int rank = 0;              // who does it, or gets the letter
+  int rank = 0;              // who does it, or gets the message
   int other = 0;             // to whom, or from whom
   std::vector<int> tiles;    // given
-  std::size_t position = 0;  // of the letter
+  std::size_t position = 0;  // of the message
 };
 
 class OwnershipModel {
  public:
-  // `cuts` are the partitions that the master orders, one after the other, if the run comes to it. Regions
-  // must be connected.
-  OwnershipModel(const Partition& first, std::vector<Partition> cuts, const OwnershipLimits& limits,
+  // `repartitions` are the partitions that the master orders, one after the other, if the run comes to it.
+  // Regions must be connected.
+  OwnershipModel(const Partition& first, std::vector<Partition> repartitions, const OwnershipLimits& limits,
                  const OwnershipRules& rules = {});
 
   OwnershipState start() const;
@@ -99,20 +99,20 @@ class OwnershipModel {
 
  private:
   int rank_count() const { return first_.ranks; }
-  std::vector<OwnershipLetter>& letters(OwnershipState& state, int from, int to) const;
-  const std::vector<OwnershipLetter>& letters(const OwnershipState& state, int from, int to) const;
-  bool can_deliver(const OwnershipState& state, int to, const OwnershipLetter& letter) const;
+  std::vector<OwnershipMessage>& messages(OwnershipState& state, int from, int to) const;
+  const std::vector<OwnershipMessage>& messages(const OwnershipState& state, int from, int to) const;
+  bool can_deliver(const OwnershipState& state, int to, const OwnershipMessage& message) const;
   bool can_spare(const OwnershipState& state, int giver, int taker, int tile) const;
-  void tell(OwnershipState& state, int from, int to, const std::vector<TileTransfer>& transfers) const;
+  void send(OwnershipState& state, int from, int to, const std::vector<TileTransfer>& transfers) const;
   std::optional<std::string> give(OwnershipState& state, const OwnershipStep& step) const;
   void deliver(OwnershipState& state, int to, int from, std::size_t position) const;
-  void hear_cut(OwnershipState& state, int rank) const;
+  void receive_repartition(OwnershipState& state, int rank) const;
   void quieten(OwnershipState& state) const;
   std::vector<TileTransfer> claims(const OwnershipState& state, int tile) const;
   bool owner_knows(const OwnershipState& state, const TileTransfer& truth) const;
 
   Partition first_;
-  std::vector<Partition> cuts_;
+  std::vector<Partition> repartitions_;
   OwnershipLimits limits_;
   OwnershipRules rules_;
 };

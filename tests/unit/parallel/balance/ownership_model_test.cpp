@@ -42,7 +42,7 @@ Exploration explore(const OwnershipModel& model, std::size_t most_states) {
   return {seen.size(), "", open.empty()};
 }
 
-// Tiles of 10 pixels; a letter is a tile's owner.
+// Tiles of 10 pixels; a message is a tile's owner.
 Partition drawn(int columns, const std::string& owners) {
   const int rows = static_cast<int>(owners.size()) / columns;
   Partition partition{
@@ -57,25 +57,25 @@ Partition drawn(int columns, const std::string& owners) {
 struct Case {
   std::string name;
   Partition first;
-  std::vector<Partition> cuts;
+  std::vector<Partition> repartitions;
   OwnershipLimits limits;
 };
 
 // Small enough to see every state of; each has something that the others lack.
 std::vector<Case> small_cases() {
-  return {{"two ranks, one cut, long talk", drawn(4, "aabb"), {drawn(4, "abbb")}, {2, 3, 2}},
-          {"two ranks, one cut, many changes", drawn(4, "aabb"), {drawn(4, "abbb")}, {3, 2, 2}},
-          {"two ranks, two cuts", drawn(4, "aabb"), {drawn(4, "abbb"), drawn(4, "aaab")}, {1, 2, 2}},
+  return {{"two ranks, one repartition, long talk", drawn(4, "aabb"), {drawn(4, "abbb")}, {2, 3, 2}},
+          {"two ranks, one repartition, many changes", drawn(4, "aabb"), {drawn(4, "abbb")}, {3, 2, 2}},
+          {"two ranks, two repartitions", drawn(4, "aabb"), {drawn(4, "abbb"), drawn(4, "aaab")}, {1, 2, 2}},
           {"three ranks that all touch", drawn(3, "aabacbccb"), {}, {2, 2, 1}},
           {"three ranks in a row", drawn(4, "abbc"), {}, {2, 2, 2}},
-          {"three ranks in a row, one cut", drawn(4, "abbc"), {drawn(4, "aabc")}, {1, 2, 1}},
+          {"three ranks in a row, one repartition", drawn(4, "abbc"), {drawn(4, "aabc")}, {1, 2, 1}},
           {"four ranks", drawn(3, "aabdcb"), {}, {1, 2, 1}}};
 }
 
 // The first fault that any small case shows.
 std::string fault_found(const OwnershipRules& rules) {
   for (const Case& c : small_cases()) {
-    const Exploration e = explore(OwnershipModel(c.first, c.cuts, c.limits, rules), 60'000);
+    const Exploration e = explore(OwnershipModel(c.first, c.repartitions, c.limits, rules), 60'000);
     if (!e.fault.empty()) return e.fault;
   }
   return "";
@@ -88,8 +88,8 @@ Partition rectangles(int ranks, std::mt19937& random) {
   return bisect(grid, costs, ranks);
 }
 
-// Mostly messages that arrive and words; now and then a change of mind or a cut. Where a transfer is in
-// order, every second time one, and every second of these as local balancing would choose it.
+// Mostly sends and deliveries; now and then a change of side or a repartition. Where a transfer is
+// in order, every second time one, and every second of these as local balancing would choose it.
 OwnershipStep random_step(const OwnershipModel& model, const OwnershipState& state, std::mt19937& random) {
   using Kind = OwnershipStep::Kind;
   const std::vector<OwnershipStep> steps = model.steps(state);
@@ -100,18 +100,19 @@ OwnershipStep random_step(const OwnershipModel& model, const OwnershipState& sta
     return some;
   };
   const unsigned dice = random() % 200;
-  std::vector<OwnershipStep> choice = random() % 2 == 0 ? of_kind(Kind::kGive) : std::vector<OwnershipStep>();
+  std::vector<OwnershipStep> choice =
+      random() % 2 == 0 ? of_kind(Kind::kTransfer) : std::vector<OwnershipStep>();
   if (choice.empty()) {
     choice = of_kind(dice < 120   ? Kind::kDeliver
-                     : dice < 185 ? Kind::kTell
-                     : dice < 196 ? Kind::kChangeStance
-                     : dice < 199 ? Kind::kHearCut
-                                  : Kind::kOrderCut);
+                     : dice < 185 ? Kind::kSend
+                     : dice < 196 ? Kind::kChangeSide
+                     : dice < 199 ? Kind::kReceiveRepartition
+                                  : Kind::kOrderRepartition);
   }
   if (choice.empty()) choice = of_kind(Kind::kDeliver);
   if (choice.empty()) choice = steps;
   OwnershipStep step = choice[random() % choice.size()];
-  if (step.kind == Kind::kGive && random() % 2 == 0) {
+  if (step.kind == Kind::kTransfer && random() % 2 == 0) {
     const std::vector<int> graded = model.graded_tiles(state, step.rank, step.other);
     if (!graded.empty()) step.tiles = graded;
   }
@@ -142,9 +143,10 @@ int walk(unsigned seed) {
 
 }  // namespace
 
-TEST_CASE("ownership is consistent and no rank is stuck under every order of messages", "[ownership]") {
+TEST_CASE("tile ownership: consistent and without deadlock under every order of messages of a few ranks",
+          "[ownership]") {
   for (const Case& c : small_cases()) {
-    const Exploration e = explore(OwnershipModel(c.first, c.cuts, c.limits), 60'000);
+    const Exploration e = explore(OwnershipModel(c.first, c.repartitions, c.limits), 60'000);
     INFO(c.name << ": " << e.states << " states");
     CHECK(e.fault == "");
     CHECK(e.complete);
@@ -152,7 +154,7 @@ TEST_CASE("ownership is consistent and no rank is stuck under every order of mes
   }
 }
 
-TEST_CASE("ownership is consistent on random ways of many ranks", "[ownership]") {
+TEST_CASE("tile ownership: consistent under random orders of messages of many ranks", "[ownership]") {
   const char* asked = std::getenv("PPRT_OWNERSHIP_SEEDS");
   const unsigned seeds = asked != nullptr ? static_cast<unsigned>(std::stoul(asked)) : 24;
   int transfers = 0;
@@ -160,13 +162,13 @@ TEST_CASE("ownership is consistent on random ways of many ranks", "[ownership]")
   CHECK(transfers > static_cast<int>(5 * seeds));
 }
 
-TEST_CASE("a rule that is broken shows", "[ownership]") {
+TEST_CASE("control: the ownership model finds each rule of the protocol that is broken", "[ownership]") {
   CHECK(fault_found({.waits_for_acknowledgement = false}) == "a rank gives while a tile is on its way to it");
-  CHECK(fault_found({.gifts_raise_version = false}) == "two owners by the same version");
+  CHECK(fault_found({.transfers_raise_version = false}) == "two owners by the same version");
   CHECK(fault_found({.only_owners_give = false}) == "two ranks render the same tile");
-  CHECK(fault_found({.cuts_raise_version = false}) == "two owners by the same version");
-  CHECK(fault_found({.words_keep_order = false}) == "a rank gives while a tile is on its way to it");
-  CHECK(fault_found({.words_wait_for_frame = false}) == "a tile's owner will never hear of it");
+  CHECK(fault_found({.repartitions_raise_version = false}) == "two owners by the same version");
+  CHECK(fault_found({.messages_keep_order = false}) == "a rank gives while a tile is on its way to it");
+  CHECK(fault_found({.messages_wait_for_frame = false}) == "a tile's owner will never hear of it");
   CHECK(fault_found({.keeps_regions_whole = false}) == "a region has fallen apart");
   CHECK(fault_found({.acknowledges = false}) == "a rank can never give again");
 }

@@ -90,7 +90,9 @@ void check_sound(const Partition& partition, int ranks) {
 
 }  // namespace
 
-TEST_CASE("every tile has one owner and every region is a rectangle, for any image and number of ranks") {
+TEST_CASE(
+    "partition: every tile has one owner and every region is a rectangle, for any image and number of "
+    "ranks") {
   for (const auto& [width, height] :
        {std::pair(1, 1), {5, 3}, {64, 64}, {640, 8}, {7, 500}, {320, 200}, {1001, 333}}) {
     for (int ranks = 1; ranks <= 64; ++ranks) {
@@ -102,7 +104,7 @@ TEST_CASE("every tile has one owner and every region is a rectangle, for any ima
   }
 }
 
-TEST_CASE("every cut balances cost to within half a tile line") {
+TEST_CASE("partition: every cut of the bisection balances cost to within half a tile line") {
   for (const int ranks : {2, 3, 5, 8, 13, 32, 62}) {
     INFO(ranks << " ranks");
     const TileGrid grid = tile_grid_for(640, 480, ranks);
@@ -117,7 +119,7 @@ TEST_CASE("every cut balances cost to within half a tile line") {
   }
 }
 
-TEST_CASE("no rank goes without a tile when there are plenty") {
+TEST_CASE("partition: every rank has a tile when there are plenty") {
   for (const int ranks : {1, 2, 7, 31, 64}) {
     const TileGrid grid = tile_grid_for(512, 512, ranks);
     REQUIRE(grid.tile_count() >= 16 * ranks);
@@ -129,7 +131,7 @@ TEST_CASE("no rank goes without a tile when there are plenty") {
   }
 }
 
-TEST_CASE("more ranks than tiles leave some without") {
+TEST_CASE("partition: with more ranks than tiles some ranks have none") {
   const TileGrid grid(8, 8, 4);
   const Partition partition = bisect(grid, uniform_costs(grid), 9);
   check_sound(partition, 9);
@@ -139,13 +141,13 @@ TEST_CASE("more ranks than tiles leave some without") {
   check_sound(one_tile, 64);
 }
 
-TEST_CASE("costs of nothing count as equal") {
+TEST_CASE("partition: costs that are all zero count as equal") {
   const TileGrid grid(160, 160, 10);
   const std::vector<double> nothing(256, 0.0);
   CHECK(bisect(grid, nothing, 12).owner == bisect(grid, uniform_costs(grid), 12).owner);
 }
 
-TEST_CASE("a dear corner gets more ranks") {
+TEST_CASE("partition: an expensive corner gets more ranks") {
   const TileGrid grid(160, 160, 10);
   std::vector<double> costs = uniform_costs(grid);
   for (int y = 0; y < 4; ++y) {
@@ -159,7 +161,7 @@ TEST_CASE("a dear corner gets more ranks") {
   CHECK(in_corner.size() >= 8);  // it holds 87 % of the cost
 }
 
-TEST_CASE("tiles are between 2 and 32 pixels and about 100 a rank") {
+TEST_CASE("partition: tiles are between 2 and 32 pixels wide, and about 100 a rank") {
   CHECK(tile_grid_for(4, 4, 64).tile_size == 2);
   CHECK(tile_grid_for(16384, 16384, 1).tile_size == 32);
   for (const int ranks : {1, 4, 16, 32}) {
@@ -170,7 +172,7 @@ TEST_CASE("tiles are between 2 and 32 pixels and about 100 a rank") {
   }
 }
 
-TEST_CASE("regions that hang together by a corner only are not connected") {
+TEST_CASE("partition: regions that touch at a corner only are not connected") {
   Partition partition{TileGrid(20, 20, 10), 2, {0, 1, 1, 0}, {0, 0, 0, 0}};
   CHECK_FALSE(is_connected(partition, 0));
   CHECK_FALSE(is_connected(partition, 1));

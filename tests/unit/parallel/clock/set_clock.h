@@ -5,34 +5,43 @@
 
 namespace pprt {
 
-// A frame has six packets of so many samples; nothing is ever unaffordable.
+// A frame has six packets of so many samples; nothing is ever unaffordable. Every reading of the CPU time is
+// a millisecond after the one before.
 class SetClock final : public FrameClock {
  public:
   SetClock(int samples_per_packet, double period_s, const double& now_s)
       : samples_per_packet_(samples_per_packet), period_s_(period_s), now_s_(now_s) {}
 
   bool may_begin(const FrameOrder&) const override { return true; }
+  bool is_past(const FrameOrder& order) const override {
+    return order.index > 0 && now_s_ >= order.deadline_s;
+  }
   void begin_frame(const FrameOrder&) override { packets_ = 0; }
-  void spend(Work, std::uint64_t) override {}
-  void rested(double) override {}
+  void end_frame(double) override {}
+  void region_changed(std::size_t) override {}
+
   void begin_packet(std::uint64_t) override { left_ = samples_per_packet_, ++packets_; }
   bool packet_over() override { return left_-- == 0; }
   bool sampling_over() override { return packets_ >= 6; }
-  void end_frame(double) override {}
-  std::size_t affordable(Work, double) const override { return 100'000; }
-  bool in_lockstep() const override { return false; }
-  double lap_ms() override { return 0; }
-  int rounds_under_way(double) const override { return 0; }
   double sampling_share() const override { return 0.25; }
-  void region_changed(std::size_t) override {}
+  std::optional<double> expected_growth(std::size_t, std::size_t) const override { return std::nullopt; }
+
+  void spend(Work, std::uint64_t) override {}
+  std::size_t affordable(Work, double) const override { return 100'000; }
+  double rested(double) override { return 0; }
+
+  std::int64_t used_ns() const override { return std::int64_t{1'000'000} * ++readings_; }
+  double as_evidence_ms(double measured_ms) const override { return measured_ms; }
   double frame_seconds() const override { return period_s_; }
   double sampling_end_seconds() const override { return now_s_; }
-  double sequence_seconds() const override { return now_s_; }
+
+  int readings() const { return readings_; }
 
  private:
   int samples_per_packet_;
   double period_s_;
   const double& now_s_;
+  mutable int readings_ = 0;
   int packets_ = 0;
   int left_ = 0;
 };

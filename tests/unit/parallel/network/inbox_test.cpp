@@ -23,7 +23,7 @@ void send_bundle(LocalNetwork& network, int from, int round) {
 
 }  // namespace
 
-TEST_CASE("orders wait for their turn") {
+TEST_CASE("inbox: orders wait for their turn") {
   LocalNetwork network(2);
   LocalCommunicator me(network, 1);
   Inbox inbox(me, kNoMaster);
@@ -37,7 +37,7 @@ TEST_CASE("orders wait for their turn") {
   CHECK(inbox.take_order(2)->end);
 }
 
-TEST_CASE("bundles come in order of rank, then of sending") {
+TEST_CASE("inbox: bundles are taken in order of rank, then of sending") {
   LocalNetwork network(4);
   LocalCommunicator me(network, 1);
   Inbox inbox(me, kNoMaster);
@@ -57,7 +57,7 @@ TEST_CASE("bundles come in order of rank, then of sending") {
   CHECK(inbox.take_bundles(kAll).empty());
 }
 
-TEST_CASE("what does not belong into a sequence is refused") {
+TEST_CASE("inbox: messages that do not belong into a sequence are refused") {
   LocalNetwork network(2);
   LocalCommunicator me(network, 1);
   Inbox inbox(me, kNoMaster);

@@ -23,7 +23,14 @@ Sample some_sample(int i) {
 }
 
 Bundle some_bundle() {
-  Bundle bundle{3, 2, 19, true, 4, {0.5, 0.25, 1e6}, {5, 8, 2}, {{4, 2, 7, {1, 2}, {3, 4}}}, {}};
+  Bundle bundle{.frame_index = 3,
+                .epoch = 2,
+                .round = 19,
+                .done = true,
+                .rounds_under_way = 4,
+                .progress = {.quality = 0.5, .target = 0.25, .future_cost = 1e6},
+                .handshake = {.phase = 5, .acknowledged = 8, .transfers_received = 2},
+                .transfers = {{.tile = 4, .owner = 2, .version = 7, .now = {1, 2}, .last = {3, 4}}}};
   for (int i = 0; i < 6; ++i) bundle.samples.push_back(some_sample(i));
   return bundle;
 }
@@ -95,7 +102,7 @@ const auto kDecodeSettings = [](const Bytes& bytes) { decode_settings(bytes); };
 
 }  // namespace
 
-TEST_CASE("a frame order comes back as it was sent") {
+TEST_CASE("messages: a frame order is decoded as it was encoded") {
   const FrameOrder order = some_order(), back = decode_frame_order(encode(order));
   CHECK(back.end == order.end);
   CHECK(back.index == order.index);
@@ -119,7 +126,7 @@ TEST_CASE("a frame order comes back as it was sent") {
   CHECK(decode_frame_order(encode(end)).end);
 }
 
-TEST_CASE("a bundle comes back as it was sent") {
+TEST_CASE("messages: a bundle is decoded as it was encoded") {
   const Bundle bundle = some_bundle(), back = decode_bundle(encode(bundle));
   CHECK(back.frame_index == 3);
   CHECK(back.epoch == 2);
@@ -128,7 +135,8 @@ TEST_CASE("a bundle comes back as it was sent") {
   CHECK((back.progress.quality == 0.5 && back.progress.target == 0.25 && back.progress.future_cost == 1e6));
   REQUIRE(back.transfers.size() == 1);
   CHECK(back.rounds_under_way == 4);
-  CHECK((back.handshake.handshake == 5 && back.handshake.heard == 8 && back.handshake.taken == 2));
+  CHECK((back.handshake.phase == 5 && back.handshake.acknowledged == 8 &&
+         back.handshake.transfers_received == 2));
   CHECK((back.transfers[0].tile == 4 && back.transfers[0].owner == 2 && back.transfers[0].version == 7));
   CHECK((back.transfers[0].now.cost == 1 && back.transfers[0].last.average_weight == 4));
   REQUIRE(back.samples.size() == bundle.samples.size());
@@ -142,7 +150,7 @@ TEST_CASE("a bundle comes back as it was sent") {
   CHECK(decode_bundle(encode(Bundle())).samples.empty());
 }
 
-TEST_CASE("pixels and their report come back as they were sent") {
+TEST_CASE("messages: pixels and their report are decoded as they were encoded") {
   const PixelMessage pixels = some_pixels(), back = decode_pixels(encode(pixels));
   CHECK(back.frame_index == 9);
   REQUIRE(back.tiles.size() == 2);
@@ -160,24 +168,24 @@ TEST_CASE("pixels and their report come back as they were sent") {
   CHECK(encode(back) == encode(pixels));
 }
 
-TEST_CASE("settings come back as they were sent") {
+TEST_CASE("messages: settings are decoded as they were encoded") {
   CHECK((decode_settings(encode(some_settings())) == some_settings()));
 }
 
-TEST_CASE("a message cut short anywhere is refused") {
+TEST_CASE("messages: a message cut short anywhere is refused") {
   check_cut_short(encode(some_order()), kDecodeOrder);
   check_cut_short(encode(some_bundle()), kDecodeBundle);
   check_cut_short(encode(some_pixels()), kDecodePixels);
   check_cut_short(encode(some_settings()), kDecodeSettings);
 }
 
-TEST_CASE("a message with more than it should hold is refused") {
+TEST_CASE("messages: a message with trailing bytes is refused") {
   check_one_too_many(encode(some_order()), kDecodeOrder);
   check_one_too_many(encode(some_bundle()), kDecodeBundle);
   check_one_too_many(encode(some_pixels()), kDecodePixels);
 }
 
-TEST_CASE("a value that its type has not is refused") {
+TEST_CASE("messages: a value that its type does not have is refused") {
   const auto with = [](Bytes bytes, std::size_t at, unsigned value) {
     bytes[at] = static_cast<std::byte>(value);
     return bytes;
@@ -197,7 +205,7 @@ TEST_CASE("a value that its type has not is refused") {
   CHECK_THROWS_AS(decode_settings(with(settings, 53, 2)), ProtocolError);  // learned_weights
 }
 
-TEST_CASE("runs of more tiles than an image has are refused") {
+TEST_CASE("messages: runs of more tiles than an image has are refused") {
   FrameOrder order = some_order();
   order.owners.clear(), order.tiles.clear();
   Bytes bytes = encode(order);
@@ -213,7 +221,7 @@ TEST_CASE("runs of more tiles than an image has are refused") {
   }
 }
 
-TEST_CASE("a count that a message cannot hold takes no memory") {
+TEST_CASE("messages: a count that a message cannot hold takes no memory") {
   const Bytes bundle = encode(some_bundle());
   Bundle without = some_bundle();
   without.samples.clear();
@@ -230,7 +238,7 @@ TEST_CASE("a count that a message cannot hold takes no memory") {
   check_hostile_count(bytes, given - 2 * sizeof(TileReport) - sizeof(std::uint64_t), kDecodePixels);
 }
 
-TEST_CASE("texts travel with their length") {
+TEST_CASE("messages: texts are encoded with their length") {
   WireWriter out;
   out.put(std::string("tree")), out.put(std::string());
   const Bytes bytes = out.take();

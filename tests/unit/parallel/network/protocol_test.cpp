@@ -1,4 +1,4 @@
-// docs/protocol.md tells the sizes that the encoders make.
+// docs/protocol.md states the sizes that the encoders make.
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <iterator>
@@ -39,7 +39,7 @@ std::size_t pixels_bytes(std::size_t tiles, std::size_t transfers, std::size_t p
   return encode(message).size();
 }
 
-// What the page tells, matched by a pattern; each match's numbers go to `check`.
+// Numbers on the page, found by a pattern; each match's numbers go to `check`.
 template <typename Check>
 int for_each_match(const std::string& text, const std::string& pattern, const Check& check) {
   const std::regex regex(pattern);
@@ -53,25 +53,25 @@ int for_each_match(const std::string& text, const std::string& pattern, const Ch
 
 }  // namespace
 
-TEST_CASE("the page's formulas are those of the encoders") {
+TEST_CASE("docs/protocol.md: its size formulas are those of the encoders") {
   const std::string text = page();
-  const auto tells = [&](const std::string& formula) {
+  const auto states = [&](const std::string& formula) {
     return text.find('`' + formula + '`') != std::string::npos;
   };
   const auto n = [](std::size_t value) { return std::to_string(value); };
   const std::size_t order = order_bytes(0, 0), bundle = bundle_bytes(0, 0), pixels = pixels_bytes(0, 0, 0);
-  CHECK(tells(n(order)));
-  CHECK(
-      tells(n(order) + " + " + n(order_bytes(1, 0) - order) + " r + " + n(order_bytes(0, 1) - order) + " t"));
-  CHECK(tells(n(bundle) + " + " + n(bundle_bytes(1, 0) - bundle) + " g + " + n(bundle_bytes(0, 1) - bundle) +
-              " s"));
-  CHECK(tells(n(pixels) + " + " + n(pixels_bytes(1, 0, 0) - pixels) + " t + " +
-              n(pixels_bytes(0, 1, 0) - pixels) + " g + " + n(pixels_bytes(0, 0, 1) - pixels) + " p + " +
-              n(pixels_bytes(0, 0, 0, 1) - pixels) + " s"));
+  CHECK(states(n(order)));
+  CHECK(states(n(order) + " + " + n(order_bytes(1, 0) - order) + " r + " + n(order_bytes(0, 1) - order) +
+               " t"));
+  CHECK(states(n(bundle) + " + " + n(bundle_bytes(1, 0) - bundle) + " g + " + n(bundle_bytes(0, 1) - bundle) +
+               " s"));
+  CHECK(states(n(pixels) + " + " + n(pixels_bytes(1, 0, 0) - pixels) + " t + " +
+               n(pixels_bytes(0, 1, 0) - pixels) + " g + " + n(pixels_bytes(0, 0, 1) - pixels) + " p + " +
+               n(pixels_bytes(0, 0, 0, 1) - pixels) + " s"));
   CHECK(text.find("report (" + n(sizeof(RankReport)) + ")") != std::string::npos);
 }
 
-TEST_CASE("the worked example's sizes are those of the encoders") {
+TEST_CASE("docs/protocol.md: the sizes in its worked example are those of the encoders") {
   const std::string text = page();
   CHECK(3 == for_each_match(text, R"(\[order (\d+)r (\d+)t = (\d+)\])", [](const auto& number) {
           CHECK(order_bytes(number(1), number(2)) == number(3));
@@ -84,7 +84,7 @@ TEST_CASE("the worked example's sizes are those of the encoders") {
         }));
 }
 
-TEST_CASE("the page's tags are those of the communicator") {
+TEST_CASE("docs/protocol.md: its tags are those of the communicator") {
   const std::string text = page();
   const std::vector<std::pair<Tag, std::string>> tags = {
       {Tag::kClockPing, "kClockPing"},   {Tag::kClockPong, "kClockPong"}, {Tag::kStart, "kStart"},

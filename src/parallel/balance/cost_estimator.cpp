@@ -1,0 +1,118 @@
+#include "parallel/balance/cost_estimator.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include "parallel/clock/work_units.h"
+
+namespace pprt {
+namespace {
+
+double mean_weight(const TileWeights& weights) {
+  return weights.triangles > 0 ? weights.total_weight / static_cast<double>(weights.triangles) : 0;
+}
+
+// Work units of reconstructing a tile.
+double reconstruction_cost(const TileGrid& grid, int tile) {
+  return static_cast<double>(grid.pixels(tile).area()) * static_cast<double>(price(Work::kPixel));
+}
+
+}  // namespace
+
+CostEstimator::CostEstimator(const TileGrid& grid)
+    : grid_(grid),
+      now_(static_cast<std::size_t>(grid.tile_count())),
+      last_(static_cast<std::size_t>(grid.tile_count())) {}
+
+void CostEstimator::begin_frame(bool fresh_mesh, FrameLikeness likeness) {
+  likeness_ = likeness;
+  share_of_now_ = likeness == FrameLikeness::kUnknown ? 1 : 0;
+  received_last_ = std::exchange(received_now_, 0);
+  if (!fresh_mesh) return;
+  last_ = now_;
+  std::fill(now_.begin(), now_.end(), TileEstimate());
+}
+
+void CostEstimator::add_own(const Sample& sample) {
+  const int tile = grid_.tile_at(sample.x, sample.y);
+  now_[static_cast<std::size_t>(tile)].cost +=
+      static_cast<double>(price(Work::kRay) * sample.ray.rays + price(Work::kOwnSample));
+}
+
+void CostEstimator::add_received() {
+  received_now_ += static_cast<double>(price(Work::kReceivedSample));
+}
+
+void CostEstimator::accept(const TileTransfer& transfer) {
+  now_[static_cast<std::size_t>(transfer.tile)] = transfer.now;
+  last_[static_cast<std::size_t>(transfer.tile)] = transfer.last;
+}
+
+void CostEstimator::update(const SampleMesh& mesh, double elapsed) {
+  switch (likeness_) {
+    case FrameLikeness::kUnknown:
+      share_of_now_ = 1;
+      break;
+    case FrameLikeness::kSimilar:
+      share_of_now_ = elapsed;
+      break;
+    case FrameLikeness::kSame:
+      share_of_now_ = 0;
+      break;
+  }
+  if (mesh.refinement() > 0) learn_cost_per_triangle(mesh);
+}
+
+void CostEstimator::learn_cost_per_triangle(const SampleMesh& mesh) {
+  double cost = 0, triangles = 0;
+  for (const int tile : mesh.region().tiles()) {
+    cost += now(tile).cost;
+    triangles += mesh.tile_weights()[static_cast<std::size_t>(tile)].triangles;
+  }
+  cost_per_triangle_ = triangles > 0 ? cost / triangles : 0;
+}
+
+// What a tile's refinement so far has cost; at least the region's mean for its triangles. A tile with hardly
+// a sample, but with triangles that wait for one, would else seem to cost nothing to refine: few samples fall
+// into a small tile.
+double CostEstimator::cost_of(const SampleMesh& mesh, int tile) const {
+  const TileWeights& weights = mesh.tile_weights()[static_cast<std::size_t>(tile)];
+  return std::max(now(tile).cost, static_cast<double>(weights.triangles) * cost_per_triangle_);
+}
+
+double CostEstimator::future_cost(const SampleMesh& mesh, int tile, double quality) const {
+  const double weight = mean_weight(mesh.tile_weights()[static_cast<std::size_t>(tile)]);
+  const double paid = now(tile).cost;
+  const double cost_at_1 = (1 - share_of_now_) * last(tile).cost * last(tile).average_weight +
+                           share_of_now_ * cost_of(mesh, tile) * weight;
+  return cost_at_1 / quality - paid + reconstruction_cost(grid_, tile);
+}
+
+double CostEstimator::future_cost_of_region(const SampleMesh& mesh, double quality) const {
+  double sum = likeness_ == FrameLikeness::kUnknown ? 0 : std::max(0.0, received_last_ - received_now_);
+  for (const int tile : mesh.region().tiles()) sum += future_cost(mesh, tile, quality);
+  return sum;
+}
+
+std::vector<TileReport> CostEstimator::report(const SampleMesh& mesh) {
+  learn_cost_per_triangle(mesh);
+  std::vector<TileReport> reports;
+  const double received =
+      received_now_ / static_cast<double>(std::max<std::size_t>(1, mesh.region().tiles().size()));
+  for (const int tile : mesh.region().tiles()) {
+    const TileWeights& weights = mesh.tile_weights()[static_cast<std::size_t>(tile)];
+    TileEstimate& estimate = now_[static_cast<std::size_t>(tile)];
+    estimate.cost = cost_of(mesh, tile);
+    if (weights.triangles > 0) estimate.average_weight = mean_weight(weights);
+    reports.push_back({.tile = tile,
+                       .triangles = static_cast<std::int32_t>(weights.triangles),
+                       .total_weight = weights.total_weight,
+                       .cost = estimate.cost,
+                       .reconstruction = reconstruction_cost(grid_, tile),
+                       .preparation = received});
+  }
+  return reports;
+}
+
+}  // namespace pprt

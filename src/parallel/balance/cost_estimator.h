@@ -1,0 +1,73 @@
+// What one rank's tiles have cost, and what they will cost until they are refined to a given quality
+// (paper s. 3.6, 4.3).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "parallel/balance/tile_cost.h"
+#include "pipeline/sample.h"
+#include "pipeline/sampling/sample_mesh.h"
+
+namespace pprt {
+
+// How much the frame before says about a frame.
+enum class FrameLikeness : std::uint8_t {
+  kUnknown,  // it showed something else, or there was none
+  kSimilar,  // the camera has moved: its figures give way to this frame's with time
+  kSame      // it showed the same
+};
+
+class CostEstimator {
+ public:
+  explicit CostEstimator(const TileGrid& grid);
+
+  // Begins a frame. With a fresh triangulation what tiles have cost becomes what they cost last.
+  void begin_frame(bool fresh_mesh, FrameLikeness likeness);
+  FrameLikeness likeness() const { return likeness_; }
+
+  // Counts a sample that was traced or reinserted here: its rays and its insertion, for its tile.
+  void add_own(const Sample& sample);
+
+  // Counts the insertion of another rank's sample, for the region as a whole.
+  void add_received();
+
+  // Brings the estimates up to date with the mesh. `elapsed`: share of the frame's sampling time that has
+  // passed, in (0, 1].
+  void update(const SampleMesh& mesh, double elapsed);
+
+  // Fcost(i, Q): work units until the tile's mean weight has fallen to `quality` > 0, reconstruction
+  // included. The mean weight falls as the reciprocal of the samples. Negative where more has been paid than
+  // needed.
+  double future_cost(const SampleMesh& mesh, int tile, double quality) const;
+
+  // The same for the region, with what other ranks' samples are expected to cost until the frame's end.
+  double future_cost_of_region(const SampleMesh& mesh, double quality) const;
+
+  // A tile's figures in this frame and the one before. Right for own tiles only.
+  const TileEstimate& now(int tile) const { return now_[static_cast<std::size_t>(tile)]; }
+  const TileEstimate& last(int tile) const { return last_[static_cast<std::size_t>(tile)]; }
+
+  // A tile comes from a neighbour, with its figures.
+  void accept(const TileTransfer& transfer);
+
+  // A tile comes with a new partition: what its last owner reported.
+  void expect(int tile, const TileEstimate& found) { last_[static_cast<std::size_t>(tile)] = found; }
+
+  // Ends a frame: remembers the mean weights that it has led to, and returns a report of every own tile.
+  std::vector<TileReport> report(const SampleMesh& mesh);
+
+ private:
+  void learn_cost_per_triangle(const SampleMesh& mesh);
+  double cost_of(const SampleMesh& mesh, int tile) const;
+
+  TileGrid grid_;
+  std::vector<TileEstimate> now_, last_;  // per tile
+  double cost_per_triangle_ = 0;          // of this region in this frame, mean
+  double received_now_ = 0;               // work units spent on other ranks' samples
+  double received_last_ = 0;              // the same in the frame before
+  FrameLikeness likeness_ = FrameLikeness::kUnknown;
+  double share_of_now_ = 1;  // of this frame's figures in an estimate, against the last one's
+};
+
+}  // namespace pprt

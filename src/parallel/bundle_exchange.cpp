@@ -1,0 +1,120 @@
+#include "parallel/bundle_exchange.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "parallel/clock/host_time.h"
+
+namespace pprt {
+
+BundleExchange::BundleExchange(Communicator& network, Inbox& inbox, std::unique_ptr<ExchangePolicy> policy,
+                               FrameClock& clock, StageTimer& timer)
+    : network_(network),
+      inbox_(inbox),
+      policy_(std::move(policy)),
+      clock_(clock),
+      timer_(timer),
+      handshake_(network.size()),
+      at_{.frame_index = -1, .epoch = -1, .round = kSeedRound} {}
+
+void BundleExchange::begin_frame(int index) {
+  at_.frame_index = index;
+  at_.round = kSeedRound;
+  bytes_ = {};
+}
+
+void BundleExchange::begin_triangulation(int epoch) {
+  at_.epoch = epoch;
+  policy_->begin_triangulation();
+}
+
+void BundleExchange::send(int rank, bool concerns, Content content) {
+  if (!concerns && !policy_->sends_to_all()) return;
+  const std::size_t sample_bytes = content.samples.size() * kSampleBytes;
+  clock_.spend(Work::kSentSample, content.samples.size());
+  const Bundle bundle{
+      .frame_index = at_.frame_index,
+      .epoch = at_.epoch,
+      .round = at_.round,
+      .done = content.done,
+      .rounds_under_way = policy_->delivery_delay(at_, sample_bytes),
+      .progress = content.progress,
+      .handshake = handshake_.send(rank),
+      .transfers = std::vector<TileTransfer>(content.transfers.begin(), content.transfers.end()),
+      .samples = std::move(content.samples)};
+  Bytes bytes = encode(bundle);
+  if (concerns) count(bundle, bytes.size());
+  network_.send(rank, Tag::kBundle, std::move(bytes));
+}
+
+void BundleExchange::count(const Bundle& bundle, std::size_t encoded_size) {
+  const std::size_t of_samples = bundle.samples.size() * kSampleBytes;
+  const std::size_t of_transfers = bundle.transfers.size() * sizeof(TileTransfer);
+  bytes_.samples += of_samples;
+  bytes_.transfers += of_transfers;
+  bytes_.progress += encoded_size - of_samples - of_transfers;
+}
+
+std::vector<Inbox::Arrived> BundleExchange::receive() {
+  await([this] { return policy_->is_ready(inbox_, at_); });
+  return read_handshakes(policy_->take_due(inbox_, at_));
+}
+
+void BundleExchange::await_seeds(std::span<const int> peers) {
+  await([&] { return policy_->has_seeds(inbox_, at_, peers, clock_.frame_seconds()); });
+}
+
+std::vector<Inbox::Arrived> BundleExchange::take_earlier() {
+  return read_handshakes(inbox_.take_bundles(
+      [this](const Inbox::Arrived& a) { return a.bundle.frame_index < at_.frame_index; }));
+}
+
+std::vector<Inbox::Arrived> BundleExchange::take_of_round() {
+  return read_handshakes(
+      inbox_.take_bundles([this](const Inbox::Arrived& a) { return is_of_round(a, at_); }));
+}
+
+// Takes in the handshakes of the bundles, which are in the order of sending.
+std::vector<Inbox::Arrived> BundleExchange::read_handshakes(std::vector<Inbox::Arrived> bundles) {
+  for (const auto& [from, bundle] : bundles) {
+    handshake_.receive(from, bundle.handshake);
+    if (std::any_of(bundle.transfers.begin(), bundle.transfers.end(),
+                    [this](const TileTransfer& t) { return t.owner == network_.rank(); })) {
+      handshake_.transfer_received(from);
+    }
+  }
+  return bundles;
+}
+
+std::vector<TileTransfer> BundleExchange::earlier_transfers() const {
+  std::vector<TileTransfer> transfers;
+  for (const auto& [from, bundle] : inbox_.bundles()) {
+    if (bundle.frame_index < at_.frame_index)
+      transfers.insert(transfers.end(), bundle.transfers.begin(), bundle.transfers.end());
+  }
+  return transfers;
+}
+
+void BundleExchange::await(const std::function<bool()>& condition) {
+  inbox_.pump();
+  if (condition()) return;
+  const double began = monotonic_seconds();
+  do {
+    if (!inbox_.pump()) rest_briefly();
+  } while (!condition());
+  timer_.rested(monotonic_seconds() - began);
+}
+
+void BundleExchange::rest() {
+  if (!policy_->rests_when_idle()) return;
+  const double began = monotonic_seconds();
+  if (!inbox_.pump()) rest_briefly();
+  timer_.rested(monotonic_seconds() - began);
+}
+
+void BundleExchange::poll() {
+  constexpr unsigned kCallsPerLook = 128;
+  if (++polls_ % kCallsPerLook == 0) inbox_.pump();
+}
+
+}  // namespace pprt

@@ -1,0 +1,55 @@
+#include "parallel/clock/lockstep_exchange.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "parallel/clock/work_units.h"
+
+namespace pprt {
+namespace {
+
+// Counts rounds through the whole sequence, so that samples may be under way from one frame into the next.
+int round_number(const ExchangeRound& at) {
+  return at.frame_index * kRoundsPerFrame + at.round;
+}
+
+}  // namespace
+
+int LockstepExchange::delivery_delay(const ExchangeRound& at, std::size_t bytes) {
+  constexpr double kMostRounds = 1e6;
+  if (std::exchange(sending_, at) != at) link_bytes_ = 0;
+  link_bytes_ += static_cast<double>(bytes);
+  const double seconds = machine_.latency_s + link_bytes_ / machine_.bytes_per_second;
+  return static_cast<int>(std::min(seconds * machine_.units_per_second / round_units_, kMostRounds));
+}
+
+bool LockstepExchange::is_ready(const Inbox& inbox, const ExchangeRound& at) const {
+  const auto of_this_round = [&](const Inbox::Arrived& a) { return is_of_round(a, at); };
+  return inbox.count_bundles(of_this_round) >= static_cast<std::size_t>(ranks_ - 1);
+}
+
+// Returns the round's bundles, their samples replaced by those that arrive in this round, whenever these were
+// sent.
+std::vector<Inbox::Arrived> LockstepExchange::take_due(Inbox& inbox, const ExchangeRound& at) {
+  std::vector<Inbox::Arrived> bundles =
+      inbox.take_bundles([&](const Inbox::Arrived& a) { return is_of_round(a, at); });
+  const int now = round_number(at);
+  for (Inbox::Arrived& a : bundles) {
+    if (a.bundle.rounds_under_way == 0) continue;
+    under_way_.push_back(
+        {.from = a.from, .due = now + a.bundle.rounds_under_way, .samples = std::move(a.bundle.samples)});
+    a.bundle.samples.clear();
+  }
+  for (const UnderWay& u : under_way_) {
+    if (u.due > now) continue;
+    const auto from_same = std::find_if(bundles.begin(), bundles.end(),
+                                        [&](const Inbox::Arrived& a) { return a.from == u.from; });
+    std::vector<Sample>& samples = from_same->bundle.samples;
+    samples.insert(samples.end(), u.samples.begin(), u.samples.end());
+  }
+  std::erase_if(under_way_, [now](const UnderWay& u) { return u.due <= now; });
+  return bundles;
+}
+
+}  // namespace pprt

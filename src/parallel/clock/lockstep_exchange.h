@@ -1,0 +1,50 @@
+// Exchange in rounds that all ranks share: the work clock's, whose result must not depend on arrival order.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "parallel/clock/exchange_policy.h"
+#include "parallel/clock/machine.h"
+
+namespace pprt {
+
+// Simulates the machine's network: a slow one delays samples by whole rounds. All else in a bundle is small
+// and arrives in its own round.
+class LockstepExchange final : public ExchangePolicy {
+ public:
+  // `round_units`: work units of one round.
+  LockstepExchange(int ranks, const Machine& machine, double round_units)
+      : ranks_(ranks), machine_(machine), round_units_(round_units) {}
+
+  bool sends_to_all() const override { return true; }
+  bool is_progress_due(int) const override { return true; }
+  int delivery_delay(const ExchangeRound& at, std::size_t bytes) override;
+  bool sends_substitute_pixels() const override { return false; }
+
+  bool is_ready(const Inbox& inbox, const ExchangeRound& at) const override;
+  std::vector<Inbox::Arrived> take_due(Inbox& inbox, const ExchangeRound& at) override;
+  bool has_seeds(const Inbox& inbox, const ExchangeRound& at, std::span<const int>, double) const override {
+    return is_ready(inbox, at);
+  }
+  void begin_triangulation() override { under_way_.clear(); }
+  bool rests_when_idle() const override { return false; }
+
+ private:
+  // Samples that a slow network keeps until a later round.
+  struct UnderWay {
+    int from;
+    int due;  // round_number() of their delivery
+    std::vector<Sample> samples;
+  };
+
+  int ranks_;
+  Machine machine_;
+  double round_units_;
+  ExchangeRound sending_;  // of what was sent last
+  double link_bytes_ = 0;  // sent in that round
+  std::vector<UnderWay> under_way_;
+};
+
+}  // namespace pprt

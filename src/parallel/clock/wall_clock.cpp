@@ -1,0 +1,122 @@
+#include "parallel/clock/wall_clock.h"
+
+#include <sched.h>
+
+namespace pprt {
+namespace {
+
+// Samples between two exchanges; fewer where ranks share cores, so that each has its turn near its deadline.
+constexpr int kSamplesPerPacket = 128, kSamplesOfAShortTurn = 48;
+
+// Pixels that take as long to reconstruct as one sample, where edges are shown.
+constexpr double kPixelsPerSample = 8;
+
+// Shares of the period that are left for all that follows sampling.
+constexpr double kLeastLeft = 0.04, kMostLeftOfANewPicture = 0.7;
+
+}  // namespace
+
+bool WallClock::may_begin(const FrameOrder& order) const {
+  return ranks_per_core_ <= 1 || monotonic_seconds() >= start_s_ + order.deadline_s - period_s_;
+}
+
+bool WallClock::is_past(const FrameOrder& order) const {
+  return order.deadline_s > 0 && order.index > 0 && monotonic_seconds() - start_s_ >= order.deadline_s;
+}
+
+void WallClock::begin_frame(const FrameOrder& order) {
+  frame_began_s_ = monotonic_seconds();
+  frame_began_ns_ = thread_cpu_ns();
+  sampling_began_s_ = rested_s_ = 0;
+  deadline_s_ = order.deadline_s > 0 ? start_s_ + order.deadline_s : 0;
+  reserve_s_ = order.reserve_s;
+  is_at_rest_ = order.carry == Carry::kAccumulate;
+  set_stop();
+}
+
+void WallClock::end_frame(double reconstruction_ms) {
+  reconstruction_s_per_size_.add(1e-3 * reconstruction_ms / size_);
+}
+
+void WallClock::region_changed(std::size_t pixels) {
+  region_size_ = static_cast<double>(pixels) / kPixelsPerSample;
+}
+
+void WallClock::begin_packet(std::uint64_t samples) {
+  left_in_packet_ = ranks_per_core_ > 1 ? kSamplesOfAShortTurn : kSamplesPerPacket;
+  size_ = static_cast<double>(samples) + region_size_;
+  set_stop();
+  const double now = monotonic_seconds();
+  if (sampling_began_s_ == 0) sampling_began_s_ = now;
+  if (stop_s_ > 0 && now >= stop_s_) extend(now);
+  // With more ranks than cores, short turns keep every rank near its deadline.
+  if (ranks_per_core_ > 1) sched_yield();
+}
+
+bool WallClock::packet_over() {
+  if (left_in_packet_-- == 0) return true;
+  return (left_in_packet_ & 7) == 0 && sampling_over();
+}
+
+bool WallClock::sampling_over() {
+  if (stop_s_ == 0) return false;
+  const double now = monotonic_seconds();
+  return now >= stop_s_ && !extend(now);
+}
+
+double WallClock::sampling_share() const {
+  if (stop_s_ == 0) return kShareWithoutEnd;
+  const double span = stop_s_ - sampling_began_s_;
+  return span > 0 ? std::clamp((monotonic_seconds() - sampling_began_s_) / span, 0.01, 1.0) : 1;
+}
+
+std::optional<double> WallClock::expected_growth(std::size_t begin, std::size_t now) const {
+  if (deadline_s_ == 0) return std::nullopt;
+  const double share = sampling_share();
+  return 1 + (1 - static_cast<double>(begin) / static_cast<double>(now)) * (1 - share) / share;
+}
+
+std::size_t WallClock::affordable(Work work, double share) const {
+  const double seconds = 1e-9 * static_cast<double>(price(work)) * ranks_per_core_;
+  return static_cast<std::size_t>(share * period_s_ / seconds);
+}
+
+double WallClock::rested(double seconds) {
+  rested_s_ += seconds;
+  return 1e3 * seconds;
+}
+
+// Puts the end of sampling off, into half of the reserve, for a new picture that began late or whose rank was
+// not let run: until the rank has had nearly the time that others have. The next frames each have a little
+// less until the reserve is whole again, so that a moment lost is shared among them. Returns false where
+// nothing can be put off: where ranks share cores no time is their own.
+bool WallClock::extend(double now) {
+  constexpr double kShareOfOthers = 0.93;
+  if (ranks_per_core_ > 1 || is_at_rest_ || reconstruction_s() == 0) return false;
+  const double had_s = 1e-9 * static_cast<double>(thread_cpu_ns() - frame_began_ns_) + rested_s_;
+  const double lacks_s = kShareOfOthers * (period_s_ - reconstruction_s()) - had_s;
+  const double until_s = std::min(now + lacks_s, latest_s());
+  if (until_s <= now) return false;
+  stop_s_ = until_s;
+  return true;
+}
+
+double WallClock::latest_s() const {
+  constexpr double kLeastOfReserve = 0.5;
+  return deadline_s_ - std::max(kLeastOfReserve * reserve_s_ + reconstruction_s(), kLeastLeft * period_s_);
+}
+
+// Seconds after sampling: for this rank's own reconstruction beside those of the ranks that share its core,
+// and for what else the master has seen to pass until a frame is whole. A resting picture whose
+// reconstruction fills the frame is fine enough; a new one gets some samples, whatever that takes.
+double WallClock::left_for_the_rest() const {
+  const double most = is_at_rest_ ? 1 : kMostLeftOfANewPicture;
+  return std::clamp(reserve_s_ + reconstruction_s(), kLeastLeft * period_s_, most * period_s_);
+}
+
+// Predicted seconds: as in the slowest of the last frames, and a quarter more.
+double WallClock::reconstruction_s() const {
+  return 1.25 * reconstruction_s_per_size_.get() * size_ * ranks_per_core_;
+}
+
+}  // namespace pprt

@@ -1,0 +1,78 @@
+// Real time: the product's mode. A frame with a rate keeps its deadline whatever the machine does.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "parallel/clock/frame_clock.h"
+#include "parallel/clock/host_time.h"
+
+namespace pprt {
+
+// The largest of the last eight values: what a careful prediction assumes. 0 before there is any.
+class RecentMaximum {
+ public:
+  void add(double value) { values_[next_++ % values_.size()] = value; }
+  double get() const { return *std::max_element(values_.begin(), values_.end()); }
+
+ private:
+  std::array<double, 8> values_{};
+  std::size_t next_ = 0;
+};
+
+class WallClock final : public FrameClock {
+ public:
+  // `start_s`: monotonic_seconds() at which the sequence begins. `period_s`: seconds from frame to frame, 0
+  // without a rate. `ranks_per_core`: number of ranks that share one of this host's cores, at least 1.
+  WallClock(double start_s, double period_s, double ranks_per_core)
+      : start_s_(start_s), period_s_(period_s), ranks_per_core_(ranks_per_core) {}
+
+  bool may_begin(const FrameOrder& order) const override;
+  bool is_past(const FrameOrder& order) const override;
+  void begin_frame(const FrameOrder& order) override;
+  void end_frame(double reconstruction_ms) override;
+  void region_changed(std::size_t pixels) override;
+
+  void begin_packet(std::uint64_t samples) override;
+  bool packet_over() override;
+  bool sampling_over() override;
+  double sampling_share() const override;
+  std::optional<double> expected_growth(std::size_t begin, std::size_t now) const override;
+
+  void spend(Work, std::uint64_t) override {}
+  std::size_t affordable(Work work, double share) const override;
+  double rested(double seconds) override;
+
+  std::int64_t used_ns() const override { return thread_cpu_ns(); }
+  double as_evidence_ms(double measured_ms) const override { return measured_ms; }
+  double frame_seconds() const override { return monotonic_seconds() - frame_began_s_; }
+  double sampling_end_seconds() const override { return std::max(stop_s_, sampling_began_s_) - start_s_; }
+
+ private:
+  void set_stop() { stop_s_ = deadline_s_ > 0 ? deadline_s_ - left_for_the_rest() : 0; }
+  bool extend(double now);
+  double latest_s() const;
+  double left_for_the_rest() const;
+  double reconstruction_s() const;
+
+  double start_s_;
+  double period_s_;
+  double ranks_per_core_;
+  double frame_began_s_ = 0;
+  double deadline_s_ = 0;  // 0: no rate
+  double reserve_s_ = 0;   // for what follows reconstruction
+  bool is_at_rest_ = false;
+  double stop_s_ = 0;            // when sampling must stop; 0: no rate
+  double sampling_began_s_ = 0;  // of this frame; 0: not yet
+  std::int64_t frame_began_ns_ = 0;
+  double rested_s_ = 0;     // in this frame
+  double size_ = 1;         // of what is to be reconstructed, in samples
+  double region_size_ = 0;  // what the region's pixels add to it
+  RecentMaximum reconstruction_s_per_size_;
+  int left_in_packet_ = 0;
+};
+
+}  // namespace pprt

@@ -1,0 +1,34 @@
+#include "parallel/frame_assembly.h"
+
+#include <cstddef>
+#include <utility>
+
+namespace pprt {
+
+FrameAssembly::FrameAssembly(const FrameOrder& order, const TileGrid& grid, int ranks)
+    : picture(grid),
+      order_(order),
+      reports_(static_cast<std::size_t>(ranks)),
+      tiles_(static_cast<std::size_t>(ranks)),
+      has_come_(static_cast<std::size_t>(ranks), 0),
+      missing_(ranks) {}
+
+void FrameAssembly::add(int from, const PixelMessage& message) {
+  const auto rank = static_cast<std::size_t>(from);
+  if (std::exchange(has_come_[rank], std::uint8_t{1}) != 0) throw ProtocolError("pixels came twice");
+  picture.paste(from, message);
+  reports_[rank] = message.report;
+  tiles_[rank] = message.tiles;
+  samples.insert(samples.end(), message.samples.begin(), message.samples.end());
+  --missing_;
+}
+
+std::vector<std::int32_t> FrameAssembly::late_ranks() const {
+  std::vector<std::int32_t> ranks;
+  for (std::size_t rank = 0; rank < has_come_.size(); ++rank) {
+    if (has_come_[rank] == 0) ranks.push_back(static_cast<std::int32_t>(rank));
+  }
+  return ranks;
+}
+
+}  // namespace pprt

@@ -1,0 +1,38 @@
+// A frame on rank 0 while the ranks' pixels come in.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "parallel/mosaic.h"
+#include "parallel/network/messages.h"
+
+namespace pprt {
+
+class FrameAssembly {
+ public:
+  FrameAssembly(const FrameOrder& order, const TileGrid& grid, int ranks);
+
+  // Takes in one rank's pixels. Throws ProtocolError when they come a second time.
+  void add(int from, const PixelMessage& message);
+
+  bool is_whole() const { return missing_ == 0; }
+  const FrameOrder& order() const { return order_; }
+  std::span<const RankReport> reports() const { return reports_; }  // empty ones of late ranks
+  std::span<const std::vector<TileReport>> tiles_of_ranks() const { return tiles_; }
+  std::vector<std::int32_t> late_ranks() const;  // whose pixels have not come: ascending
+
+  // Moved out when the frame is delivered.
+  Mosaic picture;
+  std::vector<Sample> samples;
+
+ private:
+  FrameOrder order_;
+  std::vector<RankReport> reports_;
+  std::vector<std::vector<TileReport>> tiles_;
+  std::vector<std::uint8_t> has_come_;  // per rank: its pixels
+  int missing_;                         // ranks whose pixels have not come
+};
+
+}  // namespace pprt

@@ -1,0 +1,43 @@
+#include "parallel/sample_tracer.h"
+
+#include <cmath>
+
+namespace pprt {
+namespace {
+
+bool is_finite(const Color& c) {
+  return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
+}
+
+}  // namespace
+
+void SampleTracer::begin_frame(const FrameOrder& order) {
+  rays_before_ = probe_.counts();
+  non_finite_ = 0;
+  frame_number_ = order.number;
+  probe_.look_from(order.camera);
+}
+
+Sample SampleTracer::trace(double x, double y) {
+  Sample sample;
+  sample.x = x;
+  sample.y = y;
+  sample.frame = frame_number_;
+  sample.id = (static_cast<SampleId>(rank_) << 40) | next_id_++;
+  sample.ray = probe_.trace(x, y);
+  if (!is_finite(sample.ray.color)) {
+    ++non_finite_;
+    sample.ray.color = Color(0, 0, 0);
+  }
+  clock_.spend(Work::kRay, sample.ray.rays);
+  costs_.add_own(sample);
+  return sample;
+}
+
+bool SampleTracer::is_visible(const Vec3f& hit, bool at_infinity) {
+  poll_();
+  clock_.spend(Work::kRay, 1);
+  return probe_.visible(hit, at_infinity);
+}
+
+}  // namespace pprt

@@ -1,0 +1,151 @@
+#include "parallel/tile_ownership.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+namespace pprt {
+
+TileOwnership::TileOwnership(const SessionSettings& settings, int rank, int ranks, RegionSampler& sampler,
+                             CostEstimator& costs, TransferHandshake& handshake, FrameClock& clock,
+                             StageTimer& timer)
+    : settings_(settings),
+      rank_(rank),
+      sampler_(sampler),
+      costs_(costs),
+      handshake_(handshake),
+      clock_(clock),
+      timer_(timer),
+      balancer_(rank, ranks, costs) {}
+
+void TileOwnership::begin_frame() {
+  given_.clear();
+  partition_bytes_ = 0;
+  balancer_.begin_frame();
+}
+
+bool TileOwnership::balances_locally() const {
+  return settings_.balance == BalanceMode::kLocal || settings_.balance == BalanceMode::kCombined;
+}
+
+bool TileOwnership::may_give(bool fresh_mesh) const {
+  // Where a number of samples is the goal each rank takes the share of its area, which stays as it is.
+  if (!balances_locally() || settings_.stop.samples > 0) return false;
+  const double elapsed = clock_.sampling_share();
+  const std::uint64_t samples = sampler_.in_region();
+  // Under a resting camera a region with more samples than pixels is fine enough, and its samples are too
+  // many to hand over.
+  if (!fresh_mesh && samples > sampler_.region().pixel_count()) return false;
+  // Where most samples were cast each tile has so many from the start that only the first transfers bring
+  // more than they cost. A repartition costs hardly anything there, for the samples move anyhow.
+  const bool mostly_cast = fresh_mesh && 2 * sampler_.counts().cast > samples;
+  if (mostly_cast && (settings_.balance == BalanceMode::kCombined || elapsed > 0.25)) return false;
+  return balancer_.is_early_enough(elapsed);
+}
+
+std::vector<TileTransfer> TileOwnership::give_tiles(bool fresh_mesh) {
+  if (!may_give(fresh_mesh)) return {};
+  const StageTimer::Balancing timed(timer_);
+  const SampleExchange& exchange = sampler_.exchange();
+  // What the taker must take in may cost it a tenth of the frame.
+  const double most_samples = settings_.frames_per_second > 0
+                                  ? static_cast<double>(clock_.affordable(Work::kReceivedSample, 0.1))
+                                  : std::numeric_limits<double>::infinity();
+  handshake_.set_giving(
+      balancer_.wants_to_give(sampler_.mesh(), exchange.neighbours(), handshake_.is_giving()));
+  const std::vector<TileTransfer> transfers =
+      balancer_.choose_transfers(sampler_.mesh(), exchange, handshake_, most_samples);
+  for (auto first = transfers.begin(); first != transfers.end();) {
+    const int taker = first->owner;
+    std::vector<int> tiles;
+    for (; first != transfers.end() && first->owner == taker; ++first) tiles.push_back(first->tile);
+    sampler_.introduce(tiles, taker);
+    handshake_.transfer_sent(taker);
+    given_.insert(given_.end(), tiles.begin(), tiles.end());
+  }
+  make_true(transfers);
+  return transfers;
+}
+
+RankProgress TileOwnership::progress() {
+  if (!balances_locally()) return {};
+  const StageTimer::Balancing timed(timer_);
+  const double elapsed = clock_.sampling_share();
+  costs_.update(sampler_.mesh(), elapsed);
+  return balancer_.progress(sampler_.mesh(), elapsed);
+}
+
+void TileOwnership::apply(std::span<const TileTransfer> transfers) {
+  if (transfers.empty()) return;
+  const StageTimer::Balancing timed(timer_);
+  make_true(transfers);
+}
+
+void TileOwnership::make_true(std::span<const TileTransfer> transfers) {
+  Partition next = sampler_.exchange().partition();
+  bool changed = false;
+  for (const TileTransfer& transfer : transfers) {
+    const auto tile = static_cast<std::size_t>(transfer.tile);
+    if (tile >= next.owner.size() || transfer.owner < 0 || transfer.owner >= next.ranks) {
+      throw ProtocolError("a tile was given that is none, or to nobody");
+    }
+    if (transfer.version <= next.version[tile]) continue;
+    changed = true;
+    if (transfer.owner == rank_) costs_.accept(transfer);
+    next.owner[tile] = transfer.owner;
+    next.version[tile] = transfer.version;
+  }
+  if (changed) sampler_.transfer(next);
+}
+
+void TileOwnership::forward_lost_tiles(std::span<const TileTransfer> transfers) {
+  const std::vector<std::int32_t>& owners = sampler_.exchange().partition().owner;
+  for (const TileTransfer& transfer : transfers) {
+    if (transfer.owner != rank_ || owners[static_cast<std::size_t>(transfer.tile)] == rank_) continue;
+    const StageTimer::Balancing timed(timer_);
+    sampler_.forward_tile(transfer.tile);
+  }
+}
+
+void TileOwnership::repartition(const FrameOrder& order, bool keep_samples) {
+  const StageTimer::Balancing timed(timer_);
+  Partition next = sampler_.exchange().partition();
+  if (order.owners.size() != next.owner.size()) throw ProtocolError("a partition of another image");
+  next.owner = order.owners;
+  std::fill(next.version.begin(), next.version.end(), first_version(order.generation));
+  for (int rank = 0; keep_samples && rank < next.ranks; ++rank) {
+    std::vector<int> moved;
+    for (const int tile : sampler_.region().tiles()) {
+      if (rank != rank_ && next.owner[static_cast<std::size_t>(tile)] == rank) moved.push_back(tile);
+    }
+    if (!moved.empty()) sampler_.introduce(moved, rank);
+  }
+  std::size_t own = 0;
+  for (std::size_t tile = 0; tile < next.owner.size() && own < order.tiles.size(); ++tile) {
+    if (next.owner[tile] != rank_) continue;
+    const TileEstimate& found = order.tiles[own++];
+    const auto t = static_cast<int>(tile);
+    if (!sampler_.region().owns_tile(t)) costs_.expect(t, found);
+  }
+  partition_bytes_ +=
+      owner_runs(order.owners).size() * sizeof(OwnerRun) + order.tiles.size() * sizeof(TileEstimate);
+  sampler_.repartition(next);
+}
+
+Carry TileOwnership::carry_into(const FrameOrder& order) const {
+  return !order.owners.empty() && !settings_.keep_samples ? Carry::kNothing : order.carry;
+}
+
+void TileOwnership::leave_out(const FrameOrder& order) {
+  if (!order.owners.empty()) repartition(order, false);
+  const Carry carry = carry_into(order);
+  if (carry == Carry::kAccumulate) return;
+  missed_ = {.triangulation = true, .epoch = order.index, .cut = missed_.cut || carry == Carry::kNothing};
+}
+
+MissedFrames TileOwnership::take_missed() {
+  return std::exchange(missed_, {});
+}
+
+}  // namespace pprt

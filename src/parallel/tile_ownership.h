@@ -1,0 +1,95 @@
+// Which tiles are this rank's: transfers between neighbours, new partitions, and what a late rank catches up
+// with (docs/decisions/0009-balancing.md, 0010-late-ranks.md).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "parallel/balance/balancer.h"
+#include "parallel/balance/cost_estimator.h"
+#include "parallel/clock/frame_clock.h"
+#include "parallel/clock/stage_timer.h"
+#include "parallel/region_sampler.h"
+#include "parallel/session_settings.h"
+
+namespace pprt {
+
+// What the frames that a late rank left out have changed for those after them.
+struct MissedFrames {
+  bool triangulation = false;  // the others have begun one without this rank
+  int epoch = -1;              // index of the frame in which they did
+  bool cut = false;            // what this rank holds is of no use any more
+};
+
+// All that it does is charged to balancing.
+class TileOwnership {
+ public:
+  // The references must outlive the object. `handshake`: the one that travels with this rank's bundles.
+  TileOwnership(const SessionSettings& settings, int rank, int ranks, RegionSampler& sampler,
+                CostEstimator& costs, TransferHandshake& handshake, FrameClock& clock, StageTimer& timer);
+
+  void begin_frame();
+
+  // --- Transfers (paper s. 3.6)
+
+  // Whether neighbours report progress to each other and transfer tiles.
+  bool balances_locally() const;
+
+  // Gives tiles to neighbours that are ahead. They are theirs at once as far as this rank is concerned; the
+  // caller sends the transfers to every rank. `fresh_mesh`: the triangulation began in this frame.
+  std::vector<TileTransfer> give_tiles(bool fresh_mesh);
+
+  // This rank's progress, for its neighbours; nothing unless tiles change hands.
+  RankProgress progress();
+  void receive_progress(int from, const RankProgress& theirs) { balancer_.receive(from, theirs); }
+
+  // Makes transfers by any rank true here, unless a newer owner is known. Throws ProtocolError for tiles or
+  // ranks that do not exist.
+  void apply(std::span<const TileTransfer> transfers);
+
+  // Forwards what came with transfers to this rank of tiles that have another owner by now.
+  void forward_lost_tiles(std::span<const TileTransfer> transfers);
+
+  // Tiles that this rank has given away in this frame.
+  const std::vector<std::int32_t>& given() const { return given_; }
+
+  // --- Repartitions (paper s. 4.4)
+
+  // Takes over the order's new partition. With `keep_samples` the samples of tiles that go to another rank
+  // are put into its outbox. Throws ProtocolError for a partition of another image.
+  void repartition(const FrameOrder& order, bool keep_samples);
+
+  // Bytes of the partitions received in this frame.
+  std::uint64_t partition_bytes() const { return partition_bytes_; }
+
+  // --- Late ranks
+
+  // What this rank takes over from the frame before: nothing where a repartition drops samples.
+  Carry carry_into(const FrameOrder& order) const;
+
+  // Leaves the frame out: it is delivered without this rank. Tiles keep their owners, and bundles wait in the
+  // inbox: those of a triangulation that still stands will be taken in.
+  void leave_out(const FrameOrder& order);
+
+  // What the frames left out since the last call have changed.
+  MissedFrames take_missed();
+
+ private:
+  bool may_give(bool fresh_mesh) const;
+  void make_true(std::span<const TileTransfer> transfers);
+
+  const SessionSettings& settings_;
+  int rank_;
+  RegionSampler& sampler_;
+  CostEstimator& costs_;
+  TransferHandshake& handshake_;
+  FrameClock& clock_;
+  StageTimer& timer_;
+  Balancer balancer_;
+  std::vector<std::int32_t> given_;
+  std::uint64_t partition_bytes_ = 0;
+  MissedFrames missed_;
+};
+
+}  // namespace pprt

@@ -1,0 +1,117 @@
+// What each clock's policy awaits, takes and delays.
+#include "parallel/clock/exchange_policy.h"
+
+#include <catch2/catch.hpp>
+
+#include "parallel/clock/make_clocks.h"
+#include "parallel/network/local_communicator.h"
+
+namespace pprt {
+namespace {
+
+constexpr int kRanks = 3;
+
+// Rank 0's inbox, and what ranks 1 and 2 send.
+struct Network {
+  LocalNetwork network{kRanks};
+  LocalCommunicator receiver{network, 0};
+  LocalCommunicator senders[2] = {{network, 1}, {network, 2}};
+  Inbox inbox{receiver, [](const Message&) {}};
+
+  void send(int from, const Bundle& bundle) {
+    senders[from - 1].send(0, Tag::kBundle, encode(bundle));
+    inbox.pump();
+  }
+};
+
+std::unique_ptr<ExchangePolicy> policy(ClockKind clock, double frames_per_second = 10) {
+  SessionSettings settings;
+  settings.clock = clock;
+  settings.frames_per_second = frames_per_second;
+  settings.budget_units = 24'000'000;  // a megaunit a round
+  settings.machine = {.units_per_second = 1e9, .latency_s = 0.0005, .bytes_per_second = 1e6};
+  return make_exchange_policy(settings, kRanks);
+}
+
+Sample sample_with(SampleId id) {
+  Sample s;
+  s.id = id;
+  return s;
+}
+
+std::size_t samples_in(const std::vector<Inbox::Arrived>& bundles) {
+  std::size_t count = 0;
+  for (const Inbox::Arrived& a : bundles) count += a.bundle.samples.size();
+  return count;
+}
+
+TEST_CASE("exchange policy: on the work clock a round is ready when every other rank's bundle is here") {
+  Network network;
+  const auto lockstep = policy(ClockKind::kWork), free = policy(ClockKind::kWall);
+  const ExchangeRound at{.frame_index = 0, .epoch = 0, .round = 3};
+  CHECK_FALSE(lockstep->is_ready(network.inbox, at));
+  CHECK(free->is_ready(network.inbox, at));
+  network.send(1, {.round = 3});
+  network.send(2, {.round = 4});
+  CHECK_FALSE(lockstep->is_ready(network.inbox, at));
+  network.send(2, {.round = 3});
+  CHECK(lockstep->is_ready(network.inbox, at));
+  CHECK(lockstep->take_due(network.inbox, at).size() == 2);
+  CHECK(network.inbox.bundles().size() == 1);  // of round 4
+}
+
+TEST_CASE("exchange policy: on the wall clock bundles of later frames and triangulations wait") {
+  Network network;
+  const auto free = policy(ClockKind::kWall);
+  network.send(1, {.frame_index = 1, .epoch = 0, .round = 9});
+  network.send(1, {.frame_index = 2, .epoch = 2, .round = 0});
+  network.send(2, {.frame_index = 2, .epoch = 1, .round = 5});
+  CHECK(free->take_due(network.inbox, {.frame_index = 2, .epoch = 1, .round = 1}).size() == 2);
+  CHECK(network.inbox.bundles().size() == 1);
+}
+
+TEST_CASE(
+    "exchange policy: seeds are awaited from peers for a tenth of a period, without a rate without end") {
+  Network network;
+  const ExchangeRound at{.frame_index = 0, .epoch = 0, .round = kSeedRound};
+  const std::vector<int> peers = {2};
+  const auto with_rate = policy(ClockKind::kWall), without = policy(ClockKind::kWall, 0);
+  CHECK_FALSE(with_rate->has_seeds(network.inbox, at, peers, 0.009));
+  CHECK(with_rate->has_seeds(network.inbox, at, peers, 0.011));
+  CHECK_FALSE(without->has_seeds(network.inbox, at, peers, 1e6));
+  network.send(1, {.round = kSeedRound});  // no peer
+  CHECK_FALSE(without->has_seeds(network.inbox, at, peers, 0));
+  network.send(2, {.round = kSeedRound});
+  CHECK(without->has_seeds(network.inbox, at, peers, 0));
+  CHECK(with_rate->has_seeds(network.inbox, at, peers, 0));
+}
+
+TEST_CASE(
+    "exchange policy: the work clock delays samples by latency and by the bytes of a round, no other clock") {
+  const auto lockstep = policy(ClockKind::kWork);  // a round takes a millisecond
+  const ExchangeRound first{.frame_index = 0, .epoch = 0, .round = 1}, next{.frame_index = 0, .round = 2};
+  CHECK(lockstep->delivery_delay(first, 0) == 0);
+  CHECK(lockstep->delivery_delay(first, 1000) == 1);  // half a millisecond of latency and one for the bytes
+  CHECK(lockstep->delivery_delay(first, 1000) == 2);  // the others go first
+  CHECK(lockstep->delivery_delay(next, 1000) == 1);
+  CHECK(policy(ClockKind::kWall)->delivery_delay(first, 1'000'000) == 0);
+}
+
+TEST_CASE("exchange policy: delayed samples arrive in their round, in the next frame if need be, or never") {
+  for (const bool new_triangulation : {false, true}) {
+    Network network;
+    const auto lockstep = policy(ClockKind::kWork);
+    const auto take = [&](int frame, int round, const Bundle& from_1) {
+      network.send(1, from_1);
+      network.send(2, {.frame_index = frame, .round = round});
+      return samples_in(lockstep->take_due(network.inbox, {.frame_index = frame, .round = round}));
+    };
+    CHECK(take(0, 23, {.round = 23, .rounds_under_way = 2, .samples = {sample_with(1)}}) == 0);
+    CHECK(take(0, 24, {.round = 24, .samples = {sample_with(2)}}) == 1);
+    if (new_triangulation) lockstep->begin_triangulation();
+    CHECK(take(1, 1, {.frame_index = 1, .round = 1}) == (new_triangulation ? 0 : 1));
+  }
+}
+
+}  // namespace
+}  // namespace pprt
