@@ -22,12 +22,12 @@ namespace {
 
 void use_help(CLI::App& app) {
   app.formatter_fn([](const CLI::App* of, const std::string& name, CLI::AppFormatMode) {
-    // CLI11 asks with a pointer to what it may not change; the table only reads.
+    // CLI11 passes a pointer to const, but its getters are not const; the table only reads.
     return help_text(option_table(*const_cast<CLI::App*>(of)), name.empty() ? of->get_name() : name);
   });
 }
 
-// Prints the script and ends the parsing, whatever else the command line lacks: as --version does.
+// Adds --completion. Like --version it prints and ends the parsing, whatever else the command line lacks.
 void add_completion(CLI::App& app) {
   const auto print = [&app](const std::string& shell) {
     std::string script = completion_script(option_table(app), find_word<Shell>(shell).value());
@@ -40,13 +40,13 @@ void add_completion(CLI::App& app) {
   option->configurable(false);
 }
 
-// Where the parsing stood: the subcommand that was given, or the program.
+// Returns the subcommand that was given, or the program.
 CLI::App& innermost(CLI::App& app) {
   const std::vector<CLI::App*> parsed = app.get_subcommands();
   return parsed.empty() ? app : innermost(*parsed.back());
 }
 
-// What could have been meant by a word that nothing takes: options, or subcommands.
+// Returns the names that a word which nothing takes may have meant: options, or subcommands.
 std::vector<std::string> candidates(CLI::App& app, bool option) {
   std::vector<std::string> names;
   if (!option) {
@@ -61,7 +61,7 @@ std::vector<std::string> candidates(CLI::App& app, bool option) {
   return names;
 }
 
-// The first word that nothing takes; nullopt when there is none, and something else was wrong.
+// Explains the first word that nothing takes; nullopt when there is none and something else is wrong.
 std::optional<std::string> unexpected_word(CLI::App& app) {
   const std::vector<std::string> left = app.remaining(true);
   if (left.empty()) return std::nullopt;

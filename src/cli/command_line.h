@@ -1,4 +1,4 @@
-// The one way in which all programs read their command line. Private to src/app: shows CLI11.
+// How all programs read their command line. Private to the programs: shows CLI11.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -7,12 +7,13 @@
 
 namespace pprt {
 
-// Gives the program its --help and --version flags.
+// Adds --help, --version and --completion. Call it after all other options and subcommands are added.
 void add_common_flags(CLI::App& app);
 
-// Parses into the options bound to `app`. False: --help or --version was asked for and has been printed, and
-// nothing is left to do. Throws UsageError when the command line makes no sense.
+// Parses into the options bound to `app`. Returns false when --help, --version or --completion has been
+// printed, and nothing is left to do. Throws UsageError for a command line that makes no sense. `words`
+// leaves out the program's name.
 bool parse_command_line(CLI::App& app, int argc, const char* const* argv);
-bool parse_command_line(CLI::App& app, std::vector<std::string> words);  // without the program's name
+bool parse_command_line(CLI::App& app, std::vector<std::string> words);
 
 }  // namespace pprt

@@ -18,7 +18,8 @@ std::string joined(const std::vector<OptionWord>& words) {
   return joined(plain);
 }
 
-// Each word followed by `tab` and its help in double quotes: what zsh and fish both show beside a word.
+// Returns the words, each followed by `tab` and its help in double quotes: zsh and fish show it beside the
+// word.
 std::string described(const std::vector<OptionWord>& words, std::string_view tab) {
   std::string text;
   for (const OptionWord& entry : words) {
@@ -28,7 +29,7 @@ std::string described(const std::vector<OptionWord>& words, std::string_view tab
   return text;
 }
 
-// The description up to its first aside: shells show one line.
+// Returns the description up to its first aside, as shells show one line.
 std::string gist(const std::string& description) {
   return description.substr(
       0, std::min({description.find("; "), description.find(" ("), description.find(": ")}));
@@ -41,7 +42,7 @@ std::string replaced(std::string text, std::string_view what, std::string_view b
   return text;
 }
 
-// Within single quotes of a POSIX-like shell.
+// Escapes the text for single quotes of a POSIX-like shell.
 std::string quotable(const std::string& text) {
   return replaced(text, "'", R"('\'')");
 }
@@ -64,7 +65,7 @@ std::vector<std::string> subcommand_names(const OptionTable& table) {
   return names;
 }
 
-// Bash. Lines are taken apart anew: readline's own words end at colons, which stand in names of scenes.
+// Bash. The script splits the line itself: readline's words end at colons, which names of scenes contain.
 
 std::string bash_assignments(const OptionRow& row) {
   switch (row.value) {
@@ -79,7 +80,7 @@ std::string bash_assignments(const OptionRow& row) {
   }
 }
 
-// Sets what may stand where the cursor is, by the word before it.
+// Returns the cases that set the candidates at the cursor, by the word before it.
 std::string bash_cases(const OptionTable& table, const std::string& indent) {
   std::string text = indent + "case $previous in\n";
   std::vector<std::string> names = subcommand_names(table);
@@ -206,7 +207,7 @@ std::string fish_value(const OptionRow& row) {
   return " -x";
 }
 
-// `condition`: when the line is meant, as fish's -n has it.
+// `condition`: when the lines apply, for fish's -n.
 std::string fish_lines(const OptionTable& table, const std::string& program, const std::string& condition) {
   const std::string head = "complete -c " + program + (condition.empty() ? "" : " -n '" + condition + "'");
   std::string text;

@@ -1,4 +1,4 @@
-// How a program ends: exit codes, and what it says on standard error when it fails.
+// How a program ends: exit codes, and its message on standard error when it fails.
 #pragma once
 
 #include <functional>
@@ -13,11 +13,13 @@ enum ExitCode : int {
   kExitInput = 3,    // scene or script missing, unreadable or rejected
 };
 
-// Runs `body` and returns its exit code. An exception becomes a message on standard error and the code of its
-// kind: InputError (a full report, printed as it is) kExitInput; UsageError, with a hint at --help,
-// kExitUsage; any other kExitFailure. Of the ranks of an MPI launcher the first alone speaks and answers for
-// the first two, which all of them meet: the others return kExitDone, lest the launcher end the first one
-// before it has spoken.
+// Runs `body` and returns its exit code. An exception becomes a message on standard error and a code:
+//   InputError  its full report              kExitInput
+//   UsageError  its text, a hint at --help   kExitUsage
+//   any other   its text                     kExitFailure
+//
+// All ranks of an MPI launcher meet the first two. Only rank 0 then prints and fails; the others return
+// kExitDone, as the launcher might otherwise end rank 0 before it has printed.
 int run_guarded(std::string_view program, const std::function<int()>& body);
 
 }  // namespace pprt

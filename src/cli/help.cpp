@@ -30,7 +30,7 @@ std::string wrapped(const std::string& text, std::size_t indent) {
   return result;
 }
 
-// The name in the left column, the description beside it, or below where the name is long.
+// Returns the name in the left column, and the description beside it, or below a long name.
 std::string entry(const std::string& name, const std::string& description) {
   std::string line = "  " + name;
   const bool fits = line.size() + 2 <= kIndent;
@@ -55,7 +55,7 @@ std::string usage(const OptionTable& table, const std::string& name) {
   return line + (table.subcommands.empty() ? "" : " SUBCOMMAND") + "\n";
 }
 
-// Headings in the order of their first options.
+// Returns the headings in the order of their first options.
 std::vector<std::string> headings(const OptionTable& table) {
   std::vector<std::string> groups;
   for (const OptionRow& row : table.rows) {

@@ -1,4 +1,4 @@
-// What --help prints.
+// The text of --help.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace pprt {
 
-// Lines of at most 79 columns; each group of options, with its heading, fits on a screen of 24 lines.
-// `usage_name` is what stands before the options: "pprt-study counts".
+// Returns lines of at most 79 columns. Each group of options, with its heading, fits on a screen of 24 lines.
+// `usage_name` is the program, with its subcommand if any: "pprt-study counts".
 std::string help_text(const OptionTable& table, const std::string& usage_name);
 
 }  // namespace pprt

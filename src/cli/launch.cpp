@@ -22,7 +22,7 @@ volatile std::sig_atomic_t mpirun_pid = 0;
 volatile std::sig_atomic_t stopped_by = 0;
 volatile std::sig_atomic_t forced = 0;  // a second signal came
 
-// Tells the ranks, whose standard error is a pipe to mpirun, that a terminal is at its end.
+// Tells the ranks that the pipe to mpirun, which is their standard error, ends at a terminal.
 constexpr const char* kTerminalVariable = "PPRT_ON_TERMINAL";
 
 // A first SIGINT or SIGTERM asks rank 0 to finish its frame; a second one ends mpirun.
@@ -47,7 +47,7 @@ void pass_signals_on() {
 std::vector<std::string> mpirun_command(int ranks, const std::string& hostfile, char** argv) {
   std::vector<std::string> command = {"mpirun", "-np", std::to_string(ranks)};
   if (!hostfile.empty()) command.insert(command.end(), {"--hostfile", hostfile});
-  // More ranks than cores is a normal case here: idle ranks sleep, and none may be tied to a core.
+  // More ranks than cores is normal here: idle ranks sleep, and no rank may be bound to a core.
   command.insert(command.end(), {"--oversubscribe", "--bind-to", "none"});
   if (geteuid() == 0) command.emplace_back("--allow-run-as-root");
   if (on_terminal()) command.insert(command.end(), {"-x", std::string(kTerminalVariable) + "=1"});
@@ -66,7 +66,7 @@ void show(std::string_view text) {
   }
 }
 
-// Hands on what mpirun and the ranks say until they end.
+// Prints what mpirun and the ranks say until they end.
 MpirunMessages relay(const Subprocess& mpirun, const std::function<void(std::string_view)>& overhear) {
   MpirunMessages messages;
   std::array<char, 4096> piece{};
@@ -79,7 +79,7 @@ MpirunMessages relay(const Subprocess& mpirun, const std::function<void(std::str
   return messages;
 }
 
-// mpirun in a process group of its own: a terminal's Ctrl-C must reach it through us alone.
+// mpirun has a process group of its own: a terminal's Ctrl-C must reach it through this process alone.
 constexpr SubprocessSettings kMpirunSettings{
     .errors = StreamTo::kPipe, .own_process_group = true, .ends_with_parent = true};
 
@@ -92,7 +92,7 @@ int run_under_mpirun(int ranks, const std::string& hostfile, char** argv,
   pass_signals_on();
   const MpirunMessages messages = relay(mpirun, overhear);
   const int code = mpirun.wait().code;
-  // A run that was to stop may fail at that; what mpirun makes of being ended itself says nothing.
+  // A run that was asked to stop may still fail. The code of an mpirun that was ended says nothing.
   const bool failed = code >= kExitFailure && code <= kExitInput;
   if (stopped_by != 0 && (forced != 0 || !failed)) return 128 + stopped_by;
   if (code > kExitInput) {
@@ -109,7 +109,7 @@ bool on_terminal() {
 }
 
 int launcher_rank() {
-  // Of Open MPI, of PMIx, and of the PMI of MPICH and Slurm.
+  // Set by Open MPI, by PMIx, and by the PMI of MPICH and Slurm.
   for (const char* name : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"}) {
     if (const char* rank = std::getenv(name)) return std::atoi(rank);
   }

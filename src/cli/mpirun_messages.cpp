@@ -12,18 +12,18 @@ namespace {
 
 constexpr std::string_view kForwarding = "mpirun: Forwarding signal";
 
-// Open MPI's rules have 74 dashes.
+// Open MPI's lines of dashes have 74 of them.
 bool is_rule(const std::string& line) {
   return line.size() > 60 && line.find_first_not_of("-\n") == std::string::npos;
 }
 
-// Whether a line that has begun like this may become a rule or a word on signals that are passed on.
+// Whether a line that begins like this may become one of dashes, or tell that a signal was forwarded.
 bool may_be_mpiruns(const std::string& line) {
   return line.find_first_not_of('-') == std::string::npos ||
          std::string_view(line).substr(0, kForwarding.size()) == kForwarding.substr(0, line.size());
 }
 
-// Whether all that a message says is that ranks had an exit code, which is ours to tell.
+// Whether a message says only that ranks had an exit code, which the ranks have explained themselves.
 bool repeats_exit_code(const std::string& message) {
   constexpr std::array<std::string_view, 3> kSuch = {
       "Primary job  terminated normally", "processes exited with non-zero status", "MPI_ABORT was invoked"};

@@ -1,4 +1,4 @@
-// What mpirun says on standard error, between what the ranks say there.
+// Separates the messages of mpirun on standard error from those of the ranks.
 #pragma once
 
 #include <optional>
@@ -7,17 +7,19 @@
 
 namespace pprt {
 
-// Open MPI frames its own messages by rules of dashes. Those that only repeat a rank's exit code are dropped,
-// one that names a rank ended by a signal is kept apart, and all else is handed on as it comes.
+// Filters standard error. Open MPI puts its own messages between lines of dashes. Those that only repeat a
+// rank's exit code are dropped. One that names a rank ended by a signal is kept for lost_rank(). All else is
+// passed on as it comes.
 class MpirunMessages {
  public:
-  // Takes what was read next; returns what is to be shown. Only what may belong to a frame is held back.
+  // Takes what was read next and returns what is to be shown. Holds back only what may belong to a message of
+  // mpirun.
   std::string take(std::string_view text);
 
-  // Nothing more comes: what is still held back.
+  // Returns what is still held back, when nothing more comes.
   std::string finish();
 
-  // "rank 2 on host was ended by signal 9 (Killed)", once that has been said.
+  // "rank 2 on host was ended by signal 9 (Killed)", once mpirun has said so.
   const std::optional<std::string>& lost_rank() const { return lost_rank_; }
 
  private:
@@ -26,7 +28,7 @@ class MpirunMessages {
 
   std::string line_;            // held back so far
   bool in_shown_line_ = false;  // its beginning has been handed on
-  std::string message_;         // in a frame: from its first rule on
+  std::string message_;         // of mpirun, from its first line of dashes on
   std::optional<std::string> lost_rank_;
 };
 

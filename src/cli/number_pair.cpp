@@ -9,7 +9,7 @@
 namespace pprt {
 namespace {
 
-// Two integers with one of `separators` between them and nothing else.
+// Parses two integers with one of `separators` between them and nothing else.
 std::optional<std::pair<int, int>> parse_pair(const std::string& text, const std::string& separators) {
   const std::size_t at = text.find_first_of(separators);
   if (at == std::string::npos) return std::nullopt;

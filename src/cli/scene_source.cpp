@@ -12,7 +12,7 @@
 namespace pprt {
 namespace {
 
-// Files like the one asked for, by their ending, in the directory where it should be.
+// Returns the files with the same extension in the directory of the one asked for.
 std::vector<std::string> files_beside(const std::filesystem::path& path) {
   std::vector<std::string> names;
   const std::filesystem::path directory = path.has_parent_path() ? path.parent_path() : ".";
@@ -28,13 +28,13 @@ std::string nearest(const std::string& word, const std::vector<std::string>& can
   return std::string(nearest_word(word, std::vector<std::string_view>(candidates.begin(), candidates.end())));
 }
 
-// What could have been meant by the name of a file that is not there; empty when nothing is close.
+// Returns the name that was probably meant by that of a missing file; empty when nothing is close.
 std::string meant_by(const std::string& name) {
   const std::filesystem::path path(name);
   if (const std::string file = nearest(path.filename().string(), files_beside(path)); !file.empty()) {
     return (path.parent_path() / file).string();
   }
-  // Of a size, "teapot:5".
+  // The name may end in a size: "teapot:5".
   const std::size_t digits = name.find_last_not_of("0123456789") + 1;
   const bool sized = digits > 1 && digits < name.size() && name[digits - 1] == ':';
   const std::string word = name.substr(0, sized ? digits - 1 : name.size());

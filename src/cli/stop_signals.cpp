@@ -51,20 +51,21 @@ std::optional<int> stop_requested() {
   return static_cast<int>(stop_signal);
 }
 
-StatusTeller::StatusTeller(std::function<void()> tell) : tell_(std::move(tell)), thread_([this] { run(); }) {}
+StatusPrinter::StatusPrinter(std::function<void()> print)
+    : print_(std::move(print)), thread_([this] { run(); }) {}
 
-StatusTeller::~StatusTeller() {
+StatusPrinter::~StatusPrinter() {
   over_ = true;
   sem_post(&status_wanted);
   thread_.join();
 }
 
-void StatusTeller::run() const {
+void StatusPrinter::run() const {
   for (;;) {
     while (sem_wait(&status_wanted) != 0) {
     }
     if (over_) return;
-    tell_();
+    print_();
   }
 }
 

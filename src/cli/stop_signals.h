@@ -1,4 +1,4 @@
-// What the outside world may ask of a running program.
+// Signals that ask a running program to stop or to print its status.
 #pragma once
 
 #include <atomic>
@@ -8,29 +8,29 @@
 
 namespace pprt {
 
-// From now on SIGINT, SIGTERM and SIGUSR2 (which mpirun passes on) ask for an end after the frame at hand,
-// and SIGUSR1 for a line of status. A second SIGINT or SIGTERM ends the process at once.
+// Installs handlers. SIGINT, SIGTERM and SIGUSR2, which mpirun passes on, ask for an end after the current
+// frame; SIGUSR1 asks for a line of status. A second SIGINT or SIGTERM ends the process at once.
 void watch_signals();
 
-// From now on the process leaves all four to rank 0.
+// Ignores all four signals: rank 0 handles them.
 void ignore_signals();
 
-// The signal that asked for the end, if any did.
+// Returns the signal that asked for the end, if any did.
 std::optional<int> stop_requested();
 
-// While it lives, answers SIGUSR1 by calling `tell` in a thread of its own, which sleeps otherwise: a frame
-// may take minutes. At most one at a time.
-class StatusTeller {
+// While it lives, answers SIGUSR1 by calling `print` in a thread of its own, as a frame may take minutes. At
+// most one may exist at a time, after watch_signals().
+class StatusPrinter {
  public:
-  explicit StatusTeller(std::function<void()> tell);
-  ~StatusTeller();
-  StatusTeller(const StatusTeller&) = delete;
-  StatusTeller& operator=(const StatusTeller&) = delete;
+  explicit StatusPrinter(std::function<void()> print);
+  ~StatusPrinter();
+  StatusPrinter(const StatusPrinter&) = delete;
+  StatusPrinter& operator=(const StatusPrinter&) = delete;
 
  private:
   void run() const;
 
-  std::function<void()> tell_;
+  std::function<void()> print_;
   std::atomic<bool> over_ = false;
   std::thread thread_;  // last: it uses the others
 };

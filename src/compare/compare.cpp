@@ -27,7 +27,7 @@ struct Measured {
   std::optional<double> flicker;  // from the frame before
 };
 
-// A figure over all frames; of a single picture, its value.
+// A figure over all frames; for a single picture, its value.
 struct Summary {
   double mean = 0;
   double worst = 0;
@@ -51,7 +51,7 @@ double flicker_between(const PicturePair& before, const LoadedPair& a, const Pic
   return flicker(a.image, b.image, a.reference, b.reference);
 }
 
-// Two frames are held at a time.
+// Holds two frames at a time.
 std::vector<Measured> measure(const std::vector<PicturePair>& pairs, const CompareOptions& options) {
   std::vector<Measured> all;
   LoadedPair before;
@@ -76,7 +76,7 @@ Summary summary(const FigureKind& kind, const std::vector<Measured>& all) {
   return result;
 }
 
-// Its mean is the root of the mean square: the flicker of the whole sequence. Not a number for a single
+// Returns as mean the root of the mean square, which is the flicker of the whole sequence; NaN for a single
 // frame.
 Summary flicker_summary(const std::vector<Measured>& all) {
   Summary result{0, -1, std::nullopt};
@@ -94,11 +94,11 @@ bool is_sequence(const std::vector<Measured>& all) {
   return all.front().pair.frame.has_value();
 }
 
-// Of a sequence the worst frame is judged, and its flicker as a whole.
+// Judges the worst frame of a sequence, and its flicker as a whole.
 bool judge(const std::vector<Measured>& all, const CompareOptions& options, std::ostream& complaints) {
   bool within = true;
   const auto hold = [&](const FigureKind& kind, double value, const std::string& where) {
-    const std::optional<double> limit = kind.passed_limit(value, options);
+    const std::optional<double> limit = kind.exceeded_limit(value, options);
     if (!limit) return;
     within = false;
     complaints << fmt::format("pprt-compare: {}{} is {:.6g}, the limit {} is {:g}\n", kind.key, where, value,
@@ -139,7 +139,7 @@ void put_conditions(const CompareOptions& options, bool within, Json& record) {
   record["within"] = within;
 }
 
-// Infinite and missing values become null: JSON has no others.
+// Infinite and missing values become null, as JSON has neither.
 Json record_of(const Measured& measured) {
   Json record;
   if (measured.pair.frame) record["record"] = "frame", record["frame"] = *measured.pair.frame;

@@ -1,4 +1,4 @@
-// pprt-compare: how far one picture, or sequence of pictures, is from another, and whether that is too far.
+// pprt-compare: the difference of two pictures or sequences, and whether it is within limits.
 #pragma once
 
 #include <iosfwd>
@@ -17,7 +17,7 @@ struct CompareOptions {
   double threshold = 0.01;           // pixel errors above it count for the share; 2.55 of 255 levels
   double pixels_per_degree = kFlipPixelsPerDegree;
   bool clamp = false;              // measure on values clamped to the display range
-  std::optional<double> max_rmse;  // limits: what is not given is not checked
+  std::optional<double> max_rmse;  // limits; empty: not checked
   std::optional<double> min_psnr;  // dB
   std::optional<double> max_relative_mse;
   std::optional<double> min_ssim;
@@ -30,9 +30,9 @@ struct CompareOptions {
   bool json = false;
 };
 
-// Prints the figures to `out`, and a line to `complaints` for every limit that is passed, of a sequence by
-// its worst frame. True: within all limits. Throws UsageError (options that make no sense) and
-// std::runtime_error (a file that is missing or cannot be read or written, pictures that cannot be compared).
+// Prints the figures to `out`, and a line to `complaints` for every limit that is exceeded; for a sequence
+// its worst frame counts. Returns whether all limits hold. Throws UsageError for options that make no sense,
+// and std::runtime_error for files that cannot be read or written or pictures that cannot be compared.
 bool compare(const CompareOptions& options, std::ostream& out, std::ostream& complaints);
 
 }  // namespace pprt

@@ -8,7 +8,7 @@
 
 namespace {
 
-// A limit of the figure that `what` names.
+// Adds the limit of a figure.
 void add_limit(CLI::App& app, const char* name, std::optional<double>& limit, const char* what) {
   app.add_option(name, limit, what)->type_name("X")->group("Limits; exit code 1 if one is exceeded");
 }
@@ -58,7 +58,7 @@ int main(int argc, char** argv) {
     if (pprt::parse_command_line(app, argc, argv)) within = pprt::compare(options, std::cout, std::cerr);
     return pprt::kExitDone;
   });
-  // Exit code 1 is kept for a verdict, so that a check cannot take a missing file for a difference.
+  // Exit code 1 means an exceeded limit alone, so that a check cannot take a missing file for a difference.
   if (code != pprt::kExitDone) return pprt::kExitUsage;
   return within ? pprt::kExitDone : pprt::kExitFailure;
 }

@@ -5,28 +5,66 @@
 namespace pprt {
 
 const std::array<FigureKind, kFigureCount> kFigures{{
-    {"rmse", "rmse", Best::kSmall, [](const Figures& f) { return f.difference.rmse; }, "--max-rmse",
-     &CompareOptions::max_rmse},
-    {"psnr", "psnr, dB", Best::kLarge, [](const Figures& f) { return f.difference.psnr; }, "--min-psnr",
-     &CompareOptions::min_psnr},
-    {"relative_mse", "relative mse", Best::kSmall, [](const Figures& f) { return f.difference.relative_mse; },
-     "--max-relative-mse", &CompareOptions::max_relative_mse},
-    {"ssim", "ssim", Best::kLarge, [](const Figures& f) { return f.difference.ssim; }, "--min-ssim",
-     &CompareOptions::min_ssim},
-    {"flip", "flip", Best::kSmall, [](const Figures& f) { return f.flip; }, "--max-flip",
-     &CompareOptions::max_flip},
-    {"max_error", "max error", Best::kSmall, [](const Figures& f) { return f.difference.max_error; },
-     "--max-error", &CompareOptions::max_error},
-    {"error_p999", "99.9 % error", Best::kSmall, [](const Figures& f) { return f.difference.error_p999; },
-     "--max-p999", &CompareOptions::max_p999},
-    {"share", "share", Best::kSmall, [](const Figures& f) { return f.difference.share_over_threshold; },
-     "--max-share", &CompareOptions::max_share},
-    {"signed_mean", "signed mean", Best::kNearZero,
-     [](const Figures& f) { return f.difference.signed_mean; }},
+    {.key = "rmse",
+     .label = "rmse",
+     .best = Best::kSmall,
+     .of = [](const Figures& f) { return f.difference.rmse; },
+     .option = "--max-rmse",
+     .limit = &CompareOptions::max_rmse},
+    {.key = "psnr",
+     .label = "psnr, dB",
+     .best = Best::kLarge,
+     .of = [](const Figures& f) { return f.difference.psnr; },
+     .option = "--min-psnr",
+     .limit = &CompareOptions::min_psnr},
+    {.key = "relative_mse",
+     .label = "relative mse",
+     .best = Best::kSmall,
+     .of = [](const Figures& f) { return f.difference.relative_mse; },
+     .option = "--max-relative-mse",
+     .limit = &CompareOptions::max_relative_mse},
+    {.key = "ssim",
+     .label = "ssim",
+     .best = Best::kLarge,
+     .of = [](const Figures& f) { return f.difference.ssim; },
+     .option = "--min-ssim",
+     .limit = &CompareOptions::min_ssim},
+    {.key = "flip",
+     .label = "flip",
+     .best = Best::kSmall,
+     .of = [](const Figures& f) { return f.flip; },
+     .option = "--max-flip",
+     .limit = &CompareOptions::max_flip},
+    {.key = "max_error",
+     .label = "max error",
+     .best = Best::kSmall,
+     .of = [](const Figures& f) { return f.difference.max_error; },
+     .option = "--max-error",
+     .limit = &CompareOptions::max_error},
+    {.key = "error_p999",
+     .label = "99.9 % error",
+     .best = Best::kSmall,
+     .of = [](const Figures& f) { return f.difference.error_p999; },
+     .option = "--max-p999",
+     .limit = &CompareOptions::max_p999},
+    {.key = "share",
+     .label = "share",
+     .best = Best::kSmall,
+     .of = [](const Figures& f) { return f.difference.share_over_threshold; },
+     .option = "--max-share",
+     .limit = &CompareOptions::max_share},
+    {.key = "signed_mean",
+     .label = "signed mean",
+     .best = Best::kNearZero,
+     .of = [](const Figures& f) { return f.difference.signed_mean; }},
 }};
 
-const FigureKind kFlicker{"flicker", "flicker",       Best::kSmall,
-                          nullptr,   "--max-flicker", &CompareOptions::max_flicker};
+const FigureKind kFlicker{.key = "flicker",
+                          .label = "flicker",
+                          .best = Best::kSmall,
+                          .of = nullptr,
+                          .option = "--max-flicker",
+                          .limit = &CompareOptions::max_flicker};
 
 Figures figures_of(const Image& image, const Image& reference, const CompareOptions& options) {
   return {difference(image, reference, options.threshold),
@@ -46,7 +84,7 @@ bool FigureKind::is_worse(double a, double b) const {
   return false;
 }
 
-std::optional<double> FigureKind::passed_limit(double value, const CompareOptions& options) const {
+std::optional<double> FigureKind::exceeded_limit(double value, const CompareOptions& options) const {
   if (!limit || !(options.*limit)) return std::nullopt;
   const double bound = *(options.*limit);
   const bool held = best == Best::kLarge ? value >= bound : value <= bound;

@@ -1,5 +1,4 @@
-// What pprt-compare tells of a pair of pictures: each figure with its names, its limit, and which value is
-// the worse.
+// The figures of a pair of pictures: names, limits, and which value is worse.
 #pragma once
 
 #include <array>
@@ -15,7 +14,7 @@ struct Figures {
   double flip = 0;
 };
 
-// Throws as `difference` and `mean_flip` (image/metrics.h).
+// Measures all figures. Throws as difference() and mean_flip() (image/metrics.h).
 Figures figures_of(const Image& image, const Image& reference, const CompareOptions& options);
 
 enum class Best { kSmall, kLarge, kNearZero };
@@ -25,19 +24,19 @@ struct FigureKind {
   const char* label;  // for people
   Best best;
   double (*of)(const Figures&);
-  const char* option = nullptr;  // of the limit; none for some
+  const char* option = nullptr;  // that sets the limit; null: none
   std::optional<double> CompareOptions::*limit = nullptr;
 
-  // A value that is not a number is worse than any other.
+  // Whether `a` is worse than `b`. NaN is worse than any number.
   bool is_worse(double a, double b) const;
-  // The limit when the value has passed it; a limit that is not a number is always passed.
-  std::optional<double> passed_limit(double value, const CompareOptions& options) const;
+  // Returns the limit when the value exceeds it. A limit of NaN is always exceeded.
+  std::optional<double> exceeded_limit(double value, const CompareOptions& options) const;
 };
 
 inline constexpr std::size_t kFigureCount = 9;
-extern const std::array<FigureKind, kFigureCount> kFigures;  // in the order of telling
+extern const std::array<FigureKind, kFigureCount> kFigures;  // in the order of printing
 
-// The sequence's own figure, of two pairs of neighbouring frames.
+// The figure of a sequence alone, from pairs of neighbouring frames.
 extern const FigureKind kFlicker;
 
 }  // namespace pprt

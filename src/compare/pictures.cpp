@@ -20,7 +20,7 @@ bool is_sequence(const std::string& name) {
   return name.find_first_of("%#") != std::string::npos && !std::filesystem::exists(name);
 }
 
-// Those that both sides have, if neither has others.
+// Returns the frames of both sequences. Throws unless both have the same.
 std::vector<int> frames_of_both(const FramePattern& image, const FramePattern& reference,
                                 const CompareOptions& options) {
   std::vector<int> a = frames_present(image);

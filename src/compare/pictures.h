@@ -1,4 +1,4 @@
-// Which pictures pprt-compare lays beside each other, and their values.
+// Which pictures are compared, and their pixels.
 #pragma once
 
 #include <optional>
@@ -17,9 +17,9 @@ struct PicturePair {
   std::optional<int> frame;  // of a sequence
 };
 
-// One pair, or those of all frames in ascending order. A name with a field for the frame number is a
-// sequence, unless it is a file's. Throws UsageError (a malformed pattern, a sequence beside a single
-// picture, an option for sequences only) and std::runtime_error (no frames, or a frame that one side lacks).
+// Returns one pair, or those of all frames in ascending order. A name with a field for the frame number is a
+// sequence, unless a file has that name. Throws UsageError: a malformed pattern, a sequence against a single
+// picture, an option for sequences only. Throws std::runtime_error: no frames, or one that one side lacks.
 std::vector<PicturePair> pairs_to_compare(const CompareOptions& options);
 
 struct LoadedPair {
@@ -27,7 +27,8 @@ struct LoadedPair {
   Image reference;
 };
 
-// Throws std::runtime_error: a file that cannot be read, sizes that differ, values that are not finite.
+// Reads both pictures; `clamp` clamps their values to 0..1. Throws std::runtime_error: a file that cannot be
+// read, sizes that differ, values that are not finite.
 LoadedPair load(const PicturePair& pair, bool clamp);
 
 }  // namespace pprt

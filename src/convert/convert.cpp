@@ -72,7 +72,7 @@ void say_degenerate(const SceneDescription& scene, std::size_t count) {
   if (count > 0) say(scene, fmt::format("{} objects without extent left out", count));
 }
 
-// What a scene needs to be seen and a mesh often lacks.
+// Adds a view, which mesh files often lack.
 void complete_view(SceneDescription& scene, UpAxis up) {
   if (scene.view || scene.primitive_count() == 0) return;
   scene.view = fitted_view(scene, up);

@@ -1,4 +1,4 @@
-// pprt-convert: a scene from one form into another.
+// pprt-convert: a scene from one format into another.
 #pragma once
 
 #include <optional>
@@ -12,15 +12,14 @@ struct ConvertOptions {
   std::string input;   // *.nff, "-" (NFF on standard input), "spd:NAME[:SIZE]" or a mesh that Assimp reads
   std::string output;  // *.nff, "-" (NFF on standard output), *.pov, or one of mesh_output_extensions()
   bool strict = false;
-  std::optional<int>
-      tessellate;  // Fineness::divisions; absent: curved surfaces stay where the format has them
+  std::optional<int> tessellate;  // Fineness::divisions; empty: keep curved surfaces if the format has them
   std::optional<double> chord_error;  // Fineness::chord_error
-  UpAxis up = UpAxis::kY;             // of a view that has to be made up
+  UpAxis up = UpAxis::kY;             // of an added view
 };
 
-// Reads the input and writes the output, which is left alone on failure. Warnings about the scene, and what
-// the output does not keep, go to standard error. Throws UsageError (a format not known), InputError (the
-// scene), std::runtime_error (output).
+// Reads the input and writes the output, which is left as it was on failure. Prints warnings about the scene,
+// and what the output does not keep, on standard error. Throws UsageError for an unknown format, InputError
+// for the scene, std::runtime_error for the output.
 void convert(const ConvertOptions& options);
 
 }  // namespace pprt

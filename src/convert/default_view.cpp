@@ -21,7 +21,7 @@ View fitted_view(const SceneDescription& scene, UpAxis up) {
   const double radius = bounding_radius(scene);
   view.angle_degrees = 45;
   view.up = up == UpAxis::kY ? Vec3d(0, 1, 0) : Vec3d(0, 0, 1);
-  // Right of the front by a half, above it by two fifths; the front of a model looks along z, or against y.
+  // Half to the right of the front and two fifths above it. The front faces +z with y up, or -y with z up.
   const Vec3d direction = up == UpAxis::kY ? Vec3d(0.5, 0.4, 1) : Vec3d(0.5, -1, 0.4);
   const double half_angle = 0.5 * view.angle_degrees * (std::numbers::pi / 180);
   const double distance = radius / std::sin(half_angle);

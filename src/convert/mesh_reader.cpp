@@ -57,7 +57,7 @@ Rgb to_color(const aiColor3D& c) {
   return {unit_interval(c.r), unit_interval(c.g), unit_interval(c.b)};
 }
 
-// The brightest channel as 1: how bright a light is, is NFF's own rule.
+// Scales the brightest channel to 1, as the intensity of lights follows from a rule of NFF.
 std::optional<Rgb> light_color(const aiColor3D& c) {
   const double largest = std::max({c.r, c.g, c.b});
   if (!(largest > 0) || !std::isfinite(largest)) return std::nullopt;
@@ -66,7 +66,7 @@ std::optional<Rgb> light_color(const aiColor3D& c) {
   return color;
 }
 
-// What Assimp makes up for meshes without a material stays NFF's own default: white, matte.
+// The material that Assimp adds to meshes without one becomes NFF's default, white and matte.
 Material to_material(const aiMaterial& from) {
   Material material;
   if (std::string_view(const_cast<aiMaterial&>(from).GetName().C_Str()) == AI_DEFAULT_MATERIAL_NAME)
@@ -79,7 +79,7 @@ Material to_material(const aiMaterial& from) {
     material.color = to_color({base.r, base.g, base.b});
   }
   float value = 0;
-  // A highlight without a size is what the PLY reader makes up.
+  // The PLY reader invents a highlight without a size.
   if (from.Get(AI_MATKEY_COLOR_SPECULAR, color) == aiReturn_SUCCESS &&
       from.Get(AI_MATKEY_SHININESS, value) == aiReturn_SUCCESS) {
     material.specular = unit_interval((color.r + color.g + color.b) / 3);
@@ -165,8 +165,8 @@ class SceneReader {
     }
   }
 
-  // The first camera is the view. Angles of modelling programs span the picture, NFF's the centres of its
-  // rows.
+  // Takes the first camera as the view. The angle of modelling programs spans the picture, that of NFF the
+  // centres of its rows.
   void camera(const aiNode& node, const Imath::M44d& transform) {
     for (unsigned i = 0; i < from_.mNumCameras && !scene_.view; ++i) {
       const aiCamera& from = *from_.mCameras[i];
@@ -214,7 +214,7 @@ bool is_mesh_extension(const std::string& extension) {
 }
 
 ReadMesh read_mesh(const std::string& path) {
-  // Assimp has one message for all that keeps it from reading.
+  // Assimp has the same message for every reason why a file cannot be read.
   if (!std::ifstream(path))
     throw InputError("cannot read '" + path + "': " + std::generic_category().message(errno));
   Assimp::Importer importer;

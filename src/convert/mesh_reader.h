@@ -1,4 +1,4 @@
-// Reading meshes of modelling programs.
+// Reading mesh files of modelling programs.
 #pragma once
 
 #include <string>
@@ -8,16 +8,16 @@
 
 namespace pprt {
 
-// Whether files of this extension (".obj", lower case) can be read. Not .nff: it is the parser's.
+// Whether files of this extension (".obj", lower case) can be read. NFF files are left to the parser.
 bool is_mesh_extension(const std::string& extension);
 
 struct ReadMesh {
   SceneDescription scene;          // named as the file; without view or lights when the file has none
-  std::vector<std::string> notes;  // for people: what was left out or only came near
+  std::vector<std::string> notes;  // for people: what was left out or approximated
 };
 
-// Polygons, with normals where they say more than the polygon's plane; materials; camera and lights, in world
-// space. Throws InputError: the file is missing, Assimp rejects it, or there is no polygon in it.
+// Reads polygons, materials, camera and lights, in world space. Polygons have normals where these differ from
+// their plane's. Throws InputError: the file is missing, Assimp rejects it, or it has no polygon.
 ReadMesh read_mesh(const std::string& path);
 
 }  // namespace pprt

@@ -41,7 +41,7 @@ aiColor3D to_assimp(const Rgb& c) {
   return {static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)};
 }
 
-// The triangles of one material. What has normals and what has none are kept apart: a mesh has all or none.
+// The triangles of one material.
 struct MaterialMesh {
   std::vector<PatchVertex> vertices;
   std::vector<TriangleIndices> triangles;
@@ -55,7 +55,7 @@ struct MaterialMesh {
   }
 };
 
-// Every primitive as a surface. What is flat gets its own normal at every vertex, so that it stays flat.
+// Makes every primitive a surface. Flat ones get their own normal at every vertex, so that they stay flat.
 class MeshBuilder {
  public:
   MeshBuilder(const SceneDescription& scene, const Fineness& fineness)
@@ -143,8 +143,8 @@ std::unique_ptr<aiMesh> to_assimp(const MaterialMesh& from, unsigned material) {
   return mesh;
 }
 
-// Phong's model is NFF's but for the mirror, which programs that have only physically based materials show as
-// smooth metal.
+// Phong's model is that of NFF without the mirror. Formats with only physically based materials get smooth
+// metal for it.
 std::unique_ptr<aiMaterial> to_assimp(const Material& m, std::size_t number, bool physically_based) {
   auto material = std::make_unique<aiMaterial>();
   const aiString name("material_" + std::to_string(number));
@@ -173,7 +173,7 @@ std::unique_ptr<aiMaterial> to_assimp(const Material& m, std::size_t number, boo
   return material;
 }
 
-// A place in the scene for the camera or light of its name.
+// Returns a node that places the camera or light of the same name.
 aiNode* new_node(aiNode& root, const std::string& name, const Vec3d& x, const Vec3d& y, const Vec3d& z,
                  const Vec3d& origin) {
   auto node = std::make_unique<aiNode>(name);
@@ -183,7 +183,7 @@ aiNode* new_node(aiNode& root, const std::string& name, const Vec3d& x, const Ve
   return node.release();
 }
 
-// Looks along its node's -z, as most formats have it.
+// Returns a camera that looks along its node's -z, as in most formats.
 void add_camera(const SceneDescription& scene, aiScene& to, std::vector<aiNode*>& children) {
   if (!scene.view) return;
   const View& view = *scene.view;
@@ -215,7 +215,7 @@ void add_lights(const SceneDescription& scene, aiScene& to, std::vector<aiNode*>
   }
 }
 
-// Only materials that some mesh has: most formats would not keep the others.
+// Keeps only materials of some mesh: most formats drop the others.
 std::unique_ptr<aiScene> to_assimp(const SceneDescription& scene, const std::vector<MaterialMesh>& meshes,
                                    bool physically_based) {
   auto result = std::make_unique<aiScene>();

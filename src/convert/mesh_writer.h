@@ -1,4 +1,4 @@
-// Writing a scene as triangles in formats that modelling programs read.
+// Writing a scene as triangles in the formats of modelling programs.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace pprt {
 
-// Extensions that can be written, with their dots.
+// Returns the extensions that can be written, with their dots.
 const std::vector<std::string>& mesh_output_extensions();
 
 // One file: OBJ comes with a .mtl beside it, glTF with a .bin.
@@ -20,15 +20,15 @@ struct MeshFile {
 };
 
 struct WrittenMesh {
-  std::vector<MeshFile> files;  // the named one last, so that what it refers to is there before it
+  std::vector<MeshFile> files;  // the named one last, after those that it refers to
   std::size_t triangles = 0;
   std::size_t degenerate = 0;  // primitives of no extent, left out
 };
 
-// The scene as one mesh a material, normals at the vertices of what is smooth, in the scene's own axes, with
-// materials, camera and lights where the format has them. `stem`: of the file's name, by which its parts
-// refer to each other. Throws InputError when there is nothing to write, more than kMaxTriangles, or a view
-// that is degenerate; std::runtime_error when Assimp cannot write it.
+// Returns the scene as one mesh for each material, in the scene's own axes, with normals at the vertices of
+// smooth surfaces. Materials, camera and lights are included where the format has them. `stem` is the name of
+// the file without its extension, by which its parts refer to each other. Throws InputError for no triangles,
+// more than kMaxTriangles, or a degenerate view; std::runtime_error when Assimp cannot write it.
 WrittenMesh write_mesh(const SceneDescription& scene, std::string_view extension, const std::string& stem,
                        const Fineness& fineness);
 

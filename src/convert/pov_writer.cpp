@@ -15,15 +15,15 @@
 namespace pprt {
 namespace {
 
-// POV-Ray drops hits nearer than 1e-3 to a ray's origin, beyond 1e7, and keeps the vertices of meshes in
-// float. With the scene's extent, eye included, in [2^15, 2^16), the first is 2^-25 of the extent at the
-// most: the rounding of a float.
+// POV-Ray drops hits nearer than 1e-3 to a ray's origin or beyond 1e7, and keeps mesh vertices in float. The
+// scene is scaled so that its extent, eye included, is in [2^15, 2^16). Then 1e-3 is at most 2^-25 of the
+// extent, the rounding of a float.
 constexpr int kExtentExponent = 16;
 
-// Largest transmittance that leaves POV-Ray's surface a share to be lit, which is then made up for.
+// Largest transmittance written: it leaves POV-Ray a share of the surface to light, which is compensated.
 constexpr double kLargestTransmittance = 1 - 0x1p-10;
 
-// A power of two, which rounds nothing.
+// Returns the factor of that scaling, a power of two, which rounds nothing.
 double pov_scale(const SceneDescription& scene) {
   Box3d box = bounds(scene);
   box.extendBy(scene.view->from);
@@ -50,7 +50,7 @@ class PovWriter {
   }
 
  private:
-  // Any texts and values one after the other.
+  // Writes texts and values one after the other.
   template <typename... Values>
   void put(const Values&... values) {
     (value(values), ...);
@@ -76,7 +76,7 @@ class PovWriter {
   }
 
   // The view's angle spans the centres of the first and the last row, at whatever size the image is rendered.
-  // Right, up and forward are given outright: POV-Ray's left-handedness does not come in.
+  // Right, up and forward are given explicitly, so that POV-Ray's left-handed axes do not matter.
   void camera() {
     const ViewFrame frame = view_frame(*scene_.view, scene_.name);
     const double tangents = frame.slope_per_pixel * std::max(scene_.view->height - 1, 1);
@@ -151,7 +151,7 @@ class PovWriter {
     end_object(c.material);
   }
 
-  // The polygon in corners_; with normals when `smooth` is not empty.
+  // Writes the polygon in corners_, with normals when `smooth` is not empty.
   void facets(MaterialIndex material, std::span<const PatchVertex> smooth) {
     const std::vector<TriangleIndices> triangles = triangulate(corners_);
     if (triangles.empty()) return drop();
@@ -197,8 +197,8 @@ class PovWriter {
     if (transparent(material)) put("#declare Glass = ");
   }
 
-  // With us transparent objects cast whole shadows, with POV-Ray they let light through: what is seen casts
-  // none, and a twin that is not seen does.
+  // Transparent objects cast full shadows here, but let light through in POV-Ray. So the visible object casts
+  // none, and an invisible copy of it does.
   void end_object(MaterialIndex material) {
     const std::size_t name = material + std::size_t{1};
     if (!transparent(material)) return put(" texture { Material_", name, " } }\n");

@@ -17,7 +17,7 @@ int limited(double n) {
   return static_cast<int>(std::clamp(std::ceil(n), 1.0, static_cast<double>(kMaxDivisions)));
 }
 
-// Three vertices of a surface as a patch.
+// Adds three vertices of a surface as a patch.
 void add_triangle(SceneDescription& scene, const Surface& surface, const TriangleIndices& t,
                   MaterialIndex material, SourceLocation location) {
   const std::array<PatchVertex, 3> corners = {surface.vertices[t[0]], surface.vertices[t[1]],
@@ -25,7 +25,7 @@ void add_triangle(SceneDescription& scene, const Surface& surface, const Triangl
   add_patch(scene, corners, material, location);
 }
 
-// Of which only the inside is seen.
+// Turns the surface so that only its inside is visible.
 void turn(Surface& surface) {
   for (PatchVertex& v : surface.vertices) v.normal = -v.normal;
   for (TriangleIndices& t : surface.triangles) std::swap(t[1], t[2]);

@@ -1,5 +1,5 @@
-// Spheres and cones as triangles with interpolated normals, cut as Haines' Standard Procedural Databases cut
-// them.
+// Spheres and cones as triangles with interpolated normals, divided as in Haines' Standard Procedural
+// Databases.
 #pragma once
 
 #include <optional>
@@ -10,43 +10,44 @@
 
 namespace pprt {
 
-// How finely curved surfaces are cut.
+// How finely curved surfaces are divided.
 struct Fineness {
-  // N: a sphere becomes the 6 faces of a cube with N x N x 2 triangles each, a cone a ring of 4N x 2; at
-  // least 1.
+  // N, at least 1. A sphere becomes the 6 faces of a cube with N x N x 2 triangles each, a cone a ring of
+  // 4N x 2.
   int divisions = 6;
-  // When given, each object gets its own N: the least for which no triangle lies farther inside the surface
-  // than this, in the scene's units; positive. At most kMaxDivisions.
+  // Chord error, positive, in the scene's units. When given, each object gets its own N: the least for which
+  // no triangle lies farther inside the surface, but at most kMaxDivisions.
   std::optional<double> chord_error;
 };
 
 inline constexpr int kMaxDivisions = 1000;
 
-// The N for an object. A degenerate one has none: 0.
+// Returns N for an object; 0 for a degenerate one.
 int divisions(const Sphere& sphere, const Fineness& fineness);
 int divisions(const Cone& cone, const Fineness& fineness);
 
-// Triangles over shared vertices, counter-clockwise seen from where the surface is seen; unit normals.
+// Triangles over shared vertices, counter-clockwise as seen from the visible side; unit normals.
 struct Surface {
   std::vector<PatchVertex> vertices;
   std::vector<TriangleIndices> triangles;
 };
 
-// `n` at least 1; the vertices lie on the surface. A cone's tip takes no triangles of no area.
+// Returns triangles with all vertices on the surface; `n` is at least 1. A cone's tip gets no triangles
+// without area.
 Surface tessellate(const Sphere& sphere, int n);
 Surface tessellate(const Cone& cone, int n);
 
-// Larger results are refused before anything is made.
+// Larger results are refused before they are computed.
 inline constexpr std::size_t kMaxTriangles = 20'000'000;
 
-// How many triangles the spheres and cones of the scene become.
+// Returns the number of triangles that the spheres and cones of the scene become.
 std::size_t triangle_count(const SceneDescription& scene, const Fineness& fineness);
 
-// Throws InputError when that is more than kMaxTriangles.
+// Throws InputError when that exceeds kMaxTriangles.
 void check_triangle_count(const SceneDescription& scene, const Fineness& fineness);
 
-// The scene with every sphere and cone as patches of three vertices; all else as it is. Throws InputError as
-// check_triangle_count.
+// Returns the scene with every sphere and cone as patches of three vertices, and all else unchanged. Throws
+// InputError as check_triangle_count().
 SceneDescription tessellated(const SceneDescription& scene, const Fineness& fineness);
 
 }  // namespace pprt

@@ -26,7 +26,8 @@ std::string container(const std::filesystem::path& film) {
   return film.extension() == ".mkv" ? "matroska" : "mp4";
 }
 
-// ffmpeg in a process group of its own: a terminal's Ctrl-C asks us, who then let it come to its end.
+// Starts ffmpeg in a process group of its own. A terminal's Ctrl-C then reaches this process alone, which
+// lets ffmpeg finish the film.
 Subprocess start_encoder(std::vector<std::string> command, StreamTo input) {
   try {
     return Subprocess(std::move(command),
@@ -36,7 +37,7 @@ Subprocess start_encoder(std::vector<std::string> command, StreamTo input) {
   }
 }
 
-// Films hold brightness and colour apart, at half the size, in the matrix of high definition.
+// Returns the command for H.264 with chroma at half resolution, in the colours of high definition (BT.709).
 std::vector<std::string> ffmpeg_command(const Image& first, double frames_per_second,
                                         const std::string& format, const std::string& output) {
   return {"ffmpeg",
@@ -100,7 +101,7 @@ void require_film_name(const std::filesystem::path& film) {
 }
 
 void require_ffmpeg() {
-  // Prints its version and ends: what is on the PATH can be run.
+  // Prints its version and ends, which shows that it can be run.
   Subprocess ffmpeg = start_encoder({"ffmpeg", "-loglevel", "quiet", "-version"}, StreamTo::kSame);
   if (ffmpeg.wait().code != 0) throw std::runtime_error(kMissing);
 }

@@ -22,30 +22,30 @@ std::string names_of(const std::vector<FramePattern>& pictures) {
 }
 
 // Appends the record's entries: nested ones as "rays.primary" and the like, lists as text.
-void append_facts(Metadata& facts, const std::string& prefix, const Json& record) {
+void append_metadata(Metadata& metadata, const std::string& prefix, const Json& record) {
   for (const auto& [key, value] : record.items()) {
     const std::string name = prefix + "." + key;
     if (value.is_object()) {
-      append_facts(facts, name, value);
+      append_metadata(metadata, name, value);
     } else if (value.is_array()) {
-      facts.emplace_back(name, value.dump());
+      metadata.emplace_back(name, value.dump());
     } else if (value.is_string()) {
-      facts.emplace_back(name, value.get<std::string>());
+      metadata.emplace_back(name, value.get<std::string>());
     } else if (value.is_number_float()) {
-      facts.emplace_back(name, value.get<double>());
+      metadata.emplace_back(name, value.get<double>());
     } else if (value.is_boolean()) {
-      facts.emplace_back(name, std::int64_t{value.get<bool>()});
+      metadata.emplace_back(name, std::int64_t{value.get<bool>()});
     } else {
-      facts.emplace_back(name, value.get<std::int64_t>());
+      metadata.emplace_back(name, value.get<std::int64_t>());
     }
   }
 }
 
-Metadata header_facts(Json record) {
+Metadata header_metadata(Json record) {
   record.erase("record");
-  Metadata facts;
-  append_facts(facts, "pprt", record);
-  return facts;
+  Metadata metadata;
+  append_metadata(metadata, "pprt", record);
+  return metadata;
 }
 
 std::set<int> frames_in(const Manifest& manifest, const RenderPlan& plan) {
@@ -116,7 +116,7 @@ FrameRecorder::FrameRecorder(const RenderPlan& plan, const CompiledScene& scene,
 void FrameRecorder::record(FinishedFrame&& frame) {
   const FrameSummary summary = summarize(frame);
   Json record = frame_record(summary);
-  Facts facts = header_facts(record);
+  Metadata metadata = header_metadata(record);
   if (ledger_.enabled()) ledger_.write_frame(std::move(record), measurements_of(frame));
   {
     const std::scoped_lock lock(mutex_);
@@ -124,7 +124,10 @@ void FrameRecorder::record(FinishedFrame&& frame) {
     progress_.frame_done(summary, totals_);
   }
   LayerMaker layers = layers_of(frame);
-  writer_.submit({frame.order.number, std::move(frame.image), std::move(facts), std::move(layers)});
+  writer_.submit({.frame = frame.order.number,
+                  .image = std::move(frame.image),
+                  .metadata = std::move(metadata),
+                  .layers = std::move(layers)});
   note_written(writer_.take_finished());
 }
 
@@ -133,15 +136,18 @@ void FrameRecorder::status() const {
   progress_.status(totals_);
 }
 
-// Made on the writer's thread, which asks a tracer of its own.
+// The layers are made on the writer's thread, with a tracer of its own.
 LayerMaker FrameRecorder::layers_of(FinishedFrame& frame) const {
   if (plan_.output.layers.empty()) return {};
   const int ranks = static_cast<int>(frame.ranks.size());
-  return layer_maker(
-      plan_.output.layers,
-      {frame.order.number, tile_grid_for(frame.image.width, frame.image.height, ranks),
-       std::move(frame.owners), std::move(frame.samples),
-       [tracer = Tracer(scene_, frame.order.camera)](double x, double y) { return tracer.first_hit(x, y); }});
+  LayerSources sources{.frame_number = frame.order.number,
+                       .grid = tile_grid_for(frame.image.width, frame.image.height, ranks),
+                       .owners = std::move(frame.owners),
+                       .samples = std::move(frame.samples),
+                       .first_hit = [tracer = Tracer(scene_, frame.order.camera)](double x, double y) {
+                         return tracer.first_hit(x, y);
+                       }};
+  return layer_maker(plan_.output.layers, std::move(sources));
 }
 
 std::vector<Measurement> FrameRecorder::measurements_of(const FinishedFrame& frame) {
@@ -170,8 +176,8 @@ void FrameRecorder::note_written(const std::vector<WrittenFrame>& frames) {
   for (const WrittenFrame& frame : frames) written_.insert(frame.frame);
 }
 
-// From the files, when all are written: the frame loop is not delayed, and one picture of full size is held
-// at a time.
+// Reads the frames back when all are written. This does not delay the frame loop, and holds one picture of
+// full size at a time.
 void FrameRecorder::write_contact_sheet() const {
   const std::filesystem::path& sheet = plan_.output.contact_sheet;
   if (sheet.empty() || written_.empty()) return;

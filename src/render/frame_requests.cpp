@@ -7,9 +7,9 @@
 namespace pprt {
 namespace {
 
-// Index into the plan of the first frame to ask for. On the work clock a run begins where the samples of the
-// first missing frame came from. Where ranks share load that is the first frame of all: who owns what follows
-// from every frame before.
+// Returns the index into the plan of the first frame to ask for. On the work clock that is the one from which
+// the samples of the first missing frame come. Where ranks share load it is the first frame of all, as the
+// owners of tiles follow from every frame before.
 std::size_t first_to_render(const RenderPlan& plan, int ranks, const FinishedBefore& finished_before) {
   const std::vector<PlannedFrame>& frames = plan.frames;
   std::size_t first = 0;
@@ -36,7 +36,7 @@ std::vector<FrameRequest> frame_requests(const RenderPlan& plan, const CompiledS
     const PlannedFrame& frame = plan.frames[i];
     const bool finished = finished_before(frame.number);
     if (finished && !again) continue;
-    // What does not follow its predecessor carries nothing over from it.
+    // A frame that does not follow its predecessor carries nothing over from it.
     requests.push_back({.number = frame.number,
                         .camera = scene.camera(frame.view),
                         .cut = frame.cut,

@@ -74,7 +74,7 @@ Json summary_record(const RunTotals& totals, bool has_rate) {
 
 Ledger::Ledger(const std::string& path, bool append) : path_(path) {
   if (path_.empty() || path_ == "-") return;
-  // As for frames, missing directories are made; where that fails, opening does too.
+  // Make missing directories, as for frames; where that fails, opening fails too.
   const std::filesystem::path directory = std::filesystem::path(path_).parent_path();
   std::error_code ignored;
   if (!directory.empty()) std::filesystem::create_directories(directory, ignored);
@@ -98,7 +98,8 @@ void Ledger::finish() {
   settle(true);
 }
 
-// Takes what is ready, of too old pictures also what is not, and writes the records that are complete.
+// Takes every figure that is ready, and waits for those of pictures beyond the bound. Then writes the
+// complete records.
 void Ledger::settle(bool wait_for_all) {
   std::size_t pictures = 0;
   for (auto frame = pending_.rbegin(); frame != pending_.rend(); ++frame) {
@@ -123,7 +124,7 @@ void Ledger::take(Measurement& measurement, Json& record) {
   try {
     record[measurement.key] = measurement.value.get();
   } catch (const std::exception& e) {
-    if (!told_of_.insert(measurement.key).second) return;
+    if (!reported_.insert(measurement.key).second) return;
     fmt::print(stderr, "pprt-render: warning: {}: {}; {} is left out\n", measurement.option, e.what(),
                measurement.key);
   }

@@ -1,4 +1,4 @@
-// The ledger (--stats): what every frame took, one JSON object a line.
+// The ledger (--stats): figures of the run and of every frame, one JSON object a line.
 #pragma once
 
 #include <deque>
@@ -15,34 +15,36 @@ namespace pprt {
 
 using Json = nlohmann::ordered_json;
 
-// The ledger's record of a frame, without what is measured later: see Measurement.
+// Returns a frame's record, without what is measured later: see Measurement.
 Json frame_record(const FrameSummary& frame);
 
-// The last record. `has_rate`: lateness means something.
+// Returns the last record. `has_rate`: frames had deadlines, so that lateness is reported.
 Json summary_record(const RunTotals& totals, bool has_rate);
 
-// A figure of a frame that is still being measured, beside the frame loop. One that cannot be is told on
-// standard error, once a run, and left out.
+// A figure of a frame that is still being measured, beside the frame loop. When that fails, the figure is
+// left out of the record; the reason is printed on standard error, once a run.
 struct Measurement {
   std::string key;      // in the record
-  std::string option;   // that asked for it, for messages
+  std::string option;   // asked for by, for messages
   bool may_lag = true;  // false: holds a picture, and only few frames may
   std::future<double> value;
 };
 
-// Writes records in frame order; a frame of which something is still being measured holds back those after
-// it. Throws std::runtime_error when the file cannot be written.
+// Writes records in frame order: a frame with a figure still being measured holds back those after it. Throws
+// std::runtime_error when the file cannot be written.
 class Ledger {
  public:
-  // So many frames may wait for a measurement that holds a picture; then the frame loop waits for the oldest.
+  // Frames that may wait for a measurement that holds a picture. Beyond it the frame loop waits for the
+  // oldest.
   static constexpr std::size_t kMostPictures = 4;
 
-  // `path` empty: writes nothing; "-": standard output. `append` keeps the records that are there.
+  // `path` empty: writes nothing; "-": standard output. `append`: keeps the file's records.
   Ledger(const std::string& path, bool append);
 
   bool enabled() const { return !path_.empty(); }
   void write(const Json& record);
   void write_frame(Json record, std::vector<Measurement> measurements);
+
   // Waits for what is still being measured.
   void finish();
 
@@ -58,7 +60,7 @@ class Ledger {
   std::string path_;
   std::ofstream file_;
   std::deque<Pending> pending_;
-  std::set<std::string> told_of_;  // measurements that failed
+  std::set<std::string> reported_;  // keys of measurements that failed
 };
 
 }  // namespace pprt

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The texts in a record's array; none where there is no such array.
+// Returns the texts in a record's array; none where there is no such array.
 std::set<std::string> texts_of(const Json& record, const char* key) {
   std::set<std::string> texts;
   const auto found = record.find(key);
@@ -55,7 +55,8 @@ void Manifest::read(const std::filesystem::path& path, const std::string& key) {
   const auto next_record = [&lines] {
     std::string line;
     std::getline(lines, line);
-    // A line that a dying process left half-written, or that is no record, counts as an empty one.
+    // An incomplete line, which a killed process may leave, or one that is no record counts as an empty
+    // record.
     Json record = Json::parse(line, nullptr, false);
     return record.is_object() ? record : Json::object();
   };

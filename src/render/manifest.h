@@ -1,4 +1,4 @@
-// Which frames of a run are finished: what --resume goes by.
+// The manifest: which frames of a run are finished, for --resume.
 #pragma once
 
 #include <filesystem>
@@ -13,21 +13,24 @@
 
 namespace pprt {
 
-// Beside the frames: "out/%04d.exr" has "out/manifest.ndjson", "frame_%04d.png" has "frame_manifest.ndjson".
+// Returns its path, beside the frames: "out/manifest.ndjson" for "out/%04d.exr", "frame_manifest.ndjson" for
+// "frame_%04d.png".
 std::filesystem::path manifest_path(const FramePattern& output);
 
-// A line for the run, then one for each frame whose files are whole; every line is complete or absent.
+// Holds a line for the run, then one for each frame whose files are whole. A reader skips incomplete lines.
 class Manifest {
  public:
-  // Starts a new manifest, or goes on with the one that is there (`resume`). `key` stands for scene and
-  // options: a manifest with another one cannot be resumed (UsageError).
+  // Starts a new manifest, or continues the existing one (`resume`). `key` stands for scene and options.
+  // Throws UsageError when the existing manifest has another key, std::runtime_error when it cannot be
+  // written.
   Manifest(const std::filesystem::path& path, const std::string& key, bool resume);
 
-  // Whether an earlier run has written the frame under every one of these names, and all are there still; and
-  // those that hold channels with those of every one of these layers.
+  // Whether an earlier run has written the frame under every one of these names, and all files still exist.
+  // Files that hold channels must have those of all these layers.
   bool has(int frame, const std::vector<FramePattern>& files,
            const std::vector<std::string>& layers = {}) const;
 
+  // Appends a line for each frame. Throws std::runtime_error when the file cannot be written.
   void add(const std::vector<WrittenFrame>& frames);
 
  private:

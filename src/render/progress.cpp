@@ -11,7 +11,7 @@
 namespace pprt {
 namespace {
 
-// A terminal cuts a line that is too long, rather than go on below it, where "\r" does not lead back.
+// Switches off line wrap: "\r" would not return to the start of a line that wraps.
 constexpr std::string_view kOverLine = "\r\033[?7l";
 constexpr std::string_view kLineEnd = "\033[K\033[?7h";
 
@@ -35,7 +35,7 @@ std::string minutes(double seconds) {
   return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
-// How the JSON object for the end begins.
+// Returns how the JSON object for the end begins.
 std::string head_of(RunEnd end) {
   return fmt::format("{{\"event\":\"{}\"", word_for(end));
 }

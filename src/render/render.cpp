@@ -26,7 +26,7 @@
 namespace pprt {
 namespace {
 
-// The script as the camera source: one frame after the other, until a signal or a full disk ends it.
+// Returns the requests one after the other, until a signal or a failed write ends the run.
 CameraSource camera_source(std::vector<FrameRequest> requests, const FrameRecorder& recorder) {
   return [requests = std::move(requests), &recorder](int index) -> std::optional<FrameRequest> {
     if (stop_requested() || recorder.failed()) return std::nullopt;
@@ -41,12 +41,13 @@ void print_rays(const RunTotals& totals) {
              rays.primary, rays.shadow, rays.reflection, rays.refraction, rays.visibility);
 }
 
-// The master's one message to the other ranks before a run: the job, or that there is none. They wait for it.
+// The master's one message to the other ranks before a run, for which they wait: the job, or that there is
+// none.
 class JobBroadcast {
  public:
   explicit JobBroadcast(Communicator& network) : network_(network) {}
 
-  // Whether the other ranks have begun, so that they cannot be let go in order any more.
+  // Whether the other ranks have their job. Then they cannot be dismissed any more.
   bool run_begun() const { return run_begun_; }
 
   void send(const RenderJob& job) {
@@ -55,7 +56,7 @@ class JobBroadcast {
     run_begun_ = job.go;
   }
 
-  // Lets the other ranks leave, unless they have begun.
+  // Lets the other ranks leave, unless they have their job.
   void dismiss() {
     if (!run_begun_) send(RenderJob());
   }
@@ -105,14 +106,14 @@ int run_frames(Communicator& network, const PreparedRun& run, ProgressReporter& 
   // Render with all ranks.
   broadcast.send(run.job);
   watch_signals();
-  const StatusTeller teller([&recorder] { recorder.status(); });
+  const StatusPrinter printer([&recorder] { recorder.status(); });
   Tracer tracer(run.scene, Camera());
   run_as_master(network, run.plan.settings, probe_of(tracer), source, [&](FinishedFrame&& frame) {
     log_frame(frame);
     if (!recorder.finished_before(frame.order.number)) recorder.record(std::move(frame));
   });
 
-  // All ranks have come to their end: what cannot be written now is this rank's matter alone.
+  // All other ranks have finished: a file that cannot be written now concerns this rank alone.
   try {
     recorder.finish(stop_requested().has_value());
   } catch (const std::exception& e) {
@@ -153,8 +154,8 @@ int worker_rank(Communicator& network) {
   return kExitDone;
 }
 
-// No exception may pass ranks that others wait for: what keeps the master from beginning ends all ranks in
-// order, what comes later ends them at once.
+// No exception may leave a rank while others wait for it. An error of the master before the run dismisses the
+// other ranks; any later error aborts all ranks at once.
 int run_mpi_rank(const RenderOptions& options, ProgressReporter& progress, int argc, char** argv) {
   MpiCommunicator network(argc, argv);
   set_up_log(options.log, network.rank());

@@ -11,7 +11,7 @@
 namespace pprt {
 namespace {
 
-// For the master's own text, which may be longer than the file: only foreign files need limits.
+// Canonical text may be longer than the file it was made from, which has passed the limits.
 NffOptions without_limits() {
   NffOptions options;
   options.max_bytes = options.max_primitives = options.max_polygon_vertices = options.max_lights =

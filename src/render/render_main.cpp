@@ -9,7 +9,7 @@
 
 namespace {
 
-// False: nothing is left to do. A usage error is also reported as --progress json wants it.
+// Returns false when nothing is left to do. A usage error is reported by --progress json too.
 bool read_options(CLI::App& app, pprt::RenderOptions& options, int argc, char** argv) {
   try {
     if (!pprt::parse_command_line(app, pprt::with_long_np(argc, argv))) return false;

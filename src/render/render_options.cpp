@@ -18,7 +18,7 @@
 namespace pprt {
 namespace {
 
-// Numbers from `least` to `most`; unlike CLI::Range it does not let NaN through.
+// Accepts numbers from `least` to `most`; unlike CLI::Range it refuses NaN.
 CLI::Validator number_between(double least, double most) {
   return CLI::Validator(
       [least, most](std::string& text) -> std::string {
@@ -31,7 +31,7 @@ CLI::Validator number_between(double least, double most) {
       "");
 }
 
-// Whole numbers; a minus sign would wrap round.
+// Accepts whole numbers; CLI11 itself would let a negative one wrap round.
 CLI::Validator count_from(std::uint64_t least, std::uint64_t most = ~std::uint64_t{0}) {
   return CLI::Validator(
       [least, most](std::string& text) -> std::string {
@@ -66,7 +66,7 @@ std::vector<std::string> and_also(std::vector<std::string> first, const std::vec
   return first;
 }
 
-// The heading in the help of three functions' options.
+// Heading in the help of the options that the next three functions add.
 constexpr const char* kRun = "Run";
 
 void add_positionals(CLI::App& app, RenderOptions& o) {
@@ -245,7 +245,7 @@ void add_render_options(CLI::App& app, RenderOptions& options) {
 }
 
 std::string options_in_force(const CLI::App& app) {
-  // Paragraphs, each a comment and "name=value".
+  // CLI11 writes paragraphs, each a comment and "name=value".
   std::istringstream lines(app.config_to_str(true, true));
   std::string result, paragraph;
   for (std::string line; std::getline(lines, line);) {

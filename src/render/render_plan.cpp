@@ -39,7 +39,7 @@ Sources read_sources(const RenderOptions& options) {
   return sources;
 }
 
-// The scene's own view at the size that options, script or scene ask for, in this order.
+// Returns the scene's own view at the size that options, script or scene ask for, in this order.
 View base_view(const RenderOptions& options, const Sources& sources) {
   const SceneDescription& scene = sources.scene.scene;
   View view;
@@ -105,14 +105,14 @@ double frame_rate(const RenderOptions& options, const Sources& sources) {
   return sources.script ? sources.script->animation.fps : 0;
 }
 
-// A film runs at the rate of the frames, without one at the script's own, and else at the customary one.
+// Returns the film's rate: that of the frames, without one the script's, else the customary one.
 double film_rate(double fps, const Sources& sources) {
   constexpr double kCustomary = 25;
   if (fps > 0) return fps;
   return sources.script && sources.script->animation.fps > 0 ? sources.script->animation.fps : kCustomary;
 }
 
-// When a frame is finished: by its rate's deadline, or by the stop rules.
+// Settles what ends a frame: the deadline of its rate, or the stop rules.
 void settle_ends(const RenderOptions& options, double fps, SessionSettings& settings) {
   settings.frames_per_second = fps;
   const bool has_stop_rule = options.time || options.samples || options.quality;

@@ -1,4 +1,4 @@
-// How far frames' sample patterns are from the serial ones (--compare-serial), measured beside the frame
+// The distance of frames' sample patterns to the serial ones (--compare-serial), measured beside the frame
 // loop.
 #pragma once
 
@@ -17,11 +17,11 @@
 
 namespace pprt {
 
-// Renders every frame once more, serially, in a thread of its own and of the lowest priority. With ranks that
-// keep all cores busy it falls behind.
+// Renders every frame once more, serially, in a thread of its own of the lowest priority. It falls behind
+// when the ranks keep all cores busy.
 class SerialComparison {
  public:
-  // Bytes of samples that may wait: some 200 frames of 19,000. Then distance() waits.
+  // Bytes of samples that may wait, some 200 frames of 19,000 samples. Beyond it distance() waits.
   static constexpr std::size_t kMemoryBound = std::size_t{256} << 20;
 
   // The scene must outlive it.
@@ -29,14 +29,14 @@ class SerialComparison {
   SerialComparison(const SerialComparison&) = delete;
   SerialComparison& operator=(const SerialComparison&) = delete;
 
-  // Leaves what still waits undone: its futures are broken.
+  // Abandons what still waits; its futures are broken.
   ~SerialComparison();
 
-  // Of all samples of a frame to as many that a single rank would have placed, 0 to 1.
+  // Returns the distance, 0 to 1, of all samples of a frame to as many that a single rank would have placed.
   std::future<double> distance(int frame, const Camera& camera, std::vector<Sample> samples);
 
-  // Does all that waits in the caller's thread, whose priority gets it done: when the last frame is whole,
-  // ranks of other processes may still spin until this one ends.
+  // Does all that waits in the caller's thread, which has the usual priority. After the last frame the ranks
+  // of other processes may still be spinning until this one ends.
   void catch_up();
 
  private:

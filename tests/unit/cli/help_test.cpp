@@ -36,7 +36,7 @@ OptionTable sample_table() {
 
 }  // namespace
 
-TEST_CASE("a table of options tells what stands behind each") {
+TEST_CASE("the option table holds names, kind of value, words and default of each option") {
   const OptionTable table = sample_table();
   const auto row = [&](const std::string& name) {
     for (const OptionRow& r : table.rows) {
@@ -61,7 +61,7 @@ TEST_CASE("a table of options tells what stands behind each") {
   CHECK(row("--help").value == ValueKind::kNone);
 }
 
-TEST_CASE("help stands in groups, in the order of the options, within 79 columns") {
+TEST_CASE("help lists options in groups, in their order, within 79 columns") {
   CHECK(help_text(sample_table(), "make-thing") ==
         "Makes a thing of many words, so many that its description needs a second line\n"
         "to stand on.\n"

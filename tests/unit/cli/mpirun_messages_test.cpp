@@ -26,7 +26,7 @@ std::string shown(MpirunMessages& messages, const std::string& text, std::size_t
 
 }  // namespace
 
-TEST_CASE("what ranks say passes, what only repeats an exit code does not") {
+TEST_CASE("messages of ranks are passed on, and mpirun's that repeat an exit code are dropped") {
   for (const std::size_t piece : {1, 7, 4096}) {
     MpirunMessages messages;
     CHECK(shown(messages, "a.nff:1:2: error\n-- \n" + kExitCode + "\rframe 2 of 3", piece) ==
@@ -35,7 +35,7 @@ TEST_CASE("what ranks say passes, what only repeats an exit code does not") {
   }
 }
 
-TEST_CASE("a line that is not over is shown at once") {
+TEST_CASE("an incomplete line of a rank is passed on at once") {
   MpirunMessages messages;
   CHECK(messages.take("\rframe 1") == "\rframe 1");
   CHECK(messages.take(" of 3") == " of 3");
@@ -51,7 +51,7 @@ TEST_CASE("the first rank that a signal ended is named") {
   }
 }
 
-TEST_CASE("other messages of mpirun pass whole, also one that breaks off") {
+TEST_CASE("other messages of mpirun are passed on whole, also incomplete ones") {
   const std::string slots = framed("There are not enough slots available in the system\n");
   for (const std::string& text : {slots, kRule + "Open RTE was unable to open the hostfile:\n"}) {
     MpirunMessages messages;
@@ -59,7 +59,7 @@ TEST_CASE("other messages of mpirun pass whole, also one that breaks off") {
   }
 }
 
-TEST_CASE("that a signal is passed on is not told") {
+TEST_CASE("mpirun's message about a forwarded signal is dropped") {
   MpirunMessages messages;
   CHECK(shown(messages, "mpirun: Forwarding signal 12 to job\nmpirun: x\n", 3) == "mpirun: x\n");
 }

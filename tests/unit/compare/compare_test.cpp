@@ -49,7 +49,7 @@ Outcome run(const CompareOptions& options) {
 
 }  // namespace
 
-TEST_CASE("without limits every difference is within") {
+TEST_CASE("without limits every difference passes") {
   const Pair pair;
   const Outcome outcome = run(pair.options);
   CHECK(outcome.within);
@@ -63,7 +63,7 @@ TEST_CASE("without limits every difference is within") {
              Catch::EndsWith("(share: pixels with an error over 0.01; flip: at 67 pixels per degree)\n"));
 }
 
-TEST_CASE("each limit is held or passed by itself") {
+TEST_CASE("each limit is checked by itself") {
   Pair pair;
   struct Case {
     std::optional<double> CompareOptions::*limit;
@@ -96,7 +96,7 @@ TEST_CASE("each limit is held or passed by itself") {
   CHECK_THAT(outcome.complaints, Catch::EndsWith(limit.complaint));
 }
 
-TEST_CASE("equal pictures hold any limit") {
+TEST_CASE("equal pictures pass with any limit") {
   Pair pair;
   pair.options.image = pair.options.reference;
   pair.options.max_rmse = 0;
@@ -109,7 +109,7 @@ TEST_CASE("equal pictures hold any limit") {
   CHECK_THAT(outcome.out, Catch::EndsWith("\"within\":true}\n"));
 }
 
-TEST_CASE("the difference picture is written") {
+TEST_CASE("the picture of the differences is written") {
   Pair pair;
   pair.options.difference_picture = (pair.directory.path() / "d.png").string();
   run(pair.options);
@@ -118,7 +118,7 @@ TEST_CASE("the difference picture is written") {
   CHECK(picture.at(5, 4) == Color(0, 0, 0));
 }
 
-TEST_CASE("figures that cannot be printed are an error") {
+TEST_CASE("an output stream that fails is an error") {
   const Pair pair;
   std::ostringstream out;
   std::ostringstream complaints;
@@ -126,7 +126,7 @@ TEST_CASE("figures that cannot be printed are an error") {
   CHECK_THROWS_WITH(compare(pair.options, out, complaints), "cannot write the figures");
 }
 
-TEST_CASE("what cannot be compared is explained") {
+TEST_CASE("pictures that cannot be compared are an error with the reason") {
   Pair pair;
   SECTION("sizes") {
     write_image(pair.options.image, Image(3, 2));
@@ -185,7 +185,7 @@ struct Sequences {
 
 }  // namespace
 
-TEST_CASE("sequences are told by mean, worst frame and flicker") {
+TEST_CASE("a sequence is summarised by mean, worst frame and flicker") {
   Sequences sequences;
   const Outcome outcome = run(sequences.options);
   CHECK(outcome.within);
@@ -197,7 +197,7 @@ TEST_CASE("sequences are told by mean, worst frame and flicker") {
   CHECK_THAT(outcome.out, Catch::Contains("flicker          0.0883883         0.125       2\n"));
 }
 
-TEST_CASE("the worst frame of a sequence is held against the limits") {
+TEST_CASE("the worst frame of a sequence is checked against the limits") {
   Sequences sequences;
   sequences.options.max_rmse = 0.25;
   sequences.options.max_flicker = 0.09;
@@ -215,7 +215,7 @@ TEST_CASE("the worst frame of a sequence is held against the limits") {
   CHECK_THROWS_WITH(run(sequences.options), "--max-flicker needs two frames or more");
 }
 
-TEST_CASE("sequences in JSON: a line a frame, and one for all") {
+TEST_CASE("a sequence in JSON has a line for each frame and one for all") {
   Sequences sequences;
   sequences.options.json = true;
   std::istringstream lines(run(sequences.options).out);
@@ -241,7 +241,7 @@ TEST_CASE("sequences in JSON: a line a frame, and one for all") {
   CHECK_THAT(one, Catch::Contains("\"flicker\":{\"mean\":null,\"worst\":null,\"frame\":null}"));
 }
 
-TEST_CASE("the differences of a sequence are numbered too") {
+TEST_CASE("the pictures of a sequence's differences are numbered") {
   Sequences sequences;
   sequences.options.difference_picture = (sequences.directory.path() / "d%d.png").string();
   run(sequences.options);
@@ -250,7 +250,7 @@ TEST_CASE("the differences of a sequence are numbered too") {
   CHECK_THROWS_AS(run(sequences.options), UsageError);
 }
 
-TEST_CASE("clamped, values beyond the display range are what it shows") {
+TEST_CASE("with clamping, values outside the display range are limited to it") {
   Sequences sequences;
   sequences.options.image = sequences.file('a', 1);
   sequences.options.reference = sequences.file('b', 1);
@@ -261,7 +261,7 @@ TEST_CASE("clamped, values beyond the display range are what it shows") {
   CHECK_THAT(run(sequences.options).out, Catch::EndsWith("; values clamped to 0..1)\n"));
 }
 
-TEST_CASE("sequences that cannot be compared are explained") {
+TEST_CASE("sequences that cannot be compared are an error with the reason") {
   Sequences sequences;
   SECTION("a frame that one side lacks") {
     std::filesystem::remove(sequences.file('b', 2));
@@ -295,7 +295,7 @@ TEST_CASE("sequences that cannot be compared are explained") {
   }
 }
 
-TEST_CASE("a file whose name looks like a pattern is a picture") {
+TEST_CASE("an existing file whose name looks like a pattern is a single picture") {
   Sequences sequences;
   const std::string odd = (sequences.directory.path() / "take#1.exr").string();
   write_image(odd, Image(4, 3, Color(0.5f)));

@@ -31,7 +31,7 @@ std::string nff(const SceneDescription& scene) {
 
 }  // namespace
 
-TEST_CASE("every database survives the way through NFF unchanged, to the byte") {
+TEST_CASE("every database is unchanged to the byte after writing and reading NFF") {
   for (const SpdDatabase& database : spd_databases()) {
     CAPTURE(database.name);
     const std::string canonical = nff(make_spd(database.name, 3));
@@ -41,7 +41,7 @@ TEST_CASE("every database survives the way through NFF unchanged, to the byte") 
   }
 }
 
-TEST_CASE("a database becomes a file, and the file the same file again") {
+TEST_CASE("a database converts to NFF, and that file to an equal one") {
   const Folder folder;
   convert({"spd:mount:3", folder.file("a.nff"), false, {}, {}});
   convert({folder.file("a.nff"), folder.file("b.NFF"), true, {}, {}});
@@ -50,20 +50,20 @@ TEST_CASE("a database becomes a file, and the file the same file again") {
   CHECK((read_whole_file(folder.file("b.NFF")) == expected));
 }
 
-TEST_CASE("a scene may be converted in place") {
+TEST_CASE("a scene file may be converted in place") {
   const Folder folder;
   write_whole_file(folder.file("a.nff"), "# a comment\ns 0.50 0 0 1.000\n");
   convert({folder.file("a.nff"), folder.file("a.nff"), false, {}, {}});
   CHECK(read_whole_file(folder.file("a.nff")) == "f 1 1 1 1 0 0 0 1\ns 0.5 0 0 1\n");
 }
 
-TEST_CASE("a name that ends in .pov asks for POV-Ray's language") {
+TEST_CASE("an output name that ends in .pov is written in POV-Ray's language") {
   const Folder folder;
   convert({"spd:jacks:1", folder.file("a.POV"), false, {}, {}});
   CHECK(read_whole_file(folder.file("a.POV")).find("#version 3.7;") != std::string::npos);
 }
 
-TEST_CASE("a scene that is rejected leaves the older output alone") {
+TEST_CASE("a rejected scene leaves the existing output as it was") {
   const Folder folder;
   write_whole_file(folder.file("in.nff"), "s 0 0 zero 1\n");
   write_whole_file(folder.file("out.nff"), "older");
@@ -71,7 +71,7 @@ TEST_CASE("a scene that is rejected leaves the older output alone") {
   CHECK(read_whole_file(folder.file("out.nff")) == "older");
 }
 
-TEST_CASE("formats that are not known are a matter of usage, told before anything is read") {
+TEST_CASE("an unknown format is a usage error before anything is read") {
   CHECK_THROWS_AS(convert({"missing.png", "out.nff", false, {}, {}}), UsageError);
   CHECK_THROWS_AS(convert({"missing", "out.nff", false, {}, {}}), UsageError);
   CHECK_THROWS_AS(convert({"missing.nff", "out.mov", false, {}, {}}), UsageError);
@@ -79,7 +79,7 @@ TEST_CASE("formats that are not known are a matter of usage, told before anythin
   CHECK_THROWS_AS(convert({"missing.nff", "", false, {}, {}}), UsageError);
 }
 
-TEST_CASE("scenes come from the databases or from files") {
+TEST_CASE("a scene is loaded from a database or from a file") {
   const Folder folder;
   write_whole_file(folder.file("one.nff"), "f 1 1 1 1 0 0 0 1\ns 0 0 0 1\n");
   CHECK(load_scene("spd:tree:2").scene.name == "spd:tree:2");

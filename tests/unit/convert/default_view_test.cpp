@@ -29,7 +29,7 @@ TEST_CASE("a fitted view shows every corner of the scene, upright") {
   }
 }
 
-TEST_CASE("the light stands left of the eye and above it") {
+TEST_CASE("the default light is left of the eye and above it") {
   const SceneDescription scene = make_spd("rings", 2);
   const View view = fitted_view(scene, UpAxis::kY);
   const ViewFrame frame = view_frame(view, "rings");

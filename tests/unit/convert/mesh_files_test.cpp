@@ -68,7 +68,7 @@ std::size_t gears_triangles(const SceneDescription& gears) {
 
 }  // namespace
 
-TEST_CASE("Assimp reads back the counts and bounds of every database in every format") {
+TEST_CASE("Assimp reads back the counts and bounds of every database in every mesh format") {
   const TemporaryDirectory folder;
   for (const std::string& extension : mesh_output_extensions()) {
     for (const SpdDatabase& database : spd_databases()) {
@@ -86,12 +86,12 @@ TEST_CASE("Assimp reads back the counts and bounds of every database in every fo
   }
 }
 
-TEST_CASE("concave polygons keep their area in triangles") {
+TEST_CASE("concave polygons keep their area in the triangles of a mesh") {
   const SceneDescription gears = make_spd("gears", 1);
   CHECK(write_mesh(gears, ".ply", "mesh", {}).triangles == gears_triangles(gears));
 }
 
-TEST_CASE("what comes back through a mesh is the tessellated scene") {
+TEST_CASE("a scene read back from a mesh file is the tessellated scene") {
   const TemporaryDirectory folder;
   SceneDescription scene = make_spd("mount", 3);
   scene.lights[0].color = Rgb(1, 0.5, 0);
@@ -109,7 +109,7 @@ TEST_CASE("what comes back through a mesh is the tessellated scene") {
   }
 }
 
-TEST_CASE("materials, where the format has them") {
+TEST_CASE("materials are kept by the mesh formats that have them") {
   const TemporaryDirectory folder;
   const SceneDescription scene = make_spd("mount", 2);
   const auto glass = [&](const std::string& extension) {
@@ -134,7 +134,7 @@ TEST_CASE("materials, where the format has them") {
   }
 }
 
-TEST_CASE("camera and lights through Collada") {
+TEST_CASE("camera and lights are kept by Collada") {
   const TemporaryDirectory folder;
   SceneDescription scene = make_spd("tree", 1);
   scene.view->width = 640;
@@ -161,7 +161,7 @@ TEST_CASE("camera and lights through Collada") {
   CHECK(*read.scene.lights[1].color == Rgb(1, 0.5, 0));
 }
 
-TEST_CASE("an OBJ written by hand: a quadrilateral, a mirror, what is no polygon") {
+TEST_CASE("an OBJ with a quadrilateral, a mirror and a line is read without the line") {
   const TemporaryDirectory folder;
   put(folder, "a.mtl", "newmtl red\nKd 0.5 0 0\nKs 0.25 0.25 0.25\nNs 40\nd 1\n");
   put(folder, "a.obj",
@@ -176,7 +176,7 @@ TEST_CASE("an OBJ written by hand: a quadrilateral, a mirror, what is no polygon
   CHECK(read.scene.lights.empty());
 }
 
-TEST_CASE("meshes that cannot be read are told with their names") {
+TEST_CASE("a mesh that cannot be read is an error with the file's name") {
   const TemporaryDirectory folder;
   const std::string missing = (folder.path() / "none.obj").string();
   CHECK_THROWS_WITH(read_mesh(missing), "cannot read '" + missing + "': No such file or directory");
@@ -186,13 +186,13 @@ TEST_CASE("meshes that cannot be read are told with their names") {
   CHECK_THROWS_AS(read_mesh((folder.path() / "points.obj").string()), InputError);
 }
 
-TEST_CASE("extensions that are read") {
+TEST_CASE("mesh extensions are recognised, and .nff is not one of them") {
   for (const char* extension : {".obj", ".ply", ".stl", ".gltf", ".glb", ".dae"})
     CHECK(is_mesh_extension(extension));
   for (const char* extension : {".nff", ".png", "", "."}) CHECK_FALSE(is_mesh_extension(extension));
 }
 
-TEST_CASE("nothing to write is an error") {
+TEST_CASE("writing a mesh without triangles is an error") {
   SceneDescription scene;
   scene.name = "a.nff";
   scene.materials = {{}};

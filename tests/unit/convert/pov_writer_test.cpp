@@ -35,7 +35,7 @@ SceneDescription two_materials() {
 
 }  // namespace
 
-TEST_CASE("POV-Ray's text of a whole scene") {
+TEST_CASE("a whole scene is written in POV-Ray's language") {
   SceneDescription scene = two_materials();
   scene.background = Rgb(0.078, 0.361, 0.753);
   scene.lights = {
@@ -100,7 +100,8 @@ TEST_CASE(
   CHECK(objects(scene) == "sphere { <0, 0, 0>, 10240 texture { Material_1 } }\n");
 }
 
-TEST_CASE("polygons of one material in a row are one mesh, glass is one body with one interior") {
+TEST_CASE(
+    "for POV-Ray adjacent polygons of one material are one mesh, and glass is one body with an interior") {
   SceneDescription scene = two_materials();
   const Vec3d triangle[] = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
   add_polygon(scene, triangle, 1);
@@ -116,7 +117,7 @@ mesh {
 )");
 }
 
-TEST_CASE("a concave polygon is cut into triangles that do not cover its notch") {
+TEST_CASE("for POV-Ray a concave polygon becomes triangles that leave its notch open") {
   SceneDescription scene = two_materials();
   const Vec3d arrow[] = {{0, 0, 0}, {4, 0, 0}, {1, 1, 0}, {0, 4, 0}};
   add_polygon(scene, arrow, 0);
@@ -125,7 +126,7 @@ TEST_CASE("a concave polygon is cut into triangles that do not cover its notch")
   CHECK(text.find("<1, 1, 0>, <0, 4, 0>") != std::string::npos);
 }
 
-TEST_CASE("a surface that lets all light through keeps a share to be lit") {
+TEST_CASE("for POV-Ray a fully transparent surface keeps a share that is lit") {
   SceneDescription scene = two_materials();
   scene.materials[1].transmittance = 1;
   scene.materials[1].diffuse = 0.5;
@@ -134,7 +135,7 @@ TEST_CASE("a surface that lets all light through keeps a share to be lit") {
   CHECK(text.find("diffuse 512 ") != std::string::npos);
 }
 
-TEST_CASE("what has no extent is left out, what is one-sided is told") {
+TEST_CASE("for POV-Ray degenerate objects are left out and one-sided ones are counted") {
   SceneDescription scene = two_materials();
   const Vec3d line[] = {{0, 0, 0}, {4, 0, 0}, {8, 0, 0}};
   add_sphere(scene, {{0, 0, 0}, 0, 0, {}});
@@ -148,7 +149,7 @@ TEST_CASE("what has no extent is left out, what is one-sided is told") {
   CHECK(objects(scene) == "sphere { <0, 0, 0>, 2 texture { Material_1 } }\n");
 }
 
-TEST_CASE("a scene without a view, or with one that shows nothing, is refused") {
+TEST_CASE("a scene without a view or with a degenerate one cannot be written for POV-Ray") {
   SceneDescription scene = two_materials();
   scene.name = "a.nff";
   scene.view->up = {0, 0, 1};

@@ -61,7 +61,8 @@ SceneDescription one_of_each() {
 
 }  // namespace
 
-TEST_CASE("a sphere is six faces of N x N x 2 triangles, its vertices on the surface, looking outwards") {
+TEST_CASE(
+    "a tessellated sphere has six faces of N x N x 2 triangles, vertices on the surface, normals outwards") {
   for (const int n : {1, 2, 3, 6}) {
     CAPTURE(n);
     const Surface surface = tessellate(Sphere{{1, 2, 3}, 2, 0, {}}, n);
@@ -76,7 +77,7 @@ TEST_CASE("a sphere is six faces of N x N x 2 triangles, its vertices on the sur
   CHECK(area(tessellate(Sphere{{0, 0, 0}, 1, 0, {}}, 100)) == Approx(4 * M_PI).epsilon(1e-4));
 }
 
-TEST_CASE("a cone is a ring of 4N x 2 triangles with the true slanted normal, without caps") {
+TEST_CASE("a tessellated cone is a ring of 4N x 2 triangles with slanted normals and without caps") {
   const Cone cone{{1, 1, 1}, 2, {1, 1, 4}, 0.5, 0, {}};
   const Surface surface = tessellate(cone, 3);
   CHECK(surface.triangles.size() == 24);
@@ -90,13 +91,13 @@ TEST_CASE("a cone is a ring of 4N x 2 triangles with the true slanted normal, wi
   CHECK(area(tessellate(cone, 200)) == Approx(M_PI * 2.5 * slant).epsilon(1e-4));
 }
 
-TEST_CASE("the tip of a cone takes no triangles of no area") {
+TEST_CASE("the tip of a tessellated cone has no triangles without area") {
   CHECK(tessellate(Cone{{0, 0, 0}, 1, {0, 1, 0}, 0, 0, {}}, 2).triangles.size() == 8);
   CHECK(tessellate(Cone{{0, 0, 0}, 0, {0, 1, 0}, 1, 0, {}}, 2).triangles.size() == 8);
   check_orientation(tessellate(Cone{{0, 0, 0}, 1, {1, 1, 1}, 0, 0, {}}, 2));
 }
 
-TEST_CASE("what is seen from the inside only looks inwards") {
+TEST_CASE("a surface visible from the inside only has normals inwards") {
   const Surface sphere = tessellate(Sphere{{0, 0, 0}, -2, 0, {}}, 2);
   check_orientation(sphere);
   CHECK(sphere.vertices[0].normal.dot(sphere.vertices[0].position) < 0);
@@ -105,7 +106,7 @@ TEST_CASE("what is seen from the inside only looks inwards") {
   CHECK(cone.vertices[0].normal.dot(cone.vertices[0].position) < 0);
 }
 
-TEST_CASE("the chord error is held, by the least N that holds it for odd N") {
+TEST_CASE("the chord error holds with the least N, for odd N") {
   for (const double error : {0.9, 0.3, 0.1, 0.03, 0.01, 0.001}) {
     CAPTURE(error);
     const Fineness fineness{1, error};
@@ -127,7 +128,7 @@ TEST_CASE("the chord error is held, by the least N that holds it for odd N") {
   }
 }
 
-TEST_CASE("each object is cut as finely as its own size needs") {
+TEST_CASE("with a chord error each object is divided as its own size needs") {
   const Fineness fineness{1, 0.001};
   CHECK(divisions(Sphere{{0, 0, 0}, 0.0005, 0, {}}, fineness) == 1);
   CHECK(divisions(Sphere{{0, 0, 0}, 100, 0, {}}, fineness) >
@@ -137,7 +138,7 @@ TEST_CASE("each object is cut as finely as its own size needs") {
   CHECK(divisions(Cone{{0, 0, 0}, 1, {0, 0, 0}, 1, 0, {}}, fineness) == 0);
 }
 
-TEST_CASE("a tessellated scene has patches for its spheres and cones, in their places and materials") {
+TEST_CASE("a tessellated scene has patches in place of spheres and cones, with their materials") {
   const SceneDescription scene = one_of_each();
   const SceneDescription result = tessellated(scene, {2, {}});
   CHECK(triangle_count(scene, {2, {}}) == 48 + 16 + 8);
@@ -150,12 +151,12 @@ TEST_CASE("a tessellated scene has patches for its spheres and cones, in their p
   CHECK(result.patches[48].material == 1);
 }
 
-TEST_CASE("SPD's own numbers: tree of size 4, cut in 6") {
+TEST_CASE("the tree of size 4 with N = 6 has the triangle count that SPD gives") {
   const SceneDescription scene = make_spd("tree", 4);  // 31 spheres, 31 cones, a polygon
   CHECK(tessellated(scene, {6, {}}).primitive_count() == 31 * (12 * 36 + 8 * 6) + 1);
 }
 
-TEST_CASE("more triangles than memory has room for are refused") {
+TEST_CASE("a scene of more than the largest number of triangles is refused") {
   SceneDescription scene = one_of_each();
   for (int i = 0; i < 2; ++i) add_sphere(scene, {{0, 0, 0}, 1, 0, {}});
   scene.name = "a.nff";

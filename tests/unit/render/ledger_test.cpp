@@ -41,7 +41,7 @@ std::vector<Measurement> one(Measurement measurement) {
 
 }  // namespace
 
-TEST_CASE("lateness by percentiles, nearest rank") {
+TEST_CASE("lateness is summarised by nearest-rank percentiles") {
   RunTotals totals;
   for (int i = 100; i >= 1; --i) totals.add(summarize(frame_with(i - 98)));  // -97 ... 2: 98 of them on time
   const Json summary = summary_record(totals, true);
@@ -53,7 +53,7 @@ TEST_CASE("lateness by percentiles, nearest rank") {
   CHECK(summary["late_ms"]["max"] == 2);
 }
 
-TEST_CASE("a frame's record names the ranks that were late") {
+TEST_CASE("a frame's record lists the ranks that were late") {
   FinishedFrame frame = frame_with(3);
   CHECK(frame_record(summarize(frame))["late_ranks"] == Json::array());
   frame.late_ranks = {1, 4};
@@ -67,7 +67,7 @@ TEST_CASE("a frame's record names the ranks that were late") {
   CHECK(summary_record(totals, true)["with_late_ranks"] == 1);
 }
 
-TEST_CASE("percentiles of few frames are frames that were") {
+TEST_CASE("percentiles of few frames are values of frames that exist") {
   RunTotals totals;
   CHECK(summary_record(totals, true)["late_ms"]["p99"] == 0);  // of none
   totals.add(summarize(frame_with(-5)));
@@ -77,7 +77,7 @@ TEST_CASE("percentiles of few frames are frames that were") {
   CHECK(summary_record(totals, true)["late_ms"]["p95"] == 3);
 }
 
-TEST_CASE("without a rate there is no being late") {
+TEST_CASE("without a frame rate the summary has no lateness") {
   RunTotals totals;
   totals.add(summarize(frame_with(0)));
   const Json summary = summary_record(totals, false);
@@ -85,7 +85,7 @@ TEST_CASE("without a rate there is no being late") {
   CHECK_FALSE(summary.contains("on_time"));
 }
 
-TEST_CASE("refinement is the mean and the standard deviation over ranks that have triangles") {
+TEST_CASE("refinement is the mean and standard deviation over the ranks that have triangles") {
   FinishedFrame frame;
   frame.ranks = {report_with(2, 10), report_with(4, 1), report_with(99, 0), report_with(6, 3)};
   const Json record = frame_record(summarize(frame));
@@ -97,7 +97,7 @@ TEST_CASE("refinement is the mean and the standard deviation over ranks that hav
   CHECK(frame_record(summarize(frame))["refinement_dev"].get<double>() == Approx(0).margin(1e-8));
 }
 
-TEST_CASE("a frame's figures are sums over its ranks") {
+TEST_CASE("a frame's counts and times are sums over its ranks") {
   FinishedFrame frame;
   frame.order.number = 7, frame.order.cut = true, frame.order.deadline_s = 2;
   frame.ranks.resize(2);
@@ -117,7 +117,7 @@ TEST_CASE("a frame's figures are sums over its ranks") {
   CHECK((record["bytes"]["samples"] == 1280 && record["bytes"]["pixels"] == 2400));
 }
 
-TEST_CASE("records keep their order while errors are still being measured") {
+TEST_CASE("frame records keep their order while measurements are pending") {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "ledger.ndjson";
   Ledger ledger(path.string(), false);
@@ -133,7 +133,7 @@ TEST_CASE("records keep their order while errors are still being measured") {
   CHECK((records[1]["frame"] == 2 && !records[1].contains("rmse")));
 }
 
-TEST_CASE("few frames may wait for their error") {
+TEST_CASE("only a few frames may wait for the error to a reference") {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "ledger.ndjson";
   Ledger ledger(path.string(), false);
@@ -145,7 +145,7 @@ TEST_CASE("few frames may wait for their error") {
   CHECK(records_of(path).size() == Ledger::kMostPictures + 2);
 }
 
-TEST_CASE("any number of frames may wait for what may lag, and errors are taken meanwhile") {
+TEST_CASE("any number of frames may wait for measurements that may lag") {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "ledger.ndjson";
   Ledger ledger(path.string(), false);
@@ -166,7 +166,7 @@ TEST_CASE("any number of frames may wait for what may lag, and errors are taken 
   CHECK((records[19]["frame"] == 19 && records[19]["distance_to_serial"] == 0.1));
 }
 
-TEST_CASE("an error that cannot be measured is left out") {
+TEST_CASE("a measurement that fails is left out of its record") {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "ledger.ndjson";
   Ledger ledger(path.string(), false);
@@ -180,7 +180,7 @@ TEST_CASE("an error that cannot be measured is left out") {
   CHECK(records[1]["rmse"] == 0.5);
 }
 
-TEST_CASE("a ledger starts anew or goes on") {
+TEST_CASE("a ledger is replaced, or continued when a run is resumed") {
   const TemporaryDirectory directory;
   const std::string path = (directory.path() / "ledger.ndjson").string();
   Ledger(path, false).write({{"run", 1}});
@@ -190,7 +190,7 @@ TEST_CASE("a ledger starts anew or goes on") {
   CHECK(records_of(path).size() == 1);
 }
 
-TEST_CASE("a ledger that cannot be written is an error at once") {
+TEST_CASE("a ledger that cannot be opened is an error at once") {
   const TemporaryDirectory directory;
   const std::string file = (directory.path() / "file").string();
   std::ofstream(file) << "a file is no directory";

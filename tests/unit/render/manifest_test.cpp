@@ -49,7 +49,7 @@ struct FinishedRun {
 
 }  // namespace
 
-TEST_CASE("the manifest stands beside the frames") {
+TEST_CASE("the manifest's path is derived from the frames' pattern") {
   const auto path = [](const char* pattern) {
     return manifest_path(parse_frame_pattern(pattern, FrameCount::kOne));
   };
@@ -58,7 +58,7 @@ TEST_CASE("the manifest stands beside the frames") {
   CHECK(path("out/a%db.png") == "out/amanifest.ndjson");
 }
 
-TEST_CASE("a run goes on after the frames that are finished") {
+TEST_CASE("a resumed run knows the frames that the manifest lists as finished") {
   const FinishedRun run;
   CHECK(run.resumed() == std::set<int>{1, 2, 3});
   append(run.picture(7), "x");
@@ -66,13 +66,13 @@ TEST_CASE("a run goes on after the frames that are finished") {
   CHECK(run.resumed() == std::set<int>{1, 2, 3, 7});
 }
 
-TEST_CASE("a frame whose picture is gone is not finished") {
+TEST_CASE("a frame whose picture was deleted is not finished") {
   const FinishedRun run;
   fs::remove(run.picture(2));
   CHECK(run.resumed() == std::set<int>{1, 3});
 }
 
-TEST_CASE("a frame is finished when it was written under every name that is asked for now") {
+TEST_CASE("a frame is finished when it was written under every output that is wanted now") {
   const FinishedRun run;
   Manifest manifest(run.path, "key", true);
   std::vector<FramePattern> both = run.outputs();
@@ -87,7 +87,7 @@ TEST_CASE("a frame is finished when it was written under every name that is aske
   CHECK_FALSE(later.has(2, both));
 }
 
-TEST_CASE("an EXR is finished with the layers that it holds") {
+TEST_CASE("an EXR is finished only when it holds all layers that are wanted now") {
   const FinishedRun run;
   const fs::path exr = run.directory.path() / "1.exr";
   append(exr, "x");
@@ -100,7 +100,7 @@ TEST_CASE("an EXR is finished with the layers that it holds") {
   CHECK(later.has(1, run.outputs(), {"depth"}));
 }
 
-TEST_CASE("a line that a dying run left half-written is no line, and harms none after it") {
+TEST_CASE("an incomplete line of a manifest is skipped, and lines after it are read") {
   const FinishedRun run;
   append(run.path, R"({"record":"frame","frame":4,"fi)");
   append(run.picture(5), "x");
@@ -112,13 +112,13 @@ TEST_CASE("a line that a dying run left half-written is no line, and harms none 
   CHECK(run.resumed() == std::set<int>{1, 2, 3, 5});
 }
 
-TEST_CASE("another scene or other options cannot be resumed") {
+TEST_CASE("a manifest of another scene or other options cannot be resumed") {
   const FinishedRun run;
   CHECK_THROWS_AS(Manifest(run.path, "other", true), UsageError);
   CHECK(run.resumed().size() == 3);  // nothing was lost by trying
 }
 
-TEST_CASE("a manifest that is empty or whose first line is torn is of another run") {
+TEST_CASE("a manifest that is empty or lacks its first line cannot be resumed") {
   const FinishedRun run;
   for (const char* text :
        {"", "{\"record\":\"ru", "\n\n", "[1, 2]\n", "{\"record\":\"frame\",\"frame\":1}\n"}) {
@@ -128,19 +128,19 @@ TEST_CASE("a manifest that is empty or whose first line is torn is of another ru
   }
 }
 
-TEST_CASE("a manifest with lines that are JSON but no records does not end the program") {
+TEST_CASE("lines of a manifest that are JSON but not records are skipped") {
   const FinishedRun run;
   append(run.path, "17\n{\"record\":\"frame\"}\n{\"record\":\"frame\",\"frame\":\"x\",\"files\":3}\n");
   CHECK(run.resumed() == std::set<int>{1, 2, 3});
 }
 
-TEST_CASE("without --resume a manifest starts anew") {
+TEST_CASE("without --resume the manifest is replaced") {
   const FinishedRun run;
   CHECK(run.finished(Manifest(run.path, "other", false)).empty());
   CHECK(text_of(run.path) == "{\"record\":\"run\",\"key\":\"other\"}\n");
 }
 
-TEST_CASE("resuming where nothing was begun is a new run") {
+TEST_CASE("--resume without a manifest begins a new run") {
   const TemporaryDirectory directory;
   const fs::path path = directory.path() / "manifest.ndjson";
   Manifest(path, "key", true);

@@ -49,14 +49,14 @@ const std::string kNoLight =
 
 }  // namespace
 
-TEST_CASE("what can be seen is rendered without a word") {
+TEST_CASE("preflight accepts a scene with visible objects without a warning") {
   CHECK_THAT(outcome(kLit + kBall), Equals(""));
   CHECK_THAT(outcome(kLit + "s 1.8 -1.3 0 0.1"), Equals(""));  // in a corner, five pixels wide
   CHECK_THAT(outcome(kLit + "p 3 -1e3 -1.85 0 1e3 -1.85 0 1e3 -9 0"),
              Equals(""));  // below, three pixels high
 }
 
-TEST_CASE("what lies elsewhere is not seen") {
+TEST_CASE("preflight refuses a scene whose objects lie behind the eye or outside the view") {
   CHECK_THAT(outcome(kLit + "s 0 0 7 1\nc 1 1 6 1 0 0 9 0\n"),
              Equals(nothing("all objects lie behind the eye")));
   CHECK_THAT(outcome(kLit + "s 9 0 0 1\ns 0 0 7 1\n"), Equals(nothing("all objects lie outside the view")));
@@ -66,7 +66,7 @@ TEST_CASE("what lies elsewhere is not seen") {
   CHECK_THAT(outcome(kLit + "s 9 0 0 1\ns 0 0 0 1"), Equals(""));
 }
 
-TEST_CASE("what no ray meets is not seen") {
+TEST_CASE("preflight refuses a scene whose objects no ray meets") {
   CHECK_THAT(outcome(kLit + "s 0 0 0 1e-6"), Equals(nothing(kTooSmall)));
   CHECK_THAT(outcome(kLit + "s 0 0 0 -1"), Equals(""));          // a far wall seen through the near one
   RenderPlan plan = plan_of(kLit + "p 3 -1 -1 0 0 1 0 1 -1 0");  // its back
@@ -75,7 +75,7 @@ TEST_CASE("what no ray meets is not seen") {
   CHECK_THAT(outcome(plan), Equals(nothing(kTooSmall)));
 }
 
-TEST_CASE("what has the background's colour is not seen") {
+TEST_CASE("preflight refuses a scene whose objects have the background's colour") {
   const std::string black = "f 0 0 0 1 0 0 0 1\n";
   const std::string same = "what is in view has the colour of the background";
   CHECK_THAT(outcome(kView + black + kBall), Equals(nothing(same + " (no light and no background)")));
@@ -84,18 +84,18 @@ TEST_CASE("what has the background's colour is not seen") {
   CHECK_THAT(outcome(kView + "b 0 0 1\n" + black + kBall), Equals(kNoLight));
 }
 
-TEST_CASE("a scene without light shows in ambient light, and that is told") {
+TEST_CASE("preflight warns of a scene without a light") {
   CHECK_THAT(outcome(kView + "f 1 1 1 1 0 0 0 1\n" + kBall), Equals(kNoLight));
 }
 
-TEST_CASE("a picture of one colour is told of") {
+TEST_CASE("preflight warns of a picture of one colour") {
   CHECK_THAT(outcome(kLit + "s 0 0 0 6"), Equals(kOneColour));  // the light is outside
   CHECK_THAT(outcome(kLit + "s 0 0 0 6\ns 1.8 -1.3 0 0.1"),
              Equals(kOneColour));  // and in the dark is all alike
   CHECK_THAT(outcome(kLit + "s 0 0 0 6\nf 0 0 0 1 0 0 0 1\ns 1.8 -1.3 0 0.1"), Equals(""));
 }
 
-TEST_CASE("a sequence needs one frame that shows something") {
+TEST_CASE("preflight accepts a sequence when one of its frames shows something") {
   RenderPlan plan = plan_of(kLit + kBall);
   View away = plan.scene.view.value();
   away.at = {0, 0, 9};
@@ -106,7 +106,7 @@ TEST_CASE("a sequence needs one frame that shows something") {
   CHECK_THAT(outcome(plan), Equals(""));
 }
 
-TEST_CASE("colours that are no numbers are judged, too") {
+TEST_CASE("preflight accepts colours that are not finite") {
   RenderPlan plan = plan_of(kLit + kBall);
   plan.scene.materials[0].color = Rgb(1e308, -1e308, 0) * 1e10;
   CHECK_THAT(outcome(plan), !Catch::Contains("error"));

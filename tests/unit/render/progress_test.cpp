@@ -11,7 +11,7 @@ Pace::Time at(double seconds) {
 
 }  // namespace
 
-TEST_CASE("the pace is that of the frames after the first") {
+TEST_CASE("the pace is the mean rate of the frames after the first") {
   Pace pace(at(10));
   CHECK(pace.frames_per_second() == 0);
   CHECK(pace.seconds_for(5) == 0);
@@ -26,7 +26,7 @@ TEST_CASE("the pace is that of the frames after the first") {
   CHECK(pace.seconds_for(0) == 0);
 }
 
-TEST_CASE("frames that come at once have no pace") {
+TEST_CASE("frames that come at the same time have no pace") {
   Pace pace(at(1));
   pace.frame(at(1));
   pace.frame(at(1));

@@ -26,14 +26,14 @@ RenderOptions parse(std::vector<std::string> words) {
 
 }  // namespace
 
-TEST_CASE("mpirun's -np is one option, wherever it stands") {
+TEST_CASE("mpirun's -np is accepted anywhere on the command line") {
   CHECK(parse({"-np", "32", "spd:tree"}).ranks == 32);
   CHECK(parse({"spd:tree", "a.anim", "-np", "3", "--fps", "4"}).ranks == 3);
   CHECK(parse({"spd:tree", "--np", "3"}).ranks == 3);
   CHECK(parse({"spd:tree"}).ranks == 1);
 }
 
-TEST_CASE("scene and script keep their places among the options") {
+TEST_CASE("scene and script may stand among the options, in their order") {
   const RenderOptions options = parse({"-s", "8x8", "spd:tree", "--cast", "paper", "a.anim", "-o", "%d.png"});
   CHECK((options.input == "spd:tree" && options.script == "a.anim"));
   REQUIRE(options.size);
@@ -41,14 +41,14 @@ TEST_CASE("scene and script keep their places among the options") {
   CHECK(options.cast == CastChoice::kPaper);
 }
 
-TEST_CASE("an output may be given twice and takes one word each time") {
+TEST_CASE("--output may be given twice and takes one word each time") {
   const RenderOptions options = parse({"-o", "%d.png", "spd:tree", "-o", "%d.exr"});
   REQUIRE(options.outputs.size() == 2);
   CHECK((options.outputs[0].text == "%d.png" && options.outputs[1].text == "%d.exr"));
   CHECK(options.input == "spd:tree");
 }
 
-TEST_CASE("numbers outside their range and words that are none are refused") {
+TEST_CASE("numbers outside their range and unknown words are refused") {
   for (const auto& [option, value] : std::vector<std::pair<std::string, std::string>>{{"-np", "0"},
                                                                                       {"-np", "two"},
                                                                                       {"--fps", "-1"},

@@ -52,7 +52,7 @@ RenderOptions scripted(const Files& files) {
 
 }  // namespace
 
-TEST_CASE("a still has the scene's view and ends at the still's quality") {
+TEST_CASE("a still has the scene's view and ends at the quality for stills") {
   const RenderPlan plan = plan_render(options_for("spd:tree:1"));
   REQUIRE(plan.frames.size() == 1);
   CHECK((plan.frames[0].number == 1 && !plan.frames[0].cut));
@@ -65,7 +65,7 @@ TEST_CASE("a still has the scene's view and ends at the still's quality") {
   CHECK(file_name(plan.output.pictures[0], 1) == "frame_0001.png");
 }
 
-TEST_CASE("samples come to the master only for what is made of them") {
+TEST_CASE("samples are sent to the master only for layers and reports made of them") {
   RenderOptions options = options_for("spd:tree:1");
   CHECK_FALSE(plan_render(options).settings.report_samples);
   options.layers = {Layer::kDepth, Layer::kRegions, Layer::kNormal, Layer::kId};
@@ -84,7 +84,7 @@ TEST_CASE("weights are learned unless the paper's are asked for") {
   CHECK_FALSE(plan_render(options).settings.learned_weights);
 }
 
-TEST_CASE("the layers' pictures stand beside the PNGs, not beside the EXRs") {
+TEST_CASE("layers become pictures beside PNG outputs, and none beside EXR outputs") {
   RenderOptions options = options_for("spd:tree:1");
   options.outputs = {pattern("a_%04d.exr"), pattern("b_%04d.png")};
   options.layers = {Layer::kAge, Layer::kId};
@@ -94,7 +94,7 @@ TEST_CASE("the layers' pictures stand beside the PNGs, not beside the EXRs") {
   CHECK(names == std::vector<std::string>{"a_0002.exr", "b_0002.png", "b_0002.age.png", "b_0002.id.png"});
 }
 
-TEST_CASE("size: the options' before the script's before the scene's") {
+TEST_CASE("the size of the options precedes the script's, and that the scene's") {
   const Files files;
   RenderOptions options = scripted(files);
   CHECK(plan_render(options).settings.width == 64);
@@ -104,7 +104,7 @@ TEST_CASE("size: the options' before the script's before the scene's") {
   CHECK(plan_render(options).frames[3].view.height == 100);
 }
 
-TEST_CASE("rate: the options' before the script's, and 0 turns it off") {
+TEST_CASE("the frame rate of the options precedes the script's, and 0 turns it off") {
   const Files files;
   RenderOptions options = scripted(files);
   CHECK(plan_render(options).settings.frames_per_second == 4);
@@ -117,7 +117,7 @@ TEST_CASE("rate: the options' before the script's, and 0 turns it off") {
   CHECK(plan_render(options).settings.stop.quality == kStillQuality);
 }
 
-TEST_CASE("a stop rule that is given replaces the still's quality") {
+TEST_CASE("a stop rule that is given replaces the quality for stills") {
   RenderOptions options = options_for("spd:tree:1");
   options.samples = 500;
   CHECK(plan_render(options).settings.stop.samples == 500);
@@ -126,7 +126,7 @@ TEST_CASE("a stop rule that is given replaces the still's quality") {
   CHECK(plan_render(options).settings.stop.quality == 0.5);
 }
 
-TEST_CASE("frames: all, a range, or one, and cuts stay where they are") {
+TEST_CASE("all frames, a range or one are planned, and camera cuts keep their frames") {
   const Files files;
   RenderOptions options = scripted(files);
   RenderPlan plan = plan_render(options);
@@ -145,7 +145,7 @@ TEST_CASE("frames: all, a range, or one, and cuts stay where they are") {
   CHECK(plan_render(options).frames.size() == 1);
 }
 
-TEST_CASE("a script may name its scene, relative to itself") {
+TEST_CASE("a script may name its scene, relative to its own directory") {
   const Files files;
   files.add("ball.nff",
             "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 30\nhither 1\nresolution 8 8\nf 1 1 1 1 0 0 0 0\n"
@@ -161,7 +161,7 @@ TEST_CASE("a script may name its scene, relative to itself") {
                     Contains("names no scene"));
 }
 
-TEST_CASE("what cannot be meant is a usage error that says what is wrong") {
+TEST_CASE("options that contradict each other are usage errors that say why") {
   const Files files;
   const auto refuse = [&](const std::function<void(RenderOptions&)>& change, const std::string& message) {
     RenderOptions options = scripted(files);
@@ -180,7 +180,7 @@ TEST_CASE("what cannot be meant is a usage error that says what is wrong") {
          "--compare-serial tells the ledger: it needs --stats");
 }
 
-TEST_CASE("what is wrong with a camera is told with its place in the script") {
+TEST_CASE("a degenerate camera is reported with its place in the script") {
   const Files files;
   RenderOptions options = scripted(files);
   options.script =
