@@ -105,7 +105,7 @@ TEST_CASE("casting: where it does not pay it costs a few samples, not all") {
   CHECK(by_choice < 0.05 * of_all);
 }
 
-TEST_CASE("casting: ranks measure what samples cost in real time, and on no other clock") {
+TEST_CASE("casting: ranks measure what samples cost in real time, and on no other clock", "[realtime]") {
   for (const ClockKind clock : {ClockKind::kWall, ClockKind::kWork}) {
     SessionSettings settings = casting_settings(CastChoice::kAuto);
     settings.clock = clock;

@@ -127,7 +127,8 @@ TEST_CASE("handover: a repartition that does not keep samples loses them") {
   CHECK(missing_from(points_of(run.frames[4]), points_of(run.frames[0])) > 100);
 }
 
-TEST_CASE("handover: in real time no sample is lost whatever the order in which messages arrive") {
+TEST_CASE("handover: in real time no sample is lost whatever the order in which messages arrive",
+          "[realtime]") {
   constexpr int kFrames = 6;
   const std::vector<Conditions> all_conditions = {{.slow_at_random = true, .arrive_at_random = true},
                                                   {.bundle_delay_s = 0.003}};

@@ -223,7 +223,7 @@ TEST_CASE("session: the ranks' reports add up to the rays that were traced") {
   }
 }
 
-TEST_CASE("session: a sequence in real time delivers every frame") {
+TEST_CASE("session: a sequence in real time delivers every frame", "[realtime]") {
   SessionSettings settings = work_settings();
   settings.clock = ClockKind::kWall;
   settings.frames_per_second = 10;
@@ -238,7 +238,8 @@ TEST_CASE("session: a sequence in real time delivers every frame") {
 
 TEST_CASE(
     "session: balancing takes CPU time in real time, none without balancing, and has no price in work "
-    "units") {
+    "units",
+    "[realtime]") {
   const auto balancing_ms = [](ClockKind clock, BalanceMode mode) {
     SessionSettings settings = work_settings();
     settings.clock = clock;
@@ -257,7 +258,7 @@ TEST_CASE(
   CHECK(balancing_ms(ClockKind::kWork, BalanceMode::kLocal) == 0);
 }
 
-TEST_CASE("session: a rank that stands still is reported late, and delays no frame") {
+TEST_CASE("session: a rank that stands still is reported late, and delays no frame", "[realtime]") {
   SessionSettings settings = work_settings();
   settings.clock = ClockKind::kWall;
   settings.frames_per_second = 10;
@@ -281,7 +282,8 @@ TEST_CASE("session: a rank that stands still is reported late, and delays no fra
   }
 }
 
-TEST_CASE("session: frames without a rate end in real time, whenever the last messages arrive") {
+TEST_CASE("session: frames without a rate end in real time, whenever the last messages arrive",
+          "[realtime]") {
   // Messages say when a frame may end: none may be overlooked.
   for (int repeat = 0; repeat < 5; ++repeat) {
     const SessionSettings settings = free_settings(ClockKind::kWall, {.quality = 0.5});

@@ -34,7 +34,8 @@ double left_with(FrameClock& clock, std::uint64_t samples) {
   return 1 - clock.sampling_end_seconds();
 }
 
-TEST_CASE("wall clock: sampling leaves time for the reconstruction of as many samples as there are") {
+TEST_CASE("wall clock: sampling leaves time for the reconstruction of as many samples as there are",
+          "[realtime]") {
   const auto clock = clock_in_a_frame(0.01);
   CHECK(left_with(*clock, 500) == Approx(0.01));  // nothing is known of it yet
   left_with(*clock, 3000);
@@ -44,7 +45,7 @@ TEST_CASE("wall clock: sampling leaves time for the reconstruction of as many sa
   CHECK(left_with(*clock, 9000) == Approx(0.01 + 1.25 * per_sample * 10000));
 }
 
-TEST_CASE("wall clock: ranks that share a core leave time for each other's reconstruction") {
+TEST_CASE("wall clock: ranks that share a core leave time for each other's reconstruction", "[realtime]") {
   const auto clock = clock_in_a_frame(0, Carry::kNothing, 16);
   left_with(*clock, 3000);
   clock->end_frame(1);
@@ -53,7 +54,8 @@ TEST_CASE("wall clock: ranks that share a core leave time for each other's recon
 
 TEST_CASE(
     "wall clock: a resting picture whose reconstruction fills the frame gets no further samples, a new one "
-    "some") {
+    "some",
+    "[realtime]") {
   for (const bool rests : {true, false}) {
     const auto clock = clock_in_a_frame(0, rests ? Carry::kAccumulate : Carry::kNothing);
     left_with(*clock, 9000);
@@ -84,7 +86,7 @@ std::unique_ptr<FrameClock> clock_about_to_stop(double period_s, double stops_in
   return clock;
 }
 
-TEST_CASE("wall clock: a new picture that lost time is sampled into half of the reserve") {
+TEST_CASE("wall clock: a new picture that lost time is sampled into half of the reserve", "[realtime]") {
   constexpr double kLong = 100;  // seconds: no delay of this test's matters
   const auto clock = clock_about_to_stop(kLong, -5, 8);
   CHECK_FALSE(clock->sampling_over());
@@ -97,7 +99,8 @@ TEST_CASE("wall clock: a new picture that lost time is sampled into half of the 
   CHECK(clock_about_to_stop(kLong, -5, 0)->sampling_over());  // nobody knows yet what follows
 }
 
-TEST_CASE("wall clock: sampling is extended where the rank was not scheduled, not where it rested") {
+TEST_CASE("wall clock: sampling is extended where the rank was not scheduled, not where it rested",
+          "[realtime]") {
   for (const bool rests : {false, true}) {
     const auto clock = clock_about_to_stop(10, 0.1, 0.1);
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
@@ -110,14 +113,15 @@ TEST_CASE("wall clock: sampling is extended where the rank was not scheduled, no
   }
 }
 
-TEST_CASE("wall clock: an end of sampling that cannot be put off stays what it was") {
+TEST_CASE("wall clock: an end of sampling that cannot be put off stays what it was", "[realtime]") {
   const auto clock = clock_about_to_stop(0.8, 0.05, 0.001);
   std::this_thread::sleep_for(std::chrono::milliseconds(400));  // beyond half of the reserve, which is 0.28 s
   CHECK(clock->sampling_over());
   CHECK(clock->sampling_end_seconds() < 0.2);
 }
 
-TEST_CASE("wall clock: a new picture that has had its time ends at the deadline less the reserve") {
+TEST_CASE("wall clock: a new picture that has had its time ends at the deadline less the reserve",
+          "[realtime]") {
   constexpr double kShort = 0.2;
   const auto clock = clock_about_to_stop(kShort, 0.15, 0.001);
   const auto cpu_seconds = [] { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; };
@@ -126,7 +130,7 @@ TEST_CASE("wall clock: a new picture that has had its time ends at the deadline 
   CHECK(clock->sampling_over());
 }
 
-TEST_CASE("wall clock: the slowest of the last eight reconstructions counts") {
+TEST_CASE("wall clock: the slowest of the last eight reconstructions counts", "[realtime]") {
   const auto clock = clock_in_a_frame(0);
   const auto left_after = [&](double reconstruction_ms) {
     left_with(*clock, 9000);
