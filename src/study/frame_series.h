@@ -2,30 +2,15 @@
 // frame use them.
 #pragma once
 
-#include <array>
 #include <functional>
-#include <string_view>
 #include <vector>
 
 #include "parallel/master.h"
+#include "parallel/session_words.h"
 #include "scene/animation.h"
 #include "trace/compiled_scene.h"
 
 namespace pprt {
-
-// Indexed by BalanceMode and by CastChoice.
-inline constexpr std::array<std::string_view, 4> kBalanceWords = {"none", "local", "global", "combined"};
-inline constexpr std::array<std::string_view, 4> kCastWords = {"off", "paper", "verified", "auto"};
-
-inline constexpr std::array kBalanceModes = {BalanceMode::kNone, BalanceMode::kLocal, BalanceMode::kGlobal,
-                                             BalanceMode::kCombined};
-
-inline std::string_view to_word(BalanceMode mode) {
-  return kBalanceWords.at(static_cast<std::size_t>(mode));
-}
-inline std::string_view to_word(CastChoice cast) {
-  return kCastWords.at(static_cast<std::size_t>(cast));
-}
 
 // Returns the first `count` frames of an animation, with its camera cuts. Pictures have size x size pixels.
 std::vector<FrameRequest> frames_of(const CompiledScene& scene, const Animation& animation, int count,

@@ -2,6 +2,7 @@
 #include "cli/exit.h"
 #include "cli/option_words.h"
 #include "cli/scene_source.h"
+#include "cli/typed_options.h"
 #include "study/accuracy/accuracy_study.h"
 #include "study/counts.h"
 #include "study/paper/paper_study.h"
@@ -43,8 +44,7 @@ CLI::App& add_paper(CLI::App& app, pprt::PaperOptions& options) {
   add(command, "--frames", "N", options.frames,
       "Render the first N frames of each sequence (default: 40; quick: 6)")
       ->check(CLI::Range(5, 40));
-  auto* machine = command.add_option("--machine", options.machine, "Simulated processors and network");
-  pprt::take_one_of(*machine->capture_default_str(), {"cluster", "sp2"});
+  pprt::add_choice(command, "--machine", options.machine, "Simulated processors and network");
   add(command, "--latency", "US", options.latency_us,
       "Network latency, microseconds (default: the machine's)")
       ->check(CLI::NonNegativeNumber);
@@ -59,8 +59,7 @@ CLI::App& add_accuracy(CLI::App& app, pprt::AccuracyOptions& options) {
   CLI::App& command = *app.add_subcommand("accuracy", "Measures what a better picture costs in time");
   pprt::take_path_or(*add(command, "SCENE", "", options.inputs,
                           "FILE.nff or spd:NAME[:SIZE] (default: tree, gears, balls and tetra), and "
-                          "FILE.anim for the sequence "
-                          "at fixed rates"),
+                          "FILE.anim for the sequence at fixed rates"),
                      pprt::generated_scenes());
   add(command, "-o,--output", "DIR", options.directory, "Directory for tables, plots and index.html");
   command.add_flag("--quick", options.quick, "A trial: small pictures");

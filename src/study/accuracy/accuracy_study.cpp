@@ -86,8 +86,7 @@ class SceneStudy {
   std::string rates_setup(const char* without_script) const {
     return fmt::format(
         "{} of {} x {} pixels on {} under the work clock, which counts work instead of seconds: a second is "
-        "what a "
-        "core of this machine does in a second, measured on each scene.",
+        "what a core of this machine does in a second, measured on each scene.",
         script_ ? "The frames of " + script_->name : without_script, sequence_size(), sequence_size(),
         options_.ranks == 1 ? "one rank" : fmt::format("{} ranks", options_.ranks));
   }
@@ -95,7 +94,7 @@ class SceneStudy {
  private:
   const View& view() const { return *description_.view; }
 
-  // Of the planner's sequences: as asked for; of the others a part of it.
+  // Side of a sequence's pictures, pixels: --size for the planner, otherwise a part of it.
   int sequence_size() const {
     return options_.directory.empty() ? options_.size : options_.size / (options_.quick ? 2 : 4);
   }
@@ -163,7 +162,7 @@ void SceneStudy::measure(AccuracyResults& results) const {
                          converged.own_rmse));
   const Reference small_converged = reference(small, options_.reference_cells);
   // Other renderers run beside the curves, which CPU times allow.
-  auto foreign = std::async(std::launch::async, [&]() -> std::vector<ForeignResult> {
+  auto renderers = std::async(std::launch::async, [&]() -> std::vector<RendererCurve> {
     return {measure_povray(name_, description_, options_.size / 2),
             measure_tachyon(name_, description_, options_.size / 2)};
   });
@@ -173,7 +172,7 @@ void SceneStudy::measure(AccuracyResults& results) const {
   settings.repeats = 1;
   const std::vector<Method> methods = {progressive_method(), uniform_method()};
   results.small_curves.push_back(measure_curves(name_, small, small_converged, methods, settings));
-  append(results.foreign, foreign.get());
+  append(results.renderers, renderers.get());
   timer.done("other renderers");
   results.effects.push_back(
       measure_effects(name_, description_, large.camera, converged.image, options_.repeats));

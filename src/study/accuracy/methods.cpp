@@ -23,7 +23,7 @@ struct Size {
   int width, height;
 };
 
-// Size of the grid with so many samples per pixel.
+// Returns the size of the grid with `density` samples per pixel.
 Size grid_size(const Camera& camera, double density) {
   const auto along = [&](int pixels) {
     return std::max(2, static_cast<int>(std::lround(pixels * std::sqrt(density))));
@@ -127,7 +127,8 @@ class MeshPainter {
 
   enum class Stop : std::uint8_t { kSamples, kTime, kExhausted };
 
-  // Refines until there are so many samples, the thread's CPU time is `end_s`, or nothing is left to refine.
+  // Refines until there are `samples` samples, the thread's CPU time is `end_s`, or nothing is left to
+  // refine.
   Stop refine_until(double samples, double end_s) {
     constexpr int kSamplesPerLook = 256;  // reading the clock costs as much as a sample
     for (int i = 1; static_cast<double>(mesh_.samples().size()) < samples; ++i) {

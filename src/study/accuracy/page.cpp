@@ -130,12 +130,10 @@ void write_ratios(const std::vector<SceneCurves>& scenes, StudyOutput& output) {
   page.heading("Progressive against uniform at equal time");
   page.paragraph(
       "Error of the progressive picture over that of the uniform picture that takes the same CPU time. Both "
-      "use one "
-      "thread and the same tracing kernel. Below 1, progressive is better. Times are shares of the time of "
-      "one sample "
-      "per pixel, reconstruction included; for very small shares neither method has a picture. Each method "
-      "shows its "
-      "best picture so far. The geometric mean at a budget is over the scenes that have a picture.");
+      "use one thread and the same tracing kernel. Below 1, progressive is better. Times are shares of the "
+      "time of one sample per pixel, reconstruction included; for very small shares neither method has a "
+      "picture. Each method shows its best picture so far. The geometric mean at a budget is over the scenes "
+      "that have a picture.");
   output.add_table("ratios", ratio_table(scenes));
   for (const SceneCurves& s : scenes) {
     page.paragraph(fmt::format("{}: {} {}", s.scene, to_sentence(break_even(s, kProgressive), "Progressive"),
@@ -143,8 +141,7 @@ void write_ratios(const std::vector<SceneCurves>& scenes, StudyOutput& output) {
   }
   add_plot("ratios",
            "Medians of the repeats with their spread. The control is the uniform method again: its ratio "
-           "shows the "
-           "noise.",
+           "shows the noise.",
            scenes, output, ratio_panel);
 }
 
@@ -172,23 +169,20 @@ void write_curves(const std::vector<SceneCurves>& scenes, StudyOutput& output) {
   page.heading("Times at equal error");
   page.paragraph(
       "Time for the error that the uniform method has at each budget, over the time of the uniform method. "
-      "Below 1 the "
-      "method is faster. A dash: the method has no picture as coarse as that, or none as good.");
+      "Below 1 the method is faster. A dash: the method has no picture as coarse as that, or none as good.");
   page.table(equal_error_table(scenes));
   page.heading("What errors are measured against");
   page.paragraph(
       "Converged frames: the mean of two independent halves, each with one sample at a random place of every "
-      "cell of a "
-      "grid in every pixel. Samples are clamped to the display's range before the mean. Their own error is "
-      "half the "
-      "difference of the halves.");
+      "cell of a grid in every pixel. Samples are clamped to the display's range before the mean. Their own "
+      "error is half the difference of the halves.");
   page.table(references_table(scenes));
   output.write_table("curves", points_table(scenes));
   output.write_table("comparisons", comparisons_table(scenes));
 }
 
 // This renderer's curves, then each program's plain pictures as a line and its adaptive ones as marks.
-Panel foreign_panel(const SceneCurves& own, const std::vector<ForeignResult>& results) {
+Panel renderers_panel(const SceneCurves& own, const std::vector<RendererCurve>& results) {
   Panel panel = log_panel(own.scene, "CPU time, % of the renderer's own plain picture",
                           "RMSE against its own converged picture");
   const auto percent = [](const auto& point) { return 100 * point.share; };
@@ -197,14 +191,14 @@ Panel foreign_panel(const SceneCurves& own, const std::vector<ForeignResult>& re
     panel.curves.push_back(curve_over(method, points_of(own, method, 0), percent, &CurvePoint::rmse,
                                       CurveStyle::kLine, colour++));
   }
-  for (const ForeignResult& r : results) {
+  for (const RendererCurve& r : results) {
     if (r.scene != own.scene) continue;
     for (const bool adaptive : {false, true}) {
-      std::vector<ForeignPoint> points = r.points;
-      std::erase_if(points, [&](const ForeignPoint& p) { return p.adaptive != adaptive; });
+      std::vector<RendererPoint> points = r.points;
+      std::erase_if(points, [&](const RendererPoint& p) { return p.adaptive != adaptive; });
       if (points.empty()) continue;
       panel.curves.push_back(curve_over(r.program + (adaptive ? ", adaptive" : ""), points, percent,
-                                        &ForeignPoint::rmse,
+                                        &RendererPoint::rmse,
                                         adaptive ? CurveStyle::kMarks : CurveStyle::kMarkedLine, colour));
     }
     ++colour;
@@ -212,18 +206,16 @@ Panel foreign_panel(const SceneCurves& own, const std::vector<ForeignResult>& re
   return panel;
 }
 
-void write_foreign(const AccuracyResults& results, int size, StudyOutput& output) {
+void write_renderers(const AccuracyResults& results, int size, StudyOutput& output) {
   output.page().heading("Other renderers");
   output.page().paragraph(
       fmt::format("Each program against its own converged picture at {0} x {0} pixels. Time is a share of "
-                  "its own plain picture "
-                  "with one sample per pixel, on one thread and without reading the scene. Tachyon writes 8 "
-                  "bits per channel, "
-                  "which adds an error of 0.001.",
+                  "its own plain picture with one sample per pixel, on one thread and without reading the "
+                  "scene. Tachyon writes 8 bits per channel, which adds an error of 0.001.",
                   size));
   add_plot("renderers", "Error against time, each on its own scale.", results.small_curves, output,
-           [&](const SceneCurves& own) { return foreign_panel(own, results.foreign); });
-  output.add_table("renderers", foreign_table(results.foreign));
+           [&](const SceneCurves& own) { return renderers_panel(own, results.renderers); });
+  output.add_table("renderers", renderers_table(results.renderers));
 }
 
 void write_effects(const std::vector<SceneEffects>& scenes, StudyOutput& output) {
@@ -231,10 +223,9 @@ void write_effects(const std::vector<SceneEffects>& scenes, StudyOutput& output)
   page.heading("What effects cost, and what their absence costs");
   page.paragraph(
       "CPU time of one sample per pixel over that of the whole scene, and the error of a picture with eight "
-      "samples "
-      "per pixel against the converged frame. The first row's error is that of so few samples alone. Only "
-      "effects that "
-      "a scene calls for are simulated. The general kernel traces the same rays with code for all effects.");
+      "samples per pixel against the converged frame. The first row's error is that of so few samples alone. "
+      "Only effects that a scene calls for are simulated. The general kernel traces the same rays with code "
+      "for all effects.");
   output.add_table("effects", effects_table(scenes));
   page.paragraph("Effects that the scenes call for:");
   for (const SceneEffects& scene : scenes) page.listing(scene.census);
@@ -243,9 +234,9 @@ void write_effects(const std::vector<SceneEffects>& scenes, StudyOutput& output)
 Panel rates_panel(const std::string& scene, const std::vector<RatePoint>& all, const char* label,
                   double RatePoint::*value) {
   Panel panel{scene, {"frames per second", 2}, {label, 10}, {}, PanelKind::kCurves};
-  for (const std::string_view word : kCastWords) {
+  for (const auto& [cast, word, help] : kWords<CastChoice>) {
     std::vector<RatePoint> points = all;
-    std::erase_if(points, [&](const RatePoint& p) { return p.scene != scene || to_word(p.cast) != word; });
+    std::erase_if(points, [&, way = cast](const RatePoint& p) { return p.scene != scene || p.cast != way; });
     if (points.empty()) continue;
     panel.curves.push_back(
         curve_over(fmt::format("cast {}", word), points, &RatePoint::fps, value, CurveStyle::kMarkedLine));
@@ -271,12 +262,9 @@ void write_rates(const AccuracyResults& results, const std::string& setup, Study
   output.page().heading("Deadlines in real time");
   output.page().paragraph(
       "The same sequences in real time, repeated for at least two seconds: the share of frames that met "
-      "their "
-      "deadline, and their lateness (below 0: early). Errors and samples that differ from those above show "
-      "how far the "
-      "work clock's second is from this machine's. Uniform rmse: a uniform grid of samples that takes all of "
-      "the "
-      "ranks' time, with nothing lost to deadlines.");
+      "their deadline, and their lateness (below 0: early). Errors and samples that differ from those above "
+      "show how far the work clock's second is from this machine's. Uniform rmse: a uniform grid of samples "
+      "that takes all of the ranks' time, with nothing lost to deadlines.");
   output.add_table("punctuality", real_time_table(results.real_time));
 }
 
@@ -289,10 +277,9 @@ void write_accuracy(const AccuracyResults& results, int small_size, const std::s
   output.page().heading(fmt::format("Where {} samples go", kFigureSamples));
   output.page().paragraph(
       "As in the paper's figure 1: the cost of each pixel's sample, the places that refinement chooses, "
-      "their "
-      "triangulation, and the picture from them.");
+      "their triangulation, and the picture from them.");
   output.add_gallery(results.pictures);
-  write_foreign(results, small_size, output);
+  write_renderers(results, small_size, output);
   write_effects(results.effects, output);
   write_rates(results, rates_setup, output);
 }

@@ -6,7 +6,7 @@
 
 #include "study/accuracy/curves.h"
 #include "study/accuracy/effects.h"
-#include "study/accuracy/foreign.h"
+#include "study/accuracy/other_renderers.h"
 #include "study/accuracy/rates.h"
 #include "study/report/output.h"
 
@@ -15,7 +15,7 @@ namespace pprt {
 struct AccuracyResults {
   std::vector<SceneCurves> curves;
   std::vector<SceneCurves> small_curves;  // at the size of the other renderers' pictures
-  std::vector<ForeignResult> foreign;
+  std::vector<RendererCurve> renderers;
   std::vector<SceneEffects> effects;
   std::vector<Picture> pictures;
   std::vector<RatePoint> rates;

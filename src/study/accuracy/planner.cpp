@@ -77,10 +77,8 @@ std::string real_time_summary(std::span<const RealTimeTurn> turns) {
   const Spread ratio = spread_of(over_without);
   return fmt::format(
       "{}: in real time {:.0f} of {} frames were on time on {}, the latest {:.1f} ms {}; no frame after the "
-      "fifth had "
-      "fewer than {:.0f} samples. RMSE {:.4f}: {:.2f} ({:.2f} to {:.2f} by turns) of that without casting "
-      "and {:.2f} "
-      "of that of uniform sampling in all of their time.",
+      "fifth had fewer than {:.0f} samples. RMSE {:.4f}: {:.2f} ({:.2f} to {:.2f} by turns) of that without "
+      "casting and {:.2f} of that of uniform sampling in all of their time.",
       first.scene, on_time, frames, first.ranks == 1 ? "one rank" : fmt::format("{} ranks", first.ranks),
       std::abs(late_max_ms), late_max_ms > 0 ? "late" : "early", fewest, spread_of(rmse).median, ratio.median,
       ratio.low, ratio.high, spread_of(over_uniform).median);

@@ -213,7 +213,7 @@ double uniform_rmse_in(double seconds, const Sequence& sequence) {
 Table rates_table(const std::vector<RatePoint>& points) {
   return table_of<RatePoint>(points,
                              {{"scene", &RatePoint::scene},
-                              {"cast", [](const RatePoint& p) { return std::string(to_word(p.cast)); }},
+                              {"cast", [](const RatePoint& p) { return std::string(word_for(p.cast)); }},
                               {"frames/s", &RatePoint::fps},
                               {"rmse", &RatePoint::rmse},
                               {"rmse after a cut", &RatePoint::rmse_after_cut},

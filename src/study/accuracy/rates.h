@@ -77,7 +77,7 @@ std::vector<RealTimePoint> measure_in_real_time(const Sequence& sequence, std::s
 // Returns the fewest samples of any frame after the fifth; of the last one where there are no more.
 double fewest_after_fifth(std::span<const double> samples_of_frames);
 
-// Returns the mean error of uniform grids that have so many seconds of one thread for each frame.
+// Returns the mean error of uniform grids that take `seconds` of one thread for each frame.
 double uniform_rmse_in(double seconds, const Sequence& sequence);
 
 Table rates_table(const std::vector<RatePoint>& points);

@@ -86,8 +86,8 @@ std::vector<CastingErrors> judge(const TurnSequence& sequence, const CastingTria
   for (const double density : trial.densities) {
     CastingErrors& errors = all.emplace_back(CastingErrors{sequence, density});
     const double budget_units = turn.budget_for(density);
-    for (std::size_t i = 0; i < kCastChoices.size(); ++i) {
-      turn.render(kCastChoices[i], turn.frames, budget_units, [&](const FinishedFrame& frame) {
+    for (std::size_t i = 0; i < kWords<CastChoice>.size(); ++i) {
+      turn.render(kWords<CastChoice>[i].value, turn.frames, budget_units, [&](const FinishedFrame& frame) {
         const auto reference = references.find(frame.order.number);
         if (reference == references.end()) return;
         errors.rmse[i] +=
@@ -101,7 +101,7 @@ std::vector<CastingErrors> judge(const TurnSequence& sequence, const CastingTria
 }  // namespace
 
 double CastingErrors::auto_ratio() const {
-  static_assert(kCastChoices.back() == CastChoice::kAuto);
+  static_assert(kWords<CastChoice>.back().value == CastChoice::kAuto);
   return rmse.back() / *std::min_element(rmse.begin(), rmse.end() - 1);
 }
 
@@ -142,8 +142,8 @@ Table casting_errors_table(const std::vector<CastingErrors>& errors) {
       {"scene", [](const CastingErrors& e) { return std::string(e.sequence.scene); }},
       {"speed", [](const CastingErrors& e) { return e.sequence.speed; }},
       {"samples a pixel", &CastingErrors::samples_per_pixel}};
-  for (std::size_t i = 0; i < kCastChoices.size(); ++i) {
-    columns.push_back({fmt::format("RMSE {}", to_word(kCastChoices[i])),
+  for (std::size_t i = 0; i < kWords<CastChoice>.size(); ++i) {
+    columns.push_back({fmt::format("RMSE {}", kWords<CastChoice>[i].word),
                        [i](const CastingErrors& e) { return e.rmse[i]; }});
   }
   columns.push_back({"auto / best of the others", &CastingErrors::auto_ratio});
@@ -153,10 +153,9 @@ Table casting_errors_table(const std::vector<CastingErrors>& errors) {
 std::string casting_trial_text(const CastingTrial& trial) {
   return fmt::format(
       "Root mean square errors on the display scale, means over frames {} of each sequence. The references "
-      "are "
-      "frames of {} samples per pixel. Pictures have {}x{} pixels and are made on one rank. At speed 1 the "
-      "camera turns by 4 degrees and closes in by 1.5 % per frame. Without casting, a frame's work makes the "
-      "samples per pixel given in the table.",
+      "are frames of {} samples per pixel. Pictures have {}x{} pixels and are made on one rank. At speed 1 "
+      "the camera turns by 4 degrees and closes in by 1.5 % per frame. Without casting, a frame's work makes "
+      "the samples per pixel given in the table.",
       fmt::join(trial.judged, ", "), trial.reference_side * trial.reference_side, trial.side, trial.side);
 }
 

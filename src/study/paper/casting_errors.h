@@ -9,14 +9,11 @@
 #include <string_view>
 #include <vector>
 
-#include "parallel/session_settings.h"
+#include "parallel/session_words.h"
 #include "study/paper/paper_options.h"
 #include "study/report/table.h"
 
 namespace pprt {
-
-inline constexpr std::array kCastChoices = {CastChoice::kOff, CastChoice::kPaper, CastChoice::kVerified,
-                                            CastChoice::kAuto};
 
 // A turn round an SPD scene, scenes/NAME-turn.anim.
 struct TurnSequence {
@@ -27,8 +24,8 @@ struct TurnSequence {
 // Root mean square over pixels and channels on the display scale, mean over the judged frames.
 struct CastingErrors {
   TurnSequence sequence;
-  double samples_per_pixel = 1;                    // that a frame's work makes when none are cast
-  std::array<double, kCastChoices.size()> rmse{};  // in the order of kCastChoices
+  double samples_per_pixel = 1;                          // that a frame's work makes when none are cast
+  std::array<double, kWords<CastChoice>.size()> rmse{};  // in the order of the words
 
   // The error of kAuto over the least of the others.
   double auto_ratio() const;

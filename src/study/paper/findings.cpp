@@ -139,7 +139,6 @@ void Judge::settling(int ranks, Frames part, const char* when, double within) {
   if (within < kNever) finding.checks.push_back({"combined's frames", fast, kAtMost, within});
 }
 
-// The control tells whether the criteria of evenness and of the pattern can fail.
 void Judge::patterns(std::string_view experiment) {
   for (const int ranks : runs.ranks_of(experiment)) {
     const MeasuredRun& combined = runs.find(experiment, ranks, kCombined);
@@ -369,7 +368,7 @@ std::vector<Finding> findings(const PaperResults& results) {
   Judge judge{runs};
   const std::vector<int> counts = runs.ranks_of(kSimple);
   for (const int ranks : counts) judge.balancing(ranks);
-  if (!counts.empty()) {
+  if (!counts.empty()) {  // the criteria of evenness and of the pattern must be able to fail
     judge.all.push_back(
         {"ours",
          fmt::format("Control: without balancing the measures of evenness and pattern are bad ({} ranks)",

@@ -2,13 +2,11 @@
 
 #include <cmath>
 
-#include "base/diagnostics.h"
 #include "study/paper/runs.h"
 
 namespace pprt {
 
 PaperOptions settled(PaperOptions options) {
-  machine_of(options);
   if (options.ranks.empty()) options.ranks = options.quick ? std::vector{4, 6} : std::vector{32, 62};
   if (options.frames == 0) options.frames = options.quick ? 6 : 40;
   return options;
@@ -20,10 +18,7 @@ int picture_side(const PaperOptions& options) {
 }
 
 Machine machine_of(const PaperOptions& options) {
-  if (options.machine != "cluster" && options.machine != "sp2") {
-    throw UsageError("--machine " + options.machine + ": want cluster or sp2");
-  }
-  Machine machine = options.machine == "sp2" ? sp2_machine() : cluster_machine();
+  Machine machine = options.machine == MachineKind::kSp2 ? sp2_machine() : cluster_machine();
   if (!std::isnan(options.latency_us)) machine.latency_s = options.latency_us * 1e-6;
   if (!std::isnan(options.bandwidth_mb_s)) machine.bytes_per_second = options.bandwidth_mb_s * 1e6;
   return machine;

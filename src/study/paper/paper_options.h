@@ -1,33 +1,44 @@
 // Options of pprt-study paper.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "base/words.h"
 #include "parallel/clock/machine.h"
 #include "study/report/plot.h"
 
 namespace pprt {
+
+// What the work clock simulates.
+enum class MachineKind : std::uint8_t { kCluster, kSp2 };
+
+template <>
+inline constexpr std::array<Word<MachineKind>, 2> kWords<MachineKind>{{
+    {MachineKind::kCluster, "cluster", "a present-day core for each rank"},
+    {MachineKind::kSp2, "sp2", "the machine of the paper"},
+}};
 
 struct PaperOptions {
   std::string directory;
   bool quick = false;      // small pictures of a small tree, few ranks and frames
   std::vector<int> ranks;  // for figures 5 to 7; empty: 32 and 62, or 4 and 6 if quick
   int frames = 0;          // of each sequence; 0: all 40, or 6 if quick
-  std::string machine = "cluster";
+  MachineKind machine = MachineKind::kCluster;
   double latency_us = kNoValue;      // NaN: the machine's
   double bandwidth_mb_s = kNoValue;  // megabytes per second; NaN: the machine's
   std::uint64_t seed = 1;
 };
 
-// Returns the options with all defaults filled in. Throws UsageError for an unknown machine.
+// Returns the options with all defaults filled in.
 PaperOptions settled(PaperOptions options);
 
 // Returns the side of the smaller pictures, pixels.
 int picture_side(const PaperOptions& options);
 
-// Returns the machine of that name, "cluster" or "sp2", with the options' network. Throws UsageError.
+// Returns the machine with the options' network.
 Machine machine_of(const PaperOptions& options);
 
 }  // namespace pprt

@@ -17,8 +17,7 @@ using RunPointers = std::vector<const MeasuredRun*>;
 
 constexpr const char* kQuickNote =
     "A quick trial: small pictures of a small tree on few ranks, and the first frames only. It shows that "
-    "the "
-    "study works. Its findings are not the paper's.";
+    "the study works. Its findings are not the paper's.";
 
 constexpr const char* kPaperReference =
     "The experiments of Reisman, Gotsman and Schuster, Interactive-Rate Animation Generation by Parallel "
@@ -106,8 +105,8 @@ Plot sequence_plot(std::string name, const std::vector<Series>& series, const Qu
 
 Plot simple_plot(const Runs& runs, int ranks) {
   std::vector<Series> series;
-  for (const BalanceMode mode : kBalanceModes) {
-    series.push_back({std::string(to_word(mode)), &runs.find(kSimple, ranks, mode), colour_of(mode)});
+  for (const auto& [mode, word, help] : kWords<BalanceMode>) {
+    series.push_back({std::string(word), &runs.find(kSimple, ranks, mode), colour_of(mode)});
   }
   return sequence_plot(fmt::format("simple-{}", ranks), series, kReceived);
 }
@@ -117,8 +116,8 @@ Plot casting_plot(const Runs& runs) {
   for (const MeasuredRun* run : runs.all(kCasting)) {
     const BalanceMode mode = run->run.balance;
     const bool kept = mode == BalanceMode::kCombined && run->run.keep_samples;
-    series.push_back({std::string(to_word(mode)) + (kept ? ", kept" : ""), run,
-                      kept ? static_cast<int>(kBalanceModes.size()) : colour_of(mode)});
+    series.push_back({std::string(word_for(mode)) + (kept ? ", kept" : ""), run,
+                      kept ? static_cast<int>(kWords<BalanceMode>.size()) : colour_of(mode)});
   }
   return sequence_plot("casting", series, kSamplesCast);
 }
@@ -126,13 +125,14 @@ Plot casting_plot(const Runs& runs) {
 Panel ranks_panel(const Runs& runs, const Quantity& quantity) {
   Panel panel{quantity.title, {"ranks", 2}, {quantity.unit, 0, 0}, {}, PanelKind::kCurves};
   const std::vector<int> sides = runs.sides_of(kScaling);
-  for (const BalanceMode mode : kBalanceModes) {
-    const RunPointers chosen = runs.all(
-        kScaling, [&](const PaperRun& run) { return run.balance == mode && run.side == sides.front(); });
+  for (const Word<BalanceMode>& mode : kWords<BalanceMode>) {
+    const RunPointers chosen = runs.all(kScaling, [&](const PaperRun& run) {
+      return run.balance == mode.value && run.side == sides.front();
+    });
     if (chosen.empty()) continue;
-    panel.curves.push_back(curve_over(std::string(to_word(mode)), chosen, ranks_of,
+    panel.curves.push_back(curve_over(std::string(mode.word), chosen, ranks_of,
                                       mean_over(kStill, quantity.measure), CurveStyle::kMarkedLine,
-                                      colour_of(mode)));
+                                      colour_of(mode.value)));
   }
   return panel;
 }
@@ -227,13 +227,10 @@ std::string setup_text(const PaperResults& results, const PaperOptions& options)
   return fmt::format(
       "All ranks are threads of one process under the work clock, which counts work instead of seconds: the "
       "results are the same on any computer. Calibration sets the work of a frame, all ranks together, so "
-      "that it "
-      "makes about {:.0f} samples at {} x {} pixels: {:.3g} units on {} ranks, {:.3g} on {}. Where the "
-      "number of "
-      "ranks varies (figures 8 and 9) all do the work of {} ranks. Each rank does {:.3g} units per second. A "
-      "message takes {:.3g} microseconds, and each rank's link carries {:.4g} MB/s. On {} ranks a frame "
-      "lasts "
-      "{:.3g} ms.",
+      "that it makes about {:.0f} samples at {} x {} pixels: {:.3g} units on {} ranks, {:.3g} on {}. Where "
+      "the number of ranks varies (figures 8 and 9) all do the work of {} ranks. Each rank does {:.3g} units "
+      "per second. A message takes {:.3g} microseconds, and each rank's link carries {:.4g} MB/s. On {} "
+      "ranks a frame lasts {:.3g} ms.",
       kPaperSamples, kPaperSide, kPaperSide, calibration.total_units, first,
       calibration.total_units * calibration.share.at(last), last, first, machine.units_per_second,
       1e6 * machine.latency_s, 1e-6 * machine.bytes_per_second, last, 1e3 * calibration.frame_s);
@@ -250,11 +247,10 @@ void write_figures(const Runs& runs, const PaperResults& results, const PaperOpt
   }
   const int ranks = options.ranks.back();
   page.heading("Casting (the paper's figure 7)");
-  output.add_figure(
-      casting_plot(runs),
-      fmt::format("The casting sequence on {} ranks, samples cast as in the paper. \"Kept\": at a "
-                  "repartition samples go to their new owners. The paper drops them.",
-                  ranks));
+  output.add_figure(casting_plot(runs),
+                    fmt::format("The casting sequence on {} ranks, samples cast as in the paper. \"Kept\": "
+                                "at a repartition samples go to their new owners. The paper drops them.",
+                                ranks));
   page.heading("True error of the ways of casting");
   page.paragraph(casting_trial_text(casting_trial(options)));
   output.add_table("casting-errors", casting_errors_table(results.casting_errors));
@@ -308,9 +304,9 @@ Table frames_table(const PaperResults& results) {
              {"sequence", word(&Run::sequence)},
              {"ranks", of_run(&Run::ranks)},
              {"side [pixels]", of_run(&Run::side)},
-             {"balance", word([](const Run& run) { return to_word(run.balance); })},
-             {"cast", word([](const Run& run) { return to_word(run.cast); })},
-             {"keep samples", word([](const Run& run) { return run.keep_samples ? "on" : "off"; })},
+             {"balance", word([](const Run& run) { return word_for(run.balance); })},
+             {"cast", word([](const Run& run) { return word_for(run.cast); })},
+             {"keep samples", word([](const Run& run) { return word_for(run.keep_samples); })},
              {"share of work", of_run(&Run::share)},
              {"latency [s]", of_run([](const Run& run) { return run.machine.latency_s; })},
              {"bandwidth [bytes/s]", of_run([](const Run& run) { return run.machine.bytes_per_second; })},

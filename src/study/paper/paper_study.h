@@ -10,7 +10,7 @@
 namespace pprt {
 
 // Writes into options.directory and reports progress on standard error. `command_line` goes into the
-// provenance. Throws UsageError for an unknown machine, std::runtime_error where nothing can be written.
+// provenance. Throws std::runtime_error where nothing can be written.
 void study_paper(const PaperOptions& options, const std::string& command_line);
 
 // Returns one row for each frame of each run.

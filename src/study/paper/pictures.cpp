@@ -50,7 +50,7 @@ std::vector<Shown> views_of_patterns(const PaperOptions& options, const PaperRun
 
 std::string caption_of(const PaperRun& run, int frame, const Shown& view) {
   const std::string ranks =
-      run.ranks == 1 ? "one rank" : fmt::format("{} ranks, {}", run.ranks, to_word(run.balance));
+      run.ranks == 1 ? "one rank" : fmt::format("{} ranks, {}", run.ranks, word_for(run.balance));
   return fmt::format("{}, frame {}, {}: {}", run.sequence, frame, ranks, view ? name_of(*view) : "frame");
 }
 

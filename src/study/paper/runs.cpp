@@ -93,7 +93,7 @@ MeasuredRun carry_out(const PaperSetup& setup, const PaperRun& run,
   return measured;
 }
 
-// Returns the work that makes the paper's number of samples on so many ranks. Costs per sample change little
+// Returns the work that makes the paper's number of samples on `ranks` ranks. Costs per sample change little
 // with their number, so that two corrections of a guess are enough.
 double calibrated_units(PaperSetup& setup, int ranks) {
   constexpr double kGuessPerSample = 1400;  // units
@@ -155,7 +155,7 @@ struct RunList {
 
   void add_sequences() {
     for (const int ranks : options.ranks) {
-      for (const BalanceMode mode : kBalanceModes) add_calibrated(kSimple, ranks, mode);
+      for (const auto& mode : kWords<BalanceMode>) add_calibrated(kSimple, ranks, mode.value);
     }
     PaperRun& again = add_calibrated(kRepeat, options.ranks.front());
     again.frames = std::min(5, again.frames), again.compare_serial = false;
@@ -236,7 +236,7 @@ PaperResults run_paper(const PaperOptions& options, const std::function<void(con
         setup, run, [&](const FinishedFrame& frame) { add_pictures(options, run, frame, results); }));
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
     report(fmt::format("{}: {}x{}, {} ranks, {}: {} frames in {:.1f} s", run.experiment, run.side, run.side,
-                       run.ranks, to_word(run.balance), run.frames, took.count()));
+                       run.ranks, word_for(run.balance), run.frames, took.count()));
   }
   results.casting_errors = run_casting_trial(casting_trial(options), report);
   return results;

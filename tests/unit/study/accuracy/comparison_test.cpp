@@ -102,9 +102,9 @@ TEST_CASE("comparison: break-even points are where the ratio of errors passes 1"
   REQUIRE(at.crossings.size() == 1);
   CHECK(at.crossings[0] == Approx(1).epsilon(0.03));
   CHECK(at.first_share == Approx(0.1).epsilon(0.03));
-  const std::string told = to_sentence(at, "It");
-  CHECK(told.find("It is ahead from ") == 0);
-  CHECK(told.find("behind from ") != std::string::npos);
+  const std::string sentence = to_sentence(at, "It");
+  CHECK(sentence.find("It is ahead from ") == 0);
+  CHECK(sentence.find("behind from ") != std::string::npos);
   CHECK(ratio_at_equal_error(curves, kProgressive, 1).median == Approx(1));
   CHECK(to_sentence(break_even(made_up({}), kProgressive), "It") ==
         "There is no budget for which both have a picture.");
@@ -219,7 +219,7 @@ TEST_CASE("converged frame: the estimate of its own error is right") {
   CHECK(coarse.own_rmse == Approx(measured).epsilon(0.25));
 }
 
-TEST_CASE("converged frames: the cache tells scene, view and number of samples apart") {
+TEST_CASE("converged frames: the cache distinguishes scene, view and number of samples") {
   const std::filesystem::path cache = std::filesystem::temp_directory_path() / "pprt-accuracy-test";
   std::filesystem::remove_all(cache);
   const TreeSetup tree(32), other(24);
@@ -235,7 +235,7 @@ TEST_CASE("converged frames: the cache tells scene, view and number of samples a
   cached_reference(tree.nff(), tree.subject(), 3, cache);
   cached_reference(other.nff(), other.subject(), 2, cache);
   CHECK(files() == 3);
-  // A broken file is made anew.
+  // A broken file is replaced.
   for (const auto& file : std::filesystem::directory_iterator(cache)) std::filesystem::resize_file(file, 5);
   CHECK(cached_reference(tree.nff(), tree.subject(), 2, cache).image.pixels == made.image.pixels);
   std::filesystem::remove_all(cache);

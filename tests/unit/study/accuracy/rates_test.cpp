@@ -10,8 +10,8 @@
 #include "image/metrics.h"
 #include "spd/spd.h"
 #include "study/accuracy/effects.h"
-#include "study/accuracy/foreign.h"
 #include "study/accuracy/methods.h"
+#include "study/accuracy/other_renderers.h"
 #include "study/accuracy/pictures.h"
 
 using namespace pprt;

@@ -35,17 +35,17 @@ TEST_CASE("casting trial: four scenes at two speeds and two densities") {
 }
 
 TEST_CASE("casting trial: every sequence and density has errors, which repeat and fall with more samples") {
-  int told = 0;
+  int reports = 0;
   const CastingTrial trial = small_trial();
-  const std::vector<CastingErrors> errors = run_casting_trial(trial, [&](const std::string&) { ++told; });
+  const std::vector<CastingErrors> errors = run_casting_trial(trial, [&](const std::string&) { ++reports; });
   const std::vector<CastingErrors> again = run_casting_trial(trial, [](const std::string&) {});
-  CHECK(told == 2);
+  CHECK(reports == 2);
   REQUIRE(errors.size() == 4);
   for (std::size_t i = 0; i < errors.size(); ++i) {
     CAPTURE(errors[i].sequence.scene, errors[i].samples_per_pixel);
     CHECK(errors[i].sequence.scene == (i < 2 ? "tree" : "rings"));
     CHECK(errors[i].rmse == again[i].rmse);
-    for (std::size_t cast = 0; cast < kCastChoices.size(); ++cast) {
+    for (std::size_t cast = 0; cast < kWords<CastChoice>.size(); ++cast) {
       CHECK(errors[i].rmse[cast] > 0.001);
       CHECK(errors[i].rmse[cast] < 0.3);
       if (i % 2 == 1) CHECK(errors[i].rmse[cast] < errors[i - 1].rmse[cast]);

@@ -1,4 +1,4 @@
-#include "study/accuracy/foreign.h"
+#include "study/accuracy/other_renderers.h"
 
 #include <fmt/format.h>
 #include <stdlib.h>
@@ -22,7 +22,7 @@
 namespace pprt {
 namespace {
 
-// Gone with all its files at the end.
+// A temporary directory. Its destructor removes all files.
 class ScratchDirectory {
  public:
   ScratchDirectory() {
@@ -53,13 +53,13 @@ double run_in_silence(const std::vector<std::string>& command) {
   return status.cpu_seconds;
 }
 
-// How a program is told to render: a picture of size x size pixels into the file.
+// Returns the command line that renders a picture of size x size pixels into the file.
 using Command = std::function<std::vector<std::string>(int size, const std::string& file)>;
 
 struct Trial {
   std::string setting;
   bool adaptive = false;
-  int scale = 1;  // rendered larger by this factor, then the mean over each pixel
+  int scale = 1;  // rendered this much larger, then averaged over each pixel
   Command command;
 };
 
@@ -70,18 +70,18 @@ Image rendered(const Trial& trial, int size, const ScratchDirectory& scratch, do
   return image.width == size ? image : resize(image, size, size);
 }
 
-// The first trial is the plain picture.
-std::vector<ForeignPoint> carry_out(const std::vector<Trial>& trials, const Trial& converged, int size,
-                                    const ScratchDirectory& scratch) {
+// Makes all pictures. The first trial is the plain picture.
+std::vector<RendererPoint> carry_out(const std::vector<Trial>& trials, const Trial& converged, int size,
+                                     const ScratchDirectory& scratch) {
   constexpr int kTiny = 8;  // pixels: what is left is reading and building
   double unused = 0;
   const Image reference = rendered(converged, size, scratch, unused);
   const double fixed = run_in_silence(trials[0].command(kTiny, scratch.file("tiny.png")));
-  std::vector<ForeignPoint> points;
+  std::vector<RendererPoint> points;
   for (const Trial& trial : trials) {
     double seconds = 0;
     const Image image = rendered(trial, size, scratch, seconds);
-    ForeignPoint& p = points.emplace_back();
+    RendererPoint& p = points.emplace_back();
     p.setting = trial.setting;
     p.adaptive = trial.adaptive;
     p.seconds = std::max(1e-3, seconds - fixed);
@@ -92,8 +92,8 @@ std::vector<ForeignPoint> carry_out(const std::vector<Trial>& trials, const Tria
 }
 
 template <typename Measure>
-ForeignResult present_or_absent(const std::string& scene, const char* program, const Measure& measure) {
-  ForeignResult result{scene, program, {}, {}};
+RendererCurve present_or_absent(const std::string& scene, const char* program, const Measure& measure) {
+  RendererCurve result{scene, program, {}, {}};
   try {
     result.points = measure();
   } catch (const std::runtime_error& e) {
@@ -125,7 +125,7 @@ bool is_convex(std::span<const Vec3d> corners) {
 
 }  // namespace
 
-ForeignResult measure_povray(const std::string& name, const SceneDescription& scene, int size) {
+RendererCurve measure_povray(const std::string& name, const SceneDescription& scene, int size) {
   return present_or_absent(name, "POV-Ray", [&] {
     constexpr int kConvergedScale = 6;
     const ScratchDirectory scratch;
@@ -150,7 +150,7 @@ ForeignResult measure_povray(const std::string& name, const SceneDescription& sc
   });
 }
 
-ForeignResult measure_tachyon(const std::string& name, const SceneDescription& scene, int size) {
+RendererCurve measure_tachyon(const std::string& name, const SceneDescription& scene, int size) {
   if (const std::string defect = tachyon_defect(scene); !defect.empty()) return {name, "Tachyon", defect, {}};
   return present_or_absent(name, "Tachyon", [&] {
     const ScratchDirectory scratch;
@@ -159,21 +159,13 @@ ForeignResult measure_tachyon(const std::string& name, const SceneDescription& s
     write_nff(scene, out);
     out.close();
     const auto with_samples = [&](int more, int threads) {
-      return [=](int pixels, const std::string& picture) -> std::vector<std::string> {
+      return [=](int pixels, const std::string& picture) {
         const std::string side = std::to_string(pixels);
-        return {"tachyon",
-                file,
-                "-res",
-                side,
-                side,
-                "-aasamples",
-                std::to_string(more),
-                "-numthreads",
-                std::to_string(threads),
-                "-format",
-                "PNG",
-                "-o",
-                picture};
+        std::vector<std::string> words = {"tachyon", file,  "-res", side,   side,
+                                          "-format", "PNG", "-o",   picture};
+        words.insert(words.end(),
+                     {"-aasamples", std::to_string(more), "-numthreads", std::to_string(threads)});
+        return words;
       };
     };
     std::vector<Trial> trials;
@@ -195,17 +187,23 @@ std::string tachyon_defect(const SceneDescription& scene) {
   return concave ? "it cuts concave polygons as if they were convex" : "";
 }
 
-Table foreign_table(const std::vector<ForeignResult>& results) {
-  Table table{{"scene", "program", "setting", "cpu s", "share of its plain picture", "rmse"}, {}, {}};
-  for (const ForeignResult& r : results) {
-    if (!r.absent.empty()) {
-      table.rows.push_back({r.scene, r.program, "absent: " + r.absent, kNoValue, kNoValue, kNoValue});
-    }
-    for (const ForeignPoint& p : r.points) {
-      table.rows.push_back({r.scene, r.program, p.setting, p.seconds, p.share, p.rmse});
-    }
+Table renderers_table(const std::vector<RendererCurve>& curves) {
+  struct Row {
+    std::string scene, program, setting;
+    double seconds = kNoValue, share = kNoValue, rmse = kNoValue;
+  };
+  std::vector<Row> rows;
+  for (const RendererCurve& c : curves) {
+    if (!c.absent.empty()) rows.push_back({c.scene, c.program, "absent: " + c.absent});
+    for (const RendererPoint& p : c.points)
+      rows.push_back({c.scene, c.program, p.setting, p.seconds, p.share, p.rmse});
   }
-  return table;
+  return table_of<Row>(rows, {{"scene", &Row::scene},
+                              {"program", &Row::program},
+                              {"setting", &Row::setting},
+                              {"cpu s", &Row::seconds},
+                              {"share of its plain picture", &Row::share},
+                              {"rmse", &Row::rmse}});
 }
 
 }  // namespace pprt
