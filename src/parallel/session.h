@@ -1,4 +1,5 @@
-// One run on all ranks, from the first order to the last frame.
+// One run on all ranks, from the first order to the last frame. worker.h shows how ranks work together in
+// one.
 #pragma once
 
 #include "base/probe.h"

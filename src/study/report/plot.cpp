@@ -19,7 +19,7 @@ constexpr std::array kPalette = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
 constexpr const char* kReferenceColour = "#555555";
 
 // Text in gnuplot's single quotes, on one line.
-std::string quoted(const std::string& text) {
+std::string in_quotes(const std::string& text) {
   std::string q = "'";
   for (const char c : text) {
     if (c == '\'') q += '\'';
@@ -39,7 +39,7 @@ std::string range(const Axis& axis) {
 
 std::string axis_commands(const char* name, const Axis& axis) {
   std::string text =
-      fmt::format("set {0}label {1}\nset {0}range {2}\n", name, quoted(axis.label), range(axis));
+      fmt::format("set {0}label {1}\nset {0}range {2}\n", name, in_quotes(axis.label), range(axis));
   if (axis.log_base > 0) {
     text += fmt::format("set logscale {} {}\n", name, axis.log_base);
   } else {
@@ -56,7 +56,7 @@ bool has_spread(const Curve& curve) {
 // gnuplot puts it before the names of the parts, and takes no "-" there.
 std::string terminal_name(std::string name) {
   std::replace(name.begin(), name.end(), '-', '_');
-  return quoted(name);
+  return in_quotes(name);
 }
 
 std::string block_name(std::size_t panel, std::size_t curve) {
@@ -94,7 +94,7 @@ std::string plot_curves(const Panel& panel, std::size_t at) {
     }
     list += fmt::format(", {} using 1:2 with {} lc rgb '{}' {}", block,
                         kStyles[static_cast<std::size_t>(curve.style)], colour,
-                        curve.name.empty() ? "notitle" : "title " + quoted(curve.name));
+                        curve.name.empty() ? "notitle" : "title " + in_quotes(curve.name));
   }
   return list;
 }
@@ -103,7 +103,7 @@ std::string plot_bars(const Panel& panel, std::size_t at) {
   std::string list;
   for (std::size_t i = 0; i < panel.curves.size(); ++i) {
     list += fmt::format(", {} using 2:xtic(1) with histograms fs solid 0.85 noborder lc rgb '{}' title {}",
-                        block_name(at, i), colour_of(panel.curves[i], i), quoted(panel.curves[i].name));
+                        block_name(at, i), colour_of(panel.curves[i], i), in_quotes(panel.curves[i].name));
   }
   return list;
 }
@@ -117,7 +117,7 @@ bool has_data(const Panel& panel) {
 
 std::string panel_commands(const Panel& panel, std::size_t at) {
   const bool bars = panel.kind == PanelKind::kStackedBars;
-  std::string text = fmt::format("set title {}\n", quoted(panel.title));
+  std::string text = fmt::format("set title {}\n", in_quotes(panel.title));
   text += axis_commands("x", panel.x) + axis_commands("y", panel.y);
   if (!has_data(panel)) {
     return text + "set xrange [0:1]\nset yrange [0:1]\nunset logscale\nplot NaN notitle\n";

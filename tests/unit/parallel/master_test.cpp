@@ -46,7 +46,11 @@ class Stage {
     for (int tile = 0; tile < partition_.grid.tile_count(); ++tile) {
       if (partition_.owner[static_cast<std::size_t>(tile)] != rank) continue;
       // The middle rank's triangles weigh more: worth a new partition.
-      message.tiles.push_back({tile, 4, rank == 1 ? 40.0 : 4.0, 100, 1, 0});
+      message.tiles.push_back({.tile = tile,
+                               .triangles = 4,
+                               .total_weight = rank == 1 ? 40.0 : 4.0,
+                               .cost = 100,
+                               .reconstruction = 1});
       message.rgb.insert(message.rgb.end(), 3 * partition_.grid.pixels(tile).area(), value(rank, frame));
     }
     master_.handle({rank, Tag::kPixels, encode(message)});

@@ -22,7 +22,7 @@ Partition halves() {
 constexpr double kUnlimited = 1e18;
 
 TileReport report(int tile, double cost, int triangles, double total_weight) {
-  return {tile, triangles, total_weight, cost, 0, 0};
+  return {.tile = tile, .triangles = triangles, .total_weight = total_weight, .cost = cost};
 }
 
 SessionSettings without_carrying(BalanceMode mode) {

@@ -111,23 +111,26 @@ const std::vector<OwnershipMessage>& OwnershipModel::messages(const OwnershipSta
 std::vector<OwnershipStep> OwnershipModel::steps(const OwnershipState& state) const {
   std::vector<OwnershipStep> steps;
   if (state.repartitions < static_cast<int>(repartitions_.size()))
-    steps.push_back({Kind::kOrderRepartition, 0, 0, {}, 0});
+    steps.push_back({.kind = Kind::kOrderRepartition});
   for (int rank = 0; rank < rank_count(); ++rank) {
     const OwnershipRank& r = state.ranks[static_cast<std::size_t>(rank)];
-    if (state.left.decisions > 0) steps.push_back({Kind::kChangeSide, rank, 0, {}, 0});
-    if (r.frame < state.repartitions) steps.push_back({Kind::kReceiveRepartition, rank, 0, {}, 0});
+    if (state.left.decisions > 0) steps.push_back({.kind = Kind::kChangeSide, .rank = rank});
+    if (r.frame < state.repartitions) steps.push_back({.kind = Kind::kReceiveRepartition, .rank = rank});
     for (int other = 0; other < rank_count(); ++other) {
       if (other == rank) continue;
       const bool owed = rules_.acknowledges && r.handshake.has_pending_reply(other);
-      if (owed || state.left.unasked > 0) steps.push_back({Kind::kSend, rank, other, {}, 0});
+      if (owed || state.left.unasked > 0)
+        steps.push_back({.kind = Kind::kSend, .rank = rank, .other = other});
       const auto& coming = messages(state, other, rank);
       for (std::size_t i = 0; i < coming.size(); ++i) {
         if (i > 0 && rules_.messages_keep_order) break;
-        if (can_deliver(state, rank, coming[i])) steps.push_back({Kind::kDeliver, rank, other, {}, i});
+        if (can_deliver(state, rank, coming[i]))
+          steps.push_back({.kind = Kind::kDeliver, .rank = rank, .other = other, .position = i});
       }
       if (!may_give(state, rank, other)) continue;
       for (int tile = 0; tile < first_.grid.tile_count(); ++tile) {
-        if (can_spare(state, rank, other, tile)) steps.push_back({Kind::kTransfer, rank, other, {tile}, 0});
+        if (can_spare(state, rank, other, tile))
+          steps.push_back({.kind = Kind::kTransfer, .rank = rank, .other = other, .tiles = {tile}});
       }
     }
   }
@@ -219,7 +222,7 @@ std::optional<std::string> OwnershipModel::give(OwnershipState& state, const Own
     const auto t = static_cast<std::size_t>(tile);
     giver.partition.version[t] += rules_.transfers_raise_version;
     giver.partition.owner[t] = step.other;
-    transfers.push_back({tile, step.other, giver.partition.version[t], {}, {}});
+    transfers.push_back({.tile = tile, .owner = step.other, .version = giver.partition.version[t]});
   }
   giver.handshake.transfer_sent(step.other);
   --state.left.transfers;
@@ -258,7 +261,7 @@ std::vector<TileTransfer> OwnershipModel::claims(const OwnershipState& state, in
   const auto t = static_cast<std::size_t>(tile);
   std::vector<TileTransfer> claims;
   for (const OwnershipRank& r : state.ranks) {
-    claims.push_back({tile, r.partition.owner[t], r.partition.version[t], {}, {}});
+    claims.push_back({.tile = tile, .owner = r.partition.owner[t], .version = r.partition.version[t]});
   }
   for (const auto& messages : state.under_way) {
     for (const OwnershipMessage& message : messages) {
@@ -269,7 +272,7 @@ std::vector<TileTransfer> OwnershipModel::claims(const OwnershipState& state, in
   }
   for (int repartition = 0; repartition < state.repartitions; ++repartition) {
     const Partition& partition = repartitions_[static_cast<std::size_t>(repartition)];
-    claims.push_back({tile, partition.owner[t], partition.version[t], {}, {}});
+    claims.push_back({.tile = tile, .owner = partition.owner[t], .version = partition.version[t]});
   }
   return claims;
 }
@@ -294,7 +297,7 @@ std::optional<std::string> OwnershipModel::fault(const OwnershipState& state) co
   Partition truth = first_;
   for (int tile = 0; tile < first_.grid.tile_count(); ++tile) {
     const auto t = static_cast<std::size_t>(tile);
-    TileTransfer highest{tile, 0, 0, {}, {}};
+    TileTransfer highest{.tile = tile};
     const std::vector<TileTransfer> all = claims(state, tile);
     for (const TileTransfer& a : all) {
       for (const TileTransfer& b : all) {

@@ -64,10 +64,10 @@ struct OwnershipStateHash {
 struct OwnershipStep {
   enum class Kind { kChangeSide, kSend, kTransfer, kDeliver, kOrderRepartition, kReceiveRepartition };
   Kind kind{};
-  int rank = 0;              // who does it, or gets the message
-  int other = 0;             // to whom, or from whom
-  std::vector<int> tiles;    // given
-  std::size_t position = 0;  // of the message
+  int rank = 0;                 // who does it, or gets the message
+  int other = 0;                // to whom, or from whom
+  std::vector<int> tiles = {};  // given
+  std::size_t position = 0;     // of the message
 };
 
 class OwnershipModel {

@@ -145,7 +145,7 @@ TEST_CASE("control: the uniform sampler under the name progressive has ratio 1")
   CHECK(break_even(exact, kProgressive).crossings.empty());
 }
 
-TEST_CASE("control: it has ratio 1 by the processor's clock, within noise") {
+TEST_CASE("control: it has ratio 1 by the processor's clock, within noise", "[realtime]") {
   const TreeSetup tree(128);
   Method impostor = uniform_method();
   impostor.name = kProgressive;
@@ -158,7 +158,7 @@ TEST_CASE("control: it has ratio 1 by the processor's clock, within noise") {
   }
 }
 
-TEST_CASE("control: a sampler that takes twice the time has ratios above 1") {
+TEST_CASE("control: a sampler that takes twice the time has ratios above 1", "[realtime]") {
   const TreeSetup tree;
   const SceneCurves curves =
       curves_of(tree, {priced(uniform_method(), kProgressive, 2), priced(uniform_method(), kUniform, 1)}, 1);

@@ -71,7 +71,8 @@ TEST_CASE("sequence: more time per frame makes better frames under the work cloc
   CHECK(points[0].samples > points[2].samples);
 }
 
-TEST_CASE("sequence: real time reports every frame of the repeated sequence, and ordered lateness") {
+TEST_CASE("sequence: real time reports every frame of the repeated sequence, and ordered lateness",
+          "[realtime]") {
   const SceneDescription tree = make_spd("tree", 4);
   const CompiledScene scene = compile(tree);
   const Sequence sequence = tree_sequence(scene, *tree.view);
