@@ -15,7 +15,7 @@
 #include "convert/mesh_writer.h"
 #include "convert/pov_writer.h"
 #include "convert/tessellate.h"
-#include "image/whole_file.h"
+#include "image/atomic_file.h"
 #include "scene/nff_writer.h"
 #include "spd/spd.h"
 

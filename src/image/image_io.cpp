@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "image/whole_file.h"
+#include "image/atomic_file.h"
 
 namespace pprt {
 namespace {

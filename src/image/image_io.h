@@ -52,7 +52,7 @@ Image decode_exr(std::string_view bytes);
 Image decode_png(std::string_view bytes);
 
 // Writes a picture in the format of its extension, .exr or .png, completely or not at all
-// (image/whole_file.h). Channels go into an EXR; a PNG ignores them. Throws std::runtime_error "cannot write
+// (image/atomic_file.h). Channels go into an EXR; a PNG ignores them. Throws std::runtime_error "cannot write
 // 'PATH': REASON".
 void write_image(const std::filesystem::path& path, const Image& image, const Metadata& metadata = {},
                  const std::vector<Channel>& channels = {}, PictureKind kind = PictureKind::kRendered);

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "base/diagnostics.h"
-#include "image/whole_file.h"
+#include "image/atomic_file.h"
 
 namespace pprt {
 namespace {

@@ -13,8 +13,8 @@
 
 #include "base/content_hash.h"
 #include "base/hash.h"
+#include "image/atomic_file.h"
 #include "image/metrics.h"
-#include "image/whole_file.h"
 #include "study/frame_series.h"
 
 namespace pprt {

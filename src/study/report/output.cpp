@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/version.h"
-#include "image/whole_file.h"
+#include "image/atomic_file.h"
 #include "study/report/gnuplot.h"
 
 namespace pprt {

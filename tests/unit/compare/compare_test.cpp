@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "base/diagnostics.h"
+#include "image/atomic_file.h"
 #include "image/image_io.h"
-#include "image/whole_file.h"
 #include "unit/image/temporary_directory.h"
 
 using namespace pprt;

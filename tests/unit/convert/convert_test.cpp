@@ -7,7 +7,7 @@
 
 #include "base/diagnostics.h"
 #include "cli/scene_source.h"
-#include "image/whole_file.h"
+#include "image/atomic_file.h"
 #include "scene/nff_writer.h"
 #include "spd/spd.h"
 #include "unit/image/temporary_directory.h"

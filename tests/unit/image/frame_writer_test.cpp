@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "image/whole_file.h"
+#include "image/atomic_file.h"
 #include "unit/image/temporary_directory.h"
 
 namespace fs = std::filesystem;

@@ -14,7 +14,7 @@
 #include <cstdio>
 #include <limits>
 
-#include "image/whole_file.h"
+#include "image/atomic_file.h"
 #include "unit/image/temporary_directory.h"
 
 namespace fs = std::filesystem;

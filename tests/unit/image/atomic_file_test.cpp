@@ -1,4 +1,4 @@
-#include "image/whole_file.h"
+#include "image/atomic_file.h"
 
 #include <sys/resource.h>
 
