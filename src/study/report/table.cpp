@@ -11,9 +11,13 @@ namespace {
 
 std::string quoted_if_needed(const std::string& text) {
   if (text.find_first_of(",\"\r\n#") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
+  std::string in_quotes(1, '"');
+  for (const char c : text) {
+    if (c == '"') in_quotes += c;
+    in_quotes += c;
+  }
+  in_quotes += '"';
+  return in_quotes;
 }
 
 std::string csv_field(const Cell& cell) {
@@ -35,7 +39,7 @@ std::string to_csv(const Table& table, const Provenance& provenance) {
   std::string csv;
   for (const auto& [name, value] : provenance) csv += fmt::format("# {}: {}\n", name, one_line(value));
   const auto add_line = [&csv](const auto& cells, const auto& field) {
-    for (std::size_t i = 0; i < cells.size(); ++i) csv += (i == 0 ? "" : ",") + field(cells[i]);
+    for (std::size_t i = 0; i < cells.size(); ++i) csv.append(i == 0 ? "" : ",").append(field(cells[i]));
     csv += '\n';
   };
   add_line(table.columns, quoted_if_needed);

@@ -12,8 +12,7 @@ namespace {
 std::vector<RatePoint> error_with_root_of_rate() {
   std::vector<RatePoint> points;
   for (const double fps : {1.0, 4.0, 16.0}) {
-    RatePoint& p = points.emplace_back();
-    p.scene = "s", p.cast = CastChoice::kAuto, p.fps = fps, p.rmse = 0.01 * std::sqrt(fps);
+    points.push_back({.scene = "s", .cast = CastChoice::kAuto, .fps = fps, .rmse = 0.01 * std::sqrt(fps)});
   }
   return points;
 }
