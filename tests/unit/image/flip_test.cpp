@@ -125,7 +125,7 @@ TEST_CASE("FLIP: the distance adds lightness to the distance of colours") {
   CHECK(hyab({4, 4, 6}, {10, 1, 2}) == Approx(6 + 5));
 }
 
-TEST_CASE("FLIP: colour errors fill [0, 1] in two linear parts") {
+TEST_CASE("FLIP: colour errors fill 0 to 1 in two linear parts") {
   const double largest = hyab(perceived(of_colour(Color(0, 1, 0))), perceived(of_colour(Color(0, 0, 1))));
   CHECK(largest == Approx(203.297).epsilon(1e-5));
   CHECK(colour_error(0) == 0);
