@@ -56,8 +56,8 @@ for file in src/*/*_main.cpp; do
   lines=$(awk '/^int main/ { inside = 1 } inside { ++n } inside && /^}/ { exit } END { print n }' "$file")
   [[ $lines -le 40 ]] || complain "$file: main has $lines lines, more than 40"
 done
-# CTest takes a name with ';' for two, and names between '[' and ']' for one. Catch2 2 has no such tests, and calls that a
-# success.
-while read -r name; do complain "$name: a test whose name holds one of ;[] is never run"; done \
-  < <(grep -rhoPz 'TEST_CASE\(\s*"[^"]*[];[][^"]*"' tests --include='*.cpp' | tr '\n\0' ' \n')
+# CTest takes a name with ';' for two, and names between '[' and ']' for one; Catch2 2 has no such tests, and calls that a
+# success. A name that begins with '-' is an option to it.
+while read -r name; do complain "$name: a test of such a name is never run"; done \
+  < <(grep -rhoPz 'TEST_CASE\(\s*"(-|[^"]*[];[])[^"]*"' tests --include='*.cpp' | tr '\n\0' ' \n')
 [[ $failures -eq 0 ]]

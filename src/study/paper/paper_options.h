@@ -18,7 +18,7 @@ enum class MachineKind : std::uint8_t { kCluster, kSp2 };
 template <>
 inline constexpr std::array<Word<MachineKind>, 2> kWords<MachineKind>{{
     {MachineKind::kCluster, "cluster", "a present-day core for each rank"},
-    {MachineKind::kSp2, "sp2", "the machine of the paper"},
+    {MachineKind::kSp2, "sp2", "the IBM SP2 of the paper's runs"},
 }};
 
 struct PaperOptions {

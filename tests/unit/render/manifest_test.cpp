@@ -140,7 +140,7 @@ TEST_CASE("without --resume the manifest is replaced") {
   CHECK(text_of(run.path) == "{\"record\":\"run\",\"key\":\"other\"}\n");
 }
 
-TEST_CASE("--resume without a manifest begins a new run") {
+TEST_CASE("resuming without a manifest begins a new run") {
   const TemporaryDirectory directory;
   const fs::path path = directory.path() / "manifest.ndjson";
   Manifest(path, "key", true);

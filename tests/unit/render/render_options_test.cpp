@@ -41,7 +41,7 @@ TEST_CASE("scene and script may stand among the options, in their order") {
   CHECK(options.cast == CastChoice::kPaper);
 }
 
-TEST_CASE("--output may be given twice and takes one word each time") {
+TEST_CASE("the option --output may be given twice and takes one word each time") {
   const RenderOptions options = parse({"-o", "%d.png", "spd:tree", "-o", "%d.exr"});
   REQUIRE(options.outputs.size() == 2);
   CHECK((options.outputs[0].text == "%d.png" && options.outputs[1].text == "%d.exr"));
