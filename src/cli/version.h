@@ -3,6 +3,6 @@
 
 namespace pprt {
 
-inline constexpr const char* kVersion = PPRT_VERSION;  // defined by src/app/CMakeLists.txt
+inline constexpr const char* kVersion = PPRT_VERSION;  // defined by src/cli/CMakeLists.txt
 
 }  // namespace pprt
