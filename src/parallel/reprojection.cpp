@@ -13,8 +13,8 @@ namespace {
 // Share of a frame's time that reinserting cast samples may take.
 constexpr double kCastShare = 0.5;
 
-// Of the samples that may be carried some are cast before the others, to know how they fare, and one in eight
-// of those is tried out: one in 64 of all, at most about 512.
+// A trial shows whether casting pays. It casts some of the samples before the others, and tries out one in
+// eight of these with a ray. That is one in 64 of all samples, at most about 512.
 constexpr std::uint64_t kDrawnForEachTried = 8;
 std::uint64_t tried_one_of(std::uint64_t samples) {
   constexpr std::uint64_t kAtLeast = 64, kEnough = 512;

@@ -31,9 +31,11 @@ inline Feature feature_of(float squared_error, std::uint32_t rays) {
                               std::clamp(octave_of_rays, 0, kRayOctaves - 1) * kPerRayOctave);
 }
 
-// A class of triangles that learn together. From the highest bits: the sum of the corners' ray octaves in
-// steps of two, the number of primitives under the corners, the octaves of their colours' variance in steps
-// of two, and the sum of their error octaves in steps of eight.
+// A class of triangles that learn together. It has four parts, from the highest bits:
+// - the sum of the corners' ray octaves, in steps of two
+// - the number of primitives under the corners
+// - the octave of their colours' variance, in steps of two
+// - the sum of their error octaves, in steps of eight
 using Bin = std::uint32_t;
 inline constexpr std::size_t kBins = std::size_t{5} * 4 * 8 * 8;
 
