@@ -47,6 +47,11 @@ std::string quotable(const std::string& text) {
   return replaced(text, "'", R"('\'')");
 }
 
+// Escapes the text for single quotes of fish.
+std::string quotable_in_fish(const std::string& text) {
+  return replaced(text, "'", R"(\')");
+}
+
 std::string function_name(const OptionTable& table) {
   return "_" + replaced(table.program, "-", "_");
 }
@@ -142,7 +147,7 @@ std::string bash_script(const OptionTable& table) {
 std::string zsh_action(const OptionRow& row) {
   switch (row.value) {
     case ValueKind::kChoice:
-      return "((" + described(row.words, R"(\:)") + "))";
+      return "((" + quotable(described(row.words, R"(\:)")) + "))";
     case ValueKind::kList:
       return fmt::format("_values -s , {} {}", row.label, joined(row.words));
     case ValueKind::kPath:
@@ -196,7 +201,7 @@ std::string fish_value(const OptionRow& row) {
     case ValueKind::kNone:
       return "";
     case ValueKind::kChoice:
-      return fmt::format(" -x -a '{}'", described(row.words, R"(\t)"));
+      return fmt::format(" -x -a '{}'", quotable_in_fish(described(row.words, R"(\t)")));
     case ValueKind::kList:
       return fmt::format(" -x -a '(__fish_append , {})'", joined(row.words));
     case ValueKind::kPath:
@@ -220,7 +225,7 @@ std::string fish_lines(const OptionTable& table, const std::string& program, con
     for (const std::string& name : row.names) {
       text += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
     }
-    text += fish_value(row) + fmt::format(" -d '{}'\n", replaced(gist(row.description), "'", R"(\')"));
+    text += fish_value(row) + fmt::format(" -d '{}'\n", quotable_in_fish(gist(row.description)));
   }
   return text;
 }
@@ -231,7 +236,7 @@ std::string fish_script(const OptionTable& table) {
   text += fish_lines(table, table.program, commands ? "__fish_use_subcommand" : "");
   for (const OptionTable& subcommand : table.subcommands) {
     text += fmt::format("complete -c {} -n __fish_use_subcommand -f -a {} -d '{}'\n", table.program,
-                        subcommand.program, replaced(subcommand.description, "'", R"(\')"));
+                        subcommand.program, quotable_in_fish(subcommand.description));
     text += fish_lines(subcommand, table.program, "__fish_seen_subcommand_from " + subcommand.program);
   }
   return text;
