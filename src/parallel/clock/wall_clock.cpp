@@ -86,10 +86,10 @@ double WallClock::rested(double seconds) {
   return 1e3 * seconds;
 }
 
-// Puts the end of sampling off, into half of the reserve, for a new picture that began late or whose rank was
-// not let run: until the rank has had nearly the time that others have. The next frames each have a little
-// less until the reserve is whole again, so that a moment lost is shared among them. Returns false where
-// nothing can be put off: where ranks share cores no time is their own.
+// Puts the end of sampling off, at most into half of the reserve. It does so for a new picture that began
+// late or whose rank was not scheduled, until the rank has had nearly the time of the others. The next frames
+// each have a little less, until the reserve is whole again. Returns false where nothing can be put off:
+// where ranks share cores no time is their own.
 bool WallClock::extend(double now) {
   constexpr double kShareOfOthers = 0.93;
   if (ranks_per_core_ > 1 || is_at_rest_ || reconstruction_s() == 0) return false;

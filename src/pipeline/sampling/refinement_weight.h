@@ -86,8 +86,8 @@ inline constexpr float kPixelSizeSquared = 0.318309886F;  // 1 / pi: a circle of
 
 // Returns Weight(t) = Rad^2 log(1.01 + 500 Var) of one triangle or of four, from Rad^2 in square pixels and
 // Var. Two safeguards. Rad is at most the longest edge: a sliver on the hull has a circumradius of any size.
-// Of a triangle whose circle is smaller than a pixel only the variance counts (Painter and Sloan 1989): the
-// constant 1.01 becomes 1, and a flat one has weight 0.
+// Where the circle is smaller than a pixel, only the variance counts (Painter and Sloan 1989). The constant
+// 1.01 becomes 1, and a triangle of one colour has weight 0.
 // Scalar twin: the instance for one triangle.
 template <class Number>
 Number refinement_weight(const Number& size_squared, const Number& variance, const WeightTerms& terms = {}) {
