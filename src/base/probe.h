@@ -14,7 +14,7 @@ namespace pprt {
 // Functions that a Tracer, or a substitute in a test, provides.
 struct Probe {
   // Sets the camera of all later calls.
-  std::function<void(const Camera&)> look_from;
+  std::function<void(const Camera&)> set_camera;
   // Traces the eye ray through image point (x, y), pixels.
   std::function<RaySample(double x, double y)> trace;
   // Returns whether nothing hides a hit point from the eye. `hit` is a RaySample's: a point of the compiled
@@ -23,7 +23,7 @@ struct Probe {
   // Returns the rays traced since the beginning.
   std::function<RayCounts()> counts;
   // Projects a primitive of a RaySample into `shape`; empty: not available.
-  std::function<void(std::uint32_t primitive, ImageShape& shape)> view = {};
+  std::function<void(std::uint32_t primitive, ImageShape& shape)> project = {};
   // Largest primitive number in a RaySample; 0: not known.
   std::uint32_t primitives = 0;
 };

@@ -14,7 +14,7 @@ namespace pprt {
 class RegionPicture {
  public:
   RegionPicture(const Probe& probe, PixelRule rule)
-      : rule_(rule), knows_shapes_(probe.view), projected_shapes_(probe.view) {}
+      : rule_(rule), knows_shapes_(probe.project), projected_shapes_(probe.project) {}
 
   // The probe looks from another camera: projected shapes are no longer right.
   void camera_changed() { projected_shapes_.forget(); }

@@ -15,7 +15,7 @@ void SampleTracer::begin_frame(const FrameOrder& order) {
   rays_before_ = probe_.counts();
   non_finite_ = 0;
   frame_number_ = order.number;
-  probe_.look_from(order.camera);
+  probe_.set_camera(order.camera);
 }
 
 Sample SampleTracer::trace(double x, double y) {

@@ -10,17 +10,6 @@
 namespace pprt {
 namespace {
 
-// The tiles that share a side with this one, at most four.
-std::vector<int> beside(const TileGrid& grid, int tile) {
-  const int column = tile % grid.columns(), row = tile / grid.columns();
-  std::vector<int> tiles;
-  if (column > 0) tiles.push_back(tile - 1);
-  if (column + 1 < grid.columns()) tiles.push_back(tile + 1);
-  if (row > 0) tiles.push_back(tile - grid.columns());
-  if (row + 1 < grid.rows()) tiles.push_back(tile + grid.columns());
-  return tiles;
-}
-
 // How many of a tile's four sides border on the giver's tiles, and on the taker's.
 struct Sides {
   int giver = 0, taker = 0;
@@ -28,7 +17,7 @@ struct Sides {
 
 Sides owners_beside(const Partition& partition, int tile, int giver, int taker) {
   Sides sides;
-  for (const int t : beside(partition.grid, tile)) {
+  for (const int t : tiles_beside(partition.grid, tile)) {
     const std::int32_t owner = partition.owner[static_cast<std::size_t>(t)];
     sides.giver += owner == giver;
     sides.taker += owner == taker;

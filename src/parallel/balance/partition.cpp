@@ -93,6 +93,16 @@ Partition bisect(const TileGrid& grid, std::span<const double> tile_costs, int r
   return partition;
 }
 
+std::vector<int> tiles_beside(const TileGrid& grid, int tile) {
+  const int column = tile % grid.columns(), row = tile / grid.columns();
+  std::vector<int> tiles;
+  if (column > 0) tiles.push_back(tile - 1);
+  if (column + 1 < grid.columns()) tiles.push_back(tile + 1);
+  if (row > 0) tiles.push_back(tile - grid.columns());
+  if (row + 1 < grid.rows()) tiles.push_back(tile + grid.columns());
+  return tiles;
+}
+
 Region region_of(const Partition& partition, int rank) {
   std::vector<std::uint8_t> owned(partition.owner.size());
   std::transform(partition.owner.begin(), partition.owner.end(), owned.begin(),
@@ -101,7 +111,7 @@ Region region_of(const Partition& partition, int rank) {
 }
 
 bool is_connected(const Partition& partition, int rank) {
-  const int columns = partition.grid.columns(), count = partition.grid.tile_count();
+  const int count = partition.grid.tile_count();
   std::vector<std::uint8_t> open(static_cast<std::size_t>(count));
   std::vector<int> reached;
   int owned = 0;
@@ -117,11 +127,7 @@ bool is_connected(const Partition& partition, int rank) {
   };
   for (int tile = 0; tile < count && reached.empty(); ++tile) reach(tile);
   for (std::size_t i = 0; i < reached.size(); ++i) {
-    const int tile = reached[i], column = tile % columns;
-    if (column > 0) reach(tile - 1);
-    if (column + 1 < columns) reach(tile + 1);
-    if (tile >= columns) reach(tile - columns);
-    if (tile + columns < count) reach(tile + columns);
+    for (const int tile : tiles_beside(partition.grid, reached[i])) reach(tile);
   }
   return static_cast<int>(reached.size()) == owned;
 }

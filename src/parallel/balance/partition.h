@@ -34,6 +34,9 @@ TileGrid tile_grid_for(int width, int height, int ranks);
 // all equal.
 Partition bisect(const TileGrid& grid, std::span<const double> tile_costs, int ranks);
 
+// Returns the tiles that share a side with this one, at most four.
+std::vector<int> tiles_beside(const TileGrid& grid, int tile);
+
 Region region_of(const Partition& partition, int rank);
 
 // Whether the rank's tiles are connected by their sides; true for an empty region.

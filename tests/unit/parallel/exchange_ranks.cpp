@@ -9,16 +9,6 @@ namespace {
 
 using Point = std::pair<double, double>;
 
-std::vector<int> tiles_beside(const TileGrid& grid, int tile) {
-  const int column = tile % grid.columns(), row = tile / grid.columns();
-  std::vector<int> tiles;
-  if (column > 0) tiles.push_back(tile - 1);
-  if (column + 1 < grid.columns()) tiles.push_back(tile + 1);
-  if (row > 0) tiles.push_back(tile - grid.columns());
-  if (row + 1 < grid.rows()) tiles.push_back(tile + grid.columns());
-  return tiles;
-}
-
 Circle circle_of(const SampleMesh& mesh, const std::array<std::uint32_t, 3>& t) {
   const auto at = [&](int i) {
     const Sample& s = mesh.samples()[t[static_cast<std::size_t>(i)]];
