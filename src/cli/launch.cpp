@@ -2,14 +2,12 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
-#include <filesystem>
 #include <stdexcept>
-#include <string_view>
-#include <vector>
 
 #include "base/subprocess.h"
 #include "cli/exit.h"
@@ -24,6 +22,9 @@ volatile std::sig_atomic_t forced = 0;  // a second signal came
 
 // Tells the ranks that the pipe to mpirun, which is their standard error, ends at a terminal.
 constexpr const char* kTerminalVariable = "PPRT_ON_TERMINAL";
+
+// Stands before quoted words, each of which begins with '='.
+constexpr std::string_view kQuotedWords = "=words";
 
 // A first SIGINT or SIGTERM asks rank 0 to finish its frame; a second one ends mpirun.
 void pass_on(int signal) {
@@ -42,20 +43,6 @@ void pass_signals_on() {
   action.sa_handler = pass_on;
   action.sa_flags = SA_RESTART;
   for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) sigaction(signal, &action, nullptr);
-}
-
-std::vector<std::string> mpirun_command(int ranks, const std::string& hostfile, char** argv) {
-  std::vector<std::string> command = {"mpirun", "-np", std::to_string(ranks)};
-  if (!hostfile.empty()) command.insert(command.end(), {"--hostfile", hostfile});
-  // More ranks than cores is normal here: idle ranks sleep, and no rank may be bound to a core.
-  command.insert(command.end(), {"--oversubscribe", "--bind-to", "none"});
-  if (geteuid() == 0) command.emplace_back("--allow-run-as-root");
-  if (on_terminal()) command.insert(command.end(), {"-x", std::string(kTerminalVariable) + "=1"});
-  std::error_code ignored;
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", ignored);
-  command.push_back(ignored ? argv[0] : self.string());
-  for (char** word = argv + 1; *word != nullptr; ++word) command.emplace_back(*word);
-  return command;
 }
 
 void show(std::string_view text) {
@@ -85,9 +72,31 @@ constexpr SubprocessSettings kMpirunSettings{
 
 }  // namespace
 
-int run_under_mpirun(int ranks, const std::string& hostfile, char** argv,
+std::vector<std::string> mpirun_command(int ranks, const std::filesystem::path& hostfile,
+                                        std::span<const std::string> words) {
+  std::vector<std::string> command = {"mpirun", "-np", std::to_string(ranks)};
+  if (!hostfile.empty()) command.insert(command.end(), {"--hostfile", absolute(hostfile)});
+  // More ranks than cores is normal here: idle ranks sleep, and no rank may be bound to a core.
+  command.insert(command.end(), {"--oversubscribe", "--bind-to", "none"});
+  if (geteuid() == 0) command.emplace_back("--allow-run-as-root");
+  if (on_terminal()) command.insert(command.end(), {"-x", std::string(kTerminalVariable) + "=1"});
+  command.push_back(std::filesystem::read_symlink("/proc/self/exe"));
+  command.emplace_back(kQuotedWords);
+  for (const std::string& word : words) command.push_back("=" + word);
+  return command;
+}
+
+std::vector<std::string> user_words(int argc, const char* const* argv) {
+  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  if (words.empty() || words.front() != kQuotedWords) return words;
+  words.erase(words.begin());
+  for (std::string& word : words) word.erase(0, 1);
+  return words;
+}
+
+int run_under_mpirun(int ranks, const std::string& hostfile, std::span<const std::string> words,
                      const std::function<void(std::string_view)>& overhear) try {
-  Subprocess mpirun(mpirun_command(ranks, hostfile, argv), kMpirunSettings);
+  Subprocess mpirun(mpirun_command(ranks, hostfile, words), kMpirunSettings);
   mpirun_pid = mpirun.id();
   pass_signals_on();
   const MpirunMessages messages = relay(mpirun, overhear);

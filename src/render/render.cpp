@@ -156,8 +156,8 @@ int worker_rank(Communicator& network) {
 
 // No exception may leave a rank while others wait for it. An error of the master before the run dismisses the
 // other ranks; any later error aborts all ranks at once.
-int run_mpi_rank(const RenderOptions& options, ProgressReporter& progress, int argc, char** argv) {
-  MpiCommunicator network(argc, argv);
+int run_mpi_rank(const RenderOptions& options, ProgressReporter& progress) {
+  MpiCommunicator network;
   set_up_log(options.log, network.rank());
   JobBroadcast broadcast(network);
   try {
@@ -180,11 +180,11 @@ void keep_freed_memory() {
   mallopt(M_TRIM_THRESHOLD, kBytes);
 }
 
-int run(const RenderOptions& options, ProgressReporter& progress, int argc, char** argv) {
+int run(const RenderOptions& options, ProgressReporter& progress, std::span<const std::string> words) {
   keep_freed_memory();
-  if (started_by_mpi_launcher()) return run_mpi_rank(options, progress, argc, argv);
+  if (started_by_mpi_launcher()) return run_mpi_rank(options, progress);
   if (options.ranks > 1) {
-    return run_under_mpirun(options.ranks, options.hostfile, argv,
+    return run_under_mpirun(options.ranks, options.hostfile, words,
                             [&](std::string_view said) { progress.overhear(said); });
   }
   set_up_log(options.log, 0);
@@ -196,10 +196,10 @@ int run(const RenderOptions& options, ProgressReporter& progress, int argc, char
 
 }  // namespace
 
-int render(const RenderOptions& options, int argc, char** argv) {
+int render(const RenderOptions& options, std::span<const std::string> words) {
   ProgressReporter progress(options.progress);
   try {
-    const int code = run(options, progress, argc, argv);
+    const int code = run(options, progress, words);
     progress.close(code);
     return code;
   } catch (const std::exception& e) {

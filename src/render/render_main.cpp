@@ -1,4 +1,6 @@
 #include <iostream>
+#include <string>
+#include <vector>
 
 #include "base/diagnostics.h"
 #include "cli/command_line.h"
@@ -10,9 +12,9 @@
 namespace {
 
 // Returns false when nothing is left to do. A usage error is reported by --progress json too.
-bool read_options(CLI::App& app, pprt::RenderOptions& options, int argc, char** argv) {
+bool read_options(CLI::App& app, pprt::RenderOptions& options, const std::vector<std::string>& words) {
   try {
-    if (!pprt::parse_command_line(app, pprt::with_long_np(argc, argv))) return false;
+    if (!pprt::parse_command_line(app, pprt::with_long_np(words))) return false;
     pprt::check_usage(options);
   } catch (const pprt::UsageError& e) {
     pprt::ProgressReporter(options.progress).fail(e.what());
@@ -33,7 +35,8 @@ int main(int argc, char** argv) {
     pprt::RenderOptions options;
     pprt::add_render_options(app, options);
     pprt::add_common_flags(app);
-    if (!read_options(app, options, argc, argv)) return pprt::kExitDone;
-    return pprt::render(options, argc, argv);
+    const std::vector<std::string> words = pprt::user_words(argc, argv);
+    if (!read_options(app, options, words)) return pprt::kExitDone;
+    return pprt::render(options, words);
   });
 }

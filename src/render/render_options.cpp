@@ -259,8 +259,7 @@ std::string options_in_force(const CLI::App& app) {
   return result;
 }
 
-std::vector<std::string> with_long_np(int argc, const char* const* argv) {
-  std::vector<std::string> words(argv + 1, argv + argc);
+std::vector<std::string> with_long_np(std::vector<std::string> words) {
   for (std::string& word : words) {
     if (word == "-np") word = "--np";
   }

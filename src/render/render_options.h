@@ -73,7 +73,7 @@ void add_render_options(CLI::App& app, RenderOptions& options);
 // Returns the options in force as a file for --config, without unset options and flags that are off.
 std::string options_in_force(const CLI::App& app);
 
-// Returns the words of the command line after the first, with mpirun's spelling "-np" as "--np".
-std::vector<std::string> with_long_np(int argc, const char* const* argv);
+// Returns the words with mpirun's spelling "-np" as "--np".
+std::vector<std::string> with_long_np(std::vector<std::string> words);
 
 }  // namespace pprt

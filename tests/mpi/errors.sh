@@ -26,3 +26,12 @@ done
 code=0
 pprt-render no-such.nff -np 4 -o none.png 2>told || code=$?
 [[ $code == 3 ]] || fail "a missing scene ended with code $code instead of 3"
+
+# Nothing that mpirun understands can be said through pprt-render: ":" would start another program.
+for words in ": touch made" "ball.nff : -np 1 touch made" "--mca orte_launch_agent touch"; do
+  code=0
+  # shellcheck disable=SC2086
+  pprt-render -np 2 -o x.png $words >/dev/null 2>told || code=$?
+  [[ $code == 2 || $code == 3 ]] || { cat told >&2; fail "'$words' ended with code $code"; }
+  [[ ! -e made ]] || fail "'$words' started another program"
+done

@@ -104,9 +104,9 @@ class MpiCommunicator::Impl {
   std::deque<Message> to_self;
 };
 
-MpiCommunicator::MpiCommunicator(int& argc, char**& argv) : impl_(std::make_unique<Impl>()) {
+MpiCommunicator::MpiCommunicator() : impl_(std::make_unique<Impl>()) {
   int provided = 0;
-  check(MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided), "MPI_Init_thread");
+  check(MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided), "MPI_Init_thread");
   MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
   check(MPI_Comm_rank(MPI_COMM_WORLD, &impl_->rank), "MPI_Comm_rank");
   check(MPI_Comm_size(MPI_COMM_WORLD, &impl_->size), "MPI_Comm_size");

@@ -11,7 +11,7 @@ namespace pprt {
 // letting an exception pass: a rank must not leave while others wait for it.
 class MpiCommunicator final : public Communicator {
  public:
-  MpiCommunicator(int& argc, char**& argv);
+  MpiCommunicator();
   ~MpiCommunicator() override;
   MpiCommunicator(const MpiCommunicator&) = delete;
   MpiCommunicator& operator=(const MpiCommunicator&) = delete;

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <utility>
 
 #include "base/diagnostics.h"
 
@@ -12,15 +13,12 @@ namespace {
 using Catch::Contains;
 
 RenderOptions parse(std::vector<std::string> words) {
-  words.insert(words.begin(), "pprt-render");
-  std::vector<const char*> argv;
-  for (const std::string& word : words) argv.push_back(word.c_str());
-  std::vector<std::string> rest = with_long_np(static_cast<int>(argv.size()), argv.data());
-  std::reverse(rest.begin(), rest.end());  // as CLI11 wants them
+  words = with_long_np(std::move(words));
+  std::reverse(words.begin(), words.end());  // as CLI11 wants them
   CLI::App app;
   RenderOptions options;
   add_render_options(app, options);
-  app.parse(rest);
+  app.parse(words);
   return options;
 }
 

@@ -1,0 +1,49 @@
+#include "cli/launch.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+namespace pprt {
+namespace {
+
+using Words = std::vector<std::string>;
+
+// The words that a rank started by this command gives its options.
+Words words_of_rank(const Words& command) {
+  const auto program =
+      std::find(command.begin(), command.end(), std::filesystem::read_symlink("/proc/self/exe").string());
+  Words rest(program, command.end());
+  std::vector<const char*> argv;
+  for (const std::string& word : rest) argv.push_back(word.c_str());
+  return user_words(static_cast<int>(argv.size()), argv.data());
+}
+
+}  // namespace
+
+TEST_CASE("no word of the user's stands in mpirun's command line as it was given") {
+  const Words hostile = {":", "/usr/bin/id", "--mca", "plm_rsh_agent", "-x", "=words", "", "-np", "2", "a b"};
+  const Words own = mpirun_command(7, {}, {});
+  const Words command = mpirun_command(7, {}, hostile);
+  REQUIRE(std::equal(own.begin(), own.end(), command.begin()));
+  for (std::size_t i = own.size(); i < command.size(); ++i) CHECK(command[i].front() == '=');
+  CHECK(words_of_rank(command) == hostile);
+}
+
+TEST_CASE("a hostfile's name cannot be a word of mpirun's") {
+  for (const char* name : {":", "--mca"}) {
+    const Words command = mpirun_command(2, name, {});
+    const auto option = std::find(command.begin(), command.end(), "--hostfile");
+    REQUIRE(option != command.end());
+    CHECK(*(option + 1) == std::filesystem::current_path() / name);
+    CHECK(std::find(command.begin(), command.end(), name) == command.end());
+  }
+}
+
+TEST_CASE("words that nobody has quoted are taken as they are") {
+  const std::vector<const char*> argv = {"pprt-render", "spd:tree", "=words", "=x"};
+  CHECK(user_words(4, argv.data()) == Words{"spd:tree", "=words", "=x"});
+  CHECK(user_words(1, argv.data()).empty());
+  CHECK(user_words(0, argv.data()).empty());
+}
+
+}  // namespace pprt
