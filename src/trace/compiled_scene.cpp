@@ -259,8 +259,15 @@ std::string CompiledScene::census() const {
   return census_text(*impl_);
 }
 
+double CompiledScene::distance(const Vec3d& point) const {
+  return impl_->normalisation.point(point).length();
+}
+
 Camera CompiledScene::camera(const View& view) const {
   const ViewFrame frame = view_frame(view, impl_->name);
+  if (!(distance(view.from) <= kFarthestEye)) {
+    reject(impl_->name, view.location, "view: the eye is too far away to resolve the scene");
+  }
   Camera camera;
   camera.eye = impl_->normalisation.point(view.from);
   camera.forward = frame.forward;
@@ -296,11 +303,14 @@ CompiledScene compile(const SceneDescription& scene, const CompileOptions& optio
   for (const Light& l : scene.lights) {
     if (!finite(l.position)) reject(scene.name, l.location, "the position of a light is not finite");
     impl->lights.push_back(
-        {impl->normalisation.point(l.position), to_color(l.color.value_or(Rgb(1, 1, 1)) * weight)});
+        {impl->normalisation.point(l.position), to_color(l.color.value_or(Rgb(1, 1, 1)) * weight), {}});
   }
   PartsBuilder(scene, *impl).run();
   std::erase_if(impl->parts, [](const ScenePart& part) { return part.materials.empty(); });
   if (impl->parts.empty()) reject(scene.name, {}, "no object of the scene has any extent");
+  for (ShadingLight& light : impl->lights) {
+    light.contacts = contacts_of_light(light.position, impl->parts, impl->radius);
+  }
   build_hierarchy(*impl);
   return CompiledScene(std::move(impl));
 }

@@ -29,6 +29,10 @@ struct CompileOptions {
   bool general_kernel = false;
 };
 
+// Distance in sizes of the scene from which an eye still sees it. At 2^40 the rounding of a double, 2^-53 of
+// the distance, is a 2^13th of the scene. Test: camera_test.cpp, "an eye ...".
+inline constexpr double kFarthestEye = 0x1p40;
+
 // Immutable; any number of Tracers may read it. The compiled space is the scene's, moved and scaled in double
 // so that its largest extent lies in (0.5, 1] (trace/normalisation.h).
 class CompiledScene {
@@ -43,8 +47,12 @@ class CompiledScene {
   // Returns the effects that are simulated: called for by the scene and allowed by the options.
   EffectSet effects() const;
 
+  // Returns the distance of a point in scene space from the compiled space's origin, in sizes of the scene.
+  double distance(const Vec3d& point) const;
+
   // Converts a view in scene space to a camera in the compiled space, for view.width x view.height pixels.
-  // Throws InputError when the view is degenerate: from = at, up parallel to it, angle outside (0, 180).
+  // Throws InputError when the view is degenerate: from = at, up parallel to it, angle outside (0, 180), the
+  // eye beyond kFarthestEye.
   Camera camera(const View& view) const;
 
   // Returns a report for people: primitives by kind, materials, lights, effects with reasons, kernel, memory.

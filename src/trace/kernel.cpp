@@ -32,8 +32,8 @@ void set_ray(RTCRay& ray, const Vec3f& origin, const Vec3f& direction, float len
 
 // Finds the first hit of a ray; returns whether there is one.
 bool intersect(const CompiledScene::Impl& scene, RaySender& sender, const Vec3f& origin,
-               const Vec3f& direction, RTCRayHit& found) {
-  set_ray(found.ray, origin, direction, kInfinity);
+               const Vec3f& direction, float length, RTCRayHit& found) {
+  set_ray(found.ray, origin, direction, length);
   found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   sender.intersect(scene.embree, found);
@@ -122,7 +122,7 @@ class RayTree {
   void follow_eye_ray(const Vec3f& origin, const Vec3f& direction, RaySample& sample) {
     ++counts_.primary;
     RTCRayHit found;
-    if (!intersect(scene_, sender_, origin, direction, found)) {
+    if (!intersect(scene_, sender_, origin, direction, kInfinity, found)) {
       sample.color = scene_.background;
       sample.hit = direction;
       sample.at_infinity = true;
@@ -147,19 +147,34 @@ class RayTree {
   static constexpr bool kRefraction = has(Effect::kRefraction);
   static constexpr bool kSmooth = has(Effect::kSmoothNormals);
 
-  bool in_shadow(const Vec3f& origin, const Vec3d& direction, double length) {
+  bool in_shadow(const ShadingLight& light, const Vec3f& origin, const Vec3d& direction, double length) {
     ++counts_.shadow;
+    if (!light.contacts.empty()) return in_shadow_of_others(light, origin, direction, length);
     RTCRay ray;
     set_ray(ray, origin, Vec3f(direction), static_cast<float>(length));
     sender_.occluded(scene_.embree, ray);
     return ray.tfar < 0;
   }
 
+  // The same for a light that lies on surfaces: these do not hide it where the ray ends. What comes first on
+  // the way decides.
+  bool in_shadow_of_others(const ShadingLight& light, const Vec3f& origin, const Vec3d& direction,
+                           double length) {
+    RTCRayHit found;
+    if (!intersect(scene_, sender_, origin, Vec3f(direction), static_cast<float>(length), found))
+      return false;
+    const double before_light = length - static_cast<double>(found.ray.tfar);
+    return std::none_of(light.contacts.begin(), light.contacts.end(), [&](const LightContact& contact) {
+      return contact.part == found.hit.geomID && contact.primitive == found.hit.primID &&
+             before_light <= static_cast<double>(contact.reach);
+    });
+  }
+
   // Returns the colour of a secondary ray.
   Color follow(const Vec3d& origin, const Vec3d& direction, int depth) {
     const Vec3f d(direction);
     RTCRayHit found;
-    if (!intersect(scene_, sender_, Vec3f(origin), d, found)) return scene_.background;
+    if (!intersect(scene_, sender_, Vec3f(origin), d, kInfinity, found)) return scene_.background;
     const Vec3d exact(d);
     return shade(surface_at<kSmooth>(scene_, found, exact), exact, depth);
   }
@@ -188,7 +203,7 @@ class RayTree {
       const double length = std::sqrt(to_light.dot(to_light));
       const Vec3d unit_to_light = to_light * (1 / length);
       if constexpr (kShadows) {
-        if (in_shadow(origin, unit_to_light, length)) continue;
+        if (in_shadow(light, origin, unit_to_light, length)) continue;
       }
       color += light.color * material.diffuse * static_cast<float>(cosine_length / length);
       if constexpr (kHighlights) {
@@ -268,7 +283,7 @@ std::optional<VisibleSurface> visible_surface(const CompiledScene::Impl& scene, 
                                               const Vec3f& direction) {
   RaySender sender;
   RTCRayHit found;
-  if (!intersect(scene, sender, origin, direction, found)) return std::nullopt;
+  if (!intersect(scene, sender, origin, direction, kInfinity, found)) return std::nullopt;
   const bool smooth = scene.effects.has(Effect::kSmoothNormals);
   const Surface surface = smooth ? surface_at<true>(scene, found, Vec3d(direction))
                                  : surface_at<false>(scene, found, Vec3d(direction));

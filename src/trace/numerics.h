@@ -65,13 +65,41 @@ constexpr double triangle_offset(double longest_edge, double twice_area, double 
   return bound < kMaxTriangleOffset ? bound : kMaxTriangleOffset;
 }
 
+// Flattest angle, as the inverse of its cosine to the normal, at which bounds that grow with it still hold.
+inline constexpr double kFlattestCosine = 256;
+
+// Returns how far the end of a shadow ray of this length may lie from its light.
+//
+// Counted from: the rounding of the origin, of the unit direction (three components, each by at most 2^-25)
+// times the length, and of the length. Test: light_contacts_test.cpp.
+constexpr double shadow_end_error(double length) {
+  return kOriginRounding + (kOriginRounding + kFloatRounding) * length;
+}
+
+// Returns how far from a triangle's plane its light may lie so that a shadow ray may meet the triangle or
+// not.
+//
+// Bound: shadow_end_error, the rounding of the vertices, and Embree's error of T = v0 . Ng as in
+// triangle_offset, for an origin at distance d = `length`. Counted from, with l the longest edge:
+//   v_i = vertex - origin    errs by u d: moves a vertex, and with it the plane, by sqrt(3) u d
+//   e = v_i - v_j, an edge   errs by u l
+//   Ng = e x e'              errs by 2 u l^2 + 2 u l^2
+//   T = v0 . Ng              errs by 4 d u l^2 + 3 u d |Ng|
+// At most kMaxTriangleOffset, for slivers. Test: light_contacts_test.cpp.
+constexpr double shadow_end_on_triangle(double length, double longest_edge, double twice_area) {
+  const double l = longest_edge;
+  const double bound = shadow_end_error(length) + kOriginRounding +
+                       kFloatRounding * length * (4 * l * l / twice_area + 3 + 1.7321);
+  return bound < kMaxTriangleOffset ? bound : kMaxTriangleOffset;
+}
+
 // Returns how much nearer than an earlier hit point an occluder must be to hide it.
 //
 // Counted from: the hit point was rounded to float, so its own surface may lie before it by the rounding /
 // cos(incidence). The bound covers cosines down to 1/256. At flatter angles a visible point may count as
 // hidden, and is sampled anew. Test: visibility_test.cpp.
 constexpr double visibility_gap(double sum_of_coordinates) {
-  return 256 * (origin_rounding(sum_of_coordinates) + kCrossingError);
+  return kFlattestCosine * (origin_rounding(sum_of_coordinates) + kCrossingError);
 }
 
 // Smallest cosine of a secondary ray with the geometric normal. An interpolated normal can send a ray through

@@ -12,6 +12,7 @@
 #include "trace/embree.h"
 #include "trace/inventory.h"
 #include "trace/kernel.h"
+#include "trace/light_contacts.h"
 #include "trace/mesh.h"
 #include "trace/normalisation.h"
 #include "trace/user_geometry.h"
@@ -32,7 +33,8 @@ struct ShadingMaterial {
 // A light prepared for shading.
 struct ShadingLight {
   Vec3d position{0, 0, 0};
-  Color color{1, 1, 1};  // colour times the light's weight
+  Color color{1, 1, 1};                // colour times the light's weight
+  std::vector<LightContact> contacts;  // empty for nearly every light
 };
 
 // One Embree geometry: primitives of one kind and one visibility of faces.

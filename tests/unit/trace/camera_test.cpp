@@ -94,3 +94,17 @@ TEST_CASE("a degenerate view is refused, with its place") {
   refused([](View& v) { v.from.x = std::numeric_limits<double>::infinity(); });
   refused([](View& v) { v.height = 0; });
 }
+
+TEST_CASE("an eye sees a scene from 2^40 sizes away, and is refused from farther") {
+  SceneDescription scene = scene_with(Material());
+  add_square(scene, 0.5, 0);
+  const CompiledScene compiled = compile(scene);
+  View view = view_from({0.3e12, 0.4e12, 0.9e12}, {0, 0, 0}, 1e-10);
+  CHECK(compiled.distance(view.from) < kFarthestEye);
+  Tracer tracer(compiled, compiled.camera(view));
+  CHECK_FALSE(tracer.trace(32, 32).at_infinity);
+  for (const double distance : {1.2e12, 4e19, 1e200, 1e308}) {
+    view.from = {0, 0, distance};
+    CHECK_THROWS_AS(compiled.camera(view), InputError);
+  }
+}
