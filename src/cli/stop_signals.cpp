@@ -13,18 +13,19 @@ namespace {
 volatile std::sig_atomic_t stop_signal = 0;
 sem_t status_wanted;  // set up by watch_signals()
 
+void on_status(int) {
+  const int error = errno;
+  sem_post(&status_wanted);
+  errno = error;
+}
+
 void on_stop(int signal) {
   if (stop_signal != 0 && signal != SIGUSR2) {
     std::signal(signal, SIG_DFL);
     std::raise(signal);
   }
   stop_signal = signal;
-}
-
-void on_status(int) {
-  const int error = errno;
-  sem_post(&status_wanted);
-  errno = error;
+  on_status(signal);
 }
 
 void handle(int signal, void (*handler)(int)) {
@@ -51,8 +52,8 @@ std::optional<int> stop_requested() {
   return static_cast<int>(stop_signal);
 }
 
-StatusPrinter::StatusPrinter(std::function<void()> print)
-    : print_(std::move(print)), thread_([this] { run(); }) {}
+StatusPrinter::StatusPrinter(std::function<void()> print, std::function<void()> tell_of_stop)
+    : print_(std::move(print)), tell_of_stop_(std::move(tell_of_stop)), thread_([this] { run(); }) {}
 
 StatusPrinter::~StatusPrinter() {
   over_ = true;
@@ -60,12 +61,16 @@ StatusPrinter::~StatusPrinter() {
   thread_.join();
 }
 
-void StatusPrinter::run() const {
+void StatusPrinter::run() {
   for (;;) {
     while (sem_wait(&status_wanted) != 0) {
     }
     if (over_) return;
-    print_();
+    if (stop_signal != 0 && tell_of_stop_) {
+      std::exchange(tell_of_stop_, nullptr)();
+    } else {
+      print_();
+    }
   }
 }
 

@@ -18,19 +18,20 @@ void ignore_signals();
 // Returns the signal that asked for the end, if any did.
 std::optional<int> stop_requested();
 
-// While it lives, answers SIGUSR1 by calling `print` in a thread of its own, as a frame may take minutes. At
-// most one may exist at a time, after watch_signals().
+// While it lives, answers SIGUSR1 by calling `print` in a thread of its own, as a frame may take minutes. The
+// first signal that asks for the end is answered by `tell_of_stop`. At most one may exist at a time, after
+// watch_signals().
 class StatusPrinter {
  public:
-  explicit StatusPrinter(std::function<void()> print);
+  StatusPrinter(std::function<void()> print, std::function<void()> tell_of_stop);
   ~StatusPrinter();
   StatusPrinter(const StatusPrinter&) = delete;
   StatusPrinter& operator=(const StatusPrinter&) = delete;
 
  private:
-  void run() const;
+  void run();
 
-  std::function<void()> print_;
+  std::function<void()> print_, tell_of_stop_;
   std::atomic<bool> over_ = false;
   std::thread thread_;  // last: it uses the others
 };

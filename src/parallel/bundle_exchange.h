@@ -76,6 +76,9 @@ class BundleExchange {
   // become whole, or due, meanwhile.
   void poll();
 
+  // Looks for messages now.
+  void look() { inbox_.pump(); }
+
  private:
   std::vector<Inbox::Arrived> read_handshakes(std::vector<Inbox::Arrived> bundles);
   void count(const Bundle& bundle, std::size_t encoded_size);

@@ -18,12 +18,6 @@ double distance_squared(const Vec2d& p, const PixelRect& rect) {
   return dx * dx + dy * dy;
 }
 
-bool meets(const Circle& circle, const Region& region) {
-  return std::any_of(region.tiles().begin(), region.tiles().end(), [&](int tile) {
-    return distance_squared(circle.center, region.grid().pixels(tile)) <= circle.radius_squared;
-  });
-}
-
 struct TileRange {
   int x0, y0, x1, y1;  // inclusive
 };
@@ -33,6 +27,20 @@ TileRange tiles_around(const TileGrid& grid, const Circle& circle) {
   const double radius = std::sqrt(circle.radius_squared);
   return {grid.column_at(c.x - radius), grid.row_at(c.y - radius), grid.column_at(c.x + radius),
           grid.row_at(c.y + radius)};
+}
+
+bool meets(const Circle& circle, const Region& region) {
+  const TileGrid& grid = region.grid();
+  const TileRange around = tiles_around(grid, circle);
+  for (int y = around.y0; y <= around.y1; ++y) {
+    for (int x = around.x0; x <= around.x1; ++x) {
+      const int tile = y * grid.columns() + x;
+      if (region.owns_tile(tile) &&
+          distance_squared(circle.center, grid.pixels(tile)) <= circle.radius_squared)
+        return true;
+    }
+  }
+  return false;
 }
 
 std::int32_t owner_at(const Partition& partition, int column, int row) {
@@ -112,6 +120,7 @@ void SampleExchange::plan_seeds() {
   std::vector<std::uint8_t> is_peer(static_cast<std::size_t>(partition_.ranks), 0);
   seed_receivers_.assign(seeds_.points.size(), {});
   for (const MeshTriangle& triangle : seeds_.triangles) {
+    if (region.is_whole()) break;  // nobody else needs seeds
     if (distance_squared(triangle.circumcircle.center, region.bounds()) >
         triangle.circumcircle.radius_squared)
       continue;

@@ -1,7 +1,6 @@
 #include "parallel/frame_assembly.h"
 
 #include <cstddef>
-#include <utility>
 
 namespace pprt {
 
@@ -15,10 +14,12 @@ FrameAssembly::FrameAssembly(const FrameOrder& order, const TileGrid& grid, int 
 
 void FrameAssembly::add(int from, const PixelMessage& message) {
   const auto rank = static_cast<std::size_t>(from);
-  if (std::exchange(has_come_[rank], std::uint8_t{1}) != 0) throw ProtocolError("pixels came twice");
+  if (has_come_[rank] != 0) throw ProtocolError("pixels came twice");
   picture.paste(from, message);
+  tiles_[rank].insert(tiles_[rank].end(), message.tiles.begin(), message.tiles.end());
+  if (!message.is_last) return;
+  has_come_[rank] = 1;
   reports_[rank] = message.report;
-  tiles_[rank] = message.tiles;
   samples.insert(samples.end(), message.samples.begin(), message.samples.end());
   --missing_;
 }

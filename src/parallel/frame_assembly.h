@@ -14,7 +14,7 @@ class FrameAssembly {
  public:
   FrameAssembly(const FrameOrder& order, const TileGrid& grid, int ranks);
 
-  // Takes in one rank's pixels. Throws ProtocolError when they come a second time.
+  // Takes in one rank's pixels, or a part of them. Throws ProtocolError when they come a second time.
   void add(int from, const PixelMessage& message);
 
   bool is_whole() const { return missing_ == 0; }
@@ -31,7 +31,7 @@ class FrameAssembly {
   FrameOrder order_;
   std::vector<RankReport> reports_;
   std::vector<std::vector<TileReport>> tiles_;
-  std::vector<std::uint8_t> has_come_;  // per rank: its pixels
+  std::vector<std::uint8_t> has_come_;  // per rank: all its pixels
   int missing_;                         // ranks whose pixels have not come
 };
 

@@ -16,8 +16,7 @@ Master::Master(Communicator& network, const SessionSettings& settings, const Par
       reserve_(settings.frames_per_second > 0 ? 1 / settings.frames_per_second : 0, ranks_per_core),
       balancer_(settings, partition.grid, network.size(), clock_->units_per_frame()),
       source_(std::move(source)),
-      sink_(std::move(sink)),
-      shown_(partition.grid) {}
+      sink_(std::move(sink)) {}
 
 void Master::begin_sequence(double start_s) {
   clock_->begin_sequence(start_s);
@@ -110,6 +109,7 @@ void Master::handle(const Message& message) {
   }
   PendingFrame& frame = found->second;
   frame.assembly.add(message.from, pixels);
+  if (!pixels.is_last) return;
   frame.after_sampling_s = std::max(frame.after_sampling_s, after_sampling_s(pixels.report));
   while (!frames_.empty() && frames_.begin()->second.assembly.is_whole()) deliver_first();
 }
@@ -120,7 +120,8 @@ void Master::handle_overdue(int from, const PixelMessage& pixels) {
   if (!clock_->keeps_deadlines() || pixels.frame_index < 0 || pixels.frame_index >= next_index_) {
     throw ProtocolError("pixels came for a frame that was not ordered");
   }
-  shown_.paste(from, pixels);
+  if (shown_) shown_->paste(from, pixels);
+  if (!pixels.is_last) return;
   ++overdue_pixels_;
   if (clock_->now_s() < clock_->deadline_s(pixels.frame_index + 1, 0))
     reserve_.learn(after_sampling_s(pixels.report));
@@ -173,7 +174,7 @@ FinishedFrame Master::finish(PendingFrame& pending) {
   FrameAssembly& assembly = pending.assembly;
   FinishedFrame frame;
   if (clock_->keeps_deadlines()) {
-    if (!assembly.is_whole()) frame.stale_tiles = assembly.picture.fill_gaps(shown_);
+    if (!assembly.is_whole()) frame.stale_tiles = assembly.picture.fill_gaps(shown_.value());
     shown_ = assembly.picture;
   }
   frame.order = assembly.order();

@@ -74,8 +74,8 @@ class Master {
   // Rank 0 has begun a frame: time for the order of the one after.
   void frame_begun();
 
-  // Takes in a rank's pixels, also those of a frame that did not wait for them. Throws ProtocolError for
-  // pixels of a frame that was not ordered, and for those that come twice.
+  // Takes in a rank's pixels, or a part of them, also those of a frame that did not wait for them. Throws
+  // ProtocolError for pixels of a frame that was not ordered, and for those that come twice.
   void handle(const Message& message);
 
   // Delivers what is due: to be called whenever all that has arrived has been taken in.
@@ -116,8 +116,8 @@ class Master {
   CameraSource source_;
   FrameSink sink_;
   std::map<int, PendingFrame> frames_;  // by frame index
-  Mosaic shown_;            // with deadlines: the frame delivered last, and what came for it since
-  int overdue_pixels_ = 0;  // since that frame was delivered
+  std::optional<Mosaic> shown_;  // with deadlines: the frame delivered last, and what came for it since
+  int overdue_pixels_ = 0;       // since that frame was delivered
   std::optional<FrameRequest> before_;  // the frame ordered last
   CastEvidence evidence_;               // of the frames delivered, the latest counting most
   int evidence_since_ = 0;              // index of the last frame that nothing was carried into

@@ -18,15 +18,12 @@ void RegionPicture::reconstruct_region(const SampleMesh& mesh, std::span<const s
   reconstruct(mesh, bounds, pixels_, buffers_, rule_, knows_shapes_ ? &projected_shapes_ : nullptr);
 }
 
-void RegionPicture::append_tiles(const TileGrid& grid, std::span<const int> tiles,
-                                 std::vector<float>& rgb) const {
-  for (const int tile : tiles) {
-    const PixelRect rect = grid.pixels(tile);
-    for (int y = rect.y0; y < rect.y1; ++y) {
-      for (int x = rect.x0; x < rect.x1; ++x) {
-        const Color& c = pixels_.at(x, y);
-        rgb.insert(rgb.end(), {c.x, c.y, c.z});
-      }
+void RegionPicture::append_tile(const TileGrid& grid, int tile, std::vector<float>& rgb) const {
+  const PixelRect rect = grid.pixels(tile);
+  for (int y = rect.y0; y < rect.y1; ++y) {
+    for (int x = rect.x0; x < rect.x1; ++x) {
+      const Color& c = pixels_.at(x, y);
+      rgb.insert(rgb.end(), {c.x, c.y, c.z});
     }
   }
 }

@@ -22,8 +22,8 @@ class RegionPicture {
   // Reconstructs the region's pixels, and those of further tiles that the mesh covers.
   void reconstruct_region(const SampleMesh& mesh, std::span<const std::int32_t> further_tiles);
 
-  // Appends the pixels of tiles to `rgb`, tile after tile: rows from the top, 3 values a pixel.
-  void append_tiles(const TileGrid& grid, std::span<const int> tiles, std::vector<float>& rgb) const;
+  // Appends the pixels of a tile to `rgb`: rows from the top, 3 values a pixel.
+  void append_tile(const TileGrid& grid, int tile, std::vector<float>& rgb) const;
 
  private:
   PixelRule rule_;

@@ -157,23 +157,44 @@ void Worker::reconstruct() {
 }
 
 void Worker::send_pixels(const FrameOrder& order, double sampling_ended_s) {
-  const Region& region = sampler_.region();
+  const TileGrid& grid = sampler_.region().grid();
+  const std::vector<TileReport> tiles = costs_.report(sampler_.mesh());
   PixelMessage message;
   message.frame_index = order.index;
-  message.tiles = costs_.report(sampler_.mesh());
-  if (bundles_.policy().sends_substitute_pixels()) message.given = ownership_.given();
-  picture_.append_tiles(region.grid(), region.tiles(), message.rgb);
-  picture_.append_tiles(region.grid(), message.given, message.rgb);
+  message.is_last = false;
+  std::size_t bytes = 0;
+  const auto append = [&](auto& list, const auto& tile, int number) {
+    list.push_back(tile);
+    picture_.append_tile(grid, number, message.rgb);
+    if (message.rgb.size() >= 3 * kPixelsInMessage) bytes += send_part(message);
+  };
+  for (const TileReport& tile : tiles) append(message.tiles, tile, tile.tile);
+  if (bundles_.policy().sends_substitute_pixels()) {
+    for (const std::int32_t tile : ownership_.given()) append(message.given, tile, tile);
+  }
+  message.is_last = true;
   if (settings_.report_samples) {
     const std::span<const Sample> samples = sampler_.mesh().samples();
     std::copy_if(samples.begin(), samples.end(), std::back_inserter(message.samples),
                  [this](const Sample& s) { return sampler_.owns(s); });
   }
   message.report = make_report(sampling_ended_s);
-  message.report.bytes_balance += message.tiles.size() * sizeof(TileReport);
-  message.report.bytes_pixels = message.rgb.size() * sizeof(float);
+  message.report.bytes_balance += tiles.size() * sizeof(TileReport);
+  message.report.bytes_pixels = bytes + message.rgb.size() * sizeof(float);
   network_.send(0, Tag::kPixels, encode(message));
   clock_->end_frame(message.report.cpu_ms.reconstruction);
+}
+
+// Sends some of a large region's tiles, and empties the message. Returns the bytes of their pixels. Rank 0 takes in its
+// own parts at once: together they would be a picture more.
+std::size_t Worker::send_part(PixelMessage& message) {
+  network_.send(0, Tag::kPixels, encode(message));
+  bundles_.look();
+  const std::size_t bytes = message.rgb.size() * sizeof(float);
+  message.tiles.clear();
+  message.given.clear();
+  message.rgb.clear();
+  return bytes;
 }
 
 // All but the bytes of the message that carries it.

@@ -86,6 +86,7 @@ class Worker {
   // Reconstruct and report.
   void reconstruct();
   void send_pixels(const FrameOrder& order, double sampling_ended_s);
+  std::size_t send_part(PixelMessage& message);
   RankReport make_report(double sampling_ended_s) const;
 
   bool is_fresh() const { return bundles_.at().epoch == bundles_.at().frame_index; }

@@ -141,4 +141,16 @@ std::string preflight(const RenderPlan& plan, const CompiledScene& scene) {
   return warnings;
 }
 
+void require_eyes_in_reach(const RenderPlan& plan, const CompiledScene& scene) {
+  for (const PlannedFrame& frame : plan.script_frames) {
+    const double distance = scene.distance(frame.view.from);
+    if (distance <= kFarthestEye) continue;
+    const std::string where = plan.script_name.empty()
+                                  ? plan.scene.name + ": error: "
+                                  : fmt::format("{}: error: frame {}: ", plan.script_name, frame.number);
+    throw InputError(fmt::format("{}the eye is {:.1e} times the scene's size away; the most is {:.1e}", where,
+                                 distance, kFarthestEye));
+  }
+}
+
 }  // namespace pprt

@@ -16,4 +16,7 @@ namespace pprt {
 // warnings, each a line: the scene has no light; every frame shows one colour throughout.
 std::string preflight(const RenderPlan& plan, const CompiledScene& scene);
 
+// Throws InputError with the first frame whose eye is too far away to resolve the scene (kFarthestEye).
+void require_eyes_in_reach(const RenderPlan& plan, const CompiledScene& scene);
+
 }  // namespace pprt

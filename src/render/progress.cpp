@@ -94,6 +94,12 @@ void ProgressReporter::status(const RunTotals& totals) const {
   fmt::print(stderr, "{}{}  {:.1f} s elapsed\n", over_line, line(totals), elapsed.count());
 }
 
+void ProgressReporter::stopping() const {
+  if (kind_ == ProgressKind::kNone || kind_ == ProgressKind::kJson) return;
+  fmt::print(stderr, "{}pprt-render: the run ends after the frame at hand; a second signal ends it at once\n",
+             kind_ == ProgressKind::kTty ? "\r\033[K" : "");
+}
+
 void ProgressReporter::finish(RunEnd end, const RunTotals& totals, const std::string& where) {
   if (kind_ == ProgressKind::kTty && totals.frames() > 0) fmt::print(stderr, "\r\033[K");
   if (kind_ == ProgressKind::kNone || kind_ == ProgressKind::kJson) return;

@@ -74,6 +74,9 @@ class ProgressReporter {
   // Prints one line with the time elapsed, when a signal asks for it.
   void status(const RunTotals& totals) const;
 
+  // Tells people that a signal has been heard: the frame at hand may take long.
+  void stopping() const;
+
   // Prints the summary for people. `where`: the frames' file names.
   void finish(RunEnd end, const RunTotals& totals, const std::string& where);
 

@@ -17,6 +17,7 @@
 #include "parallel/session.h"
 #include "render/frame_recorder.h"
 #include "render/frame_requests.h"
+#include "render/memory_check.h"
 #include "render/preflight.h"
 #include "render/render_job.h"
 #include "render/render_plan.h"
@@ -84,6 +85,8 @@ PreparedRun prepare(const RenderOptions& options) {
                 .scene_nff = canonical_nff(plan.scene)};
   CompiledScene scene = compile_scene(job);
   log_info(fmt::format("compiled for effects: {}", to_string(scene.effects())));
+  require_eyes_in_reach(plan, scene);
+  if (plan.renders) require_memory(plan);
   if (plan.report.census) std::cout << scene.census() << std::flush;
   return {std::move(plan), std::move(job), std::move(scene)};
 }
@@ -106,7 +109,7 @@ int run_frames(Communicator& network, const PreparedRun& run, ProgressReporter& 
   // Render with all ranks.
   broadcast.send(run.job);
   watch_signals();
-  const StatusPrinter printer([&recorder] { recorder.status(); });
+  const StatusPrinter printer([&recorder] { recorder.status(); }, [&progress] { progress.stopping(); });
   Tracer tracer(run.scene, Camera());
   run_as_master(network, run.plan.settings, probe_of(tracer), source, [&](FinishedFrame&& frame) {
     log_frame(frame);

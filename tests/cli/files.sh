@@ -53,4 +53,9 @@ run pprt-render ball.anim "${work[@]}" -np 2 -o file/%04d.png; expect_code 1
 expect_line err "pprt-render: .*error: cannot write 'file/manifest.ndjson': Not a directory"
 run pprt-render ball.nff --samples 50 -o s.png --contact-sheet file/sheet.png; expect_code 1; expect_file s.png
 expect_line err "pprt-render: error: cannot write 'file/sheet.png': Not a directory"
+
+# A picture that memory cannot hold is refused before anything is written.
+run bash -c 'ulimit -v 3000000; exec pprt-render ball.nff -s 16384x16384 --samples 500 -o large.png'; expect_code 1
+expect_text err 'pprt-render: error: pictures of 16384x16384 pixels take at least 7.2 GB of memory; 3.1 GB are available'
+expect_no_file large.png
 finish

@@ -50,6 +50,15 @@ grep -v scene ball.anim >noscene.anim
 run pprt-render noscene.anim
 expect_usage "the script noscene.anim names no scene: give one before it, or add 'scene \"...\"' to it"
 
+# An eye from which doubles cannot resolve the scene: in a still, and in the middle of a path, before its first frame.
+sed 's/^from .*/from 0 0 1e20/' ball.nff >far.nff
+run pprt-render far.nff -o far.png; expect_code 3
+expect_text err "far.nff: error: the eye is 5.0e+19 times the scene's size away; the most is 1.1e+12"
+sed 's/key 12 .*/key 8 { from <0, 0, 1e20> } key 12 { from <5, 0, 0> }/' ball.anim >far.anim
+run pprt-render far.anim -o far_%02d.png; expect_code 3
+expect_line err "far.anim: error: frame [2-8]: the eye is [0-9.e+]* times the scene's size away; the most is 1.1e+12"
+expect_no_file far_01.png
+
 # Standard input is as good as a file.
 run pprt-render ball.nff --clock work -o a.png; expect_code 0
 pprt-render - --clock work -o b.png <ball.nff 2>err; expect_same a.png b.png

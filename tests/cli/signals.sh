@@ -46,6 +46,21 @@ wait "$pid" || code=$?
 command='a stopped run without its sheet'
 expect_code 1
 
+# A signal is answered at once, though the frame at hand goes on.
+pprt-render ball.nff --time 6 -s 512x512 -o long.png >out 2>err &
+pid=$!
+sleep 1.5
+kill -TERM "$pid"
+sleep 1
+command='a still asked to stop'
+expect_line err 'pprt-render: the run ends after the frame at hand; a second signal ends it at once'
+expect_no_file long.png
+code=0
+wait "$pid" || code=$?
+expect_code 143
+expect_file long.png
+rm long.png
+
 # A frame that takes long does not keep the status back.
 pprt-render ball.nff --time 4 -s 512x512 -o long.png >out 2>err &
 pid=$!

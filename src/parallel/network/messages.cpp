@@ -142,7 +142,7 @@ Bundle decode_bundle(std::span<const std::byte> bytes) {
 
 Bytes encode(const PixelMessage& pixels) {
   WireWriter out;
-  out.put(pixels.frame_index), out.put(pixels.report);
+  out.put(pixels.frame_index), out.put(pixels.is_last), out.put(pixels.report);
   out.put_all(std::span<const TileReport>(pixels.tiles));
   out.put_all(std::span<const std::int32_t>(pixels.given));
   out.put_all(std::span<const float>(pixels.rgb));
@@ -153,7 +153,7 @@ Bytes encode(const PixelMessage& pixels) {
 PixelMessage decode_pixels(std::span<const std::byte> bytes) {
   WireReader in(bytes);
   PixelMessage pixels;
-  in.get(pixels.frame_index), in.get(pixels.report);
+  in.get(pixels.frame_index), in.get(pixels.is_last), in.get(pixels.report);
   in.get_all(pixels.tiles);
   in.get_all(pixels.given);
   in.get_all(pixels.rgb);

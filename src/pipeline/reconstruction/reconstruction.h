@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "base/vector.h"
@@ -42,12 +43,28 @@ struct alignas(16) PixelSum {
 // kLarge: at a few points of the pixels whose centres it holds, and over the area of accumulated pixels.
 enum class TriangleEdge : std::uint8_t { kNone, kSmall, kLarge };
 
+// Accumulated pixels by number, without a value at first: pages that no sum is written to take no memory.
+class PixelSums {
+ public:
+  // Keeps the values unless there are more pixels than ever before.
+  void resize(std::size_t pixels) {
+    if (pixels <= size_) return;
+    sums_ = std::make_unique_for_overwrite<PixelSum[]>(pixels);
+    size_ = pixels;
+  }
+  PixelSum& operator[](std::size_t pixel) { return sums_[pixel]; }
+
+ private:
+  std::unique_ptr<PixelSum[]> sums_;
+  std::size_t size_ = 0;
+};
+
 // Storage that lives from frame to frame. Pixels are numbered row by row within the bounds. `sums` has a
 // meaning for pixels that hold a sample, its differences for accumulated pixels.
 struct ReconstructionBuffers {
   std::vector<std::uint64_t> holds_one, holds_several;  // a bit per pixel, each row begins a new word
   std::vector<std::uint32_t> pixels;                    // those accumulated, in the order of their beginning
-  std::vector<PixelSum> sums;
+  PixelSums sums;
   std::vector<TriangleEdge> edges;  // per triangle of the mesh
 };
 

@@ -59,6 +59,7 @@ void SampleMesh::restart() {
   queue_.clear();
   queue_.set_floor(std::numeric_limits<float>::infinity());
   tile_weights_.assign(tiles, {});
+  all_weights_ = {};
   latest_in_tile_.assign(tiles, Delaunay::kNowhere);
   latest_in_cell_.assign(cell_of({0.0 + region_.grid().width, 0.0 + region_.grid().height}) + 1,
                          Delaunay::kNowhere);
@@ -237,6 +238,8 @@ void SampleMesh::count(const TriangleRecord& record, int sign) {
   weights.triangles += sign;
   // The last triangle takes the rounding of the running sum with it.
   weights.total_weight = weights.triangles == 0 ? 0 : weights.total_weight + sign * record.weight;
+  all_weights_.triangles += sign;
+  all_weights_.total_weight += sign * record.weight;
 }
 
 double SampleMesh::refinement() const {
@@ -248,10 +251,18 @@ double SampleMesh::refinement() const {
   return all.triangles > 0 ? all.total_weight / static_cast<double>(all.triangles) : 0;
 }
 
+bool SampleMesh::is_refined_to(double quality) const {
+  constexpr double kRounding = 1e-6;  // far above that of the running sum
+  const double about =
+      all_weights_.total_weight / static_cast<double>(std::max<std::int64_t>(all_weights_.triangles, 1));
+  return about <= quality * (1 + kRounding) && refinement() <= quality;
+}
+
 void SampleMesh::enqueue_all_again() {
   queue_.clear();
   wanted_.reset();
   tile_weights_.assign(tile_weights_.size(), {});
+  all_weights_ = {};
   const auto& triangles = delaunay_.triangles();
   for (Index t = 0; t < triangles.size(); ++t) delaunay_.record(t) = {};
   for (Index t = 0; t < triangles.size(); ++t) {

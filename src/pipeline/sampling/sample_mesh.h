@@ -124,6 +124,9 @@ class SampleMesh {
   // is better.
   double refinement() const;
 
+  // Whether that is at most `quality`. O(1) unless they are nearly equal.
+  bool is_refined_to(double quality) const;
+
  private:
   using Index = Delaunay::Index;
   using Points = std::array<Vec2d, 3>;
@@ -170,6 +173,7 @@ class SampleMesh {
   std::vector<MeshCorner> corners_;  // one per sample
   BucketQueue<StampedTriangle> queue_;
   std::vector<TileWeights> tile_weights_;
+  TileWeights all_weights_;  // their sum, up to the rounding of a running sum
   LearnedWeights learned_;
   FanWeights fan_weights_;  // of the triangles that the last insertion made
   std::uint32_t next_stamp_ = 1;

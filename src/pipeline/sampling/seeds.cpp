@@ -11,9 +11,10 @@ namespace pprt {
 std::vector<Vec2d> seed_points(int width, int height, std::uint64_t seed) {
   constexpr std::uint64_t kStream = 1;  // of random numbers: the same for every frame
   constexpr double kJitter = 0.5;       // share of a cell: neighbours stay apart, and no three rows align
-  const int columns = std::max(1, static_cast<int>(std::ceil(width / kSeedSpacing)));
-  const int rows = std::max(1, static_cast<int>(std::ceil(height / kSeedSpacing)));
   const double w = width, h = height;
+  const double spacing = std::max(kSeedSpacing, std::sqrt(w * h / kMostSeeds));
+  const int columns = std::max(1, static_cast<int>(std::ceil(w / spacing)));
+  const int rows = std::max(1, static_cast<int>(std::ceil(h / spacing)));
   std::vector<Vec2d> points = {{0, 0}, {w, 0}, {w, h}, {0, h}};
   points.reserve(static_cast<std::size_t>(columns + 1) * static_cast<std::size_t>(rows + 1));
   for (int j = 0; j <= rows; ++j) {

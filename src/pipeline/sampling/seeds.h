@@ -13,6 +13,10 @@ namespace pprt {
 // dense enough that small features are met and every rank's region holds several.
 inline constexpr double kSeedSpacing = 16;
 
+// About the most seeds of a picture: those of 4096x4096 pixels. What shows in a larger picture is as much
+// larger, and a picture of few samples is not to wait for more seeds than these.
+inline constexpr double kMostSeeds = 0x1p16;
+
 // Returns a jittered grid over the image, in pixels, with points exactly on its borders and corners. The
 // first four are the image's corners. It depends on size and seed alone: it is the same for every rank and
 // frame.

@@ -55,6 +55,20 @@ class Stage {
     }
     master_.handle({rank, Tag::kPixels, encode(message)});
   }
+
+  // The same, one tile a message. Sends the first `count` of its two tiles.
+  void send_parts(int rank, int frame, int count) {
+    const int tiles = partition_.grid.tile_count();
+    for (int tile = 0, sent = 0; tile < tiles && sent < count; ++tile) {
+      if (partition_.owner[static_cast<std::size_t>(tile)] != rank) continue;
+      PixelMessage message;
+      message.frame_index = frame;
+      message.is_last = ++sent == 2;
+      message.tiles.push_back({.tile = tile});
+      message.rgb.assign(3 * partition_.grid.pixels(tile).area(), value(rank, frame));
+      master_.handle({rank, Tag::kPixels, encode(message)});
+    }
+  }
   void send_all(int frame, double sampling_ended_s = 0) {
     for (int rank = 0; rank < kRanks; ++rank) send(rank, frame, sampling_ended_s);
   }
@@ -122,6 +136,29 @@ TEST_CASE("master: a whole frame is delivered at once") {
   REQUIRE(stage.delivered.size() == 1);
   CHECK(stage.delivered[0].late_ranks.empty());
   CHECK(stage.delivered[0].late_ms == Approx(-50));
+}
+
+TEST_CASE("master: pixels in parts are a rank's once the last part has come") {
+  Stage stage;
+  stage.begin();
+  stage.send_all(0);
+  stage.begin();
+  stage.send(0, 1), stage.send(2, 1);
+  stage.send_parts(1, 1, 1);
+  CHECK(stage.delivered.size() == 1);
+  stage.at(2 * kPeriod);
+  stage.at(2 * kPeriod + kGraceSeconds);
+  REQUIRE(stage.delivered.size() == 2);
+  CHECK(stage.delivered[1].late_ranks == std::vector<std::int32_t>{1});
+  CHECK(stage.delivered[1].stale_tiles == 1);
+  stage.begin();
+  stage.send_parts(1, 2, 2), stage.send(0, 2), stage.send(2, 2);
+  REQUIRE(stage.delivered.size() == 3);
+  CHECK(stage.delivered[2].late_ranks.empty());
+  CHECK(stage.shown(stage.delivered[2], 1) == Stage::value(1, 2));
+  stage.begin();
+  stage.send_parts(0, 3, 2);
+  CHECK_THROWS_AS(stage.send_parts(0, 3, 1), ProtocolError);
 }
 
 TEST_CASE("master: a frame with late ranks is delivered after the grace, and shows their earlier pixels") {

@@ -317,4 +317,15 @@ TEST_CASE(
   CHECK(received(10) < at_once / 2);  // what is under way when the frame ends is of no more use
 }
 
+TEST_CASE("session: a picture of more pixels than one message holds is whole") {
+  SessionSettings settings = free_settings(ClockKind::kWork, {.samples = 10'000});
+  settings.width = 1040, settings.height = 1020;
+  const std::size_t pixels = std::size_t{1040} * 1020;
+  REQUIRE(pixels > kPixelsInMessage);
+  const VirtualRun run = run_session(1, settings, still_or_pan(settings, 1, 1));
+  REQUIRE(run.frames.size() == 1);
+  check_shows_disc(run.frames[0].image);
+  CHECK(total(run.frames[0], &RankReport::bytes_pixels) == 12 * pixels);
+}
+
 }  // namespace pprt

@@ -106,6 +106,33 @@ TEST_CASE("preflight accepts a sequence when one of its frames shows something")
   CHECK_THAT(outcome(plan), Equals(""));
 }
 
+TEST_CASE("a camera path is checked before its first frame: an eye too far away is refused with its frame") {
+  RenderPlan plan = plan_of(kLit + kBall);
+  const CompiledScene scene = compile(plan.scene, plan.compile);
+  const auto refused = [&](const Vec3d& eye) -> std::string {
+    View far = plan.scene.view.value();
+    far.from = eye;
+    plan.script_frames[1].view = far;
+    try {
+      require_eyes_in_reach(plan, scene);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  plan.script_name = "t.anim";
+  plan.script_frames.assign(3, plan.script_frames[0]);
+  plan.script_frames[1].number = 2;
+  CHECK_THAT(refused({0, 0, 2e12}), Equals(""));
+  CHECK_THAT(
+      refused({0, 0, 4e19}),
+      Equals("t.anim: error: frame 2: the eye is 2.0e+19 times the scene's size away; the most is 1.1e+12"));
+  CHECK_THAT(refused({1e308, 1e308, 1e308}), Catch::Contains("frame 2: the eye is"));
+  plan.script_name.clear();
+  CHECK_THAT(refused({0, -4e19, 0}),
+             Equals("t.nff: error: the eye is 2.0e+19 times the scene's size away; the most is 1.1e+12"));
+}
+
 TEST_CASE("preflight accepts colours that are not finite") {
   RenderPlan plan = plan_of(kLit + kBall);
   plan.scene.materials[0].color = Rgb(1e308, -1e308, 0) * 1e10;
