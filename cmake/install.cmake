@@ -49,7 +49,8 @@ get_property(completion_files GLOBAL PROPERTY PPRT_COMPLETION)
 add_custom_target(completion_scripts ALL DEPENDS ${completion_files})
 
 set(CPACK_GENERATOR DEB)
-set(CPACK_PACKAGE_CONTACT "The pprt authors <pprt@packages.debian.org>")
+# Debian wants an address. One under .invalid is nobody's, now and later (RFC 2606).
+set(CPACK_PACKAGE_CONTACT "The pprt authors <nobody@pprt.invalid>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "parallel progressive ray tracer with a fixed frame rate")
 set(CPACK_PACKAGE_DESCRIPTION
 "pprt renders scenes and camera animations by progressive ray tracing on MPI

@@ -13,6 +13,8 @@ version=$(dpkg-query --show --showformat '${Version}' pprt)
 for program in pprt-render pprt-convert pprt-compare pprt-study; do
   [[ $($program --version) == "$program ${version%-*}" ]] || fail "$program --version: $($program --version)"
 done
+# An address that is nobody's.
+[[ $(dpkg-query --show --showformat '${Maintainer}' pprt) == *'.invalid>' ]] || fail 'the maintainer has an address'
 
 mkdir /tmp/use
 cd /tmp/use
