@@ -24,18 +24,12 @@ double radians(double degrees) {
   return degrees * (kPi / 180);
 }
 
-// Rotates v about a unit axis, counter-clockwise seen from the axis' tip (Rodrigues).
-Vec3d rotated(const Vec3d& v, const Vec3d& axis, double angle) {
-  const double c = std::cos(angle);
-  return v * c + axis.cross(v) * std::sin(angle) + axis * (axis.dot(v) * (1 - c));
-}
-
 // The frame in which heading and pitch are measured: `up` is the key's up, x and y complete it.
 struct Horizon {
   Vec3d x{1, 0, 0}, y{0, 1, 0}, up{0, 0, 1};
 };
 
-Horizon rotated(const Horizon& h, const Vec3d& axis, double angle) {
+Horizon rotated_horizon(const Horizon& h, const Vec3d& axis, double angle) {
   return {rotated(h.x, axis, angle), rotated(h.y, axis, angle), rotated(h.up, axis, angle)};
 }
 
@@ -126,7 +120,7 @@ Segment segment_between(const Pose& a, const CameraKey& key_a, Pose& b, const Ca
   const Vec3d level = (a.forward - a.horizon.up * a.forward.dot(a.horizon.up)).normalized();
   const auto [axis, lean] = turn_between(a.horizon.up, key_b.up.normalized(), level);
   segment.axis = axis;
-  b.horizon = rotated(a.horizon, axis, lean);
+  b.horizon = rotated_horizon(a.horizon, axis, lean);
   b.value.lean = a.value.lean + lean;
   b.value.heading = a.value.heading + shortest_turn(heading_of(b.forward, b.horizon) - a.value.heading);
   b.value.pitch = std::asin(std::clamp(b.forward.dot(b.horizon.up), -1.0, 1.0));
@@ -289,6 +283,11 @@ double eased(double u, double ease_in, double ease_out) {
   return full_speed * (u - ease_in / 2);
 }
 
+Vec3d rotated(const Vec3d& v, const Vec3d& axis, double angle) {
+  const double c = std::cos(angle);
+  return v * c + axis.cross(v) * std::sin(angle) + axis * (axis.dot(v) * (1 - c));
+}
+
 bool same_camera(const CameraKey& a, const CameraKey& b) {
   return a.from == b.from && a.at == b.at && a.up == b.up && a.angle_degrees == b.angle_degrees;
 }
@@ -313,7 +312,7 @@ CameraKey camera_between(std::span<const CameraKey> keys, std::size_t first, dou
     now.*c = pose.value.*c +
              hermite(segment.change.*c, start.channels.out.*c, end.channels.in.*c, segment.frames, s);
   }
-  const Horizon horizon = rotated(pose.horizon, segment.axis, now.lean - pose.value.lean);
+  const Horizon horizon = rotated_horizon(pose.horizon, segment.axis, now.lean - pose.value.lean);
   const Vec3d line = direction(horizon, now.heading, now.pitch) *
                      std::exp(std::clamp(now.distance, -kMostDistance, kMostDistance));
 

@@ -16,6 +16,9 @@ CameraKey camera_between(std::span<const CameraKey> keys, std::size_t first, dou
 // of the time, moves evenly, and slows down over `ease_out`. The speed is continuous and never negative.
 double eased(double u, double ease_in, double ease_out);
 
+// Rotates v about a unit axis by an angle in radians, counter-clockwise seen from the axis' tip (Rodrigues).
+Vec3d rotated(const Vec3d& v, const Vec3d& axis, double angle);
+
 // Returns whether both keys show the same picture: equal from, at, up and angle.
 bool same_camera(const CameraKey& a, const CameraKey& b);
 

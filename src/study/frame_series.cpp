@@ -12,12 +12,17 @@
 
 namespace pprt {
 
+Camera square_camera(const CompiledScene& scene, View view, int size) {
+  view.width = view.height = size;
+  return scene.camera(view);
+}
+
 std::vector<FrameRequest> frames_of(const CompiledScene& scene, const Animation& animation, int count,
-                                    View base, int size) {
-  base.width = base.height = size;
+                                    const View& base, int size, double speed) {
   std::vector<FrameRequest> frames;
   for (int number = 1; number <= count; ++number) {
-    frames.push_back({number, scene.camera(view_at(animation, number, base)), cut_before(animation, number)});
+    const View view = view_at(animation, 1 + (number - 1) * speed, base);
+    frames.push_back({number, square_camera(scene, view, size), cut_before(animation, number)});
   }
   return frames;
 }
@@ -34,10 +39,12 @@ void render_series(const CompiledScene& scene, const std::vector<FrameRequest>& 
       sink);
 }
 
-double samples_in(const FinishedFrame& frame) {
-  double samples = 0;
-  for (const RankReport& rank : frame.ranks) samples += static_cast<double>(rank.samples_in_region);
-  return samples;
+double work_for_samples(const WorkQuestion& question, const std::function<double(double)>& samples_made) {
+  double sampling_units = question.samples * question.guess_per_sample;
+  for (int i = 0; i < question.corrections; ++i) {
+    sampling_units *= question.samples / samples_made(question.pixel_units + sampling_units);
+  }
+  return question.pixel_units + sampling_units;
 }
 
 void run_concurrently(std::size_t count, const std::function<void(std::size_t)>& task) {

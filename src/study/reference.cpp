@@ -14,7 +14,7 @@
 #include "base/content_hash.h"
 #include "base/hash.h"
 #include "image/atomic_file.h"
-#include "image/metrics.h"
+#include "pipeline/preparation/cast_choice.h"
 #include "study/frame_series.h"
 
 namespace pprt {
@@ -111,7 +111,7 @@ Reference converged_reference(const Subject& subject, int n) {
   run_concurrently(static_cast<std::size_t>(camera.height),
                    [&](std::size_t y) { trace_row(subject, static_cast<int>(y), n, first, second); });
   Reference reference{Image(camera.width, camera.height), 2 * n * n};
-  reference.own_rmse = 0.5 * difference(first, second, 1).rmse;
+  reference.own_rmse = 0.5 * rmse_of(first, second);
   for (std::size_t i = 0; i < first.pixels.size(); ++i) {
     reference.image.pixels[i] = (first.pixels[i] + second.pixels[i]) * 0.5f;
   }
@@ -143,10 +143,9 @@ std::filesystem::path default_cache_directory() {
 double rmse_of(const Image& image, const Image& reference) {
   double sum = 0;
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-    const Color d = image.pixels[i] - reference.pixels[i];
-    sum += static_cast<double>(d.x * d.x + d.y * d.y + d.z * d.z);
+    sum += display_error(image.pixels[i], reference.pixels[i]);
   }
-  return std::sqrt(sum / (3 * static_cast<double>(image.pixels.size())));
+  return std::sqrt(sum / static_cast<double>(image.pixels.size()));
 }
 
 }  // namespace pprt

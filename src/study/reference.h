@@ -40,7 +40,8 @@ Reference cached_reference(const std::string& scene_nff, const Subject& subject,
 // Returns $XDG_CACHE_HOME/pprt, or ~/.cache/pprt; empty when neither variable is set.
 std::filesystem::path default_cache_directory();
 
-// Returns the root mean square difference over all channels of all pixels. Both have the same size.
+// Returns the root mean square difference over all channels of all pixels, on the display scale. Both have
+// the same size.
 double rmse_of(const Image& image, const Image& reference);
 
 }  // namespace pprt

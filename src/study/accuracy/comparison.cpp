@@ -13,12 +13,6 @@
 namespace pprt {
 namespace {
 
-int repeats_of(const SceneCurves& curves) {
-  int repeats = 0;
-  for (const CurvePoint& p : curves.points) repeats = std::max(repeats, p.repeat + 1);
-  return repeats;
-}
-
 using Ratio = std::function<double(const std::vector<CurvePoint>&, const std::vector<CurvePoint>&)>;
 
 // The best picture that each time allows: an error is never above that of one made sooner.
@@ -30,11 +24,9 @@ std::vector<CurvePoint> best_so_far(std::vector<CurvePoint> curve) {
 // Spread over the repeats of a ratio between a method's curve and the uniform one's.
 Spread over_repeats(const SceneCurves& curves, const std::string& method, const Ratio& ratio) {
   std::vector<double> ratios;
-  const int repeats = repeats_of(curves);
-  ratios.reserve(static_cast<std::size_t>(repeats));
-  for (int r = 0; r < repeats; ++r) {
-    ratios.push_back(
-        ratio(best_so_far(points_of(curves, method, r)), best_so_far(points_of(curves, kUniform, r))));
+  std::vector<CurvePoint> uniform;
+  for (int r = 0; !(uniform = points_of(curves, kUniform, r)).empty(); ++r) {
+    ratios.push_back(ratio(best_so_far(points_of(curves, method, r)), best_so_far(uniform)));
   }
   return spread_of(std::move(ratios));
 }
@@ -49,20 +41,6 @@ std::string percent(double share) {
 
 Cell with_digits(double value, int digits) {
   return std::isnan(value) ? Cell(kNoValue) : Cell(fmt::format("{:.{}f}", value, digits));
-}
-
-template <typename RatioAt>
-Table budgets_table(const std::vector<SceneCurves>& scenes, const RatioAt& ratio_at) {
-  Table table{{"scene", "method"}, {}, {}};
-  for (const double share : kBudgets) table.columns.push_back(budget_name(share));
-  for (const SceneCurves& scene : scenes) {
-    for (const std::string& method : rivals(scene)) {
-      std::vector<Cell>& row = table.rows.emplace_back(std::vector<Cell>{scene.scene, method});
-      for (const double share : kBudgets)
-        row.push_back(with_digits(ratio_at(scene, method, share).median, 2));
-    }
-  }
-  return table;
 }
 
 }  // namespace
@@ -117,39 +95,28 @@ Spread ratio_at_equal_error(const SceneCurves& curves, const std::string& method
   });
 }
 
-BreakEven break_even(const SceneCurves& curves, const std::string& method) {
+std::vector<BudgetRange> budget_ranges(const SceneCurves& curves, const std::string& method) {
   constexpr double kStep = 1.02;
-  BreakEven result;
-  double before = kNoValue;
+  std::vector<BudgetRange> ranges;
   for (const double share : shares_by(kStep)) {
     const double ratio = ratio_at_equal_time(curves, method, share).median;
     if (std::isnan(ratio)) continue;
-    if (std::isnan(before)) {
-      result.first_share = share;
-      result.ahead_at_first = ratio < 1;
-    } else if ((before < 1) != (ratio < 1)) {
-      result.crossings.push_back(share);
-    }
-    result.last_share = share;
-    before = ratio;
+    if (!ranges.empty()) ranges.back().to = share;
+    if (ranges.empty() || ranges.back().ahead != (ratio < 1)) ranges.push_back({share, share, ratio < 1});
   }
-  return result;
+  return ranges;
 }
 
-std::string to_sentence(const BreakEven& at, const std::string& method) {
-  if (at.last_share == 0) return "There is no budget for which both have a picture.";
-  std::vector<double> ends = at.crossings;
-  ends.insert(ends.begin(), at.first_share);
-  ends.push_back(at.last_share);
-  std::vector<std::string> ahead, behind;
-  bool leads = at.ahead_at_first;
-  for (std::size_t i = 0; i + 1 < ends.size(); ++i, leads = !leads) {
-    (leads ? ahead : behind).push_back(fmt::format("{} to {}", percent(ends[i]), percent(ends[i + 1])));
-  }
-  const auto where = [](const std::vector<std::string>& ranges) {
-    return ranges.empty() ? std::string("nowhere") : fmt::format("from {}", fmt::join(ranges, " and from "));
+std::string to_sentence(const std::vector<BudgetRange>& ranges, const std::string& method) {
+  if (ranges.empty()) return "There is no budget for which both have a picture.";
+  const auto where = [&](bool ahead) {
+    std::vector<std::string> places;
+    for (const BudgetRange& r : ranges) {
+      if (r.ahead == ahead) places.push_back(fmt::format("from {} to {}", percent(r.from), percent(r.to)));
+    }
+    return places.empty() ? "nowhere" : fmt::format("{}", fmt::join(places, " and "));
   };
-  return fmt::format("{} is ahead {}, behind {}.", method, where(ahead), where(behind));
+  return fmt::format("{} is ahead {}, behind {}.", method, where(true), where(false));
 }
 
 std::vector<std::string> rivals(const SceneCurves& curves) {
@@ -162,62 +129,65 @@ std::vector<std::string> rivals(const SceneCurves& curves) {
   return names;
 }
 
-Table equal_time_table(const std::vector<SceneCurves>& scenes) {
-  return budgets_table(scenes, ratio_at_equal_time);
-}
-
-Table equal_error_table(const std::vector<SceneCurves>& scenes) {
-  return budgets_table(scenes, ratio_at_equal_error);
-}
-
 Table ratio_table(const std::vector<SceneCurves>& scenes) {
   constexpr double kLeast = 0.1;
-  Table table{{"scene", "ms for one sample a pixel"}, {}, {}};
-  std::vector<Cell> mean = {"geometric mean", kNoValue};
-  for (const SceneCurves& scene : scenes) table.rows.push_back({scene.scene, 1e3 * scene.one_sample_s});
+  Columns<SceneCurves> columns = {
+      {"scene", &SceneCurves::scene},
+      {"ms for one sample a pixel", [](const SceneCurves& s) { return 1e3 * s.one_sample_s; }}};
+  std::vector<Cell> means = {"geometric mean", kNoValue};
   for (const double share : kBudgets) {
     if (share < kLeast) continue;
-    table.columns.push_back(budget_name(share));
-    std::vector<double> ratios;
-    for (std::size_t i = 0; i < scenes.size(); ++i) {
-      ratios.push_back(ratio_at_equal_time(scenes[i], kProgressive, share).median);
-      table.rows[i].push_back(with_digits(ratios.back(), 2));
-    }
-    mean.push_back(with_digits(geometric_mean(ratios), 3));
+    const auto ratio = [share](const SceneCurves& s) {
+      return ratio_at_equal_time(s, kProgressive, share).median;
+    };
+    columns.push_back({budget_name(share), [=](const SceneCurves& s) { return with_digits(ratio(s), 2); }});
+    std::vector<double> ratios(scenes.size());
+    std::transform(scenes.begin(), scenes.end(), ratios.begin(), ratio);
+    means.push_back(with_digits(geometric_mean(ratios), 3));
   }
-  table.columns.push_back("break-even");
-  for (std::size_t i = 0; i < scenes.size(); ++i) {
-    table.rows[i].push_back(to_sentence(break_even(scenes[i], kProgressive), kProgressive));
-  }
-  mean.push_back(kNoValue);
-  if (scenes.size() > 1) table.rows.push_back(std::move(mean));
+  columns.push_back({"break-even", [](const SceneCurves& s) {
+                       return to_sentence(budget_ranges(s, kProgressive), kProgressive);
+                     }});
+  means.push_back(kNoValue);
+  Table table = table_of(scenes, columns);
+  if (scenes.size() > 1) table.rows.push_back(means);
   return table;
 }
 
-Table comparisons_table(const std::vector<SceneCurves>& scenes) {
-  struct Row {
-    std::string scene, method;
-    double share;
-    Spread error, time;
-  };
-  std::vector<Row> rows;
+std::vector<Comparison> comparisons(const std::vector<SceneCurves>& scenes) {
+  std::vector<Comparison> all;
   for (const SceneCurves& scene : scenes) {
     for (const std::string& method : rivals(scene)) {
       for (const double share : kBudgets) {
-        rows.push_back({scene.scene, method, share, ratio_at_equal_time(scene, method, share),
-                        ratio_at_equal_error(scene, method, share)});
+        all.push_back({scene.scene, method, share, ratio_at_equal_time(scene, method, share),
+                       ratio_at_equal_error(scene, method, share)});
       }
     }
   }
-  return table_of<Row>(rows, {{"scene", &Row::scene},
-                              {"method", &Row::method},
-                              {"share of one sample a pixel", &Row::share},
-                              {"error ratio", [](const Row& r) { return r.error.median; }},
-                              {"least error ratio", [](const Row& r) { return r.error.low; }},
-                              {"greatest error ratio", [](const Row& r) { return r.error.high; }},
-                              {"time ratio", [](const Row& r) { return r.time.median; }},
-                              {"least time ratio", [](const Row& r) { return r.time.low; }},
-                              {"greatest time ratio", [](const Row& r) { return r.time.high; }}});
+  return all;
+}
+
+Table budgets_table(const std::vector<Comparison>& comparisons, Spread Comparison::*ratio) {
+  Table table{{"scene", "method"}};
+  for (const double share : kBudgets) table.columns.push_back(budget_name(share));
+  for (const Comparison& c : comparisons) {
+    if (c.share == kBudgets.front()) table.rows.push_back({c.scene, c.method});
+    table.rows.back().push_back(with_digits((c.*ratio).median, 2));
+  }
+  return table;
+}
+
+Table comparisons_table(const std::vector<Comparison>& comparisons) {
+  using C = Comparison;
+  return table_of<C>(comparisons, {{"scene", &C::scene},
+                                   {"method", &C::method},
+                                   {"share of one sample a pixel", &C::share},
+                                   {"error ratio", [](const C& c) { return c.error.median; }},
+                                   {"least error ratio", [](const C& c) { return c.error.low; }},
+                                   {"greatest error ratio", [](const C& c) { return c.error.high; }},
+                                   {"time ratio", [](const C& c) { return c.time.median; }},
+                                   {"least time ratio", [](const C& c) { return c.time.low; }},
+                                   {"greatest time ratio", [](const C& c) { return c.time.high; }}});
 }
 
 }  // namespace pprt

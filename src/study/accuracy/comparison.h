@@ -34,17 +34,19 @@ Spread ratio_at_equal_time(const SceneCurves& curves, const std::string& method,
 // Returns the method's time over that of the uniform method, for the error that the latter has at `share`.
 Spread ratio_at_equal_error(const SceneCurves& curves, const std::string& method, double share);
 
-// Where the ratio at equal time passes 1. Shares of the time of one sample per pixel.
-struct BreakEven {
-  double first_share = 0;  // both have a picture from here
-  double last_share = 0;   // to here; 0: nowhere
-  bool ahead_at_first = false;
-  std::vector<double> crossings;  // increasing
+// A range of budgets in which one method is ahead of the other throughout: shares of the time of one sample
+// per pixel.
+struct BudgetRange {
+  double from, to;
+  bool ahead;  // of the uniform method
 };
-BreakEven break_even(const SceneCurves& curves, const std::string& method);
 
-// Names the budgets at which the method is ahead, and those at which it is behind.
-std::string to_sentence(const BreakEven& at, const std::string& method);
+// Returns the ranges in which the method is ahead and behind in turns, from the first budget to the last for
+// which both have a picture. Between them the ratio at equal time passes 1.
+std::vector<BudgetRange> budget_ranges(const SceneCurves& curves, const std::string& method);
+
+// Names the ranges at which the method is ahead, and those at which it is behind.
+std::string to_sentence(const std::vector<BudgetRange>& ranges, const std::string& method);
 
 // Returns the methods in the order of their first points, without the uniform one.
 std::vector<std::string> rivals(const SceneCurves& curves);
@@ -53,11 +55,20 @@ std::vector<std::string> rivals(const SceneCurves& curves);
 // scenes the last row is their geometric mean, at each budget over those that have a picture.
 Table ratio_table(const std::vector<SceneCurves>& scenes);
 
-// Return one row per scene and method: medians at each budget.
-Table equal_time_table(const std::vector<SceneCurves>& scenes);
-Table equal_error_table(const std::vector<SceneCurves>& scenes);
+// A method against the uniform one at one budget.
+struct Comparison {
+  std::string scene, method;
+  double share;
+  Spread error, time;  // ratios at equal time, and at equal error
+};
+
+// Returns one for each scene, method and budget of the tables.
+std::vector<Comparison> comparisons(const std::vector<SceneCurves>& scenes);
+
+// Returns one row per scene and method: medians of a ratio at each budget.
+Table budgets_table(const std::vector<Comparison>& comparisons, Spread Comparison::*ratio);
 
 // Returns one row per scene, method and budget: both ratios with their spread.
-Table comparisons_table(const std::vector<SceneCurves>& scenes);
+Table comparisons_table(const std::vector<Comparison>& comparisons);
 
 }  // namespace pprt

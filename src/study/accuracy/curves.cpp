@@ -17,19 +17,16 @@ CurvePoint judged(const std::string& method, int repeat, Rendering&& rendering, 
   constexpr double kThreshold = 1;  // the share of pixels beyond it is not used
   replace_non_finite(rendering.image);
   const Image shown = clamped_to_display(rendering.image);
-  CurvePoint point;
-  point.method = method;
-  point.repeat = repeat;
-  point.samples = rendering.samples;
-  point.seconds = rendering.seconds;
-  point.rmse = rmse_of(shown, reference);
-  point.exhausted = rendering.exhausted;
+  CurvePoint point{.method = method,
+                   .repeat = repeat,
+                   .samples = rendering.samples,
+                   .seconds = rendering.seconds,
+                   .rmse = rmse_of(shown, reference),
+                   .exhausted = rendering.exhausted};
   if (repeat == 0 && (method == kProgressive || method == kUniform)) {
     const ImageDifference d = difference(shown, reference, kThreshold);
-    point.ssim = d.ssim;
-    point.flip = mean_flip(shown, reference);
-    point.error_p999 = d.error_p999;
-    point.signed_mean = d.signed_mean;
+    point.ssim = d.ssim, point.flip = mean_flip(shown, reference);
+    point.error_p999 = d.error_p999, point.signed_mean = d.signed_mean;
   }
   return point;
 }
@@ -54,24 +51,24 @@ double set_shares(std::span<CurvePoint> points) {
 }  // namespace
 
 SceneCurves measure_curves(const std::string& scene, const Subject& subject, const Reference& reference,
-                           std::span<const Method> methods, const CurveSettings& settings) {
+                           std::span<const Method> methods, int repeats, std::uint64_t seed) {
+  constexpr double kGreatestShare = 4.05;  // of the time of one sample per pixel: there curves end
   const auto uniform =
       std::find_if(methods.begin(), methods.end(), [](const Method& m) { return m.name == kUniform; });
   if (uniform == methods.end()) throw std::invalid_argument("there is no uniform method to compare with");
-  SceneCurves curves{scene, 0, reference.own_rmse, reference.samples, {}};
+  SceneCurves curves{scene, 0, reference.own_rmse, reference.samples};
   const std::vector<double> densities = curve_densities();
   one_sample_seconds(*uniform, subject);  // warms caches
-  const double limit_s = settings.greatest_share * one_sample_seconds(*uniform, subject);
+  const double limit_s = kGreatestShare * one_sample_seconds(*uniform, subject);
   std::vector<double> one_sample;
-  for (int repeat = 0; repeat < settings.repeats; ++repeat) {
+  for (int repeat = 0; repeat < repeats; ++repeat) {
     const std::size_t begin = curves.points.size();
     for (std::size_t i = 0; i < methods.size(); ++i) {
       const Method& method = methods[(i + static_cast<std::size_t>(repeat)) % methods.size()];
-      method.run({subject, densities, limit_s, settings.seed + static_cast<std::uint64_t>(repeat),
-                  [&](Rendering&& rendering) {
-                    curves.points.push_back(
-                        judged(method.name, repeat, std::move(rendering), reference.image));
-                  }});
+      const auto add = [&](Rendering&& rendering) {
+        curves.points.push_back(judged(method.name, repeat, std::move(rendering), reference.image));
+      };
+      method.run({subject, densities, limit_s, seed + static_cast<std::uint64_t>(repeat), add});
     }
     one_sample.push_back(set_shares(std::span(curves.points).subspan(begin)));
   }
@@ -80,25 +77,20 @@ SceneCurves measure_curves(const std::string& scene, const Subject& subject, con
 }
 
 Table points_table(const std::vector<SceneCurves>& scenes) {
-  struct Row : CurvePoint {
-    std::string scene;
-  };
-  std::vector<Row> rows;
-  for (const SceneCurves& scene : scenes) {
-    for (const CurvePoint& point : scene.points) rows.push_back({point, scene.scene});
-  }
-  return table_of<Row>(rows, {{"scene", &Row::scene},
-                              {"method", &Row::method},
-                              {"repeat", [](const Row& p) { return p.repeat + 1; }},
-                              {"samples a pixel", &Row::samples},
-                              {"cpu s", &Row::seconds},
-                              {"share of one sample a pixel", &Row::share},
-                              {"rmse", &Row::rmse},
-                              {"ssim", &Row::ssim},
-                              {"flip", &Row::flip},
-                              {"error of 99.9 %", &Row::error_p999},
-                              {"signed mean", &Row::signed_mean},
-                              {"exhausted", [](const Row& p) { return p.exhausted ? "yes" : "no"; }}});
+  using P = CurvePoint;
+  return table_of_parts<SceneCurves, P>(
+      scenes, &SceneCurves::points, {{"scene", &SceneCurves::scene}},
+      {{"method", &P::method},
+       {"repeat", [](const P& p) { return p.repeat + 1; }},
+       {"samples a pixel", &P::samples},
+       {"cpu s", &P::seconds},
+       {"share of one sample a pixel", &P::share},
+       {"rmse", &P::rmse},
+       {"ssim", &P::ssim},
+       {"flip", &P::flip},
+       {"error of 99.9 %", &P::error_p999},
+       {"signed mean", &P::signed_mean},
+       {"exhausted", [](const P& p) { return p.exhausted ? "yes" : "no"; }}});
 }
 
 }  // namespace pprt

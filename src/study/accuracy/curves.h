@@ -32,18 +32,13 @@ struct SceneCurves {
   double one_sample_s = 0;  // CPU time of one sample per pixel, median over the repeats
   double reference_rmse = 0;
   int reference_samples = 0;  // per pixel
-  std::vector<CurvePoint> points;
+  std::vector<CurvePoint> points = {};
 };
 
-struct CurveSettings {
-  int repeats = 3;
-  double greatest_share = 4.05;  // curves end at this share of the time of one sample per pixel
-  std::uint64_t seed = 1;        // of the first repeat; the others count up
-};
-
-// `methods` must hold one named kUniform. Each repeat runs all methods, starting with another one.
+// `methods` must hold one named kUniform. Each repeat runs all methods, starting with another one, and has
+// another seed: the first `seed`.
 SceneCurves measure_curves(const std::string& scene, const Subject& subject, const Reference& reference,
-                           std::span<const Method> methods, const CurveSettings& settings);
+                           std::span<const Method> methods, int repeats, std::uint64_t seed);
 
 // Returns one row per picture.
 Table points_table(const std::vector<SceneCurves>& scenes);

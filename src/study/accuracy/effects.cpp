@@ -10,24 +10,27 @@ namespace {
 
 constexpr int kCells = 2;  // 8 samples per pixel: their own error is small against that of a missing effect
 
+// A scene as it is simulated, and what repeats of a picture took.
 struct Variant {
   std::string name;
-  CompileOptions options;
+  CompiledScene scene;
+  RayCounts counts = {};
+  std::vector<double> time_ratios = {};
 };
 
-std::vector<Variant> variants_of(EffectSet effects) {
-  std::vector<Variant> variants = {{"all effects called for", {}}};
+std::vector<Variant> variants_of(const SceneDescription& description) {
+  std::vector<Variant> variants;
+  const auto add = [&](const std::string& its_name, const CompileOptions& options) {
+    variants.push_back({its_name, compile(description, options)});
+  };
+  add("all effects called for", {});
+  const EffectSet effects = variants.front().scene.effects();
   for (const Effect effect : every_effect()) {
-    if (!effects.has(effect)) continue;
-    CompileOptions options;
-    options.effects = EffectSet(effects.bits() & ~static_cast<unsigned>(effect));
-    variants.push_back({"without " + std::string(name(effect)), options});
+    const EffectSet others(effects.bits() & ~static_cast<unsigned>(effect));
+    if (effects.has(effect)) add("without " + std::string(name(effect)), {.effects = others});
   }
-  CompileOptions none, general;
-  none.effects = EffectSet();
-  general.general_kernel = true;
-  variants.push_back({"without any", none});
-  variants.push_back({"the general kernel", general});
+  add("without any", {.effects = EffectSet()});
+  add("the general kernel", {.effects = {}, .general_kernel = true});
   return variants;
 }
 
@@ -46,36 +49,28 @@ double scan_seconds(const Subject& subject, RayCounts& counts) {
 
 }  // namespace
 
-SceneEffects measure_effects(const std::string& scene_name, const SceneDescription& description,
-                             const Camera& camera, const Image& reference, int repeats) {
-  const CompiledScene whole = compile(description);
-  SceneEffects result{whole.census(), {}};
-  const std::vector<Variant> variants = variants_of(whole.effects());
-  std::vector<CompiledScene> scenes;
-  scenes.reserve(variants.size());
-  for (const Variant& v : variants) scenes.push_back(compile(description, v.options));
-  std::vector<RayCounts> counts(variants.size());
-  std::vector<std::vector<double>> ratios(variants.size());
+std::vector<EffectCost> measure_effects(const std::string& scene_name, const SceneDescription& description,
+                                        const Camera& camera, const Image& reference, int repeats) {
+  std::vector<Variant> variants = variants_of(description);
   for (int repeat = 0; repeat < repeats; ++repeat) {
     double of_whole = 0;
-    for (std::size_t i = 0; i < variants.size(); ++i) {
-      const double seconds = scan_seconds({scenes[i], camera}, counts[i]);
-      if (i == 0) of_whole = seconds;
-      ratios[i].push_back(seconds / of_whole);
+    for (Variant& variant : variants) {
+      const double seconds = scan_seconds({variant.scene, camera}, variant.counts);
+      if (&variant == variants.data()) of_whole = seconds;
+      variant.time_ratios.push_back(seconds / of_whole);
     }
   }
-  for (std::size_t i = 0; i < variants.size(); ++i) {
-    const Image picture = converged_reference({scenes[i], camera}, kCells).image;
-    result.costs.push_back({scene_name, variants[i].name, spread_of(ratios[i]).median,
-                            static_cast<double>(counts[i].traced()) / static_cast<double>(counts[i].primary),
-                            rmse_of(picture, reference)});
+  std::vector<EffectCost> costs;
+  for (const Variant& v : variants) {
+    const Image picture = converged_reference({v.scene, camera}, kCells).image;
+    costs.push_back({scene_name, v.name, spread_of(v.time_ratios).median,
+                     static_cast<double>(v.counts.traced()) / static_cast<double>(v.counts.primary),
+                     rmse_of(picture, reference)});
   }
-  return result;
+  return costs;
 }
 
-Table effects_table(const std::vector<SceneEffects>& scenes) {
-  std::vector<EffectCost> costs;
-  for (const SceneEffects& scene : scenes) costs.insert(costs.end(), scene.costs.begin(), scene.costs.end());
+Table effects_table(const std::vector<EffectCost>& costs) {
   return table_of<EffectCost>(costs, {{"scene", &EffectCost::scene},
                                       {"simulated", &EffectCost::variant},
                                       {"time", &EffectCost::time_ratio},

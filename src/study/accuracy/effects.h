@@ -14,21 +14,16 @@ namespace pprt {
 struct EffectCost {
   std::string scene;
   std::string variant;
-  double time_ratio =
-      1;  // CPU time of one sample per pixel / that of the whole scene, median over the repeats
+  double time_ratio = 1;    // CPU time of one sample per pixel / the whole scene's; median of the repeats
   double rays_per_eye = 0;  // of all kinds
   double rmse = 0;          // of few samples against the converged whole scene
 };
 
-struct SceneEffects {
-  std::string census;             // effects that the scene calls for, and why
-  std::vector<EffectCost> costs;  // the whole scene first
-};
+// Returns the whole scene, then its variants. `reference` is the converged picture of the whole scene from
+// `camera`.
+std::vector<EffectCost> measure_effects(const std::string& name, const SceneDescription& scene,
+                                        const Camera& camera, const Image& reference, int repeats);
 
-// `reference` is the converged picture of the whole scene from `camera`.
-SceneEffects measure_effects(const std::string& name, const SceneDescription& scene, const Camera& camera,
-                             const Image& reference, int repeats);
-
-Table effects_table(const std::vector<SceneEffects>& scenes);
+Table effects_table(const std::vector<EffectCost>& costs);
 
 }  // namespace pprt

@@ -1,7 +1,5 @@
 #include "study/accuracy/methods.h"
 
-#include <time.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -85,18 +83,27 @@ Image uniform_picture(Tracer& tracer, const Camera& camera, const Size& size) {
                                    : resize(grid, camera.width, camera.height);
 }
 
-void run_uniform(const CurveTask& task) {
-  const Camera& camera = task.subject.camera;
+// Makes a picture from a grid of samples at each density: `make` returns that of a grid's size.
+template <typename Make>
+void run_grids(const CurveTask& task, const Make& make) {
   for (const double density : task.densities) {
-    const Size size = grid_size(camera, density);
-    Tracer tracer(task.subject.scene, camera);
-    const double begin = thread_cpu_seconds();
-    Image image = uniform_picture(tracer, camera, size);
-    const double seconds = thread_cpu_seconds() - begin;
-    task.sink({samples_per_pixel(static_cast<double>(size.width) * size.height, camera), seconds,
-               std::move(image)});
+    Rendering rendering = make(grid_size(task.subject.camera, density));
+    const double seconds = rendering.seconds;
+    task.sink(std::move(rendering));
     if (seconds > task.limit_s) return;
   }
+}
+
+void run_uniform(const CurveTask& task) {
+  const Camera& camera = task.subject.camera;
+  Tracer tracer(task.subject.scene, camera);
+  run_grids(task, [&](const Size& size) {
+    const double begin = thread_cpu_seconds();
+    Image image = uniform_picture(tracer, camera, size);
+    const double seconds = thread_cpu_seconds() - begin,
+                 samples = static_cast<double>(size.width) * size.height;
+    return Rendering{samples_per_pixel(samples, camera), seconds, std::move(image)};
+  });
 }
 
 // The weights are learned from errors of pictures made by the same rule.
@@ -198,10 +205,8 @@ Method refinement(std::string name, std::string description, const WeightTerms& 
 }
 
 void run_stratified(const CurveTask& task) {
-  const Camera& camera = task.subject.camera;
-  const double w = camera.width, h = camera.height;
-  for (const double density : task.densities) {
-    const Size size = grid_size(camera, density);
+  const double w = task.subject.camera.width, h = task.subject.camera.height;
+  run_grids(task, [&](const Size& size) {
     std::mt19937_64 random(task.seed);
     const auto jitter = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
     const double begin = thread_cpu_seconds();
@@ -215,19 +220,11 @@ void run_stratified(const CurveTask& task) {
       }
     }
     Image image = painter.picture();
-    const double seconds = thread_cpu_seconds() - begin;
-    task.sink({painter.density(), seconds, std::move(image)});
-    if (seconds > task.limit_s) return;
-  }
+    return Rendering{painter.density(), thread_cpu_seconds() - begin, std::move(image)};
+  });
 }
 
 }  // namespace
-
-double thread_cpu_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 Method progressive_method() {
   return refinement(kProgressive, "this renderer on one rank: the heaviest triangle is refined", {});

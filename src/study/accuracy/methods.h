@@ -8,12 +8,15 @@
 #include <vector>
 
 #include "image/image.h"
+#include "parallel/clock/host_time.h"
 #include "study/reference.h"
 
 namespace pprt {
 
 // CPU time of the calling thread.
-double thread_cpu_seconds();
+inline double thread_cpu_seconds() {
+  return 1e-9 * static_cast<double>(thread_cpu_ns());
+}
 
 // The picture at one point of a method's curve.
 struct Rendering {

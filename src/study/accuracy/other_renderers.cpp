@@ -6,46 +6,100 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <stdexcept>
-#include <utility>
 
 #include "base/subprocess.h"
 #include "convert/pov_writer.h"
+#include "image/atomic_file.h"
 #include "image/contact_sheet.h"
 #include "image/image_io.h"
 #include "scene/nff_writer.h"
 #include "study/reference.h"
-#include "study/report/plot.h"
 
 namespace pprt {
 namespace {
 
+using Words = std::vector<std::string>;
+
+// A picture to be made.
+struct Trial {
+  std::string setting;
+  Words options;
+  bool adaptive = false;
+  int scale = 1;  // rendered this much larger, then averaged over each pixel
+};
+
+struct OtherRenderer {
+  std::string name;
+  std::string scene_file;                                             // name, with its extension
+  std::function<void(const SceneDescription&, std::ostream&)> write;  // the scene file
+  std::function<Words(const std::string& scene_file, const std::string& picture, int size)> command;
+  std::vector<Trial> trials;  // the first is the plain picture
+  Trial converged;
+};
+
+OtherRenderer povray() {
+  OtherRenderer povray{"POV-Ray", "scene.pov", write_pov, {}, {}, {"converged", {"-A"}, false, 6}};
+  povray.command = [](const std::string& scene_file, const std::string& picture, int size) {
+    return Words{"povray",
+                 "+I" + scene_file,
+                 "+O" + picture,
+                 fmt::format("+W{}", size),
+                 fmt::format("+H{}", size),
+                 "-D",
+                 "+FN16",
+                 "-J"};
+  };
+  for (const int n : {1, 2, 3}) {
+    povray.trials.push_back({fmt::format("plain, {0} x {0} samples", n), {"-A", "+WT1"}, false, n});
+  }
+  for (const int method : {1, 2}) {
+    for (const char* threshold : {"0.3", "0.1", "0.03"}) {
+      povray.trials.push_back({fmt::format("anti-aliasing {}, threshold {}", method, threshold),
+                               {fmt::format("+A{}", threshold), fmt::format("+AM{}", method), "+R3", "+WT1"},
+                               true});
+    }
+  }
+  return povray;
+}
+
+OtherRenderer tachyon() {
+  const auto with_samples = [](const char* setting, int more, int threads) {
+    return Trial{setting, {"-aasamples", std::to_string(more), "-numthreads", std::to_string(threads)}};
+  };
+  OtherRenderer tachyon{"Tachyon", "scene.nff", {}, {}, {}, with_samples("converged", 47, 2)};
+  tachyon.write = [](const SceneDescription& scene, std::ostream& out) { write_nff(scene, out); };
+  tachyon.command = [](const std::string& scene_file, const std::string& picture, int size) {
+    const std::string side = std::to_string(size);
+    return Words{"tachyon", scene_file, "-res", side, side, "-format", "PNG", "-o", picture};
+  };
+  tachyon.trials = {with_samples("1 sample", 0, 1), with_samples("2 samples", 1, 1),
+                    with_samples("4 samples", 3, 1), with_samples("8 samples", 7, 1)};
+  return tachyon;
+}
+
 // A temporary directory. Its destructor removes all files.
-class ScratchDirectory {
- public:
+struct ScratchDirectory {
+  std::filesystem::path path;
+
   ScratchDirectory() {
     std::string name = (std::filesystem::temp_directory_path() / "pprt-study-XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr)
       throw std::runtime_error("cannot make a directory for other renderers");
-    path_ = name;
+    path = name;
   }
   ScratchDirectory(const ScratchDirectory&) = delete;
   ScratchDirectory& operator=(const ScratchDirectory&) = delete;
   ~ScratchDirectory() {
     std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
+    std::filesystem::remove_all(path, ignored);
   }
-  std::string file(const char* name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
 };
 
 // Runs a program in silence and returns its CPU seconds. Throws ProgramNotFound, or std::runtime_error when
 // it fails.
-double run_in_silence(const std::vector<std::string>& command) {
+double run_in_silence(const Words& command) {
   constexpr StreamTo kNothing = StreamTo::kNothing;
   Subprocess program(command, {.input = kNothing, .output = kNothing, .errors = kNothing});
   const ExitStatus status = program.wait();
@@ -53,63 +107,33 @@ double run_in_silence(const std::vector<std::string>& command) {
   return status.cpu_seconds;
 }
 
-// Returns the command line that renders a picture of size x size pixels into the file.
-using Command = std::function<std::vector<std::string>(int size, const std::string& file)>;
-
-struct Trial {
-  std::string setting;
-  bool adaptive = false;
-  int scale = 1;  // rendered this much larger, then averaged over each pixel
-  Command command;
-};
-
-Image rendered(const Trial& trial, int size, const ScratchDirectory& scratch, double& seconds) {
-  const std::string file = scratch.file("picture.png");
-  seconds = run_in_silence(trial.command(trial.scale * size, file));
-  Image image = read_image(file);
-  return image.width == size ? image : resize(image, size, size);
-}
-
-// Makes all pictures. The first trial is the plain picture.
-std::vector<RendererPoint> carry_out(const std::vector<Trial>& trials, const Trial& converged, int size,
-                                     const ScratchDirectory& scratch) {
+// Makes all pictures. Throws as run_in_silence.
+std::vector<RendererPoint> pictures_of(const OtherRenderer& renderer, const std::string& name,
+                                       const SceneDescription& scene, int size) {
   constexpr int kTiny = 8;  // pixels: what is left is reading and building
-  double unused = 0;
-  const Image reference = rendered(converged, size, scratch, unused);
-  const double fixed = run_in_silence(trials[0].command(kTiny, scratch.file("tiny.png")));
+  const ScratchDirectory scratch;
+  const std::string scene_file = scratch.path / renderer.scene_file, file = scratch.path / "picture.png";
+  write_whole_file(scene_file, [&](std::ostream& out) { renderer.write(scene, out); });
+  const auto run = [&](const Trial& trial, int side) {
+    Words command = renderer.command(scene_file, file, side);
+    command.insert(command.end(), trial.options.begin(), trial.options.end());
+    return run_in_silence(command);
+  };
+  const auto picture = [&] {
+    Image image = read_image(file);
+    return image.width == size ? image : resize(image, size, size);
+  };
+  run(renderer.converged, renderer.converged.scale * size);
+  const Image reference = picture();
+  const double fixed = run(renderer.trials[0], kTiny);
   std::vector<RendererPoint> points;
-  for (const Trial& trial : trials) {
-    double seconds = 0;
-    const Image image = rendered(trial, size, scratch, seconds);
-    RendererPoint& p = points.emplace_back();
-    p.setting = trial.setting;
-    p.adaptive = trial.adaptive;
-    p.seconds = std::max(1e-3, seconds - fixed);
-    p.share = p.seconds / points.front().seconds;
-    p.rmse = rmse_of(image, reference);
+  for (const Trial& trial : renderer.trials) {
+    const double seconds = std::max(1e-3, run(trial, trial.scale * size) - fixed);
+    const double plain = points.empty() ? seconds : points.front().seconds;
+    points.push_back({name, renderer.name, trial.setting, trial.adaptive, seconds, seconds / plain,
+                      rmse_of(picture(), reference)});
   }
   return points;
-}
-
-template <typename Measure>
-RendererCurve present_or_absent(const std::string& scene, const char* program, const Measure& measure) {
-  RendererCurve result{scene, program, {}, {}};
-  try {
-    result.points = measure();
-  } catch (const std::runtime_error& e) {
-    result.absent = e.what();
-  }
-  return result;
-}
-
-Command povray_command(const std::string& scene_file, const std::vector<std::string>& options) {
-  return [=](int size, const std::string& file) {
-    std::vector<std::string> words = {
-        "povray", "+I" + scene_file, "+O" + file, fmt::format("+W{}", size), fmt::format("+H{}", size),
-        "-D",     "+FN16",           "-J"};
-    words.insert(words.end(), options.begin(), options.end());
-    return words;
-  };
 }
 
 bool is_convex(std::span<const Vec3d> corners) {
@@ -125,56 +149,20 @@ bool is_convex(std::span<const Vec3d> corners) {
 
 }  // namespace
 
-RendererCurve measure_povray(const std::string& name, const SceneDescription& scene, int size) {
-  return present_or_absent(name, "POV-Ray", [&] {
-    constexpr int kConvergedScale = 6;
-    const ScratchDirectory scratch;
-    const std::string file = scratch.file("scene.pov");
-    std::ofstream out(file);
-    write_pov(scene, out);
-    out.close();
-    std::vector<Trial> trials;
-    for (const int n : {1, 2, 3}) {
-      trials.push_back(
-          {fmt::format("plain, {0} x {0} samples", n), false, n, povray_command(file, {"-A", "+WT1"})});
+std::vector<RendererPoint> measure_other_renderers(const std::string& name, const SceneDescription& scene,
+                                                   int size) {
+  std::vector<RendererPoint> all;
+  for (const OtherRenderer& renderer : {povray(), tachyon()}) {
+    try {
+      const std::string defect = renderer.name == "Tachyon" ? tachyon_defect(scene) : "";
+      if (!defect.empty()) throw std::runtime_error(defect);
+      const std::vector<RendererPoint> points = pictures_of(renderer, name, scene, size);
+      all.insert(all.end(), points.begin(), points.end());
+    } catch (const std::runtime_error& e) {
+      all.push_back({name, renderer.name, std::string("absent: ") + e.what()});
     }
-    for (const int method : {1, 2}) {
-      for (const char* threshold : {"0.3", "0.1", "0.03"}) {
-        trials.push_back({fmt::format("anti-aliasing {}, threshold {}", method, threshold), true, 1,
-                          povray_command(file, {fmt::format("+A{}", threshold), fmt::format("+AM{}", method),
-                                                "+R3", "+WT1"})});
-      }
-    }
-    const Trial converged{"converged", false, kConvergedScale, povray_command(file, {"-A"})};
-    return carry_out(trials, converged, size, scratch);
-  });
-}
-
-RendererCurve measure_tachyon(const std::string& name, const SceneDescription& scene, int size) {
-  if (const std::string defect = tachyon_defect(scene); !defect.empty()) return {name, "Tachyon", defect, {}};
-  return present_or_absent(name, "Tachyon", [&] {
-    const ScratchDirectory scratch;
-    const std::string file = scratch.file("scene.nff");
-    std::ofstream out(file);
-    write_nff(scene, out);
-    out.close();
-    const auto with_samples = [&](int more, int threads) {
-      return [=](int pixels, const std::string& picture) {
-        const std::string side = std::to_string(pixels);
-        std::vector<std::string> words = {"tachyon", file,  "-res", side,   side,
-                                          "-format", "PNG", "-o",   picture};
-        words.insert(words.end(),
-                     {"-aasamples", std::to_string(more), "-numthreads", std::to_string(threads)});
-        return words;
-      };
-    };
-    std::vector<Trial> trials;
-    for (const int more : {0, 1, 3, 7}) {
-      trials.push_back(
-          {more == 0 ? "1 sample" : fmt::format("{} samples", more + 1), false, 1, with_samples(more, 1)});
-    }
-    return carry_out(trials, {"converged", false, 1, with_samples(47, 2)}, size, scratch);
-  });
+  }
+  return all;
 }
 
 std::string tachyon_defect(const SceneDescription& scene) {
@@ -187,23 +175,13 @@ std::string tachyon_defect(const SceneDescription& scene) {
   return concave ? "it cuts concave polygons as if they were convex" : "";
 }
 
-Table renderers_table(const std::vector<RendererCurve>& curves) {
-  struct Row {
-    std::string scene, program, setting;
-    double seconds = kNoValue, share = kNoValue, rmse = kNoValue;
-  };
-  std::vector<Row> rows;
-  for (const RendererCurve& c : curves) {
-    if (!c.absent.empty()) rows.push_back({c.scene, c.program, "absent: " + c.absent});
-    for (const RendererPoint& p : c.points)
-      rows.push_back({c.scene, c.program, p.setting, p.seconds, p.share, p.rmse});
-  }
-  return table_of<Row>(rows, {{"scene", &Row::scene},
-                              {"program", &Row::program},
-                              {"setting", &Row::setting},
-                              {"cpu s", &Row::seconds},
-                              {"share of its plain picture", &Row::share},
-                              {"rmse", &Row::rmse}});
+Table renderers_table(const std::vector<RendererPoint>& points) {
+  return table_of<RendererPoint>(points, {{"scene", &RendererPoint::scene},
+                                          {"program", &RendererPoint::program},
+                                          {"setting", &RendererPoint::setting},
+                                          {"cpu s", &RendererPoint::seconds},
+                                          {"share of its plain picture", &RendererPoint::share},
+                                          {"rmse", &RendererPoint::rmse}});
 }
 
 }  // namespace pprt

@@ -6,33 +6,30 @@
 #include <vector>
 
 #include "scene/scene_description.h"
+#include "study/report/plot.h"
 #include "study/report/table.h"
 
 namespace pprt {
 
+// A picture of another renderer, or why there are none.
 struct RendererPoint {
-  std::string setting;
-  bool adaptive = false;  // more samples where neighbours differ
-  double seconds = 0;     // CPU time without reading and building the scene
-  double share = 0;       // seconds / those of its plain picture, one sample per pixel
-  double rmse = 0;
-};
-
-struct RendererCurve {
   std::string scene;
-  std::string program;  // "POV-Ray", "Tachyon"
-  std::string absent;   // why there are no points
-  std::vector<RendererPoint> points;
+  std::string program;        // "POV-Ray", "Tachyon"
+  std::string setting;        // "absent: " and the reason, without figures
+  bool adaptive = false;      // more samples where neighbours differ
+  double seconds = kNoValue;  // CPU time without reading and building the scene
+  double share = kNoValue;    // seconds / those of its plain picture, one sample per pixel
+  double rmse = kNoValue;
 };
 
-// Render pictures of size x size pixels. A program that is not installed, or that cannot show the scene, is
-// reported as absent.
-RendererCurve measure_povray(const std::string& name, const SceneDescription& scene, int size);
-RendererCurve measure_tachyon(const std::string& name, const SceneDescription& scene, int size);
+// Renders pictures of size x size pixels with all other renderers. One that is not installed, or that cannot
+// show the scene, has a single point.
+std::vector<RendererPoint> measure_other_renderers(const std::string& name, const SceneDescription& scene,
+                                                   int size);
 
 // Returns why Tachyon shows another scene than the file holds; empty when it does not.
 std::string tachyon_defect(const SceneDescription& scene);
 
-Table renderers_table(const std::vector<RendererCurve>& curves);
+Table renderers_table(const std::vector<RendererPoint>& points);
 
 }  // namespace pprt

@@ -22,13 +22,13 @@ constexpr Abscissa kTime = {"CPU time, % of one sample per pixel", &CurvePoint::
 constexpr Abscissa kSamples = {"samples per pixel", &CurvePoint::samples, 1};
 
 Panel log_panel(const std::string& title, const char* x, const char* y) {
-  return {title, {x, 10}, {y, 10}, {}, PanelKind::kCurves};
+  return {title, {x, 10}, {y, 10}};
 }
 
 template <typename Items, typename MakePanel>
 void add_plot(const char* name, const char* caption, const Items& items, StudyOutput& output,
               const MakePanel& make_panel) {
-  Plot plot{name, {}, 2};
+  Plot plot{name};
   for (const auto& item : items) plot.panels.push_back(make_panel(item));
   output.add_figure(plot, caption);
 }
@@ -42,7 +42,7 @@ Curve median_curve(const SceneCurves& scene, const std::string& method, const Ab
   }
   std::size_t count = repeats.empty() ? 0 : repeats.front().size();
   for (const auto& points : repeats) count = std::min(count, points.size());
-  Curve curve{method, {}};
+  Curve curve{method};
   for (std::size_t i = 0; i < count; ++i) {
     std::vector<double> at, errors;
     for (const auto& points : repeats) {
@@ -63,13 +63,9 @@ Panel curves_panel(const SceneCurves& scene, const Abscissa& x, const std::vecto
 
 Panel ratio_panel(const SceneCurves& scene) {
   constexpr double kStep = 1.1;
-  Panel panel{scene.scene,
-              {kTime.label, 10},
-              {"error of progressive / uniform at equal time"},
-              {},
-              PanelKind::kCurves};
+  Panel panel{scene.scene, {kTime.label, 10}, {"error of progressive / uniform at equal time"}};
   for (const char* method : {kProgressive, kControl}) {
-    Curve curve{method, {}};
+    Curve curve{method};
     for (const double share : shares_by(kStep)) {
       const Spread s = ratio_at_equal_time(scene, method, share);
       if (!std::isnan(s.median)) curve.points.push_back({100 * share, s.median, s.low, s.high});
@@ -136,8 +132,8 @@ void write_ratios(const std::vector<SceneCurves>& scenes, StudyOutput& output) {
       "that have a picture.");
   output.add_table("ratios", ratio_table(scenes));
   for (const SceneCurves& s : scenes) {
-    page.paragraph(fmt::format("{}: {} {}", s.scene, to_sentence(break_even(s, kProgressive), "Progressive"),
-                               losses(s)));
+    page.paragraph(fmt::format("{}: {} {}", s.scene,
+                               to_sentence(budget_ranges(s, kProgressive), "Progressive"), losses(s)));
   }
   add_plot("ratios",
            "Medians of the repeats with their spread. The control is the uniform method again: its ratio "
@@ -163,14 +159,15 @@ void write_curves(const std::vector<SceneCurves>& scenes, StudyOutput& output) {
            [](const SceneCurves& s) { return curves_panel(s, kTime, ablations(s)); });
   page.table(table_of<Method>(accuracy_methods(),
                               {{"method", &Method::name}, {"what it is", &Method::description}}));
+  const std::vector<Comparison> all = comparisons(scenes);
   page.heading("Errors at equal time");
   page.paragraph("Over those of the uniform method, medians of the repeats. comparisons.csv has the spread.");
-  page.table(equal_time_table(scenes));
+  page.table(budgets_table(all, &Comparison::error));
   page.heading("Times at equal error");
   page.paragraph(
       "Time for the error that the uniform method has at each budget, over the time of the uniform method. "
       "Below 1 the method is faster. A dash: the method has no picture as coarse as that, or none as good.");
-  page.table(equal_error_table(scenes));
+  page.table(budgets_table(all, &Comparison::time));
   page.heading("What errors are measured against");
   page.paragraph(
       "Converged frames: the mean of two independent halves, each with one sample at a random place of every "
@@ -178,11 +175,11 @@ void write_curves(const std::vector<SceneCurves>& scenes, StudyOutput& output) {
       "error is half the difference of the halves.");
   page.table(references_table(scenes));
   output.write_table("curves", points_table(scenes));
-  output.write_table("comparisons", comparisons_table(scenes));
+  output.write_table("comparisons", comparisons_table(all));
 }
 
 // This renderer's curves, then each program's plain pictures as a line and its adaptive ones as marks.
-Panel renderers_panel(const SceneCurves& own, const std::vector<RendererCurve>& results) {
+Panel renderers_panel(const SceneCurves& own, const std::vector<RendererPoint>& all) {
   Panel panel = log_panel(own.scene, "CPU time, % of the renderer's own plain picture",
                           "RMSE against its own converged picture");
   const auto percent = [](const auto& point) { return 100 * point.share; };
@@ -191,13 +188,14 @@ Panel renderers_panel(const SceneCurves& own, const std::vector<RendererCurve>& 
     panel.curves.push_back(curve_over(method, points_of(own, method, 0), percent, &CurvePoint::rmse,
                                       CurveStyle::kLine, colour++));
   }
-  for (const RendererCurve& r : results) {
-    if (r.scene != own.scene) continue;
+  for (const std::string program : {"POV-Ray", "Tachyon"}) {
     for (const bool adaptive : {false, true}) {
-      std::vector<RendererPoint> points = r.points;
-      std::erase_if(points, [&](const RendererPoint& p) { return p.adaptive != adaptive; });
+      std::vector<RendererPoint> points = all;
+      std::erase_if(points, [&](const RendererPoint& p) {
+        return p.scene != own.scene || p.program != program || p.adaptive != adaptive || std::isnan(p.rmse);
+      });
       if (points.empty()) continue;
-      panel.curves.push_back(curve_over(r.program + (adaptive ? ", adaptive" : ""), points, percent,
+      panel.curves.push_back(curve_over(program + (adaptive ? ", adaptive" : ""), points, percent,
                                         &RendererPoint::rmse,
                                         adaptive ? CurveStyle::kMarks : CurveStyle::kMarkedLine, colour));
     }
@@ -218,7 +216,7 @@ void write_renderers(const AccuracyResults& results, int size, StudyOutput& outp
   output.add_table("renderers", renderers_table(results.renderers));
 }
 
-void write_effects(const std::vector<SceneEffects>& scenes, StudyOutput& output) {
+void write_effects(const AccuracyResults& results, StudyOutput& output) {
   Page& page = output.page();
   page.heading("What effects cost, and what their absence costs");
   page.paragraph(
@@ -226,14 +224,14 @@ void write_effects(const std::vector<SceneEffects>& scenes, StudyOutput& output)
       "samples per pixel against the converged frame. The first row's error is that of so few samples alone. "
       "Only effects that a scene calls for are simulated. The general kernel traces the same rays with code "
       "for all effects.");
-  output.add_table("effects", effects_table(scenes));
+  output.add_table("effects", effects_table(results.effects));
   page.paragraph("Effects that the scenes call for:");
-  for (const SceneEffects& scene : scenes) page.listing(scene.census);
+  for (const std::string& census : results.censuses) page.listing(census);
 }
 
 Panel rates_panel(const std::string& scene, const std::vector<RatePoint>& all, const char* label,
                   double RatePoint::*value) {
-  Panel panel{scene, {"frames per second", 2}, {label, 10}, {}, PanelKind::kCurves};
+  Panel panel{scene, {"frames per second", 2}, {label, 10}};
   for (const auto& [cast, word, help] : kWords<CastChoice>) {
     std::vector<RatePoint> points = all;
     std::erase_if(points, [&, way = cast](const RatePoint& p) { return p.scene != scene || p.cast != way; });
@@ -244,14 +242,12 @@ Panel rates_panel(const std::string& scene, const std::vector<RatePoint>& all, c
   return panel;
 }
 
-void write_rates(const AccuracyResults& results, const std::string& setup, StudyOutput& output) {
+void write_rates(const AccuracyResults& results, StudyOutput& output) {
   output.page().heading("Which frame rate is worth having");
-  output.page().paragraph(setup);
-  std::vector<std::string> scenes;
-  for (const SceneCurves& s : results.curves) scenes.push_back(s.scene);
+  output.page().paragraph(results.rates_setup);
   const auto add = [&](const char* name, const char* caption, const char* label, double RatePoint::*value) {
-    add_plot(name, caption, scenes, output,
-             [&](const std::string& scene) { return rates_panel(scene, results.rates, label, value); });
+    add_plot(name, caption, results.curves, output,
+             [&](const SceneCurves& s) { return rates_panel(s.scene, results.rates, label, value); });
   };
   add("rates", "Mean error of a sequence's frames against the frame rate.", "RMSE", &RatePoint::rmse);
   add("after-cut", "Error of the frames right after a camera cut, and of the first frame.", "RMSE",
@@ -270,8 +266,7 @@ void write_rates(const AccuracyResults& results, const std::string& setup, Study
 
 }  // namespace
 
-void write_accuracy(const AccuracyResults& results, int small_size, const std::string& rates_setup,
-                    StudyOutput& output) {
+void write_accuracy(const AccuracyResults& results, int small_size, StudyOutput& output) {
   write_ratios(results.curves, output);
   write_curves(results.curves, output);
   output.page().heading(fmt::format("Where {} samples go", kFigureSamples));
@@ -280,8 +275,8 @@ void write_accuracy(const AccuracyResults& results, int small_size, const std::s
       "their triangulation, and the picture from them.");
   output.add_gallery(results.pictures);
   write_renderers(results, small_size, output);
-  write_effects(results.effects, output);
-  write_rates(results, rates_setup, output);
+  write_effects(results, output);
+  write_rates(results, output);
 }
 
 }  // namespace pprt

@@ -15,15 +15,16 @@ namespace pprt {
 struct AccuracyResults {
   std::vector<SceneCurves> curves;
   std::vector<SceneCurves> small_curves;  // at the size of the other renderers' pictures
-  std::vector<RendererCurve> renderers;
-  std::vector<SceneEffects> effects;
+  std::vector<RendererPoint> renderers;
+  std::vector<EffectCost> effects;
+  std::vector<std::string> censuses;  // effects that the scenes call for, and why
   std::vector<Picture> pictures;
+  std::string rates_setup;  // describes the sequences
   std::vector<RatePoint> rates;
   std::vector<RealTimePoint> real_time;
 };
 
-// `small_size` is that of small_curves, pixels; `rates_setup` describes the sequences in a sentence.
-void write_accuracy(const AccuracyResults& results, int small_size, const std::string& rates_setup,
-                    StudyOutput& output);
+// `small_size` is that of small_curves, pixels.
+void write_accuracy(const AccuracyResults& results, int small_size, StudyOutput& output);
 
 }  // namespace pprt

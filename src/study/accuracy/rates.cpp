@@ -6,25 +6,13 @@
 #include <stdexcept>
 
 #include "image/metrics.h"
+#include "render/frame_summary.h"
+#include "scene/camera_path.h"
 #include "study/accuracy/methods.h"
 #include "study/accuracy/statistics.h"
 
 namespace pprt {
 namespace {
-
-// Rodrigues' rotation of a vector about a unit axis.
-Vec3d turned(const Vec3d& v, const Vec3d& axis, double degrees) {
-  const double angle = degrees * M_PI / 180;
-  return v * std::cos(angle) + axis.cross(v) * std::sin(angle) + axis * (axis.dot(v) * (1 - std::cos(angle)));
-}
-
-// The scene's camera, turned about its target.
-Camera turned_camera(const CompiledScene& scene, View view, int size, double degrees) {
-  view.width = view.height = size;
-  const Vec3d axis = view.up / std::sqrt(view.up.dot(view.up));
-  view.from = view.at + turned(view.from - view.at, axis, degrees);
-  return scene.camera(view);
-}
 
 SessionSettings settings_of(const Sequence& sequence, CastChoice cast, double fps, ClockKind clock) {
   SessionSettings s;
@@ -41,33 +29,33 @@ SessionSettings settings_of(const Sequence& sequence, CastChoice cast, double fp
 }
 
 // What a sequence's frames came to.
-struct FrameSeries {
-  std::vector<Image> pictures;  // clamped to the display
-  std::vector<double> late_ms;
+struct PlayedFrames {
+  std::vector<Image> pictures;
   std::vector<double> samples;
+  RunTotals totals;
 
   double samples_per_pixel() const {
     return mean_of(samples) / (static_cast<double>(pictures.front().width) * pictures.front().height);
   }
 };
 
-FrameSeries play(const Sequence& sequence, CastChoice cast, double fps, ClockKind clock = ClockKind::kWork) {
-  FrameSeries series;
+PlayedFrames play(const Sequence& sequence, CastChoice cast, double fps, ClockKind clock = ClockKind::kWork) {
+  PlayedFrames played;
   render_series(sequence.scene, sequence.frames, sequence.ranks, settings_of(sequence, cast, fps, clock),
                 [&](FinishedFrame&& frame) {
-                  series.pictures.push_back(clamped_to_display(frame.image));
-                  series.late_ms.push_back(frame.late_ms);
-                  series.samples.push_back(samples_in(frame));
+                  const FrameSummary summary = summarize(frame);
+                  played.pictures.push_back(clamped_to_display(frame.image));
+                  played.samples.push_back(static_cast<double>(summary.samples));
+                  played.totals.add(summary);
                 });
-  return series;
+  return played;
 }
 
 RatePoint measure(const Sequence& sequence, CastChoice cast, double fps) {
-  const FrameSeries series = play(sequence, cast, fps);
-  RatePoint point;
-  point.scene = sequence.name, point.cast = cast, point.fps = fps;
-  judge_sequence(sequence, series.pictures, point);
-  point.samples = series.samples_per_pixel();
+  const PlayedFrames played = play(sequence, cast, fps);
+  RatePoint point{.scene = sequence.name, .cast = cast, .fps = fps};
+  judge_sequence(sequence, played.pictures, point);
+  point.samples = played.samples_per_pixel();
   return point;
 }
 
@@ -95,23 +83,16 @@ std::vector<FrameRequest> repeated(const std::vector<FrameRequest>& frames, doub
 
 }  // namespace
 
-std::vector<FrameRequest> round_with_cut(const CompiledScene& scene, const View& view, int size, int most) {
-  constexpr int kFrames = 6, kCut = 3;
-  constexpr double kStep = 2, kJump = 120;  // degrees
-  std::vector<FrameRequest> frames;
-  for (int i = 0; i < std::min(most, kFrames); ++i) {
-    const double degrees = kStep * i + (i >= kCut ? kJump : 0);
-    frames.push_back({i + 1, turned_camera(scene, view, size, degrees), i == kCut});
-  }
-  return frames;
-}
-
-std::vector<FrameRequest> orbit(const CompiledScene& scene, const View& view, int size, double fps,
-                                int count) {
-  constexpr double kDegreesPerSecond = 14.4;
+std::vector<FrameRequest> orbit(const CompiledScene& scene, const View& view, int size, int count,
+                                double degrees_per_frame, int cut) {
+  constexpr double kJump = 120;  // degrees
+  const Vec3d axis = view.up / std::sqrt(view.up.dot(view.up));
   std::vector<FrameRequest> frames;
   for (int i = 0; i < count; ++i) {
-    frames.push_back({i + 1, turned_camera(scene, view, size, kDegreesPerSecond / fps * i)});
+    const double degrees = degrees_per_frame * i + (cut >= 0 && i >= cut ? kJump : 0);
+    View turned = view;
+    turned.from = view.at + rotated(view.from - view.at, axis, degrees * M_PI / 180);
+    frames.push_back({i + 1, square_camera(scene, turned, size), i == cut});
   }
   return frames;
 }
@@ -165,24 +146,24 @@ std::vector<RatePoint> measure_rates(const Sequence& sequence, std::span<const d
 RealTimePoint measure_in_real_time(const Sequence& sequence, CastChoice cast, double fps) {
   Sequence played = sequence;
   played.frames = repeated(sequence.frames, fps);
-  FrameSeries series = play(played, cast, fps, ClockKind::kWall);
-
-  RealTimePoint point;
-  point.scene = sequence.name, point.cast = cast, point.fps = fps, point.ranks = sequence.ranks;
-  point.frames = static_cast<int>(series.pictures.size());
-  for (std::size_t i = 0; i < series.pictures.size(); ++i)
-    point.rmse += rmse_of(series.pictures[i], sequence.references[i % sequence.frames.size()]) / point.frames;
-  point.samples = series.samples_per_pixel();
-  point.fewest_samples = fewest_after_fifth(series.samples);
-  std::vector<double>& late = series.late_ms;
-  std::sort(late.begin(), late.end());
-  const auto quantile = [&](double q) {
-    return late[static_cast<std::size_t>(std::ceil(q * static_cast<double>(late.size() - 1)))];
-  };
-  point.late_p50_ms = quantile(0.5), point.late_p95_ms = quantile(0.95), point.late_p99_ms = quantile(0.99);
-  point.late_max_ms = late.back();
-  const auto on_time = std::count_if(late.begin(), late.end(), [](double ms) { return ms <= 0; });
-  point.on_time = static_cast<double>(on_time) / point.frames;
+  const PlayedFrames series = play(played, cast, fps, ClockKind::kWall);
+  const RunTotals& totals = series.totals;
+  RealTimePoint point{.scene = sequence.name,
+                      .cast = cast,
+                      .fps = fps,
+                      .ranks = sequence.ranks,
+                      .frames = totals.frames(),
+                      .on_time = static_cast<double>(totals.on_time()) / totals.frames(),
+                      .late_p50_ms = totals.late_ms(0.5),
+                      .late_p95_ms = totals.late_ms(0.95),
+                      .late_p99_ms = totals.late_ms(0.99),
+                      .late_max_ms = totals.worst_late_ms(),
+                      .samples = series.samples_per_pixel(),
+                      .fewest_samples = fewest_after_fifth(series.samples)};
+  for (std::size_t i = 0; i < series.pictures.size(); ++i) {
+    const Image& reference = sequence.references[i % sequence.frames.size()];
+    point.rmse += rmse_of(series.pictures[i], reference) / point.frames;
+  }
   return point;
 }
 
@@ -205,21 +186,21 @@ double uniform_rmse_in(double seconds, const Sequence& sequence) {
   std::vector<double> errors;
   for (std::size_t i = 0; i < sequence.frames.size(); ++i) {
     const Image uniform = uniform_picture_in(seconds, {sequence.scene, sequence.frames[i].camera});
-    errors.push_back(rmse_of(clamped_to_display(uniform), sequence.references[i]));
+    errors.push_back(rmse_of(uniform, sequence.references[i]));
   }
   return mean_of(errors);
 }
 
 Table rates_table(const std::vector<RatePoint>& points) {
-  return table_of<RatePoint>(points,
-                             {{"scene", &RatePoint::scene},
-                              {"cast", [](const RatePoint& p) { return std::string(word_for(p.cast)); }},
-                              {"frames/s", &RatePoint::fps},
-                              {"rmse", &RatePoint::rmse},
-                              {"rmse after a cut", &RatePoint::rmse_after_cut},
-                              {"frames to recover", &RatePoint::recovery},
-                              {"flicker", &RatePoint::flicker},
-                              {"samples a pixel", &RatePoint::samples}});
+  using P = RatePoint;
+  return table_of<P>(points, {{"scene", &P::scene},
+                              {"cast", &P::cast},
+                              {"frames/s", &P::fps},
+                              {"rmse", &P::rmse},
+                              {"rmse after a cut", &P::rmse_after_cut},
+                              {"frames to recover", &P::recovery},
+                              {"flicker", &P::flicker},
+                              {"samples a pixel", &P::samples}});
 }
 
 Table real_time_table(const std::vector<RealTimePoint>& points) {

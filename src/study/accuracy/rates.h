@@ -23,13 +23,10 @@ struct Sequence {
   std::uint64_t seed = 1;
 };
 
-// Returns six frames that go round the scene's target by two degrees each, with a camera cut of 120 degrees
-// after the third; of these at most `most`. Pictures have size x size pixels.
-std::vector<FrameRequest> round_with_cut(const CompiledScene& scene, const View& view, int size, int most);
-
-// Returns frames that go round the scene's target by 14.4 degrees per second whatever the rate.
-std::vector<FrameRequest> orbit(const CompiledScene& scene, const View& view, int size, double fps,
-                                int count);
+// Returns `count` frames that go round the scene's target by equal steps. Frame `cut`, counted from 0, comes
+// after a camera cut of 120 degrees; -1: none does. Pictures have size x size pixels.
+std::vector<FrameRequest> orbit(const CompiledScene& scene, const View& view, int size, int count,
+                                double degrees_per_frame, int cut = -1);
 
 // A sequence at one rate under the work clock. Errors are on the display scale.
 struct RatePoint {

@@ -4,18 +4,17 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <map>
 #include <mutex>
 
 #include "parallel/clock/work_units.h"
 #include "parser/anim_parser.h"
-#include "pipeline/preparation/cast_choice.h"
+#include "render/frame_summary.h"
 #include "spd/spd.h"
 #include "study/frame_series.h"
 #include "study/reference.h"
 #include "study/sequences.h"
+#include "study/stopwatch.h"
 
 namespace pprt {
 namespace {
@@ -24,19 +23,15 @@ const std::map<std::string_view, const char*> kTurnScripts = {
     {"tree", kTreeTurn}, {"gears", kGearsTurn}, {"balls", kBallsTurn}, {"rings", kRingsTurn}};
 
 // A sequence ready to be played.
-struct TurnSetup {
+struct Turn {
   const CastingTrial& trial;
   CompiledScene scene;
   std::vector<FrameRequest> frames;
 
-  TurnSetup(const TurnSequence& sequence, const CastingTrial& of_trial)
+  Turn(const TurnSequence& sequence, const CastingTrial& of_trial)
       : trial(of_trial), scene(compile(make_spd(sequence.scene))) {
-    const Animation turn = parse_animation(kTurnScripts.at(sequence.scene), "turn.anim").animation;
-    View base;
-    base.width = base.height = trial.side;
-    for (int number = 1; number <= trial.judged.back(); ++number) {
-      frames.push_back({number, scene.camera(view_at(turn, 1 + (number - 1) * sequence.speed, base))});
-    }
+    const Animation script = parse_animation(kTurnScripts.at(sequence.scene), "turn.anim").animation;
+    frames = frames_of(scene, script, trial.judged.back(), View(), trial.side, sequence.speed);
   }
 
   void render(CastChoice cast, const std::vector<FrameRequest>& requests, double budget_units,
@@ -52,31 +47,24 @@ struct TurnSetup {
     render_series(scene, requests, 1, settings, sink);
   }
 
-  // Returns the work that makes the wanted number of samples in the second frame, by one correction of a
-  // guess.
+  // Returns the work that makes so many samples in the second frame.
   double budget_for(double samples_per_pixel) const {
-    constexpr double kGuessPerSample = 1600;  // units
     const double pixels = static_cast<double>(trial.side) * trial.side;
-    const double wanted = samples_per_pixel * pixels;
-    const double pixel_units = pixels * static_cast<double>(price(Work::kPixel));
-    double made = 0;
-    render(CastChoice::kOff, {frames[0], frames[1]}, pixel_units + wanted * kGuessPerSample,
-           [&](const FinishedFrame& frame) { made = samples_in(frame); });
-    return pixel_units + wanted * kGuessPerSample * wanted / made;
+    const WorkQuestion question{.samples = samples_per_pixel * pixels,
+                                .guess_per_sample = 1600,
+                                .pixel_units = pixels * static_cast<double>(price(Work::kPixel))};
+    return work_for_samples(question, [&](double units) {
+      double made = 0;
+      render(CastChoice::kOff, {frames[0], frames[1]}, units,
+             [&](const FinishedFrame& frame) { made = static_cast<double>(summarize(frame).samples); });
+      return made;
+    });
   }
 };
 
-double display_rmse(const Image& image, const Image& reference) {
-  double sum = 0;
-  for (std::size_t i = 0; i < reference.pixels.size(); ++i) {
-    sum += display_error(image.pixels[i], reference.pixels[i]);
-  }
-  return std::sqrt(sum / static_cast<double>(reference.pixels.size()));
-}
-
 // Returns the errors at each density of the trial.
 std::vector<CastingErrors> judge(const TurnSequence& sequence, const CastingTrial& trial) {
-  const TurnSetup turn(sequence, trial);
+  const Turn turn(sequence, trial);
   std::map<int, Image> references;
   for (const int number : trial.judged) {
     const Camera& camera = turn.frames[static_cast<std::size_t>(number - 1)].camera;
@@ -90,8 +78,7 @@ std::vector<CastingErrors> judge(const TurnSequence& sequence, const CastingTria
       turn.render(kWords<CastChoice>[i].value, turn.frames, budget_units, [&](const FinishedFrame& frame) {
         const auto reference = references.find(frame.order.number);
         if (reference == references.end()) return;
-        errors.rmse[i] +=
-            display_rmse(frame.image, reference->second) / static_cast<double>(trial.judged.size());
+        errors.rmse[i] += rmse_of(frame.image, reference->second) / static_cast<double>(trial.judged.size());
       });
     }
   }
@@ -125,12 +112,11 @@ std::vector<CastingErrors> run_casting_trial(const CastingTrial& trial,
   std::mutex reporting;
   run_concurrently(by_sequence.size(), [&](std::size_t i) {
     const TurnSequence& sequence = trial.sequences[i];
-    const auto begin = std::chrono::steady_clock::now();
+    Stopwatch watch;
     by_sequence[i] = judge(sequence, trial);
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
     const std::lock_guard lock(reporting);
     report(fmt::format("casting errors: {}-turn at {:g} of its speed: {:.1f} s", sequence.scene,
-                       sequence.speed, took.count()));
+                       sequence.speed, watch.lap()));
   });
   std::vector<CastingErrors> errors;
   for (const auto& some : by_sequence) errors.insert(errors.end(), some.begin(), some.end());
@@ -138,10 +124,9 @@ std::vector<CastingErrors> run_casting_trial(const CastingTrial& trial,
 }
 
 Table casting_errors_table(const std::vector<CastingErrors>& errors) {
-  std::vector<Column<CastingErrors>> columns = {
-      {"scene", [](const CastingErrors& e) { return std::string(e.sequence.scene); }},
-      {"speed", [](const CastingErrors& e) { return e.sequence.speed; }},
-      {"samples a pixel", &CastingErrors::samples_per_pixel}};
+  Columns<CastingErrors> columns = {{"scene", [](const CastingErrors& e) { return e.sequence.scene; }},
+                                    {"speed", [](const CastingErrors& e) { return e.sequence.speed; }},
+                                    {"samples a pixel", &CastingErrors::samples_per_pixel}};
   for (std::size_t i = 0; i < kWords<CastChoice>.size(); ++i) {
     columns.push_back({fmt::format("RMSE {}", kWords<CastChoice>[i].word),
                        [i](const CastingErrors& e) { return e.rmse[i]; }});

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "parallel/session_words.h"
-#include "study/paper/paper_options.h"
+#include "study/paper/paper_study.h"
 #include "study/report/table.h"
 
 namespace pprt {

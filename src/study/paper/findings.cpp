@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <utility>
 
 #include "study/paper/measures.h"
@@ -17,10 +16,12 @@ namespace {
 using enum BalanceMode;
 using enum Relation;
 using F = FrameMeasures;
+using Findings = std::vector<Finding>;
 
 constexpr std::array kSettled = {kStill, Frames{25, 30},
                                  Frames{36, 40}};  // the camera has rested for some frames
 constexpr const char* kSettledText = "frames 5-10, 25-30 and 36-40";
+constexpr const char* kStillText = "frames 5-10";
 constexpr std::array kRelations = {"", "below", "above", "at most", "at least"};  // indexed by Relation
 
 std::string number(double value) {
@@ -29,51 +30,35 @@ std::string number(double value) {
   return fmt::format("{:.{}f}", value, value == std::floor(value) || std::abs(value) >= 100 ? 0 : 3);
 }
 
+std::string on_ranks(const char* claim, int ranks) {
+  return fmt::format("{} ({} ranks)", claim, ranks);
+}
+
 std::vector<Check> bounded(std::vector<Check> checks) {
   std::erase_if(checks, [](const Check& c) { return c.relation == kReported; });
   return checks;
 }
 
-// A measure under each mode of balancing.
+// A figure of the simple sequence under each mode of balancing.
 struct ByMode {
   double none, local, global, combined;
 };
 
-// Judges the runs, experiment by experiment.
-struct Judge {
-  const Runs& runs;
-  std::vector<Finding> all = {};
+template <typename Figure>
+ByMode by_mode(const Runs& runs, int ranks, const Figure& figure) {
+  const auto of = [&](BalanceMode mode) {
+    return static_cast<double>(figure(runs.find(kSimple, ranks, mode)));
+  };
+  return {of(kNone), of(kLocal), of(kGlobal), of(kCombined)};
+}
 
-  template <typename Level>
-  ByMode by_mode(int ranks, const Level& level) const {
-    const auto of = [&](BalanceMode mode) { return double(level(runs.find(kSimple, ranks, mode))); };
-    return {of(kNone), of(kLocal), of(kGlobal), of(kCombined)};
-  }
-  ByMode over(int ranks, Frames frames, const Measure& measure) const {
-    return by_mode(ranks, [&](const MeasuredRun& run) { return mean(run, frames, measure); });
-  }
-  ByMode settled(int ranks, const Measure& measure) const;  // mean over the parts of kSettled that were run
+ByMode mean_by_mode(const Runs& runs, int ranks, Frames frames, const Measure& measure) {
+  return by_mode(runs, ranks, [&](const MeasuredRun& run) { return mean(run, frames, measure); });
+}
 
-  Finding& add(std::string source, std::string claim, std::string frames = "",
-               std::vector<Check> checks = {}) {
-    return all.emplace_back(
-        Finding{std::move(source), std::move(claim), std::move(frames), std::move(checks)});
-  }
-
-  void balancing(int ranks);
-  void settling(int ranks, Frames part, const char* when, double within);
-  void patterns(std::string_view experiment);
-  void scaling();
-  void costs();
-  void casting();
-  void casting_errors(const std::vector<CastingErrors>& errors);
-  void network(std::string_view experiment, const char* unit,
-               const std::function<double(const Machine&)>& value);
-  void repeat();
-};
-
-ByMode Judge::settled(int ranks, const Measure& measure) const {
-  return by_mode(ranks, [&](const MeasuredRun& run) {
+// Means over the parts of kSettled that were run.
+ByMode settled_by_mode(const Runs& runs, int ranks, const Measure& measure) {
+  return by_mode(runs, ranks, [&](const MeasuredRun& run) {
     double sum = 0;
     int parts = 0;
     for (const Frames& part : kSettled) {
@@ -83,222 +68,238 @@ ByMode Judge::settled(int ranks, const Measure& measure) const {
   });
 }
 
-void Judge::balancing(int ranks) {
-  const std::string on = fmt::format(" ({} ranks)", ranks);
-  const ByMode deviation = settled(ranks, relative_deviation), distance = settled(ranks, &F::distance);
-  add("6.4.1, figures 5b 5c 6b 6c", "Any load balancing is far better than none" + on, kSettledText,
-      {{"deviation/mean with local", deviation.local, kBelow, deviation.none, "none's"},
-       {"with global", deviation.global, kBelow, deviation.none, "none's"},
-       {"with combined", deviation.combined, kBelow, deviation.none, "none's"},
-       {"distance to serial with local", distance.local, kBelow, distance.none, "none's"},
-       {"with global", distance.global, kBelow, distance.none, "none's"},
-       {"with combined", distance.combined, kBelow, distance.none, "none's"}});
-
-  Finding& even = add("ours, after figures 5b 6b",
-                      "With combined balancing all regions are about equally refined" + on, "");
+Finding evenness(const Runs& runs, int ranks, const ByMode& deviation) {
+  std::vector<Check> checks;
   for (const Frames& part : kSettled) {
-    even.checks.push_back({fmt::format("deviation/mean in frames {}-{}", part.first, part.last),
-                           mean(runs.find(kSimple, ranks, kCombined), part, relative_deviation), kAtMost,
-                           ranks <= 32 ? 0.20 : 0.25});
+    checks.push_back({fmt::format("deviation/mean in frames {}-{}", part.first, part.last),
+                      mean(runs.find(kSimple, ranks, kCombined), part, relative_deviation), kAtMost,
+                      ranks <= 32 ? 0.20 : 0.25});
   }
-  even.checks.push_back(
-      {"on average", deviation.combined, kAtMost, 0.2 * deviation.none, "a fifth of none's"});
-
-  settling(ranks, kStart, "at the start", kNever);
-  settling(ranks, kAfterCameraCut, "after the camera cut", 3);
-  const ByMode at_cut = over(ranks, {31, 31}, relative_deviation);
-  add("6.4.1, figures 5b 6b", "Global answers a camera cut one or two frames late, and more abruptly" + on,
-      "frames 31-34",
-      {{"global's deviation/mean at 31", at_cut.global, kAbove, at_cut.combined, "combined's"},
-       {"in 33-34", over(ranks, {33, 34}, relative_deviation).global, kAtMost, 0.5 * at_cut.global,
-        "half of that at 31"}});
-
-  const ByMode samples = over(ranks, kWhole, &F::samples), cuts = by_mode(ranks, repartitions);
-  add("6.4.1, 6.5", "Combined is almost as good as global, at little more than local's cost" + on, "",
-      {{"combined's distance to serial", distance.combined, kAtMost, distance.global + 0.03,
-        "global's + 0.03"},
-       {"repartitions", cuts.combined, kAtMost, cuts.global / 3, "a third of global's"},
-       {"samples", samples.combined, kAtLeast, 0.95 * samples.local, "0.95 of local's"}});
-
-  const ByMode received = over(ranks, kWhole, received_per_sample);
-  add("6.4.1, figures 5d 6d", "Without balancing there are more samples, though in worse places" + on, "",
-      {{"samples with none", samples.none, kAbove, samples.combined, "combined's"},
-       {"other ranks that receive a sample, none", received.none},
-       {"combined", received.combined}});
+  checks.push_back({"on average", deviation.combined, kAtMost, 0.2 * deviation.none, "a fifth of none's"});
+  return {"ours, after figures 5b 6b",
+          on_ranks("With combined balancing all regions are about equally refined", ranks), "", checks};
 }
 
-void Judge::settling(int ranks, Frames part, const char* when, double within) {
+Finding settling(const Runs& runs, int ranks, Frames part, const char* claim, double within) {
   const MeasuredRun& combined = runs.find(kSimple, ranks, kCombined);
   const double level = 1.5 * mean(combined, {part.last - 3, part.last}, relative_deviation);
   const double fast = frames_to_settle(combined, part, level);
   const double slow = frames_to_settle(runs.find(kSimple, ranks, kLocal), part, level);
-  Finding& finding = add(
-      "6.4.1, figures 5b 6b", fmt::format("Combined settles faster than local {} ({} ranks)", when, ranks),
-      fmt::format("until deviation/mean is within 1.5 of combined's final value ({})", number(level)),
-      {{"combined's frames", fast, kBelow, slow, "local's"}});
-  if (within < kNever) finding.checks.push_back({"combined's frames", fast, kAtMost, within});
+  std::vector<Check> checks = {{"combined's frames", fast, kBelow, slow, "local's"}};
+  if (within < kNever) checks.push_back({"combined's frames", fast, kAtMost, within});
+  return {"6.4.1, figures 5b 6b", on_ranks(claim, ranks),
+          fmt::format("until deviation/mean is within 1.5 of combined's final value ({})", number(level)),
+          checks};
 }
 
-void Judge::patterns(std::string_view experiment) {
-  for (const int ranks : runs.ranks_of(experiment)) {
-    const MeasuredRun& combined = runs.find(experiment, ranks, kCombined);
-    const std::string on = fmt::format(" ({} ranks)", ranks);
-    const double distance = mean(combined, kStill, &F::distance);
-    const double none = mean(runs.find(experiment, ranks, kNone), kStill, &F::distance);
-    add("3.4, figure 2; ours", "Many ranks leave nearly the serial pattern" + on, "frames 5-10",
-        {{"distance to serial", distance, kAtMost, 0.10},
-         {"distance to serial", distance, kAtMost, 0.25 * none, "a quarter of none's"},
-         {"deviation/mean", mean(combined, kStill, relative_deviation)}});
-    const char* inside = "samples within 3 pixels of a border / the serial pattern's there";
-    const double density = mean(combined, kStill, &F::border_density);
-    add("3.4, figure 2b 2c", "No strips without samples along borders of regions" + on, "frames 5-10",
-        {{inside, density, kAtLeast, 0.9}, {inside, density, kAtMost, 1.1}});
-  }
+Findings balancing(const Runs& runs, int ranks) {
+  const ByMode deviation = settled_by_mode(runs, ranks, relative_deviation);
+  const ByMode distance = settled_by_mode(runs, ranks, &F::distance);
+  const ByMode at_cut = mean_by_mode(runs, ranks, {31, 31}, relative_deviation);
+  const ByMode after_cut = mean_by_mode(runs, ranks, {33, 34}, relative_deviation);
+  const ByMode samples = mean_by_mode(runs, ranks, kWhole, &F::samples);
+  const ByMode cuts = by_mode(runs, ranks, repartitions);
+  const ByMode received = mean_by_mode(runs, ranks, kWhole, received_per_sample);
+  return {
+      {"6.4.1, figures 5b 5c 6b 6c",
+       on_ranks("Any load balancing is far better than none", ranks),
+       kSettledText,
+       {{"deviation/mean with local", deviation.local, kBelow, deviation.none, "none's"},
+        {"with global", deviation.global, kBelow, deviation.none, "none's"},
+        {"with combined", deviation.combined, kBelow, deviation.none, "none's"},
+        {"distance to serial with local", distance.local, kBelow, distance.none, "none's"},
+        {"with global", distance.global, kBelow, distance.none, "none's"},
+        {"with combined", distance.combined, kBelow, distance.none, "none's"}}},
+      evenness(runs, ranks, deviation),
+      settling(runs, ranks, kStart, "Combined settles faster than local at the start", kNever),
+      settling(runs, ranks, kAfterCameraCut, "Combined settles faster than local after the camera cut", 3),
+      {"6.4.1, figures 5b 6b",
+       on_ranks("Global answers a camera cut one or two frames late, and more abruptly", ranks),
+       "frames 31-34",
+       {{"global's deviation/mean at 31", at_cut.global, kAbove, at_cut.combined, "combined's"},
+        {"in 33-34", after_cut.global, kAtMost, 0.5 * at_cut.global, "half of that at 31"}}},
+      {"6.4.1, 6.5",
+       on_ranks("Combined is almost as good as global, at little more than local's cost", ranks),
+       "",
+       {{"combined's distance to serial", distance.combined, kAtMost, distance.global + 0.03,
+         "global's + 0.03"},
+        {"repartitions", cuts.combined, kAtMost, cuts.global / 3, "a third of global's"},
+        {"samples", samples.combined, kAtLeast, 0.95 * samples.local, "0.95 of local's"}}},
+      {"6.4.1, figures 5d 6d",
+       on_ranks("Without balancing there are more samples, though in worse places", ranks),
+       "",
+       {{"samples with none", samples.none, kAbove, samples.combined, "combined's"},
+        {"other ranks that receive a sample, none", received.none},
+        {"combined", received.combined}}}};
 }
 
-void Judge::scaling() {
-  for (const int side : runs.sides_of(kScaling)) {
-    Finding& flat =
-        add("6.3, 7.1, figure 8",
-            fmt::format("A further rank brings as much as those before it, at {0}x{0} pixels", side),
-            "Refine(1, f/p) / Refine(p, f), frames 5-10");
-    for (const Speedup& s : speedups(runs)) {
-      if (s.side != side) continue;
-      const MeasuredRun& run = runs.find(kScaling, [&](const PaperRun& r) {
-        return r.side == side && r.ranks == s.ranks && r.balance == kCombined;
-      });
-      flat.checks.push_back(
-          {fmt::format("p = {}", s.ranks), s.same_work, kAtLeast, side >= 2 * kPaperSide ? 0.90 : 0.85});
-      flat.checks.push_back({"received per sample", mean(run, kStill, received_per_sample)});
-    }
+// Shows that the criteria of evenness and of the pattern can fail.
+Finding control(const Runs& runs, int ranks) {
+  return {
+      "ours",
+      on_ranks("Control: without balancing the measures of evenness and pattern are bad", ranks),
+      kStillText,
+      {{"deviation/mean with none", mean_by_mode(runs, ranks, kStill, relative_deviation).none, kAbove, 0.25},
+       {"distance to serial with none", mean_by_mode(runs, ranks, kStill, &F::distance).none, kAbove, 0.10}}};
+}
+
+Findings pattern(const Runs& runs, std::string_view experiment, int ranks) {
+  const MeasuredRun& combined = runs.find(experiment, ranks, kCombined);
+  const double distance = mean(combined, kStill, &F::distance);
+  const double none = mean(runs.find(experiment, ranks, kNone), kStill, &F::distance);
+  const char* inside = "samples within 3 pixels of a border / the serial pattern's there";
+  const double density = mean(combined, kStill, &F::border_density);
+  return {{"3.4, figure 2; ours",
+           on_ranks("Many ranks leave nearly the serial pattern", ranks),
+           kStillText,
+           {{"distance to serial", distance, kAtMost, 0.10},
+            {"distance to serial", distance, kAtMost, 0.25 * none, "a quarter of none's"},
+            {"deviation/mean", mean(combined, kStill, relative_deviation)}}},
+          {"3.4, figure 2b 2c",
+           on_ranks("No strips without samples along borders of regions", ranks),
+           kStillText,
+           {{inside, density, kAtLeast, 0.9}, {inside, density, kAtMost, 1.1}}}};
+}
+
+Finding scaling(const Runs& runs, int side) {
+  std::vector<Check> checks;
+  for (const Speedup& s : speedups(runs)) {
+    if (s.side != side) continue;
+    const MeasuredRun& run = runs.find(kScaling, [&](const PaperRun& r) {
+      return r.side == side && r.ranks == s.ranks && r.balance == kCombined;
+    });
+    checks.push_back(
+        {fmt::format("p = {}", s.ranks), s.same_work, kAtLeast, side >= 2 * kPaperSide ? 0.90 : 0.85});
+    checks.push_back({"received per sample", mean(run, kStill, received_per_sample)});
   }
+  return {"6.3, 7.1, figure 8",
+          fmt::format("A further rank brings as much as those before it, at {0}x{0} pixels", side),
+          "Refine(1, f/p) / Refine(p, f), frames 5-10", checks};
+}
+
+Finding overhead(const Runs& runs) {
+  std::vector<Check> checks;
   double least = kNever, most = -kNever;
-  Finding& overhead =
-      add("6.4.3, figures 8a 8d", "Balancing's overhead per rank does not grow with their number",
-          "samples with combined / with none, frames 5-10");
-  for (const int ranks : runs.ranks_of(kScaling)) {
+  for (const int ranks : runs.distinct(kScaling, &PaperRun::ranks)) {
     if (ranks == 1) continue;
     const auto samples = [&](BalanceMode mode) {
       return mean(runs.find(kScaling, ranks, mode), kStill, &F::samples);
     };
     const double ratio = samples(kCombined) / samples(kNone);
     least = std::min(ratio, least), most = std::max(ratio, most);
-    overhead.checks.push_back({fmt::format("p = {}", ranks), ratio});
+    checks.push_back({fmt::format("p = {}", ranks), ratio});
   }
-  overhead.checks.push_back({"greatest - least", most < least ? kNoValue : most - least, kAtMost, 0.1});
+  checks.push_back({"greatest - least", most < least ? kNoValue : most - least, kAtMost, 0.1});
+  return {"6.4.3, figures 8a 8d", "Balancing's overhead per rank does not grow with their number",
+          "samples with combined / with none, frames 5-10", checks};
 }
 
-void Judge::costs() {
-  Finding& sampling =
-      add("6.4.4, figure 9a", "Sampling dominates the cost of a frame, on any number of ranks",
-          "share of the time of all stages, frames 1-10");
+Findings costs(const Runs& runs) {
+  std::vector<Check> shares;
   for (const MeasuredRun* run : runs.all(kCosts)) {
-    const double stages = mean(*run, kStart, cpu_ms);
-    sampling.checks.push_back({fmt::format("p = {}", run->run.ranks),
-                               mean(*run, kStart, [](const F& m) { return m.cpu_ms.sampling; }) / stages,
-                               kAtLeast, 0.5});
-    sampling.checks.push_back(
-        {"casting", mean(*run, kStart, [](const F& m) { return m.cpu_ms.casting; }) / stages});
+    const auto share = [&](double StageTimes::*stage) {
+      return mean(*run, kStart, time_of(stage)) / mean(*run, kStart, cpu_ms);
+    };
+    shares.push_back({fmt::format("p = {}", run->ranks), share(&StageTimes::sampling), kAtLeast, 0.5});
+    shares.push_back({"casting", share(&StageTimes::casting)});
   }
-  const std::vector<int> counts = runs.ranks_of(kCosts);
-  const auto kilobytes = [&](std::size_t from_last, const Measure& bytes) {
+  const std::vector<int> counts = runs.distinct(kCosts, &PaperRun::ranks);
+  const auto kilobytes = [&](std::size_t from_last, std::uint64_t BytesSent::*kind) {
     const int ranks = counts.size() > from_last ? counts[counts.size() - 1 - from_last] : 0;
-    return 1e-3 * mean(runs.find(kCosts, ranks, kCombined), kStart, bytes);
+    return mean(runs.find(kCosts, ranks, kCombined), kStart, kilobytes_of(kind));
   };
-  const auto samples_sent = [](const F& m) { return m.bytes.samples; };
-  const double samples = kilobytes(0, samples_sent);
-  const auto balancing = [](const F& m) { return m.bytes.balance + m.bytes.progress; };
-  all.push_back(
-      {"6.4.4, figure 9b",
-       "Sample updates are most of what is sent, and grow fastest",
-       "kB per frame on the most ranks, frames 1-10",
-       {{"samples", samples, kAbove, kilobytes(0, [](const F& m) { return m.bytes.pixels; }), "pixels'"},
-        {"samples", samples, kAbove, kilobytes(0, balancing), "balancing's and progress'"},
-        {"samples", samples, kAbove, kilobytes(1, samples_sent), "that on half as many ranks"}}});
+  const double samples = kilobytes(0, &BytesSent::samples);
+  const double balancing = kilobytes(0, &BytesSent::balance) + kilobytes(0, &BytesSent::progress);
+  return {{"6.4.4, figure 9a", "Sampling dominates the cost of a frame, on any number of ranks",
+           "share of the time of all stages, frames 1-10", shares},
+          {"6.4.4, figure 9b",
+           "Sample updates are most of what is sent, and grow fastest",
+           "kB per frame on the most ranks, frames 1-10",
+           {{"samples", samples, kAbove, kilobytes(0, &BytesSent::pixels), "pixels'"},
+            {"samples", samples, kAbove, balancing, "balancing's and progress'"},
+            {"samples", samples, kAbove, kilobytes(1, &BytesSent::samples), "that on half as many ranks"}}}};
 }
 
-void Judge::casting() {
+Finding growth(const Runs& runs) {
   const auto samples = [&](CastChoice cast, Frames frames) {
     return mean(runs.find(kGrowth, [cast](const PaperRun& run) { return run.cast == cast; }), frames,
                 &F::samples);
   };
-  const double fifth = samples(CastChoice::kPaper, {5, 5}), later = samples(CastChoice::kPaper, {6, 10});
-  all.push_back(
-      {"6.4.5, figure 9c",
-       "Casting raises the samples over the first five frames, then they level off",
-       "one rank",
-       {{"samples in frame 5", fifth, kAtLeast, 1.1 * samples(CastChoice::kPaper, {1, 1}), "1.1 of frame 1"},
-        {"in 6-10", later, kAtLeast, 0.9 * fifth, "0.9 of frame 5"},
-        {"in 6-10", later, kAtMost, 1.1 * fifth, "1.1 of frame 5"},
-        {"without casting", samples(CastChoice::kOff, kStill)}}});
+  const double first = samples(CastChoice::kPaper, {1, 1}), fifth = samples(CastChoice::kPaper, {5, 5});
+  const double later = samples(CastChoice::kPaper, {6, 10});
+  return {"6.4.5, figure 9c",
+          "Casting raises the samples over the first five frames, then they level off",
+          "one rank",
+          {{"samples in frame 5", fifth, kAtLeast, 1.1 * first, "1.1 of frame 1"},
+           {"in 6-10", later, kAtLeast, 0.9 * fifth, "0.9 of frame 5"},
+           {"in 6-10", later, kAtMost, 1.1 * fifth, "1.1 of frame 5"},
+           {"without casting", samples(CastChoice::kOff, kStill)}}};
+}
 
+Findings casting(const Runs& runs) {
+  constexpr Frames kFromFifth = {5, 40};
   const auto run = [&](BalanceMode mode, bool keep) -> const MeasuredRun& {
     return runs.find(kCasting,
                      [=](const PaperRun& r) { return r.balance == mode && r.keep_samples == keep; });
   };
   const MeasuredRun &kept = run(kCombined, true), &dropped = run(kCombined, false);
-  const auto level = [&](BalanceMode mode, const Measure& measure) {
-    return mean(run(mode, false), {5, 40}, measure);
+  const auto deviation = [&](BalanceMode mode) {
+    return mean(run(mode, false), kFromFifth, relative_deviation);
   };
-  const Measure distance = &F::distance;
-  const double local_deviation = level(kLocal, relative_deviation), local_distance = level(kLocal, distance);
-  all.push_back(
+  const auto distance = [&](BalanceMode mode) { return mean(run(mode, false), kFromFifth, &F::distance); };
+  return {
       {"6.4.2, figures 7b 7c",
        "With casting too, combined balances better than local, and local better than none",
        "frames 5 to the last",
-       {{"combined's deviation/mean", level(kCombined, relative_deviation), kBelow, local_deviation,
-         "local's"},
-        {"local's", local_deviation, kBelow, level(kNone, relative_deviation), "none's"},
-        {"combined's distance to serial", level(kCombined, distance), kBelow, local_distance, "local's"},
-        {"local's", local_distance, kBelow, level(kNone, distance), "none's"}}});
-  all.push_back(
+       {{"combined's deviation/mean", deviation(kCombined), kBelow, deviation(kLocal), "local's"},
+        {"local's", deviation(kLocal), kBelow, deviation(kNone), "none's"},
+        {"combined's distance to serial", distance(kCombined), kBelow, distance(kLocal), "local's"},
+        {"local's", distance(kLocal), kBelow, distance(kNone), "none's"}}},
       {"6.4.2, figures 7a 7d; ours",
        "A repartition that drops the samples cast costs a frame its samples; handing them over does not",
        "greatest loss from one frame to the next, share of the samples",
-       {{"dropped", worst_loss(dropped), kAtLeast, 0.10}, {"handed over", worst_loss(kept), kAtMost, 0.05}}});
-  all.push_back(
+       {{"dropped", worst_loss(dropped), kAtLeast, 0.10}, {"handed over", worst_loss(kept), kAtMost, 0.05}}},
       {"ours, after 6.4.2",
        "Where samples are handed over at a repartition, balance is as good as where they are dropped",
        "frames 5 to the last",
-       {{"distance to serial", mean(kept, {5, 40}, distance), kAtMost, level(kCombined, distance) + 0.03,
+       {{"distance to serial", mean(kept, kFromFifth, &F::distance), kAtMost, distance(kCombined) + 0.03,
          "dropped + 0.03"},
-        {"repartitions", 1.0 * repartitions(kept)}}});
+        {"repartitions", static_cast<double>(repartitions(kept))}}}};
 }
 
-void Judge::casting_errors(const std::vector<CastingErrors>& errors) {
-  Finding& finding = add("ours", "Judged by true error, auto is never worse than off, paper and verified",
-                         "mean RMSE with auto / the least of the others'");
+Finding auto_casting(const std::vector<CastingErrors>& errors) {
+  std::vector<Check> checks;
   for (const CastingErrors& e : errors) {
-    finding.checks.push_back({fmt::format("{} at speed {:g}, {:g} samples per pixel", e.sequence.scene,
-                                          e.sequence.speed, e.samples_per_pixel),
-                              e.auto_ratio(), kAtMost, 1.02});
+    checks.push_back({fmt::format("{} at speed {:g}, {:g} samples per pixel", e.sequence.scene,
+                                  e.sequence.speed, e.samples_per_pixel),
+                      e.auto_ratio(), kAtMost, 1.02});
   }
+  return {"ours", "Judged by true error, auto is never worse than off, paper and verified",
+          "mean RMSE with auto / the least of the others'", checks};
 }
 
 // A control must show that a network can be too slow: without one that makes refinement 10 % worse, the
 // finding is open.
-void Judge::network(std::string_view experiment, const char* unit,
-                    const std::function<double(const Machine&)>& value) {
+Finding network(const Runs& runs, const NetworkProperty& property) {
   const auto level = [](const MeasuredRun& run) { return mean(run, kStill, &F::refinement); };
-  const std::vector<const MeasuredRun*> tried = runs.all(experiment);  // the best network first
-  const int ranks = tried.empty() ? 0 : tried.back()->run.ranks;
+  const std::vector<const MeasuredRun*> tried = runs.all(property.experiment);  // the best network first
+  const int ranks = tried.empty() ? 0 : tried.back()->ranks;
   const double best = tried.empty() ? kNoValue : level(*tried.front());
+  const double own = level(runs.find(kSimple, ranks, kCombined)) / best;
   const auto slow = std::find_if(tried.begin(), tried.end(),
                                  [&](const MeasuredRun* run) { return level(*run) > 1.1 * best; });
-  Finding& finding = add(
-      "6.4.4; ours", fmt::format("The machine's network is good enough in {} ({} ranks)", experiment, ranks),
-      "refinement / that with the best network tried, frames 5-10");
-  const double own = level(runs.find(kSimple, ranks, kCombined)) / best;
-  if (slow == tried.end()) {
-    finding.checks = {{"own (no network tried makes it 1.1)", own}};
-  } else {
-    finding.checks = {{"own", own, kAtMost, 1.05},
-                      {fmt::format("above 1.1 first at, {}", unit), value((*slow)->run.machine)}};
+  std::vector<Check> checks = {{"own (no network tried makes it 1.1)", own}};
+  if (slow != tried.end()) {
+    checks = {{"own", own, kAtMost, 1.05},
+              {fmt::format("above 1.1 first at, {}", property.unit), property.of((*slow)->machine)}};
   }
+  return {"6.4.4; ours",
+          fmt::format("The machine's network is good enough in {} ({} ranks)", property.experiment, ranks),
+          "refinement / that with the best network tried, frames 5-10", checks};
 }
 
-void Judge::repeat() {
-  const std::vector<int> counts = runs.ranks_of(kRepeat);
+Finding repeat(const Runs& runs) {
+  const std::vector<int> counts = runs.distinct(kRepeat, &PaperRun::ranks);
   const int ranks = counts.empty() ? 0 : counts.front();
   const std::vector<F>& first = runs.find(kSimple, ranks, kCombined).frames;
   const std::vector<F>& again = runs.find(kRepeat, ranks, kCombined).frames;
@@ -307,8 +308,10 @@ void Judge::repeat() {
     equal += first[i].picture_hash == again[i].picture_hash;
   }
   const double frames = again.empty() ? kNoValue : static_cast<double>(again.size());
-  add("ours", fmt::format("Two runs under the work clock make the same pictures ({} ranks)", ranks), "",
-      {{"equal frames", equal, kAtLeast, frames, "those of the second run"}});
+  return {"ours",
+          on_ranks("Two runs under the work clock make the same pictures", ranks),
+          "",
+          {{"equal frames", equal, kAtLeast, frames, "those of the second run"}}};
 }
 
 }  // namespace
@@ -365,30 +368,23 @@ std::string Finding::why_not() const {
 
 std::vector<Finding> findings(const PaperResults& results) {
   const Runs runs(results);
-  Judge judge{runs};
-  const std::vector<int> counts = runs.ranks_of(kSimple);
-  for (const int ranks : counts) judge.balancing(ranks);
-  if (!counts.empty()) {  // the criteria of evenness and of the pattern must be able to fail
-    judge.all.push_back(
-        {"ours",
-         fmt::format("Control: without balancing the measures of evenness and pattern are bad ({} ranks)",
-                     counts.back()),
-         "frames 5-10",
-         {{"deviation/mean with none", judge.over(counts.back(), kStill, relative_deviation).none, kAbove,
-           0.25},
-          {"distance to serial with none", judge.over(counts.back(), kStill, &F::distance).none, kAbove,
-           0.10}}});
+  Findings all;
+  const auto add = [&all](const Findings& more) { all.insert(all.end(), more.begin(), more.end()); };
+  const std::vector<int> counts = runs.distinct(kSimple, &PaperRun::ranks);
+  for (const int ranks : counts) add(balancing(runs, ranks));
+  if (!counts.empty()) add({control(runs, counts.back())});
+  for (const std::string_view experiment : {kPattern, kSimple}) {
+    for (const int ranks : runs.distinct(experiment, &PaperRun::ranks)) add(pattern(runs, experiment, ranks));
   }
-  judge.patterns(kPattern);
-  judge.patterns(kSimple);
-  judge.scaling();
-  judge.costs();
-  judge.casting();
-  judge.casting_errors(results.casting_errors);
-  judge.network(kLatency, "microseconds", [](const Machine& m) { return 1e6 * m.latency_s; });
-  judge.network(kBandwidth, "MB/s", [](const Machine& m) { return 1e-6 * m.bytes_per_second; });
-  judge.repeat();
-  return std::move(judge.all);
+  for (const int side : runs.distinct(kScaling, &PaperRun::side)) add({scaling(runs, side)});
+  add({overhead(runs)});
+  add(costs(runs));
+  add({growth(runs)});
+  add(casting(runs));
+  add({auto_casting(results.casting_errors)});
+  for (const NetworkProperty& property : kNetworkProperties) add({network(runs, property)});
+  add({repeat(runs)});
+  return all;
 }
 
 }  // namespace pprt

@@ -17,6 +17,14 @@ double cpu_ms(const FrameMeasures& m) {
   return m.cpu_ms.sampling + m.cpu_ms.casting + m.cpu_ms.reconstruction + m.cpu_ms.balancing;
 }
 
+Measure time_of(double StageTimes::*stage) {
+  return [stage](const FrameMeasures& m) { return m.cpu_ms.*stage; };
+}
+
+Measure kilobytes_of(std::uint64_t BytesSent::*kind) {
+  return [kind](const FrameMeasures& m) { return 1e-3 * static_cast<double>(m.bytes.*kind); };
+}
+
 double mean(const MeasuredRun& run, Frames frames, const Measure& measure) {
   double sum = 0;
   int count = 0;
@@ -56,7 +64,7 @@ int repartitions(const MeasuredRun& run) {
 std::vector<const MeasuredRun*> Runs::all(std::string_view experiment, const Choice& choice) const {
   std::vector<const MeasuredRun*> found;
   for (const MeasuredRun& r : results_.runs) {
-    if (r.run.experiment == experiment && (!choice || choice(r.run))) found.push_back(&r);
+    if (r.experiment == experiment && (!choice || choice(r))) found.push_back(&r);
   }
   return found;
 }
@@ -70,31 +78,74 @@ const MeasuredRun& Runs::find(std::string_view experiment, int ranks, BalanceMod
   return find(experiment, [&](const PaperRun& run) { return run.ranks == ranks && run.balance == balance; });
 }
 
-std::vector<int> Runs::values_of(std::string_view experiment, int PaperRun::*member) const {
+std::vector<int> Runs::distinct(std::string_view experiment, int PaperRun::*member) const {
   std::vector<int> values;
-  for (const MeasuredRun* r : all(experiment)) values.push_back(r->run.*member);
+  for (const MeasuredRun* r : all(experiment)) values.push_back(r->*member);
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
   return values;
 }
 
 std::vector<Speedup> speedups(const Runs& runs) {
-  constexpr auto kRefinement = &FrameMeasures::refinement;
   std::vector<Speedup> values;
-  for (const MeasuredRun* r : runs.all(kScaling)) {
-    if (r->run.balance != BalanceMode::kCombined) continue;
-    const auto [ranks, side] = std::pair(r->run.ranks, r->run.side);
-    const MeasuredRun& same_work = runs.find(kScaling, [side = side](const PaperRun& run) {
-      return run.side == side && run.ranks == 1 && run.balance == BalanceMode::kCombined;
-    });
-    const MeasuredRun& same_frame = runs.find(kShortFrame, [ranks = ranks, side = side](const PaperRun& run) {
-      return run.side == side && std::abs(run.share * ranks - 1) < 1e-9;
-    });
-    const double here = mean(*r, kStill, kRefinement);
-    values.push_back({ranks, side, mean(same_frame, kStill, kRefinement) / here,
-                      mean(same_work, kStill, kRefinement) / here});
+  const auto refinement = [](const MeasuredRun& run) {
+    return mean(run, kStill, &FrameMeasures::refinement);
+  };
+  for (const int side : runs.distinct(kScaling, &PaperRun::side)) {
+    for (const int ranks : runs.distinct(kScaling, &PaperRun::ranks)) {
+      const auto on_ranks = [&](int count) {
+        return refinement(runs.find(kScaling, [=](const PaperRun& run) {
+          return run.side == side && run.ranks == count && run.balance == BalanceMode::kCombined;
+        }));
+      };
+      const MeasuredRun& short_frame = runs.find(kShortFrame, [=](const PaperRun& run) {
+        return run.side == side && std::abs(run.share * ranks - 1) < 1e-9;
+      });
+      const double here = on_ranks(ranks);
+      values.push_back({ranks, side, refinement(short_frame) / here, on_ranks(1) / here});
+    }
   }
   return values;
+}
+
+Table frames_table(const PaperResults& results) {
+  using Run = MeasuredRun;
+  using F = FrameMeasures;
+  const Columns<Run> of_run = {
+      {"experiment", &Run::experiment},
+      {"sequence", &Run::sequence},
+      {"ranks", &Run::ranks},
+      {"side [pixels]", &Run::side},
+      {"balance", &Run::balance},
+      {"cast", &Run::cast},
+      {"keep samples", [](const Run& run) { return word_for(run.keep_samples); }},
+      {"share of work", &Run::share},
+      {"latency [s]", [](const Run& run) { return run.machine.latency_s; }},
+      {"bandwidth [bytes/s]", [](const Run& run) { return run.machine.bytes_per_second; }}};
+  const auto bytes_of = [](std::uint64_t BytesSent::*kind) {
+    return [kind](const F& m) { return m.bytes.*kind; };
+  };
+  const Columns<F> of_frame = {{"frame", &F::number},
+                               {"refinement", &F::refinement},
+                               {"deviation", &F::refinement_deviation},
+                               {"distance to serial", &F::distance},
+                               {"density at borders", &F::border_density},
+                               {"samples", &F::samples},
+                               {"samples cast", &F::samples_cast},
+                               {"samples received", &F::samples_received},
+                               {"repartitioned", &F::repartitioned},
+                               {"late [ms]", &F::late_ms},
+                               {"sampling [ms]", time_of(&StageTimes::sampling)},
+                               {"casting [ms]", time_of(&StageTimes::casting)},
+                               {"reconstruction [ms]", time_of(&StageTimes::reconstruction)},
+                               {"balancing [ms]", time_of(&StageTimes::balancing)},
+                               {"idle [ms]", time_of(&StageTimes::idle)},
+                               {"sample bytes", bytes_of(&BytesSent::samples)},
+                               {"progress bytes", bytes_of(&BytesSent::progress)},
+                               {"balance bytes", bytes_of(&BytesSent::balance)},
+                               {"pixel bytes", bytes_of(&BytesSent::pixels)},
+                               {"picture hash", &F::picture_hash}};
+  return table_of_parts(results.runs, &Run::frames, of_run, of_frame);
 }
 
 }  // namespace pprt

@@ -1,12 +1,14 @@
 // Figures of whole runs: means over frames and ratios between runs. NaN is what was not measured.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <limits>
 #include <string_view>
 #include <vector>
 
 #include "study/paper/runs.h"
+#include "study/report/table.h"
 
 namespace pprt {
 
@@ -26,6 +28,8 @@ using Measure = std::function<double(const FrameMeasures&)>;
 double relative_deviation(const FrameMeasures& m);   // deviation / mean of refinement
 double received_per_sample(const FrameMeasures& m);  // other ranks that receive a sample, on average
 double cpu_ms(const FrameMeasures& m);               // all stages
+Measure time_of(double StageTimes::*stage);          // milliseconds
+Measure kilobytes_of(std::uint64_t BytesSent::*kind);
 
 // Mean over the frames of the range that were run.
 double mean(const MeasuredRun& run, Frames frames, const Measure& measure);
@@ -39,6 +43,20 @@ double worst_loss(const MeasuredRun& run);
 
 int repartitions(const MeasuredRun& run);
 
+// A property of the network, and the experiment that varies it.
+struct NetworkProperty {
+  std::string_view experiment;
+  const char* title;
+  const char* unit;
+  double Machine::*member;
+  double units;  // in one of the member's
+
+  double of(const Machine& machine) const { return units * machine.*member; }
+};
+inline constexpr std::array kNetworkProperties = {
+    NetworkProperty{kLatency, "Latency", "microseconds", &Machine::latency_s, 1e6},
+    NetworkProperty{kBandwidth, "Bandwidth of each rank", "MB/s", &Machine::bytes_per_second, 1e-6}};
+
 // The runs of each experiment. A run that was not made has no frames.
 class Runs {
  public:
@@ -51,17 +69,10 @@ class Runs {
   const MeasuredRun& find(std::string_view experiment, const Choice& choice) const;
   const MeasuredRun& find(std::string_view experiment, int ranks, BalanceMode balance) const;
 
-  // The distinct values, increasing.
-  std::vector<int> ranks_of(std::string_view experiment) const {
-    return values_of(experiment, &PaperRun::ranks);
-  }
-  std::vector<int> sides_of(std::string_view experiment) const {
-    return values_of(experiment, &PaperRun::side);
-  }
+  // The distinct values of a member, increasing.
+  std::vector<int> distinct(std::string_view experiment, int PaperRun::*member) const;
 
  private:
-  std::vector<int> values_of(std::string_view experiment, int PaperRun::*member) const;
-
   const PaperResults& results_;
   MeasuredRun none_;
 };
@@ -74,6 +85,9 @@ struct Speedup {
   double same_frame = 0;  // Refine(1, f) / Refine(p, f), s. 6.3: one rank in the same frame time
   double same_work = 0;   // Refine(1, f/p) / Refine(p, f), s. 7.1: one rank in p times the time; 1 is ideal
 };
-std::vector<Speedup> speedups(const Runs& runs);
+std::vector<Speedup> speedups(const Runs& runs);  // by increasing side
+
+// Returns one row for each frame of each run.
+Table frames_table(const PaperResults& results);
 
 }  // namespace pprt

@@ -42,33 +42,23 @@ const Quantity kSamplesCast = {"Samples cast from the frame before", "samples pe
 const Quantity kReceived = {"Samples received from other ranks", "share of the frame's samples",
                             received_per_sample};
 
-const std::vector<Quantity> kOverRanks = {
-    {"(a) Refinement, mean over ranks", "weight", &F::refinement},
-    {"(b) Deviation / mean of refinement", "ratio", relative_deviation},
-    {"(c) Distance to the serial pattern", "share of samples", &F::distance},
-    {"(d) Samples", "samples per frame", &F::samples}};
+const std::vector<Quantity> kOverRanks = {kOverFrames[0],
+                                          {"(b) Deviation / mean of refinement", "ratio", relative_deviation},
+                                          kOverFrames[2],
+                                          kOverFrames[3]};
 
-const std::vector<std::pair<const char*, Measure>> kStages = {
-    {"sampling", [](const F& m) { return m.cpu_ms.sampling; }},
-    {"casting", [](const F& m) { return m.cpu_ms.casting; }},
-    {"reconstruction", [](const F& m) { return m.cpu_ms.reconstruction; }},
-    {"balancing", [](const F& m) { return m.cpu_ms.balancing; }}};
-const std::vector<std::pair<const char*, Measure>> kKilobytes = {
-    {"samples", [](const F& m) { return 1e-3 * static_cast<double>(m.bytes.samples); }},
-    {"pixels", [](const F& m) { return 1e-3 * static_cast<double>(m.bytes.pixels); }},
-    {"balancing", [](const F& m) { return 1e-3 * static_cast<double>(m.bytes.balance); }},
-    {"progress", [](const F& m) { return 1e-3 * static_cast<double>(m.bytes.progress); }}};
-
-int ranks_of(const MeasuredRun* run) {
-  return run->run.ranks;
-}
+using Parts = std::vector<std::pair<const char*, Measure>>;
+const Parts kStages = {{"sampling", time_of(&StageTimes::sampling)},
+                       {"casting", time_of(&StageTimes::casting)},
+                       {"reconstruction", time_of(&StageTimes::reconstruction)},
+                       {"balancing", time_of(&StageTimes::balancing)}};
+const Parts kKilobytes = {{"samples", kilobytes_of(&BytesSent::samples)},
+                          {"pixels", kilobytes_of(&BytesSent::pixels)},
+                          {"balancing", kilobytes_of(&BytesSent::balance)},
+                          {"progress", kilobytes_of(&BytesSent::progress)}};
 
 auto mean_over(Frames frames, const Measure& measure) {
   return [=](const MeasuredRun* run) { return mean(*run, frames, measure); };
-}
-
-int colour_of(BalanceMode mode) {
-  return static_cast<int>(mode);
 }
 
 // A run with its name in the legend.
@@ -83,10 +73,10 @@ struct Series {
 };
 
 Panel frame_panel(const Quantity& quantity, const std::vector<Series>& series) {
-  Panel panel{quantity.title, {"frame"}, {quantity.unit, 0, 0}, {}, PanelKind::kCurves};
+  Panel panel{quantity.title, {"frame"}, {quantity.unit}};
   for (const Series& s : series) panel.curves.push_back(s.over_frames(quantity.measure));
   for (const Series& s : series) {
-    if (s.run->run.balance != BalanceMode::kCombined) continue;
+    if (s.run->balance != BalanceMode::kCombined) continue;
     std::vector<F> frames = s.run->frames;
     std::erase_if(frames, [](const F& m) { return !m.repartitioned; });
     panel.curves.push_back(
@@ -95,86 +85,72 @@ Panel frame_panel(const Quantity& quantity, const std::vector<Series>& series) {
   return panel;
 }
 
-// Figures 5 to 7.
-Plot sequence_plot(std::string name, const std::vector<Series>& series, const Quantity& last) {
-  Plot plot{std::move(name), {}, 2};
+// Figures 5 to 7. A colour for each mode of balancing, and one for samples that are kept.
+Plot sequence_plot(const std::string& name, const RunPointers& runs, const Quantity& last) {
+  std::vector<Series> series;
+  for (const MeasuredRun* run : runs) {
+    const bool kept = run->cast != CastChoice::kOff && run->keep_samples;
+    series.push_back({std::string(word_for(run->balance)) + (kept ? ", kept" : ""), run,
+                      static_cast<int>(kept ? kWords<BalanceMode>.size() : std::size_t(run->balance))});
+  }
+  Plot plot{name};
   for (const Quantity& quantity : kOverFrames) plot.panels.push_back(frame_panel(quantity, series));
   plot.panels.push_back(frame_panel(last, series));
   return plot;
 }
 
-Plot simple_plot(const Runs& runs, int ranks) {
-  std::vector<Series> series;
-  for (const auto& [mode, word, help] : kWords<BalanceMode>) {
-    series.push_back({std::string(word), &runs.find(kSimple, ranks, mode), colour_of(mode)});
-  }
-  return sequence_plot(fmt::format("simple-{}", ranks), series, kReceived);
-}
-
-Plot casting_plot(const Runs& runs) {
-  std::vector<Series> series;
-  for (const MeasuredRun* run : runs.all(kCasting)) {
-    const BalanceMode mode = run->run.balance;
-    const bool kept = mode == BalanceMode::kCombined && run->run.keep_samples;
-    series.push_back({std::string(word_for(mode)) + (kept ? ", kept" : ""), run,
-                      kept ? static_cast<int>(kWords<BalanceMode>.size()) : colour_of(mode)});
-  }
-  return sequence_plot("casting", series, kSamplesCast);
-}
-
 Panel ranks_panel(const Runs& runs, const Quantity& quantity) {
-  Panel panel{quantity.title, {"ranks", 2}, {quantity.unit, 0, 0}, {}, PanelKind::kCurves};
-  const std::vector<int> sides = runs.sides_of(kScaling);
-  for (const Word<BalanceMode>& mode : kWords<BalanceMode>) {
-    const RunPointers chosen = runs.all(kScaling, [&](const PaperRun& run) {
-      return run.balance == mode.value && run.side == sides.front();
+  Panel panel{quantity.title, {"ranks", 2}, {quantity.unit}};
+  const int side = runs.distinct(kScaling, &PaperRun::side).front();
+  for (const auto& [mode, word, help] : kWords<BalanceMode>) {
+    const RunPointers chosen = runs.all(kScaling, [&, balance = mode](const PaperRun& run) {
+      return run.balance == balance && run.side == side;
     });
     if (chosen.empty()) continue;
-    panel.curves.push_back(curve_over(std::string(mode.word), chosen, ranks_of,
+    panel.curves.push_back(curve_over(std::string(word), chosen, &MeasuredRun::ranks,
                                       mean_over(kStill, quantity.measure), CurveStyle::kMarkedLine,
-                                      colour_of(mode.value)));
+                                      static_cast<int>(mode)));
   }
   return panel;
 }
 
-Panel speedup_panel(const Runs& runs, const char* title, double Speedup::*value, const Axis& y,
+Panel speedup_panel(const Runs& runs, const char* title, double Speedup::*value, double log_base,
                     const std::function<double(int)>& ideal) {
-  Panel panel{title, {"ranks", 2}, y, {}, PanelKind::kCurves};
-  for (const int side : runs.sides_of(kScaling)) {
+  Panel panel{title, {"ranks", 2}, {"AchievementSpeedup", log_base}};
+  for (const int side : runs.distinct(kScaling, &PaperRun::side)) {
     std::vector<Speedup> of_side = speedups(runs);
     std::erase_if(of_side, [&](const Speedup& s) { return s.side != side; });
     panel.curves.push_back(
         curve_over(fmt::format("{0}x{0}", side), of_side, &Speedup::ranks, value, CurveStyle::kMarkedLine));
   }
-  const auto same = [](int ranks) { return ranks; };
-  panel.curves.push_back(curve_over("ideal", runs.ranks_of(kScaling), same, ideal, CurveStyle::kReference));
+  panel.curves.push_back(curve_over("ideal", runs.distinct(kScaling, &PaperRun::ranks), std::identity(),
+                                    ideal, CurveStyle::kReference));
   return panel;
 }
 
 Plot scaling_plot(const Runs& runs) {
-  Plot plot{"scaling", {}, 2};
+  Plot plot{"scaling"};
   for (const Quantity& quantity : kOverRanks) plot.panels.push_back(ranks_panel(runs, quantity));
-  const char* label = "AchievementSpeedup";
-  plot.panels.push_back(speedup_panel(runs, "Refine(1, f/p) / Refine(p, f)", &Speedup::same_work,
-                                      {label, 0, 0}, [](int) { return 1; }));
-  plot.panels.push_back(speedup_panel(runs, "Refine(1, f) / Refine(p, f)", &Speedup::same_frame, {label, 2},
-                                      [](int ranks) { return ranks; }));
+  plot.panels.push_back(
+      speedup_panel(runs, "Refine(1, f/p) / Refine(p, f)", &Speedup::same_work, 0, [](int) { return 1; }));
+  plot.panels.push_back(
+      speedup_panel(runs, "Refine(1, f) / Refine(p, f)", &Speedup::same_frame, 2, std::identity()));
   return plot;
 }
 
-Panel bars_panel(const Runs& runs, const char* title, const char* unit,
-                 const std::vector<std::pair<const char*, Measure>>& parts) {
-  Panel panel{title, {"ranks"}, {unit, 0, 0}, {}, PanelKind::kStackedBars};
+Panel bars_panel(const Runs& runs, const char* title, const char* unit, const Parts& parts) {
+  Panel panel{title, {"ranks"}, {unit}, {}, PanelKind::kStackedBars};
   for (const auto& [name, measure] : parts) {
-    panel.curves.push_back(curve_over(name, runs.all(kCosts), ranks_of, mean_over(kStart, measure)));
+    panel.curves.push_back(
+        curve_over(name, runs.all(kCosts), &MeasuredRun::ranks, mean_over(kStart, measure)));
   }
   return panel;
 }
 
 Panel growth_panel(const Runs& runs) {
-  Panel panel{"(c) Casting on one rank", {"frame"}, {"samples per frame", 0, 0}, {}, PanelKind::kCurves};
+  Panel panel{"(c) Casting on one rank", {"frame"}, {"samples per frame"}};
   for (const MeasuredRun* run : runs.all(kGrowth)) {
-    const bool cast = run->run.cast != CastChoice::kOff;
+    const bool cast = run->cast != CastChoice::kOff;
     panel.curves.push_back(
         Series{cast ? "with cast" : "no cast", run, cast ? 1 : 0}.over_frames(&F::samples));
     if (cast) panel.curves.push_back(Series{"samples cast", run, 2}.over_frames(&F::samples_cast));
@@ -182,17 +158,18 @@ Panel growth_panel(const Runs& runs) {
   return panel;
 }
 
-Panel network_panel(const Runs& runs, std::string_view experiment, const char* title, const char* unit,
-                    const std::function<double(const Machine&)>& value) {
-  Panel panel{title, {unit, 10}, {"refinement / the best tried"}, {}, PanelKind::kCurves};
-  RunPointers tried = runs.all(experiment);
+Panel network_panel(const Runs& runs, const NetworkProperty& property) {
+  RunPointers tried = runs.all(property.experiment);
   const auto refinement = mean_over(kStill, &F::refinement);
   const double best = tried.empty() ? kNoValue : refinement(tried.front());
-  std::erase_if(tried, [&](const MeasuredRun* run) { return value(run->run.machine) <= 0; });
-  panel.curves.push_back(curve_over(
-      "", tried, [&](const MeasuredRun* run) { return value(run->run.machine); },
-      [&](const MeasuredRun* run) { return refinement(run) / best; }, CurveStyle::kMarkedLine));
-  return panel;
+  const auto value = [&](const MeasuredRun* run) { return property.of(run->machine); };
+  std::erase_if(tried, [&](const MeasuredRun* run) { return value(run) <= 0; });
+  return {property.title,
+          {property.unit, 10},
+          {"refinement / the best tried"},
+          {curve_over(
+              "", tried, value, [&](const MeasuredRun* run) { return refinement(run) / best; },
+              CurveStyle::kMarkedLine)}};
 }
 
 Table findings_table(const std::vector<Finding>& all) {
@@ -212,12 +189,10 @@ Table findings_table(const std::vector<Finding>& all) {
 }
 
 Table speedup_table(const Runs& runs) {
-  std::vector<Speedup> all = speedups(runs);
-  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.side < b.side; });
-  return table_of<Speedup>(all, {{"side [pixels]", &Speedup::side},
-                                 {"ranks", &Speedup::ranks},
-                                 {"Refine(1, f/p) / Refine(p, f)", &Speedup::same_work},
-                                 {"Refine(1, f) / Refine(p, f)", &Speedup::same_frame}});
+  return table_of<Speedup>(speedups(runs), {{"side [pixels]", &Speedup::side},
+                                            {"ranks", &Speedup::ranks},
+                                            {"Refine(1, f/p) / Refine(p, f)", &Speedup::same_work},
+                                            {"Refine(1, f) / Refine(p, f)", &Speedup::same_frame}});
 }
 
 std::string setup_text(const PaperResults& results, const PaperOptions& options) {
@@ -241,13 +216,14 @@ void write_figures(const Runs& runs, const PaperResults& results, const PaperOpt
   Page& page = output.page();
   int figure = 5;
   for (const int ranks : options.ranks) {
+    const auto on_ranks = [=](const PaperRun& run) { return run.ranks == ranks; };
     page.heading(fmt::format("Balancing on {} ranks (the paper's figure {})", ranks, figure++));
-    output.add_figure(simple_plot(runs, ranks),
+    output.add_figure(sequence_plot(fmt::format("simple-{}", ranks), runs.all(kSimple, on_ranks), kReceived),
                       "The simple sequence, without casting. Triangles: repartitions of combined balancing.");
   }
   const int ranks = options.ranks.back();
   page.heading("Casting (the paper's figure 7)");
-  output.add_figure(casting_plot(runs),
+  output.add_figure(sequence_plot("casting", runs.all(kCasting), kSamplesCast),
                     fmt::format("The casting sequence on {} ranks, samples cast as in the paper. \"Kept\": "
                                 "at a repartition samples go to their new owners. The paper drops them.",
                                 ranks));
@@ -263,74 +239,20 @@ void write_figures(const Runs& runs, const PaperResults& results, const PaperOpt
   output.add_figure(
       {"costs",
        {bars_panel(runs, "(a) Time by stage, all ranks", "ms of work per frame", kStages),
-        bars_panel(runs, "(b) Bytes by kind, all ranks", "kB per frame", kKilobytes), growth_panel(runs)},
-       2},
+        bars_panel(runs, "(b) Bytes by kind, all ranks", "kB per frame", kKilobytes), growth_panel(runs)}},
       "The first ten frames of the casting sequence, combined balancing. On the work clock the decisions of "
       "balancing have no price; the samples that it moves count as sampling.");
   page.heading("Where communication begins to hurt");
+  Plot network{"network"};
+  for (const NetworkProperty& property : kNetworkProperties) {
+    network.panels.push_back(network_panel(runs, property));
+  }
   output.add_figure(
-      {"network",
-       {network_panel(runs, kLatency, "Latency", "microseconds",
-                      [](const Machine& m) { return 1e6 * m.latency_s; }),
-        network_panel(runs, kBandwidth, "Bandwidth of each rank", "MB/s",
-                      [](const Machine& m) { return 1e-6 * m.bytes_per_second; })},
-       2},
+      network,
       fmt::format("The simple sequence on {} ranks, combined balancing. 1: the best network tried.", ranks));
 }
 
 }  // namespace
-
-Table frames_table(const PaperResults& results) {
-  struct Row {
-    const PaperRun& run;
-    const F& frame;
-  };
-  std::vector<Row> rows;
-  for (const MeasuredRun& run : results.runs) {
-    for (const F& frame : run.frames) rows.push_back({run.run, frame});
-  }
-  using Run = PaperRun;
-  const auto word = [](auto member) {
-    return [=](const Row& row) { return std::string(std::invoke(member, row.run)); };
-  };
-  const auto of_run = [](auto member) {
-    return [=](const Row& row) { return std::invoke(member, row.run); };
-  };
-  const auto of_frame = [](const Measure& measure) {
-    return [=](const Row& row) { return measure(row.frame); };
-  };
-  return table_of<Row>(
-      rows, {{"experiment", word(&Run::experiment)},
-             {"sequence", word(&Run::sequence)},
-             {"ranks", of_run(&Run::ranks)},
-             {"side [pixels]", of_run(&Run::side)},
-             {"balance", word([](const Run& run) { return word_for(run.balance); })},
-             {"cast", word([](const Run& run) { return word_for(run.cast); })},
-             {"keep samples", word([](const Run& run) { return word_for(run.keep_samples); })},
-             {"share of work", of_run(&Run::share)},
-             {"latency [s]", of_run([](const Run& run) { return run.machine.latency_s; })},
-             {"bandwidth [bytes/s]", of_run([](const Run& run) { return run.machine.bytes_per_second; })},
-             {"frame", of_frame(&F::number)},
-             {"refinement", of_frame(&F::refinement)},
-             {"deviation", of_frame(&F::refinement_deviation)},
-             {"distance to serial", of_frame(&F::distance)},
-             {"density at borders", of_frame(&F::border_density)},
-             {"samples", of_frame(&F::samples)},
-             {"samples cast", of_frame(&F::samples_cast)},
-             {"samples received", of_frame(&F::samples_received)},
-             {"repartitioned", of_frame(&F::repartitioned)},
-             {"late [ms]", of_frame(&F::late_ms)},
-             {"sampling [ms]", of_frame([](const F& m) { return m.cpu_ms.sampling; })},
-             {"casting [ms]", of_frame([](const F& m) { return m.cpu_ms.casting; })},
-             {"reconstruction [ms]", of_frame([](const F& m) { return m.cpu_ms.reconstruction; })},
-             {"balancing [ms]", of_frame([](const F& m) { return m.cpu_ms.balancing; })},
-             {"idle [ms]", of_frame([](const F& m) { return m.cpu_ms.idle; })},
-             {"sample bytes", of_frame([](const F& m) { return m.bytes.samples; })},
-             {"progress bytes", of_frame([](const F& m) { return m.bytes.progress; })},
-             {"balance bytes", of_frame([](const F& m) { return m.bytes.balance; })},
-             {"pixel bytes", of_frame([](const F& m) { return m.bytes.pixels; })},
-             {"picture hash", [](const Row& row) { return row.frame.picture_hash; }}});
-}
 
 void study_paper(const PaperOptions& asked, const std::string& command_line) {
   const PaperOptions options = settled(asked);

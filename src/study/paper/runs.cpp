@@ -3,8 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
-#include <iterator>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -15,6 +14,7 @@
 #include "spd/spd.h"
 #include "study/paper/pictures.h"
 #include "study/sequences.h"
+#include "study/stopwatch.h"
 #include "trace/tracer_probe.h"
 
 namespace pprt {
@@ -29,7 +29,6 @@ struct PaperSetup {
   const PaperOptions& options;
   CompiledScene scene;
   Animation simple, casting;
-  double total_units = 0;
 };
 
 double pixels_of(int side) {
@@ -41,17 +40,17 @@ double budget(double total_units, const PaperRun& run) {
   return run.share * total_units * pixels_of(run.side) / pixels_of(kPaperSide) / run.ranks;
 }
 
-SessionSettings settings_of(const PaperSetup& setup, const PaperRun& run) {
+SessionSettings settings_of(const PaperRun& run, double total_units, const PaperOptions& options) {
   SessionSettings s;
   s.width = s.height = run.side;
   s.clock = ClockKind::kWork;
-  s.budget_units = static_cast<std::uint64_t>(budget(setup.total_units, run));
+  s.budget_units = static_cast<std::uint64_t>(budget(total_units, run));
   s.frames_per_second = run.machine.units_per_second / static_cast<double>(s.budget_units);
   s.balance = run.balance;
   s.cast = run.cast;
   s.keep_samples = run.keep_samples;
   s.learned_weights = false;  // each rank would learn something else
-  s.seed = setup.options.seed;
+  s.seed = options.seed;
   s.report_samples = run.compare_serial;
   s.machine = run.machine;
   return s;
@@ -75,12 +74,12 @@ void compare_with_serial(const FinishedFrame& frame, const SessionSettings& sett
     measures.border_density = near(frame.samples) / expected;
 }
 
-MeasuredRun carry_out(const PaperSetup& setup, const PaperRun& run,
+MeasuredRun carry_out(const PaperSetup& setup, const PaperRun& run, double total_units,
                       const std::function<void(const FinishedFrame&)>& watch = {}) {
   const Animation& animation = run.sequence == kSimple ? setup.simple : setup.casting;
-  const SessionSettings settings = settings_of(setup, run);
+  const SessionSettings settings = settings_of(run, total_units, setup.options);
   Tracer serial_tracer(setup.scene, Camera());
-  MeasuredRun measured{run, {}};
+  MeasuredRun measured{run};
   render_series(setup.scene, frames_of(setup.scene, animation, run.frames, View(), run.side), run.ranks,
                 settings, [&](FinishedFrame&& frame) {
                   FrameMeasures& measures = measured.frames.emplace_back(FrameMeasures{summarize(frame)});
@@ -93,26 +92,27 @@ MeasuredRun carry_out(const PaperSetup& setup, const PaperRun& run,
   return measured;
 }
 
-// Returns the work that makes the paper's number of samples on `ranks` ranks. Costs per sample change little
-// with their number, so that two corrections of a guess are enough.
-double calibrated_units(PaperSetup& setup, int ranks) {
-  constexpr double kGuessPerSample = 1400;  // units
-  const int side = picture_side(setup.options);
-  const double pixel_units = pixels_of(kPaperSide) * static_cast<double>(price(Work::kPixel));
-  PaperRun run;
-  run.experiment = "calibration", run.ranks = ranks, run.side = side, run.frames = 5;
-  run.compare_serial = false, run.machine = machine_of(setup.options);
-  setup.total_units = pixel_units + kPaperSamples * kGuessPerSample;
-  for (int i = 0; i < 2; ++i) {
-    const MeasuredRun measured = carry_out(setup, run);
-    const double wanted = kPaperSamples * pixels_of(side) / pixels_of(kPaperSide);
-    const double made = 0.5 * static_cast<double>(measured.frames[3].samples + measured.frames[4].samples);
-    setup.total_units = pixel_units + (setup.total_units - pixel_units) * wanted / made;
-  }
-  return setup.total_units;
+// Returns the work that makes the paper's number of samples on `ranks` ranks, for a picture of the paper's
+// size.
+double calibrated_units(const PaperSetup& setup, int ranks) {
+  const PaperRun run{.experiment = "calibration",
+                     .ranks = ranks,
+                     .side = picture_side(setup.options),
+                     .frames = 5,
+                     .compare_serial = false,
+                     .machine = machine_of(setup.options)};
+  const WorkQuestion question{.samples = kPaperSamples,
+                              .guess_per_sample = 1400,
+                              .pixel_units = pixels_of(kPaperSide) * static_cast<double>(price(Work::kPixel)),
+                              .corrections = 2};
+  return work_for_samples(question, [&](double units) {
+    const std::vector<FrameMeasures> frames = carry_out(setup, run, units).frames;
+    const double made = 0.5 * static_cast<double>(frames[3].samples + frames[4].samples);
+    return made * pixels_of(kPaperSide) / pixels_of(run.side);
+  });
 }
 
-Calibration calibrate(PaperSetup& setup) {
+Calibration calibrate(const PaperSetup& setup) {
   const PaperOptions& options = setup.options;
   std::vector<int> counts = options.ranks;
   counts.push_back(kPatternRanks);
@@ -141,12 +141,14 @@ struct RunList {
     run.side = picture_side(options), run.frames = options.frames, run.machine = machine_of(options);
     return run;
   }
+  // The work that was calibrated for this number of ranks.
   PaperRun& add_calibrated(std::string_view experiment, int ranks,
                            BalanceMode balance = BalanceMode::kCombined) {
     PaperRun& run = add(experiment, ranks, balance);
     run.share = calibration.share.at(ranks);
     return run;
   }
+  // Only the frames in which the camera rests.
   PaperRun& add_still(std::string_view experiment, int ranks, BalanceMode balance = BalanceMode::kCombined) {
     PaperRun& run = add(experiment, ranks, balance);
     run.frames = std::min(run.frames, kStillFrames);
@@ -213,6 +215,24 @@ struct RunList {
 
 }  // namespace
 
+PaperOptions settled(PaperOptions options) {
+  if (options.ranks.empty()) options.ranks = options.quick ? std::vector{4, 6} : std::vector{32, 62};
+  if (options.frames == 0) options.frames = options.quick ? 6 : 40;
+  return options;
+}
+
+int picture_side(const PaperOptions& options) {
+  constexpr int kQuickSide = 96;
+  return options.quick ? kQuickSide : kPaperSide;
+}
+
+Machine machine_of(const PaperOptions& options) {
+  Machine machine = options.machine == MachineKind::kSp2 ? sp2_machine() : cluster_machine();
+  if (!std::isnan(options.latency_us)) machine.latency_s = options.latency_us * 1e-6;
+  if (!std::isnan(options.bandwidth_mb_s)) machine.bytes_per_second = options.bandwidth_mb_s * 1e6;
+  return machine;
+}
+
 std::vector<PaperRun> paper_runs(const PaperOptions& options, const Calibration& calibration) {
   RunList list{options, calibration};
   list.add_sequences();
@@ -223,20 +243,18 @@ std::vector<PaperRun> paper_runs(const PaperOptions& options, const Calibration&
 
 PaperResults run_paper(const PaperOptions& options, const std::function<void(const std::string&)>& report) {
   constexpr int kQuickTree = 5;
-  PaperSetup setup{options,
-                   compile(make_spd("tree", options.quick ? std::optional(kQuickTree) : std::nullopt)),
-                   parse_animation(kTreeSimple, "tree-simple.anim").animation,
-                   parse_animation(kTreeCasting, "tree-casting.anim").animation};
-  PaperResults results;
-  results.calibration = calibrate(setup);
-  setup.total_units = results.calibration.total_units;
+  const PaperSetup setup{options,
+                         compile(make_spd("tree", options.quick ? std::optional(kQuickTree) : std::nullopt)),
+                         parse_animation(kTreeSimple, "tree-simple.anim").animation,
+                         parse_animation(kTreeCasting, "tree-casting.anim").animation};
+  PaperResults results{calibrate(setup)};
   for (const PaperRun& run : paper_runs(options, results.calibration)) {
-    const auto begin = std::chrono::steady_clock::now();
-    results.runs.push_back(carry_out(
-        setup, run, [&](const FinishedFrame& frame) { add_pictures(options, run, frame, results); }));
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    Stopwatch watch;
+    results.runs.push_back(
+        carry_out(setup, run, results.calibration.total_units,
+                  [&](const FinishedFrame& frame) { add_pictures(options, run, frame, results); }));
     report(fmt::format("{}: {}x{}, {} ranks, {}: {} frames in {:.1f} s", run.experiment, run.side, run.side,
-                       run.ranks, word_for(run.balance), run.frames, took.count()));
+                       run.ranks, word_for(run.balance), run.frames, watch.lap()));
   }
   results.casting_errors = run_casting_trial(casting_trial(options), report);
   return results;

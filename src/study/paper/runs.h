@@ -13,7 +13,7 @@
 #include "render/frame_summary.h"
 #include "study/frame_series.h"
 #include "study/paper/casting_errors.h"
-#include "study/paper/paper_options.h"
+#include "study/paper/paper_study.h"
 #include "study/report/page.h"
 
 namespace pprt {
@@ -55,9 +55,8 @@ struct FrameMeasures : FrameSummary {
   std::string picture_hash = "";
 };
 
-struct MeasuredRun {
-  PaperRun run;
-  std::vector<FrameMeasures> frames;
+struct MeasuredRun : PaperRun {
+  std::vector<FrameMeasures> frames = {};
 };
 
 // Work of a frame that makes kPaperSamples samples of it. Where the number of ranks varies (figures 8 and 9)
@@ -69,12 +68,18 @@ struct Calibration {
 };
 
 struct PaperResults {
-  Calibration calibration;
-  std::vector<MeasuredRun> runs;
-  std::vector<Picture> pattern_pictures;   // figures 1 and 2
-  std::vector<Picture> sequence_pictures;  // figure 4
-  std::vector<CastingErrors> casting_errors;
+  Calibration calibration = {};
+  std::vector<MeasuredRun> runs = {};
+  std::vector<Picture> pattern_pictures = {};   // figures 1 and 2
+  std::vector<Picture> sequence_pictures = {};  // figure 4
+  std::vector<CastingErrors> casting_errors = {};
 };
+
+// Returns the side of the smaller pictures, pixels.
+int picture_side(const PaperOptions& options);
+
+// Returns the machine with the options' network.
+Machine machine_of(const PaperOptions& options);
 
 // Returns the runs that settled options ask for, in the order of the tables.
 std::vector<PaperRun> paper_runs(const PaperOptions& options, const Calibration& calibration);

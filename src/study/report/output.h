@@ -5,13 +5,25 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "study/report/page.h"
 #include "study/report/plot.h"
-#include "study/report/provenance.h"
 #include "study/report/table.h"
 
 namespace pprt {
+
+// Where results come from: the facts needed to judge and to repeat them, with their names, in the order
+// shown.
+using Provenance = std::vector<std::pair<std::string, std::string>>;
+
+// Returns date (UTC), host, CPU model, cores, load (mean of the last minute), operating system and the
+// compiler of this program. A fact that cannot be read is "unknown".
+Provenance provenance_of_host();
+
+// Returns a line "# name: value" for each fact, as they stand above a CSV.
+std::string as_comments(const Provenance& facts);
 
 class StudyOutput {
  public:
@@ -31,8 +43,8 @@ class StudyOutput {
   // Writes NAME.svg and shows it. Without gnuplot the page notes the missing plot.
   void add_figure(const Plot& plot, std::string_view caption);
 
-  // Writes index.html. Warns on standard error when plots are missing.
-  void finish() const;
+  // Writes index.html, which ends with the provenance. Warns on standard error when plots are missing.
+  void finish();
 
  private:
   std::filesystem::path directory_;

@@ -38,18 +38,6 @@ std::string html_cell(const Cell& cell) {
   return fmt::format("<td{}>{}</td>", is_text ? "" : " class=\"number\"", escape_html(to_text(cell)));
 }
 
-std::string html_table(const Table& table) {
-  std::string text = "<div class=\"wide\"><table>\n<thead><tr>";
-  for (const std::string& name : table.columns) text += "<th>" + escape_html(name) + "</th>";
-  text += "</tr></thead>\n<tbody>\n";
-  for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    text += fmt::format("<tr{}>", class_of(table, row));
-    for (const Cell& cell : table.rows[row]) text += html_cell(cell);
-    text += "</tr>\n";
-  }
-  return text + "</tbody></table></div>\n";
-}
-
 }  // namespace
 
 std::string escape_html(std::string_view text) {
@@ -85,7 +73,15 @@ void Page::element(std::string_view tag, std::string_view attributes, std::strin
 }
 
 void Page::table(const Table& table) {
-  body_ += html_table(table);
+  body_ += "<div class=\"wide\"><table>\n<thead><tr>";
+  for (const std::string& name : table.columns) body_ += "<th>" + escape_html(name) + "</th>";
+  body_ += "</tr></thead>\n<tbody>\n";
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    body_ += fmt::format("<tr{}>", class_of(table, row));
+    for (const Cell& cell : table.rows[row]) body_ += html_cell(cell);
+    body_ += "</tr>\n";
+  }
+  body_ += "</tbody></table></div>\n";
 }
 
 void Page::figure(std::string_view svg, std::string_view caption) {
@@ -102,14 +98,12 @@ void Page::gallery(std::span<const Picture> pictures) {
   body_ += "</div>\n";
 }
 
-std::string Page::html(const Provenance& provenance) const {
-  using Fact = Provenance::value_type;
-  const Table facts = table_of<Fact>(provenance, {{"", &Fact::first}, {"", &Fact::second}});
+std::string Page::html() const {
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width\">\n<title>{0}</title>\n<style>{1}</style>\n"
-      "</head>\n<body>\n<h1>{0}</h1>\n{2}<h2>Provenance</h2>\n{3}</body>\n</html>\n",
-      escape_html(title_), kStyle, body_, html_table(facts));
+      "</head>\n<body>\n<h1>{0}</h1>\n{2}</body>\n</html>\n",
+      escape_html(title_), kStyle, body_);
 }
 
 }  // namespace pprt

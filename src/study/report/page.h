@@ -5,7 +5,6 @@
 #include <string>
 #include <string_view>
 
-#include "study/report/provenance.h"
 #include "study/report/table.h"
 
 namespace pprt {
@@ -35,8 +34,8 @@ class Page {
   void figure(std::string_view svg, std::string_view caption);
   void gallery(std::span<const Picture> pictures);
 
-  // Returns the whole file, which ends with the provenance.
-  std::string html(const Provenance& provenance) const;
+  // Returns the whole file.
+  std::string html() const;
 
  private:
   void element(std::string_view tag, std::string_view attributes, std::string_view text);

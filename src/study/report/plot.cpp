@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <system_error>
+
+#include "base/subprocess.h"
 
 namespace pprt {
 namespace {
@@ -28,24 +31,15 @@ std::string in_quotes(const std::string& text) {
   return q + "'";
 }
 
-std::string number(double value) {
-  return std::isfinite(value) ? fmt::format("{}", value) : "NaN";
-}
-
-std::string range(const Axis& axis) {
-  const auto end = [](double value) { return std::isfinite(value) ? fmt::format("{}", value) : "*"; };
-  return fmt::format("[{}:{}]", end(axis.from), end(axis.to));
+std::string number(double value, const char* otherwise = "NaN") {
+  return std::isfinite(value) ? fmt::format("{}", value) : otherwise;
 }
 
 std::string axis_commands(const char* name, const Axis& axis) {
-  std::string text =
-      fmt::format("set {0}label {1}\nset {0}range {2}\n", name, in_quotes(axis.label), range(axis));
-  if (axis.log_base > 0) {
-    text += fmt::format("set logscale {} {}\n", name, axis.log_base);
-  } else {
-    text += fmt::format("unset logscale {}\n", name);
-  }
-  return text;
+  const std::string scale = axis.log_base > 0 ? fmt::format("set logscale {} {}", name, axis.log_base)
+                                              : fmt::format("unset logscale {}", name);
+  return fmt::format("set {0}label {1}\nset {0}range [{2}:{3}]\n{4}\n", name, in_quotes(axis.label),
+                     number(axis.from, "*"), number(axis.to, "*"), scale);
 }
 
 bool has_spread(const Curve& curve) {
@@ -59,6 +53,7 @@ std::string terminal_name(std::string name) {
   return in_quotes(name);
 }
 
+// Name of the data block of panel `panel`, curve `curve`.
 std::string block_name(std::size_t panel, std::size_t curve) {
   return fmt::format("$p{}c{}", panel, curve);
 }
@@ -151,6 +146,26 @@ std::string gnuplot_script(const Plot& plot) {
       columns * kPanelWidth, rows * kPanelHeight, terminal_name(plot.name), rows, columns);
   for (std::size_t p = 0; p < plot.panels.size(); ++p) text += panel_commands(plot.panels[p], p);
   return text + "unset multiplot\n";
+}
+
+std::string draw_svg(const Plot& plot, const std::string& program) {
+  const auto failure = [](const std::string& what) {
+    return std::runtime_error("cannot draw a plot: " + what);
+  };
+  CapturedRun run;
+  try {
+    run = run_captured({program}, gnuplot_script(plot));
+  } catch (const ProgramNotFound&) {
+    throw MissingTool(program + " is not installed (Debian package gnuplot-nox)");
+  } catch (const std::system_error& e) {
+    throw failure(e.what());
+  }
+  const std::string& svg = run.output;
+  const std::size_t begin = svg.find("<svg"), end = svg.rfind("</svg>");
+  if (run.status.code != 0 || begin == std::string::npos || end == std::string::npos) {
+    throw failure(fmt::format("{} ended with {}: {}", program, run.status.code, run.errors));
+  }
+  return svg.substr(begin, end + 6 - begin);
 }
 
 }  // namespace pprt

@@ -1,9 +1,10 @@
-// Plots as plain values. report/gnuplot.h draws them.
+// Plots as plain values, which gnuplot draws as a program of its own.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,7 @@ enum class CurveStyle : std::uint8_t {
 
 struct Curve {
   std::string name;  // empty: not in the legend
-  std::vector<PlotPoint> points;
+  std::vector<PlotPoint> points = {};
   CurveStyle style = CurveStyle::kLine;
   int colour = -1;  // index into the palette; -1: the curve's place in its panel
 };
@@ -61,18 +62,28 @@ struct Panel {
   std::string title;
   Axis x;
   Axis y;
-  std::vector<Curve> curves;
+  std::vector<Curve> curves = {};
   PanelKind kind = PanelKind::kCurves;
 };
 
 // Panels in rows of `columns`.
 struct Plot {
   std::string name;  // file name without extension: letters, digits and "-"
-  std::vector<Panel> panels;
+  std::vector<Panel> panels = {};
   int columns = 2;
 };
 
 // Returns the gnuplot commands that print the plot as SVG, data included.
 std::string gnuplot_script(const Plot& plot);
+
+// gnuplot is not installed. what() names the Debian package that has it.
+class MissingTool : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Returns the plot as an <svg> element, without an XML declaration. Looks for `program` on the PATH. Throws
+// MissingTool, or std::runtime_error with gnuplot's message.
+std::string draw_svg(const Plot& plot, const std::string& program = "gnuplot");
 
 }  // namespace pprt

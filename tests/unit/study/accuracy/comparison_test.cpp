@@ -50,13 +50,11 @@ Method priced(const Method& method, std::string name, double seconds_per_sample)
 }
 
 SceneCurves curves_of(const TreeSetup& tree, const std::vector<Method>& methods, int repeats) {
-  CurveSettings settings;
-  settings.repeats = repeats;
-  return measure_curves("tree", tree.subject(), converged_reference(tree.subject(), 4), methods, settings);
+  return measure_curves("tree", tree.subject(), converged_reference(tree.subject(), 4), methods, repeats, 1);
 }
 
 SceneCurves made_up(const std::vector<std::pair<double, double>>& progressive, bool exhausted = false) {
-  SceneCurves curves{"made up", 1, 0, 2, {}};
+  SceneCurves curves{"made up", 1, 0, 2};
   const auto add = [&](const char* method, double share, double rmse, bool last) {
     CurvePoint p;
     p.method = method, p.share = share, p.samples = share, p.rmse = rmse, p.exhausted = last;
@@ -97,16 +95,18 @@ TEST_CASE("comparison: a method with nothing left to refine keeps its error") {
 TEST_CASE("comparison: break-even points are where the ratio of errors passes 1") {
   // Twice the uniform error at 10 %, half of it at 1000 %: equal in the middle, at 100 %.
   const SceneCurves curves = made_up({{0.1, 0.2 / std::sqrt(0.1)}, {10, 0.05 / std::sqrt(10.0)}});
-  const BreakEven at = break_even(curves, kProgressive);
-  CHECK_FALSE(at.ahead_at_first);
-  REQUIRE(at.crossings.size() == 1);
-  CHECK(at.crossings[0] == Approx(1).epsilon(0.03));
-  CHECK(at.first_share == Approx(0.1).epsilon(0.03));
-  const std::string sentence = to_sentence(at, "It");
+  const std::vector<BudgetRange> ranges = budget_ranges(curves, kProgressive);
+  REQUIRE(ranges.size() == 2);
+  CHECK_FALSE(ranges[0].ahead);
+  CHECK(ranges[0].from == Approx(0.1).epsilon(0.03));
+  CHECK(ranges[0].to == Approx(1).epsilon(0.03));
+  CHECK(ranges[1].ahead);
+  CHECK(ranges[1].from == ranges[0].to);
+  const std::string sentence = to_sentence(ranges, "It");
   CHECK(sentence.find("It is ahead from ") == 0);
   CHECK(sentence.find("behind from ") != std::string::npos);
   CHECK(ratio_at_equal_error(curves, kProgressive, 1).median == Approx(1));
-  CHECK(to_sentence(break_even(made_up({}), kProgressive), "It") ==
+  CHECK(to_sentence(budget_ranges(made_up({}), kProgressive), "It") ==
         "There is no budget for which both have a picture.");
 }
 
@@ -142,7 +142,7 @@ TEST_CASE("control: the uniform sampler under the name progressive has ratio 1")
     // Sooner, where the uniform sampler gets no better from one picture to the next.
     CHECK(ratio_at_equal_error(exact, kProgressive, share).median <= 1 + 1e-6);
   }
-  CHECK(break_even(exact, kProgressive).crossings.empty());
+  CHECK(budget_ranges(exact, kProgressive).size() == 1);
 }
 
 TEST_CASE("control: it has ratio 1 by the processor's clock, within noise", "[realtime]") {

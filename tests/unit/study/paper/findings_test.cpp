@@ -14,7 +14,7 @@ namespace {
 using Change = std::function<void(FrameMeasures&)>;
 
 void add(PaperResults& results, PaperRun run, int frames, const Change& change = {}) {
-  MeasuredRun measured{run, {}};
+  MeasuredRun measured{run};
   for (int frame = 1; frame <= frames; ++frame) {
     FrameMeasures m;
     m.number = frame;
@@ -68,7 +68,7 @@ std::optional<bool> verdict(const PaperResults& results, const std::string& clai
 // The same results with one run's frames changed.
 PaperResults with(PaperResults results, std::string_view experiment, BalanceMode mode, const Change& change) {
   for (MeasuredRun& r : results.runs) {
-    if (r.run.experiment != experiment || r.run.balance != mode) continue;
+    if (r.experiment != experiment || r.balance != mode) continue;
     std::for_each(r.frames.begin(), r.frames.end(), change);
   }
   return results;

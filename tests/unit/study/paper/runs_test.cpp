@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "study/paper/measures.h"
-#include "study/paper/paper_study.h"
 
 using namespace pprt;
 
@@ -74,13 +73,13 @@ TEST_CASE("paper study: a quick study measures every frame of every run") {
   CHECK(results.calibration.share.at(2) == 1);
   std::size_t rows = 0;
   for (const MeasuredRun& r : results.runs) {
-    CAPTURE(r.run.experiment, r.run.ranks);
+    CAPTURE(r.experiment, r.ranks);
     CHECK(r.frames.size() == 5);
     rows += r.frames.size();
     for (const FrameMeasures& m : r.frames) {
       CHECK(m.samples > 100);
       CHECK(m.refinement > 0);
-      CHECK(std::isnan(m.distance) != r.run.compare_serial);
+      CHECK(std::isnan(m.distance) != r.compare_serial);
     }
   }
   CHECK(frames_table(results).rows.size() == rows);

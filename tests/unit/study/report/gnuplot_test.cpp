@@ -1,8 +1,8 @@
-#include "study/report/gnuplot.h"
-
 #include <catch2/catch.hpp>
 #include <limits>
 #include <string>
+
+#include "study/report/plot.h"
 
 using namespace pprt;
 
@@ -13,7 +13,7 @@ bool contains(const std::string& text, const std::string& part) {
 }
 
 Plot two_panels() {
-  Panel curves{"Curves & bounds", {"frame"}, {"refinement"}, {}, PanelKind::kCurves};
+  Panel curves{"Curves & bounds", {"frame"}, {"refinement"}};
   curves.curves.push_back({"combined <1>", {{1, 2, 1, 3}, {2, 3, 2, 4}}});
   Panel bars{"Parts", {"ranks"}, {"ms"}, {}, PanelKind::kStackedBars};
   bars.curves.push_back({"sampling", {{1, 10}, {32, 12}}});

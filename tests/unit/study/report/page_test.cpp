@@ -1,8 +1,11 @@
-#include "study/report/page.h"
+#include "study/report/output.h"
 
 #include <catch2/catch.hpp>
 #include <string>
 #include <vector>
+
+#include "image/atomic_file.h"
+#include "unit/image/temporary_directory.h"
 
 using namespace pprt;
 
@@ -23,12 +26,12 @@ TEST_CASE("page: text cannot become markup") {
   page.heading(evil);
   page.paragraph(evil);
   page.note(evil);
-  page.table({{evil}, {{evil}}, {}});
+  page.table({{evil}, {{evil}}});
   page.figure("<svg></svg>", evil);
   page.gallery(std::vector<Picture>{{evil, "png", ""}});
-  const std::string html = page.html({{evil, evil}});
+  const std::string html = page.html();
   CHECK(count(html, "<script") == 0);
-  CHECK(count(html, "&lt;script&gt;") == 12);
+  CHECK(count(html, "&lt;script&gt;") == 10);
 }
 
 TEST_CASE("page: bytes are encoded as base 64") {
@@ -41,16 +44,15 @@ TEST_CASE("page: bytes are encoded as base 64") {
   CHECK(to_base64("\xff\xef\xbf") == "/++/");
 }
 
-TEST_CASE("page: it needs no other file, and shows the provenance") {
+TEST_CASE("page: it needs no other file") {
   Page page("A study");
   page.gallery(std::vector<Picture>{{"a frame", "\x89PNG", ""}});
   page.table({{"finding", "measured"}, {{"one", 0.25}, {"two", 1.0}}, {Tone::kGood, Tone::kBad}});
-  const std::string html = page.html({{"cpu", "a model"}});
+  const std::string html = page.html();
   CHECK(count(html, "http") == 0);
   CHECK(count(html, "src=") == count(html, "src=\"data:image/png;base64,"));
   CHECK(count(html, "<tr class=\"good\"><td>one</td><td class=\"number\">0.25</td></tr>") == 1);
   CHECK(count(html, "<tr class=\"bad\">") == 1);
-  CHECK(count(html, "<td>cpu</td><td>a model</td>") == 1);
 }
 
 TEST_CASE("provenance: each fact of this machine has a value") {
@@ -60,4 +62,21 @@ TEST_CASE("provenance: each fact of this machine has a value") {
     CAPTURE(name);
     CHECK_FALSE(value.empty());
   }
+}
+
+TEST_CASE("provenance: it stands above a CSV as comments of one line each, and ends the page") {
+  CHECK(as_comments({{"host", "a"}, {"command", "b\nc"}}) == "# host: a\n# command: b c\n");
+  const TemporaryDirectory directory;
+  StudyOutput output(directory.path(), "A study", {{"seed", "a <1>"}});
+  output.add_table("numbers", {{"x"}, {{1.5}}});
+  output.finish();
+  const std::string csv = read_whole_file(directory.path() / "numbers.csv");
+  CHECK(csv.starts_with("# program: pprt-study "));
+  CHECK(csv.find("\n# seed: a <1>\n# date: ") != std::string::npos);
+  CHECK(csv.ends_with("\nx\n1.5\n"));
+  const std::string html = read_whole_file(directory.path() / "index.html");
+  CHECK(html.find("<h2>Provenance</h2>") > html.find("<td class=\"number\">1.5</td>"));
+  CHECK(count(html, "<td>seed</td><td>a &lt;1&gt;</td>") == 1);
+  CHECK(read_whole_file(directory.path() / "provenance.json").find("\"seed\": \"a <1>\"") !=
+        std::string::npos);
 }

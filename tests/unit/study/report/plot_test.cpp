@@ -26,7 +26,7 @@ bool contains(const std::string& text, const std::string& part) {
 }
 
 Plot small_plot() {
-  Panel panel{"it's \n one", {"ranks", 2, 1, 64}, {"Q", 10}, {}, PanelKind::kCurves};
+  Panel panel{"it's \n one", {"ranks", 2, 1, 64}, {"Q", 10}};
   panel.curves.push_back({"a", {{1, 0.1}, {2, 1.0 / 3, 0.2, 0.4}, {4, kNoValue}}});
   panel.curves.push_back({"ideal", {{1, 1}, {64, 1}}, CurveStyle::kReference});
   return {"small", {panel}, 1};

@@ -6,10 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "parallel/session_words.h"
+
 using namespace pprt;
 
 TEST_CASE("table: CSV has names, rows, and quotes where needed") {
-  Table table{{"mode", "Q, mean"}, {}, {}};
+  Table table{{"mode", "Q, mean"}};
   table.rows.push_back({"none", std::int64_t{32}});
   table.rows.push_back({"a \"b\", c\nd", 0.5});
   table.rows.push_back({"# no comment", std::nan("")});
@@ -21,11 +23,6 @@ TEST_CASE("table: doubles in a CSV are exact") {
     const std::string csv = to_csv({{"x"}, {{value}}, {}});
     CHECK(std::stod(csv.substr(2)) == value);
   }
-}
-
-TEST_CASE("table: the provenance stands above a CSV as comments of one line each") {
-  const Table table{{"x"}, {{std::int64_t{1}}}, {}};
-  CHECK(to_csv(table, {{"host", "a"}, {"command", "b\nc"}}) == "# host: a\n# command: b c\nx\n1\n");
 }
 
 TEST_CASE("table: a row of another length is refused") {
@@ -49,4 +46,19 @@ TEST_CASE("table: columns are members or functions of a row") {
       runs,
       {{"name", &Run::name}, {"ranks", &Run::ranks}, {"%", [](const Run& r) { return 100 * r.share; }}});
   CHECK(to_csv(table) == "name,ranks,%\na,2,50\nb,4,25\n");
+}
+
+TEST_CASE("table: a part stands in a row with the whole that it belongs to, an enum as its word") {
+  struct Frame {
+    int number;
+  };
+  struct Run {
+    bool kept;
+    std::vector<Frame> frames;
+  };
+  const std::vector<Run> runs = {{true, {{1}, {2}}}, {false, {{1}}}};
+  const auto mode = [](const Run& run) { return run.kept ? CastChoice::kAuto : CastChoice::kOff; };
+  const Table table = table_of_parts<Run, Frame>(runs, &Run::frames, {{"kept", &Run::kept}, {"cast", mode}},
+                                                 {{"frame", &Frame::number}});
+  CHECK(to_csv(table) == "kept,cast,frame\n1,auto,1\n1,auto,2\n0,off,1\n");
 }
