@@ -44,6 +44,7 @@ CLI::App& add_paper(CLI::App& app, pprt::PaperOptions& options) {
   add(command, "--frames", "N", options.frames,
       "Render the first N frames of each sequence (default: 40; quick: 6)")
       ->check(CLI::Range(5, 40));
+  pprt::add_choice(command, "--weights", options.weights, "Rule that chooses the next triangle to refine");
   pprt::add_choice(command, "--machine", options.machine, "Simulated processors and network");
   add(command, "--latency", "US", options.latency_us,
       "Network latency, microseconds (default: the machine's)")

@@ -41,10 +41,21 @@ expect_line all/findings.csv '.*Control: without balancing .*,holds,.*'
 # Without gnuplot.
 bare=$(mktemp -d -p .)
 ln -s "$(command -v pprt-study)" "$bare"
-run env PATH="$PWD/$bare" "$bare/pprt-study" paper -o bare --quick --ranks 2 --frames 5; expect_code 0
+run env PATH="$PWD/$bare" "$bare/pprt-study" paper -o bare --quick --ranks 2 --frames 5 --weights learned; expect_code 0
 expect_line err 'pprt-study: warning: gnuplot is not installed (Debian package gnuplot-nox): tables and page are written without plots'
 expect_file bare/index.html; expect_file bare/frames.csv; expect_no_file bare/scaling.svg
 grep -q 'The plot is missing: gnuplot is not installed' bare/index.html || complain "the page does not tell what is missing"
+
+# Learned weights make other pictures, in every experiment: on 2 ranks, on one, and of the casting trial.
+hash_of() { figures_of "$1/frames.csv" | grep -m1 "^$2," | sed 's/.*,//'; }  # of the run's first picture
+for row in simple,simple,2,96,none simple,simple,2,96,combined scaling,simple,1,96,none costs,casting,4,96,combined; do
+  [[ $(hash_of all "$row") =~ ^[0-9a-f]{16}$ && $(hash_of all "$row") != "$(hash_of bare "$row")" ]] ||
+    complain "$row: --weights learned changes nothing"
+done
+row=$(figures_of all/casting-errors.csv | grep '^tree,1,0.3,')
+[[ -n $row ]] && ! grep -qxF "$row" bare/casting-errors.csv || complain "--weights learned changes no casting error: $row"
+grep -q '"weights": "learned"' bare/provenance.json || complain "provenance.json does not tell the weights"
+grep -q '"weights": "paper"' all/provenance.json || complain "provenance.json does not tell the paper's weights"
 
 # Refused.
 run pprt-study paper; expect_code 2; expect_line err '.*--output is required.*'

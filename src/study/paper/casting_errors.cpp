@@ -42,7 +42,7 @@ struct Turn {
     settings.budget_units = static_cast<std::uint64_t>(budget_units);
     settings.frames_per_second = kWorkUnitsPerSecond / budget_units;
     settings.cast = cast;
-    settings.learned_weights = false;  // it continues only while samples are cast
+    settings.learned_weights = trial.weights == WeightRule::kLearned;
     settings.seed = trial.seed;
     render_series(scene, requests, 1, settings, sink);
   }
@@ -102,7 +102,7 @@ CastingTrial casting_trial(const PaperOptions& options) {
     if (frame <= options.frames) trial.judged.push_back(frame);
   }
   if (options.quick) trial.side = 64, trial.reference_side = 3;
-  trial.seed = options.seed;
+  trial.weights = options.weights, trial.seed = options.seed;
   return trial;
 }
 

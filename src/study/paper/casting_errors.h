@@ -37,6 +37,7 @@ struct CastingTrial {
   int side = 192;                 // of the picture, pixels
   std::vector<int> judged;        // frames, increasing; runs end with the last one
   int reference_side = 5;         // converged frames have the square of this of samples per pixel
+  WeightRule weights = WeightRule::kPaper;
   std::uint64_t seed = 1;
 };
 

@@ -257,7 +257,9 @@ void write_figures(const Runs& runs, const PaperResults& results, const PaperOpt
 void study_paper(const PaperOptions& asked, const std::string& command_line) {
   const PaperOptions options = settled(asked);
   StudyOutput output(options.directory, "The paper's experiments",
-                     {{"command", command_line}, {"seed", std::to_string(options.seed)}});
+                     {{"command", command_line},
+                      {"seed", std::to_string(options.seed)},
+                      {"weights", std::string(word_for(options.weights))}});
   const PaperResults results =
       run_paper(options, [](const std::string& line) { fmt::print(stderr, "pprt-study: {}\n", line); });
   output.write_table("frames", frames_table(results));

@@ -26,6 +26,7 @@ struct PaperOptions {
   bool quick = false;      // small pictures of a small tree, few ranks and frames
   std::vector<int> ranks;  // for figures 5 to 7; empty: 32 and 62, or 4 and 6 if quick
   int frames = 0;          // of each sequence; 0: all 40, or 6 if quick
+  WeightRule weights = WeightRule::kPaper;
   MachineKind machine = MachineKind::kCluster;
   double latency_us = kNoValue;      // NaN: the machine's
   double bandwidth_mb_s = kNoValue;  // megabytes per second; NaN: the machine's

@@ -49,7 +49,7 @@ SessionSettings settings_of(const PaperRun& run, double total_units, const Paper
   s.balance = run.balance;
   s.cast = run.cast;
   s.keep_samples = run.keep_samples;
-  s.learned_weights = false;  // each rank would learn something else
+  s.learned_weights = options.weights == WeightRule::kLearned;
   s.seed = options.seed;
   s.report_samples = run.compare_serial;
   s.machine = run.machine;
