@@ -3,14 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
+#include <utility>
+
+#include "scene/ear_ranking.h"
+#include "scene/turn.h"
+#include "scene/vertex_tree.h"
 
 namespace pprt {
 namespace {
 
-// Returns twice the signed area; positive when a, b, c run counter-clockwise.
-double cross(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
-  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
+// Polygons of up to so many vertices are searched vertex by vertex.
+constexpr std::size_t kMostSearched = 512;
 
 // Drops the coordinate in which the normal is largest and makes the polygon run counter-clockwise.
 std::vector<Vec2d> project(std::span<const Vec3d> polygon, const Vec3d& normal) {
@@ -29,25 +33,30 @@ std::vector<Vec2d> project(std::span<const Vec3d> polygon, const Vec3d& normal) 
 }
 
 // The ring of vertices not yet clipped, with the quality of each as the tip of an ear.
+//
+// An ear of a simple polygon that is blocked stays so until a neighbour of its tip is clipped: of the
+// vertices in it, the one farthest from its base cannot be clipped before. So each clipping judges two ears
+// anew, and all are judged again only for polygons that intersect themselves, or touch themselves within
+// rounding.
 class EarClipper {
  public:
-  explicit EarClipper(std::vector<Vec2d> points) : points_(std::move(points)) {
+  explicit EarClipper(std::vector<Vec2d> points)
+      : points_(std::move(points)), quality_(points_.size(), kNoEar), left_(points_.size()) {
     const std::size_t n = points_.size();
     for (std::size_t i = 0; i < n; ++i) {
       next_.push_back(static_cast<std::uint32_t>((i + 1) % n));
       previous_.push_back(static_cast<std::uint32_t>((i + n - 1) % n));
     }
-    left_ = n;
-    quality_.assign(n, kNoEar);
+    if (n > kMostSearched) plant_tree();
   }
 
   std::vector<TriangleIndices> run() {
     judge_all();
     while (left_ >= 3) {
-      std::uint32_t tip = best();
-      if (quality_[tip] == kNoEar) {
+      std::uint32_t tip = quality_.best(start_);
+      if (quality_[tip] == kNoEar && may_judge_again()) {
         judge_all();  // a vertex that blocked an ear may be gone
-        tip = best();
+        tip = quality_.best(start_);
       }
       clip(tip);
     }
@@ -56,16 +65,29 @@ class EarClipper {
 
  private:
   static constexpr double kNoEar = -1;
+  static constexpr double kClipped = -2;
 
-  std::uint32_t best() const {
-    std::uint32_t best = start_;
-    for (std::uint32_t i = next_[start_]; i != start_; i = next_[i]) {
-      if (quality_[i] > quality_[best]) best = i;
+  double turn_at(std::uint32_t tip) const {
+    return turn(points_[previous_[tip]], points_[tip], points_[next_[tip]]);
+  }
+
+  // Only a vertex at which the polygon does not turn left can block an ear. Clipping ears only makes angles
+  // smaller, so such a vertex may leave the tree and none enters it.
+  void plant_tree() {
+    std::vector<std::uint32_t> members;
+    for (std::uint32_t i = 0; i < points_.size(); ++i) {
+      if (!(turn_at(i) > 0)) members.push_back(i);
     }
-    return best;
+    tree_.emplace(points_, std::move(members));
+  }
+
+  // Judging all ears takes long in a large ring, so that a sixteenth of it must be clipped in between.
+  bool may_judge_again() const {
+    return left_ < left_when_judged_ && (left_ <= kMostSearched || left_ <= left_when_judged_ / 16 * 15);
   }
 
   void judge_all() {
+    left_when_judged_ = left_;
     std::uint32_t i = start_;
     do {
       judge(i);
@@ -77,11 +99,13 @@ class EarClipper {
   void clip(std::uint32_t tip) {
     const std::uint32_t before = previous_[tip];
     const std::uint32_t after = next_[tip];
-    if (cross(points_[before], points_[tip], points_[after]) > 0) triangles_.push_back({before, tip, after});
+    if (turn_at(tip) > 0) triangles_.push_back({before, tip, after});
     next_[before] = after;
     previous_[after] = before;
     start_ = after;
     --left_;
+    quality_.set(tip, kClipped);
+    if (tree_) tree_->remove(tip);
     if (left_ >= 3) {
       judge(before);
       judge(after);
@@ -95,16 +119,18 @@ class EarClipper {
     const Vec2d& a = points_[previous_[tip]];
     const Vec2d& b = points_[tip];
     const Vec2d& c = points_[next_[tip]];
-    const double area = cross(a, b, c);
-    quality_[tip] = kNoEar;
-    if (area < 0) return;
-    if (area == 0) {
-      quality_[tip] = 2;
-      return;
-    }
-    if (blocked(tip, a, b, c)) return;
+    const double area = turn(a, b, c);
+    if (area > 0 && tree_) tree_->remove(tip);
+    quality_.set(tip, quality(tip, a, b, c, area));
+  }
+
+  double quality(std::uint32_t tip, const Vec2d& a, const Vec2d& b, const Vec2d& c, double area) const {
+    if (!(area >= 0)) return kNoEar;
+    if (area == 0) return 2;
+    if (tree_ ? tree_->any_within(a, b, c) : blocked(tip, a, b, c)) return kNoEar;
     const double longest = std::max({(b - a).length2(), (c - b).length2(), (a - c).length2()});
-    quality_[tip] = area / longest;
+    const double shape = area / longest;
+    return shape >= 0 ? shape : kNoEar;  // not where lengths overflow
   }
 
   // Returns whether another vertex lies in the closed triangle. One that coincides with a corner does not
@@ -114,7 +140,7 @@ class EarClipper {
     for (std::uint32_t i = next_[next_[tip]]; i != before; i = next_[i]) {
       const Vec2d& p = points_[i];
       if (p == a || p == b || p == c) continue;
-      if (cross(a, b, p) >= 0 && cross(b, c, p) >= 0 && cross(c, a, p) >= 0) return true;
+      if (turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0) return true;
     }
     return false;
   }
@@ -122,10 +148,12 @@ class EarClipper {
   std::vector<Vec2d> points_;
   std::vector<std::uint32_t> next_;
   std::vector<std::uint32_t> previous_;
-  std::vector<double> quality_;
+  EarRanking quality_;
+  std::optional<VertexTree> tree_;  // of large polygons: what may block an ear
   std::vector<TriangleIndices> triangles_;
   std::uint32_t start_ = 0;
-  std::size_t left_ = 0;
+  std::size_t left_;
+  std::size_t left_when_judged_ = 0;
 };
 
 }  // namespace

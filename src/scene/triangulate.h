@@ -21,7 +21,8 @@ Vec3d newell_normal(std::span<const Vec3d> polygon);
 // largest projection and clips the best-shaped ear first.
 //
 // Duplicate and collinear vertices take no triangle. A non-planar polygon is cut as its projection is. A
-// self-intersecting one gets some cover. Returns nothing for no area. Quadratic in the number of vertices.
+// self-intersecting one gets some cover. Returns nothing for no area. Takes n log n for n vertices in all but
+// contrived polygons.
 std::vector<TriangleIndices> triangulate(std::span<const Vec3d> polygon);
 
 }  // namespace pprt

@@ -1,6 +1,7 @@
 #include "scene/triangulate.h"
 
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -14,15 +15,18 @@ double area(std::span<const Vec3d> polygon) {
 }
 
 // Every triangle turned the polygon's way, and all of them together as large as it: no overlap, no gap.
-void check_cover(const std::vector<Vec3d>& polygon) {
+// `rounding`: of the sum, relative.
+void check_cover(const std::vector<Vec3d>& polygon, double rounding = 1e-12) {
   const Vec3d normal = newell_normal(polygon);
   double sum = 0;
+  std::size_t turned = 0;
   for (const TriangleIndices& t : triangulate(polygon)) {
     const Vec3d n = (polygon[t[1]] - polygon[t[0]]).cross(polygon[t[2]] - polygon[t[0]]);
-    CHECK(n.dot(normal) > 0);
+    turned += !(n.dot(normal) > 0);
     sum += 0.5 * n.length();
   }
-  CHECK(sum == Approx(area(polygon)).epsilon(1e-12));
+  CHECK(turned == 0);
+  CHECK(sum == Approx(area(polygon)).epsilon(rounding));
 }
 
 bool inside(const std::vector<Vec3d>& polygon, double x, double y) {
@@ -48,6 +52,55 @@ std::vector<Vec3d> star(int points, double inner) {
     const double radius = i % 2 == 0 ? 1 : inner;
     polygon.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0);
   }
+  return polygon;
+}
+
+// A star whose spikes are of random lengths.
+std::vector<Vec3d> thistle(int vertices) {
+  std::mt19937 engine(1);
+  std::uniform_real_distribution<double> radius(0.05, 1);
+  std::vector<Vec3d> polygon;
+  for (int i = 0; i < vertices; ++i) {
+    const double angle = 2 * std::numbers::pi * i / vertices;
+    polygon.push_back(Vec3d(std::cos(angle), std::sin(angle), 0) * radius(engine));
+  }
+  return polygon;
+}
+
+// A comb with teeth of random lengths, upwards and between them downwards.
+std::vector<Vec3d> ragged_comb(int teeth) {
+  std::mt19937 engine(1);
+  std::uniform_real_distribution<double> length(0, 4);
+  std::vector<Vec3d> polygon = {{0, -20, 0}, {10, -20, 0}};
+  for (int i = teeth - 1; i >= 0; --i) {
+    polygon.emplace_back((i + 0.9) * 10 / teeth, 5 + length(engine), 0);
+    polygon.emplace_back((i + 0.5) * 10 / teeth, 1 - length(engine), 0);
+  }
+  return polygon;
+}
+
+// A band that winds round the origin.
+std::vector<Vec3d> spiral(int vertices, double turns) {
+  std::vector<Vec3d> polygon;
+  for (int i = 0; i < vertices; ++i) {
+    const bool outward = i < vertices / 2;
+    const double share = 2.0 * (outward ? i : vertices - 1 - i) / vertices;
+    const double angle = 2 * std::numbers::pi * turns * share, radius = angle + (outward ? 1 : 3);
+    polygon.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0);
+  }
+  return polygon;
+}
+
+std::vector<Vec3d> scribble(int vertices, unsigned seed) {
+  std::mt19937 engine(seed);
+  std::uniform_real_distribution<double> u(-1, 1);
+  std::vector<Vec3d> polygon;
+  for (int i = 0; i < vertices; ++i) polygon.emplace_back(u(engine), u(engine), u(engine));
+  return polygon;
+}
+
+std::vector<Vec3d> scaled(std::vector<Vec3d> polygon, double by) {
+  for (Vec3d& p : polygon) p *= by;
   return polygon;
 }
 
@@ -117,11 +170,42 @@ TEST_CASE("triangulation ends for any polygon") {
   CHECK(triangulate(bow_tie).size() <= 2);
   const std::vector<Vec3d> saddle = {{0, 0, 0}, {1, 0, 0.3}, {1, 1, 0}, {0, 1, 0.3}};
   CHECK(triangulate(saddle).size() == 2);
-  std::mt19937 engine(11);
-  std::uniform_real_distribution<double> u(-1, 1);
   for (int i = 0; i < 200; ++i) {
-    std::vector<Vec3d> scribble;
-    for (int k = 0; k < 4 + i % 30; ++k) scribble.emplace_back(u(engine), u(engine), u(engine));
-    CHECK(triangulate(scribble).size() <= scribble.size() - 2);
+    const std::vector<Vec3d> polygon = scribble(4 + i % 30, static_cast<unsigned>(i));
+    CHECK(triangulate(polygon).size() <= polygon.size() - 2);
   }
+  const std::vector<Vec3d> large = scribble(5000, 1);
+  CHECK(triangulate(large).size() <= large.size() - 2);
+}
+
+TEST_CASE("large polygons are covered once at any scale") {
+  for (const double scale : {1.0, 1e-30, 1e60}) {
+    check_cover(scaled(star(1000, 1), scale));
+    check_cover(scaled(star(1500, 0.05), scale));
+    check_cover(scaled(thistle(3000), scale));
+    check_cover(scaled(ragged_comb(1500), scale));
+    check_cover(scaled(spiral(3000, 12), scale), 1e-10);
+  }
+  // Each vertex of a star four times, and a square of collinear vertices.
+  std::vector<Vec3d> repeated, square;
+  for (const Vec3d& p : star(300, 0.5)) repeated.insert(repeated.end(), 4, p);
+  check_cover(repeated);
+  for (int i = 0; i < 500; ++i) square.emplace_back(i, 0, 0);
+  for (int i = 0; i < 500; ++i) square.emplace_back(500, i, 0);
+  for (int i = 0; i < 500; ++i) square.emplace_back(500 - i, 500, 0);
+  for (int i = 0; i < 500; ++i) square.emplace_back(0, 500 - i, 0);
+  check_cover(square);
+  CHECK(triangulate(square).size() == 2);
+}
+
+// By a search through all vertices each of these takes minutes.
+TEST_CASE("polygons of 200,000 vertices end within a minute") {
+  const auto start = std::chrono::steady_clock::now();
+  check_cover(star(100'000, 1));
+  check_cover(star(100'000, 0.05));
+  check_cover(thistle(200'000));
+  check_cover(ragged_comb(100'000));
+  check_cover(spiral(200'000, 100), 1e-10);
+  CHECK(triangulate(scribble(200'000, 1)).size() <= 199'998);
+  CHECK(std::chrono::steady_clock::now() - start < std::chrono::minutes(1));
 }
