@@ -15,9 +15,12 @@
 namespace pprt {
 namespace {
 
-constexpr int kCoarse = 16;                 // rays a side at first
-constexpr double kMostRays = 0x1p22;        // of all frames: some seconds
-using Level = std::array<std::uint8_t, 3>;  // of red, green and blue in a PNG
+constexpr int kCoarse = 16;                    // rays a side at first
+constexpr double kMostRays = 0x1p22;           // of all frames: some seconds
+constexpr int kGlassRays = 32;                 // a side, in search of glass that is inside out
+constexpr std::size_t kGlassFrames = 16;       // frames, at most
+constexpr double kLeastShareInsideOut = 0.05;  // fewer may be rays that graze an edge
+using Level = std::array<std::uint8_t, 3>;     // of red, green and blue in a PNG
 
 Level level_of(const Color& color) {
   return {display_byte(color.x), display_byte(color.y), display_byte(color.z)};
@@ -26,6 +29,7 @@ Level level_of(const Color& color) {
 // What rays have found so far.
 struct Seen {
   bool object = false;      // any object
+  bool several = false;     // two objects in one picture
   bool stands_out = false;  // a colour that is not the background's
   bool varied = false;      // two colours in one picture
 };
@@ -35,6 +39,7 @@ struct Seen {
 void look(Tracer& tracer, const View& view, int side, const Level& background, Seen& seen) {
   const int columns = std::min(side, view.width), rows = std::min(side, view.height);
   std::optional<Level> first;
+  std::optional<std::uint32_t> first_primitive;
   for (int j = 0; j < rows; ++j) {
     const double y = std::floor((j + 0.5) * view.height / rows) + 0.5;
     for (int i = 0; i < columns; ++i) {
@@ -42,10 +47,12 @@ void look(Tracer& tracer, const View& view, int side, const Level& background, S
       const RaySample sample = tracer.trace(x, y);
       const Level level = level_of(sample.color);
       seen.object = seen.object || !sample.at_infinity;
+      seen.several = seen.several || (first_primitive && *first_primitive != sample.primitive);
       seen.stands_out = seen.stands_out || level != background;
       seen.varied = first && *first != level;
       if (seen.varied) return;
       first = level;
+      first_primitive = sample.primitive;
     }
   }
 }
@@ -119,6 +126,62 @@ std::string why_nothing_is_seen(const RenderPlan& plan, const Seen& seen) {
          "cannot be seen";
 }
 
+// Returns the beginning of a warning about a primitive: the scene's name and, if known, its place.
+std::string at(const SceneDescription& scene, std::uint32_t place) {
+  const SourceLocation where = location_of(scene, scene.order[place]);
+  if (where.line == 0) return scene.name + ": warning: ";
+  return fmt::format("{}:{}:{}: warning: ", scene.name, where.line, where.column);
+}
+
+std::string warn_of_repeats(const SceneDescription& scene, const RepeatedPrimitives& repeated) {
+  if (repeated.count == 0) return {};
+  const bool one = repeated.count == 1;
+  return at(scene, repeated.first) +
+         (one ? "an object repeats an earlier one exactly, with its fill: it is left out\n"
+              : fmt::format("{} objects repeat earlier ones exactly, with their fill: they are left out "
+                            "(the first is here)\n",
+                            repeated.count));
+}
+
+// What rays find of glass that is turned inside out.
+struct GlassFaces {
+  int met = 0;              // eye rays that meet glass
+  int inside_out = 0;       // of them
+  std::uint32_t first = 0;  // place of the first such primitive, if inside_out > 0
+};
+
+void look_for_glass(const Tracer& tracer, const View& view, GlassFaces& faces) {
+  const int columns = std::min(kGlassRays, view.width), rows = std::min(kGlassRays, view.height);
+  for (int j = 0; j < rows; ++j) {
+    for (int i = 0; i < columns; ++i) {
+      const GlassSeen seen =
+          tracer.glass_seen((i + 0.5) * view.width / columns, (j + 0.5) * view.height / rows);
+      if (!seen.glass) continue;
+      ++faces.met;
+      if (seen.inside_out && faces.inside_out++ == 0) faces.first = seen.primitive - 1;
+    }
+  }
+}
+
+// Looks at some frames in equal distances.
+std::string warn_of_glass(const RenderPlan& plan, const CompiledScene& scene) {
+  if (!scene.effects().has(Effect::kRefraction)) return {};
+  GlassFaces faces;
+  Tracer tracer(scene, Camera());
+  const std::size_t step = (plan.script_frames.size() - 1) / kGlassFrames + 1;
+  for (std::size_t i = 0; i < plan.script_frames.size(); i += step) {
+    const View& view = plan.script_frames[i].view;
+    tracer.set_camera(scene.camera(view));
+    look_for_glass(tracer, view, faces);
+  }
+  if (faces.inside_out == 0 || faces.inside_out < kLeastShareInsideOut * faces.met) return {};
+  return at(plan.scene, faces.first) +
+         fmt::format(
+             "glass is inside out and will look dark: {} of {} rays that meet glass meet its back "
+             "from outside; reverse the vertices of its polygons\n",
+             faces.inside_out, faces.met);
+}
+
 }  // namespace
 
 std::string preflight(const RenderPlan& plan, const CompiledScene& scene) {
@@ -129,15 +192,17 @@ std::string preflight(const RenderPlan& plan, const CompiledScene& scene) {
     throw InputError(
         fmt::format("{}: error: nothing is to be seen{}: {}", name, frames, why_nothing_is_seen(plan, seen)));
   }
-  std::string warnings;
+  std::string warnings = warn_of_repeats(plan.scene, scene.repeated());
   if (plan.scene.lights.empty()) {
     warnings += name + ": warning: the scene has no light: its objects show in ambient light alone\n";
   }
   const View& view = plan.script_frames.front().view;
   if (!seen.varied && view.width * view.height > 1) {
-    warnings +=
-        name + ": warning: the picture is of one colour throughout: a single surface fills the view\n";
+    warnings += name + ": warning: the picture is of one colour throughout: " +
+                (seen.several ? "all that is in view shows the same" : "a single surface fills the view") +
+                "\n";
   }
+  warnings += warn_of_glass(plan, scene);
   return warnings;
 }
 

@@ -13,7 +13,8 @@ namespace pprt {
 // four million in all.
 //
 // Throws InputError with the reason when no frame shows anything that differs from the background. Returns
-// warnings, each a line: the scene has no light; every frame shows one colour throughout.
+// warnings, each a line: objects are repeated; the scene has no light; every frame shows one colour
+// throughout; glass is turned inside out.
 std::string preflight(const RenderPlan& plan, const CompiledScene& scene);
 
 // Throws InputError with the first frame whose eye is too far away to resolve the scene (kFarthestEye).

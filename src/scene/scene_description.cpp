@@ -87,6 +87,20 @@ MaterialIndex MaterialTable::intern(std::vector<Material>& materials, const Mate
   return slots_[slot];
 }
 
+SourceLocation location_of(const SceneDescription& scene, PrimitiveRef ref) {
+  switch (ref.kind) {
+    case PrimitiveKind::kSphere:
+      return scene.spheres[ref.index].location;
+    case PrimitiveKind::kCone:
+      return scene.cones[ref.index].location;
+    case PrimitiveKind::kPolygon:
+      return scene.polygons[ref.index].location;
+    case PrimitiveKind::kPatch:
+      break;
+  }
+  return scene.patches[ref.index].location;
+}
+
 MaterialIndex material_of(const SceneDescription& scene, PrimitiveRef ref) {
   switch (ref.kind) {
     case PrimitiveKind::kSphere:

@@ -139,6 +139,9 @@ void add_patch(SceneDescription& scene, std::span<const PatchVertex> vertices, M
 // Returns the material of a primitive; `ref` must be in range.
 MaterialIndex material_of(const SceneDescription& scene, PrimitiveRef ref);
 
+// Returns where a primitive stands in its file; line 0 if it comes from none. `ref` must be in range.
+SourceLocation location_of(const SceneDescription& scene, PrimitiveRef ref);
+
 // Gives equal materials one index: a file with thousands of "f" lines but four distinct ones keeps four.
 class MaterialTable {
  public:

@@ -25,6 +25,8 @@ std::string primitives(const CompiledScene::Impl& scene) {
     text += fmt::format(" ({})", counted(scene.figures.triangles, "triangle", "triangles"));
   if (scene.figures.degenerate > 0)
     text += fmt::format("; {} without extent left out", scene.figures.degenerate);
+  if (scene.figures.repeated > 0)
+    text += fmt::format("; {} that repeat others left out", scene.figures.repeated);
   return text;
 }
 

@@ -10,6 +10,7 @@
 #include "scene/shading_rules.h"
 #include "scene/view_frame.h"
 #include "trace/numerics.h"
+#include "trace/repeats.h"
 #include "trace/scene_impl.h"
 
 namespace pprt {
@@ -79,6 +80,9 @@ class PartsBuilder {
   PartsBuilder(const SceneDescription& scene, CompiledScene::Impl& impl) : scene_(scene), impl_(impl) {}
 
   void run() {
+    repeats_ = find_repeats(scene_);
+    impl_.figures.repeated = repeats_.count;
+    impl_.figures.first_repeated = repeats_.first;
     add_all(PrimitiveKind::kSphere, scene_.spheres);
     add_all(PrimitiveKind::kCone, scene_.cones);
     add_all(PrimitiveKind::kPolygon, scene_.polygons);
@@ -89,7 +93,7 @@ class PartsBuilder {
   template <class Primitive>
   void add_all(PrimitiveKind kind, const std::vector<Primitive>& primitives) {
     for (std::size_t i = 0; i < scene_.order.size(); ++i) {
-      if (scene_.order[i].kind != kind) continue;
+      if (scene_.order[i].kind != kind || (repeats_.count > 0 && repeats_.repeated[i])) continue;
       primitive_ = static_cast<std::uint32_t>(i);
       add(primitives[scene_.order[i].index]);
     }
@@ -174,6 +178,7 @@ class PartsBuilder {
 
   const SceneDescription& scene_;
   CompiledScene::Impl& impl_;
+  Repeats repeats_;
   std::uint32_t primitive_ = 0;  // place in the description's order of the primitive that is being added
   std::vector<Vec3d> positions_;
   std::vector<Vec3f> normals_;
@@ -253,6 +258,10 @@ CompiledScene::~CompiledScene() = default;
 
 EffectSet CompiledScene::effects() const {
   return impl_->effects;
+}
+
+RepeatedPrimitives CompiledScene::repeated() const {
+  return {impl_->figures.repeated, impl_->figures.first_repeated};
 }
 
 std::string CompiledScene::census() const {

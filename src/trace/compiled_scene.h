@@ -1,6 +1,7 @@
 // A scene compiled for ray tracing: Embree's BVH over normalised geometry, and the effects it calls for.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -33,6 +34,12 @@ struct CompileOptions {
 // the distance, is a 2^13th of the scene. Test: camera_test.cpp, "an eye ...".
 inline constexpr double kFarthestEye = 0x1p40;
 
+// Primitives left out of a compiled scene because each equals an earlier one, material included.
+struct RepeatedPrimitives {
+  std::size_t count = 0;
+  std::uint32_t first = 0;  // place in SceneDescription::order, if count > 0
+};
+
 // Immutable; any number of Tracers may read it. The compiled space is the scene's, moved and scaled in double
 // so that its largest extent lies in (0.5, 1] (trace/normalisation.h).
 class CompiledScene {
@@ -49,6 +56,7 @@ class CompiledScene {
 
   // Returns the distance of a point in scene space from the compiled space's origin, in sizes of the scene.
   double distance(const Vec3d& point) const;
+  RepeatedPrimitives repeated() const;
 
   // Converts a view in scene space to a camera in the compiled space, for view.width x view.height pixels.
   // Throws InputError when the view is degenerate: from = at, up parallel to it, angle outside (0, 180), the
@@ -67,6 +75,15 @@ class CompiledScene {
 // Compiles a scene. Throws InputError when it has no visible object or a number that is not finite.
 CompiledScene compile(const SceneDescription& scene, const CompileOptions& options = {});
 
+// What an eye ray finds of glass: of surfaces that bend rays.
+struct GlassSeen {
+  bool glass = false;  // whether the first hit is of glass
+  // Whether that glass is turned inside out: its back is hit, and yet the straight line beyond does not leave
+  // glass more often than it enters it. So the eye is not in the glass, nor does it look into an open end.
+  bool inside_out = false;
+  std::uint32_t primitive = 0;  // as a RaySample's, if `glass`
+};
+
 // Traces rays in one thread. The CompiledScene must outlive it.
 class Tracer {
  public:
@@ -81,6 +98,9 @@ class Tracer {
   // Returns the first hit at image point (x, y), pixels. The ray is not counted. Primitives are numbered as
   // in SceneDescription::order, materials as in SceneDescription::materials, both from 1.
   FirstHit first_hit(double x, double y) const;
+
+  // Returns what the eye ray through image point (x, y), pixels, finds of glass. The ray is not counted.
+  GlassSeen glass_seen(double x, double y) const;
 
   // Returns whether nothing lies between the eye and an earlier hit point. `hit` is a RaySample's: a point of
   // the compiled space, or a unit direction when `at_infinity`.

@@ -288,8 +288,12 @@ std::optional<VisibleSurface> visible_surface(const CompiledScene::Impl& scene, 
   const Surface surface = smooth ? surface_at<true>(scene, found, Vec3d(direction))
                                  : surface_at<false>(scene, found, Vec3d(direction));
   const ScenePart& part = scene.parts[found.hit.geomID];
-  return VisibleSurface{surface.position, surface.shading, part.primitives[found.hit.primID],
-                        part.materials[found.hit.primID]};
+  return VisibleSurface{surface.position,
+                        surface.shading,
+                        part.primitives[found.hit.primID],
+                        part.materials[found.hit.primID],
+                        surface.entering,
+                        surface.position - surface.normal * surface.offset};
 }
 
 bool occluded(const CompiledScene::Impl& scene, const Vec3f& origin, const Vec3f& direction, float length) {

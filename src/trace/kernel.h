@@ -24,6 +24,8 @@ struct VisibleSurface {
   Vec3d normal{0, 0, 1};  // unit, against the ray; interpolated if the scene's effects say so
   std::uint32_t primitive = 0;
   MaterialIndex material = 0;
+  bool entering = true;   // whether the ray comes from outside
+  Vec3d beyond{0, 0, 0};  // where a ray that goes on through the surface starts
 };
 
 // Returns the first hit of an eye ray, if any. Origin and unit direction are in the compiled space.

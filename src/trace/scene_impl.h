@@ -52,7 +52,9 @@ struct BuildFigures {
   std::size_t hierarchy_bytes = 0;  // memory of Embree's BVH
   std::size_t primitive_bytes = 0;
   std::size_t triangles = 0;
-  std::size_t degenerate = 0;  // primitives without extent, left out
+  std::size_t degenerate = 0;        // primitives without extent, left out
+  std::size_t repeated = 0;          // primitives that equal an earlier one, left out
+  std::uint32_t first_repeated = 0;  // of them, the first in SceneDescription::order
 };
 
 class CompiledScene::Impl {

@@ -16,6 +16,24 @@ double distance_to_scene(const CompiledScene::Impl& scene, const Vec3d& eye, con
   return std::max(0.0, -eye.dot(direction) - scene.radius);
 }
 
+bool is_glass(const CompiledScene::Impl& scene, MaterialIndex material) {
+  const ShadingMaterial& m = scene.materials[material];
+  return scene.effects.has(Effect::kRefraction) && m.transmittance > 0 && m.refractive_index != 1;
+}
+
+// Returns how many times a line leaves glass less how many times it enters it, from `origin` on.
+int times_left(const CompiledScene::Impl& scene, Vec3d origin, const Vec3f& direction) {
+  constexpr int kMostSurfaces = 1000;  // far more than what anybody looks through
+  int left = 0;
+  for (int i = 0; i < kMostSurfaces; ++i) {
+    const std::optional<VisibleSurface> surface = visible_surface(scene, Vec3f(origin), direction);
+    if (!surface) break;
+    if (is_glass(scene, surface->material)) left += surface->entering ? -1 : 1;
+    origin = surface->beyond;
+  }
+  return left;
+}
+
 }  // namespace
 
 Tracer::Tracer(const CompiledScene& scene, const Camera& camera) : scene_(scene), camera_(camera) {}
@@ -37,6 +55,17 @@ FirstHit Tracer::first_hit(double x, double y) const {
   const double depth = (surface->position - camera_.eye).dot(camera_.forward);
   return {static_cast<float>(depth / scene_.impl().normalisation.scale), Vec3f(surface->normal),
           surface->primitive + 1, surface->material + 1};
+}
+
+GlassSeen Tracer::glass_seen(double x, double y) const {
+  const Vec3d direction = unit(ray_direction(camera_, x, y));
+  const Vec3d origin = camera_.eye + direction * distance_to_scene(scene_.impl(), camera_.eye, direction);
+  const std::optional<VisibleSurface> surface =
+      visible_surface(scene_.impl(), Vec3f(origin), Vec3f(direction));
+  if (!surface || !is_glass(scene_.impl(), surface->material)) return {};
+  const bool inside_out =
+      !surface->entering && 1 + times_left(scene_.impl(), surface->beyond, Vec3f(direction)) <= 0;
+  return {true, inside_out, surface->primitive + 1};
 }
 
 bool Tracer::visible(const Vec3f& hit, bool at_infinity) {

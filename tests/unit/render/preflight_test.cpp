@@ -10,6 +10,7 @@ namespace pprt {
 namespace {
 
 using Catch::Matchers::Equals;
+using Catch::Matchers::Matches;
 
 const std::string kView = "v from 0 0 5 at 0 0 0 up 0 1 0 angle 45 hither 1 resolution 64 48\n";
 const std::string kLit = kView + "b 0 0 1\nl 5 5 5\nf 1 1 1 1 0 0 0 1\n";
@@ -44,6 +45,8 @@ const std::string kTooSmall =
     "seen";
 const std::string kOneColour =
     "t.nff: warning: the picture is of one colour throughout: a single surface fills the view\n";
+const std::string kAllAlike =
+    "t.nff: warning: the picture is of one colour throughout: all that is in view shows the same\n";
 const std::string kNoLight =
     "t.nff: warning: the scene has no light: its objects show in ambient light alone\n";
 
@@ -91,8 +94,43 @@ TEST_CASE("preflight warns of a scene without a light") {
 TEST_CASE("preflight warns of a picture of one colour") {
   CHECK_THAT(outcome(kLit + "s 0 0 0 6"), Equals(kOneColour));  // the light is outside
   CHECK_THAT(outcome(kLit + "s 0 0 0 6\ns 1.8 -1.3 0 0.1"),
-             Equals(kOneColour));  // and in the dark is all alike
+             Equals(kAllAlike));  // and in the dark is all alike
   CHECK_THAT(outcome(kLit + "s 0 0 0 6\nf 0 0 0 1 0 0 0 1\ns 1.8 -1.3 0 0.1"), Equals(""));
+}
+
+TEST_CASE("preflight counts objects that repeat earlier ones") {
+  CHECK_THAT(outcome(kLit + kBall + kBall), Equals("t.nff:6:1: warning: an object repeats an earlier one "
+                                                   "exactly, with its fill: it is left out\n"));
+  CHECK_THAT(outcome(kLit + kBall + "s 1 0 0 1\n" + kBall + kBall),
+             Equals("t.nff:7:1: warning: 2 objects repeat earlier ones exactly, with their fill: they are "
+                    "left out (the first is here)\n"));
+  CHECK_THAT(outcome(kLit + kBall + "f 1 0 0 1 0 0 0 1\n" + kBall), Equals(""));
+}
+
+TEST_CASE("preflight warns of glass that is inside out") {
+  const std::string glass = kLit + "f 1 1 1 0.1 0 0 0.9 ";
+  // A tetrahedron, its faces turned outwards, and the same turned inwards.
+  const std::string a = " -1 -1 1", b = " 1 -1 1", c = " 0 1 1", d = " 0 0 -1";
+  const auto faces = [](std::initializer_list<std::string> each) {
+    std::string text;
+    for (const std::string& face : each) text += "p 3" + face + "\n";
+    return text;
+  };
+  const std::string outwards = faces({a + b + c, b + a + d, c + b + d, a + c + d});
+  const std::string inwards = faces({a + c + b, a + b + d, b + c + d, c + a + d});
+  CHECK_THAT(outcome(glass + "1.5\n" + outwards), Equals(""));
+  CHECK_THAT(
+      outcome(glass + "1.5\n" + inwards),
+      Matches("t.nff:6:1: warning: glass is inside out and will look dark: ([1-9][0-9]*) of \\1 rays that "
+              "meet glass meet its back from outside; reverse the vertices of its polygons\n"));
+  CHECK_THAT(outcome(glass + "1\n" + inwards), Equals(""));  // bends no ray
+  RenderPlan plan = plan_of(glass + "1.5\n" + inwards);
+  plan.compile.effects = EffectSet();
+  CHECK_THAT(outcome(plan), Equals(""));
+  // An eye in the glass, one that looks into an open cylinder, and a pane from behind.
+  CHECK_THAT(outcome(glass + "1.5\ns 0 0 0 9\nf 1 0 0 1 0 0 0 1\n" + kBall), Equals(""));
+  CHECK_THAT(outcome(glass + "1.5\nc 0 0 -1 1.5 0 0 -4 1.5\n"), Equals(""));
+  CHECK_THAT(outcome(glass + "1.5\np 3" + a + c + b), Equals(""));
 }
 
 TEST_CASE("preflight accepts a sequence when one of its frames shows something") {

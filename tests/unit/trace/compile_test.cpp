@@ -59,6 +59,61 @@ TEST_CASE("objects without extent are left out and counted in the census") {
   CHECK_FALSE(look(compiled, *scene.view).at_infinity);
 }
 
+TEST_CASE("objects that repeat others are left out and change no ray") {
+  Material glass;
+  glass.transmittance = 0.7, glass.refractive_index = 1.5, glass.specular = 0.2;
+  SceneDescription once = scene_with(glass);
+  once.materials.push_back(Material());
+  const std::vector<PatchVertex> patch = {
+      {{-3, -3, -2}, {0, 0, 1}}, {{3, -3, -2}, {0.2, 0, 1}}, {{0, 3, -2}, {0, 0.2, 1}}};
+  const auto add_all = [&](SceneDescription& scene) {
+    add_sphere(scene, {{0, 0.5, 0}, 1, 0, {}});
+    add_sphere(scene, {{0.5, 0, 3}, -0.25, 0, {}});
+    add_cone(scene, {{-1, 0, 1}, 0.5, {-1, 1, 0}, 0.25, 1, {}});
+    add_square(scene, 0.4, 2, 0);
+    add_patch(scene, patch, 1);
+  };
+  add_all(once);
+  SceneDescription thrice = once;
+  add_all(thrice);
+  add_all(thrice);
+  thrice.spheres[2].center.x = -0.0;
+  const CompiledScene one = compile(once), three = compile(thrice);
+  CHECK(one.repeated().count == 0);
+  CHECK(three.repeated().count == 10);
+  CHECK(three.repeated().first == 5);
+  CHECK_THAT(three.census(), Catch::Contains("; 10 that repeat others left out"));
+  Tracer a(one, one.camera(*once.view)), b(three, three.camera(*once.view));
+  int hits = 0;
+  for (int i = 0; i < 64 * 64; ++i) {
+    const RaySample s = a.trace(i % 64 + 0.5, i / 64 + 0.5), t = b.trace(i % 64 + 0.5, i / 64 + 0.5);
+    REQUIRE(s.color == t.color);
+    REQUIRE(s.primitive == t.primitive);
+    hits += !s.at_infinity;
+  }
+  CHECK(hits > 500);
+}
+
+TEST_CASE("objects that differ in anything are no repeats") {
+  SceneDescription scene = scene_with(Material());
+  scene.materials.push_back({.color = {1, 0, 0}});
+  add_sphere(scene, {{0, 0, 0}, 1, 0, {}});
+  add_sphere(scene, {{0, 0, 0}, -1, 0, {}});
+  add_sphere(scene, {{0, 0, 0}, 1, 1, {}});
+  add_sphere(scene, {{0, 0, 1e-300}, 1, 0, {}});
+  add_cone(scene, {{0, 0, 0}, 1, {0, 0, 1}, 2, 0, {}});
+  add_cone(scene, {{0, 0, 0}, 2, {0, 0, 1}, 1, 0, {}});
+  const std::vector<Vec3d> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  add_polygon(scene, corners, 0);
+  add_polygon(scene, std::vector<Vec3d>{corners[1], corners[2], corners[0]}, 0);
+  std::vector<PatchVertex> patch = {
+      {corners[0], {0, 0, 1}}, {corners[1], {0, 0, 1}}, {corners[2], {0, 0, 1}}};
+  add_patch(scene, patch, 0);
+  patch[2].normal = {0, 1, 1};
+  add_patch(scene, patch, 0);
+  CHECK(compile(scene).repeated().count == 0);
+}
+
 TEST_CASE("materials that give more light than they get are counted in the census") {
   SceneDescription scene = scene_with(Material{.color = {1, 1, 1}, .specular = 0.6, .transmittance = 0.5});
   add_square(scene, 1, 0);

@@ -1,0 +1,118 @@
+#include "trace/repeats.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+namespace pprt {
+namespace {
+
+// Mixes numbers into 64 bits. Equal numbers, 0 and -0 among them, give equal bits.
+class Mixer {
+ public:
+  void add(std::uint64_t word) {
+    state_ = (state_ ^ word) * 0x9e3779b97f4a7c15;
+    state_ ^= state_ >> 32;
+  }
+  void add(double value) { add(std::bit_cast<std::uint64_t>(value + 0.0)); }
+  void add(const Vec3d& v) { add(v.x), add(v.y), add(v.z); }
+  void add(const PatchVertex& v) { add(v.position), add(v.normal); }
+  std::uint64_t bits() const { return state_; }
+
+ private:
+  std::uint64_t state_ = 0x243f6a8885a308d3;
+};
+
+bool same(const PatchVertex& a, const PatchVertex& b) {
+  return a.position == b.position && a.normal == b.normal;
+}
+
+// Open addressing over places in the scene's order.
+class PrimitiveSet {
+ public:
+  explicit PrimitiveSet(const SceneDescription& scene)
+      : scene_(scene), slots_(std::bit_ceil(2 * scene.order.size() + 1), kEmpty) {}
+
+  // Adds a primitive; returns false when an equal one is in the set.
+  bool add(std::uint32_t place) {
+    const PrimitiveRef ref = scene_.order[place];
+    const std::size_t mask = slots_.size() - 1;
+    for (std::size_t slot = hash(ref) & mask;; slot = (slot + 1) & mask) {
+      if (slots_[slot] == kEmpty) {
+        slots_[slot] = place;
+        return true;
+      }
+      if (equal(scene_.order[slots_[slot]], ref)) return false;
+    }
+  }
+
+ private:
+  static constexpr std::uint32_t kEmpty = std::numeric_limits<std::uint32_t>::max();
+
+  std::uint64_t hash(PrimitiveRef ref) const {
+    Mixer mixer;
+    mixer.add(static_cast<std::uint64_t>(ref.kind) << 32 | material_of(scene_, ref));
+    switch (ref.kind) {
+      case PrimitiveKind::kSphere: {
+        const Sphere& s = scene_.spheres[ref.index];
+        mixer.add(s.center), mixer.add(s.radius);
+        break;
+      }
+      case PrimitiveKind::kCone: {
+        const Cone& c = scene_.cones[ref.index];
+        mixer.add(c.base), mixer.add(c.base_radius), mixer.add(c.apex), mixer.add(c.apex_radius);
+        break;
+      }
+      case PrimitiveKind::kPolygon:
+        for (const Vec3d& v : scene_.vertices(scene_.polygons[ref.index])) mixer.add(v);
+        break;
+      case PrimitiveKind::kPatch:
+        for (const PatchVertex& v : scene_.vertices(scene_.patches[ref.index])) mixer.add(v);
+        break;
+    }
+    return mixer.bits();
+  }
+
+  bool equal(PrimitiveRef a, PrimitiveRef b) const {
+    if (a.kind != b.kind || material_of(scene_, a) != material_of(scene_, b)) return false;
+    switch (a.kind) {
+      case PrimitiveKind::kSphere: {
+        const Sphere &s = scene_.spheres[a.index], &t = scene_.spheres[b.index];
+        return s.center == t.center && s.radius == t.radius;
+      }
+      case PrimitiveKind::kCone: {
+        const Cone &c = scene_.cones[a.index], &d = scene_.cones[b.index];
+        return c.base == d.base && c.apex == d.apex && c.base_radius == d.base_radius &&
+               c.apex_radius == d.apex_radius;
+      }
+      case PrimitiveKind::kPolygon:
+        return std::ranges::equal(scene_.vertices(scene_.polygons[a.index]),
+                                  scene_.vertices(scene_.polygons[b.index]));
+      case PrimitiveKind::kPatch:
+        return std::ranges::equal(scene_.vertices(scene_.patches[a.index]),
+                                  scene_.vertices(scene_.patches[b.index]), same);
+    }
+    return false;
+  }
+
+  const SceneDescription& scene_;
+  std::vector<std::uint32_t> slots_;
+};
+
+}  // namespace
+
+Repeats find_repeats(const SceneDescription& scene) {
+  Repeats repeats;
+  PrimitiveSet seen(scene);
+  for (std::uint32_t place = 0; place < scene.order.size(); ++place) {
+    if (seen.add(place)) continue;
+    if (repeats.count++ == 0) {
+      repeats.first = place;
+      repeats.repeated.assign(scene.order.size(), false);
+    }
+    repeats.repeated[place] = true;
+  }
+  return repeats;
+}
+
+}  // namespace pprt
