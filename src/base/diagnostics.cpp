@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/printable.h"
+
 namespace pprt {
 namespace {
 
@@ -36,10 +38,18 @@ class Lines {
   std::uint32_t current_ = 1;
 };
 
-// Replaces control characters, which would break the caret's alignment or the terminal.
-char printable(char c) {
-  const auto byte = static_cast<unsigned char>(c);
-  return byte < 0x20 || byte == 0x7f ? ' ' : c;
+// Replaces control characters by blanks: they would break the caret's alignment or be obeyed by the terminal.
+// C1 controls, two bytes in UTF-8, become one blank.
+std::string without_controls(std::string_view line) {
+  std::string out;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(line[i]);
+    const auto after = static_cast<unsigned char>(i + 1 < line.size() ? line[i + 1] : 0);
+    const bool c1 = byte == 0xc2 && after >= 0x80 && after < 0xa0;
+    out += c1 || byte < 0x20 || byte == 0x7f ? ' ' : line[i];
+    i += c1;
+  }
+  return out;
 }
 
 void append_line_and_caret(std::string& out, Lines& lines, SourceLocation at) {
@@ -49,9 +59,7 @@ void append_line_and_caret(std::string& out, Lines& lines, SourceLocation at) {
   const std::size_t first =
       caret > kScreenWidth / 2 && line.size() > kScreenWidth ? caret - kScreenWidth / 2 : 0;
   const std::string_view shown = line.substr(first, kScreenWidth);
-  out += "    ";
-  std::transform(shown.begin(), shown.end(), std::back_inserter(out), printable);
-  out += "\n    ";
+  out += "    " + without_controls(shown) + "\n    ";
   // Continuation bytes of a UTF-8 character take no column.
   for (std::size_t i = first; i < caret; ++i) {
     if ((static_cast<unsigned char>(line[i]) & 0xc0) != 0x80) out += ' ';
@@ -80,8 +88,9 @@ std::string format(const Diagnostics& diagnostics, std::string_view file_name, s
   });
   std::string out;
   Lines lines(text);
+  const std::string name = printable(file_name);
   for (const Diagnostic& d : ordered) {
-    out += file_name;
+    out += name;
     if (d.location.line > 0) {
       out += ':' + std::to_string(d.location.line) + ':' + std::to_string(d.location.column);
     }
@@ -91,7 +100,7 @@ std::string format(const Diagnostics& diagnostics, std::string_view file_name, s
   }
   const std::size_t left_out = diagnostics.error_count() + diagnostics.warning_count() - ordered.size();
   if (left_out > 0) {
-    out += std::string(file_name) + ": " + std::to_string(left_out) + " further problems not shown\n";
+    out += name + ": " + std::to_string(left_out) + " further problems not shown\n";
   }
   return out;
 }

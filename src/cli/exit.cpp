@@ -6,6 +6,7 @@
 #include <new>
 
 #include "base/diagnostics.h"
+#include "base/printable.h"
 #include "cli/launch.h"
 
 namespace pprt {
@@ -15,17 +16,17 @@ int run_guarded(std::string_view program, const std::function<int()>& body) {
     return body();
   } catch (const InputError& e) {
     if (launcher_rank() > 0) return kExitDone;
-    fmt::print(stderr, "{}\n", e.what());
+    fmt::print(stderr, "{}\n", printable_lines(e.what()));
     return kExitInput;
   } catch (const UsageError& e) {
     if (launcher_rank() > 0) return kExitDone;
-    fmt::print(stderr, "{0}: error: {1}\ntry '{0} --help'\n", program, e.what());
+    fmt::print(stderr, "{0}: error: {1}\ntry '{0} --help'\n", program, printable_lines(e.what()));
     return kExitUsage;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "{}: error: out of memory\n", program);
     return kExitFailure;
   } catch (const std::exception& e) {
-    fmt::print(stderr, "{}: error: {}\n", program, e.what());
+    fmt::print(stderr, "{}: error: {}\n", program, printable_lines(e.what()));
     return kExitFailure;
   }
 }

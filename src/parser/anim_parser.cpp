@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/printable.h"
 #include "parser/anim_actions.h"
 #include "parser/anim_grammar.h"
 #include "parser/anim_messages.h"
@@ -74,7 +75,7 @@ ParsedAnimation parse_animation(std::string_view text, std::string_view file_nam
 }
 
 ParsedAnimation read_animation(const std::string& path) {
-  return parse_animation(read_text(path, anim::kMostBytes), path == "-" ? "<stdin>" : path);
+  return parse_animation(read_text(path, anim::kMostBytes), path == "-" ? "<stdin>" : printable(path));
 }
 
 }  // namespace pprt

@@ -224,9 +224,7 @@ void SceneBuilder::color_name(std::string_view name) {
   const std::optional<Rgb> named = color_by_name(name);
   if (!named) throw ParseFailure{name.data(), quoted(name) + " is neither a number nor the name of a colour"};
   deviation(Deviation::kColorName, name.data());
-  number(named->x);
-  number(named->y);
-  number(named->z);
+  for (const double value : {named->x, named->y, named->z}) number(value, name.data());
 }
 
 void SceneBuilder::set_background() {
@@ -271,23 +269,22 @@ void SceneBuilder::fill_tail(std::string_view tail) {
 
 void SceneBuilder::set_material() {
   constexpr Material kDefault;
-  constexpr std::size_t kNumbers = 8;
-  const double missing[kNumbers] = {0,
-                                    0,
-                                    0,
-                                    kDefault.diffuse,
-                                    kDefault.specular,
-                                    kDefault.shine,
-                                    kDefault.transmittance,
-                                    kDefault.refractive_index};
+  const double missing[kFillNumbers] = {0,
+                                        0,
+                                        0,
+                                        kDefault.diffuse,
+                                        kDefault.specular,
+                                        kDefault.shine,
+                                        kDefault.transmittance,
+                                        kDefault.refractive_index};
   if (count_ < 3) {
     deviation(Deviation::kFillGrey, entity_.data());
     for (; count_ < 3; ++count_) numbers_[count_] = numbers_[count_ - 1];
-  } else if (count_ < kNumbers) {
+  } else if (count_ < kFillNumbers) {
     deviation(Deviation::kFillShort, entity_.data());
   }
-  if (count_ > kNumbers) deviation(Deviation::kFillLong, entity_.data());
-  for (; count_ < kNumbers; ++count_) numbers_[count_] = missing[count_];
+  if (count_ > kFillNumbers) deviation(Deviation::kFillLong, after_fill_);
+  for (; count_ < kFillNumbers; ++count_) numbers_[count_] = missing[count_];
   Material material{color(), numbers_[3], numbers_[4], numbers_[5], numbers_[6], numbers_[7]};
   if (material.transmittance > 0 && material.refractive_index <= 0) {
     deviation(Deviation::kGlassIndex, entity_.data());

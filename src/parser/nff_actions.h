@@ -37,8 +37,9 @@ class SceneBuilder {
   SceneBuilder(std::string_view text, std::string_view file_name, const NffOptions& options);
 
   // Called by the actions, in the order of the grammar.
-  void number(double value) {
+  void number(double value, const char* place) {
     if (count_ < numbers_.size()) numbers_[count_] = value;
+    if (count_ == kFillNumbers) after_fill_ = place;
     ++count_;
   }
   void begin_entity(std::string_view keyword) {
@@ -86,6 +87,8 @@ class SceneBuilder {
   SceneDescription& scene() { return scene_; }
 
  private:
+  static constexpr std::size_t kFillNumbers = 8;  // of a complete 'f'
+
   struct Occurrence {
     std::size_t count = 0;
     SourceLocation first;
@@ -112,7 +115,8 @@ class SceneBuilder {
   // The current entity.
   std::string_view entity_;  // its keyword, a view into the text
   std::array<double, 16> numbers_{};
-  std::size_t count_ = 0;  // numbers read, including those beyond the array
+  std::size_t count_ = 0;             // numbers read, including those beyond the array
+  const char* after_fill_ = nullptr;  // the number after the first kFillNumbers, if there is one
   std::size_t vertex_count_ = 0;
   std::vector<Vec3d> polygon_;
   std::vector<PatchVertex> patch_;
@@ -133,7 +137,7 @@ struct action : grammar::pegtl::nothing<Rule> {};
 
 template <>
 struct action<grammar::number> : grammar::pegtl::nothing<grammar::number> {
-  static void value(double value, SceneBuilder& builder) { builder.number(value); }
+  static void value(double value, const char* place, SceneBuilder& builder) { builder.number(value, place); }
 };
 
 // Actions that pass on the matched text, and actions that only report the match.

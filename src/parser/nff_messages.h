@@ -173,32 +173,33 @@ constexpr DeviationText text_of(Deviation deviation) {
   return {"", nullptr};
 }
 
-// Returns what a word means that begins an entity in a related format; nullptr for other words.
+// Returns what a word means in a related format that has it; nullptr for other words. The text at hand need
+// not be of that format.
 constexpr const char* foreign_entity(std::string_view word) {
   struct Foreign {
     std::string_view word;
     const char* meaning;
   };
   constexpr Foreign kForeign[] = {
-      {"fm", "AFF's extended material"},
-      {"la", "AFF's animated light"},
-      {"am", "AFF's ambient light"},
-      {"tt", "AFF's textured triangle"},
-      {"ttp", "AFF's textured patch"},
-      {"tpa", "AFF's animated patch"},
-      {"m", "AFF's triangle mesh"},
-      {"i", "AFF's include"},
-      {"d", "AFF's detail level"},
-      {"x", "AFF's animated transformation"},
-      {"xs", "AFF's static transformation"},
-      {"k", "AFF's key frames"},
-      {"tpp", "a textured patch of Assimp's dialect"},
-      {"tess", "the tessellation of Assimp's dialect"},
-      {"shader", "the texture of Assimp's dialect"},
-      {"tet", "a tetrahedron of Assimp's dialect"},
-      {"hex", "a cube of Assimp's dialect"},
-      {"oct", "an octahedron of Assimp's dialect"},
-      {"dod", "a dodecahedron of Assimp's dialect"},
+      {"fm", "in AFF an extended material"},
+      {"la", "in AFF an animated light"},
+      {"am", "in AFF an ambient light"},
+      {"tt", "in AFF a textured triangle"},
+      {"ttp", "in AFF a textured patch"},
+      {"tpa", "in AFF an animated patch"},
+      {"m", "in AFF a triangle mesh"},
+      {"i", "in AFF an include"},
+      {"d", "in AFF a detail level"},
+      {"x", "in AFF an animated transformation"},
+      {"xs", "in AFF a static transformation"},
+      {"k", "in AFF key frames"},
+      {"tpp", "in Assimp's dialect a textured patch"},
+      {"tess", "in Assimp's dialect the tessellation"},
+      {"shader", "in Assimp's dialect the texture"},
+      {"tet", "in Assimp's dialect a tetrahedron"},
+      {"hex", "in Assimp's dialect a cube"},
+      {"oct", "in Assimp's dialect an octahedron"},
+      {"dod", "in Assimp's dialect a dodecahedron"},
   };
   for (const Foreign& foreign : kForeign) {
     if (foreign.word == word) return foreign.meaning;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/diagnostics.h"
+#include "base/printable.h"
 #include "parser/nff_actions.h"
 #include "parser/nff_grammar.h"
 #include "parser/nff_messages.h"
@@ -128,12 +129,14 @@ Diagnostics nothing_found(const Input& whole, SceneBuilder& builder) {
   Diagnostics diagnostics;
   if (token.empty()) {
     diagnostics.error({}, "the file holds only comments");
-  } else {
-    diagnostics.error(
-        builder.locate(token.data()),
-        "this is not an NFF scene: no entity (v, b, l, f, c, s, p or pp) in it; it begins with " +
-            quoted(token));
+    return diagnostics;
   }
+  const char* const meaning = foreign_entity(token);
+  diagnostics.error(
+      builder.locate(token.data()),
+      fmt::format("this is {}: no entity (v, b, l, f, c, s, p or pp) in it; it begins with {}{}",
+                  meaning ? "no scene that is understood" : "not an NFF scene", quoted(token),
+                  meaning ? fmt::format(" ({})", meaning) : ""));
   return diagnostics;
 }
 
@@ -174,7 +177,7 @@ ParsedScene parse_nff(std::string_view text, std::string_view file_name, const N
 
 ParsedScene read_nff(const std::string& path, const NffOptions& options) {
   const std::string text = read_text(path, options.max_bytes);
-  return parse_nff(text, path == "-" ? "<stdin>" : path, options);
+  return parse_nff(text, path == "-" ? "<stdin>" : printable(path), options);
 }
 
 }  // namespace pprt

@@ -1,6 +1,7 @@
 #include "parser/text_input.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <cstring>
 
 #include "base/diagnostics.h"
+#include "base/printable.h"
 
 namespace pprt {
 namespace {
@@ -16,7 +18,7 @@ constexpr std::size_t kReadAtOnce = std::size_t{1} << 20;  // bytes
 constexpr std::size_t kQuotedLength = 40;                  // bytes of a token shown in a message
 
 [[noreturn]] void throw_unreadable(const std::string& path, const std::string& reason) {
-  throw InputError("cannot read '" + path + "': " + reason);
+  throw InputError("cannot read '" + printable(path) + "': " + reason);
 }
 
 // An open file, closed at the end of its scope unless it is standard input.
@@ -26,6 +28,13 @@ class InputFile {
       : path_(path), descriptor_(path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
     if (descriptor_ < 0) throw_unreadable(path_, std::strerror(errno));
   }
+  // Returns the number of bytes of a regular file; 0 for a pipe and the like.
+  std::size_t size() const {
+    struct stat status = {};
+    if (::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) return 0;
+    return static_cast<std::size_t>(status.st_size);
+  }
+
   ~InputFile() {
     if (descriptor_ != STDIN_FILENO) ::close(descriptor_);
   }
@@ -50,28 +59,27 @@ class InputFile {
 
 std::string read_text(const std::string& path, std::size_t max_bytes) {
   const InputFile file(path);
-  std::string text;
-  for (std::size_t size = 0;;) {
-    text.resize(std::max(size + kReadAtOnce, text.size()));
-    const std::size_t got = file.read(text.data() + size, text.size() - size);
-    size += got;
+  const auto require_fit = [&](std::size_t size) {
     if (size > max_bytes)
       throw_unreadable(path, "larger than the limit of " + std::to_string(max_bytes) + " bytes");
+  };
+  const std::size_t known = file.size();
+  require_fit(known);
+  std::string text(std::max(known, kReadAtOnce) + 1, '\0');  // one more, to see the end of the file
+  for (std::size_t size = 0;;) {
+    const std::size_t got = file.read(text.data() + size, text.size() - size);
+    size += got;
+    require_fit(size);
     if (got == 0) {
       text.resize(size);
       return text;
     }
-    if (size == text.size()) text.resize(2 * size);
+    if (size == text.size()) text.resize(std::max(size, std::min(2 * size, max_bytes)) + 1);
   }
 }
 
 std::string quoted(std::string_view token) {
-  std::string out = "'";
-  for (const char c : token.substr(0, kQuotedLength)) {
-    const auto byte = static_cast<unsigned char>(c);
-    out += byte < 0x20 || byte == 0x7f ? '?' : c;
-  }
-  return out + (token.size() > kQuotedLength ? "...'" : "'");
+  return "'" + printable(token.substr(0, kQuotedLength)) + (token.size() > kQuotedLength ? "...'" : "'");
 }
 
 bool underflows(std::string_view number) {

@@ -12,10 +12,11 @@
 namespace pprt {
 
 // Returns a whole file as bytes; "-" is standard input. Throws InputError when it cannot be read ("cannot
-// read 'x': No such file or directory") or has more than `max_bytes`.
+// read 'x': No such file or directory") or has more than `max_bytes`, of which no more are read. The size of
+// a regular file is judged before.
 std::string read_text(const std::string& path, std::size_t max_bytes);
 
-// Quotes a token for a message: control bytes are replaced, long tokens are cut.
+// Quotes a token for a message: control characters become escapes, long tokens are cut.
 std::string quoted(std::string_view token);
 
 // Finds line and column of places in a text. A lookup scans only the bytes since the place before (or the

@@ -12,6 +12,7 @@
 
 #include "base/diagnostics.h"
 #include "base/nearest_word.h"
+#include "base/printable.h"
 #include "spd/generators.h"
 
 namespace pprt {
@@ -48,7 +49,7 @@ constexpr std::array<Generator, 9> kGenerators = {{
 }};
 
 [[noreturn]] void reject(std::string_view scene, std::string_view problem) {
-  throw InputError(fmt::format("{}: error: {}", scene, problem));
+  throw InputError(printable(fmt::format("{}: error: {}", scene, problem)));
 }
 
 std::optional<std::size_t> find_database(std::string_view name) {

@@ -96,7 +96,7 @@ TEST_CASE("a lenient reading reports each deviation once, with what it does") {
        "1:1: warning: 'f' has fewer than the 3 numbers of a colour: the last one stands for those missing; "
        "Kd 1, Ks 0, Shine 0, T 0, index 1"},
       {"f 1 1 1 1 0 0 0 1 0.2\n",
-       "1:1: warning: 'f' has more than 8 numbers: those after the 8th are ignored"},
+       "1:19: warning: 'f' has more than 8 numbers: those after the 8th are ignored"},
       {"f 1 1 1 1 0 0 0 1 earth.jpg 2\n",
        "1:19: warning: 'f' takes only numbers: the rest of the line is ignored"},
       {"f 1 1 1 1 0 0 0.5 0\n", "1:1: warning: T is above 0 but the index of refraction is not: 1 is taken"},
@@ -111,7 +111,7 @@ TEST_CASE("a lenient reading reports each deviation once, with what it does") {
       {kFill + "p 0", "2:1: warning: the polygon has fewer than 3 vertices: left out"},
       {kFill + "pp 3 0 0 0 0 0 1 1 1 1 0 0 1 2 2 2 0 0 1", "2:1: warning: the polygon's area is 0: left out"},
       {kFill + "tess 4\n",
-       "2:1: warning: unknown entity 'tess' (the tessellation of Assimp's dialect): "
+       "2:1: warning: unknown entity 'tess' (in Assimp's dialect the tessellation): "
        "skipped to the end of its line"},
   };
   for (const Case& c : cases) {
@@ -188,13 +188,14 @@ TEST_CASE("unknown entities are skipped with the numbers that follow, and report
   const std::string text =
       kFill + "tt wood.tga 0 0 0 0 0\n 1 0 0 1 0\n 0 1 0 0 1\ns 0 0 0 1\nblob 1 2 3\nblob 4\n";
   CHECK(scene(text).spheres.size() == 1);
-  CHECK(warnings(text) ==
-        "t.nff:2:1: warning: unknown entity 'tt' (AFF's textured triangle): skipped to the end of its line\n"
-        "    tt wood.tga 0 0 0 0 0\n"
-        "    ^\n"
-        "t.nff:6:1: warning: unknown entity 'blob': skipped to the end of its line (2 times, first here)\n"
-        "    blob 1 2 3\n"
-        "    ^\n");
+  CHECK(
+      warnings(text) ==
+      "t.nff:2:1: warning: unknown entity 'tt' (in AFF a textured triangle): skipped to the end of its line\n"
+      "    tt wood.tga 0 0 0 0 0\n"
+      "    ^\n"
+      "t.nff:6:1: warning: unknown entity 'blob': skipped to the end of its line (2 times, first here)\n"
+      "    blob 1 2 3\n"
+      "    ^\n");
 }
 
 TEST_CASE("any number of unknown words makes a bounded report") {

@@ -119,6 +119,12 @@ TEST_CASE("a file that is no scene is reported with what it is") {
           "'Dear'\n"
           "      Dear all,\n"
           "      ^");
+    CHECK(
+        report("dod 0 0 0 1\n", options) ==
+        "t.nff:1:1: error: this is no scene that is understood: no entity (v, b, l, f, c, s, p or pp) in it; "
+        "it begins with 'dod' (in Assimp's dialect a dodecahedron)\n"
+        "    dod 0 0 0 1\n"
+        "    ^");
     for (const std::string first : {"nff", "NFF2"}) {
       CHECK(report(first + "\nversion 2.1\n", options) ==
             "t.nff:1:1: error: this is a Sense8 (WorldToolKit) file, another format of the same name: NFF of "

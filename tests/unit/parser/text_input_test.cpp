@@ -121,7 +121,7 @@ TEST_CASE("line and column are right for any order of lookup and any line ends")
 
 TEST_CASE("a quoted token is short and harmless to a terminal") {
   CHECK(quoted("abc") == "'abc'");
-  CHECK(quoted("a\x1b[2J\x7f") == "'a?[2J?'");
+  CHECK(quoted("a\x1b[2J\x7f") == "'a\\x1b[2J\\x7f'");
   CHECK(quoted(std::string_view(std::string(41, 'x'))) == "'" + std::string(40, 'x') + "...'");
 }
 
@@ -133,6 +133,16 @@ TEST_CASE("a file is read whole and byte by byte") {
   CHECK(reading_problem(file.path(), content.size() - 1) ==
         "cannot read '" + file.path() + "': larger than the limit of " + std::to_string(content.size() - 1) +
             " bytes");
+}
+
+TEST_CASE("a file beyond the limit is refused by its size, and an endless one at the limit") {
+  // Of a hole of a terabyte no byte is there to be read.
+  const TemporaryFile file("");
+  std::filesystem::resize_file(file.path(), std::uintmax_t{1} << 40);
+  CHECK(reading_problem(file.path(), std::size_t{1} << 30) ==
+        "cannot read '" + file.path() + "': larger than the limit of 1073741824 bytes");
+  CHECK(reading_problem("/dev/zero", 3'000'000) ==
+        "cannot read '/dev/zero': larger than the limit of 3000000 bytes");
 }
 
 TEST_CASE("reading a whole file fails with the reason") {

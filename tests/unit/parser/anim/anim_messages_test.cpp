@@ -95,7 +95,7 @@ TEST_CASE("each problem of the animation has its message") {
       {"resolution <1,2> resolution <1,2>", "a.anim:1:29: error: 'resolution' is given twice"},
       {"scene tree", "a.anim:1:18: error: expected the scene's name in quotation marks, found 'tree'"},
       {"scene \"\"", "a.anim:1:19: error: expected the scene's name between the quotation marks, found '\"'"},
-      {"scene \"a\n", "a.anim:1:20: error: expected '\"' at the end of the scene's name, found '?'"},
+      {"scene \"a\n", "a.anim:1:20: error: expected '\"' at the end of the scene's name, found '\\n'"},
       {"scene \"a\" scene \"b\"", "a.anim:1:22: error: 'scene' is given twice"},
       {"key 1 {}", "a.anim:1:12: error: 'key' stands in camera { ... }, not in animation { ... }"},
       {"camra { key 1 { } }", "a.anim:1:12: error: unknown word 'camra'; did you mean 'camera'?"},
