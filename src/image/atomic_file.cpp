@@ -9,62 +9,12 @@
 #include <stdexcept>
 #include <streambuf>
 #include <system_error>
+#include <utility>
 
 namespace pprt {
 namespace {
 
 namespace fs = std::filesystem;
-
-[[noreturn]] void throw_errno() {
-  throw std::system_error(errno, std::generic_category());
-}
-
-// An open file, closed at the end of its scope.
-class Descriptor {
- public:
-  Descriptor(const fs::path& path, int flags) : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {
-    if (fd_ < 0) throw_errno();
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-
-  // Appends up to `size` bytes to `bytes`; false at the end of the file.
-  bool read_some(std::string& bytes, std::size_t size) {
-    const std::size_t old_size = bytes.size();
-    bytes.resize(old_size + size);
-    ssize_t count = 0;
-    do {
-      count = ::read(fd_, bytes.data() + old_size, size);
-    } while (count < 0 && errno == EINTR);
-    if (count < 0) throw_errno();
-    bytes.resize(old_size + static_cast<std::size_t>(count));
-    return count > 0;
-  }
-
-  void write_all(std::string_view bytes) {
-    while (!bytes.empty()) {
-      const ssize_t count = ::write(fd_, bytes.data(), bytes.size());
-      if (count >= 0) {
-        bytes.remove_prefix(static_cast<std::size_t>(count));
-      } else if (errno != EINTR) {
-        throw_errno();
-      }
-    }
-  }
-
-  // Some file systems report a full disk or quota only at closing.
-  void close() {
-    const int fd = fd_;
-    fd_ = -1;
-    if (::close(fd) != 0) throw_errno();
-  }
-
- private:
-  int fd_;
-};
 
 // A stream buffer that passes all bytes to a descriptor at once. Its exceptions reach the stream's user.
 class DescriptorBuffer : public std::streambuf {
@@ -85,42 +35,80 @@ class DescriptorBuffer : public std::streambuf {
   Descriptor& file_;
 };
 
+// The reason why a path is refused.
+struct Refusal : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// Calls `work`; what fails becomes "cannot write 'PATH': REASON". Other exceptions pass through.
+template <typename Work>
+void naming(const fs::path& path, const Work& work) {
+  std::string reason;
+  try {
+    work();
+    return;
+  } catch (const std::system_error& e) {
+    reason = e.code().message();
+  } catch (const Refusal& e) {
+    reason = e.what();
+  }
+  throw std::runtime_error(fmt::format("cannot write '{}': {}", path.string(), reason));
+}
+
+void require_regular(const fs::path& path) {
+  const fs::file_status found = fs::status(path);
+  if (fs::is_directory(found)) throw Refusal("it is a directory");
+  if (fs::exists(found) && !fs::is_regular_file(found)) throw Refusal("it is not a regular file");
+}
+
+struct TemporaryFile {
+  fs::path path;
+  Descriptor file;
+};
+
+// Makes an empty file of a name that no file in the directory has. The name does not contain the final one,
+// which may have the maximum length. Left-overs of killed processes are skipped.
+TemporaryFile make_temporary(const fs::path& directory) {
+  for (int i = 0;; ++i) {
+    fs::path path = directory / fmt::format(".pprt-{}-{}.tmp", ::gettid(), i);
+    try {
+      Descriptor file(path, O_WRONLY | O_CREAT | O_EXCL);
+      return {std::move(path), std::move(file)};
+    } catch (const std::system_error& e) {
+      if (e.code() != std::errc::file_exists) throw;
+    }
+  }
+}
+
+TemporaryFile make_temporary_for(const fs::path& path) {
+  const fs::path directory = path.parent_path();
+  if (!directory.empty()) fs::create_directories(directory);
+  require_regular(path);
+  return make_temporary(directory);
+}
+
 // Removes a file at the end of its scope.
 struct Removal {
   fs::path path;
   ~Removal() { ::unlink(path.c_str()); }
 };
 
-// The reason why a path is refused.
-struct Refusal : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
-// Returns a name that no file in the directory has and no other thread or process uses. It does not contain
-// the final name, which may have the maximum length. Left-overs of killed processes are skipped.
-fs::path unused_name(const fs::path& directory) {
-  for (int i = 0;; ++i) {
-    fs::path name = directory / fmt::format(".pprt-{}-{}.tmp", ::gettid(), i);
-    if (!fs::exists(fs::symlink_status(name))) return name;
-  }
-}
-
 void write_and_rename(const fs::path& path, const std::function<void(std::ostream&)>& write) {
-  const fs::path directory = path.parent_path();
-  if (!directory.empty()) fs::create_directories(directory);
-  const fs::file_status found = fs::status(path);
-  if (fs::is_directory(found)) throw Refusal("it is a directory");
-  if (fs::exists(found) && !fs::is_regular_file(found)) throw Refusal("it is not a regular file");
-
-  const fs::path temporary = unused_name(directory);
-  Descriptor file(temporary, O_WRONLY | O_CREAT | O_EXCL);
-  const Removal removal{temporary};  // after the rename there is nothing to remove
-  DescriptorBuffer buffer(file);
+  TemporaryFile temporary = make_temporary_for(path);
+  const Removal removal{temporary.path};  // after the rename there is nothing to remove
+  DescriptorBuffer buffer(temporary.file);
   std::ostream stream(&buffer);
   stream.exceptions(std::ios::badbit);  // rethrows the buffer's exceptions
   write(stream);
-  file.close();
-  fs::rename(temporary, path);
+  temporary.file.close();
+  fs::rename(temporary.path, path);
+}
+
+// Returns the directory to which the path's file, or the first of its missing directories, would be added.
+fs::path first_existing_directory(const fs::path& path) {
+  fs::path directory = path.parent_path();
+  while (!directory.empty() && !fs::exists(directory)) directory = directory.parent_path();
+  return directory.empty() ? "." : directory;
 }
 
 }  // namespace
@@ -144,16 +132,38 @@ void write_whole_file(const fs::path& path, std::string_view bytes) {
 }
 
 void write_whole_file(const fs::path& path, const std::function<void(std::ostream&)>& write) {
-  std::string reason;
-  try {
-    write_and_rename(path, write);
-    return;
-  } catch (const std::system_error& e) {
-    reason = e.code().message();
-  } catch (const Refusal& e) {
-    reason = e.what();
-  }
-  throw std::runtime_error(fmt::format("cannot write '{}': {}", path.string(), reason));
+  naming(path, [&] { write_and_rename(path, write); });
+}
+
+AtomicFile::AtomicFile(fs::path path) : path_(std::move(path)) {
+  naming(path_, [this] { temporary_ = make_temporary_for(path_).path; });
+}
+
+AtomicFile::~AtomicFile() {
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void AtomicFile::commit() {
+  naming(path_, [this] { fs::rename(temporary_, path_); });
+  temporary_.clear();
+}
+
+void require_writable(const fs::path& path) {
+  naming(path, [&] {
+    require_regular(path);
+    const fs::path directory = first_existing_directory(path);
+    if (!fs::is_directory(directory)) throw Refusal("Not a directory");
+    if (::access(directory.c_str(), W_OK | X_OK) != 0)
+      throw std::system_error(errno, std::generic_category());
+  });
+}
+
+AppendedFile::AppendedFile(fs::path path) : path_(std::move(path)) {
+  naming(path_, [this] { file_ = Descriptor(path_, O_WRONLY | O_CREAT | O_APPEND); });
+}
+
+void AppendedFile::append(std::string_view bytes) {
+  naming(path_, [&] { file_.write_all(bytes); });
 }
 
 }  // namespace pprt

@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "image/descriptor.h"
+
 namespace pprt {
 
 // Returns all bytes of a file or pipe. Throws std::runtime_error "cannot read 'PATH': REASON".
@@ -26,5 +28,46 @@ void write_whole_file(const std::filesystem::path& path, std::string_view bytes)
 // The same for content that is never whole in memory: `write` puts all bytes into an unbuffered stream. Its
 // exceptions pass through; PATH is then unchanged.
 void write_whole_file(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
+
+// The same for a file that another program writes, under its temporary name. Each function throws as
+// write_whole_file(). Without commit() the temporary file is removed at the end of its scope.
+class AtomicFile {
+ public:
+  // Creates missing directories and the temporary file, which is new and empty: nothing that has its name is
+  // opened.
+  explicit AtomicFile(std::filesystem::path path);
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+  ~AtomicFile();
+
+  const std::filesystem::path& temporary() const { return temporary_; }
+
+  // Gives the file its name.
+  void commit();
+
+ private:
+  std::filesystem::path path_;
+  std::filesystem::path temporary_;
+};
+
+// Throws as write_whole_file() if writing would fail now: something other than a file has the name, or there
+// is no directory that a file or directory can be added to. Changes nothing.
+void require_writable(const std::filesystem::path& path);
+
+// A file that grows line by line.
+class AppendedFile {
+ public:
+  AppendedFile() = default;  // none
+
+  // Opens the file, or creates it. Throws std::runtime_error "cannot write 'PATH': REASON".
+  explicit AppendedFile(std::filesystem::path path);
+
+  // Passes all bytes to the system at once. Throws likewise.
+  void append(std::string_view bytes);
+
+ private:
+  std::filesystem::path path_;
+  Descriptor file_;
+};
 
 }  // namespace pprt

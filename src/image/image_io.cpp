@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <fstream>
 #include <stdexcept>
 
 #include "image/atomic_file.h"
@@ -12,6 +13,9 @@ namespace {
 
 constexpr std::string_view kExrMagic = "\x76\x2f\x31\x01";
 constexpr std::string_view kPngMagic = "\x89PNG\r\n\x1a\n";
+
+// The last chunk of every PNG, behind its length of 0.
+constexpr std::string_view kPngEnd = "IEND\xae\x42\x60\x82";
 
 std::string encode(const std::filesystem::path& path, const Image& image, const Metadata& metadata,
                    const std::vector<Channel>& channels, PictureKind kind) {
@@ -60,6 +64,16 @@ Image read_image(const std::filesystem::path& path) {
   } catch (const std::runtime_error& e) {
     throw std::runtime_error(fmt::format("cannot read '{}': {}", path.string(), e.what()));
   }
+}
+
+bool looks_whole(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string begin(kPngMagic.size(), '\0'), end(kPngEnd.size(), '\0');
+  if (!file.read(begin.data(), static_cast<std::streamsize>(begin.size()))) return false;
+  if (begin.starts_with(kExrMagic)) return true;
+  file.seekg(-static_cast<std::streamoff>(end.size()), std::ios::end);
+  return begin == kPngMagic && file.read(end.data(), static_cast<std::streamsize>(end.size())) &&
+         end == kPngEnd;
 }
 
 }  // namespace pprt

@@ -61,4 +61,8 @@ void write_image(const std::filesystem::path& path, const Image& image, const Me
 // REASON".
 Image read_image(const std::filesystem::path& path);
 
+// Whether the file may be a whole picture: it begins as an EXR, or it begins and ends as a PNG. Reads a few
+// bytes only. After a power cut a file may be empty, or full of zeros.
+bool looks_whole(const std::filesystem::path& path);
+
 }  // namespace pprt

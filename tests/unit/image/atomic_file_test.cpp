@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 #include <csignal>
+#include <fstream>
 #include <ostream>
 #include <stdexcept>
 
@@ -129,4 +130,58 @@ TEST_CASE("what cannot be read is named with the reason") {
   CHECK_THROWS_WITH(read_whole_file(missing), "cannot read '" + missing + "': No such file or directory");
   const std::string name = directory.path().string();
   CHECK_THROWS_WITH(read_whole_file(name), "cannot read '" + name + "': Is a directory");
+}
+
+TEST_CASE("a file that another program writes gets its name when it is committed") {
+  const TemporaryDirectory directory;
+  const fs::path path = directory.path() / "new" / "film.mp4";
+  {
+    const AtomicFile given_up(path);
+    CHECK(fs::file_size(given_up.temporary()) == 0);
+  }
+  CHECK(fs::is_empty(path.parent_path()));
+  AtomicFile file(path);
+  std::ofstream(file.temporary()) << "film";
+  CHECK_FALSE(fs::exists(path));
+  file.commit();
+  CHECK(read_whole_file(path) == "film");
+  CHECK_FALSE(fs::exists(file.temporary()));
+}
+
+TEST_CASE("a temporary file is a new one, whatever lies at its name") {
+  const TemporaryDirectory directory;
+  write_whole_file(directory.path() / "precious", "old");
+  fs::path first;
+  first = AtomicFile(directory.path() / "f").temporary();
+  fs::create_symlink("precious", first);
+  AtomicFile second(directory.path() / "f");
+  CHECK(second.temporary() != first);
+  std::ofstream(second.temporary()) << "new";
+  second.commit();
+  CHECK(read_whole_file(directory.path() / "precious") == "old");
+}
+
+TEST_CASE("what cannot be written is known beforehand, and nothing is made for that") {
+  const TemporaryDirectory directory;
+  const std::string name = directory.path().string();
+  write_whole_file(name + "/f", "x");
+  CHECK_NOTHROW(require_writable(name + "/f"));
+  CHECK_NOTHROW(require_writable(name + "/a/b/c"));
+  CHECK_NOTHROW(require_writable("no_directory"));
+  CHECK_THROWS_WITH(require_writable(name), "cannot write '" + name + "': it is a directory");
+  CHECK_THROWS_WITH(require_writable(name + "/f/g"), "cannot write '" + name + "/f/g': Not a directory");
+  CHECK_THROWS_WITH(require_writable("/dev/full"), "cannot write '/dev/full': it is not a regular file");
+  CHECK(directory.entries() == 1);
+}
+
+TEST_CASE("a file that grows keeps what it holds, and tells when it cannot") {
+  const TemporaryDirectory directory;
+  const fs::path path = directory.path() / "f";
+  AppendedFile(path).append("a\n");
+  AppendedFile(path).append("b\n");
+  CHECK(read_whole_file(path) == "a\nb\n");
+  AppendedFile full("/dev/full");
+  CHECK_THROWS_WITH(full.append("x"), "cannot write '/dev/full': No space left on device");
+  const std::string name = directory.path().string();
+  CHECK_THROWS_WITH(AppendedFile(name), "cannot write '" + name + "': Is a directory");
 }
