@@ -3,14 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iostream>
 #include <iterator>
 #include <optional>
+#include <sstream>
 #include <string_view>
 
 #include "base/diagnostics.h"
 #include "base/nearest_word.h"
 #include "cli/completion.h"
+#include "cli/exit.h"
 #include "cli/help.h"
 #include "cli/launch.h"
 #include "cli/option_table.h"
@@ -94,7 +95,9 @@ bool parse_command_line(CLI::App& app, std::vector<std::string> words) {
     app.parse(words);
     return true;
   } catch (const CLI::Success& request) {
-    if (launcher_rank() == 0) app.exit(request, std::cout, std::cout);
+    std::ostringstream text;
+    app.exit(request, text, text);
+    if (launcher_rank() == 0) print_output(text.str());
     return false;
   } catch (const CLI::ExtrasError& e) {
     throw UsageError(unexpected_word(app).value_or(e.what()));
