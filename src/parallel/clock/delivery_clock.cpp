@@ -5,6 +5,11 @@
 
 namespace pprt {
 
+// Only deadlines make the ranks wait for a common start.
+void WallDeliveryClock::begin_sequence(double start_s) {
+  start_s_ = keeps_deadlines() ? start_s : std::min(start_s, now_());
+}
+
 // A rank that prepares a frame cannot deliver one. Where ranks share cores nobody begins before that deadline
 // anyway.
 bool WallDeliveryClock::may_overlap(int index) const {

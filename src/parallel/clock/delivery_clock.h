@@ -21,7 +21,8 @@ class DeliveryClock {
  public:
   virtual ~DeliveryClock() = default;
 
-  // The sequence begins at `start_s`, by monotonic_seconds().
+  // The sequence begins at `start_s`, by monotonic_seconds(); without a rate it begins now, if that is
+  // earlier.
   virtual void begin_sequence(double start_s) = 0;
 
   // Seconds since the sequence began, in real time; work clock: 0, for nothing is decided by it.
@@ -50,7 +51,7 @@ class WallDeliveryClock final : public DeliveryClock {
   WallDeliveryClock(double frames_per_second, double ranks_per_core, std::function<double()> now)
       : frames_per_second_(frames_per_second), ranks_per_core_(ranks_per_core), now_(std::move(now)) {}
 
-  void begin_sequence(double start_s) override { start_s_ = start_s; }
+  void begin_sequence(double start_s) override;
   double now_s() const override { return now_() - start_s_; }
   bool keeps_deadlines() const override { return frames_per_second_ > 0; }
   bool may_overlap(int index) const override;

@@ -1,0 +1,25 @@
+#include "parallel/clock/delivery_clock.h"
+
+#include <catch2/catch.hpp>
+
+using namespace pprt;
+
+TEST_CASE("without a rate time begins with the first frame, not at the common start") {
+  double now = 10;
+  WallDeliveryClock clock(0, 1, [&now] { return now; });
+  clock.begin_sequence(10.005);
+  now = 10.002;
+  CHECK(clock.delivery_time(FrameOrder(), {}).finished_s == Approx(0.002));
+  CHECK(clock.delivery_time(FrameOrder(), {}).late_ms == 0);
+}
+
+TEST_CASE("with a rate time begins at the common start") {
+  double now = 10;
+  WallDeliveryClock clock(4, 1, [&now] { return now; });
+  clock.begin_sequence(10.005);
+  now = 10.255;
+  FrameOrder order;
+  order.deadline_s = 0.25;
+  CHECK(clock.delivery_time(order, {}).finished_s == Approx(0.25));
+  CHECK(clock.delivery_time(order, {}).late_ms == Approx(0).margin(1e-6));
+}
