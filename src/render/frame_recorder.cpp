@@ -4,12 +4,12 @@
 #include <future>
 #include <utility>
 
-#include "base/diagnostics.h"
 #include "image/contact_sheet.h"
 #include "image/metrics.h"
 #include "layers/frame_layers.h"
 #include "parallel/balance/partition.h"
 #include "render/film.h"
+#include "render/output_check.h"
 
 namespace pprt {
 namespace {
@@ -59,49 +59,14 @@ std::set<int> frames_in(const Manifest& manifest, const RenderPlan& plan) {
   return frames;
 }
 
-void require_new_files(const RenderPlan& plan) {
-  if (plan.output.existing != ExistingFiles::kRefuse) return;
-  std::vector<std::filesystem::path> files;
-  for (const PlannedFrame& frame : plan.frames) {
-    for (const FramePattern& file : files_of_a_frame(plan.output)) {
-      files.push_back(file_name(file, frame.number));
-    }
-  }
-  for (const std::filesystem::path& file : {plan.output.contact_sheet, plan.output.film}) {
-    if (!file.empty()) files.push_back(file);
-  }
-  for (const std::filesystem::path& file : files) {
-    if (!std::filesystem::exists(file)) continue;
-    throw UsageError(file.string() + " is there already; --overwrite replaces it, --resume goes on after it");
-  }
-}
-
-bool resumes(const RenderPlan& plan) {
-  return plan.output.existing == ExistingFiles::kResume;
-}
-
-void require_references(const RenderPlan& plan) {
-  if (!plan.report.reference) return;
-  for (const PlannedFrame& frame : plan.frames) {
-    const std::filesystem::path file = file_name(*plan.report.reference, frame.number);
-    if (!std::filesystem::exists(file)) throw UsageError("--reference: there is no " + file.string());
-  }
-}
-
 }  // namespace
-
-void check_files(const RenderPlan& plan) {
-  require_new_files(plan);
-  require_references(plan);
-  if (!plan.output.film.empty()) require_ffmpeg();
-}
 
 FrameRecorder::FrameRecorder(const RenderPlan& plan, const CompiledScene& scene, const std::string& key,
                              const Json& run, ProgressReporter& progress)
     : plan_(plan),
       scene_(scene),
-      ledger_(plan.report.ledger, resumes(plan)),
-      manifest_(manifest_path(plan.output.pictures.front()), key, resumes(plan)),
+      ledger_(plan.report.ledger, plan.output.existing),
+      manifest_(manifest_path(plan.output.pictures.front()), key, plan.output.existing, frame_files(plan)),
       finished_before_(frames_in(manifest_, plan)),
       written_(finished_before_),
       writer_(plan.output.pictures, {.overwrite = true}),
@@ -197,6 +162,10 @@ void FrameRecorder::make_film() const {
   write_film(plan_.output.film, pictures, plan_.output.film_rate);
 }
 
+int FrameRecorder::frames_in_place() const {
+  return static_cast<int>(written_.size() - finished_before_.size());
+}
+
 void FrameRecorder::finish(bool stopped) {
   const std::string where = names_of(plan_.output.pictures);
   try {
@@ -209,10 +178,10 @@ void FrameRecorder::finish(bool stopped) {
     ledger_.write(summary_record(totals_, plan_.settings.frames_per_second > 0));
   } catch (...) {
     note_written(writer_.take_finished());
-    progress_.finish(RunEnd::kFailed, totals_, where);
+    progress_.finish(RunEnd::kFailed, frames_in_place(), totals_, where);
     throw;
   }
-  progress_.finish(stopped ? RunEnd::kStopped : RunEnd::kDone, totals_, where);
+  progress_.finish(stopped ? RunEnd::kStopped : RunEnd::kDone, frames_in_place(), totals_, where);
 }
 
 }  // namespace pprt

@@ -47,6 +47,7 @@ class FrameRecorder {
   void note_written(const std::vector<WrittenFrame>& frames);
   void write_contact_sheet() const;
   void make_film() const;
+  int frames_in_place() const;  // that this run has written
 
   const RenderPlan& plan_;
   const CompiledScene& scene_;
@@ -60,9 +61,5 @@ class FrameRecorder {
   ProgressReporter& progress_;
   RunTotals totals_;
 };
-
-// Throws UsageError when a file exists that may not be replaced, or a reference does not exist. Throws
-// std::runtime_error when a film is wanted and there is no ffmpeg.
-void check_files(const RenderPlan& plan);
 
 }  // namespace pprt

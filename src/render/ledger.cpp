@@ -4,10 +4,11 @@
 
 #include <chrono>
 #include <filesystem>
-#include <iostream>
-#include <stdexcept>
+#include <fstream>
 #include <system_error>
 #include <utility>
+
+#include "cli/exit.h"
 
 namespace pprt {
 namespace {
@@ -18,6 +19,13 @@ Json rays_record(const RayCounts& rays) {
           {"reflection", rays.reflection},
           {"refraction", rays.refraction},
           {"visibility", rays.visibility}};
+}
+
+// Whether the file is empty or its last line is complete; a killed process may leave one that is not.
+bool ends_with_line(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(-1, std::ios::end);
+  return !file || file.get() == '\n';
 }
 
 }  // namespace
@@ -72,21 +80,29 @@ Json summary_record(const RunTotals& totals, bool has_rate) {
   return record;
 }
 
-Ledger::Ledger(const std::string& path, bool append) : path_(path) {
+bool is_open_stream(const std::filesystem::path& path) {
+  const std::string name = path.lexically_normal().string();
+  return name == "/dev/stdout" || name == "/dev/stderr" || name.starts_with("/dev/fd/") ||
+         name.starts_with("/proc/self/fd/");
+}
+
+Ledger::Ledger(const std::string& path, ExistingFiles existing) : path_(path) {
   if (path_.empty() || path_ == "-") return;
-  // Make missing directories, as for frames; where that fails, opening fails too.
-  const std::filesystem::path directory = std::filesystem::path(path_).parent_path();
-  std::error_code ignored;
-  if (!directory.empty()) std::filesystem::create_directories(directory, ignored);
-  file_.open(path_, append ? std::ios::app : std::ios::trunc);
-  if (!file_) throw std::runtime_error("cannot write '" + path_ + "'");
+  std::error_code unknown;  // then opening will tell
+  const std::filesystem::file_status found = std::filesystem::status(path_, unknown);
+  const bool is_file = std::filesystem::is_regular_file(found) && !is_open_stream(path_);
+  const bool is_new = !std::filesystem::exists(found) || (is_file && existing != ExistingFiles::kResume);
+  const bool is_torn = is_file && !is_new && !ends_with_line(path_);
+  if (is_new) write_whole_file(path_, "");
+  file_ = AppendedFile(path_);
+  if (is_torn) file_.append("\n");
 }
 
 void Ledger::write(const Json& record) {
   if (!enabled()) return;
-  std::ostream& out = path_ == "-" ? std::cout : file_;
-  out << record.dump() << '\n' << std::flush;
-  if (!out) throw std::runtime_error("cannot write '" + path_ + "'");
+  const std::string line = record.dump() + "\n";
+  if (path_ != "-") return file_.append(line);
+  print_output(line);
 }
 
 void Ledger::write_frame(Json record, std::vector<Measurement> measurements) {
@@ -125,8 +141,8 @@ void Ledger::take(Measurement& measurement, Json& record) {
     record[measurement.key] = measurement.value.get();
   } catch (const std::exception& e) {
     if (!reported_.insert(measurement.key).second) return;
-    fmt::print(stderr, "pprt-render: warning: {}: {}; {} is left out\n", measurement.option, e.what(),
-               measurement.key);
+    print_message(fmt::format("pprt-render: warning: {}: {}; {} is left out\n", measurement.option,
+                              message_of(e), measurement.key));
   }
 }
 

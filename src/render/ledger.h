@@ -2,13 +2,15 @@
 #pragma once
 
 #include <deque>
-#include <fstream>
+#include <filesystem>
 #include <future>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "image/atomic_file.h"
+#include "render/existing_files.h"
 #include "render/frame_summary.h"
 
 namespace pprt {
@@ -30,6 +32,9 @@ struct Measurement {
   std::future<double> value;
 };
 
+// Whether the path names a stream of this process, such as /dev/stdout.
+bool is_open_stream(const std::filesystem::path& path);
+
 // Writes records in frame order: a frame with a figure still being measured holds back those after it. Throws
 // std::runtime_error when the file cannot be written.
 class Ledger {
@@ -38,8 +43,9 @@ class Ledger {
   // oldest.
   static constexpr std::size_t kMostPictures = 4;
 
-  // `path` empty: writes nothing; "-": standard output. `append`: keeps the file's records.
-  Ledger(const std::string& path, bool append);
+  // `path` empty: writes nothing; "-": standard output. A resumed run adds to the file; otherwise a new file
+  // takes its name. What is no file is written to as it is: a pipe, a device, a stream of this process.
+  Ledger(const std::string& path, ExistingFiles existing);
 
   bool enabled() const { return !path_.empty(); }
   void write(const Json& record);
@@ -58,7 +64,7 @@ class Ledger {
   void take(Measurement& measurement, Json& record);
 
   std::string path_;
-  std::ofstream file_;
+  AppendedFile file_;
   std::deque<Pending> pending_;
   std::set<std::string> reported_;  // keys of measurements that failed
 };

@@ -2,32 +2,81 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
-#include <stdexcept>
 #include <string_view>
 
 #include "base/diagnostics.h"
-#include "image/atomic_file.h"
+#include "image/image_io.h"
+#include "render/json_names.h"
 
 namespace pprt {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Returns the texts in a record's array; none where there is no such array.
-std::set<std::string> texts_of(const Json& record, const char* key) {
-  std::set<std::string> texts;
+// Returns the names in a record's array; none where there is no such array.
+std::set<std::string> names_in(const Json& record, const char* key) {
+  std::set<std::string> names;
   const auto found = record.find(key);
-  if (found == record.end() || !found->is_array()) return texts;
+  if (found == record.end() || !found->is_array()) return names;
   for (const Json& entry : *found) {
-    if (entry.is_string()) texts.insert(entry.get<std::string>());
+    if (std::optional<std::string> name = name_in(entry)) names.insert(*std::move(name));
   }
-  return texts;
+  return names;
 }
 
 std::string text_of(const Json& record, const char* key) {
   const auto found = record.find(key);
   return found != record.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+// An incomplete line, which a killed process may leave, or one that is no record counts as an empty record.
+Json record_in(std::string_view line) {
+  Json record = Json::parse(line, nullptr, false);
+  return record.is_object() ? record : Json::object();
+}
+
+// Returns a frame's record.
+template <typename Names>
+Json frame_entry(int frame, const Names& files, const Json& layers) {
+  Json names = Json::array();
+  for (const auto& file : files) names.push_back(json_name(file));
+  Json record = {{"record", "frame"}, {"frame", frame}, {"files", names}};
+  if (!layers.empty()) record["layers"] = layers;
+  return record;
+}
+
+// An existing manifest: its text, its first line's key, and the lines after it.
+struct Parts {
+  std::string text;
+  std::string key;
+  std::string rest;
+};
+
+std::optional<Parts> parts_of(const std::filesystem::path& path) {
+  if (!std::filesystem::is_regular_file(path)) return std::nullopt;
+  Parts parts{.text = read_whole_file(path), .key = {}, .rest = {}};
+  const std::size_t end = std::min(parts.text.find('\n'), parts.text.size());
+  parts.key = text_of(record_in(std::string_view(parts.text).substr(0, end)), "key");
+  if (end < parts.text.size()) parts.rest = parts.text.substr(end + 1);
+  if (parts.key.empty() && end == parts.text.size()) return std::nullopt;  // the first line never came
+  return parts;
+}
+
+// Whether the existing manifest goes on. Throws UsageError when it neither goes on nor may be replaced.
+bool goes_on(const Parts& parts, const std::filesystem::path& path, const std::string& key,
+             ExistingFiles existing) {
+  const bool resumes = existing == ExistingFiles::kResume;
+  if (parts.key.empty() && existing != ExistingFiles::kReplace) {
+    throw UsageError((resumes ? "--resume: " : "") + path.string() +
+                     " is there already and is no manifest; --overwrite replaces it");
+  }
+  if (parts.key != key && resumes) {
+    throw UsageError("--resume: " + path.string() +
+                     " is of another scene or other options; --overwrite starts anew");
+  }
+  return parts.key == key;
 }
 
 }  // namespace
@@ -38,41 +87,38 @@ std::filesystem::path manifest_path(const FramePattern& output) {
   return before.parent_path() / (stem + "manifest.ndjson");
 }
 
-Manifest::Manifest(const std::filesystem::path& path, const std::string& key, bool resume) : path_(path) {
-  const bool goes_on = resume && std::filesystem::exists(path);
-  if (goes_on) {
-    read(path, key);
-  } else {
-    write_whole_file(path, Json{{"record", "run"}, {"key", key}}.dump() + "\n");
+Manifest::Manifest(const std::filesystem::path& path, const std::string& key, ExistingFiles existing,
+                   const std::set<std::string>& rewritten) {
+  const std::optional<Parts> parts = parts_of(path);
+  std::string lines = Json{{"record", "run"}, {"key", key}}.dump() + "\n";
+  if (parts && goes_on(*parts, path, key, existing)) {
+    lines += read(parts->rest, existing == ExistingFiles::kResume ? std::set<std::string>() : rewritten);
   }
-  file_.open(path, std::ios::app);
-  if (!file_) throw std::runtime_error("cannot write '" + path.string() + "'");
+  if (!parts || parts->text != lines) write_whole_file(path, lines);
+  file_ = AppendedFile(path);
 }
 
-void Manifest::read(const std::filesystem::path& path, const std::string& key) {
-  const std::string text = read_whole_file(path);
-  std::istringstream lines(text);
-  const auto next_record = [&lines] {
-    std::string line;
-    std::getline(lines, line);
-    // An incomplete line, which a killed process may leave, or one that is no record counts as an empty
-    // record.
-    Json record = Json::parse(line, nullptr, false);
-    return record.is_object() ? record : Json::object();
-  };
-  if (text_of(next_record(), "key") != key) {
-    throw UsageError("--resume: " + path.string() +
-                     " is of another scene or other options; --overwrite starts anew");
-  }
-  while (lines.peek() != std::istringstream::traits_type::eof()) {
-    const Json record = next_record();
-    if (text_of(record, "record") == "frame" && record.contains("frame") &&
-        record["frame"].is_number_integer()) {
-      auto& written = written_before_[record["frame"].get<int>()];
-      for (const std::string& file : texts_of(record, "files")) written[file] = texts_of(record, "layers");
+// Takes in the records of frames and returns their lines, without the files that are rewritten.
+std::string Manifest::read(const std::string& lines, const std::set<std::string>& rewritten) {
+  std::istringstream in(lines);
+  std::string kept;
+  for (std::string line; std::getline(in, line);) {
+    const Json record = record_in(line);
+    if (text_of(record, "record") != "frame" || !record.contains("frame") ||
+        !record["frame"].is_number_integer()) {
+      continue;
     }
+    std::set<std::string> files = names_in(record, "files");
+    if (std::erase_if(files, [&](const std::string& file) { return rewritten.count(file) != 0; }) > 0) {
+      const Json layers = record.contains("layers") ? record["layers"] : Json::array();
+      line = frame_entry(record["frame"].get<int>(), files, layers).dump();
+    }
+    if (files.empty()) continue;
+    kept += line + "\n";
+    auto& written = written_before_[record["frame"].get<int>()];
+    for (const std::string& file : files) written[file] = names_in(record, "layers");
   }
-  if (text.back() != '\n') write_whole_file(path, text + "\n");
+  return kept;
 }
 
 bool Manifest::has(int frame, const std::vector<FramePattern>& files,
@@ -82,7 +128,7 @@ bool Manifest::has(int frame, const std::vector<FramePattern>& files,
   return std::all_of(files.begin(), files.end(), [&](const FramePattern& pattern) {
     const std::filesystem::path file = file_name(pattern, frame);
     const auto written = found->second.find(file.string());
-    if (written == found->second.end() || !std::filesystem::exists(file)) return false;
+    if (written == found->second.end() || !looks_whole(file)) return false;
     return !holds_channels(pattern) ||
            std::all_of(layers.begin(), layers.end(),
                        [&](const std::string& layer) { return written->second.count(layer) != 0; });
@@ -91,12 +137,9 @@ bool Manifest::has(int frame, const std::vector<FramePattern>& files,
 
 void Manifest::add(const std::vector<WrittenFrame>& frames) {
   for (const WrittenFrame& frame : frames) {
-    Json files = Json::array();
+    std::vector<std::string> files;
     for (const std::filesystem::path& file : frame.files) files.push_back(file.string());
-    Json record = {{"record", "frame"}, {"frame", frame.frame}, {"files", files}};
-    if (!frame.layers.empty()) record["layers"] = frame.layers;
-    file_ << record.dump() + "\n" << std::flush;
-    if (!file_) throw std::runtime_error("cannot write '" + path_.string() + "'");
+    file_.append(frame_entry(frame.frame, files, frame.layers).dump() + "\n");
   }
 }
 

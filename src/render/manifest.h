@@ -2,14 +2,15 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "image/atomic_file.h"
 #include "image/frame_pattern.h"
 #include "image/frame_writer.h"
+#include "render/existing_files.h"
 
 namespace pprt {
 
@@ -20,13 +21,17 @@ std::filesystem::path manifest_path(const FramePattern& output);
 // Holds a line for the run, then one for each frame whose files are whole. A reader skips incomplete lines.
 class Manifest {
  public:
-  // Starts a new manifest, or continues the existing one (`resume`). `key` stands for scene and options.
-  // Throws UsageError when the existing manifest has another key, std::runtime_error when it cannot be
-  // written.
-  Manifest(const std::filesystem::path& path, const std::string& key, bool resume);
+  // Continues the existing manifest if it has the same key, which stands for scene and options; otherwise
+  // starts a new one. Forgets the files that this run writes anew (`rewritten`), unless it resumes.
+  //
+  // An empty manifest, or one whose first line is incomplete, counts as none. Throws UsageError when a
+  // resumed manifest has another key, or when the file is no manifest and may not be replaced. Throws
+  // std::runtime_error when it cannot be written.
+  Manifest(const std::filesystem::path& path, const std::string& key, ExistingFiles existing,
+           const std::set<std::string>& rewritten = {});
 
-  // Whether an earlier run has written the frame under every one of these names, and all files still exist.
-  // Files that hold channels must have those of all these layers.
+  // Whether an earlier run has written the frame under every one of these names, and all files still exist
+  // and look whole. Files that hold channels must have those of all these layers.
   bool has(int frame, const std::vector<FramePattern>& files,
            const std::vector<std::string>& layers = {}) const;
 
@@ -34,12 +39,11 @@ class Manifest {
   void add(const std::vector<WrittenFrame>& frames);
 
  private:
-  void read(const std::filesystem::path& path, const std::string& key);
+  std::string read(const std::string& lines, const std::set<std::string>& rewritten);
 
   // By frame and file name: the layers in the file.
   std::map<int, std::map<std::string, std::set<std::string>>> written_before_;
-  std::ofstream file_;
-  std::filesystem::path path_;
+  AppendedFile file_;
 };
 
 }  // namespace pprt

@@ -72,7 +72,7 @@ void ProgressReporter::begin(const RunScope& scope) {
 void ProgressReporter::frame_done(const FrameSummary& frame, const RunTotals& totals) {
   done_ = totals.frames();
   pace_.frame(std::chrono::steady_clock::now());
-  if (kind_ == ProgressKind::kTty) fmt::print(stderr, "{}{}{}", kOverLine, line(totals), kLineEnd);
+  if (kind_ == ProgressKind::kTty) print_message(fmt::format("{}{}{}", kOverLine, line(totals), kLineEnd));
   if (kind_ != ProgressKind::kJson) return;
   const Json record = {{"event", "frame"},
                        {"frame", frame.number},
@@ -85,28 +85,30 @@ void ProgressReporter::frame_done(const FrameSummary& frame, const RunTotals& to
                        {"samples_per_frame", totals.samples_per_frame()},
                        {"frames_per_second", pace_.frames_per_second()},
                        {"seconds_left", pace_.seconds_for(frames_left())}};
-  fmt::print(stderr, "{}\n", record.dump());
+  print_message(fmt::format("{}\n", record.dump()));
 }
 
 void ProgressReporter::status(const RunTotals& totals) const {
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
   const char* over_line = kind_ == ProgressKind::kTty ? "\r\033[K" : "";
-  fmt::print(stderr, "{}{}  {:.1f} s elapsed\n", over_line, line(totals), elapsed.count());
+  print_message(fmt::format("{}{}  {:.1f} s elapsed\n", over_line, line(totals), elapsed.count()));
 }
 
 void ProgressReporter::stopping() const {
   if (kind_ == ProgressKind::kNone || kind_ == ProgressKind::kJson) return;
-  fmt::print(stderr, "{}pprt-render: the run ends after the frame at hand; a second signal ends it at once\n",
-             kind_ == ProgressKind::kTty ? "\r\033[K" : "");
+  print_message(
+      fmt::format("{}pprt-render: the run ends after the frame at hand; a second signal ends it at once\n",
+                  kind_ == ProgressKind::kTty ? "\r\033[K" : ""));
 }
 
-void ProgressReporter::finish(RunEnd end, const RunTotals& totals, const std::string& where) {
-  if (kind_ == ProgressKind::kTty && totals.frames() > 0) fmt::print(stderr, "\r\033[K");
+void ProgressReporter::finish(RunEnd end, int written, const RunTotals& totals, const std::string& where) {
+  done_ = written;
+  if (kind_ == ProgressKind::kTty && totals.frames() > 0) print_message("\r\033[K");
   if (kind_ == ProgressKind::kNone || kind_ == ProgressKind::kJson) return;
   const std::string there =
       scope_.finished_before > 0 ? fmt::format(" ({} were there already)", scope_.finished_before) : "";
-  std::string text = fmt::format("{}: {} of {} frame{}{} in {}", word_for(end), totals.frames(),
-                                 scope_.frames, scope_.frames == 1 ? "" : "s", there, where);
+  std::string text = fmt::format("{}: {} of {} frame{}{} in {}", word_for(end), written, scope_.frames,
+                                 scope_.frames == 1 ? "" : "s", there, where);
   if (totals.frames() > 0) {
     if (scope_.frames_per_second > 0) {
       text += fmt::format("; {} on time at {:g} frames/s, the slowest {}", totals.on_time(),
@@ -114,7 +116,7 @@ void ProgressReporter::finish(RunEnd end, const RunTotals& totals, const std::st
     }
     text += fmt::format("; {} samples a frame", grouped(totals.samples_per_frame()));
   }
-  fmt::print(stderr, "{}\n", text);
+  print_message(fmt::format("{}\n", text));
 }
 
 void ProgressReporter::fail(const std::string& why) {
@@ -136,7 +138,7 @@ void ProgressReporter::print_end(RunEnd end, const std::string& why) {
     record["frames"] = scope_.frames;
   }
   if (!why.empty()) record["error"] = why;
-  fmt::print(stderr, "{}\n", record.dump(-1, ' ', false, Json::error_handler_t::replace));
+  print_message(fmt::format("{}\n", record.dump(-1, ' ', false, Json::error_handler_t::replace)));
 }
 
 void ProgressReporter::overhear(std::string_view text) {

@@ -77,8 +77,8 @@ class ProgressReporter {
   // Tells people that a signal has been heard: the frame at hand may take long.
   void stopping() const;
 
-  // Prints the summary for people. `where`: the frames' file names.
-  void finish(RunEnd end, const RunTotals& totals, const std::string& where);
+  // Prints the summary for people. `written`: frames whose files are in place; `where`: their names.
+  void finish(RunEnd end, int written, const RunTotals& totals, const std::string& where);
 
   // Print the JSON object for the end, unless it has been printed: for an error, or for an exit code.
   void fail(const std::string& why);

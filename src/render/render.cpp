@@ -18,6 +18,7 @@
 #include "render/frame_recorder.h"
 #include "render/frame_requests.h"
 #include "render/memory_check.h"
+#include "render/output_check.h"
 #include "render/preflight.h"
 #include "render/render_job.h"
 #include "render/render_plan.h"
@@ -38,8 +39,9 @@ CameraSource camera_source(std::vector<FrameRequest> requests, const FrameRecord
 
 void print_rays(const RunTotals& totals) {
   const RayCounts& rays = totals.rays();
-  fmt::print("rays traced: {} primary, {} shadow, {} reflection, {} refraction, {} visibility\n",
-             rays.primary, rays.shadow, rays.reflection, rays.refraction, rays.visibility);
+  print_output(
+      fmt::format("rays traced: {} primary, {} shadow, {} reflection, {} refraction, {} visibility\n",
+                  rays.primary, rays.shadow, rays.reflection, rays.refraction, rays.visibility));
 }
 
 // The master's one message to the other ranks before a run, for which they wait: the job, or that there is
@@ -87,7 +89,7 @@ PreparedRun prepare(const RenderOptions& options) {
   log_info(fmt::format("compiled for effects: {}", to_string(scene.effects())));
   require_eyes_in_reach(plan, scene);
   if (plan.renders) require_memory(plan);
-  if (plan.report.census) std::cout << scene.census() << std::flush;
+  if (plan.report.census) print_output(scene.census());
   return {std::move(plan), std::move(job), std::move(scene)};
 }
 
@@ -120,8 +122,8 @@ int run_frames(Communicator& network, const PreparedRun& run, ProgressReporter& 
   try {
     recorder.finish(stop_requested().has_value());
   } catch (const std::exception& e) {
-    fmt::print(stderr, "pprt-render: error: {}\n", e.what());
-    progress.fail(e.what());
+    print_message(fmt::format("pprt-render: error: {}\n", message_of(e)));
+    progress.fail(message_of(e));
     return kExitFailure;
   }
   if (run.plan.report.census) print_rays(recorder.totals());
@@ -167,8 +169,8 @@ int run_mpi_rank(const RenderOptions& options, ProgressReporter& progress) {
     return network.rank() == 0 ? master_rank(network, options, progress, broadcast) : worker_rank(network);
   } catch (const std::exception& e) {
     if (network.rank() == 0 && !broadcast.run_begun()) throw;
-    fmt::print(stderr, "pprt-render: rank {}: error: {}\n", network.rank(), e.what());
-    progress.fail(e.what());
+    print_message(fmt::format("pprt-render: rank {}: error: {}\n", network.rank(), message_of(e)));
+    progress.fail(message_of(e));
     network.abort_all(kExitFailure);
   }
 }
@@ -206,7 +208,7 @@ int render(const RenderOptions& options, std::span<const std::string> words) {
     progress.close(code);
     return code;
   } catch (const std::exception& e) {
-    progress.fail(e.what());
+    progress.fail(message_of(e));
     throw;
   }
 }

@@ -28,6 +28,7 @@ struct RenderOptions {
 
   int ranks = 1;
   std::string hostfile;       // empty: none
+  std::string config;         // the file that options were read from; empty: none
   std::optional<double> fps;  // frames/s; 0: no rate
   ClockKind clock = ClockKind::kWall;
   std::optional<std::uint64_t> budget;   // work units for each rank and frame

@@ -15,12 +15,14 @@
 #include "parallel/session.h"
 #include "parser/anim_parser.h"
 #include "render/film.h"
+#include "spd/spd.h"
 
 namespace pprt {
 namespace {
 
 struct Sources {
   ParsedScene scene;
+  std::string scene_path;  // or another name of a scene
   std::optional<ParsedAnimation> script;
   std::string script_path;  // as it was given
 };
@@ -33,10 +35,20 @@ Sources read_sources(const RenderOptions& options) {
     require_file(sources.script_path);
     sources.script = read_animation(sources.script_path);
   }
-  const std::string scene =
+  sources.scene_path =
       only_script ? scene_of_script(sources.script->animation, sources.script_path) : options.input;
-  sources.scene = load_scene(scene, {.strict = options.strict});
+  sources.scene = load_scene(sources.scene_path, {.strict = options.strict});
   return sources;
+}
+
+// Returns the files that the run reads. A scene that is generated has none.
+std::vector<NamedFile> inputs_of(const RenderOptions& options, const Sources& sources) {
+  const std::string& scene = sources.scene_path;
+  std::vector<NamedFile> files = {
+      {"the script", sources.script_path}, {"--config", options.config}, {"--hostfile", options.hostfile}};
+  if (!is_spd_name(scene)) files.push_back({"the scene", scene == "-" ? "/dev/stdin" : scene});
+  std::erase_if(files, [](const NamedFile& file) { return file.path.empty(); });
+  return files;
 }
 
 // Returns the scene's own view at the size that options, script or scene ask for, in this order.
@@ -205,6 +217,7 @@ RenderPlan plan_render(const RenderOptions& options) {
   plan.script_frames = script_frames(sources, base);
   plan.frames = frames_to_render(options, plan.script_frames);
   plan.renders = !options.census || !options.outputs.empty();
+  plan.inputs = inputs_of(options, sources);
   plan.output = output_plan(options, plan.frames.size(), film_rate(fps, sources));
   plan.report = {.ledger = options.stats,
                  .reference = options.reference,

@@ -9,6 +9,8 @@
 #include "image/frame_pattern.h"
 #include "layers/layer.h"
 #include "parallel/session_settings.h"
+#include "render/existing_files.h"
+#include "render/named_file.h"
 #include "render/render_options.h"
 #include "scene/animation.h"
 #include "scene/scene_description.h"
@@ -21,13 +23,6 @@ struct PlannedFrame {
   int number = 1;  // from 1
   View view;
   bool cut = false;  // the camera jumps to it
-};
-
-// What happens to files that exist already.
-enum class ExistingFiles {
-  kRefuse,   // the run does not begin
-  kReplace,  // --overwrite
-  kResume    // --resume: frames that the manifest lists as finished are skipped
 };
 
 // Files that the run writes.
@@ -54,6 +49,7 @@ struct RenderPlan {
   std::vector<PlannedFrame> script_frames;  // all, rendered or not
   std::vector<PlannedFrame> frames;         // those to render
   bool renders = true;                      // false: a census alone
+  std::vector<NamedFile> inputs;            // files that are read, without --reference's
   OutputPlan output;
   ReportPlan report;
   SessionSettings settings;

@@ -7,6 +7,7 @@
 #include "cli/version.h"
 #include "parallel/clock/make_clocks.h"
 #include "parallel/session_words.h"
+#include "render/json_names.h"
 
 namespace pprt {
 namespace {
@@ -65,9 +66,9 @@ Json run_record(const RunIdentity& run, EffectSet effects) {
   const SessionSettings& s = run.plan.settings;
   return {{"record", "run"},
           {"version", kVersion},
-          {"scene", run.plan.scene.name},
+          {"scene", json_name(run.plan.scene.name)},
           {"scene_hash", run.scene_hash},
-          {"script", run.plan.script_name},
+          {"script", json_name(run.plan.script_name)},
           {"options", options_record(run.plan)},
           {"effects", to_string(effects)},
           {"ranks", run.ranks},

@@ -40,7 +40,7 @@ expect_line err 'done: 2 of 4 frames (2 were there already) in part/%04d.png; .*
 cp part/manifest.ndjson before.ndjson
 touch file
 run pprt-render ball.anim "${work[@]}" -o part/%04d.png --overwrite --stats file/ledger; expect_code 1
-expect_text err "pprt-render: error: cannot write 'file/ledger'"
+expect_text err "pprt-render: error: cannot write 'file/ledger': Not a directory"
 expect_same before.ndjson part/manifest.ndjson
 run pprt-render ball.anim "${work[@]}" -o part/%04d.png --overwrite --reference none/%04d.png
 expect_usage "--reference: there is no none/0001.png"
@@ -48,11 +48,55 @@ expect_same before.ndjson part/manifest.ndjson
 
 # A directory that cannot be: a file stands in its place.
 run pprt-render ball.nff "${work[@]}" --fps 4 -o file/%04d.png; expect_code 1
-expect_text err "pprt-render: error: cannot write 'file/manifest.ndjson': Not a directory"
+expect_text err "pprt-render: error: cannot write 'file/0001.png': Not a directory"
 run pprt-render ball.anim "${work[@]}" -np 2 -o file/%04d.png; expect_code 1
-expect_line err "pprt-render: .*error: cannot write 'file/manifest.ndjson': Not a directory"
-run pprt-render ball.nff --samples 50 -o s.png --contact-sheet file/sheet.png; expect_code 1; expect_file s.png
-expect_line err "pprt-render: error: cannot write 'file/sheet.png': Not a directory"
+expect_line err "pprt-render: .*error: cannot write 'file/0001.png': Not a directory"
+run pprt-render ball.nff --samples 50 -o s.png --contact-sheet file/sheet.png; expect_code 1; expect_no_file s.png
+expect_text err "pprt-render: error: cannot write 'file/sheet.png': Not a directory"
+
+# The manifest grows with every run of the same scene and options.
+run pprt-render ball.anim "${work[@]}" --frames 1-3 -o grown/%d.png; expect_code 0
+run pprt-render ball.anim "${work[@]}" --frames 4-6 -o grown/%d.png; expect_code 0
+run pprt-render ball.anim "${work[@]}" --frames 1-6 -o grown/%d.png --resume; expect_code 0
+expect_text err 'done: 0 of 6 frames (6 were there already) in grown/%d.png'
+# A frame that is replaced is told of anew; the others stay.
+run pprt-render ball.anim "${work[@]}" --frames 2 -o grown/%d.png --overwrite; expect_code 0
+[[ $(wc -l <grown/manifest.ndjson) -eq 7 ]] || complain "the manifest has not seven lines: $(cat grown/manifest.ndjson)"
+run pprt-render ball.anim "${work[@]}" --frames 1-6 -o grown/%d.png --resume; expect_code 0
+expect_text err 'done: 0 of 6 frames (6 were there already) in grown/%d.png'
+# One of other options begins anew.
+run pprt-render ball.anim "${work[@]}" --seed 2 --frames 7 -o grown/%d.png; expect_code 0
+[[ $(wc -l <grown/manifest.ndjson) -eq 2 ]] || complain "the manifest was not begun anew: $(cat grown/manifest.ndjson)"
+
+# After a power cut files may be empty. They are made again, and an empty manifest is none.
+cp -r part cut
+: >cut/0002.png
+head -c 40 part/0003.png >cut/0003.png
+sed -i 's/part/cut/g' cut/manifest.ndjson
+run pprt-render ball.anim "${work[@]}" -o cut/%04d.png --frames 1-5 --resume; expect_code 0
+expect_line err 'done: 2 of 5 frames (3 were there already) .*'
+for frame in 2 3; do expect_same cut/000$frame.png part/000$frame.png; done
+: >cut/manifest.ndjson
+run pprt-render ball.anim "${work[@]}" -o cut/%04d.png --frames 1-5 --resume; expect_code 0
+expect_line err 'done: 5 of 5 frames in .*'
+echo 'my notes' >cut/manifest.ndjson
+run pprt-render ball.anim "${work[@]}" -o cut/%04d.png --frames 1-5 --resume
+expect_usage "--resume: cut/manifest.ndjson is there already and is no manifest; --overwrite replaces it"
+run pprt-render ball.anim "${work[@]}" -o cut/%04d.png --frames 6
+expect_usage "cut/manifest.ndjson is there already and is no manifest; --overwrite replaces it"
+
+# A run that fails tells how many frames are in place, to people and to programs.
+for np in 1 2; do
+  for progress in auto json; do
+    rm -rf some
+    mkdir -p some/3.png
+    run pprt-render ball.anim "${work[@]}" -np $np -o some/%d.png --overwrite --progress $progress; expect_code 1
+    expect_line err "pprt-render: error: cannot write 'some/3.png': it is a directory"
+    in_place=$(find some -type f -name '*.png' | wc -l)
+    [[ $progress == json ]] || expect_line err "failed: $in_place of 12 frames in some/%d.png; .*"
+    [[ $progress == auto ]] || expect_line err "{\"event\":\"failed\",\"done\":$in_place,\"there\":0,.*"
+  done
+done
 
 # A picture that memory cannot hold is refused before anything is written.
 run bash -c 'ulimit -v 3000000; exec pprt-render ball.nff -s 16384x16384 --samples 500 -o large.png'; expect_code 1

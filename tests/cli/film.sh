@@ -21,6 +21,25 @@ expect_line err 'no room'
 expect_line err "pprt-render: error: cannot write 'g/film.mp4': ffmpeg ended with code 3"
 expect_text <(ls g) "$(printf '%s\n' 1.png 2.png manifest.ndjson)"
 
+# Nothing that lies at a temporary name is written to, and no name is an option or an address.
+cp ball.nff precious
+ln -s precious plain.mp4.part
+for film in plain.mp4 -y.mp4 a:b.mp4 http://x/y.mp4 concat:z.mp4 %03d.mp4; do
+  command -v ffmpeg >/dev/null || break
+  run pprt-render ball.anim "${work[@]}" --frames 1-2 -o o/%d.png --overwrite --film="$film"; expect_code 0
+  expect_file "./$film"
+done
+expect_same precious ball.nff
+
+# A place where no film can be is refused before the first frame.
+mkdir full.mp4
+ln -s /dev/full device.mp4
+for film in full.mp4 device.mp4 precious/film.mp4; do
+  run pprt-render ball.anim "${work[@]}" --frames 1-2 -o p/%d.png --film $film --overwrite; expect_code 1
+  expect_line err "pprt-render: error: cannot write '$film': .*"
+  expect_no_file p
+done
+
 command -v ffmpeg ffprobe >/dev/null || { echo 'ffmpeg is not installed: films are not checked'; finish; exit; }
 film_facts() {
   ffprobe -v error -count_frames -select_streams v -of csv=p=0 \
@@ -32,6 +51,17 @@ for np in 1 2; do
   expect_text <(film_facts films/$np.mp4) h264,34,24,4/1,6
 done
 expect_text <(ls films) "$(printf '%s\n' 1.mp4 2.mp4)"
+
+# The disk has no room for the end of the film. A limit on the size of files, whose signal is ignored, is as good.
+run pprt-render ball.anim "${work[@]}" -s 96x64 -o i/%d.png; expect_code 0
+for film in end.mp4 end.mkv; do
+  code=0
+  (trap '' XFSZ; ulimit -f 2; pprt-render ball.anim "${work[@]}" -s 96x64 -o i/%d.png --resume --film i/$film) >out 2>err || code=$?
+  command="a run with no room for $film"
+  expect_code 1
+  expect_line err "pprt-render: error: cannot write 'i/$film': ffmpeg ended with code 1"
+  [[ $(ls -A i) == "$(printf '%s\n' {1,10,11,12,2,3,4,5,6,7,8,9}.png manifest.ndjson)" ]] || complain "$film: left $(ls -A i)"
+done
 
 # The film shows the frames, in their order.
 run pprt-render ball.anim "${work[@]}" -s 96x64 -o k/%d.png --film k.mkv; expect_code 0

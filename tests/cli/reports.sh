@@ -31,6 +31,10 @@ if grep -q rmse odd/ledger; then complain "an error that was not measured: $(cat
 # The first frame of a part is no cut.
 expect_line odd/ledger '{"record":"frame","frame":2,"cut":false,.*'
 
+# Without a rate time begins with the first frame.
+run pprt-render ball.nff --samples 50 -o early.png --stats -; expect_code 0
+expect_line out '{"record":"frame","frame":1,.*,"finished_s":[0-9].*}'
+
 # A census alone renders nothing.
 run pprt-render ball.nff --census; expect_code 0; expect_text err ''; expect_no_file frame_0000.png
 expect_line out '  reflection *yes  1 material with Ks > 0'
@@ -48,6 +52,9 @@ expect_end() {
   expect_text <(grep '^{' err | tail -n 1) "$1"
 }
 expect_end '{"event":"done","done":1,"there":0,"frames":1}'
+mkdir broken
+printf '#!/bin/sh\ncase "$*" in *-version) exit 0 ;; esac\nexit 3\n' >broken/ffmpeg
+chmod +x broken/ffmpeg
 for np in 1 2; do
   more=(--clock work --budget 400000 --progress json -np $np)
   run pprt-render ball.anim "${more[@]}" --frames 1-2 -o $np/%d.png; expect_code 0
@@ -58,8 +65,8 @@ for np in 1 2; do
   expect_end "{\"event\":\"failed\",\"error\":\"$np/1.png is there already; --overwrite replaces it, --resume goes on after it\"}"
   run pprt-render none.nff "${more[@]}"; expect_code 3
   expect_end "{\"event\":\"failed\",\"error\":\"cannot read 'none.nff': No such file or directory\"}"
-  run pprt-render ball.nff "${more[@]}" --fps 4 -o q.png --overwrite --contact-sheet ref.exr/sheet.png; expect_code 1
-  expect_end '{"event":"failed","done":1,"there":0,"frames":1,"error":"cannot write '"'ref.exr/sheet.png'"': Not a directory"}'
+  PATH=$PWD/broken:$PATH run pprt-render ball.nff "${more[@]}" --fps 4 -o q.png --overwrite --film f.mp4; expect_code 1
+  expect_end '{"event":"failed","done":1,"there":0,"frames":1,"error":"cannot write '"'f.mp4'"': ffmpeg ended with code 3"}'
 done
 run pprt-render ball.nff --progress json --layers foo; expect_code 2
 expect_line err '{"event":"failed","error":"--layers foo: .*"}'

@@ -46,4 +46,21 @@ for program in pprt-convert pprt-compare pprt-study; do
   run "$program" --version; expect_code 0; expect_line out "$program [0-9]*\.[0-9]*\.[0-9]*"
 done
 expect_no_file frame_0001.png
+
+# What cannot be printed is an error. pprt-compare keeps 1 for differences.
+to_a_full_device() {
+  code=0
+  command="$* to a full device"
+  "$@" >/dev/full 2>err || code=$?
+  expect_code $([[ $1 == pprt-compare ]] && echo 2 || echo 1)
+  expect_text err "$1: error: cannot write to standard output: No space left on device"
+}
+for program in pprt-render pprt-convert pprt-compare pprt-study; do
+  for option in --help --version '--completion bash'; do to_a_full_device $program $option; done
+done
+to_a_full_device pprt-study counts --help
+for options in --census --write-config '--samples 50 -o full.png --census' '--samples 50 -o full.png --stats -'; do
+  to_a_full_device pprt-render ball.nff $options
+  expect_no_file full.png
+done
 finish

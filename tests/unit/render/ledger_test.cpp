@@ -120,7 +120,7 @@ TEST_CASE("a frame's counts and times are sums over its ranks") {
 TEST_CASE("frame records keep their order while measurements are pending") {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "ledger.ndjson";
-  Ledger ledger(path.string(), false);
+  Ledger ledger(path.string(), ExistingFiles::kRefuse);
   ledger.write_frame({{"frame", 1}}, one(error(std::async(std::launch::async, [] {
                        std::this_thread::sleep_for(std::chrono::milliseconds(50));
                        return 0.25;
@@ -136,7 +136,7 @@ TEST_CASE("frame records keep their order while measurements are pending") {
 TEST_CASE("only a few frames may wait for the error to a reference") {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "ledger.ndjson";
-  Ledger ledger(path.string(), false);
+  Ledger ledger(path.string(), ExistingFiles::kRefuse);
   for (std::size_t i = 0; i < Ledger::kMostPictures + 2; ++i) {
     ledger.write_frame({{"frame", i}}, one(error(std::async(std::launch::deferred, [] { return 0.5; }))));
   }
@@ -148,7 +148,7 @@ TEST_CASE("only a few frames may wait for the error to a reference") {
 TEST_CASE("any number of frames may wait for measurements that may lag") {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "ledger.ndjson";
-  Ledger ledger(path.string(), false);
+  Ledger ledger(path.string(), ExistingFiles::kRefuse);
   std::promise<double> first;
   for (std::size_t i = 0; i < 20; ++i) {
     std::vector<Measurement> measurements = one(error(std::async(std::launch::deferred, [] { return 0.5; })));
@@ -169,7 +169,7 @@ TEST_CASE("any number of frames may wait for measurements that may lag") {
 TEST_CASE("a measurement that fails is left out of its record") {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "ledger.ndjson";
-  Ledger ledger(path.string(), false);
+  Ledger ledger(path.string(), ExistingFiles::kRefuse);
   ledger.write_frame({{"frame", 1}},
                      one(error(std::async([]() -> double { throw std::runtime_error("torn"); }))));
   ledger.write_frame({{"frame", 2}}, one(error(std::async([] { return 0.5; }))));
@@ -183,10 +183,10 @@ TEST_CASE("a measurement that fails is left out of its record") {
 TEST_CASE("a ledger is replaced, or continued when a run is resumed") {
   const TemporaryDirectory directory;
   const std::string path = (directory.path() / "ledger.ndjson").string();
-  Ledger(path, false).write({{"run", 1}});
-  Ledger(path, true).write({{"run", 2}});
+  Ledger(path, ExistingFiles::kReplace).write({{"run", 1}});
+  Ledger(path, ExistingFiles::kResume).write({{"run", 2}});
   CHECK(records_of(path).size() == 2);
-  Ledger(path, false).write({{"run", 3}});
+  Ledger(path, ExistingFiles::kReplace).write({{"run", 3}});
   CHECK(records_of(path).size() == 1);
 }
 
@@ -194,8 +194,9 @@ TEST_CASE("a ledger that cannot be opened is an error at once") {
   const TemporaryDirectory directory;
   const std::string file = (directory.path() / "file").string();
   std::ofstream(file) << "a file is no directory";
-  CHECK_THROWS_AS(Ledger(file + "/ledger", false), std::runtime_error);
-  CHECK_FALSE(Ledger("", false).enabled());
+  CHECK_THROWS_WITH(Ledger(file + "/ledger", ExistingFiles::kRefuse),
+                    "cannot write '" + file + "/ledger': Not a directory");
+  CHECK_FALSE(Ledger("", ExistingFiles::kRefuse).enabled());
 }
 
 }  // namespace pprt
