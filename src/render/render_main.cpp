@@ -1,9 +1,9 @@
-#include <iostream>
 #include <string>
 #include <vector>
 
 #include "base/diagnostics.h"
 #include "cli/command_line.h"
+#include "cli/config_file.h"
 #include "cli/exit.h"
 #include "cli/launch.h"
 #include "render/render.h"
@@ -15,13 +15,14 @@ namespace {
 bool read_options(CLI::App& app, pprt::RenderOptions& options, const std::vector<std::string>& words) {
   try {
     if (!pprt::parse_command_line(app, pprt::with_long_np(words))) return false;
+    if (app["--config"]->count() > 0) options.config = app["--config"]->results().front();
     pprt::check_usage(options);
   } catch (const pprt::UsageError& e) {
     pprt::ProgressReporter(options.progress).fail(e.what());
     throw;
   }
   if (!options.write_config) return true;
-  if (pprt::launcher_rank() == 0) std::cout << pprt::options_in_force(app);
+  if (pprt::launcher_rank() == 0) pprt::print_output(pprt::config_text(app));
   return false;
 }
 

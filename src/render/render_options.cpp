@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "cli/command_line.h"
+#include "cli/config_file.h"
 #include "cli/scene_source.h"
 #include "cli/typed_options.h"
 #include "layers/layer.h"
@@ -225,7 +226,7 @@ void add_report_options(CLI::App& app, RenderOptions& o) {
       ->group(group);
   add_choice(app, "--log", o.log, "Diagnostic logging on standard error").group(group);
   app.set_config("--config", "", "Read options from a file")->type_name("FILE")->group(group);
-  app.get_config_formatter_base()->comment(';');  // '#' stands in file name patterns
+  app.config_formatter(config_reader());
   app.allow_config_extras(CLI::config_extras_mode::error);
   app.add_flag("--write-config", o.write_config, "Print the options in force as such a file, and exit")
       ->configurable(false)
@@ -242,21 +243,6 @@ void add_render_options(CLI::App& app, RenderOptions& options) {
   add_image_options(app, options);
   add_effect_options(app, options);
   add_report_options(app, options);
-}
-
-std::string options_in_force(const CLI::App& app) {
-  // CLI11 writes paragraphs, each a comment and "name=value".
-  std::istringstream lines(app.config_to_str(true, true));
-  std::string result, paragraph;
-  for (std::string line; std::getline(lines, line);) {
-    if (!line.empty()) paragraph += line + "\n";
-    const bool ends = line.empty() || lines.peek() == EOF;
-    if (!ends) continue;
-    const bool unset = paragraph.ends_with("=\"\"\n") || paragraph.ends_with("=false\n");
-    if (!unset && !paragraph.empty()) result += (result.empty() ? "" : "\n") + paragraph;
-    paragraph.clear();
-  }
-  return result;
 }
 
 std::vector<std::string> with_long_np(std::vector<std::string> words) {

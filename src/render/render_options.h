@@ -71,9 +71,6 @@ inline constexpr const char* kDefaultOutput = "frame_%04d.png";
 // parsed throws UsageError or CLI::ParseError.
 void add_render_options(CLI::App& app, RenderOptions& options);
 
-// Returns the options in force as a file for --config, without unset options and flags that are off.
-std::string options_in_force(const CLI::App& app);
-
 // Returns the words with mpirun's spelling "-np" as "--np".
 std::vector<std::string> with_long_np(std::vector<std::string> words);
 

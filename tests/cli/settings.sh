@@ -20,6 +20,27 @@ expect_line err 'done: 1 of 1 frame in .*'
 if cmp -s first/0003.png a/0003.png; then complain "another seed gave the same picture"; fi
 run pprt-render --config run.ini --write-config; expect_code 0; expect_same out run.ini
 
+# Any name is read back as it was written.
+names=('a;b' '#c' '"d"' "it's" 'back\slash\n' ' blanks  within ' '[list]' '[a, b]' 'a,b' "'q'" 'end\' $'line\nend' $'tab\t'
+  'false' '7' ' 8' $'K\xe4se' '%04d' '{}' 'a=b' '"; x="')
+for name in "${names[@]}"; do
+  run pprt-render "$name.nff" --stats "$name" -o "./${name//%/%%}.png" -o "${name//%/%%}.exr" --film "$name.mp4" --write-config
+  expect_code 0
+  cp out run.ini
+  run pprt-render --config run.ini --write-config; expect_code 0; expect_same out run.ini
+  cp ball.nff "$name.nff"
+  run pprt-render "$name.nff" --samples 50 --stats "$name.led" -o "./${name//%/%%}.png" --write-config
+  cp out run.ini
+  run pprt-render --config run.ini; expect_code 0
+  expect_file "$name.led"; expect_file "./${name//#/1}.png"
+done
+# Files as people write them.
+printf '%s\n' '; comment' '# comment' 'SCENE = ball.nff ; the scene' 'output=[ "x;1.png",' "  'x\2.exr' ]" 'cull' 'samples=50' >by_hand.ini
+printf 'size="20x20"\r\n\r\n[default]\nseed=5' >>by_hand.ini
+run pprt-render --config by_hand.ini; expect_code 0; expect_file 'x;1.png'; expect_file 'x\2.exr'
+printf 'seed=7\nstats="half\n' >bad.ini
+run pprt-render ball.nff --config bad.ini; expect_usage "--config: line 2: the quotation mark is not closed"
+
 echo 'colour=red' >bad.ini
 run pprt-render ball.nff --config bad.ini; expect_usage "INI was not able to parse colour"
 finish
