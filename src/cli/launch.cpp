@@ -26,9 +26,9 @@ constexpr const char* kTerminalVariable = "PPRT_ON_TERMINAL";
 // Stands before quoted words, each of which begins with '='.
 constexpr std::string_view kQuotedWords = "=words";
 
-// A first SIGINT or SIGTERM asks rank 0 to finish its frame; a second one ends mpirun.
+// A first SIGINT, SIGTERM or SIGHUP asks rank 0 to finish its frame; a second SIGINT or SIGTERM ends mpirun.
 void pass_on(int signal) {
-  if (mpirun_pid == 0) return;
+  if (mpirun_pid == 0 || (signal == SIGHUP && stopped_by != 0)) return;
   if (signal == SIGUSR1) {
     kill(mpirun_pid, SIGUSR1);
   } else {
@@ -43,6 +43,9 @@ void pass_signals_on() {
   action.sa_handler = pass_on;
   action.sa_flags = SA_RESTART;
   for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) sigaction(signal, &action, nullptr);
+  struct sigaction hangup {};
+  sigaction(SIGHUP, nullptr, &hangup);
+  if (hangup.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // nohup keeps it off
 }
 
 void show(std::string_view text) {

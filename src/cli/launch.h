@@ -23,9 +23,9 @@ std::vector<std::string> user_words(int argc, const char* const* argv);
 
 // Runs this program with these words under mpirun with `ranks` ranks and returns its exit code.
 //
-// The first SIGINT or SIGTERM asks rank 0 to end after its frame; a second one ends mpirun. Either makes the
-// code 128 + signal, unless the run failed. SIGUSR1 is passed on. `overhear` gets what the ranks print on
-// standard error, which is printed too.
+// The first SIGINT, SIGTERM or SIGHUP asks rank 0 to end after its frame; a second SIGINT or SIGTERM ends
+// mpirun. Each makes the code 128 + signal, unless the run failed. SIGUSR1 is passed on. `overhear` gets what
+// the ranks print on standard error, which is printed too.
 //
 // Throws std::runtime_error when mpirun cannot be started, or with the rank that a signal has ended.
 int run_under_mpirun(int ranks, const std::string& hostfile, std::span<const std::string> words,

@@ -19,7 +19,9 @@ void on_status(int) {
   errno = error;
 }
 
+// A terminal that goes may send several SIGHUP.
 void on_stop(int signal) {
+  if (stop_signal != 0 && signal == SIGHUP) return;
   if (stop_signal != 0 && signal != SIGUSR2) {
     std::signal(signal, SIG_DFL);
     std::raise(signal);
@@ -35,16 +37,24 @@ void handle(int signal, void (*handler)(int)) {
   sigaction(signal, &action, nullptr);
 }
 
+// As SIGHUP is in a run that nohup has started.
+bool is_ignored(int signal) {
+  struct sigaction now {};
+  sigaction(signal, nullptr, &now);
+  return now.sa_handler == SIG_IGN;
+}
+
 }  // namespace
 
 void watch_signals() {
   sem_init(&status_wanted, 0, 0);
+  if (!is_ignored(SIGHUP)) handle(SIGHUP, on_stop);
   for (const int signal : {SIGINT, SIGTERM, SIGUSR2}) handle(signal, on_stop);
   handle(SIGUSR1, on_status);
 }
 
 void ignore_signals() {
-  for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGUSR2}) handle(signal, SIG_IGN);
+  for (const int signal : {SIGHUP, SIGINT, SIGTERM, SIGUSR1, SIGUSR2}) handle(signal, SIG_IGN);
 }
 
 std::optional<int> stop_requested() {

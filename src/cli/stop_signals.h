@@ -8,11 +8,12 @@
 
 namespace pprt {
 
-// Installs handlers. SIGINT, SIGTERM and SIGUSR2, which mpirun passes on, ask for an end after the current
-// frame; SIGUSR1 asks for a line of status. A second SIGINT or SIGTERM ends the process at once.
+// Installs handlers. SIGINT, SIGTERM, SIGHUP and SIGUSR2, which mpirun passes on, ask for an end after the
+// current frame; SIGUSR1 asks for a line of status. A second SIGINT or SIGTERM ends the process at once. A
+// SIGHUP that is ignored, as by nohup, stays so.
 void watch_signals();
 
-// Ignores all four signals: rank 0 handles them.
+// Ignores all five signals: rank 0 handles them.
 void ignore_signals();
 
 // Returns the signal that asked for the end, if any did.

@@ -11,7 +11,8 @@ stopped_by() {
   shift 2
   rm -rf out_frames
   command="pprt-render $* with SIG$signal"
-  pprt-render ball.anim --clock work --budget 1000000 -o out_frames/%05d.png --progress auto "$@" >out 2>err &
+  env --default-signal=HUP pprt-render ball.anim --clock work --budget 1000000 -o out_frames/%05d.png \
+    --progress auto "$@" >out 2>err &
   local pid=$!
   for ((i = 0; i < 600 && $(find out_frames -name '*.png' 2>/dev/null | wc -l) < 2; ++i)); do sleep 0.1; done
   kill -USR1 "$pid"
@@ -33,13 +34,30 @@ stopped_by() {
 stopped_by INT 130
 stopped_by TERM 143
 stopped_by INT 130 -np 2
+stopped_by HUP 129
+stopped_by HUP 129 -np 2
+
+# Under nohup a run outlives its terminal.
+for np in 1 2; do
+  rm -rf out_frames
+  nohup pprt-render ball.anim --clock work --budget 1000000 -np $np -o out_frames/%05d.png >out 2>err </dev/null &
+  pid=$! command="a run on $np ranks under nohup"
+  for ((i = 0; i < 600 && $(find out_frames -name '*.png' 2>/dev/null | wc -l) < 2; ++i)); do sleep 0.1; done
+  kill -HUP "$pid"
+  before=$(find out_frames -name '*.png' | wc -l)
+  for ((i = 0; i < 600 && $(find out_frames -name '*.png' | wc -l) <= before + 4; ++i)); do sleep 0.1; done
+  kill -TERM "$pid"
+  code=0
+  wait "$pid" || code=$?
+  expect_code 143
+done
 
 # A run that was to stop and cannot write what it owes has failed.
-touch file
 rm -rf out_frames
 pprt-render ball.anim -np 2 --clock work --budget 1000000 -o out_frames/%05d.png --contact-sheet file/sheet.png >out 2>err &
 pid=$!
 for ((i = 0; i < 600 && $(find out_frames -name '*.png' 2>/dev/null | wc -l) < 2; ++i)); do sleep 0.1; done
+touch file
 kill -INT "$pid"
 code=0
 wait "$pid" || code=$?
