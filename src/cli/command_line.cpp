@@ -11,12 +11,14 @@
 #include "base/diagnostics.h"
 #include "base/nearest_word.h"
 #include "cli/completion.h"
+#include "cli/config_file.h"
 #include "cli/exit.h"
 #include "cli/help.h"
 #include "cli/launch.h"
 #include "cli/option_table.h"
 #include "cli/typed_options.h"
 #include "cli/version.h"
+#include "parser/text_input.h"
 
 namespace pprt {
 namespace {
@@ -75,6 +77,37 @@ std::optional<std::string> unexpected_word(CLI::App& app) {
   return fmt::format("'{}' is one argument too many", word);
 }
 
+// Explains a name in an option file that is no option's.
+std::string unknown_in_config(CLI::App& app, const CLI::ConfigError& error) {
+  constexpr std::string_view kExtra = "INI was not able to parse ";
+  const std::string what = error.what();
+  if (!what.starts_with(kExtra)) return what;
+  const std::string name = what.substr(kExtra.size());
+  const std::vector<std::string> names = candidates(app, true);
+  return fmt::format("there is no option {}{}", pprt::quoted(name),
+                     did_you_mean("--" + name, std::vector<std::string_view>(names.begin(), names.end())));
+}
+
+// Parses the words, in CLI11's order. Returns what is wrong; nothing if they make sense. CLI::Success passes.
+std::optional<std::string> parse_problem(CLI::App& app, std::vector<std::string> words) {
+  try {
+    app.parse(words);
+    return std::nullopt;
+  } catch (const CLI::Success&) {
+    throw;
+  } catch (const CLI::ExtrasError& e) {
+    return unexpected_word(app).value_or(e.what());
+  } catch (const CLI::RequiredError& e) {
+    return unexpected_word(app).value_or(e.what());  // which may be why something is missing
+  } catch (const CLI::ConfigError& e) {
+    return unknown_in_config(app, e);
+  } catch (const CLI::ParseError& e) {
+    return e.what();
+  } catch (const UsageError& e) {
+    return e.what();
+  }
+}
+
 }  // namespace
 
 void add_common_flags(CLI::App& app) {
@@ -92,19 +125,21 @@ bool parse_command_line(CLI::App& app, int argc, const char* const* argv) {
 bool parse_command_line(CLI::App& app, std::vector<std::string> words) {
   std::reverse(words.begin(), words.end());  // the order that CLI11 wants
   try {
-    app.parse(words);
-    return true;
+    const std::optional<std::string> problem = parse_problem(app, words);
+    if (!problem) return true;
+    const auto parse_again = [&]() -> std::optional<std::string> {
+      try {
+        return parse_problem(app, words);
+      } catch (const CLI::Success&) {
+        return std::nullopt;
+      }
+    };
+    throw UsageError(place_in_config(app, *problem, parse_again) + *problem);
   } catch (const CLI::Success& request) {
     std::ostringstream text;
     app.exit(request, text, text);
     if (launcher_rank() == 0) print_output(text.str());
     return false;
-  } catch (const CLI::ExtrasError& e) {
-    throw UsageError(unexpected_word(app).value_or(e.what()));
-  } catch (const CLI::RequiredError& e) {
-    throw UsageError(unexpected_word(app).value_or(e.what()));  // which may be why something is missing
-  } catch (const CLI::ParseError& e) {
-    throw UsageError(e.what());
   }
 }
 

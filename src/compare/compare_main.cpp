@@ -4,13 +4,17 @@
 
 #include "cli/command_line.h"
 #include "cli/exit.h"
+#include "cli/number_checks.h"
 #include "cli/typed_options.h"
 
 namespace {
 
 // Adds the limit of a figure.
 void add_limit(CLI::App& app, const char* name, std::optional<double>& limit, const char* what) {
-  app.add_option(name, limit, what)->type_name("X")->group("Limits; exit code 1 if one is exceeded");
+  app.add_option(name, limit, what)
+      ->type_name("X")
+      ->check(pprt::any_number())
+      ->group("Limits; exit code 1 if one is exceeded");
 }
 
 void add_options(CLI::App& app, pprt::CompareOptions& options) {
@@ -23,10 +27,12 @@ void add_options(CLI::App& app, pprt::CompareOptions& options) {
       .type_name("A-B");
   app.add_flag("--clamp", options.clamp, "Clamp values to 0..1 first, as a display does");
   app.add_option("--threshold", options.threshold, "Error above which a pixel counts for the share")
+      ->check(pprt::number_from(0))
       ->capture_default_str()
       ->type_name("T");
   app.add_option("--pixels-per-degree", options.pixels_per_degree,
                  "Pixels in a degree of the view of FLIP's viewer")
+      ->check(pprt::number_between(1, 1000))
       ->capture_default_str()
       ->type_name("P");
   app.add_option("--diff", options.difference_picture, "Write a picture of the differences, the largest as 1")

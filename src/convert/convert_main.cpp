@@ -1,8 +1,8 @@
-#include <limits>
 #include <string>
 
 #include "cli/command_line.h"
 #include "cli/exit.h"
+#include "cli/number_checks.h"
 #include "cli/option_words.h"
 #include "cli/scene_source.h"
 #include "cli/typed_options.h"
@@ -24,11 +24,11 @@ void add_options(CLI::App& app, pprt::ConvertOptions& options) {
   auto* divisions =
       app.add_option("--tessellate", options.tessellate,
                      "Divide spheres into 12 N x N triangles, cones into 8 N (default for meshes: 6)");
-  divisions->type_name("N")->check(CLI::Range(1, pprt::kMaxDivisions));
+  divisions->type_name("N")->check(pprt::count_from(1, pprt::kMaxDivisions));
   app.add_option("--chord-error", options.chord_error,
                  "Divide spheres and cones so that triangles lie at most E inside the surface")
       ->type_name("E")
-      ->check(CLI::Range(std::numeric_limits<double>::min(), std::numeric_limits<double>::max(), "POSITIVE"))
+      ->check(pprt::number_above_zero())
       ->excludes(divisions);
   pprt::add_choice(app, "--up", options.up, "Up axis of an added camera");
   app.add_flag("--strict", options.strict, "Reject what the NFF specification does not allow");

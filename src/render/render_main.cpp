@@ -3,7 +3,7 @@
 
 #include "base/diagnostics.h"
 #include "cli/command_line.h"
-#include "cli/config_file.h"
+#include "cli/config_text.h"
 #include "cli/exit.h"
 #include "cli/launch.h"
 #include "render/render.h"

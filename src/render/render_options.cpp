@@ -3,14 +3,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <charconv>
 #include <cstdint>
 #include <cstdio>
 #include <sstream>
-#include <system_error>
 
 #include "cli/command_line.h"
 #include "cli/config_file.h"
+#include "cli/number_checks.h"
 #include "cli/scene_source.h"
 #include "cli/typed_options.h"
 #include "layers/layer.h"
@@ -18,33 +17,6 @@
 
 namespace pprt {
 namespace {
-
-// Accepts numbers from `least` to `most`; unlike CLI::Range it refuses NaN.
-CLI::Validator number_between(double least, double most) {
-  return CLI::Validator(
-      [least, most](std::string& text) -> std::string {
-        double value = 0;
-        if (CLI::detail::lexical_cast(text, value) && value >= least && value <= most) return {};
-        std::ostringstream want;
-        want << "value " << text << " is not a number from " << least << " to " << most;
-        return want.str();
-      },
-      "");
-}
-
-// Accepts whole numbers; CLI11 itself would let a negative one wrap round.
-CLI::Validator count_from(std::uint64_t least, std::uint64_t most = ~std::uint64_t{0}) {
-  return CLI::Validator(
-      [least, most](std::string& text) -> std::string {
-        std::uint64_t value = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        const bool whole = error == std::errc() && end == text.data() + text.size();
-        if (whole && value >= least && value <= most) return {};
-        return "value " + text + " is not a whole number from " + std::to_string(least) +
-               (most < ~std::uint64_t{0} ? " to " + std::to_string(most) : "");
-      },
-      "");
-}
 
 std::vector<std::string> every_layer() {
   std::vector<std::string> words;
@@ -225,9 +197,7 @@ void add_report_options(CLI::App& app, RenderOptions& o) {
       .trigger_on_parse()  // errors in other options are reported accordingly
       ->group(group);
   add_choice(app, "--log", o.log, "Diagnostic logging on standard error").group(group);
-  app.set_config("--config", "", "Read options from a file")->type_name("FILE")->group(group);
-  app.config_formatter(config_reader());
-  app.allow_config_extras(CLI::config_extras_mode::error);
+  add_config_file(app).group(group);
   app.add_flag("--write-config", o.write_config, "Print the options in force as such a file, and exit")
       ->configurable(false)
       ->group(group);

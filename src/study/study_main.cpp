@@ -1,5 +1,6 @@
 #include "cli/command_line.h"
 #include "cli/exit.h"
+#include "cli/number_checks.h"
 #include "cli/option_words.h"
 #include "cli/scene_source.h"
 #include "cli/typed_options.h"
@@ -22,7 +23,7 @@ CLI::App& add_counts(CLI::App& app, pprt::CountsOptions& options) {
            "FILE.nff, - (NFF on standard input) or spd:NAME[:SIZE] (default: the seven published)"),
       pprt::generated_scenes());
   add(command, "--tolerance", "PERCENT", options.tolerance_percent, "Greatest allowed difference, in percent")
-      ->check(CLI::NonNegativeNumber)
+      ->check(pprt::number_from(0))
       ->capture_default_str();
   add(command, "--corners", "N", options.corners, "Number of eye rays in each direction")
       ->check(CLI::Range(2, 16385))
@@ -48,10 +49,10 @@ CLI::App& add_paper(CLI::App& app, pprt::PaperOptions& options) {
   pprt::add_choice(command, "--machine", options.machine, "Simulated processors and network");
   add(command, "--latency", "US", options.latency_us,
       "Network latency, microseconds (default: the machine's)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(pprt::number_from(0));
   add(command, "--bandwidth", "MB/S", options.bandwidth_mb_s,
       "Bandwidth of a rank's link, MB/s (default: the machine's)")
-      ->check(CLI::PositiveNumber);
+      ->check(pprt::number_above_zero());
   add(command, "--seed", "N", options.seed, "Seed of the seed samples' positions")->capture_default_str();
   return command;
 }
@@ -80,10 +81,10 @@ CLI::App& add_accuracy(CLI::App& app, pprt::AccuracyOptions& options) {
       ->capture_default_str();
   add(command, "--want-rmse", "E", options.want_rmse,
       "Print the frame rate that gives this error; without -o measure nothing else")
-      ->check(CLI::PositiveNumber);
+      ->check(pprt::number_above_zero());
   add(command, "--want-fps", "F", options.want_fps,
       "Print the error at this frame rate, under the work clock and in real time")
-      ->check(CLI::PositiveNumber);
+      ->check(pprt::number_above_zero());
   add(command, "--seed", "N", options.seed, "Seed of the seed samples' positions in the first repeat")
       ->capture_default_str();
   return command;

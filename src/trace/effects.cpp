@@ -63,10 +63,10 @@ EffectSet parse_effects(std::string_view list) {
     const auto found =
         std::find_if(kNames.begin(), kNames.end(), [&](const EffectName& e) { return e.name == word; });
     if (found == kNames.end()) {
-      std::vector<std::string_view> words = {"all", "none"};
+      std::vector<std::string_view> words = {"auto", "all", "none"};
       for (const EffectName& e : kNames) words.push_back(e.name);
       throw UsageError("unknown effect '" + std::string(word) + "'; there are " +
-                       to_string(EffectSet::all()) + ", and the words all and none" +
+                       to_string(EffectSet::all()) + ", and the words auto, all and none" +
                        did_you_mean(word, words));
     }
     effects.add(found->effect);

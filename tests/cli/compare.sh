@@ -38,7 +38,7 @@ refuse "there are no frames 'none/%04d.png'" none/%04d.png few/%04d.png
 refuse "there is no 'few/0004.png'" few/%04d.png many/%04d.png --frames 2-4
 refuse "'few/%04d.png' is a sequence and 'many/0001.png' is a single picture" few/%04d.png many/0001.png
 refuse "--max-flicker is for sequences such as out/%04d.png" few/0001.png many/0001.png --max-flicker 1
-refuse "--pixels-per-degree: a number from 1 to 1000 is needed" few/0001.png many/0001.png --pixels-per-degree 0
+refuse "--pixels-per-degree: value 0 is not a number from 1 to 1000" few/0001.png many/0001.png --pixels-per-degree 0
 refuse "--frames 3-1: want FIRST-LAST, counted from 1, such as 1-40" few/%04d.png many/%04d.png --frames 3-1
 rm few/0002.png
 refuse "there is no 'few/0002.png' to go with 'many/0002.png'; --frames compares a part of the sequences" \

@@ -39,8 +39,26 @@ printf '%s\n' '; comment' '# comment' 'SCENE = ball.nff ; the scene' 'output=[ "
 printf 'size="20x20"\r\n\r\n[default]\nseed=5' >>by_hand.ini
 run pprt-render --config by_hand.ini; expect_code 0; expect_file 'x;1.png'; expect_file 'x\2.exr'
 printf 'seed=7\nstats="half\n' >bad.ini
-run pprt-render ball.nff --config bad.ini; expect_usage "--config: line 2: the quotation mark is not closed"
+run pprt-render ball.nff --config bad.ini; expect_usage "bad.ini:2: the quotation mark is not closed"
 
 echo 'colour=red' >bad.ini
-run pprt-render ball.nff --config bad.ini; expect_usage "INI was not able to parse colour"
+run pprt-render ball.nff --config bad.ini; expect_usage "bad.ini:1: there is no option 'colour'"
+
+# Problems in the file are told with their line, those of the command line without one.
+in_file() { printf "%s\n" '; options' "" "$@" >bad.ini; }
+in_file seed=3 fps=fast;     run pprt-render ball.nff --config bad.ini; expect_usage "bad.ini:4: --fps: value fast is not a number from 0 to 1000"
+in_file clock=sun seed=3;    run pprt-render ball.nff --config bad.ini; expect_usage "bad.ini:3: --clock: 'sun' is none of wall, work"
+in_file seed=3 cull=true effects=foo np=2; run pprt-render ball.nff --config bad.ini
+expect_usage "bad.ini:5: unknown effect 'foo'; there are shadows,highlights,reflection,refraction,smooth-normals, and the words auto, all and none"
+in_file size=3;              run pprt-render ball.nff --config bad.ini; expect_usage "bad.ini:3: --size 3: want WIDTHxHEIGHT in pixels, each from 1 to 16384, such as 256x256"
+in_file sede=3;              run pprt-render ball.nff --config bad.ini; expect_usage "bad.ini:3: there is no option 'sede'; did you mean '--seed'?"
+in_file write-config=true;   run pprt-render ball.nff --config bad.ini; expect_usage "bad.ini:3: write-config: This option is not allowed in a configuration file"
+in_file seed=3;              run pprt-render ball.nff --config bad.ini --fps fast; expect_usage "--fps: value fast is not a number from 0 to 1000"
+in_file seed=3;              run pprt-render --config bad.ini; expect_usage "SCENE is required"
+in_file fps=fast;            run pprt-render ball.nff --config bad.ini --fps 0 --census; expect_code 0
+
+# A file without an end, and one too large.
+limit="--config: the file is larger than 1048576 bytes, the most for options"
+run timeout 60 pprt-render ball.nff --config /dev/zero; expect_usage "$limit"
+run timeout 60 pprt-render ball.nff --config <(yes seed=3); expect_usage "$limit"
 finish

@@ -24,18 +24,38 @@ run pprt-render ball.nff --reference x.tif; expect_usage "--reference 'x.tif': t
 run pprt-render ball.nff --contact-sheet x.jpg
 expect_usage "--contact-sheet x.jpg: want a name that ends in .png or .exr"
 run pprt-render ball.nff --effects caustics
-expect_usage "unknown effect 'caustics'; there are shadows,highlights,reflection,refraction,smooth-normals, and the words all and none"
+expect_usage "unknown effect 'caustics'; there are shadows,highlights,reflection,refraction,smooth-normals, and the words auto, all and none"
 # What was probably meant.
 run pprt-render ball.nff --frmaes 1-3; expect_usage "there is no option --frmaes; did you mean '--frames'?"
 run pprt-render --layer=samples ball.nff; expect_usage "there is no option --layer; did you mean '--layers'?"
 run pprt-render --ovrewrite; expect_usage "there is no option --ovrewrite; did you mean '--overwrite'?"
 run pprt-render ball.nff --cast verfied; expect_usage "--cast: 'verfied' is none of off, paper, verified, auto; did you mean 'verified'?"
 run pprt-render ball.nff --effects shadow
-expect_usage "unknown effect 'shadow'; there are shadows,highlights,reflection,refraction,smooth-normals, and the words all and none; did you mean 'shadows'?"
+expect_usage "unknown effect 'shadow'; there are shadows,highlights,reflection,refraction,smooth-normals, and the words auto, all and none; did you mean 'shadows'?"
+run pprt-render ball.nff --effects foo
+expect_usage "unknown effect 'foo'; there are shadows,highlights,reflection,refraction,smooth-normals, and the words auto, all and none"
 run pprt-study acuracy -o x; expect_code 2
 expect_text err "pprt-study: error: there is no subcommand 'acuracy'; did you mean 'accuracy'?"$'\n'"try 'pprt-study --help'"
 run pprt-study paper --qick -o x; expect_code 2
 expect_text err "pprt-study: error: there is no option --qick; did you mean '--quick'?"$'\n'"try 'pprt-study --help'"
+# Numbers that are none, and limits as a person would write them.
+for value in nan -nan inf 0 x; do
+  run pprt-convert --chord-error $value ball.nff x.nff; expect_code 2
+  expect_text err "pprt-convert: error: --chord-error: value $value is not a number above 0"$'\n'"try 'pprt-convert --help'"
+done
+run pprt-convert --tessellate -1 ball.nff x.nff; expect_code 2
+expect_line err 'pprt-convert: error: --tessellate: value -1 is not a whole number from 1 to 1000'
+for option in max-rmse min-psnr max-relative-mse min-ssim max-flip max-error max-p999 max-share max-flicker; do
+  run pprt-compare --$option nan a.png b.png; expect_code 2
+  expect_text err "pprt-compare: error: --$option: value nan is not a number"$'\n'"try 'pprt-compare --help'"
+done
+run pprt-compare --threshold nan a.png b.png; expect_code 2
+expect_line err 'pprt-compare: error: --threshold: value nan is not a number from 0'
+run pprt-study counts --tolerance nan; expect_code 2
+expect_line err 'pprt-study: error: --tolerance: value nan is not a number from 0'
+run pprt-study accuracy --want-rmse nan; expect_code 2
+expect_line err 'pprt-study: error: --want-rmse: value nan is not a number above 0'
+run pprt-render ball.nff --fps nan; expect_usage "--fps: value nan is not a number from 0 to 1000"
 run pprt-render --config none.ini; expect_usage "none.ini was not readable (missing?)"
 
 run pprt-render --version; expect_code 0; expect_line out 'pprt-render [0-9]*\.[0-9]*\.[0-9]*'; expect_text err ''
