@@ -1,12 +1,17 @@
 #include "cli/scene_source.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "base/diagnostics.h"
 #include "base/nearest_word.h"
+#include "base/printable.h"
+#include "parser/text_input.h"
 #include "spd/spd.h"
 
 namespace pprt {
@@ -46,17 +51,31 @@ std::string meant_by(const std::string& name) {
   return {};
 }
 
+// Returns a problem with the scene that a script names, reported at the statement that names it.
+std::string at_scene_statement(const Animation& script, const std::string& script_path, std::string problem) {
+  constexpr std::string_view kError = ": error: ";
+  if (const std::size_t at = problem.find(kError); at != std::string::npos) {
+    problem.replace(at, kError.size(), ": ");  // the script's error now
+  }
+  Diagnostics diagnostics;
+  diagnostics.error(script.scene_location, std::move(problem));
+  std::string report =
+      format(diagnostics, script.name, read_text(script_path, std::numeric_limits<std::uint32_t>::max()));
+  report.pop_back();  // the last line end
+  return report;
+}
+
 }  // namespace
 
 std::string hint_at_meant(const std::string& name) {
   const std::string meant = meant_by(name);
-  return meant.empty() ? "" : "; did you mean '" + meant + "'?";
+  return meant.empty() ? "" : "; did you mean '" + printable(meant) + "'?";
 }
 
 void require_file(const std::string& path) {
   std::error_code unknown;  // then reading will tell
   if (std::filesystem::exists(path, unknown) || unknown) return;
-  throw InputError("cannot read '" + path + "': No such file or directory" + hint_at_meant(path));
+  throw InputError("cannot read '" + printable(path) + "': No such file or directory" + hint_at_meant(path));
 }
 
 std::vector<std::string> generated_scenes() {
@@ -76,6 +95,20 @@ std::string scene_of_script(const Animation& script, const std::string& script_p
   }
   if (is_spd_name(*script.scene)) return *script.scene;
   return (std::filesystem::path(script_path).parent_path() / *script.scene).string();
+}
+
+ParsedScene load_scene_of_script(const Animation& script, const std::string& script_path,
+                                 const NffOptions& options) {
+  const std::string name = scene_of_script(script, script_path);
+  std::string text;
+  try {
+    if (is_spd_name(name)) return {make_spd_scene(name), {}};
+    require_file(name);
+    text = read_text(name, options.max_bytes);
+  } catch (const InputError& e) {
+    throw InputError(at_scene_statement(script, script_path, e.what()));
+  }
+  return parse_nff(text, printable(name), options);
 }
 
 ParsedScene load_scene(const std::string& name, const NffOptions& options) {

@@ -20,6 +20,11 @@ bool is_script_name(const std::string& name);
 // script's directory. Throws UsageError when the script names none.
 std::string scene_of_script(const Animation& script, const std::string& script_path);
 
+// Reads the scene that a script names. Throws InputError with the place in the script when there is no such
+// scene or it cannot be read.
+ParsedScene load_scene_of_script(const Animation& script, const std::string& script_path,
+                                 const NffOptions& options = {});
+
 // Returns "spd:NAME" for every database.
 std::vector<std::string> generated_scenes();
 

@@ -72,7 +72,7 @@ void say_degenerate(const SceneDescription& scene, std::size_t count) {
   if (count > 0) say(scene, fmt::format("{} objects without extent left out", count));
 }
 
-// Adds a view, which mesh files often lack.
+// Adds a view, which mesh files often lack and a scene to be rendered needs.
 void complete_view(SceneDescription& scene, UpAxis up) {
   if (scene.view || scene.primitive_count() == 0) return;
   scene.view = fitted_view(scene, up);
@@ -141,7 +141,7 @@ void convert(const ConvertOptions& options) {
   const OutputFormat to = output_format(options.output);
   SceneDescription scene = read(options, from);
   if (to == OutputFormat::kMesh) return write_mesh_files(scene, options);
-  if (to == OutputFormat::kPov) complete_view(scene, options.up);
+  complete_view(scene, options.up);
   if (options.tessellate || options.chord_error) scene = tessellated(scene, fineness(options));
   write_text(scene, options, to);
 }

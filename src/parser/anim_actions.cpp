@@ -222,6 +222,7 @@ void ScriptReader::end_key() {
 
 void ScriptReader::set_scene(std::string_view name) {
   set(script_.scene, "scene", std::string(name));
+  script_.scene_place = setting_;
 }
 
 void ScriptReader::set_spline(std::string_view kind) {

@@ -238,6 +238,7 @@ Animation interpret(const WrittenScript& script, std::string_view file_name, Pro
   Animation animation;
   animation.name = file_name;
   animation.scene = script.scene;
+  if (script.scene) animation.scene_location = problems.location(script.scene_place);
   if (script.frames) interpret_frames(*script.frames, animation, problems);
   if (script.fps) interpret_fps(*script.fps, animation, problems);
   if (script.resolution) interpret_resolution(*script.resolution, animation, problems);

@@ -47,6 +47,7 @@ struct WrittenScript {
   bool has_animation = false;
   bool has_camera = false;
   std::optional<std::string> scene;
+  const char* scene_place = nullptr;  // of the keyword, if there is a scene
   std::optional<Value> frames, fps, resolution;
   std::optional<SplineKind> spline;
   std::vector<WrittenKey> keys;

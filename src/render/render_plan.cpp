@@ -25,6 +25,8 @@ struct Sources {
   std::string scene_path;  // or another name of a scene
   std::optional<ParsedAnimation> script;
   std::string script_path;  // as it was given
+
+  std::string warnings() const { return scene.warnings + (script ? script->warnings : ""); }
 };
 
 Sources read_sources(const RenderOptions& options) {
@@ -35,9 +37,11 @@ Sources read_sources(const RenderOptions& options) {
     require_file(sources.script_path);
     sources.script = read_animation(sources.script_path);
   }
+  const NffOptions reading{.strict = options.strict};
   sources.scene_path =
       only_script ? scene_of_script(sources.script->animation, sources.script_path) : options.input;
-  sources.scene = load_scene(sources.scene_path, {.strict = options.strict});
+  sources.scene = only_script ? load_scene_of_script(sources.script->animation, sources.script_path, reading)
+                              : load_scene(options.input, reading);
   return sources;
 }
 
@@ -59,9 +63,11 @@ View base_view(const RenderOptions& options, const Sources& sources) {
   if (scene.view) {
     view = *scene.view;
   } else if (!script_has_camera) {
-    throw InputError(
-        scene.name +
-        ": error: the scene has no view ('v' ...) and no script gives a camera: nothing can be seen");
+    const bool from_stdin = options.input == "-";
+    throw InputError(fmt::format(
+        "{}: error: the scene has no view ('v' ...) and no script gives a camera; 'pprt-convert {} "
+        "OUT.nff' adds a view of the whole scene",
+        scene.name, from_stdin ? "-" : scene.name));
   }
   if (sources.script && sources.script->animation.width) {
     view.width = *sources.script->animation.width;
@@ -207,8 +213,9 @@ void check_usage(const RenderOptions& options) {
     throw UsageError("--budget counts work: it needs --clock work");
 }
 
-RenderPlan plan_render(const RenderOptions& options) {
-  Sources sources = read_sources(options);
+namespace {
+
+RenderPlan plan_of(const RenderOptions& options, Sources& sources) {
   const View base = base_view(options, sources);
   require_sound_cameras(sources, base);
   const double fps = frame_rate(options, sources);
@@ -227,13 +234,21 @@ RenderPlan plan_render(const RenderOptions& options) {
   plan.compile.max_depth = options.max_depth;
   plan.compile.cull = options.cull;
   plan.compile.effects = options.effects;
-  plan.warnings = sources.scene.warnings;
-  if (sources.script) {
-    plan.script_name = sources.script->animation.name;
-    plan.warnings += sources.script->warnings;
-  }
+  plan.warnings = sources.warnings();
+  if (sources.script) plan.script_name = sources.script->animation.name;
   plan.scene = std::move(sources.scene.scene);
   return plan;
+}
+
+}  // namespace
+
+RenderPlan plan_render(const RenderOptions& options) {
+  Sources sources = read_sources(options);
+  try {
+    return plan_of(options, sources);
+  } catch (const InputError& e) {
+    throw InputError(sources.warnings() + e.what());  // a warning may tell why
+  }
 }
 
 }  // namespace pprt

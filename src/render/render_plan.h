@@ -68,7 +68,7 @@ std::vector<FramePattern> files_of_a_frame(const OutputPlan& output);
 void check_usage(const RenderOptions& options);
 
 // Reads scene and script, once. The options must have passed check_usage(). Throws UsageError, or InputError
-// with every problem of the file.
+// with every problem of the file and its warnings.
 RenderPlan plan_render(const RenderOptions& options);
 
 }  // namespace pprt

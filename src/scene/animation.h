@@ -46,6 +46,7 @@ inline constexpr double kLeastFramesPerSecond = 0.001;
 struct Animation {
   std::string name;                  // file name, for messages
   std::optional<std::string> scene;  // as written: spd:..., or a path relative to the script
+  SourceLocation scene_location;     // of the statement that names it
   int frames = 1;
   double fps = 0;  // 0: not given; otherwise from kLeastFramesPerSecond
   std::optional<int> width, height;

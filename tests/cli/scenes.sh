@@ -29,9 +29,20 @@ bad.nff:11:7: error: expected a number for z of the centre of 's', found 'zero'
 run pprt-render bad.nff; expect_code 3; expect_text err "$bad_scene"; expect_text out ''
 run pprt-render -np 3 bad.nff; expect_code 3; expect_text err "$bad_scene"; expect_text out ''
 
-sed '/^[vfahru]/d; /^f /d' ball.nff >noview.nff
+sed '/^[vahru]/d; /^from/d' ball.nff >noview.nff
 run pprt-render noview.nff; expect_code 3
-expect_text err "noview.nff: error: the scene has no view ('v' ...) and no script gives a camera: nothing can be seen"
+noview="noview.nff: error: the scene has no view ('v' ...) and no script gives a camera; 'pprt-convert noview.nff OUT.nff' adds a view of the whole scene"
+expect_text err "$noview"
+# The warnings first, as one of them may tell why.
+echo 'V from 0 0 5' >>noview.nff
+run pprt-render noview.nff; expect_code 3
+expect_text err "noview.nff:5:1: warning: unknown entity 'V': skipped to the end of its line
+    V from 0 0 5
+    ^
+$noview"
+run pprt-convert noview.nff added.nff; expect_code 0
+expect_line err 'noview.nff: no camera: one that shows everything is added, with y up (--up z for the other)'
+run pprt-render added.nff --clock work -s 16x16 -o added.png; expect_code 0; expect_file added.png
 
 # Nothing to see: said before anything is written.
 sed 's/^at .*/at 0 0 9/' ball.nff >behind.nff
@@ -58,6 +69,24 @@ sed 's/key 12 .*/key 8 { from <0, 0, 1e20> } key 12 { from <5, 0, 0> }/' ball.an
 run pprt-render far.anim -o far_%02d.png; expect_code 3
 expect_line err "far.anim: error: frame [2-8]: the eye is [0-9.e+]* times the scene's size away; the most is 1.1e+12"
 expect_no_file far_01.png
+
+# A scene that the script names and that is not there: the place in the script.
+sed 's/ball.nff/ballx.nff/' ball.anim >missing.anim
+run pprt-render missing.anim; expect_code 3
+expect_text err "missing.anim:2:3: error: cannot read 'ballx.nff': No such file or directory; did you mean 'ball.nff'?
+      scene \"ballx.nff\"
+      ^"
+sed 's/ball.nff/spd:tre:3/' ball.anim >missing.anim
+run pprt-render missing.anim; expect_code 3
+expect_line err "missing.anim:2:3: error: spd:tre:3: no procedural database has the name 'tre'; did you mean 'tree'? .*"
+sed 's/ball.nff/bad.nff/' ball.anim >missing.anim  # it is there: its own problems
+run pprt-render missing.anim; expect_code 3; expect_text err "$bad_scene"
+# No control character of a script reaches the terminal.
+for name in $'a\e[31mb.nff' $'spd:\e[31mb' $'a\xc2\x9b31mb.nff'; do
+  printf 'animation {\n  scene "%s" frames 2\n}\n' "$name" >hostile.anim
+  run pprt-render hostile.anim; expect_code 3; expect_line err 'hostile.anim:2:3: error: .*\(\\x1b\[\|\\xc2\\x9b\)31mb.*'
+  if LC_ALL=C grep -q $'[\x01-\x08\x0b-\x1f\x7f]\|\xc2[\x80-\x9f]' err; then complain "'$command': control characters: $(cat -v err)"; fi
+done
 
 # Standard input is as good as a file.
 run pprt-render ball.nff --clock work -o a.png; expect_code 0

@@ -52,9 +52,20 @@ TEST_CASE("a database converts to NFF, and that file to an equal one") {
 
 TEST_CASE("a scene file may be converted in place") {
   const Folder folder;
-  write_whole_file(folder.file("a.nff"), "# a comment\ns 0.50 0 0 1.000\n");
+  const std::string view = "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 45\nhither 1\nresolution 8 8\n";
+  write_whole_file(folder.file("a.nff"), "# a comment\n" + view + "s 0.50 0 0 1.000\n");
   convert({folder.file("a.nff"), folder.file("a.nff"), false, {}, {}});
-  CHECK(read_whole_file(folder.file("a.nff")) == "f 1 1 1 1 0 0 0 1\ns 0.5 0 0 1\n");
+  CHECK(read_whole_file(folder.file("a.nff")) == view + "f 1 1 1 1 0 0 0 1\ns 0.5 0 0 1\n");
+}
+
+TEST_CASE("a scene without a view gets one, but no lights") {
+  const Folder folder;
+  write_whole_file(folder.file("a.nff"), "s 0.5 0 0 1\n");
+  convert({folder.file("a.nff"), folder.file("b.nff"), false, {}, {}});
+  const SceneDescription scene = read_nff(folder.file("b.nff")).scene;
+  REQUIRE(scene.view);
+  CHECK(scene.view->at == Vec3d(0.5, 0, 0));
+  CHECK(scene.lights.empty());
 }
 
 TEST_CASE("an output name that ends in .pov is written in POV-Ray's language") {
