@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <deque>
+#include <utility>
 
 #include "base/diagnostics.h"
 #include "base/printable.h"
@@ -55,6 +57,15 @@ class InputFile {
   int descriptor_;
 };
 
+// Joins the chunks and releases each, so that the text is held once. `total`: bytes of all.
+std::string joined(std::deque<std::string> chunks, std::size_t total) {
+  if (chunks.size() == 1) return std::move(chunks.front());
+  std::string text;
+  text.reserve(total);
+  for (; !chunks.empty(); chunks.pop_front()) text += chunks.front();
+  return text;
+}
+
 }  // namespace
 
 std::string read_text(const std::string& path, std::size_t max_bytes) {
@@ -65,16 +76,20 @@ std::string read_text(const std::string& path, std::size_t max_bytes) {
   };
   const std::size_t known = file.size();
   require_fit(known);
-  std::string text(std::max(known, kReadAtOnce) + 1, '\0');  // one more, to see the end of the file
-  for (std::size_t size = 0;;) {
-    const std::size_t got = file.read(text.data() + size, text.size() - size);
-    size += got;
-    require_fit(size);
-    if (got == 0) {
-      text.resize(size);
-      return text;
+  std::deque<std::string> chunks;
+  std::size_t total = 0;
+  for (std::size_t room = std::max(known + 1, kReadAtOnce);; room = kReadAtOnce) {  // 1: to see the end
+    std::string& chunk = chunks.emplace_back(room, '\0');
+    for (std::size_t filled = 0; filled < room;) {
+      const std::size_t got = file.read(chunk.data() + filled, room - filled);
+      if (got == 0) {
+        chunk.resize(filled);
+        return joined(std::move(chunks), total);
+      }
+      filled += got;
+      total += got;
+      require_fit(total);
     }
-    if (size == text.size()) text.resize(std::max(size, std::min(2 * size, max_bytes)) + 1);
   }
 }
 

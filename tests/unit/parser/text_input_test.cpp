@@ -1,5 +1,7 @@
 #include "parser/text_input.h"
 
+#include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -7,6 +9,8 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <string>
+#include <thread>
 
 #include "base/diagnostics.h"
 
@@ -54,6 +58,12 @@ class TemporaryFile {
  private:
   std::filesystem::path path_;
 };
+
+long peak_memory_kilobytes() {
+  struct rusage usage = {};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss;
+}
 
 std::string reading_problem(const std::string& path, std::size_t max_bytes) {
   try {
@@ -136,13 +146,29 @@ TEST_CASE("a file is read whole and byte by byte") {
 }
 
 TEST_CASE("a file beyond the limit is refused by its size, and an endless one at the limit") {
-  // Of a hole of a terabyte no byte is there to be read.
+  // A hole of two gigabytes: if it were read, memory would tell.
+  constexpr std::size_t kLimit = std::size_t{1} << 28;
   const TemporaryFile file("");
-  std::filesystem::resize_file(file.path(), std::uintmax_t{1} << 40);
-  CHECK(reading_problem(file.path(), std::size_t{1} << 30) ==
-        "cannot read '" + file.path() + "': larger than the limit of 1073741824 bytes");
-  CHECK(reading_problem("/dev/zero", 3'000'000) ==
-        "cannot read '/dev/zero': larger than the limit of 3000000 bytes");
+  std::filesystem::resize_file(file.path(), 8 * kLimit);
+  const long before = peak_memory_kilobytes();
+  CHECK(reading_problem(file.path(), kLimit) ==
+        "cannot read '" + file.path() + "': larger than the limit of 268435456 bytes");
+  CHECK(peak_memory_kilobytes() - before < 100'000);
+  CHECK(reading_problem("/dev/zero", kLimit) ==
+        "cannot read '/dev/zero': larger than the limit of 268435456 bytes");
+  CHECK(peak_memory_kilobytes() - before < 400'000);
+}
+
+TEST_CASE("a pipe is read whole") {
+  std::string content;
+  for (int i = 0; i < 500'000; ++i) content += std::to_string(i);  // some megabytes
+  const TemporaryFile file("");
+  std::filesystem::remove(file.path());
+  REQUIRE(::mkfifo(file.path().c_str(), 0600) == 0);
+  std::thread writer([&] { std::ofstream(file.path(), std::ios::binary) << content; });
+  const std::string read = read_text(file.path(), content.size());
+  writer.join();
+  CHECK((read == content));
 }
 
 TEST_CASE("reading a whole file fails with the reason") {
