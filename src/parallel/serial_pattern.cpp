@@ -42,8 +42,8 @@ std::size_t samples_near_borders(std::span<const Sample> samples, const TileGrid
   }));
 }
 
-std::vector<Sample> serial_samples(const SessionSettings& settings, const Camera& camera, std::uint64_t count,
-                                   const Probe& probe) {
+FinishedFrame serial_frame(const SessionSettings& settings, const Camera& camera, std::uint64_t count,
+                           const Probe& probe) {
   SessionSettings serial;
   serial.width = settings.width;
   serial.height = settings.height;
@@ -58,11 +58,16 @@ std::vector<Sample> serial_samples(const SessionSettings& settings, const Camera
   const auto one_frame = [&](int index) {
     return index == 0 ? std::optional(FrameRequest{1, camera, false, true}) : std::nullopt;
   };
-  std::vector<Sample> samples;
+  FinishedFrame frame;
   run_virtual_ranks(
       1, serial, [&](int) { return probe; }, one_frame,
-      [&](FinishedFrame&& finished) { samples = std::move(finished.samples); });
-  return samples;
+      [&](FinishedFrame&& finished) { frame = std::move(finished); });
+  return frame;
+}
+
+std::vector<Sample> serial_samples(const SessionSettings& settings, const Camera& camera, std::uint64_t count,
+                                   const Probe& probe) {
+  return serial_frame(settings, camera, count, probe).samples;
 }
 
 double distance_to_serial(const FinishedFrame& frame, const SessionSettings& settings, const Probe& probe) {

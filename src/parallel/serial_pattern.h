@@ -26,9 +26,11 @@ double bucket_distance(std::span<const Sample> a, std::span<const Sample> b);
 std::size_t samples_near_borders(std::span<const Sample> samples, const TileGrid& grid,
                                  std::span<const std::int32_t> owners, double reach);
 
-// Returns the pattern of one rank that samples the camera's image afresh until it holds `count` samples, its
-// seeds included. Of the settings only size, seed, weights and pixel rule count. The probe is left looking
-// from `camera`.
+// Returns the frame of one rank that samples the camera's image afresh until it holds `count` samples, its
+// seeds included; its samples alone. Of the settings only size, seed, weights and pixel rule count. The probe
+// is left looking from `camera`.
+FinishedFrame serial_frame(const SessionSettings& settings, const Camera& camera, std::uint64_t count,
+                           const Probe& probe);
 std::vector<Sample> serial_samples(const SessionSettings& settings, const Camera& camera, std::uint64_t count,
                                    const Probe& probe);
 

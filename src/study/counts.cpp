@@ -2,60 +2,52 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <iostream>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <stdexcept>
-#include <string_view>
+#include <utility>
 
 #include "base/diagnostics.h"
 #include "cli/scene_source.h"
-#include "trace/compiled_scene.h"
+#include "study/frame_series.h"
 
 namespace pprt {
 namespace {
 
 constexpr int kPublishedCorners = 513;
 
-struct StudiedCounts {
-  std::uint64_t eye_hits = 0;
-  std::uint64_t reflect = 0;
-  std::uint64_t refract = 0;  // as published: includes tir
-  std::uint64_t tir = 0;      // prevented by total internal reflection
-  std::uint64_t shadow = 0;
-};
-
-struct PublishedRow {
-  std::string_view scene;
-  StudiedCounts counts;
-};
-
-constexpr std::array kPublished = {
-    PublishedRow{"spd:balls:4", {263169, 175095, 0, 0, 954368}},
-    PublishedRow{"spd:gears:4", {245086, 304643, 207564, 0, 2246955}},
-    PublishedRow{"spd:mount:6", {173125, 354769, 354769, 0, 412922}},
-    PublishedRow{"spd:rings:7", {263169, 315236, 0, 0, 1085002}},
-    PublishedRow{"spd:teapot:12", {161120, 225248, 0, 0, 407656}},
-    PublishedRow{"spd:tetra:6", {49788, 0, 0, 0, 46112}},
-    PublishedRow{"spd:tree:11", {169836, 0, 0, 0, 1097419}},
-};
-
-// The numbers of a scene, with their names in the table (none: not published) and in JSON.
-struct CountName {
-  const char* name;
+// The numbers of a scene, with their names in the table and in JSON.
+struct CountKind {
+  const char* name;  // null: not published
   const char* json;
-  std::uint64_t StudiedCounts::*value;
+  std::uint64_t (*of)(const RayCounts& counts);
 };
 
-constexpr std::array kNames = {CountName{"eye hits", "eye_hits", &StudiedCounts::eye_hits},
-                               CountName{"reflect", "reflect", &StudiedCounts::reflect},
-                               CountName{"refract", "refract", &StudiedCounts::refract},
-                               CountName{nullptr, "tir", &StudiedCounts::tir},
-                               CountName{"shadow", "shadow", &StudiedCounts::shadow}};
+constexpr std::array kKinds = {
+    CountKind{"eye hits", "eye_hits", [](const RayCounts& c) { return c.eye_hits; }},
+    CountKind{"reflect", "reflect", [](const RayCounts& c) { return c.reflection; }},
+    CountKind{"refract", "refract",
+              [](const RayCounts& c) { return c.refraction + c.total_internal_reflection; }},
+    CountKind{nullptr, "tir", [](const RayCounts& c) { return c.total_internal_reflection; }},
+    CountKind{"shadow", "shadow", [](const RayCounts& c) { return c.shadow; }}};
+
+using Published = std::array<std::uint64_t, kKinds.size()>;
+
+// Haines, SPD 3.14, "Database Analysis": 513 x 513 eye rays, depth 5.
+const std::vector<std::pair<std::string, Published>> kPublished = {
+    {"spd:balls:4", {263169, 175095, 0, 0, 954368}},
+    {"spd:gears:4", {245086, 304643, 207564, 0, 2246955}},
+    {"spd:mount:6", {173125, 354769, 354769, 0, 412922}},
+    {"spd:rings:7", {263169, 315236, 0, 0, 1085002}},
+    {"spd:teapot:12", {161120, 225248, 0, 0, 407656}},
+    {"spd:tetra:6", {49788, 0, 0, 0, 46112}},
+    {"spd:tree:11", {169836, 0, 0, 0, 1097419}},
+};
 
 double difference_percent(std::uint64_t counted, std::uint64_t published) {
   if (counted == published) return 0;
@@ -64,19 +56,21 @@ double difference_percent(std::uint64_t counted, std::uint64_t published) {
   return 100 * (static_cast<double>(counted) - reference) / reference;
 }
 
-// Returns a line per published number, and clears `all_within` when one is beyond the tolerance.
-std::string table_lines(const std::string& scene, const StudiedCounts& counted,
-                        const std::optional<StudiedCounts>& published, double tolerance_percent,
-                        bool& all_within) {
+// Returns a line per published number, and clears `all_within` when one is beyond the tolerance. `published`
+// may be null.
+std::string table_lines(const std::string& scene, const RayCounts& counts, const Published* published,
+                        double tolerance_percent, bool& all_within) {
   std::string text;
-  for (const auto& [name, json, value] : kNames) {
+  for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
+    const char* name = kKinds[kind].name;
     if (!name) continue;
-    text += fmt::format("{:<16} {:<8} {:>10} ", text.empty() ? scene : "", name, counted.*value);
+    const std::uint64_t counted = kKinds[kind].of(counts);
+    text += fmt::format("{:<16} {:<8} {:>10} ", text.empty() ? scene : "", name, counted);
     if (published) {
-      const double difference = difference_percent(counted.*value, (*published).*value);
+      const double difference = difference_percent(counted, (*published)[kind]);
       const bool within = std::abs(difference) <= tolerance_percent;
       all_within = all_within && within;
-      text += fmt::format("{:>10} {:>+9.3f} %{}\n", (*published).*value, difference,
+      text += fmt::format("{:>10} {:>+9.3f} %{}\n", (*published)[kind], difference,
                           within ? "" : "  beyond the tolerance");
     } else {
       text += fmt::format("{:>10} {:>11}\n", "-", "-");
@@ -85,36 +79,24 @@ std::string table_lines(const std::string& scene, const StudiedCounts& counted,
   return text;
 }
 
-std::string json_line(const std::string& scene, const StudiedCounts& counted) {
+std::string json_line(const std::string& scene, const RayCounts& counts) {
   nlohmann::ordered_json line{{"scene", scene}};
-  for (const CountName& count : kNames) line[count.json] = counted.*count.value;
+  for (const CountKind& kind : kKinds) line[kind.json] = kind.of(counts);
   return line.dump() + "\n";
 }
 
-// Haines, SPD 3.14, "Database Analysis": 513 x 513 eye rays, depth 5.
-std::optional<StudiedCounts> published_counts(std::string_view scene) {
-  for (const PublishedRow& row : kPublished) {
-    if (row.scene == scene) return row.counts;
-  }
-  return std::nullopt;
-}
-
 // Traces one ray through each pixel corner of the scene's view.
-StudiedCounts count_rays(const SceneDescription& scene, int corners, bool two_sided) {
+RayCounts count_rays(const SceneDescription& scene, int corners, bool two_sided) {
   if (!scene.view) throw InputError(scene.name + ": error: the scene has no view");
   CompileOptions options;
   options.cull = !two_sided;
   options.count_as_published = true;
   const CompiledScene compiled = compile(scene, options);
-  View view = *scene.view;
-  view.width = view.height = corners - 1;
-  Tracer tracer(compiled, compiled.camera(view));
+  Tracer tracer(compiled, square_camera(compiled, *scene.view, corners - 1));
   for (int y = 0; y < corners; ++y) {
     for (int x = 0; x < corners; ++x) tracer.trace(x, y);
   }
-  const RayCounts& counts = tracer.counts();
-  return {counts.eye_hits, counts.reflection, counts.refraction + counts.total_internal_reflection,
-          counts.total_internal_reflection, counts.shadow};
+  return tracer.counts();
 }
 
 }  // namespace
@@ -127,19 +109,20 @@ bool study_counts(const CountsOptions& options) {
   }
   std::vector<std::string> scenes = options.scenes;
   if (scenes.empty()) {
-    for (const PublishedRow& row : kPublished) scenes.emplace_back(row.scene);
+    for (const auto& [name, counts] : kPublished) scenes.push_back(name);
   }
   for (const std::string& name : scenes) {
     const ParsedScene parsed = load_scene(name);
     std::cerr << parsed.warnings;
     const std::string& scene = parsed.scene.name;
-    const bool two_sided =
-        options.two_sided || scene.starts_with("spd:teapot:");  // as the published statistics
-    const StudiedCounts counted = count_rays(parsed.scene, options.corners, two_sided);
-    std::optional<StudiedCounts> published;
-    if (options.corners == kPublishedCorners) published = published_counts(scene);
-    const std::string table = table_lines(scene, counted, published, options.tolerance_percent, all_within);
-    std::cout << (options.json ? json_line(scene, counted) : table) << std::flush;
+    const bool as_published = scene.starts_with("spd:teapot:");  // which is counted two-sided
+    const RayCounts counts = count_rays(parsed.scene, options.corners, options.two_sided || as_published);
+    const auto published = std::find_if(kPublished.begin(), kPublished.end(),
+                                        [&](const auto& row) { return row.first == scene; });
+    const bool comparable = options.corners == kPublishedCorners && published != kPublished.end();
+    const std::string table = table_lines(scene, counts, comparable ? &published->second : nullptr,
+                                          options.tolerance_percent, all_within);
+    std::cout << (options.json ? json_line(scene, counts) : table) << std::flush;
   }
   if (!std::cout) throw std::runtime_error("cannot write to standard output");
   return all_within;

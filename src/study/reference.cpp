@@ -9,7 +9,6 @@
 #include <cstring>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "base/content_hash.h"
 #include "base/hash.h"
@@ -24,31 +23,29 @@ Color displayed(const Color& c) {
   return {std::clamp(c.x, 0.0f, 1.0f), std::clamp(c.y, 0.0f, 1.0f), std::clamp(c.z, 0.0f, 1.0f)};
 }
 
-// Returns the mean of n x n samples of a pixel; `place` maps a cell's number to a place within the cell.
+// Sets a row to the means of n x n samples of each pixel. `place` maps a pixel's and a cell's number to a
+// place within the cell.
 template <typename Place>
-Color pixel_mean(Tracer& tracer, int x, int y, int n, const Place& place) {
-  Vec3d sum(0, 0, 0);
-  for (int cell = 0; cell < n * n; ++cell) {
-    const Vec2d at = place(cell);
-    sum += Vec3d(displayed(tracer.trace(x + (cell % n + at.x) / n, y + (cell / n + at.y) / n).color));
+void trace_row(const Subject& subject, int y, int n, const Place& place, Image& image) {
+  Tracer tracer(subject.scene, subject.camera);
+  for (int x = 0; x < image.width; ++x) {
+    const auto pixel = static_cast<std::uint64_t>(y) * 0x10000u + static_cast<std::uint64_t>(x);
+    Vec3d sum(0, 0, 0);
+    for (int cell = 0; cell < n * n; ++cell) {
+      const Vec2d at = place(pixel, cell);
+      sum += Vec3d(displayed(tracer.trace(x + (cell % n + at.x) / n, y + (cell / n + at.y) / n).color));
+    }
+    image.at(x, y) = Color(sum / (n * n));
   }
-  return Color(sum / (n * n));
 }
 
-void trace_row(const Subject& subject, int y, int n, Image& first, Image& second) {
-  constexpr std::uint64_t kSeed = 0x2545f4914f6cdd1du;  // unlike those of the samplers
-  Tracer tracer(subject.scene, subject.camera);
-  for (int x = 0; x < first.width; ++x) {
-    const auto pixel = static_cast<std::uint64_t>(y) * 0x10000u + static_cast<std::uint64_t>(x);
-    const auto half = [&](int first_cell) {
-      return pixel_mean(tracer, x, y, n, [&](int cell) {
-        const std::uint64_t index = 2 * static_cast<std::uint64_t>(first_cell + cell);
-        return Vec2d(uniform(kSeed, pixel, index), uniform(kSeed, pixel, index + 1));
-      });
-    };
-    first.at(x, y) = half(0);
-    second.at(x, y) = half(n * n);
-  }
+// Random places. The two halves of a reference have other cells' numbers.
+auto random_places(int first_cell) {
+  return [first_cell](std::uint64_t pixel, int cell) {
+    constexpr std::uint64_t kSeed = 0x2545f4914f6cdd1du;  // unlike those of the samplers
+    const std::uint64_t index = 2 * static_cast<std::uint64_t>(first_cell + cell);
+    return Vec2d(uniform(kSeed, pixel, index), uniform(kSeed, pixel, index + 1));
+  };
 }
 
 // Colours at 16 x 16 points, as text.
@@ -95,21 +92,19 @@ std::optional<Reference> from_file(const std::filesystem::path& path, const Came
 }  // namespace
 
 Image supersampled(const Subject& subject, int n) {
-  Tracer tracer(subject.scene, subject.camera);
+  const auto centre = [](std::uint64_t, int) { return Vec2d(0.5, 0.5); };
   Image image(subject.camera.width, subject.camera.height);
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      image.at(x, y) = pixel_mean(tracer, x, y, n, [](int) { return Vec2d(0.5, 0.5); });
-    }
-  }
+  for (int y = 0; y < image.height; ++y) trace_row(subject, y, n, centre, image);
   return image;
 }
 
 Reference converged_reference(const Subject& subject, int n) {
   const Camera& camera = subject.camera;
   Image first(camera.width, camera.height), second = first;
-  run_concurrently(static_cast<std::size_t>(camera.height),
-                   [&](std::size_t y) { trace_row(subject, static_cast<int>(y), n, first, second); });
+  run_concurrently(static_cast<std::size_t>(camera.height), [&](std::size_t y) {
+    trace_row(subject, static_cast<int>(y), n, random_places(0), first);
+    trace_row(subject, static_cast<int>(y), n, random_places(n * n), second);
+  });
   Reference reference{Image(camera.width, camera.height), 2 * n * n};
   reference.own_rmse = 0.5 * rmse_of(first, second);
   for (std::size_t i = 0; i < first.pixels.size(); ++i) {

@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "cli/command_line.h"
 #include "cli/exit.h"
 #include "cli/number_checks.h"
@@ -90,12 +93,6 @@ CLI::App& add_accuracy(CLI::App& app, pprt::AccuracyOptions& options) {
   return command;
 }
 
-std::string words(int argc, char** argv) {
-  std::string text;
-  for (int i = 0; i < argc; ++i) text += (i == 0 ? "" : " ") + std::string(argv[i]);
-  return text;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -110,10 +107,11 @@ int main(int argc, char** argv) {
     const CLI::App& accuracy_command = add_accuracy(app, accuracy);
     pprt::add_common_flags(app);
     if (!pprt::parse_command_line(app, argc, argv)) return pprt::kExitDone;
+    const std::string command_line = fmt::format("{}", fmt::join(argv, argv + argc, " "));
     if (paper_command.parsed()) {
-      pprt::study_paper(paper, words(argc, argv));
+      pprt::study_paper(paper, command_line);
     } else if (accuracy_command.parsed()) {
-      pprt::study_accuracy(accuracy, words(argc, argv));
+      pprt::study_accuracy(accuracy, command_line);
     } else {
       return pprt::study_counts(counts) ? pprt::kExitDone : pprt::kExitFailure;
     }

@@ -22,24 +22,31 @@
 namespace pprt {
 namespace {
 
-// How much is measured.
-struct Extent {
-  int size;                   // of pictures, pixels square
-  int cells;                  // n of their converged frames
-  int sequence_share;         // pictures of a sequence are smaller by this factor
-  int sequence_cells;         // n of their converged frames
-  int frames;                 // of a sequence, at most
-  int script_frames_planned;  // of a script for --want-fps, at most
-  int orbit_frames_planned;   // for --want-fps without a script
-  std::vector<double> rates;  // frames per second
+// How much is measured: all, or what --quick leaves.
+struct Effort {
+  int size = 512;                  // of pictures, pixels square
+  int cells = 8;                   // n of their converged frames
+  int sequence_share = 4;          // pictures of a sequence are smaller by this factor
+  int sequence_cells = 4;          // n of their converged frames
+  int frames = 8;                  // of a sequence, at most
+  int script_frames_planned = 40;  // of a script for --want-fps, at most
+  int orbit_frames_planned = 24;   // for --want-fps without a script
+  std::vector<double> rates = {1, 2, 4, 8, 15, 24, 30, 60};  // frames per second
 };
-const Extent kFull = {512, 8, 4, 4, 8, 40, 24, {1, 2, 4, 8, 15, 24, 30, 60}};
-const Extent kQuick = {96, 4, 2, 2, 4, 20, 12, {60, 120, 240}};
+const Effort kFull;
+const Effort kQuick = {.size = 96,
+                       .cells = 4,
+                       .sequence_share = 2,
+                       .sequence_cells = 2,
+                       .frames = 4,
+                       .script_frames_planned = 20,
+                       .orbit_frames_planned = 12,
+                       .rates = {60, 120, 240}};
 constexpr std::array kEveryCast = {CastChoice::kOff, CastChoice::kPaper, CastChoice::kVerified,
                                    CastChoice::kAuto};
 constexpr int kPlannedSize = 128;  // of pictures where only the planner is asked, pixels square
 
-const Extent& extent_of(const AccuracyOptions& options) {
+const Effort& effort_of(const AccuracyOptions& options) {
   return options.quick ? kQuick : kFull;
 }
 
@@ -47,7 +54,7 @@ const Extent& extent_of(const AccuracyOptions& options) {
 struct StudiedScene {
   std::string name;
   const AccuracyOptions& options;
-  const Extent& extent;
+  const Effort& effort;
   const Animation* script;  // null: none
   SceneDescription description;
   std::string nff;  // canonical: stands for the scene
@@ -55,7 +62,7 @@ struct StudiedScene {
 
   // Side of a sequence's pictures, pixels: --size for the planner, otherwise a part of it.
   int sequence_size() const {
-    return options.directory.empty() ? options.size : options.size / extent.sequence_share;
+    return options.directory.empty() ? options.size : options.size / effort.sequence_share;
   }
   Subject subject(int size) const { return {scene, square_camera(scene, *description.view, size)}; }
 };
@@ -67,7 +74,7 @@ StudiedScene studied_scene(const std::string& name, const Animation* script, con
   std::ostringstream nff;
   write_nff(description, nff);
   CompiledScene scene = compile(description);
-  return {name, options, extent_of(options), script, std::move(description), nff.str(), std::move(scene)};
+  return {name, options, effort_of(options), script, std::move(description), nff.str(), std::move(scene)};
 }
 
 Reference reference_of(const StudiedScene& studied, const Subject& subject, int cells) {
@@ -88,7 +95,7 @@ Sequence sequence_of(const StudiedScene& studied, int script_frames,
   }
   for (const FrameRequest& frame : sequence.frames) {
     const Subject subject{studied.scene, frame.camera};
-    sequence.references.push_back(reference_of(studied, subject, studied.extent.sequence_cells).image);
+    sequence.references.push_back(reference_of(studied, subject, studied.effort.sequence_cells).image);
   }
   sequence.units_per_second = measured_units_per_second({studied.scene, sequence.frames.front().camera});
   return sequence;
@@ -98,7 +105,7 @@ Sequence sequence_of(const StudiedScene& studied, int script_frames,
 Sequence short_sequence(const StudiedScene& studied) {
   constexpr int kFrames = 6, kCut = 3;
   constexpr double kDegreesPerFrame = 2;
-  const int most = studied.extent.frames;
+  const int most = studied.effort.frames;
   return sequence_of(studied, most,
                      orbit(studied.scene, *studied.description.view, studied.sequence_size(),
                            std::min(most, kFrames), kDegreesPerFrame, kCut));
@@ -107,9 +114,9 @@ Sequence short_sequence(const StudiedScene& studied) {
 // The script, or an orbit of one angular speed whatever the rate.
 Sequence sequence_at(double fps, const StudiedScene& studied) {
   constexpr double kDegreesPerSecond = 14.4;
-  return sequence_of(studied, studied.extent.script_frames_planned,
+  return sequence_of(studied, studied.effort.script_frames_planned,
                      orbit(studied.scene, *studied.description.view, studied.sequence_size(),
-                           studied.extent.orbit_frames_planned, kDegreesPerSecond / fps));
+                           studied.effort.orbit_frames_planned, kDegreesPerSecond / fps));
 }
 
 // Describes the sequences; `without_script` names what is played then.
@@ -117,12 +124,12 @@ std::string rates_setup(const StudiedScene& studied, const char* without_script)
   const int ranks = studied.options.ranks;
   return fmt::format(
       "{0} of {1} x {1} pixels on {2} under the work clock, which counts work instead of seconds: a second "
-      "is "
-      "what a core of this machine does in a second, measured on each scene.",
+      "is what a core of this machine does in a second, measured on each scene.",
       studied.script ? "The frames of " + studied.script->name : without_script, studied.sequence_size(),
       ranks == 1 ? "one rank" : fmt::format("{} ranks", ranks));
 }
 
+// Names of what is played without a script.
 constexpr const char* kRound = "Frames round the scene, with a camera cut after the third,";
 constexpr const char* kOrbit = "Frames that go round the scene by 14.4 degrees per second,";
 
@@ -162,9 +169,9 @@ void measure(const StudiedScene& studied, AccuracyResults& results) {
   append(results.pictures,
          figure_pictures(name, studied.subject(std::min(options.size, kFigureSize)), options.seed));
   const Sequence sequence = short_sequence(studied);
-  append(results.rates, measure_rates(sequence, studied.extent.rates, kEveryCast));
+  append(results.rates, measure_rates(sequence, studied.effort.rates, kEveryCast));
   done("frame rates");
-  append(results.real_time, measure_in_real_time(sequence, studied.extent.rates));
+  append(results.real_time, measure_in_real_time(sequence, studied.effort.rates));
   done("deadlines");
 }
 
@@ -172,7 +179,7 @@ void measure(const StudiedScene& studied, AccuracyResults& results) {
 void print_rate(const StudiedScene& studied, double rmse) {
   const Sequence sequence = short_sequence(studied);
   fmt::print(stderr, "pprt-study: {}: {}\n", studied.name, rates_setup(studied, kRound));
-  const auto points = measure_rates(sequence, studied.extent.rates, std::array{CastChoice::kAuto});
+  const auto points = measure_rates(sequence, studied.effort.rates, std::array{CastChoice::kAuto});
   fmt::print("{}\n", rate_with_error(points, rmse));
 }
 
@@ -216,10 +223,10 @@ Inputs read_inputs(const AccuracyOptions& options) {
 
 // Fills in the defaults.
 AccuracyOptions settled(AccuracyOptions options) {
-  const Extent& extent = extent_of(options);
+  const Effort& effort = effort_of(options);
   const bool only_planned = options.directory.empty() && !options.quick;
-  if (options.size == 0) options.size = only_planned ? kPlannedSize : extent.size;
-  if (options.reference_cells == 0) options.reference_cells = extent.cells;
+  if (options.size == 0) options.size = only_planned ? kPlannedSize : effort.size;
+  if (options.reference_cells == 0) options.reference_cells = effort.cells;
   return options;
 }
 

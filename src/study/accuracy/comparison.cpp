@@ -24,9 +24,9 @@ std::vector<CurvePoint> best_so_far(std::vector<CurvePoint> curve) {
 // Spread over the repeats of a ratio between a method's curve and the uniform one's.
 Spread over_repeats(const SceneCurves& curves, const std::string& method, const Ratio& ratio) {
   std::vector<double> ratios;
-  std::vector<CurvePoint> uniform;
-  for (int r = 0; !(uniform = points_of(curves, kUniform, r)).empty(); ++r) {
-    ratios.push_back(ratio(best_so_far(points_of(curves, method, r)), best_so_far(uniform)));
+  for (const std::vector<CurvePoint>& uniform : repeats_of(curves, kUniform)) {
+    const std::vector<CurvePoint> own = points_of(curves, method, static_cast<int>(ratios.size()));
+    ratios.push_back(ratio(best_so_far(own), best_so_far(uniform)));
   }
   return spread_of(std::move(ratios));
 }
@@ -52,6 +52,15 @@ std::vector<CurvePoint> points_of(const SceneCurves& curves, const std::string& 
   std::stable_sort(curve.begin(), curve.end(),
                    [](const CurvePoint& a, const CurvePoint& b) { return a.share < b.share; });
   return curve;
+}
+
+std::vector<std::vector<CurvePoint>> repeats_of(const SceneCurves& curves, const std::string& method) {
+  std::vector<std::vector<CurvePoint>> repeats = {points_of(curves, method, 0)};
+  while (!repeats.back().empty()) {
+    repeats.push_back(points_of(curves, method, static_cast<int>(repeats.size())));
+  }
+  repeats.pop_back();
+  return repeats;
 }
 
 double error_at(const std::vector<CurvePoint>& curve, double share) {

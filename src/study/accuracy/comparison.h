@@ -17,6 +17,9 @@ inline constexpr std::array kBudgets = {0.01, 0.02, 0.05, 0.1, 0.25, 0.5, 1.0, 2
 // Returns a method's points of one repeat by increasing time.
 std::vector<CurvePoint> points_of(const SceneCurves& curves, const std::string& method, int repeat);
 
+// Returns those of each repeat, up to one without points.
+std::vector<std::vector<CurvePoint>> repeats_of(const SceneCurves& curves, const std::string& method);
+
 // Interpolates between logarithms. NaN before the first picture and after the last; an exhausted method keeps
 // its last error.
 double error_at(const std::vector<CurvePoint>& curve, double share);

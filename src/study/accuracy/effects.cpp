@@ -1,7 +1,5 @@
 #include "study/accuracy/effects.h"
 
-#include <utility>
-
 #include "study/accuracy/methods.h"
 #include "study/accuracy/statistics.h"
 

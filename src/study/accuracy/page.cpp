@@ -35,11 +35,7 @@ void add_plot(const char* name, const char* caption, const Items& items, StudyOu
 
 // Medians over the repeats, point by point, with the spread of the errors.
 Curve median_curve(const SceneCurves& scene, const std::string& method, const Abscissa& x) {
-  std::vector<std::vector<CurvePoint>> repeats;
-  for (std::vector<CurvePoint> points = points_of(scene, method, 0); !points.empty();
-       points = points_of(scene, method, static_cast<int>(repeats.size()))) {
-    repeats.push_back(std::move(points));
-  }
+  const std::vector<std::vector<CurvePoint>> repeats = repeats_of(scene, method);
   std::size_t count = repeats.empty() ? 0 : repeats.front().size();
   for (const auto& points : repeats) count = std::min(count, points.size());
   Curve curve{method};
@@ -94,8 +90,6 @@ Panel perceived_panel(const SceneCurves& scene) {
 std::vector<std::string> ablations(const SceneCurves& scene) {
   std::vector<std::string> names = rivals(scene);
   std::erase(names, kControl);
-  std::stable_partition(names.begin(), names.end(),
-                        [](const std::string& name) { return name == kProgressive; });
   return names;
 }
 
@@ -122,9 +116,8 @@ std::string losses(const SceneCurves& scene) {
 }
 
 void write_ratios(const std::vector<SceneCurves>& scenes, StudyOutput& output) {
-  Page& page = output.page();
-  page.heading("Progressive against uniform at equal time");
-  page.paragraph(
+  output.section(
+      "Progressive against uniform at equal time",
       "Error of the progressive picture over that of the uniform picture that takes the same CPU time. Both "
       "use one thread and the same tracing kernel. Below 1, progressive is better. Times are shares of the "
       "time of one sample per pixel, reconstruction included; for very small shares neither method has a "
@@ -132,8 +125,8 @@ void write_ratios(const std::vector<SceneCurves>& scenes, StudyOutput& output) {
       "that have a picture.");
   output.add_table("ratios", ratio_table(scenes));
   for (const SceneCurves& s : scenes) {
-    page.paragraph(fmt::format("{}: {} {}", s.scene,
-                               to_sentence(budget_ranges(s, kProgressive), "Progressive"), losses(s)));
+    output.paragraph(fmt::format("{}: {} {}", s.scene,
+                                 to_sentence(budget_ranges(s, kProgressive), "Progressive"), losses(s)));
   }
   add_plot("ratios",
            "Medians of the repeats with their spread. The control is the uniform method again: its ratio "
@@ -145,8 +138,7 @@ void write_curves(const std::vector<SceneCurves>& scenes, StudyOutput& output) {
   const auto both_over = [](const Abscissa& x) {
     return [x](const SceneCurves& s) { return curves_panel(s, x, {kProgressive, kUniform}); };
   };
-  Page& page = output.page();
-  page.heading("Error against time and against samples");
+  output.heading("Error against time and against samples");
   add_plot("error-time", "Root mean square error on the display scale against CPU time of one thread.",
            scenes, output, both_over(kTime));
   add_plot("error-samples", "The same error against the number of samples.", scenes, output,
@@ -154,26 +146,26 @@ void write_curves(const std::vector<SceneCurves>& scenes, StudyOutput& output) {
   add_plot("perceived",
            "Perceived error: mean FLIP (67 pixels per degree) and 1 - SSIM against CPU time, first repeat.",
            scenes, output, perceived_panel);
-  page.heading("What each part of the method is worth");
+  output.heading("What each part of the method is worth");
   add_plot("ablations", "Progressive, and without one of its parts.", scenes, output,
            [](const SceneCurves& s) { return curves_panel(s, kTime, ablations(s)); });
-  page.table(table_of<Method>(accuracy_methods(),
-                              {{"method", &Method::name}, {"what it is", &Method::description}}));
+  output.table(table_of<Method>(accuracy_methods(),
+                                {{"method", &Method::name}, {"what it is", &Method::description}}));
   const std::vector<Comparison> all = comparisons(scenes);
-  page.heading("Errors at equal time");
-  page.paragraph("Over those of the uniform method, medians of the repeats. comparisons.csv has the spread.");
-  page.table(budgets_table(all, &Comparison::error));
-  page.heading("Times at equal error");
-  page.paragraph(
+  output.section("Errors at equal time",
+                 "Over those of the uniform method, medians of the repeats. comparisons.csv has the spread.");
+  output.table(budgets_table(all, &Comparison::error));
+  output.section(
+      "Times at equal error",
       "Time for the error that the uniform method has at each budget, over the time of the uniform method. "
       "Below 1 the method is faster. A dash: the method has no picture as coarse as that, or none as good.");
-  page.table(budgets_table(all, &Comparison::time));
-  page.heading("What errors are measured against");
-  page.paragraph(
+  output.table(budgets_table(all, &Comparison::time));
+  output.section(
+      "What errors are measured against",
       "Converged frames: the mean of two independent halves, each with one sample at a random place of every "
       "cell of a grid in every pixel. Samples are clamped to the display's range before the mean. Their own "
       "error is half the difference of the halves.");
-  page.table(references_table(scenes));
+  output.table(references_table(scenes));
   output.write_table("curves", points_table(scenes));
   output.write_table("comparisons", comparisons_table(all));
 }
@@ -205,8 +197,8 @@ Panel renderers_panel(const SceneCurves& own, const std::vector<RendererPoint>& 
 }
 
 void write_renderers(const AccuracyResults& results, int size, StudyOutput& output) {
-  output.page().heading("Other renderers");
-  output.page().paragraph(
+  output.section(
+      "Other renderers",
       fmt::format("Each program against its own converged picture at {0} x {0} pixels. Time is a share of "
                   "its own plain picture with one sample per pixel, on one thread and without reading the "
                   "scene. Tachyon writes 8 bits per channel, which adds an error of 0.001.",
@@ -217,16 +209,15 @@ void write_renderers(const AccuracyResults& results, int size, StudyOutput& outp
 }
 
 void write_effects(const AccuracyResults& results, StudyOutput& output) {
-  Page& page = output.page();
-  page.heading("What effects cost, and what their absence costs");
-  page.paragraph(
+  output.section(
+      "What effects cost, and what their absence costs",
       "CPU time of one sample per pixel over that of the whole scene, and the error of a picture with eight "
       "samples per pixel against the converged frame. The first row's error is that of so few samples alone. "
       "Only effects that a scene calls for are simulated. The general kernel traces the same rays with code "
       "for all effects.");
   output.add_table("effects", effects_table(results.effects));
-  page.paragraph("Effects that the scenes call for:");
-  for (const std::string& census : results.censuses) page.listing(census);
+  output.paragraph("Effects that the scenes call for:");
+  for (const std::string& census : results.censuses) output.listing(census);
 }
 
 Panel rates_panel(const std::string& scene, const std::vector<RatePoint>& all, const char* label,
@@ -243,8 +234,7 @@ Panel rates_panel(const std::string& scene, const std::vector<RatePoint>& all, c
 }
 
 void write_rates(const AccuracyResults& results, StudyOutput& output) {
-  output.page().heading("Which frame rate is worth having");
-  output.page().paragraph(results.rates_setup);
+  output.section("Which frame rate is worth having", results.rates_setup);
   const auto add = [&](const char* name, const char* caption, const char* label, double RatePoint::*value) {
     add_plot(name, caption, results.curves, output,
              [&](const SceneCurves& s) { return rates_panel(s.scene, results.rates, label, value); });
@@ -255,8 +245,8 @@ void write_rates(const AccuracyResults& results, StudyOutput& output) {
   add("flicker", "Flicker: error of the change from frame to frame over the reference's own change.", "ratio",
       &RatePoint::flicker);
   output.add_table("rates", rates_table(results.rates));
-  output.page().heading("Deadlines in real time");
-  output.page().paragraph(
+  output.section(
+      "Deadlines in real time",
       "The same sequences in real time, repeated for at least two seconds: the share of frames that met "
       "their deadline, and their lateness (below 0: early). Errors and samples that differ from those above "
       "show how far the work clock's second is from this machine's. Uniform rmse: a uniform grid of samples "
@@ -269,8 +259,8 @@ void write_rates(const AccuracyResults& results, StudyOutput& output) {
 void write_accuracy(const AccuracyResults& results, int small_size, StudyOutput& output) {
   write_ratios(results.curves, output);
   write_curves(results.curves, output);
-  output.page().heading(fmt::format("Where {} samples go", kFigureSamples));
-  output.page().paragraph(
+  output.heading(fmt::format("Where {} samples go", kFigureSamples));
+  output.paragraph(
       "As in the paper's figure 1: the cost of each pixel's sample, the places that refinement chooses, "
       "their triangulation, and the picture from them.");
   output.add_gallery(results.pictures);

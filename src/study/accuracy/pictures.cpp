@@ -5,34 +5,17 @@
 #include <algorithm>
 #include <cctype>
 #include <limits>
-#include <utility>
 
 #include "image/image_io.h"
 #include "layers/frame_layers.h"
 #include "layers/pictures.h"
 #include "parallel/balance/partition.h"
+#include "parallel/serial_pattern.h"
 #include "study/accuracy/methods.h"
-#include "study/frame_series.h"
+#include "trace/tracer_probe.h"
 
 namespace pprt {
 namespace {
-
-// One frame of one rank with kFigureSamples samples.
-FinishedFrame sampled_frame(const Subject& subject, std::uint64_t seed) {
-  SessionSettings settings;
-  settings.width = subject.camera.width;
-  settings.height = subject.camera.height;
-  settings.seed = seed;
-  settings.clock = ClockKind::kWork;
-  settings.stop.samples = kFigureSamples;
-  settings.cast = CastChoice::kOff;
-  settings.balance = BalanceMode::kNone;
-  settings.report_samples = true;
-  FinishedFrame frame;
-  render_series(subject.scene, {{1, subject.camera}}, 1, settings,
-                [&](FinishedFrame&& finished) { frame = std::move(finished); });
-  return frame;
-}
 
 // Dark where a sample takes long. The least of some tries, so that no interruption shows.
 Image complexity_map(const Subject& subject) {
@@ -55,9 +38,8 @@ Image complexity_map(const Subject& subject) {
   std::vector<float> sorted = seconds;
   std::sort(sorted.begin(), sorted.end());
   const auto last = static_cast<std::size_t>(kShown * static_cast<double>(sorted.size() - 1));
-  const double low = std::max(1e-9f, sorted.front());
-  Image map =
-      heat_picture(seconds, camera.width, camera.height, low, std::max(1.01 * low, double{sorted[last]}));
+  const double low = std::max(1e-9f, sorted.front()), high = std::max(1.01 * low, double{sorted[last]});
+  Image map = heat_picture(seconds, camera.width, camera.height, low, high);
   for (Color& c : map.pixels) c = Color(1, 1, 1) - c;
   return map;
 }
@@ -65,8 +47,11 @@ Image complexity_map(const Subject& subject) {
 }  // namespace
 
 std::vector<Picture> figure_pictures(const std::string& scene, const Subject& subject, std::uint64_t seed) {
-  const FinishedFrame frame = sampled_frame(subject, seed);
-  const TileGrid grid = tile_grid_for(frame.image.width, frame.image.height, 1);
+  SessionSettings settings;
+  settings.width = subject.camera.width, settings.height = subject.camera.height, settings.seed = seed;
+  Tracer tracer(subject.scene, subject.camera);
+  const FinishedFrame frame = serial_frame(settings, subject.camera, kFigureSamples, probe_of(tracer));
+  const TileGrid grid = tile_grid_for(settings.width, settings.height, 1);
   FrameLayers layers({frame.order.number, grid, frame.owners, frame.samples, {}});
   std::string word = scene;
   std::replace_if(

@@ -11,13 +11,6 @@
 namespace pprt {
 namespace {
 
-// Returns the points by increasing rate.
-std::vector<RatePoint> by_rate(std::vector<RatePoint> points) {
-  if (points.empty()) throw std::invalid_argument("no rate was measured");
-  std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.fps < b.fps; });
-  return points;
-}
-
 // Returns y at x, both members of a point, on the first segment between neighbouring points that holds x.
 double interpolated(const std::vector<RatePoint>& points, double RatePoint::*x, double RatePoint::*y,
                     double at) {
@@ -31,8 +24,8 @@ double interpolated(const std::vector<RatePoint>& points, double RatePoint::*x, 
 
 }  // namespace
 
-std::string error_at_rate(const std::vector<RatePoint>& measured, double fps) {
-  const std::vector<RatePoint> points = by_rate(measured);
+std::string error_at_rate(const std::vector<RatePoint>& points, double fps) {
+  if (points.empty()) throw std::invalid_argument("no rate was measured");
   const RatePoint &slowest = points.front(), &fastest = points.back();
   if (fps < slowest.fps) {
     return fmt::format("{}: below {:g} frames/s the RMSE will be {:.4f} or less.", slowest.scene, slowest.fps,
@@ -46,8 +39,8 @@ std::string error_at_rate(const std::vector<RatePoint>& measured, double fps) {
                      interpolated(points, &RatePoint::fps, &RatePoint::rmse, fps));
 }
 
-std::string rate_with_error(const std::vector<RatePoint>& measured, double rmse) {
-  std::vector<RatePoint> points = by_rate(measured);
+std::string rate_with_error(std::vector<RatePoint> points, double rmse) {
+  if (points.empty()) throw std::invalid_argument("no rate was measured");
   const RatePoint slowest = points.front(), fastest = points.back();
   if (rmse >= fastest.rmse) {
     return fmt::format("{}: an RMSE of {:g} is kept at {:g} frames/s and more.", slowest.scene, rmse,

@@ -9,10 +9,10 @@
 
 namespace pprt {
 
-// Names the error at a rate, or the rate that has an error, from points of one scene and one way of casting.
-// Interpolates in logarithms. Throw std::invalid_argument without points.
+// Names the error at a rate, or the rate that has an error, from points of one scene and one way of casting
+// by increasing rate. Interpolates in logarithms. Throw std::invalid_argument without points.
 std::string error_at_rate(const std::vector<RatePoint>& points, double fps);
-std::string rate_with_error(const std::vector<RatePoint>& points, double rmse);
+std::string rate_with_error(std::vector<RatePoint> points, double rmse);
 
 // One turn of measurements in real time, of the same sequence.
 struct RealTimeTurn {

@@ -47,6 +47,7 @@ const std::vector<Quantity> kOverRanks = {kOverFrames[0],
                                           kOverFrames[2],
                                           kOverFrames[3]};
 
+// What a bar is made of, with names.
 using Parts = std::vector<std::pair<const char*, Measure>>;
 const Parts kStages = {{"sampling", time_of(&StageTimes::sampling)},
                        {"casting", time_of(&StageTimes::casting)},
@@ -213,36 +214,34 @@ std::string setup_text(const PaperResults& results, const PaperOptions& options)
 
 void write_figures(const Runs& runs, const PaperResults& results, const PaperOptions& options,
                    StudyOutput& output) {
-  Page& page = output.page();
   int figure = 5;
   for (const int ranks : options.ranks) {
     const auto on_ranks = [=](const PaperRun& run) { return run.ranks == ranks; };
-    page.heading(fmt::format("Balancing on {} ranks (the paper's figure {})", ranks, figure++));
+    output.heading(fmt::format("Balancing on {} ranks (the paper's figure {})", ranks, figure++));
     output.add_figure(sequence_plot(fmt::format("simple-{}", ranks), runs.all(kSimple, on_ranks), kReceived),
                       "The simple sequence, without casting. Triangles: repartitions of combined balancing.");
   }
   const int ranks = options.ranks.back();
-  page.heading("Casting (the paper's figure 7)");
+  output.heading("Casting (the paper's figure 7)");
   output.add_figure(sequence_plot("casting", runs.all(kCasting), kSamplesCast),
                     fmt::format("The casting sequence on {} ranks, samples cast as in the paper. \"Kept\": "
                                 "at a repartition samples go to their new owners. The paper drops them.",
                                 ranks));
-  page.heading("True error of the ways of casting");
-  page.paragraph(casting_trial_text(casting_trial(options)));
+  output.section("True error of the ways of casting", casting_trial_text(casting_trial(options)));
   output.add_table("casting-errors", casting_errors_table(results.casting_errors));
-  page.heading("Number of ranks (the paper's figure 8)");
+  output.heading("Number of ranks (the paper's figure 8)");
   output.add_figure(
       scaling_plot(runs),
       "Means over frames 5 to 10 of the simple sequence. The work of all ranks together is constant.");
   output.add_table("speedup", speedup_table(runs));
-  page.heading("Costs (the paper's figure 9)");
+  output.heading("Costs (the paper's figure 9)");
   output.add_figure(
       {"costs",
        {bars_panel(runs, "(a) Time by stage, all ranks", "ms of work per frame", kStages),
         bars_panel(runs, "(b) Bytes by kind, all ranks", "kB per frame", kKilobytes), growth_panel(runs)}},
       "The first ten frames of the casting sequence, combined balancing. On the work clock the decisions of "
       "balancing have no price; the samples that it moves count as sampling.");
-  page.heading("Where communication begins to hurt");
+  output.heading("Where communication begins to hurt");
   Plot network{"network"};
   for (const NetworkProperty& property : kNetworkProperties) {
     network.panels.push_back(network_panel(runs, property));
@@ -263,16 +262,15 @@ void study_paper(const PaperOptions& asked, const std::string& command_line) {
   const PaperResults results =
       run_paper(options, [](const std::string& line) { fmt::print(stderr, "pprt-study: {}\n", line); });
   output.write_table("frames", frames_table(results));
-  Page& page = output.page();
-  page.paragraph(kPaperReference);
-  page.paragraph(setup_text(results, options));
-  if (options.quick) page.note(kQuickNote);
-  page.heading("Findings");
+  output.paragraph(kPaperReference);
+  output.paragraph(setup_text(results, options));
+  if (options.quick) output.note(kQuickNote);
+  output.heading("Findings");
   output.add_table("findings", findings_table(findings(results)));
   write_figures(Runs(results), results, options, output);
-  page.heading("Sample patterns (the paper's figures 1 and 2)");
+  output.heading("Sample patterns (the paper's figures 1 and 2)");
   output.add_gallery(results.pattern_pictures);
-  page.heading("Frames, patterns and regions (the paper's figure 4)");
+  output.heading("Frames, patterns and regions (the paper's figure 4)");
   output.add_gallery(results.sequence_pictures);
   output.finish();
 }

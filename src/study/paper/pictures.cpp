@@ -1,17 +1,14 @@
-#include "study/paper/pictures.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <optional>
-#include <span>
 #include <string>
 
 #include "image/contact_sheet.h"
 #include "image/image_io.h"
 #include "layers/frame_layers.h"
 #include "parallel/balance/partition.h"
+#include "study/paper/runs.h"
 
 namespace pprt {
 namespace {
@@ -21,31 +18,35 @@ constexpr int kDrawingWidth = 512;  // pixels, at most
 // A layer, or the frame itself.
 using Shown = std::optional<Layer>;
 
-bool is_among(int frame, std::span<const int> frames) {
-  return std::find(frames.begin(), frames.end(), frame) != frames.end();
+// Frames of a run to be shown, each in some views.
+struct Exhibit {
+  std::string_view experiment;
+  int ranks;
+  BalanceMode balance;
+  std::vector<int> frames;
+  std::vector<Shown> views;
+  std::vector<Picture> PaperResults::*gallery;
+};
+
+// As in the paper's figure 4: frames, patterns and regions. As in figures 1 and 2: one rank's pattern and
+// that of a few, at the end of the still frames.
+std::vector<Exhibit> exhibits(const PaperOptions& options, int last_frame) {
+  using enum BalanceMode;
+  using enum Layer;
+  const Shown frame;
+  const auto sequences = &PaperResults::sequence_pictures, patterns = &PaperResults::pattern_pictures;
+  const std::vector<Shown> progress = {frame, kSamples, kRegions};
+  return {{kSimple, options.ranks.front(), kCombined, {1, 13, 15, 18, 22, 32}, progress, sequences},
+          {kCasting, options.ranks.back(), kCombined, {1, 5, 13, 18, 26, 35}, progress, sequences},
+          {kScaling, 1, kCombined, {last_frame}, {frame, kSamples, kTriangulation, kCost}, patterns},
+          {kPattern, kPatternRanks, kCombined, {last_frame}, {kSamples, kRegions}, patterns},
+          {kPattern, kPatternRanks, kNone, {last_frame}, {kSamples}, patterns}};
 }
 
-// As in the paper's figure 4.
-std::vector<Shown> views_of_sequences(const PaperOptions& options, const PaperRun& run, int frame) {
-  constexpr std::array kSimpleShown = {1, 13, 15, 18, 22, 32};
-  constexpr std::array kCastingShown = {1, 5, 13, 18, 26, 35};
-  const bool simple =
-      run.experiment == kSimple && run.ranks == options.ranks.front() && is_among(frame, kSimpleShown);
-  const bool casting = run.experiment == kCasting && run.keep_samples && is_among(frame, kCastingShown);
-  if (run.balance != BalanceMode::kCombined || !(simple || casting)) return {};
-  return {std::nullopt, Layer::kSamples, Layer::kRegions};
-}
-
-// As in figures 1 and 2: one rank's pattern and that of a few, at the end of the still frames.
-std::vector<Shown> views_of_patterns(const PaperOptions& options, const PaperRun& run, int frame) {
-  if (frame != run.frames) return {};
-  const bool combined = run.balance == BalanceMode::kCombined;
-  if (run.experiment == kScaling && run.ranks == 1 && combined && run.side == picture_side(options)) {
-    return {std::nullopt, Layer::kSamples, Layer::kTriangulation, Layer::kCost};
-  }
-  if (run.experiment != kPattern) return {};
-  return combined ? std::vector<Shown>{Layer::kSamples, Layer::kRegions}
-                  : std::vector<Shown>{Layer::kSamples};
+bool shows(const Exhibit& exhibit, const PaperRun& run, int frame) {
+  return exhibit.experiment == run.experiment && exhibit.ranks == run.ranks &&
+         exhibit.balance == run.balance && run.keep_samples && run.compare_serial &&
+         std::find(exhibit.frames.begin(), exhibit.frames.end(), frame) != exhibit.frames.end();
 }
 
 std::string caption_of(const PaperRun& run, int frame, const Shown& view) {
@@ -60,18 +61,17 @@ void add_pictures(const PaperOptions& options, const PaperRun& run, const Finish
                   PaperResults& results) {
   const int number = frame.order.number;
   const TileGrid grid = tile_grid_for(frame.image.width, frame.image.height, run.ranks);
-  const auto add = [&](const std::vector<Shown>& views, std::vector<Picture>& pictures) {
-    if (views.empty()) return;
+  for (const Exhibit& exhibit : exhibits(options, run.frames)) {
+    if (!shows(exhibit, run, number)) continue;
     FrameLayers layers({number, grid, frame.owners, frame.samples, {}});
-    for (const Shown& view : views) {
+    for (const Shown& view : exhibit.views) {
       Image picture = view ? layers.picture(*view, frame.image) : frame.image;
       if (picture.width > kDrawingWidth) picture = thumbnail(picture, kDrawingWidth);
-      pictures.push_back({caption_of(run, number, view),
-                          encode_png(picture, {}, view ? PictureKind::kDrawn : PictureKind::kRendered), ""});
+      const PictureKind kind = view ? PictureKind::kDrawn : PictureKind::kRendered;
+      (results.*exhibit.gallery)
+          .push_back({caption_of(run, number, view), encode_png(picture, {}, kind), ""});
     }
-  };
-  add(views_of_sequences(options, run, number), results.sequence_pictures);
-  add(views_of_patterns(options, run, number), results.pattern_pictures);
+  }
 }
 
 }  // namespace pprt

@@ -12,7 +12,6 @@
 #include "parallel/serial_pattern.h"
 #include "parser/anim_parser.h"
 #include "spd/spd.h"
-#include "study/paper/pictures.h"
 #include "study/sequences.h"
 #include "study/stopwatch.h"
 #include "trace/tracer_probe.h"
@@ -21,7 +20,6 @@ namespace pprt {
 namespace {
 
 constexpr double kNearBorder = 3;  // pixels: within this a sample counts as near a border of regions
-constexpr int kPatternRanks = 9;   // as in the paper's figure 2
 constexpr int kStillFrames = 10;   // the camera rests this long at the start of the simple sequence
 
 // What all runs have in common.
@@ -141,54 +139,49 @@ struct RunList {
     run.side = picture_side(options), run.frames = options.frames, run.machine = machine_of(options);
     return run;
   }
-  // The work that was calibrated for this number of ranks.
-  PaperRun& add_calibrated(std::string_view experiment, int ranks,
-                           BalanceMode balance = BalanceMode::kCombined) {
-    PaperRun& run = add(experiment, ranks, balance);
-    run.share = calibration.share.at(ranks);
-    return run;
-  }
   // Only the frames in which the camera rests.
   PaperRun& add_still(std::string_view experiment, int ranks, BalanceMode balance = BalanceMode::kCombined) {
     PaperRun& run = add(experiment, ranks, balance);
     run.frames = std::min(run.frames, kStillFrames);
     return run;
   }
+  // Lets the run do the work that was calibrated for its number of ranks.
+  void calibrate(PaperRun& run) const { run.share = calibration.share.at(run.ranks); }
 
   void add_sequences() {
-    for (const int ranks : options.ranks) {
-      for (const auto& mode : kWords<BalanceMode>) add_calibrated(kSimple, ranks, mode.value);
-    }
-    PaperRun& again = add_calibrated(kRepeat, options.ranks.front());
-    again.frames = std::min(5, again.frames), again.compare_serial = false;
     using enum BalanceMode;
+    for (const int ranks : options.ranks) {
+      for (const BalanceMode mode : {kNone, kLocal, kGlobal, kCombined}) calibrate(add(kSimple, ranks, mode));
+    }
+    PaperRun& again = add(kRepeat, options.ranks.front());
+    again.frames = std::min(5, again.frames), again.compare_serial = false;
+    calibrate(again);
     for (const auto& [mode, keep] :
          {std::pair(kNone, false), {kLocal, false}, {kCombined, false}, {kCombined, true}}) {
-      PaperRun& run = add_calibrated(kCasting, options.ranks.back(), mode);
+      PaperRun& run = add(kCasting, options.ranks.back(), mode);
       run.sequence = kCasting, run.cast = CastChoice::kPaper, run.keep_samples = keep;
+      calibrate(run);
     }
   }
 
   void add_scaling() {
+    using enum BalanceMode;
     const int side = picture_side(options);
     for (const int ranks : options.quick ? std::vector{1, 2, 4} : std::vector{1, 2, 4, 8, 16, 32, 64}) {
-      for (const BalanceMode mode : {BalanceMode::kNone, BalanceMode::kLocal, BalanceMode::kCombined}) {
-        add_still(kScaling, ranks, mode);
-      }
+      for (const BalanceMode mode : {kNone, kLocal, kCombined}) add_still(kScaling, ranks, mode);
       add_alone(side, ranks);
       PaperRun& large = add_still(kScaling, ranks);
       large.side = 2 * side, large.compare_serial = false;
       add_alone(2 * side, ranks);
-      PaperRun& costs = add_still(kCosts, ranks);
-      costs.sequence = kCasting, costs.cast = CastChoice::kPaper, costs.compare_serial = false;
+      add_cast(kCosts, ranks, CastChoice::kPaper);
     }
-    for (const BalanceMode mode : {BalanceMode::kNone, BalanceMode::kCombined}) {
-      add_still(kPattern, kPatternRanks, mode).share = calibration.share.at(kPatternRanks);
-    }
-    for (const CastChoice cast : {CastChoice::kOff, CastChoice::kPaper}) {
-      PaperRun& run = add_still(kGrowth, 1);
-      run.sequence = kCasting, run.cast = cast, run.compare_serial = false;
-    }
+    for (const BalanceMode mode : {kNone, kCombined}) calibrate(add_still(kPattern, kPatternRanks, mode));
+    for (const CastChoice cast : {CastChoice::kOff, CastChoice::kPaper}) add_cast(kGrowth, 1, cast);
+  }
+
+  void add_cast(std::string_view experiment, int ranks, CastChoice cast) {
+    PaperRun& run = add_still(experiment, ranks);
+    run.sequence = kCasting, run.cast = cast, run.compare_serial = false;
   }
 
   // One rank in the time that `ranks` have together.
@@ -201,7 +194,8 @@ struct RunList {
   void add_network() {
     const auto add_run = [&](std::string_view experiment) -> Machine& {
       PaperRun& run = add_still(experiment, options.ranks.back());
-      run.share = calibration.share.at(run.ranks), run.compare_serial = false;
+      run.compare_serial = false;
+      calibrate(run);
       return run.machine;
     };
     for (const double share : {0.0, 0.001, 0.01, 0.03, 0.1, 0.2, 0.4, 0.8}) {

@@ -2,8 +2,6 @@
 // and what each frame of a run measured.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <functional>
 #include <map>
 #include <string>
@@ -20,7 +18,8 @@ namespace pprt {
 
 // Samples in a frame of the paper, at 256 x 256 pixels. Other sizes get as many per pixel.
 inline constexpr double kPaperSamples = 19'000;
-inline constexpr int kPaperSide = 256;  // pixels
+inline constexpr int kPaperSide = 256;   // pixels
+inline constexpr int kPatternRanks = 9;  // as in the paper's figure 2
 
 // Names of experiments in the tables.
 inline constexpr std::string_view kSimple = "simple";             // figures 5 and 6
@@ -83,6 +82,11 @@ Machine machine_of(const PaperOptions& options);
 
 // Returns the runs that settled options ask for, in the order of the tables.
 std::vector<PaperRun> paper_runs(const PaperOptions& options, const Calibration& calibration);
+
+// Adds the pictures of the paper's figures 1, 2 and 4 that show this frame of the run, if any. `run` must
+// have asked for its samples.
+void add_pictures(const PaperOptions& options, const PaperRun& run, const FinishedFrame& frame,
+                  PaperResults& results);
 
 // Makes all runs that settled options ask for. Calls `report` with a line on each when it is done. Throws
 // std::runtime_error.

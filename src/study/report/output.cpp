@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "base/subprocess.h"
 #include "cli/version.h"
 #include "image/atomic_file.h"
 
@@ -77,9 +78,9 @@ std::string as_comments(const Provenance& facts) {
 
 StudyOutput::StudyOutput(const std::filesystem::path& directory, const std::string& title,
                          const Provenance& facts)
-    : directory_(directory),
-      provenance_{{"program", fmt::format("pprt-study {}", kVersion)}, {"build", PPRT_BUILD_TYPE}},
-      page_(title) {
+    : Page(title),
+      directory_(directory),
+      provenance_{{"program", fmt::format("pprt-study {}", kVersion)}, {"build", PPRT_BUILD_TYPE}} {
   for (const Provenance& more : {facts, provenance_of_host()}) {
     provenance_.insert(provenance_.end(), more.begin(), more.end());
   }
@@ -93,7 +94,7 @@ void StudyOutput::write_table(const std::string& name, const Table& table) const
 }
 
 void StudyOutput::add_table(const std::string& name, const Table& table) {
-  page_.table(table);
+  Page::table(table);
   write_table(name, table);
 }
 
@@ -101,7 +102,7 @@ void StudyOutput::add_gallery(std::span<const Picture> pictures) {
   for (const Picture& picture : pictures) {
     if (!picture.file.empty()) write_whole_file(directory_ / picture.file, picture.png);
   }
-  page_.gallery(pictures);
+  gallery(pictures);
 }
 
 void StudyOutput::add_figure(const Plot& plot, std::string_view caption) {
@@ -110,20 +111,20 @@ void StudyOutput::add_figure(const Plot& plot, std::string_view caption) {
       const std::string svg = draw_svg(plot);
       write_whole_file(directory_ / (plot.name + ".svg"),
                        "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n" + svg + "\n");
-      page_.figure(svg, caption);
+      figure(svg, caption);
       return;
-    } catch (const MissingTool& e) {
-      missing_ = e.what();
+    } catch (const ProgramNotFound& e) {
+      missing_ = std::string(e.what()) + " (Debian package gnuplot-nox)";
     }
   }
-  page_.note(fmt::format("{} The plot is missing: {}.", caption, missing_));
+  note(fmt::format("{} The plot is missing: {}.", caption, missing_));
 }
 
 void StudyOutput::finish() {
   using Fact = Provenance::value_type;
-  page_.heading("Provenance");
-  page_.table(table_of<Fact>(provenance_, {{"", &Fact::first}, {"", &Fact::second}}));
-  write_whole_file(directory_ / "index.html", page_.html());
+  heading("Provenance");
+  Page::table(table_of<Fact>(provenance_, {{"", &Fact::first}, {"", &Fact::second}}));
+  write_whole_file(directory_ / "index.html", html());
   if (!missing_.empty()) {
     fmt::print(stderr, "pprt-study: warning: {}: tables and page are written without plots\n", missing_);
   }

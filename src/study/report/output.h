@@ -25,13 +25,12 @@ Provenance provenance_of_host();
 // Returns a line "# name: value" for each fact, as they stand above a CSV.
 std::string as_comments(const Provenance& facts);
 
-class StudyOutput {
+// A page whose tables, plots and pictures are files in the directory, too.
+class StudyOutput : public Page {
  public:
   // Makes the directory. Adds version, build and host to `facts`. All functions that write throw
   // std::runtime_error where that fails.
   StudyOutput(const std::filesystem::path& directory, const std::string& title, const Provenance& facts);
-
-  Page& page() { return page_; }
 
   // Writes NAME.csv; add_table also shows the table on the page.
   void write_table(const std::string& name, const Table& table) const;
@@ -49,7 +48,6 @@ class StudyOutput {
  private:
   std::filesystem::path directory_;
   Provenance provenance_;
-  Page page_;
   std::string missing_;  // why there are no plots
 };
 

@@ -27,6 +27,7 @@ class Page {
   explicit Page(std::string title) : title_(std::move(title)) {}
 
   void heading(std::string_view text) { element("h2", "", text); }
+  void section(std::string_view title, std::string_view text) { heading(title), paragraph(text); }
   void paragraph(std::string_view text) { element("p", "", text); }
   void note(std::string_view text) { element("p", " class=\"note\"", text); }  // highlighted
   void listing(std::string_view text) { element("pre", "", text); }            // keeps its lines, fixed pitch

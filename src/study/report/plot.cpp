@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <system_error>
+#include <stdexcept>
 
 #include "base/subprocess.h"
 
@@ -31,15 +31,14 @@ std::string in_quotes(const std::string& text) {
   return q + "'";
 }
 
-std::string number(double value, const char* otherwise = "NaN") {
-  return std::isfinite(value) ? fmt::format("{}", value) : otherwise;
+std::string number(double value) {
+  return std::isfinite(value) ? fmt::format("{}", value) : "NaN";
 }
 
 std::string axis_commands(const char* name, const Axis& axis) {
   const std::string scale = axis.log_base > 0 ? fmt::format("set logscale {} {}", name, axis.log_base)
                                               : fmt::format("unset logscale {}", name);
-  return fmt::format("set {0}label {1}\nset {0}range [{2}:{3}]\n{4}\n", name, in_quotes(axis.label),
-                     number(axis.from, "*"), number(axis.to, "*"), scale);
+  return fmt::format("set {0}label {1}\nset {0}range [*:*]\n{2}\n", name, in_quotes(axis.label), scale);
 }
 
 bool has_spread(const Curve& curve) {
@@ -127,7 +126,7 @@ std::string panel_commands(const Panel& panel, std::size_t at) {
 
 std::string gnuplot_script(const Plot& plot) {
   const int panels = std::max(1, static_cast<int>(plot.panels.size()));
-  const int columns = std::clamp(plot.columns, 1, panels);
+  const int columns = std::min(panels, 2);
   const int rows = (panels + columns - 1) / columns;
   std::string text;
   for (std::size_t p = 0; p < plot.panels.size(); ++p) {
@@ -149,21 +148,12 @@ std::string gnuplot_script(const Plot& plot) {
 }
 
 std::string draw_svg(const Plot& plot, const std::string& program) {
-  const auto failure = [](const std::string& what) {
-    return std::runtime_error("cannot draw a plot: " + what);
-  };
-  CapturedRun run;
-  try {
-    run = run_captured({program}, gnuplot_script(plot));
-  } catch (const ProgramNotFound&) {
-    throw MissingTool(program + " is not installed (Debian package gnuplot-nox)");
-  } catch (const std::system_error& e) {
-    throw failure(e.what());
-  }
+  const CapturedRun run = run_captured({program}, gnuplot_script(plot));
   const std::string& svg = run.output;
   const std::size_t begin = svg.find("<svg"), end = svg.rfind("</svg>");
   if (run.status.code != 0 || begin == std::string::npos || end == std::string::npos) {
-    throw failure(fmt::format("{} ended with {}: {}", program, run.status.code, run.errors));
+    throw std::runtime_error(
+        fmt::format("cannot draw a plot: {} ended with {}: {}", program, run.status.code, run.errors));
   }
   return svg.substr(begin, end + 6 - begin);
 }

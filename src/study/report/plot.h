@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -47,10 +46,8 @@ Curve curve_over(std::string name, const Rows& rows, const X& x, const Y& y,
 }
 
 struct Axis {
-  std::string label;       // with the unit
-  double log_base = 0;     // 0: linear
-  double from = kNoValue;  // NaN: from the data
-  double to = kNoValue;
+  std::string label;    // with the unit
+  double log_base = 0;  // 0: linear
 };
 
 enum class PanelKind : std::uint8_t {
@@ -66,24 +63,17 @@ struct Panel {
   PanelKind kind = PanelKind::kCurves;
 };
 
-// Panels in rows of `columns`.
+// Panels in rows of two.
 struct Plot {
   std::string name;  // file name without extension: letters, digits and "-"
   std::vector<Panel> panels = {};
-  int columns = 2;
 };
 
 // Returns the gnuplot commands that print the plot as SVG, data included.
 std::string gnuplot_script(const Plot& plot);
 
-// gnuplot is not installed. what() names the Debian package that has it.
-class MissingTool : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
 // Returns the plot as an <svg> element, without an XML declaration. Looks for `program` on the PATH. Throws
-// MissingTool, or std::runtime_error with gnuplot's message.
+// ProgramNotFound, or std::runtime_error with gnuplot's message.
 std::string draw_svg(const Plot& plot, const std::string& program = "gnuplot");
 
 }  // namespace pprt
