@@ -185,8 +185,8 @@ void Worker::send_pixels(const FrameOrder& order, double sampling_ended_s) {
   clock_->end_frame(message.report.cpu_ms.reconstruction);
 }
 
-// Sends some of a large region's tiles, and empties the message. Returns the bytes of their pixels. Rank 0 takes in its
-// own parts at once: together they would be a picture more.
+// Sends some of a large region's tiles, and empties the message. Returns the bytes of their pixels. Rank 0
+// takes in its own parts at once: together they would be a picture more.
 std::size_t Worker::send_part(PixelMessage& message) {
   network_.send(0, Tag::kPixels, encode(message));
   bundles_.look();

@@ -1,5 +1,5 @@
-// libFuzzer entry. The first line holds words of a command line, the rest is the file of --config. Any bytes must be
-// refused with a message, or be options that --write-config writes so that --config reads the same.
+// libFuzzer entry. The first line holds words of a command line, the rest is the file of --config. Any bytes
+// must be refused with a message, or be options that --write-config writes so that --config reads the same.
 #include <sys/mman.h>
 #include <unistd.h>
 
