@@ -11,6 +11,7 @@
 #include "cli/exit.h"
 #include "cli/launch.h"
 #include "cli/log.h"
+#include "cli/rank_limits.h"
 #include "cli/stop_signals.h"
 #include "parallel/network/local_communicator.h"
 #include "parallel/network/mpi_communicator.h"
@@ -189,6 +190,7 @@ int run(const RenderOptions& options, ProgressReporter& progress, std::span<cons
   keep_freed_memory();
   if (started_by_mpi_launcher()) return run_mpi_rank(options, progress);
   if (options.ranks > 1) {
+    if (options.hostfile.empty()) make_room_for(options.ranks);
     return run_under_mpirun(options.ranks, options.hostfile, words,
                             [&](std::string_view said) { progress.overhear(said); });
   }

@@ -83,4 +83,13 @@ for options in --census --write-config '--samples 50 -o full.png --census' '--sa
   to_a_full_device pprt-render ball.nff $options
   expect_no_file full.png
 done
+
+# More ranks than mpirun may open files for are refused; a soft limit is raised.
+code=0 command='16 ranks with 64 open files'
+(ulimit -n 64; pprt-render ball.nff -np 16 --samples 50 -o many.png) >out 2>err || code=$?
+expect_code 1; expect_no_file many.png
+expect_text err "pprt-render: error: 16 ranks are too many: mpirun would open 128 files, and 'ulimit -Hn' allows 64; --hostfile adds hosts"
+code=0 command='16 ranks with 64 open files, which may be more'
+(ulimit -Sn 64; timeout --signal=KILL 120 pprt-render ball.nff -np 16 --samples 50 -o many.png) >out 2>err || code=$?
+expect_code 0; expect_file many.png
 finish
