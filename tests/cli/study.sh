@@ -10,6 +10,10 @@ for file in index.html provenance.json frames.csv speedup.csv casting-errors.csv
 if command -v gnuplot >/dev/null; then
   for figure in "${figures[@]}"; do expect_file "all/$figure.svg"; done
   [[ $(grep -c '<svg' all/index.html) -eq ${#figures[@]} ]] || complain "not all plots are on the page"
+  # Axes of values begin at 0, so that curves can be compared by their heights.
+  for axes in simple-2:6 simple-9:6 casting:6 scaling:5 costs:3; do
+    [[ $(grep -cE '<text>\s*0</text>' "all/${axes%:*}.svg") -ge ${axes#*:} ]] || complain "not all axes of ${axes%:*} begin at 0"
+  done
 fi
 
 # rows FILE EXPERIMENT: data rows of that experiment.

@@ -58,6 +58,10 @@ const Parts kKilobytes = {{"samples", kilobytes_of(&BytesSent::samples)},
                           {"balancing", kilobytes_of(&BytesSent::balance)},
                           {"progress", kilobytes_of(&BytesSent::progress)}};
 
+Axis from_zero(const char* label) {
+  return {label, 0, 0};
+}
+
 auto mean_over(Frames frames, const Measure& measure) {
   return [=](const MeasuredRun* run) { return mean(*run, frames, measure); };
 }
@@ -74,7 +78,7 @@ struct Series {
 };
 
 Panel frame_panel(const Quantity& quantity, const std::vector<Series>& series) {
-  Panel panel{quantity.title, {"frame"}, {quantity.unit}};
+  Panel panel{quantity.title, {"frame"}, from_zero(quantity.unit)};
   for (const Series& s : series) panel.curves.push_back(s.over_frames(quantity.measure));
   for (const Series& s : series) {
     if (s.run->balance != BalanceMode::kCombined) continue;
@@ -101,7 +105,7 @@ Plot sequence_plot(const std::string& name, const RunPointers& runs, const Quant
 }
 
 Panel ranks_panel(const Runs& runs, const Quantity& quantity) {
-  Panel panel{quantity.title, {"ranks", 2}, {quantity.unit}};
+  Panel panel{quantity.title, {"ranks", 2}, from_zero(quantity.unit)};
   const int side = runs.distinct(kScaling, &PaperRun::side).front();
   for (const auto& [mode, word, help] : kWords<BalanceMode>) {
     const RunPointers chosen = runs.all(kScaling, [&, balance = mode](const PaperRun& run) {
@@ -115,9 +119,9 @@ Panel ranks_panel(const Runs& runs, const Quantity& quantity) {
   return panel;
 }
 
-Panel speedup_panel(const Runs& runs, const char* title, double Speedup::*value, double log_base,
+Panel speedup_panel(const Runs& runs, const char* title, double Speedup::*value, const Axis& y,
                     const std::function<double(int)>& ideal) {
-  Panel panel{title, {"ranks", 2}, {"AchievementSpeedup", log_base}};
+  Panel panel{title, {"ranks", 2}, y};
   for (const int side : runs.distinct(kScaling, &PaperRun::side)) {
     std::vector<Speedup> of_side = speedups(runs);
     std::erase_if(of_side, [&](const Speedup& s) { return s.side != side; });
@@ -132,15 +136,16 @@ Panel speedup_panel(const Runs& runs, const char* title, double Speedup::*value,
 Plot scaling_plot(const Runs& runs) {
   Plot plot{"scaling"};
   for (const Quantity& quantity : kOverRanks) plot.panels.push_back(ranks_panel(runs, quantity));
+  const char* label = "AchievementSpeedup";
+  plot.panels.push_back(speedup_panel(runs, "Refine(1, f/p) / Refine(p, f)", &Speedup::same_work,
+                                      from_zero(label), [](int) { return 1; }));
   plot.panels.push_back(
-      speedup_panel(runs, "Refine(1, f/p) / Refine(p, f)", &Speedup::same_work, 0, [](int) { return 1; }));
-  plot.panels.push_back(
-      speedup_panel(runs, "Refine(1, f) / Refine(p, f)", &Speedup::same_frame, 2, std::identity()));
+      speedup_panel(runs, "Refine(1, f) / Refine(p, f)", &Speedup::same_frame, {label, 2}, std::identity()));
   return plot;
 }
 
 Panel bars_panel(const Runs& runs, const char* title, const char* unit, const Parts& parts) {
-  Panel panel{title, {"ranks"}, {unit}, {}, PanelKind::kStackedBars};
+  Panel panel{title, {"ranks"}, from_zero(unit), {}, PanelKind::kStackedBars};
   for (const auto& [name, measure] : parts) {
     panel.curves.push_back(
         curve_over(name, runs.all(kCosts), &MeasuredRun::ranks, mean_over(kStart, measure)));
@@ -149,7 +154,7 @@ Panel bars_panel(const Runs& runs, const char* title, const char* unit, const Pa
 }
 
 Panel growth_panel(const Runs& runs) {
-  Panel panel{"(c) Casting on one rank", {"frame"}, {"samples per frame"}};
+  Panel panel{"(c) Casting on one rank", {"frame"}, from_zero("samples per frame")};
   for (const MeasuredRun* run : runs.all(kGrowth)) {
     const bool cast = run->cast != CastChoice::kOff;
     panel.curves.push_back(

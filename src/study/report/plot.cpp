@@ -31,14 +31,15 @@ std::string in_quotes(const std::string& text) {
   return q + "'";
 }
 
-std::string number(double value) {
-  return std::isfinite(value) ? fmt::format("{}", value) : "NaN";
+std::string number(double value, const char* otherwise = "NaN") {
+  return std::isfinite(value) ? fmt::format("{}", value) : otherwise;
 }
 
 std::string axis_commands(const char* name, const Axis& axis) {
   const std::string scale = axis.log_base > 0 ? fmt::format("set logscale {} {}", name, axis.log_base)
                                               : fmt::format("unset logscale {}", name);
-  return fmt::format("set {0}label {1}\nset {0}range [*:*]\n{2}\n", name, in_quotes(axis.label), scale);
+  return fmt::format("set {0}label {1}\nset {0}range [{2}:*]\n{3}\n", name, in_quotes(axis.label),
+                     number(axis.from, "*"), scale);
 }
 
 bool has_spread(const Curve& curve) {

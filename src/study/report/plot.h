@@ -46,8 +46,9 @@ Curve curve_over(std::string name, const Rows& rows, const X& x, const Y& y,
 }
 
 struct Axis {
-  std::string label;    // with the unit
-  double log_base = 0;  // 0: linear
+  std::string label;       // with the unit
+  double log_base = 0;     // 0: linear
+  double from = kNoValue;  // NaN: from the data
 };
 
 enum class PanelKind : std::uint8_t {

@@ -26,7 +26,7 @@ bool contains(const std::string& text, const std::string& part) {
 }
 
 Plot small_plot() {
-  Panel panel{"it's \n one", {"ranks", 2}, {"Q", 10}};
+  Panel panel{"it's \n one", {"ranks", 2, 1}, {"Q", 10}};
   panel.curves.push_back({"a", {{1, 0.1}, {2, 1.0 / 3, 0.2, 0.4}, {4, kNoValue}}});
   panel.curves.push_back({"ideal", {{1, 1}, {64, 1}}, CurveStyle::kReference});
   return {"small", {panel}};
@@ -50,7 +50,7 @@ TEST_CASE("plot: data in the gnuplot script is exact") {
 TEST_CASE("plot: axes, titles and styles reach the gnuplot script") {
   const std::string script = gnuplot_script(small_plot());
   CHECK(contains(script, "set title 'it''s   one'\n"));
-  CHECK(contains(script, "set xlabel 'ranks'\nset xrange [*:*]\nset logscale x 2\n"));
+  CHECK(contains(script, "set xlabel 'ranks'\nset xrange [1:*]\nset logscale x 2\n"));
   CHECK(contains(script, "set ylabel 'Q'\nset yrange [*:*]\nset logscale y 10\n"));
   CHECK(contains(script, "$p0c0 using 1:3:4 with filledcurves"));
   CHECK_FALSE(contains(script, "$p0c1 using 1:3:4"));
