@@ -118,7 +118,9 @@ make_network() {
   wire=$!
   trap 'kill $wire $far; rm -rf "$work"' EXIT
   for ((i = 0; i < 100; ++i)); do
-    if grep -q ready wire.log && ip link set far netns $far 2>/dev/null; then break; fi
+    # A process that has not yet left this namespace would take the device nowhere.
+    if [[ $(readlink /proc/$far/ns/net) != $(readlink /proc/self/ns/net) ]] && grep -q ready wire.log &&
+      ip link set far netns $far 2>/dev/null; then break; fi
     kill -0 $wire 2>/dev/null || exit 77
     sleep 0.05
   done
