@@ -59,10 +59,12 @@ class FileTable {
     if (id) by_identity_.emplace(*id, file);
   }
 
-  void add_frame(const NamedFile& file) {
+  // `has_twins`: there are further frames' files whose names may be the same.
+  void add_frame(const NamedFile& file, bool has_twins) {
     const std::string name = full_name(file.path);
     require_new(file, find(others_, name));
     if (const std::optional<Identity> id = identity_of(file.path)) require_new(file, find(by_identity_, *id));
+    if (!has_twins) return;
     const auto [known, is_new] = frames_.emplace(name, file);
     if (!is_new) require_new(file, &known->second);
   }
@@ -131,7 +133,9 @@ void require_distinct_files(const RenderPlan& plan) {
   }
   table.add_output({"the manifest", manifest_path(plan.output.pictures.front())});
   for (const NamedFile& file : files_of_the_run(plan)) table.add_output(file);
-  for_each_frame_file(plan, [&](const fs::path& file) { table.add_frame({"the frame", file}); });
+  // One output's frames and layers have names of their own.
+  const bool has_twins = plan.output.pictures.size() > 1;
+  for_each_frame_file(plan, [&](const fs::path& file) { table.add_frame({"the frame", file}, has_twins); });
 }
 
 // Whether there is a file that this run would replace. The ledger may also be a pipe or a device.
@@ -161,8 +165,10 @@ void require_references(const RenderPlan& plan) {
   if (!plan.report.reference) return;
   for (const PlannedFrame& frame : plan.frames) {
     const fs::path file = file_name(*plan.report.reference, frame.number);
-    std::error_code unknown;  // then reading will tell
-    if (!fs::exists(file, unknown) && !unknown) throw UsageError("--reference: there is no " + file.string());
+    std::error_code error;
+    if (fs::exists(file, error)) continue;
+    if (!error) throw UsageError("--reference: there is no " + file.string());
+    throw UsageError(fmt::format("--reference: cannot read '{}': {}", file.string(), error.message()));
   }
 }
 
@@ -184,8 +190,11 @@ void check_files(const RenderPlan& plan) {
   require_writable_files(plan);
 }
 
-std::set<std::string> frame_files(const RenderPlan& plan) {
+std::set<std::string> rewritten_files(const RenderPlan& plan) {
   std::set<std::string> files;
+  std::error_code none;
+  const fs::path manifest = manifest_path(plan.output.pictures.front());
+  if (plan.output.existing == ExistingFiles::kResume || !fs::exists(manifest, none)) return files;
   for_each_frame_file(plan, [&](const fs::path& file) { files.insert(file.string()); });
   return files;
 }

@@ -17,7 +17,8 @@ namespace pprt {
 // each is a new file that takes its name.
 void check_files(const RenderPlan& plan);
 
-// Returns the names of all frames' files.
-std::set<std::string> frame_files(const RenderPlan& plan);
+// Returns the names of the frames' files that an existing manifest must forget, because they are written
+// anew.
+std::set<std::string> rewritten_files(const RenderPlan& plan);
 
 }  // namespace pprt

@@ -111,6 +111,8 @@ run pprt-render "${still[@]}" -o g.png --stats $long; expect_code 1
 expect_text err "pprt-render: error: cannot write '$long': File name too long"
 run pprt-render "${still[@]}" -o g.png --film file/x.mp4; expect_code 1
 expect_text err "pprt-render: error: cannot write 'file/x.mp4': Not a directory"
+run pprt-render "${still[@]}" -o g.png --reference $long.png
+expect_usage "--reference: cannot read '$long.png': File name too long"
 mkdir sheet.png
 run pprt-render "${still[@]}" -o g.png --contact-sheet sheet.png --overwrite; expect_code 1
 expect_text err "pprt-render: error: cannot write 'sheet.png': it is a directory"
