@@ -80,7 +80,7 @@ std::optional<std::string> unexpected_word(CLI::App& app) {
 // Explains a name in an option file that is no option's.
 std::string unknown_in_config(CLI::App& app, const CLI::ConfigError& error) {
   constexpr std::string_view kExtra = "INI was not able to parse ";
-  const std::string what = error.what();
+  std::string what = error.what();
   if (!what.starts_with(kExtra)) return what;
   const std::string name = what.substr(kExtra.size());
   const std::vector<std::string> names = candidates(app, true);
