@@ -166,7 +166,8 @@ std::string config_text(const CLI::App& app) {
           fmt::format("\n; {}\n{}={}\n", option->get_description(), option->get_single_name(), *value);
     }
     const bool has_heading = group != "Options" && !paragraphs.empty();
-    text += (has_heading ? "\n; " + group + " Options\n" : "") + paragraphs;
+    if (has_heading) text += fmt::format("\n; {} Options\n", group);
+    text += paragraphs;
   }
   return text;
 }

@@ -143,7 +143,7 @@ TEST_CASE("a file that is no manifest is replaced only when asked for") {
     CHECK_THROWS_AS(Manifest(run.path, "key", ExistingFiles::kRefuse), UsageError);
     CHECK_THROWS_AS(Manifest(run.path, "key", ExistingFiles::kResume), UsageError);
     CHECK(text_of(run.path) == text);
-    Manifest(run.path, "key", ExistingFiles::kReplace);
+    const Manifest manifest(run.path, "key", ExistingFiles::kReplace);
     CHECK(text_of(run.path) == kFirstLine);
   }
 }
@@ -174,7 +174,7 @@ TEST_CASE("of a frame that is written anew in one format the other format stays 
   const fs::path exr = run.directory.path() / "1.exr";
   append(exr, kExr);
   Manifest(run.path, "key", ExistingFiles::kResume).add({{1, {run.picture(1), exr}, {"age"}}});
-  Manifest(run.path, "key", ExistingFiles::kReplace, {run.picture(1).string()});
+  const Manifest manifest(run.path, "key", ExistingFiles::kReplace, {run.picture(1).string()});
   const Manifest later(run.path, "key", ExistingFiles::kResume);
   CHECK_FALSE(later.has(1, run.outputs()));
   CHECK(later.has(1, run.outputs("exr"), {"age"}));
@@ -205,7 +205,7 @@ TEST_CASE("without --resume a manifest of another key is replaced") {
 TEST_CASE("resuming without a manifest begins a new run") {
   const TemporaryDirectory directory;
   const fs::path path = directory.path() / "manifest.ndjson";
-  Manifest(path, "key", ExistingFiles::kResume);
+  const Manifest manifest(path, "key", ExistingFiles::kResume);
   CHECK(text_of(path) == kFirstLine);
 }
 
