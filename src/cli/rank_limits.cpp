@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
-#include <limits>
 #include <stdexcept>
 #include <thread>
+
+#include "base/available_memory.h"
 
 namespace pprt {
 namespace {
@@ -19,15 +19,6 @@ constexpr unsigned kMostRanksPerCore = 128;
 
 std::uint64_t files_for(int ranks) {
   return kFiles + kFilesOfARank * static_cast<std::uint64_t>(ranks);
-}
-
-// Returns the memory that programs may still take; without the kernel's estimate, no bound.
-std::uint64_t available_memory() {
-  std::ifstream in("/proc/meminfo");
-  for (std::string line; std::getline(in, line);) {
-    if (line.starts_with("MemAvailable:")) return std::strtoull(line.c_str() + 13, nullptr, 10) * 1024;
-  }
-  return std::numeric_limits<std::uint64_t>::max();
 }
 
 // Whether a batch system, or a file in Open MPI's settings, names the hosts.

@@ -12,11 +12,7 @@ namespace pprt {
 // (docs/performance.md).
 std::uint64_t memory_of_pictures(const RenderPlan& plan);
 
-// Returns the memory that this process can have, in bytes: what the system calls available, within the
-// process's limit.
-std::uint64_t available_memory();
-
-// Throws std::runtime_error with both figures when the first is greater.
+// Throws std::runtime_error with both figures when that is more than available_memory().
 void require_memory(const RenderPlan& plan);
 
 }  // namespace pprt

@@ -4,23 +4,22 @@
 #include <bit>
 #include <limits>
 
+#include "base/hash.h"
+
 namespace pprt {
 namespace {
 
 // Mixes numbers into 64 bits. Equal numbers, 0 and -0 among them, give equal bits.
 class Mixer {
  public:
-  void add(std::uint64_t word) {
-    state_ = (state_ ^ word) * 0x9e3779b97f4a7c15;
-    state_ ^= state_ >> 32;
-  }
+  void add(std::uint64_t word) { state_ = mixed(state_, word); }
   void add(double value) { add(std::bit_cast<std::uint64_t>(value + 0.0)); }
   void add(const Vec3d& v) { add(v.x), add(v.y), add(v.z); }
   void add(const PatchVertex& v) { add(v.position), add(v.normal); }
   std::uint64_t bits() const { return state_; }
 
  private:
-  std::uint64_t state_ = 0x243f6a8885a308d3;
+  std::uint64_t state_ = 0;
 };
 
 bool same(const PatchVertex& a, const PatchVertex& b) {
