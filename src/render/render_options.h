@@ -27,10 +27,10 @@ struct RenderOptions {
   std::string script;  // empty: none, or `input` is one
 
   int ranks = 1;
-  std::string hostfile;       // empty: none
-  std::string config;         // the file that options were read from; empty: none
-  std::optional<double> fps;  // frames/s; 0: no rate
   ClockKind clock = ClockKind::kWall;
+  std::string hostfile;                  // empty: none
+  std::string config;                    // the file that options were read from; empty: none
+  std::optional<double> fps;             // frames/s; 0: no rate
   std::optional<std::uint64_t> budget;   // work units for each rank and frame
   std::optional<double> time;            // seconds
   std::optional<std::uint64_t> samples;  // in the image
@@ -43,8 +43,8 @@ struct RenderOptions {
   std::uint64_t seed = 1;
 
   std::optional<ImageSize> size;      // empty: the script's or the scene's
-  std::vector<FramePattern> outputs;  // empty: kDefaultOutput
   std::optional<FrameRange> frames;   // empty: all
+  std::vector<FramePattern> outputs;  // empty: kDefaultOutput
   std::vector<Layer> layers;
   std::filesystem::path contact_sheet;  // empty: none
   std::filesystem::path film;           // empty: none
