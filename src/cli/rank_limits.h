@@ -14,11 +14,11 @@ struct HostRoom {
   std::uint64_t open_files = 0;    // that a process may have at most
 };
 
-// Returns why so many ranks cannot run on one host, with the figures; nullopt if they can. The bounds were
-// measured with Open MPI 4.1.4 and 4 to 64 ranks of a small scene on 2 cores:
-//   open files   mpirun opens about 40 and 4 for each rank while it starts them; with fewer it never ends
-//   memory       a rank needs 10 to 17 MB of its own, and its messages up to 4 MiB
-//   cores        64 ranks start in 5 s, and the time grows with the square of their number
+// Returns why so many ranks cannot run on one host, with the figures; nullopt if they can.
+//
+// Measured with Open MPI 4.1.4: a small scene, 4 to 64 ranks, 2 cores. mpirun opens about 40 files, and 4 for
+// each rank. With fewer it never ends. A rank needs 10 to 17 MB of its own. Its messages take up to 4 MiB. 64
+// ranks start in 5 s. The time grows with the square of their number.
 std::optional<std::string> lack_of_room(int ranks, const HostRoom& host);
 
 // Lets mpirun open as many files as so many ranks need. Throws std::runtime_error with lack_of_room() of this

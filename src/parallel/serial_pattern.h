@@ -27,7 +27,7 @@ std::size_t samples_near_borders(std::span<const Sample> samples, const TileGrid
                                  std::span<const std::int32_t> owners, double reach);
 
 // Returns the frame of one rank that samples the camera's image afresh until it holds `count` samples, its
-// seeds included; its samples alone. Of the settings only size, seed, weights and pixel rule count. The probe
+// seeds included; its samples alone. Uses the settings' size, seed, weights and pixel rule only. The probe
 // is left looking from `camera`.
 FinishedFrame serial_frame(const SessionSettings& settings, const Camera& camera, std::uint64_t count,
                            const Probe& probe);

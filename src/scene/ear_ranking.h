@@ -17,8 +17,8 @@ class EarRanking {
   double operator[](std::uint32_t vertex) const { return tree_[leaves_ + vertex]; }
   void set(std::uint32_t vertex, double quality);
 
-  // Returns the vertex of the largest quality. Of equal ones it returns the first of `start`, `start` + 1 and
-  // so on; the last vertex is followed by the first.
+  // Returns the vertex of the largest quality. If several have it, returns the first at or after `start`,
+  // else the first of all.
   std::uint32_t best(std::uint32_t start) const;
 
  private:

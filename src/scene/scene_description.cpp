@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
+
+#include "base/hash.h"
 
 namespace pprt {
 namespace {
@@ -13,15 +15,26 @@ constexpr MaterialIndex kEmpty = ~MaterialIndex{0};
 std::size_t hash(const Material& m) {
   const double values[] = {m.color.x,  m.color.y, m.color.z,       m.diffuse,
                            m.specular, m.shine,   m.transmittance, m.refractive_index};
-  std::uint64_t h = 0x9e3779b97f4a7c15u;
-  for (double v : values) {
-    v += 0.0;  // -0 equals 0 and must have the same hash
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, &v, sizeof bits);
-    h = (h ^ bits) * 0xff51afd7ed558ccdu;
-    h ^= h >> 32;
-  }
+  std::uint64_t h = 0;
+  // -0 equals 0 and must have the same hash.
+  for (const double v : values) h = mixed(h, std::bit_cast<std::uint64_t>(v + 0.0));
   return static_cast<std::size_t>(h);
+}
+
+// Returns what `read` returns for the primitive.
+template <typename Read>
+auto of_primitive(const SceneDescription& scene, PrimitiveRef ref, const Read& read) {
+  switch (ref.kind) {
+    case PrimitiveKind::kSphere:
+      return read(scene.spheres[ref.index]);
+    case PrimitiveKind::kCone:
+      return read(scene.cones[ref.index]);
+    case PrimitiveKind::kPolygon:
+      return read(scene.polygons[ref.index]);
+    case PrimitiveKind::kPatch:
+      break;
+  }
+  return read(scene.patches[ref.index]);
 }
 
 // Returns the half extent of a disc along each axis i: radius * sqrt(1 - n_i^2), with n the unit normal.
@@ -88,31 +101,11 @@ MaterialIndex MaterialTable::intern(std::vector<Material>& materials, const Mate
 }
 
 SourceLocation location_of(const SceneDescription& scene, PrimitiveRef ref) {
-  switch (ref.kind) {
-    case PrimitiveKind::kSphere:
-      return scene.spheres[ref.index].location;
-    case PrimitiveKind::kCone:
-      return scene.cones[ref.index].location;
-    case PrimitiveKind::kPolygon:
-      return scene.polygons[ref.index].location;
-    case PrimitiveKind::kPatch:
-      break;
-  }
-  return scene.patches[ref.index].location;
+  return of_primitive(scene, ref, [](const auto& primitive) { return primitive.location; });
 }
 
 MaterialIndex material_of(const SceneDescription& scene, PrimitiveRef ref) {
-  switch (ref.kind) {
-    case PrimitiveKind::kSphere:
-      return scene.spheres[ref.index].material;
-    case PrimitiveKind::kCone:
-      return scene.cones[ref.index].material;
-    case PrimitiveKind::kPolygon:
-      return scene.polygons[ref.index].material;
-    case PrimitiveKind::kPatch:
-      break;
-  }
-  return scene.patches[ref.index].material;
+  return of_primitive(scene, ref, [](const auto& primitive) { return primitive.material; });
 }
 
 Box3d bounds(const SceneDescription& scene, PrimitiveRef ref) {

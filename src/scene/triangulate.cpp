@@ -34,10 +34,9 @@ std::vector<Vec2d> project(std::span<const Vec3d> polygon, const Vec3d& normal) 
 
 // The ring of vertices not yet clipped, with the quality of each as the tip of an ear.
 //
-// An ear of a simple polygon that is blocked stays so until a neighbour of its tip is clipped: of the
-// vertices in it, the one farthest from its base cannot be clipped before. So each clipping judges two ears
-// anew, and all are judged again only for polygons that intersect themselves, or touch themselves within
-// rounding.
+// In a simple polygon a blocked ear stays blocked until a neighbour of its tip is clipped. For the vertex in
+// it that is farthest from its base cannot be clipped before. So each clipping judges two ears anew. All are
+// judged again only for polygons that intersect themselves, or touch themselves within rounding.
 class EarClipper {
  public:
   explicit EarClipper(std::vector<Vec2d> points)

@@ -80,12 +80,10 @@ constexpr double shadow_end_error(double length) {
 // not.
 //
 // Bound: shadow_end_error, the rounding of the vertices, and Embree's error of T = v0 . Ng as in
-// triangle_offset, for an origin at distance d = `length`. Counted from, with l the longest edge:
-//   v_i = vertex - origin    errs by u d: moves a vertex, and with it the plane, by sqrt(3) u d
-//   e = v_i - v_j, an edge   errs by u l
-//   Ng = e x e'              errs by 2 u l^2 + 2 u l^2
-//   T = v0 . Ng              errs by 4 d u l^2 + 3 u d |Ng|
-// At most kMaxTriangleOffset, for slivers. Test: light_contacts_test.cpp.
+// triangle_offset. Here the origin is at distance d = `length`, and l is the longest edge. A vertex relative
+// to the origin errs by u d. This moves the plane by sqrt(3) u d. An edge errs by u l. Their product Ng errs
+// by 4 u l^2. T errs by 4 d u l^2 + 3 u d |Ng|. At most kMaxTriangleOffset, for slivers. Test:
+// light_contacts_test.cpp.
 constexpr double shadow_end_on_triangle(double length, double longest_edge, double twice_area) {
   const double l = longest_edge;
   const double bound = shadow_end_error(length) + kOriginRounding +

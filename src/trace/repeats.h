@@ -18,8 +18,8 @@ struct Repeats {
 };
 
 // Finds them in linear time. Leaving them out changes no ray's colour: a ray meets both copies at the same
-// parameter, computed from the same numbers, and the surface there is the same. Of copies with different
-// materials rounding chooses, so all of these count as different.
+// parameter, computed from the same numbers, and the surface there is the same. Copies with different
+// materials count as different, because rounding chooses the one that is seen.
 //
 // A million equal spheres have one box, so that every ray into it tries each of them.
 Repeats find_repeats(const SceneDescription& scene);

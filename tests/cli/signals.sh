@@ -64,15 +64,20 @@ wait "$pid" || code=$?
 command='a stopped run without its sheet'
 expect_code 1
 
+# signal_still SIGNAL SECONDS: sends the signal while the one frame of a still is being made. The still is $pid.
+signal_still() {
+  pprt-render ball.nff --time "$2" -s 512x512 -o long.png >out 2>err &
+  pid=$!
+  sleep 1.5
+  kill "-$1" "$pid"
+  sleep 1
+  command="a still that was sent SIG$1"
+  expect_no_file long.png
+}
+
 # A signal is answered at once, though the frame at hand goes on.
-pprt-render ball.nff --time 6 -s 512x512 -o long.png >out 2>err &
-pid=$!
-sleep 1.5
-kill -TERM "$pid"
-sleep 1
-command='a still asked to stop'
+signal_still TERM 6
 expect_line err 'pprt-render: the run ends after the frame at hand; a second signal ends it at once'
-expect_no_file long.png
 code=0
 wait "$pid" || code=$?
 expect_code 143
@@ -80,13 +85,7 @@ expect_file long.png
 rm long.png
 
 # A frame that takes long does not keep the status back.
-pprt-render ball.nff --time 4 -s 512x512 -o long.png >out 2>err &
-pid=$!
-sleep 1.5
-kill -USR1 "$pid"
-sleep 1
-command='a still asked for its status'
+signal_still USR1 4
 expect_line err 'frame 0 of 1  [0-9.]* s elapsed'
-expect_no_file long.png
 wait "$pid"
 finish

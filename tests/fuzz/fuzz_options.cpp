@@ -19,7 +19,7 @@
 #include "cli/scene_source.h"
 #include "render/render_options.h"
 
-// Of cli/scene_source.cpp, which would bring all readers of scenes along.
+// Stands for that of cli/scene_source.cpp, which needs all readers of scenes.
 std::vector<std::string> pprt::generated_scenes() {
   return {"spd:tree", "spd:balls"};
 }
