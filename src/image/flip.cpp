@@ -124,17 +124,22 @@ std::vector<double> response_magnitudes(const Plane& plane, const Kernel& kernel
   return result;
 }
 
-// Feature strengths in a luminance from 0 (black) to 1 (white).
-struct Features {
-  std::vector<double> edges;
-  std::vector<double> points;
-};
-
 Features features(const Plane& luminance, const Detectors& detectors) {
   Plane plane = with_margin(luminance, detectors.radius);
   for (double& value : plane.values) value = (value + 16) / 116;
   return {response_magnitudes(plane, detectors.edge, detectors.smooth),
           response_magnitudes(plane, detectors.point, detectors.smooth)};
+}
+
+// Returns per pixel, in [0, 1], by how much the features differ.
+std::vector<double> differences(const Features& a, const Features& b) {
+  std::vector<double> errors(a.edges.size());
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const double edge = std::abs(a.edges[i] - b.edges[i]);
+    const double point = std::abs(a.points[i] - b.points[i]);
+    errors[i] = std::min(1.0, std::sqrt(std::max(edge, point) / std::numbers::sqrt2));
+  }
+  return errors;
 }
 
 // Returns every pixel's perceived colour at the given viewing distance.
@@ -209,28 +214,25 @@ double colour_error(double hyab_distance) {
 
 std::vector<double> feature_errors(const Plane& a, const Plane& b, double pixels_per_degree) {
   const Detectors d = detectors(pixels_per_degree);
-  const Features of_a = features(a, d);
-  const Features of_b = features(b, d);
-  std::vector<double> errors(a.values.size());
+  return differences(features(a, d), features(b, d));
+}
+
+Seen seen(const Image& image, double pixels_per_degree) {
+  const OpponentPlanes planes = opponent_planes(image);
+  return {perceived_colours(planes, pixels_per_degree),
+          features(planes[kLuminance], detectors(pixels_per_degree))};
+}
+
+std::vector<double> error_map(const Seen& image, const Seen& reference) {
+  std::vector<double> errors = differences(image.features, reference.features);
   for (std::size_t i = 0; i < errors.size(); ++i) {
-    const double edge = std::abs(of_a.edges[i] - of_b.edges[i]);
-    const double point = std::abs(of_a.points[i] - of_b.points[i]);
-    errors[i] = std::min(1.0, std::sqrt(std::max(edge, point) / std::numbers::sqrt2));
+    errors[i] = std::pow(colour_error(hyab(image.colours[i], reference.colours[i])), 1 - errors[i]);
   }
   return errors;
 }
 
 std::vector<double> error_map(const Image& image, const Image& reference, double pixels_per_degree) {
-  const OpponentPlanes planes = opponent_planes(image);
-  const OpponentPlanes reference_planes = opponent_planes(reference);
-  const std::vector<ColorVector> colours = perceived_colours(planes, pixels_per_degree);
-  const std::vector<ColorVector> reference_colours = perceived_colours(reference_planes, pixels_per_degree);
-  std::vector<double> errors =
-      feature_errors(planes[kLuminance], reference_planes[kLuminance], pixels_per_degree);
-  for (std::size_t i = 0; i < errors.size(); ++i) {
-    errors[i] = std::pow(colour_error(hyab(colours[i], reference_colours[i])), 1 - errors[i]);
-  }
-  return errors;
+  return error_map(seen(image, pixels_per_degree), seen(reference, pixels_per_degree));
 }
 
 }  // namespace pprt::flip

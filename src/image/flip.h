@@ -49,8 +49,24 @@ double colour_error(double hyab_distance);
 // the kLuminance planes of opponent_planes.
 std::vector<double> feature_errors(const Plane& a, const Plane& b, double pixels_per_degree);
 
+// Feature strengths per pixel in a luminance from 0 (black) to 1 (white).
+struct Features {
+  std::vector<double> edges;
+  std::vector<double> points;
+};
+
+// What FLIP makes of one picture, whichever it is compared with.
+struct Seen {
+  std::vector<ColorVector> colours;  // perceived
+  Features features;
+};
+
+// Returns what a viewer sees of a picture at this distance.
+Seen seen(const Image& image, double pixels_per_degree);
+
 // Returns the error map: per pixel colour_error ^ (1 - feature_error), in [0, 1]. Both pictures have the same
-// size.
+// size and the same viewing distance.
+std::vector<double> error_map(const Seen& image, const Seen& reference);
 std::vector<double> error_map(const Image& image, const Image& reference, double pixels_per_degree);
 
 }  // namespace pprt::flip

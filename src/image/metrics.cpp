@@ -13,19 +13,26 @@ namespace {
 
 constexpr double kRelativeFloor = 0.01;  // keeps dark pixels from dominating the relative error
 
-void require_comparable(const Image& a, const Image& b) {
-  if (a.width != b.width || a.height != b.height) {
+void require_same_size(int width, int height, int other_width, int other_height) {
+  if (width != other_width || height != other_height) {
     throw std::invalid_argument("pictures of different sizes cannot be compared");
   }
-  if (a.pixels.empty()) throw std::invalid_argument("empty pictures cannot be compared");
+}
+
+void require_measurable(const Image& image) {
+  if (image.pixels.empty()) throw std::invalid_argument("empty pictures cannot be compared");
   const auto finite = [](const Color& c) {
     return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
   };
-  for (const Image* image : {&a, &b}) {
-    if (!std::all_of(image->pixels.begin(), image->pixels.end(), finite)) {
-      throw std::invalid_argument("pictures with values that are not finite cannot be compared");
-    }
+  if (!std::all_of(image.pixels.begin(), image.pixels.end(), finite)) {
+    throw std::invalid_argument("pictures with values that are not finite cannot be compared");
   }
+}
+
+void require_comparable(const Image& a, const Image& b) {
+  require_same_size(a.width, a.height, b.width, b.height);
+  require_measurable(a);
+  require_measurable(b);
 }
 
 Plane luma(const Image& image) {
@@ -124,10 +131,22 @@ double structural_similarity(const Image& a, const Image& b) {
 
 double mean_flip(const Image& image, const Image& reference, double pixels_per_degree) {
   require_comparable(image, reference);
+  return FlipReference(reference, pixels_per_degree).mean(image);
+}
+
+FlipReference::FlipReference(const Image& reference, double pixels_per_degree)
+    : width_(reference.width), height_(reference.height), pixels_per_degree_(pixels_per_degree) {
+  require_measurable(reference);
   if (!(pixels_per_degree >= 1 && pixels_per_degree <= 1000)) {
     throw std::invalid_argument("FLIP is defined here for 1 to 1000 pixels per degree");
   }
-  const std::vector<double> errors = flip::error_map(image, reference, pixels_per_degree);
+  seen_ = std::make_shared<const flip::Seen>(flip::seen(reference, pixels_per_degree));
+}
+
+double FlipReference::mean(const Image& image) const {
+  require_same_size(image.width, image.height, width_, height_);
+  require_measurable(image);
+  const std::vector<double> errors = flip::error_map(flip::seen(image, pixels_per_degree_), *seen_);
   return std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size());
 }
 

@@ -6,9 +6,15 @@
 // clamped_to_display first. Only FLIP decodes the values as sRGB, because it models the eye.
 #pragma once
 
+#include <memory>
+
 #include "image/image.h"
 
 namespace pprt {
+
+namespace flip {
+struct Seen;
+}
 
 // Metrics of one picture. An error is the difference `image - reference` of one channel. A pixel's error is
 // the largest magnitude of its three. A mean is over all channels of all pixels.
@@ -45,6 +51,20 @@ inline constexpr double kFlipPixelsPerDegree = 67;
 // `pixels_per_degree` of the field of view: 1 to 1000. Throws as `difference`, and std::invalid_argument for
 // other pixels_per_degree.
 double mean_flip(const Image& image, const Image& reference, double pixels_per_degree = kFlipPixelsPerDegree);
+
+// Compares many pictures with one reference by mean_flip. Keeps what FLIP makes of the reference, half of the
+// work. Results are equal, and errors thrown the same. Copies share what is kept; any number of threads may
+// call `mean`.
+class FlipReference {
+ public:
+  explicit FlipReference(const Image& reference, double pixels_per_degree = kFlipPixelsPerDegree);
+  double mean(const Image& image) const;
+
+ private:
+  int width_, height_;
+  double pixels_per_degree_;
+  std::shared_ptr<const flip::Seen> seen_;
+};
 
 // Returns the RMS, over all channels of all pixels, of (now - before) - (reference_now - reference_before).
 // It is the RMSE of the change of the error: an error that stays the same does not flicker. For a sequence,

@@ -209,6 +209,23 @@ TEST_CASE("FLIP forgives what is too fine to see, and sees an edge where the err
   CHECK(mean_flip(fine, grey, 10) > mean_flip(fine, grey, 67));  // nearer, it is less fine
 }
 
+TEST_CASE("FLIP of many pictures against one reference equals that of each pair") {
+  const Image reference = pattern(0, 1, 2);
+  for (const double distance : {67.0, 20.0}) {
+    const FlipReference kept(reference, distance);
+    for (const int shift : {0, 3, 8}) {
+      const Image image = pattern(shift, 0.5f, 3);
+      CHECK(kept.mean(image) == mean_flip(image, reference, distance));
+    }
+    CHECK(FlipReference(kept).mean(reference) == 0);
+    CHECK_THROWS_WITH(kept.mean(Image(2, 2)), "pictures of different sizes cannot be compared");
+  }
+  const Image broken(9, 7, Color(std::numeric_limits<float>::quiet_NaN()));
+  CHECK_THROWS_WITH(FlipReference(reference).mean(broken),
+                    "pictures with values that are not finite cannot be compared");
+  CHECK_THROWS_WITH(FlipReference(Image()), "empty pictures cannot be compared");
+}
+
 TEST_CASE("FLIP refuses what it is not defined for") {
   const Image image(2, 2);
   const double bad = GENERATE(0.0, -67.0, 1001.0, std::numeric_limits<double>::quiet_NaN());
