@@ -8,6 +8,7 @@
 #include "cli/scene_source.h"
 #include "cli/typed_options.h"
 #include "study/accuracy/accuracy_study.h"
+#include "study/accuracy/methods.h"
 #include "study/counts.h"
 #include "study/paper/paper_study.h"
 
@@ -60,6 +61,40 @@ CLI::App& add_paper(CLI::App& app, pprt::PaperOptions& options) {
   return command;
 }
 
+// What is compared, and beside what.
+void add_methods(CLI::App& command, pprt::AccuracyOptions& options) {
+  constexpr const char* kGroup = "Methods";
+  CLI::Option& methods = *add(command, "--methods", "LIST", options.methods,
+                              "Compare only these, with commas; uniform and control always (default: all)");
+  pprt::take_some_of(methods, pprt::method_words());
+  methods.group(kGroup);
+  command
+      .add_flag("--only-curves", options.only_curves,
+                "Leave out other renderers, effects, figure 1, frame rates and deadlines")
+      ->group(kGroup);
+  add(command, "--busy", "N", options.busy_threads,
+      "Let N threads render the scene beside each measured picture")
+      ->check(CLI::Range(0, 256))
+      ->capture_default_str()
+      ->group(kGroup);
+}
+
+void add_sequences(CLI::App& command, pprt::AccuracyOptions& options) {
+  constexpr const char* kGroup = "Sequences at fixed rates";
+  add(command, "--ranks", "N", options.ranks, "Number of ranks")
+      ->check(CLI::Range(1, 512))
+      ->capture_default_str()
+      ->group(kGroup);
+  add(command, "--want-rmse", "E", options.want_rmse,
+      "Print the frame rate that gives this error; without -o measure nothing else")
+      ->check(pprt::number_above_zero())
+      ->group(kGroup);
+  add(command, "--want-fps", "F", options.want_fps,
+      "Print the error at this frame rate, under the work clock and in real time")
+      ->check(pprt::number_above_zero())
+      ->group(kGroup);
+}
+
 CLI::App& add_accuracy(CLI::App& app, pprt::AccuracyOptions& options) {
   CLI::App& command = *app.add_subcommand("accuracy", "Measures what a better picture costs in time");
   pprt::take_path_or(*add(command, "SCENE", "", options.inputs,
@@ -79,17 +114,10 @@ CLI::App& add_accuracy(CLI::App& app, pprt::AccuracyOptions& options) {
   add(command, "--cache", "DIR", options.cache,
       "Directory that keeps converged frames (default: pprt in the user's cache directory)");
   command.add_flag("--no-cache", options.no_cache, "Neither keep converged frames nor use kept ones");
-  add(command, "--ranks", "N", options.ranks, "Number of ranks for the sequences at fixed rates")
-      ->check(CLI::Range(1, 512))
-      ->capture_default_str();
-  add(command, "--want-rmse", "E", options.want_rmse,
-      "Print the frame rate that gives this error; without -o measure nothing else")
-      ->check(pprt::number_above_zero());
-  add(command, "--want-fps", "F", options.want_fps,
-      "Print the error at this frame rate, under the work clock and in real time")
-      ->check(pprt::number_above_zero());
   add(command, "--seed", "N", options.seed, "Seed of the seed samples' positions in the first repeat")
       ->capture_default_str();
+  add_methods(command, options);
+  add_sequences(command, options);
   return command;
 }
 

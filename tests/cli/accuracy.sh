@@ -5,7 +5,7 @@ source "$(dirname "$0")/check.sh"
 run pprt-study accuracy spd:tree:4 spd:balls:1 -o all --quick --size 48 --repeats 2 --cache kept; expect_code 0
 expect_text out ''
 expect_line err 'pprt-study: spd:tree:4: converged frame, 32 samples a pixel, its own rmse 0\.0.*'
-for file in index.html provenance.json curves.csv comparisons.csv ratios.csv; do expect_file "all/$file"; done
+for file in index.html provenance.json curves.csv comparisons.csv ratios.csv ratios-flip.csv ratios-ssim.csv flicker.csv; do expect_file "all/$file"; done
 grep -q '"command": "pprt-study accuracy spd:tree:4 spd:balls:1 -o all' all/provenance.json ||
   complain "provenance.json does not tell the command: $(cat all/provenance.json)"
 grep -q '^# cpu: .' all/curves.csv || complain "curves.csv does not tell the processor"
@@ -30,6 +30,28 @@ grep -q '^spd:tree:4,Tachyon,absent: it shows cones as cylinders,' all/renderers
 if command -v povray >/dev/null; then
   grep -q '^spd:tree:4,POV-Ray,"plain, 1 x 1 samples",' all/renderers.csv || complain "POV-Ray was not run"
 fi
+
+# All three measures judge each picture, and each table of ratios ends with the mean and the worst scene.
+if grep -v '^#' all/curves.csv | grep -q ',,'; then complain "curves.csv has pictures that are not judged"; fi
+for measure in RMSE FLIP '1 - SSIM'; do
+  grep -q "^spd:balls:1,paper weights,$measure,1," all/comparisons.csv || complain "comparisons.csv lacks $measure"
+done
+for table in ratios ratios-flip ratios-ssim; do
+  [[ $(tail -n 2 all/$table.csv | cut -d, -f1 | paste -sd,) == 'geometric mean,worst' ]] || complain "$table.csv ends otherwise"
+  grep -q '^scene,ms for one sample a pixel,10 %,25 %,50 %,100 %,200 %,400 %,break-even$' all/$table.csv ||
+    complain "$table.csv has other columns"
+done
+[[ $(grep -cE '^spd:tree:4,(progressive|uniform),(0.25|0.5|1),' all/flicker.csv) -eq 6 ]] || complain "flicker.csv lacks rows of the tree"
+grep -q '"busy": "no threads beside the measured one (--busy 0)"' all/provenance.json || complain "provenance.json does not tell that nothing was busy"
+
+# Some methods, the curves alone, beside busy threads.
+run pprt-study accuracy spd:tree:4 -o some --quick --size 48 --repeats 1 --cache kept --only-curves --methods progressive --busy 2; expect_code 0
+[[ $(grep -v '^#' some/curves.csv | cut -d, -f2 | tail -n +2 | sort -u | paste -sd,) == control,progressive,uniform ]] ||
+  complain "--methods progressive gave others: $(cut -d, -f2 some/curves.csv | sort -u)"
+for file in ratios.csv ratios-flip.csv ratios-ssim.csv flicker.csv index.html; do expect_file "some/$file"; done
+for file in renderers.csv effects.csv rates.csv punctuality.csv spd-tree-4-complexity.png; do expect_no_file "some/$file"; done
+grep -q '^# busy: 2 threads rendered the same scene beside the measured one (--busy 2)' some/curves.csv || complain "curves.csv does not tell --busy 2"
+if grep -qE 'Other renderers|Deadlines' some/index.html; then complain "--only-curves shows other sections"; fi
 
 # Without other programs they are reported as absent, and plots are left out.
 mkdir bare && ln -s "$(command -v pprt-study)" bare
@@ -65,6 +87,9 @@ run pprt-study accuracy turn.anim --quick --size 32 --want-fps 100 --repeats 1; 
 [[ $(find home/pprt -type f | wc -l) -ge 2 ]] || complain "the user's cache directory holds no converged frame"
 
 # Refused.
+run pprt-study accuracy spd:tree:4 -o x --methods unifrom,control; expect_code 2
+expect_text err "pprt-study: error: --methods unifrom,control: 'unifrom' is none of progressive, uniform, control, paper-weights, area-only, variance-only, no-pixel-rule, pixel-area, mean-of-samples, pixel-centers, stratified-random; did you mean 'uniform'?"$'\n'"try 'pprt-study --help'"
+run pprt-study accuracy spd:tree:4 -o x --busy -1; expect_code 2; expect_line err '.*--busy.*'; expect_no_file x
 run pprt-study accuracy spd:tree:4; expect_code 2; expect_line err '.*--output is required.*'
 run pprt-study accuracy spd:bush -o x; expect_code 3; expect_no_file x/index.html
 printf 's 0 0 0 1\n' >blind.nff

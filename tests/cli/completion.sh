@@ -52,6 +52,7 @@ while IFS='|' read -r line words; do
 done < <(cases)
 [[ $seen -eq 16 ]] || complain "only $seen lines were tried"
 expect_offer bash 'of layers' 'samples,density samples,depth' "$(in_bash 'pprt-render --layers samples,d')"
+expect_offer bash 'of methods' 'control,paper-weights' "$(in_bash 'pprt-study accuracy --methods control,pap')"
 expect_offer bash 'behind an equals sign' 'wall work' "$(in_bash 'pprt-render --clock=w')"
 colons=$(bash -c 'compopt() { :; }; source pprt-render.bash; COMP_LINE="pprt-render spd:te" COMP_POINT=18
                   _pprt_render; printf "%s\n" "${COMPREPLY[@]}"' | one_line)

@@ -138,41 +138,78 @@ void append(std::vector<T>& all, std::vector<T> more) {
   std::move(more.begin(), more.end(), std::back_inserter(all));
 }
 
+// Frames round the scene, so slowly that a viewer follows each edge.
+SlowOrbit slow_orbit(const StudiedScene& studied) {
+  constexpr int kFrames = 8;
+  constexpr double kDegreesPerFrame = 0.25;
+  SlowOrbit slow{studied.name, {}, {}};
+  for (const FrameRequest& frame :
+       orbit(studied.scene, *studied.description.view, studied.sequence_size(), kFrames, kDegreesPerFrame)) {
+    slow.frames.push_back({studied.scene, frame.camera});
+    slow.references.push_back(
+        reference_of(studied, slow.frames.back(), studied.options.reference_cells).image);
+  }
+  return slow;
+}
+
+// Prints what a step of the study took.
+class Steps {
+ public:
+  explicit Steps(const std::string& scene) : scene_(scene) {}
+  void done(const std::string& step) {
+    fmt::print(stderr, "pprt-study: {}: {}: {:.1f} s\n", scene_, step, watch_.lap());
+  }
+
+ private:
+  const std::string& scene_;
+  Stopwatch watch_;
+};
+
+// Measures the methods: curves and flicker. Returns what the curves are judged by.
+Reference measure_methods(const StudiedScene& studied, Steps& steps, AccuracyResults& results) {
+  const AccuracyOptions& options = studied.options;
+  const Subject subject = studied.subject(options.size);
+  Reference converged = reference_of(studied, subject, options.reference_cells);
+  steps.done(fmt::format("converged frame, {} samples a pixel, its own rmse {:.5f}", converged.samples,
+                         converged.own_rmse));
+  // Other renderers run beside the curves, which CPU times allow.
+  auto renderers = std::async(std::launch::async, [&]() -> std::vector<RendererPoint> {
+    if (options.only_curves) return {};
+    return measure_other_renderers(studied.name, studied.description, options.size / 2);
+  });
+  const CurveRun run{results.methods, options.repeats, options.seed, options.busy_threads};
+  results.curves.push_back(measure_curves(studied.name, subject, converged, run));
+  steps.done(fmt::format("{} pictures", results.curves.back().points.size()));
+  append(results.renderers, renderers.get());
+  append(results.flicker, measure_flicker(slow_orbit(studied), results.methods, options.seed));
+  steps.done("flicker");
+  return converged;
+}
+
 void measure(const StudiedScene& studied, AccuracyResults& results) {
   constexpr int kFigureSize = 256;  // pixels
   const AccuracyOptions& options = studied.options;
   const std::string& name = studied.name;
-  Stopwatch watch;
-  const auto done = [&](const std::string& step) {
-    fmt::print(stderr, "pprt-study: {}: {}: {:.1f} s\n", name, step, watch.lap());
-  };
+  Steps steps(name);
+  const Reference converged = measure_methods(studied, steps, results);
+  if (options.only_curves) return;
   const Subject large = studied.subject(options.size), small = studied.subject(options.size / 2);
-  const Reference converged = reference_of(studied, large, options.reference_cells);
-  done(fmt::format("converged frame, {} samples a pixel, its own rmse {:.5f}", converged.samples,
-                   converged.own_rmse));
-  const Reference small_converged = reference_of(studied, small, options.reference_cells);
-  // Other renderers run beside the curves, which CPU times allow.
-  auto renderers = std::async(std::launch::async, [&] {
-    return measure_other_renderers(name, studied.description, options.size / 2);
-  });
-  results.curves.push_back(
-      measure_curves(name, large, converged, accuracy_methods(), options.repeats, options.seed));
-  done(fmt::format("{} pictures", results.curves.back().points.size()));
   const std::vector<Method> methods = {progressive_method(), uniform_method()};
-  results.small_curves.push_back(measure_curves(name, small, small_converged, methods, 1, options.seed));
-  append(results.renderers, renderers.get());
-  done("other renderers");
+  results.small_curves.push_back(measure_curves(name, small,
+                                                reference_of(studied, small, options.reference_cells),
+                                                {methods, 1, options.seed, options.busy_threads}));
+  steps.done("curves at half the size");
   append(results.effects,
          measure_effects(name, studied.description, large.camera, converged.image, options.repeats));
   results.censuses.push_back(studied.scene.census());
-  done("effects");
+  steps.done("effects");
   append(results.pictures,
          figure_pictures(name, studied.subject(std::min(options.size, kFigureSize)), options.seed));
   const Sequence sequence = short_sequence(studied);
   append(results.rates, measure_rates(sequence, studied.effort.rates, kEveryCast));
-  done("frame rates");
+  steps.done("frame rates");
   append(results.real_time, measure_in_real_time(sequence, studied.effort.rates));
-  done("deadlines");
+  steps.done("deadlines");
 }
 
 // Prints at which rate a sequence has the error.
@@ -221,6 +258,14 @@ Inputs read_inputs(const AccuracyOptions& options) {
   return inputs;
 }
 
+// Tells what the machine did beside the measured thread.
+std::string busy_fact(int threads) {
+  return threads == 0
+             ? "no threads beside the measured one (--busy 0)"
+             : fmt::format("{0} threads rendered the same scene beside the measured one (--busy {0})",
+                           threads);
+}
+
 // Fills in the defaults.
 AccuracyOptions settled(AccuracyOptions options) {
   const Effort& effort = effort_of(options);
@@ -238,6 +283,8 @@ void study_accuracy(const AccuracyOptions& asked, const std::string& command_lin
   const Animation* script = inputs.script ? &*inputs.script : nullptr;
   const bool has_questions = options.want_rmse || options.want_fps;
   if (options.directory.empty() && !has_questions) throw UsageError("--output is required");
+  const std::vector<Method> methods =
+      options.methods.empty() ? accuracy_methods() : methods_of(options.methods);
   for (const std::string& name : inputs.scenes) {
     if (!has_questions) break;
     const StudiedScene scene = studied_scene(name, script, options);
@@ -249,8 +296,10 @@ void study_accuracy(const AccuracyOptions& asked, const std::string& command_lin
                      {{"command", command_line},
                       {"seed", std::to_string(options.seed)},
                       {"pictures", fmt::format("{0} x {0} pixels", options.size)},
-                      {"time", "CPU time of one thread, median of the repeats"}});
+                      {"time", "CPU time of one thread, median of the repeats"},
+                      {"busy", busy_fact(options.busy_threads)}});
   AccuracyResults results;
+  results.methods = methods;
   for (const std::string& name : inputs.scenes) {
     const StudiedScene scene = studied_scene(name, script, options);
     measure(scene, results);

@@ -20,13 +20,16 @@ struct AccuracyOptions {
   int reference_cells = 0;                    // n of converged_reference(); 0: 8, or 4 if quick
   int ranks = 1;                              // of the sequences at fixed rates
   std::uint64_t seed = 1;                     // of the first repeat
+  std::string methods;                        // words of methods_of(); empty: all
+  bool only_curves = false;                   // of one picture and of its flicker, nothing else
+  int busy_threads = 0;                       // render beside every picture of the curves
   std::optional<double> want_rmse, want_fps;  // the planner's questions
 };
 
 // Writes into options.directory and reports progress on standard error. `command_line` goes into the
 // provenance. Answers the planner's questions on standard output; then the directory may be empty. Throws
-// UsageError for two scripts or no directory, InputError for a scene that cannot be read or has no view,
-// std::runtime_error where nothing can be written.
+// UsageError for two scripts, an unknown method or no directory, InputError for a scene that cannot be read
+// or has no view, std::runtime_error where nothing can be written.
 void study_accuracy(const AccuracyOptions& options, const std::string& command_line);
 
 }  // namespace pprt

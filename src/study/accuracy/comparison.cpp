@@ -13,20 +13,23 @@
 namespace pprt {
 namespace {
 
-using Ratio = std::function<double(const std::vector<CurvePoint>&, const std::vector<CurvePoint>&)>;
+using Ratio = std::function<double(const ErrorCurve&, const ErrorCurve&)>;
 
 // The best picture that each time allows: an error is never above that of one made sooner.
-std::vector<CurvePoint> best_so_far(std::vector<CurvePoint> curve) {
-  for (std::size_t i = 1; i < curve.size(); ++i) curve[i].rmse = std::min(curve[i].rmse, curve[i - 1].rmse);
+ErrorCurve best_so_far(ErrorCurve curve) {
+  for (std::size_t i = 1; i < curve.size(); ++i) {
+    curve[i].error = std::min(curve[i].error, curve[i - 1].error);
+  }
   return curve;
 }
 
 // Spread over the repeats of a ratio between a method's curve and the uniform one's.
-Spread over_repeats(const SceneCurves& curves, const std::string& method, const Ratio& ratio) {
+Spread over_repeats(const SceneCurves& curves, const std::string& method, Measure measure,
+                    const Ratio& ratio) {
   std::vector<double> ratios;
   for (const std::vector<CurvePoint>& uniform : repeats_of(curves, kUniform)) {
     const std::vector<CurvePoint> own = points_of(curves, method, static_cast<int>(ratios.size()));
-    ratios.push_back(ratio(best_so_far(own), best_so_far(uniform)));
+    ratios.push_back(ratio(best_so_far(errors_of(own, measure)), best_so_far(errors_of(uniform, measure))));
   }
   return spread_of(std::move(ratios));
 }
@@ -63,24 +66,31 @@ std::vector<std::vector<CurvePoint>> repeats_of(const SceneCurves& curves, const
   return repeats;
 }
 
-double error_at(const std::vector<CurvePoint>& curve, double share) {
-  if (curve.empty() || share < curve.front().share) return kNoValue;
-  const auto after =
-      std::find_if(curve.begin(), curve.end(), [&](const CurvePoint& p) { return p.share >= share; });
-  if (after == curve.end()) return curve.back().exhausted ? curve.back().rmse : kNoValue;
-  if (after == curve.begin()) return after->rmse;
-  const CurvePoint& before = *std::prev(after);
-  return log_linear(share, before.share, before.rmse, after->share, after->rmse);
+ErrorCurve errors_of(const std::vector<CurvePoint>& curve, Measure measure) {
+  ErrorCurve errors;
+  errors.reserve(curve.size());
+  for (const CurvePoint& p : curve) errors.push_back({p.share, error_of(p, measure), p.exhausted});
+  return errors;
 }
 
-double share_at(const std::vector<CurvePoint>& curve, double rmse) {
+double error_at(const ErrorCurve& curve, double share) {
+  if (curve.empty() || share < curve.front().share) return kNoValue;
+  const auto after =
+      std::find_if(curve.begin(), curve.end(), [&](const ErrorPoint& p) { return p.share >= share; });
+  if (after == curve.end()) return curve.back().exhausted ? curve.back().error : kNoValue;
+  if (after == curve.begin()) return after->error;
+  const ErrorPoint& before = *std::prev(after);
+  return log_linear(share, before.share, before.error, after->share, after->error);
+}
+
+double share_at(const ErrorCurve& curve, double error) {
   const auto down =
-      std::find_if(curve.begin(), curve.end(), [&](const CurvePoint& p) { return p.rmse <= rmse; });
+      std::find_if(curve.begin(), curve.end(), [&](const ErrorPoint& p) { return p.error <= error; });
   if (down == curve.end()) return kNoValue;
   // Before its first picture a method has no error to interpolate with.
-  if (down == curve.begin()) return down->rmse == rmse ? down->share : kNoValue;
-  const CurvePoint& before = *std::prev(down);
-  return log_linear(rmse, before.rmse, before.share, down->rmse, down->share);
+  if (down == curve.begin()) return down->error == error ? down->share : kNoValue;
+  const ErrorPoint& before = *std::prev(down);
+  return log_linear(error, before.error, before.share, down->error, down->share);
 }
 
 std::vector<double> shares_by(double step) {
@@ -92,23 +102,26 @@ std::vector<double> shares_by(double step) {
   return shares;
 }
 
-Spread ratio_at_equal_time(const SceneCurves& curves, const std::string& method, double share) {
-  return over_repeats(curves, method, [&](const auto& own, const auto& uniform) {
+Spread ratio_at_equal_time(const SceneCurves& curves, const std::string& method, Measure measure,
+                           double share) {
+  return over_repeats(curves, method, measure, [&](const auto& own, const auto& uniform) {
     return error_at(own, share) / error_at(uniform, share);
   });
 }
 
-Spread ratio_at_equal_error(const SceneCurves& curves, const std::string& method, double share) {
-  return over_repeats(curves, method, [&](const auto& own, const auto& uniform) {
+Spread ratio_at_equal_error(const SceneCurves& curves, const std::string& method, Measure measure,
+                            double share) {
+  return over_repeats(curves, method, measure, [&](const auto& own, const auto& uniform) {
     return share_at(own, error_at(uniform, share)) / share;
   });
 }
 
-std::vector<BudgetRange> budget_ranges(const SceneCurves& curves, const std::string& method) {
+std::vector<BudgetRange> budget_ranges(const SceneCurves& curves, const std::string& method,
+                                       Measure measure) {
   constexpr double kStep = 1.02;
   std::vector<BudgetRange> ranges;
   for (const double share : shares_by(kStep)) {
-    const double ratio = ratio_at_equal_time(curves, method, share).median;
+    const double ratio = ratio_at_equal_time(curves, method, measure, share).median;
     if (std::isnan(ratio)) continue;
     if (!ranges.empty()) ranges.back().to = share;
     if (ranges.empty() || ranges.back().ahead != (ratio < 1)) ranges.push_back({share, share, ratio < 1});
@@ -138,28 +151,32 @@ std::vector<std::string> rivals(const SceneCurves& curves) {
   return names;
 }
 
-Table ratio_table(const std::vector<SceneCurves>& scenes) {
+Table ratio_table(const std::vector<SceneCurves>& scenes, Measure measure) {
   constexpr double kLeast = 0.1;
   Columns<SceneCurves> columns = {
       {"scene", &SceneCurves::scene},
       {"ms for one sample a pixel", [](const SceneCurves& s) { return 1e3 * s.one_sample_s; }}};
-  std::vector<Cell> means = {"geometric mean", kNoValue};
+  std::vector<Cell> means = {"geometric mean", kNoValue}, worst = {"worst", kNoValue};
   for (const double share : kBudgets) {
     if (share < kLeast) continue;
-    const auto ratio = [share](const SceneCurves& s) {
-      return ratio_at_equal_time(s, kProgressive, share).median;
+    const auto ratio = [=](const SceneCurves& s) {
+      return ratio_at_equal_time(s, kProgressive, measure, share).median;
     };
     columns.push_back({budget_name(share), [=](const SceneCurves& s) { return with_digits(ratio(s), 2); }});
     std::vector<double> ratios(scenes.size());
     std::transform(scenes.begin(), scenes.end(), ratios.begin(), ratio);
     means.push_back(with_digits(geometric_mean(ratios), 3));
+    worst.push_back(with_digits(spread_of(ratios).high, 2));
   }
-  columns.push_back({"break-even", [](const SceneCurves& s) {
-                       return to_sentence(budget_ranges(s, kProgressive), kProgressive);
+  columns.push_back({"break-even", [=](const SceneCurves& s) {
+                       return to_sentence(budget_ranges(s, kProgressive, measure), kProgressive);
                      }});
-  means.push_back(kNoValue);
   Table table = table_of(scenes, columns);
-  if (scenes.size() > 1) table.rows.push_back(means);
+  if (scenes.size() < 2) return table;
+  for (std::vector<Cell>* row : {&means, &worst}) {
+    row->push_back(kNoValue);
+    table.rows.push_back(*row);
+  }
   return table;
 }
 
@@ -167,19 +184,23 @@ std::vector<Comparison> comparisons(const std::vector<SceneCurves>& scenes) {
   std::vector<Comparison> all;
   for (const SceneCurves& scene : scenes) {
     for (const std::string& method : rivals(scene)) {
-      for (const double share : kBudgets) {
-        all.push_back({scene.scene, method, share, ratio_at_equal_time(scene, method, share),
-                       ratio_at_equal_error(scene, method, share)});
+      for (const auto& [measure, word, help] : kWords<Measure>) {
+        for (const double share : kBudgets) {
+          all.push_back({scene.scene, method, measure, share,
+                         ratio_at_equal_time(scene, method, measure, share),
+                         ratio_at_equal_error(scene, method, measure, share)});
+        }
       }
     }
   }
   return all;
 }
 
-Table budgets_table(const std::vector<Comparison>& comparisons, Spread Comparison::*ratio) {
+Table budgets_table(const std::vector<Comparison>& comparisons, Measure measure, Spread Comparison::*ratio) {
   Table table{{"scene", "method"}};
   for (const double share : kBudgets) table.columns.push_back(budget_name(share));
   for (const Comparison& c : comparisons) {
+    if (c.measure != measure) continue;
     if (c.share == kBudgets.front()) table.rows.push_back({c.scene, c.method});
     table.rows.back().push_back(with_digits((c.*ratio).median, 2));
   }
@@ -190,6 +211,7 @@ Table comparisons_table(const std::vector<Comparison>& comparisons) {
   using C = Comparison;
   return table_of<C>(comparisons, {{"scene", &C::scene},
                                    {"method", &C::method},
+                                   {"measure", &C::measure},
                                    {"share of one sample a pixel", &C::share},
                                    {"error ratio", [](const C& c) { return c.error.median; }},
                                    {"least error ratio", [](const C& c) { return c.error.low; }},

@@ -20,22 +20,34 @@ std::vector<CurvePoint> points_of(const SceneCurves& curves, const std::string& 
 // Returns those of each repeat, up to one without points.
 std::vector<std::vector<CurvePoint>> repeats_of(const SceneCurves& curves, const std::string& method);
 
+// A picture's error by one measure, and its share of the time of one sample per pixel.
+struct ErrorPoint {
+  double share, error;
+  bool exhausted;
+};
+using ErrorCurve = std::vector<ErrorPoint>;
+
+// Returns the errors of a curve by a measure.
+ErrorCurve errors_of(const std::vector<CurvePoint>& curve, Measure measure);
+
 // Interpolates between logarithms. NaN before the first picture and after the last; an exhausted method keeps
 // its last error.
-double error_at(const std::vector<CurvePoint>& curve, double share);
+double error_at(const ErrorCurve& curve, double share);
 
 // Returns the least share at which the error is reached; NaN when it never is.
-double share_at(const std::vector<CurvePoint>& curve, double rmse);
+double share_at(const ErrorCurve& curve, double error);
 
 // Returns shares from 0.01 to 4, each `step` times the one before.
 std::vector<double> shares_by(double step);
 
 // Returns the method's error over that of the uniform method, in the same time. Each method shows its best
-// picture so far. Spread over the repeats.
-Spread ratio_at_equal_time(const SceneCurves& curves, const std::string& method, double share);
+// picture so far, by this measure. Spread over the repeats.
+Spread ratio_at_equal_time(const SceneCurves& curves, const std::string& method, Measure measure,
+                           double share);
 
 // Returns the method's time over that of the uniform method, for the error that the latter has at `share`.
-Spread ratio_at_equal_error(const SceneCurves& curves, const std::string& method, double share);
+Spread ratio_at_equal_error(const SceneCurves& curves, const std::string& method, Measure measure,
+                            double share);
 
 // A range of budgets in which one method is ahead of the other throughout: shares of the time of one sample
 // per pixel.
@@ -46,7 +58,7 @@ struct BudgetRange {
 
 // Returns the ranges in which the method is ahead and behind in turns, from the first budget to the last for
 // which both have a picture. Between them the ratio at equal time passes 1.
-std::vector<BudgetRange> budget_ranges(const SceneCurves& curves, const std::string& method);
+std::vector<BudgetRange> budget_ranges(const SceneCurves& curves, const std::string& method, Measure measure);
 
 // Names the ranges at which the method is ahead, and those at which it is behind.
 std::string to_sentence(const std::vector<BudgetRange>& ranges, const std::string& method);
@@ -55,23 +67,25 @@ std::string to_sentence(const std::vector<BudgetRange>& ranges, const std::strin
 std::vector<std::string> rivals(const SceneCurves& curves);
 
 // Returns one row per scene: progressive over uniform at 10 to 400 %, and the break-even points. With several
-// scenes the last row is their geometric mean, at each budget over those that have a picture.
-Table ratio_table(const std::vector<SceneCurves>& scenes);
+// scenes two rows follow, at each budget over the scenes that have a picture: the geometric mean, and the
+// worst ratio, which is the largest.
+Table ratio_table(const std::vector<SceneCurves>& scenes, Measure measure);
 
-// A method against the uniform one at one budget.
+// A method against the uniform one by one measure and at one budget.
 struct Comparison {
   std::string scene, method;
+  Measure measure;
   double share;
   Spread error, time;  // ratios at equal time, and at equal error
 };
 
-// Returns one for each scene, method and budget of the tables.
+// Returns one for each scene, method, measure and budget of the tables.
 std::vector<Comparison> comparisons(const std::vector<SceneCurves>& scenes);
 
-// Returns one row per scene and method: medians of a ratio at each budget.
-Table budgets_table(const std::vector<Comparison>& comparisons, Spread Comparison::*ratio);
+// Returns one row per scene and method: medians of a ratio by the measure at each budget.
+Table budgets_table(const std::vector<Comparison>& comparisons, Measure measure, Spread Comparison::*ratio);
 
-// Returns one row per scene, method and budget: both ratios with their spread.
+// Returns one row per scene, method, measure and budget: both ratios with their spread.
 Table comparisons_table(const std::vector<Comparison>& comparisons);
 
 }  // namespace pprt

@@ -1,12 +1,18 @@
 #include "study/accuracy/methods.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <optional>
 #include <random>
+#include <set>
 #include <utility>
 
+#include "base/diagnostics.h"
+#include "base/nearest_word.h"
 #include "image/contact_sheet.h"
 #include "pipeline/reconstruction/reconstruction.h"
 #include "pipeline/sampling/sample_mesh.h"
@@ -224,6 +230,12 @@ void run_stratified(const CurveTask& task) {
   });
 }
 
+std::string word_of(const Method& method) {
+  std::string word = method.name;
+  std::replace(word.begin(), word.end(), ' ', '-');
+  return word;
+}
+
 }  // namespace
 
 Method progressive_method() {
@@ -270,6 +282,31 @@ std::vector<Method> accuracy_methods() {
                  PixelRule::kCenter),
       {"stratified random", "no queue: a jittered grid, triangulated and reconstructed alike",
        run_stratified}};
+}
+
+std::vector<std::string> method_words() {
+  std::vector<std::string> words;
+  for (const Method& method : accuracy_methods()) words.push_back(word_of(method));
+  return words;
+}
+
+std::vector<Method> methods_of(std::string_view list) {
+  const std::vector<std::string> words = method_words();
+  const std::vector<std::string_view> known(words.begin(), words.end());
+  std::set<std::string_view> asked = {kUniform, kControl};
+  for (std::size_t begin = 0; begin <= list.size();) {
+    const std::size_t end = std::min(list.find(',', begin), list.size());
+    const std::string_view word = list.substr(begin, end - begin);
+    if (std::find(known.begin(), known.end(), word) == known.end()) {
+      throw UsageError(fmt::format("--methods {}: '{}' is none of {}{}", list, word, fmt::join(known, ", "),
+                                   did_you_mean(word, known)));
+    }
+    asked.insert(word);
+    begin = end + 1;
+  }
+  std::vector<Method> methods = accuracy_methods();
+  std::erase_if(methods, [&](const Method& method) { return !asked.contains(word_of(method)); });
+  return methods;
 }
 
 std::vector<double> curve_densities() {

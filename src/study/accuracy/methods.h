@@ -5,6 +5,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "image/image.h"
@@ -58,6 +59,13 @@ Image uniform_picture_in(double seconds, const Subject& subject);
 
 // Returns both, the uniform method again as a control, and the progressive method without one of its parts.
 std::vector<Method> accuracy_methods();
+
+// Returns the names of accuracy_methods() as --methods takes them: with "-" for spaces.
+std::vector<std::string> method_words();
+
+// Returns the methods that a list of such words with commas names, and the uniform method and the control in
+// any case, in the order of accuracy_methods(). Throws UsageError on another word.
+std::vector<Method> methods_of(std::string_view list);
 
 // Returns samples per pixel from 0.4 % to 11, a factor of 10^(1/5) or a little more apart. 1 is among them.
 std::vector<double> curve_densities();

@@ -34,7 +34,7 @@ void add_plot(const char* name, const char* caption, const Items& items, StudyOu
 }
 
 // Medians over the repeats, point by point, with the spread of the errors.
-Curve median_curve(const SceneCurves& scene, const std::string& method, const Abscissa& x) {
+Curve median_curve(const SceneCurves& scene, const std::string& method, const Abscissa& x, Measure measure) {
   const std::vector<std::vector<CurvePoint>> repeats = repeats_of(scene, method);
   std::size_t count = repeats.empty() ? 0 : repeats.front().size();
   for (const auto& points : repeats) count = std::min(count, points.size());
@@ -43,7 +43,7 @@ Curve median_curve(const SceneCurves& scene, const std::string& method, const Ab
     std::vector<double> at, errors;
     for (const auto& points : repeats) {
       at.push_back(points[i].*x.value * x.factor);
-      errors.push_back(points[i].rmse);
+      errors.push_back(error_of(points[i], measure));
     }
     const Spread error = spread_of(std::move(errors));
     curve.points.push_back({spread_of(std::move(at)).median, error.median, error.low, error.high});
@@ -53,7 +53,10 @@ Curve median_curve(const SceneCurves& scene, const std::string& method, const Ab
 
 Panel curves_panel(const SceneCurves& scene, const Abscissa& x, const std::vector<std::string>& methods) {
   Panel panel = log_panel(scene.scene, x.label, "RMSE");
-  for (const std::string& method : methods) panel.curves.push_back(median_curve(scene, method, x));
+  for (const std::string& method : methods) {
+    panel.curves.push_back(median_curve(scene, method, x, Measure::kRmse));
+  }
+  std::erase_if(panel.curves, [](const Curve& curve) { return curve.points.empty(); });
   return panel;
 }
 
@@ -63,7 +66,7 @@ Panel ratio_panel(const SceneCurves& scene) {
   for (const char* method : {kProgressive, kControl}) {
     Curve curve{method};
     for (const double share : shares_by(kStep)) {
-      const Spread s = ratio_at_equal_time(scene, method, share);
+      const Spread s = ratio_at_equal_time(scene, method, Measure::kRmse, share);
       if (!std::isnan(s.median)) curve.points.push_back({100 * share, s.median, s.low, s.high});
     }
     if (!curve.points.empty()) panel.curves.push_back(std::move(curve));
@@ -74,15 +77,16 @@ Panel ratio_panel(const SceneCurves& scene) {
 
 Panel perceived_panel(const SceneCurves& scene) {
   Panel panel = log_panel(scene.scene, kTime.label, "FLIP, 1 - SSIM");
-  const auto time = [](const CurvePoint& p) { return kTime.factor * p.share; };
-  const auto dissimilarity = [](const CurvePoint& p) { return 1 - p.ssim; };
   int colour = 0;
   for (const std::string method : {kProgressive, kUniform}) {
-    const std::vector<CurvePoint> points = points_of(scene, method, 0);
-    panel.curves.push_back(
-        curve_over(method + ", FLIP", points, time, &CurvePoint::flip, CurveStyle::kLine, colour));
-    panel.curves.push_back(
-        curve_over(method + ", SSIM", points, time, dissimilarity, CurveStyle::kMarkedLine, colour++));
+    for (const auto& [measure, style] :
+         {std::pair(Measure::kFlip, CurveStyle::kLine), std::pair(Measure::kSsim, CurveStyle::kMarkedLine)}) {
+      Curve curve = median_curve(scene, method, kTime, measure);
+      curve.name = fmt::format("{}, {}", method, word_for(measure));
+      curve.style = style, curve.colour = colour;
+      if (!curve.points.empty()) panel.curves.push_back(std::move(curve));
+    }
+    ++colour;
   }
   return panel;
 }
@@ -109,7 +113,7 @@ Table references_table(const std::vector<SceneCurves>& scenes) {
 std::string losses(const SceneCurves& scene) {
   std::string text;
   for (const double share : kBudgets) {
-    const double ratio = ratio_at_equal_time(scene, kProgressive, share).median;
+    const double ratio = ratio_at_equal_time(scene, kProgressive, Measure::kRmse, share).median;
     if (ratio > 1) text += fmt::format("{}{:g} % ({:.2f})", text.empty() ? "" : ", ", 100 * share, ratio);
   }
   return text.empty() ? "It loses at none of the budgets." : "It loses at " + text + ".";
@@ -121,20 +125,30 @@ void write_ratios(const std::vector<SceneCurves>& scenes, StudyOutput& output) {
       "Error of the progressive picture over that of the uniform picture that takes the same CPU time. Both "
       "use one thread and the same tracing kernel. Below 1, progressive is better. Times are shares of the "
       "time of one sample per pixel, reconstruction included; for very small shares neither method has a "
-      "picture. Each method shows its best picture so far. The geometric mean at a budget is over the scenes "
-      "that have a picture.");
-  output.add_table("ratios", ratio_table(scenes));
+      "picture. Each method shows its best picture so far. The geometric mean and the worst ratio at a "
+      "budget "
+      "are over the scenes that have a picture.");
+  output.paragraph("RMSE, the root mean square error on the display scale:");
+  output.add_table("ratios", ratio_table(scenes, Measure::kRmse));
+  output.paragraph("FLIP, the mean of the differences that a viewer notices:");
+  output.add_table("ratios-flip", ratio_table(scenes, Measure::kFlip));
+  output.paragraph("1 - SSIM, what the structural similarity lacks of 1:");
+  output.add_table("ratios-ssim", ratio_table(scenes, Measure::kSsim));
+  output.paragraph("Budgets by RMSE:");
   for (const SceneCurves& s : scenes) {
     output.paragraph(fmt::format("{}: {} {}", s.scene,
-                                 to_sentence(budget_ranges(s, kProgressive), "Progressive"), losses(s)));
+                                 to_sentence(budget_ranges(s, kProgressive, Measure::kRmse), "Progressive"),
+                                 losses(s)));
   }
   add_plot("ratios",
-           "Medians of the repeats with their spread. The control is the uniform method again: its ratio "
+           "Ratios of RMSE: medians of the repeats with their spread. The control is the uniform method "
+           "again: its ratio "
            "shows the noise.",
            scenes, output, ratio_panel);
 }
 
-void write_curves(const std::vector<SceneCurves>& scenes, StudyOutput& output) {
+void write_curves(const std::vector<SceneCurves>& scenes, const std::vector<Method>& methods,
+                  StudyOutput& output) {
   const auto both_over = [](const Abscissa& x) {
     return [x](const SceneCurves& s) { return curves_panel(s, x, {kProgressive, kUniform}); };
   };
@@ -143,23 +157,22 @@ void write_curves(const std::vector<SceneCurves>& scenes, StudyOutput& output) {
            scenes, output, both_over(kTime));
   add_plot("error-samples", "The same error against the number of samples.", scenes, output,
            both_over(kSamples));
-  add_plot("perceived",
-           "Perceived error: mean FLIP (67 pixels per degree) and 1 - SSIM against CPU time, first repeat.",
+  add_plot("perceived", "Perceived error: mean FLIP (67 pixels per degree) and 1 - SSIM against CPU time.",
            scenes, output, perceived_panel);
   output.heading("What each part of the method is worth");
   add_plot("ablations", "Progressive, and without one of its parts.", scenes, output,
            [](const SceneCurves& s) { return curves_panel(s, kTime, ablations(s)); });
-  output.table(table_of<Method>(accuracy_methods(),
-                                {{"method", &Method::name}, {"what it is", &Method::description}}));
+  output.table(table_of<Method>(methods, {{"method", &Method::name}, {"what it is", &Method::description}}));
   const std::vector<Comparison> all = comparisons(scenes);
   output.section("Errors at equal time",
-                 "Over those of the uniform method, medians of the repeats. comparisons.csv has the spread.");
-  output.table(budgets_table(all, &Comparison::error));
+                 "RMSE over that of the uniform method, medians of the repeats. comparisons.csv has FLIP and "
+                 "1 - SSIM, too, and the spread.");
+  output.table(budgets_table(all, Measure::kRmse, &Comparison::error));
   output.section(
       "Times at equal error",
-      "Time for the error that the uniform method has at each budget, over the time of the uniform method. "
+      "Time for the RMSE that the uniform method has at each budget, over the time of the uniform method. "
       "Below 1 the method is faster. A dash: the method has no picture as coarse as that, or none as good.");
-  output.table(budgets_table(all, &Comparison::time));
+  output.table(budgets_table(all, Measure::kRmse, &Comparison::time));
   output.section(
       "What errors are measured against",
       "Converged frames: the mean of two independent halves, each with one sample at a random place of every "
@@ -254,11 +267,24 @@ void write_rates(const AccuracyResults& results, StudyOutput& output) {
   output.add_table("punctuality", real_time_table(results.real_time));
 }
 
+void write_flicker(const AccuracyResults& results, StudyOutput& output) {
+  output.section(
+      "Flicker at equal time",
+      "Frames of a slow orbit, each made for itself with the same seed. Flicker is the error of the change "
+      "from frame to frame: the RMSE between it and the change of the converged frames, mean over the pairs "
+      "of frames. Each method makes all its frames with the number of samples that takes the budget on the "
+      "first one; the table tells what the frames took. Below 1 the method flickers less than the uniform "
+      "grid.");
+  output.add_table("flicker", flicker_table(results.flicker));
+}
+
 }  // namespace
 
 void write_accuracy(const AccuracyResults& results, int small_size, StudyOutput& output) {
   write_ratios(results.curves, output);
-  write_curves(results.curves, output);
+  write_curves(results.curves, results.methods, output);
+  write_flicker(results, output);
+  if (results.rates.empty()) return;
   output.heading(fmt::format("Where {} samples go", kFigureSamples));
   output.paragraph(
       "As in the paper's figure 1: the cost of each pixel's sample, the places that refinement chooses, "

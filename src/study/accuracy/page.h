@@ -6,14 +6,18 @@
 
 #include "study/accuracy/curves.h"
 #include "study/accuracy/effects.h"
+#include "study/accuracy/flicker.h"
 #include "study/accuracy/other_renderers.h"
 #include "study/accuracy/rates.h"
 #include "study/report/output.h"
 
 namespace pprt {
 
+// With --only-curves all after `flicker` is empty.
 struct AccuracyResults {
+  std::vector<Method> methods;
   std::vector<SceneCurves> curves;
+  std::vector<FlickerPoint> flicker;
   std::vector<SceneCurves> small_curves;  // at the size of the other renderers' pictures
   std::vector<RendererPoint> renderers;
   std::vector<EffectCost> effects;
@@ -24,7 +28,7 @@ struct AccuracyResults {
   std::vector<RealTimePoint> real_time;
 };
 
-// `small_size` is that of small_curves, pixels.
+// Leaves out the sections without results. `small_size` is that of small_curves, pixels.
 void write_accuracy(const AccuracyResults& results, int small_size, StudyOutput& output);
 
 }  // namespace pprt

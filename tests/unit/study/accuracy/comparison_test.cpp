@@ -1,148 +1,234 @@
 // Methods, curves and their comparison, with controls: a sampler compared with itself, and a slower one.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <ctime>
 #include <filesystem>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "scene/nff_writer.h"
-#include "spd/spd.h"
+#include "base/diagnostics.h"
+#include "study/accuracy/busy_threads.h"
 #include "study/accuracy/comparison.h"
 #include "study/accuracy/curves.h"
 #include "study/reference.h"
+#include "study/report/plot.h"
+#include "tree_setup.h"
 
 using namespace pprt;
 
 namespace {
 
-struct TreeSetup {
-  SceneDescription description = make_spd("tree", 4);
-  CompiledScene scene = compile(description);
-  Camera camera;
-
-  explicit TreeSetup(int size = 64) {
-    View view = *description.view;
-    view.width = view.height = size;
-    camera = scene.camera(view);
-  }
-  Subject subject() const { return {scene, camera}; }
-  std::string nff() const {
-    std::ostringstream text;
-    write_nff(description, text);
-    return text.str();
-  }
-};
-
-// The same pictures under another name, and their times what samples cost at a fixed price: the same each
-// time.
-Method priced(const Method& method, std::string name, double seconds_per_sample) {
-  return {std::move(name), method.description, [run = method.run, seconds_per_sample](const CurveTask& task) {
-            CurveTask all = task;
-            all.limit_s = 1e9;
-            all.sink = [&](Rendering&& r) {
-              r.seconds = seconds_per_sample * r.samples;
-              if (r.samples < 8) task.sink(std::move(r));
-            };
-            run(all);
-          }};
-}
-
 SceneCurves curves_of(const TreeSetup& tree, const std::vector<Method>& methods, int repeats) {
-  return measure_curves("tree", tree.subject(), converged_reference(tree.subject(), 4), methods, repeats, 1);
+  return measure_curves("tree", tree.subject(), converged_reference(tree.subject(), 4), {methods, repeats});
 }
 
-SceneCurves made_up(const std::vector<std::pair<double, double>>& progressive, bool exhausted = false) {
+constexpr Measure kMeasures[] = {Measure::kRmse, Measure::kFlip, Measure::kSsim};
+
+// A point with this error by one measure, and by the others the same error as all points.
+CurvePoint point_with(double error, Measure measure) {
+  CurvePoint p;
+  p.rmse = p.flip = 0.125, p.ssim = 1 - 0.125;
+  if (measure == Measure::kRmse) p.rmse = error;
+  if (measure == Measure::kFlip) p.flip = error;
+  if (measure == Measure::kSsim) p.ssim = 1 - error;
+  return p;
+}
+
+SceneCurves made_up(const std::vector<std::pair<double, double>>& progressive, Measure measure,
+                    bool exhausted = false) {
   SceneCurves curves{"made up", 1, 0, 2};
-  const auto add = [&](const char* method, double share, double rmse, bool last) {
-    CurvePoint p;
-    p.method = method, p.share = share, p.samples = share, p.rmse = rmse, p.exhausted = last;
+  const auto add = [&](const char* method, double share, double error, bool last) {
+    CurvePoint p = point_with(error, measure);
+    p.method = method, p.share = share, p.samples = share, p.exhausted = last;
     curves.points.push_back(p);
   };
-  for (const double share : {0.01, 0.1, 1.0, 10.0}) add(kUniform, share, 0.1 / std::sqrt(share), false);
-  for (const auto& [share, rmse] : progressive) add(kProgressive, share, rmse, exhausted);
+  for (const double share : {0.01, 0.1, 1.0, 10.0}) add(kUniform, share, 0.05 / std::sqrt(share), false);
+  for (const auto& [share, error] : progressive) add(kProgressive, share, error, exhausted);
   return curves;
 }
 
 }  // namespace
 
 TEST_CASE("comparison: errors and times are interpolated in logarithms") {
-  const std::vector<CurvePoint> curve = points_of(made_up({}), kUniform, 0);
-  REQUIRE(curve.size() == 4);
-  for (const double share : {0.01, 0.02, 0.1, 0.5, 4.0, 10.0}) {
-    CAPTURE(share);
-    CHECK(error_at(curve, share) == Approx(0.1 / std::sqrt(share)));
-    CHECK(share_at(curve, 0.1 / std::sqrt(share)) == Approx(share));
+  for (const Measure measure : kMeasures) {
+    CAPTURE(word_for(measure));
+    const ErrorCurve curve = errors_of(points_of(made_up({}, measure), kUniform, 0), measure);
+    REQUIRE(curve.size() == 4);
+    for (const double share : {0.01, 0.02, 0.1, 0.5, 4.0, 10.0}) {
+      CAPTURE(share);
+      CHECK(error_at(curve, share) == Approx(0.05 / std::sqrt(share)));
+    }
+    for (const double share : {0.02, 0.5, 4.0})
+      CHECK(share_at(curve, error_at(curve, share)) == Approx(share));
+    for (const ErrorPoint& p : curve) CHECK(share_at(curve, p.error) == p.share);
+    CHECK(std::isnan(error_at(curve, 0.009)));
+    CHECK(std::isnan(error_at(curve, 11)));
+    CHECK(std::isnan(share_at(curve, 1e-6)));
+    CHECK(std::isnan(share_at(curve, 10)));
   }
-  CHECK(std::isnan(error_at(curve, 0.009)));
-  CHECK(std::isnan(error_at(curve, 11)));
-  CHECK(std::isnan(share_at(curve, 1e-6)));
-  CHECK(std::isnan(share_at(curve, 10)));
 }
 
-TEST_CASE("comparison: a method shows its best picture so far") {
-  const SceneCurves curves = made_up({{0.1, 0.2}, {0.2, 0.05}, {0.4, 0.1}, {1, 0.2}});
-  CHECK(ratio_at_equal_time(curves, kProgressive, 1).median == Approx(0.5));
+TEST_CASE("comparison: an error of 1 - SSIM is never below 0") {
+  CurvePoint p;
+  p.ssim = 1 + 1e-15;
+  CHECK(error_of(p, Measure::kSsim) == 0);
+}
+
+TEST_CASE("comparison: a method shows its best picture so far, by each measure") {
+  for (const Measure measure : kMeasures) {
+    CAPTURE(word_for(measure));
+    const SceneCurves curves = made_up({{0.1, 0.1}, {0.2, 0.025}, {0.4, 0.05}, {1, 0.1}}, measure);
+    for (const Measure other : kMeasures) {
+      CHECK(ratio_at_equal_time(curves, kProgressive, other, 1).median == Approx(other == measure ? 0.5 : 1));
+    }
+  }
 }
 
 TEST_CASE("comparison: a method with nothing left to refine keeps its error") {
-  const SceneCurves curves = made_up({{0.1, 0.2}, {0.5, 0.1}}, true);
-  CHECK(error_at(points_of(curves, kProgressive, 0), 4) == 0.1);
-  CHECK(ratio_at_equal_time(curves, kProgressive, 4).median == Approx(2));
+  for (const Measure measure : kMeasures) {
+    CAPTURE(word_for(measure));
+    const SceneCurves curves = made_up({{0.1, 0.1}, {0.5, 0.05}}, measure, true);
+    CHECK(error_at(errors_of(points_of(curves, kProgressive, 0), measure), 4) == Approx(0.05));
+    CHECK(ratio_at_equal_time(curves, kProgressive, measure, 4).median == Approx(2));
+  }
 }
 
 TEST_CASE("comparison: break-even points are where the ratio of errors passes 1") {
-  // Twice the uniform error at 10 %, half of it at 1000 %: equal in the middle, at 100 %.
-  const SceneCurves curves = made_up({{0.1, 0.2 / std::sqrt(0.1)}, {10, 0.05 / std::sqrt(10.0)}});
-  const std::vector<BudgetRange> ranges = budget_ranges(curves, kProgressive);
-  REQUIRE(ranges.size() == 2);
-  CHECK_FALSE(ranges[0].ahead);
-  CHECK(ranges[0].from == Approx(0.1).epsilon(0.03));
-  CHECK(ranges[0].to == Approx(1).epsilon(0.03));
-  CHECK(ranges[1].ahead);
-  CHECK(ranges[1].from == ranges[0].to);
-  const std::string sentence = to_sentence(ranges, "It");
-  CHECK(sentence.find("It is ahead from ") == 0);
-  CHECK(sentence.find("behind from ") != std::string::npos);
-  CHECK(ratio_at_equal_error(curves, kProgressive, 1).median == Approx(1));
-  CHECK(to_sentence(budget_ranges(made_up({}), kProgressive), "It") ==
-        "There is no budget for which both have a picture.");
+  for (const Measure measure : kMeasures) {
+    CAPTURE(word_for(measure));
+    // Twice the uniform error at 10 %, half of it at 1000 %: equal in the middle, at 100 %.
+    const SceneCurves curves = made_up({{0.1, 0.1 / std::sqrt(0.1)}, {10, 0.025 / std::sqrt(10.0)}}, measure);
+    const std::vector<BudgetRange> ranges = budget_ranges(curves, kProgressive, measure);
+    REQUIRE(ranges.size() == 2);
+    CHECK_FALSE(ranges[0].ahead);
+    CHECK(ranges[0].from == Approx(0.1).epsilon(0.03));
+    CHECK(ranges[0].to == Approx(1).epsilon(0.03));
+    CHECK(ranges[1].ahead);
+    CHECK(ranges[1].from == ranges[0].to);
+    const std::string sentence = to_sentence(ranges, "It");
+    CHECK(sentence.find("It is ahead from ") == 0);
+    CHECK(sentence.find("behind from ") != std::string::npos);
+    CHECK(ratio_at_equal_error(curves, kProgressive, measure, 1).median == Approx(1));
+    CHECK(to_sentence(budget_ranges(made_up({}, measure), kProgressive, measure), "It") ==
+          "There is no budget for which both have a picture.");
+  }
 }
 
-TEST_CASE("comparison: the table of ratios ends with the geometric mean") {
-  const auto scene = [](const char* name, double first_share, double ratio) {
+TEST_CASE("comparison: the tables of ratios end with the geometric mean and the worst scene") {
+  const Measure measure = GENERATE(Measure::kRmse, Measure::kFlip, Measure::kSsim);
+  CAPTURE(word_for(measure));
+  const auto scene = [&](const char* name, double first_share, double ratio) {
     std::vector<std::pair<double, double>> points;
-    for (const double share : {first_share, 10.0}) points.emplace_back(share, ratio * 0.1 / std::sqrt(share));
-    SceneCurves curves = made_up(points);
+    for (const double share : {first_share, 10.0}) {
+      points.emplace_back(share, ratio * 0.05 / std::sqrt(share));
+    }
+    SceneCurves curves = made_up(points, measure);
     curves.scene = name;
     return curves;
   };
-  const Table table = ratio_table({scene("a", 0.1, 0.5), scene("b", 0.1, 2), scene("c", 1, 0.216)});
+  const std::vector<SceneCurves> scenes = {scene("a", 0.1, 0.5), scene("b", 0.1, 2), scene("c", 1, 0.216)};
+  const Table table = ratio_table(scenes, measure);
   REQUIRE(table.columns.size() == 9);
   CHECK(table.columns[2] == "10 %");
   CHECK(table.columns[5] == "100 %");
-  REQUIRE(table.rows.size() == 4);
-  const std::vector<Cell>& mean = table.rows.back();
-  REQUIRE(mean.size() == table.columns.size());
-  CHECK(to_text(mean[0]) == "geometric mean");
-  CHECK(to_text(table.rows[2][2]) == to_text(Cell(kNoValue)));  // no picture of c at 10 %
-  CHECK(to_text(mean[2]) == "1.000");
-  CHECK(to_text(mean[5]) == "0.600");
-  CHECK(ratio_table({scene("a", 0.1, 0.5)}).rows.size() == 1);
+  REQUIRE(table.rows.size() == 5);
+  for (const std::vector<Cell>& row : table.rows) REQUIRE(row.size() == table.columns.size());
+  const auto text = [&](std::size_t row, std::size_t column) { return to_text(table.rows[row][column]); };
+  CHECK(text(2, 2) == to_text(Cell(kNoValue)));  // no picture of c at 10 %
+  CHECK(text(3, 0) == "geometric mean");
+  CHECK(text(3, 2) == "1.000");
+  CHECK(text(3, 5) == "0.600");
+  CHECK(text(4, 0) == "worst");
+  CHECK(text(4, 2) == "2.00");
+  CHECK(text(4, 5) == "2.00");
+  CHECK(ratio_table({scene("a", 0.1, 0.5)}, measure).rows.size() == 1);
 }
 
-TEST_CASE("control: the uniform sampler under the name progressive has ratio 1") {
+TEST_CASE("comparison: each measure has rows of its own") {
+  const std::vector<Comparison> all = comparisons({made_up({{0.1, 0.1}, {10, 0.1}}, Measure::kFlip)});
+  REQUIRE(all.size() == 3 * kBudgets.size());
+  for (const Comparison& c : all) {
+    CAPTURE(word_for(c.measure), c.share);
+    if (c.share >= 0.1 && c.measure != Measure::kFlip) CHECK(c.error.median == 1);
+    if (c.share == 1) CHECK(c.error.median == Approx(c.measure == Measure::kFlip ? 2 : 1));
+  }
+  CHECK(comparisons_table(all).columns[2] == "measure");
+  const Table table = budgets_table(all, Measure::kFlip, &Comparison::error);
+  REQUIRE(table.rows.size() == 1);
+  CHECK(to_text(table.rows[0][2 + 6]) == "2.00");  // at 100 %
+}
+
+TEST_CASE("methods: some are chosen by their words, the uniform method and the control always") {
+  const auto names = [](const char* list) {
+    std::vector<std::string> chosen;
+    for (const Method& method : methods_of(list)) chosen.push_back(method.name);
+    return chosen;
+  };
+  CHECK(names("control") == std::vector<std::string>{"uniform", "control"});
+  CHECK(names("area-only,progressive") ==
+        std::vector<std::string>{"progressive", "uniform", "control", "area only"});
+  CHECK(methods_of("paper-weights,paper-weights").size() == 3);
+  CHECK_THROWS_WITH(methods_of("progresive"),
+                    "--methods progresive: 'progresive' is none of progressive, uniform, control, "
+                    "paper-weights, area-only, variance-only, no-pixel-rule, pixel-area, mean-of-samples, "
+                    "pixel-centers, stratified-random; did you mean 'progressive'?");
+  CHECK_THROWS_AS(methods_of("uniform,"), UsageError);
+}
+
+TEST_CASE("control: the uniform sampler under the name progressive has ratio 1 by each measure") {
   const TreeSetup tree;
   const SceneCurves exact =
       curves_of(tree, {priced(uniform_method(), kProgressive, 1), priced(uniform_method(), kUniform, 1)}, 2);
-  for (const double share : kBudgets) {
-    CAPTURE(share);
-    CHECK(ratio_at_equal_time(exact, kProgressive, share).median == Approx(1).epsilon(1e-9));
-    // Sooner, where the uniform sampler gets no better from one picture to the next.
-    CHECK(ratio_at_equal_error(exact, kProgressive, share).median <= 1 + 1e-6);
+  for (const CurvePoint& p : exact.points) {
+    CHECK(p.flip > 0);
+    CHECK(p.ssim < 1);
   }
-  CHECK(budget_ranges(exact, kProgressive).size() == 1);
+  for (const Measure measure : kMeasures) {
+    CAPTURE(word_for(measure));
+    for (const double share : kBudgets) {
+      CAPTURE(share);
+      CHECK(ratio_at_equal_time(exact, kProgressive, measure, share).median == Approx(1).epsilon(1e-9));
+      // Sooner, where the uniform sampler gets no better from one picture to the next.
+      CHECK(ratio_at_equal_error(exact, kProgressive, measure, share).median <= 1 + 1e-6);
+    }
+    CHECK(budget_ranges(exact, kProgressive, measure).size() == 1);
+  }
+}
+
+TEST_CASE("curves: threads that keep the machine busy change no picture") {
+  const TreeSetup tree(32);
+  const std::vector<Method> methods = {priced(progressive_method(), kProgressive, 1),
+                                       priced(uniform_method(), kUniform, 1)};
+  const Reference reference = converged_reference(tree.subject(), 2);
+  const SceneCurves alone = measure_curves("tree", tree.subject(), reference, {methods});
+  const SceneCurves beside = measure_curves("tree", tree.subject(), reference, {methods, 1, 1, 2});
+  REQUIRE(alone.points.size() == beside.points.size());
+  for (std::size_t i = 0; i < alone.points.size(); ++i) {
+    CHECK(alone.points[i].samples == beside.points[i].samples);
+    CHECK(alone.points[i].rmse == beside.points[i].rmse);
+    CHECK(alone.points[i].flip == beside.points[i].flip);
+  }
+}
+
+TEST_CASE("busy threads: they render until they are ended", "[realtime]") {
+  const TreeSetup tree(32);
+  // CPU seconds of all threads but this one.
+  const auto others = [] {
+    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC - thread_cpu_seconds();
+  };
+  const auto spent = [&](double most) {
+    const double before = others(), begin = thread_cpu_seconds();
+    while (others() - before < most && thread_cpu_seconds() - begin < 2) continue;
+    return others() - before;
+  };
+  {
+    const BusyThreads busy(tree.subject(), 2);
+    CHECK(spent(0.1) >= 0.1);
+  }
+  const double ended = others();
+  for (const double begin = thread_cpu_seconds(); thread_cpu_seconds() - begin < 0.05;) continue;
+  CHECK(others() - ended < 0.01);
 }
 
 TEST_CASE("control: it has ratio 1 by the processor's clock, within noise", "[realtime]") {
@@ -152,7 +238,7 @@ TEST_CASE("control: it has ratio 1 by the processor's clock, within noise", "[re
   const SceneCurves curves = curves_of(tree, {impostor, uniform_method()}, 5);
   for (const double share : {0.1, 0.25, 0.5, 1.0, 2.0}) {
     CAPTURE(share);
-    const double ratio = ratio_at_equal_time(curves, kProgressive, share).median;
+    const double ratio = ratio_at_equal_time(curves, kProgressive, Measure::kRmse, share).median;
     CHECK(ratio > 0.75);
     CHECK(ratio < 1.33);
   }
@@ -164,8 +250,8 @@ TEST_CASE("control: a sampler that takes twice the time has ratios above 1", "[r
       curves_of(tree, {priced(uniform_method(), kProgressive, 2), priced(uniform_method(), kUniform, 1)}, 1);
   for (const double share : {0.1, 0.5, 1.0, 2.0}) {
     CAPTURE(share);
-    CHECK(ratio_at_equal_time(curves, kProgressive, share).median > 1.02);
-    CHECK(ratio_at_equal_error(curves, kProgressive, share).median > 1.2);
+    CHECK(ratio_at_equal_time(curves, kProgressive, Measure::kRmse, share).median > 1.02);
+    CHECK(ratio_at_equal_error(curves, kProgressive, Measure::kRmse, share).median > 1.2);
   }
 }
 
