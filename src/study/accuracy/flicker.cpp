@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 
@@ -25,16 +26,27 @@ std::optional<Rendering> picture_with(double density, const Method& method, cons
   return picture;
 }
 
+// The least CPU time of some pictures: a disturbance only adds to it. NaN without a picture.
+double least_seconds(double density, const Method& method, const Subject& subject, std::uint64_t seed) {
+  constexpr int kPictures = 3;
+  double least = kNoValue;
+  for (int i = 0; i < kPictures; ++i) {
+    const std::optional<Rendering> picture = picture_with(density, method, subject, seed);
+    if (picture) least = std::fmin(least, picture->seconds);
+  }
+  return least;
+}
+
 // Samples per pixel with which the method's picture takes so long; nothing where that is too short a time.
 std::optional<double> density_in(double seconds, const Method& method, const Subject& subject,
                                  std::uint64_t seed) {
-  constexpr int kTrials = 4;  // each finds the density for the next
+  constexpr int kTrials = 5;  // each finds the density for the next
   constexpr double kMost = 16;
   double density = 0.25;
   for (int trial = 0; trial < kTrials; ++trial) {
-    const std::optional<Rendering> picture = picture_with(density, method, subject, seed);
-    if (!picture) return std::nullopt;
-    density = std::min(kMost, density * seconds / picture->seconds);
+    const double taken = least_seconds(density, method, subject, seed);
+    if (std::isnan(taken)) return std::nullopt;
+    density = std::min(kMost, density * seconds / taken);
   }
   return density;
 }
