@@ -5,11 +5,11 @@ source "$(dirname "$0")/check.sh"
 run pprt-study accuracy spd:tree:4 spd:balls:1 -o all --quick --size 48 --repeats 2 --cache kept; expect_code 0
 expect_text out ''
 expect_line err 'pprt-study: spd:tree:4: converged frame, 32 samples a pixel, its own rmse 0\.0.*'
-for file in index.html provenance.json curves.csv comparisons.csv ratios.csv ratios-flip.csv ratios-ssim.csv flicker.csv; do expect_file "all/$file"; done
+for file in index.html provenance.json curves.csv comparisons.csv ratios.csv ratios-flip.csv ratios-ssim.csv means.csv flicker.csv; do expect_file "all/$file"; done
 grep -q '"command": "pprt-study accuracy spd:tree:4 spd:balls:1 -o all' all/provenance.json ||
   complain "provenance.json does not tell the command: $(cat all/provenance.json)"
 grep -q '^# cpu: .' all/curves.csv || complain "curves.csv does not tell the processor"
-for method in progressive uniform control 'paper weights' 'area only' 'variance only' 'no pixel rule' 'mean of samples' 'pixel centers' 'stratified random'; do
+for method in progressive uniform control lattice 'paper weights' 'area only' 'variance only' 'no pixel rule' 'mean of samples' 'pixel centers' 'stratified random'; do
   for scene in spd:tree:4 spd:balls:1; do
     [[ $(grep -c "^$scene,$method,2," all/curves.csv) -ge 3 ]] || complain "curves.csv lacks the $method of $scene"
   done
@@ -88,7 +88,7 @@ run pprt-study accuracy turn.anim --quick --size 32 --want-fps 100 --repeats 1; 
 
 # Refused.
 run pprt-study accuracy spd:tree:4 -o x --methods unifrom,control; expect_code 2
-expect_text err "pprt-study: error: --methods unifrom,control: 'unifrom' is none of progressive, uniform, control, paper-weights, area-only, variance-only, no-pixel-rule, pixel-area, mean-of-samples, pixel-centers, stratified-random; did you mean 'uniform'?"$'\n'"try 'pprt-study --help'"
+expect_text err "pprt-study: error: --methods unifrom,control: 'unifrom' is none of progressive, uniform, control, lattice, paper-weights, area-only, variance-only, no-pixel-rule, pixel-area, mean-of-samples, pixel-centers, stratified-random; did you mean 'uniform'?"$'\n'"try 'pprt-study --help'"
 run pprt-study accuracy spd:tree:4 -o x --busy -1; expect_code 2; expect_line err '.*--busy.*'; expect_no_file x
 run pprt-study accuracy spd:tree:4; expect_code 2; expect_line err '.*--output is required.*'
 run pprt-study accuracy spd:bush -o x; expect_code 3; expect_no_file x/index.html

@@ -16,9 +16,10 @@ declare -A allowed=(
   [study]="base scene spd parser trace image pipeline layers parallel cli convert study")
 # Single headers of other rooms.
 declare -A besides=([study]="render/frame_summary.h")
-# Stages of the pipeline: sampling knows of neither of the two that follow it.
-declare -A closed=([pipeline/sampling]="pipeline/(reconstruction|preparation)/" [pipeline/reconstruction]="pipeline/preparation/"
-  [pipeline/preparation]="pipeline/reconstruction/")
+# Stages of the pipeline: sampling knows of none of those that follow it.
+declare -A closed=([pipeline/sampling]="pipeline/(reconstruction|preparation|lattice)/"
+  [pipeline/reconstruction]="pipeline/(preparation|lattice)/" [pipeline/preparation]="pipeline/(reconstruction|lattice)/"
+  [pipeline/lattice]="pipeline/preparation/")
 declare -A home=(
   [embree3]=trace [embree4]=trace [CGAL]=pipeline [mpi.h]=parallel [tao]=parser [assimp]=convert [OpenEXR]=image [png.h]=image
   [CLI]="cli render convert compare study" [nlohmann]="cli render compare study" [spdlog]="cli render")

@@ -14,63 +14,16 @@
 
 #include "pipeline/reconstruction/projected_shape_cache.h"
 #include "pipeline/reconstruction/scan_conversion.h"
+#include "pipeline/reconstruction/shape_nearness.h"
 #include "pipeline/sampling/sample_mesh.h"
 
 namespace pprt {
 
-// Points evaluated at once: two on each line of a row, or four in each of two pixels.
-inline constexpr int kPoints = 2 * kLines;
-using PerPoint = float __attribute__((vector_size(kPoints * sizeof(float))));
-
-// Where they lie. On a line, in shares of the triangle's part of it. In a pixel, no two in one row or column.
+// Where points lie. On a line, in shares of the triangle's part of it. In a pixel, no two in one row or
+// column.
 inline constexpr PerPoint kPointsOnLine = {0.25F, 0.25F, 0.25F, 0.25F, 0.75F, 0.75F, 0.75F, 0.75F};
 inline constexpr PerPoint kPixelColumns = {0.125F, 0.625F, 0.375F, 0.875F, 1.125F, 1.625F, 1.375F, 1.875F};
 inline constexpr PerPoint kPixelRows = {0.375F, 0.125F, 0.875F, 0.625F, 0.375F, 0.125F, 0.875F, 0.625F};
-
-inline PerPoint value(const NearLinear& f, const PerPoint& x, const PerPoint& y) {
-  return f.constant + f.per_x * x + f.per_y * y;
-}
-inline PerPoint value(const NearQuadratic& f, const PerPoint& x, const PerPoint& y) {
-  return f.constant + x * (f.per_x + f.per_xx * x + f.per_xy * y) + y * (f.per_y + f.per_yy * y);
-}
-
-inline float sum_of(const PerPoint& v) {
-  return ((v[0] + v[4]) + (v[1] + v[5])) + ((v[2] + v[6]) + (v[3] + v[7]));
-}
-
-inline PerPoint square_root(const PerPoint& v) {
-  PerPoint root;
-  for (int i = 0; i < kPoints; ++i) root[i] = std::sqrt(v[i]);
-  return root;
-}
-
-// Returns the nearness of a shape (image_shape.h); 0 where the shape is not seen.
-inline PerPoint nearness(const ProjectedQuadric& q, const PerPoint& x, const PerPoint& y) {
-  const PerPoint nothing{};
-  const PerPoint discriminant = value(q.discriminant, x, y), middle = value(q.middle, x, y);
-  const PerPoint root = square_root(discriminant > 0 ? discriminant : nothing);
-  PerPoint front = discriminant >= 0 ? root - middle : nothing;
-  if (q.front && !q.has_ends) return front > 0 ? front : nothing;  // a sphere: its back is never nearer
-  PerPoint back = discriminant >= 0 ? -root - middle : nothing;
-  if (q.has_ends) {
-    const PerPoint along = value(q.along, x, y);
-    const auto held = [&](const PerPoint& n) {
-      const PerPoint height = q.height * n + along;
-      return (height >= 0) & (height <= q.top * n) ? n : nothing;
-    };
-    front = held(front), back = held(back);
-  }
-  if (!q.front) front = nothing;
-  if (!q.back) back = nothing;
-  const PerPoint nearest = front > 0 ? front : back;
-  return nearest > 0 ? nearest : nothing;
-}
-
-inline PerPoint nearness(const ProjectedFacet& f, const PerPoint& x, const PerPoint& y) {
-  const auto covered =
-      (value(f.edges[0], x, y) >= 0) & (value(f.edges[1], x, y) >= 0) & (value(f.edges[2], x, y) >= 0);
-  return covered ? value(f.nearness, x, y) : PerPoint{};
-}
 
 // Whether one of a facet's edges separates it from all points within `margin` pixels, along the axes, of a
 // triangle. The triangle's corners are in three of the lanes.

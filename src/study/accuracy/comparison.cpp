@@ -46,6 +46,32 @@ Cell with_digits(double value, int digits) {
   return std::isnan(value) ? Cell(kNoValue) : Cell(fmt::format("{:.{}f}", value, digits));
 }
 
+std::vector<double> budgets_of_ratios() {
+  constexpr double kLeast = 0.1;
+  std::vector<double> shares;
+  std::copy_if(kBudgets.begin(), kBudgets.end(), std::back_inserter(shares),
+               [](double share) { return share >= kLeast; });
+  return shares;
+}
+
+// A method's ratios over all scenes, a cell for each of these budgets.
+struct RatioRows {
+  std::vector<Cell> means, worst;
+};
+
+RatioRows rows_of_ratios(const std::vector<SceneCurves>& scenes, const std::string& method, Measure measure) {
+  RatioRows rows;
+  for (const double share : budgets_of_ratios()) {
+    std::vector<double> ratios(scenes.size());
+    std::transform(scenes.begin(), scenes.end(), ratios.begin(), [&](const SceneCurves& s) {
+      return ratio_at_equal_time(s, method, measure, share).median;
+    });
+    rows.means.push_back(with_digits(geometric_mean(ratios), 3));
+    rows.worst.push_back(with_digits(spread_of(ratios).high, 2));
+  }
+  return rows;
+}
+
 }  // namespace
 
 std::vector<CurvePoint> points_of(const SceneCurves& curves, const std::string& method, int repeat) {
@@ -152,30 +178,44 @@ std::vector<std::string> rivals(const SceneCurves& curves) {
 }
 
 Table ratio_table(const std::vector<SceneCurves>& scenes, Measure measure) {
-  constexpr double kLeast = 0.1;
   Columns<SceneCurves> columns = {
       {"scene", &SceneCurves::scene},
       {"ms for one sample a pixel", [](const SceneCurves& s) { return 1e3 * s.one_sample_s; }}};
-  std::vector<Cell> means = {"geometric mean", kNoValue}, worst = {"worst", kNoValue};
-  for (const double share : kBudgets) {
-    if (share < kLeast) continue;
-    const auto ratio = [=](const SceneCurves& s) {
-      return ratio_at_equal_time(s, kProgressive, measure, share).median;
-    };
-    columns.push_back({budget_name(share), [=](const SceneCurves& s) { return with_digits(ratio(s), 2); }});
-    std::vector<double> ratios(scenes.size());
-    std::transform(scenes.begin(), scenes.end(), ratios.begin(), ratio);
-    means.push_back(with_digits(geometric_mean(ratios), 3));
-    worst.push_back(with_digits(spread_of(ratios).high, 2));
+  for (const double share : budgets_of_ratios()) {
+    columns.push_back({budget_name(share), [=](const SceneCurves& s) {
+                         return with_digits(ratio_at_equal_time(s, kProgressive, measure, share).median, 2);
+                       }});
   }
   columns.push_back({"break-even", [=](const SceneCurves& s) {
                        return to_sentence(budget_ranges(s, kProgressive, measure), kProgressive);
                      }});
   Table table = table_of(scenes, columns);
   if (scenes.size() < 2) return table;
-  for (std::vector<Cell>* row : {&means, &worst}) {
-    row->push_back(kNoValue);
-    table.rows.push_back(*row);
+  const RatioRows rows = rows_of_ratios(scenes, kProgressive, measure);
+  for (const auto& [name, cells] :
+       {std::pair("geometric mean", rows.means), std::pair("worst", rows.worst)}) {
+    std::vector<Cell> row = {name, kNoValue};
+    row.insert(row.end(), cells.begin(), cells.end());
+    row.push_back(kNoValue);
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+Table means_table(const std::vector<SceneCurves>& scenes) {
+  Table table{{"method", "measure", "over the scenes"}};
+  for (const double share : budgets_of_ratios()) table.columns.push_back(budget_name(share));
+  if (scenes.empty()) return table;
+  for (const std::string& method : rivals(scenes.front())) {
+    for (const auto& word : kWords<Measure>) {
+      const RatioRows rows = rows_of_ratios(scenes, method, word.value);
+      for (const auto& [name, cells] :
+           {std::pair("geometric mean", rows.means), std::pair("worst", rows.worst)}) {
+        std::vector<Cell> row = {method, std::string(word_for(word.value)), name};
+        row.insert(row.end(), cells.begin(), cells.end());
+        table.rows.push_back(std::move(row));
+      }
+    }
   }
   return table;
 }

@@ -71,6 +71,9 @@ std::vector<std::string> rivals(const SceneCurves& curves);
 // worst ratio, which is the largest.
 Table ratio_table(const std::vector<SceneCurves>& scenes, Measure measure);
 
+// Returns two rows per method and measure: the geometric mean of these ratios over the scenes, and the worst.
+Table means_table(const std::vector<SceneCurves>& scenes);
+
 // A method against the uniform one by one measure and at one budget.
 struct Comparison {
   std::string scene, method;

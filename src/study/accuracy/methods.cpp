@@ -14,6 +14,7 @@
 #include "base/diagnostics.h"
 #include "base/nearest_word.h"
 #include "image/contact_sheet.h"
+#include "pipeline/lattice/lattice_sampler.h"
 #include "pipeline/reconstruction/reconstruction.h"
 #include "pipeline/sampling/sample_mesh.h"
 #include "pipeline/sampling/seeds.h"
@@ -236,6 +237,54 @@ std::string word_of(const Method& method) {
   return word;
 }
 
+// The lattice's samples of one picture.
+class LatticePicture {
+ public:
+  explicit LatticePicture(const Subject& subject)
+      : camera_(subject.camera),
+        tracer_(subject.scene, subject.camera),
+        sampler_(camera_.width, camera_.height,
+                 [this](std::uint32_t primitive, ImageShape& shape) { tracer_.project(primitive, shape); }) {}
+
+  // Makes the picture anew from so many samples, or fewer when nothing is worth more.
+  Rendering render(double density) {
+    const double begin = thread_cpu_seconds();
+    const double samples = density * camera_.width * camera_.height;
+    sampler_.clear();
+    bool is_exhausted = false;
+    while (static_cast<double>(sampler_.samples()) < samples && !is_exhausted) {
+      sampler_.expect(samples - static_cast<double>(sampler_.samples()));
+      const std::optional<Vec2d> point = sampler_.next_point();
+      is_exhausted = !point;
+      if (point) sampler_.insert(tracer_.trace(point->x, point->y));
+    }
+    sampler_.paint({0, 0, camera_.width, camera_.height}, pixels_);
+    Image image;
+    image.width = camera_.width, image.height = camera_.height;
+    image.pixels = std::exchange(pixels_.colors, {});
+    return {samples_per_pixel(static_cast<double>(sampler_.samples()), camera_), thread_cpu_seconds() - begin,
+            std::move(image), is_exhausted};
+  }
+
+ private:
+  Camera camera_;
+  Tracer tracer_;
+  LatticeSampler sampler_;
+  RegionPixels pixels_;
+};
+
+// The first picture is made twice: the frames of a sequence, too, find the storage of those before them.
+void run_lattice(const CurveTask& task) {
+  LatticePicture picture(task.subject);
+  picture.render(task.densities.back());
+  for (const double density : task.densities) {
+    Rendering rendering = picture.render(density);
+    const bool is_last = rendering.exhausted || rendering.seconds > task.limit_s;
+    task.sink(std::move(rendering));
+    if (is_last) return;
+  }
+}
+
 }  // namespace
 
 Method progressive_method() {
@@ -265,6 +314,7 @@ std::vector<Method> accuracy_methods() {
       progressive_method(),
       uniform_method(),
       {kControl, "the uniform method again: its difference to the first is noise", run_uniform},
+      {"lattice", "nodes of a lattice by learned errors: a grid first, then where it is wrong", run_lattice},
       refinement("paper weights", "progressive with the paper's weights, nothing learned from errors found",
                  {.learned = false}),
       refinement("area only", "paper weights without the variance of colours",

@@ -57,7 +57,8 @@ Method uniform_method();
 // Returns the picture of a uniform grid that takes about so much CPU time.
 Image uniform_picture_in(double seconds, const Subject& subject);
 
-// Returns both, the uniform method again as a control, and the progressive method without one of its parts.
+// Returns both, the uniform method again as a control, the lattice sampler, and the progressive method
+// without one of its parts.
 std::vector<Method> accuracy_methods();
 
 // Returns the names of accuracy_methods() as --methods takes them: with "-" for spaces.

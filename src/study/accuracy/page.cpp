@@ -134,6 +134,8 @@ void write_ratios(const std::vector<SceneCurves>& scenes, StudyOutput& output) {
   output.add_table("ratios-flip", ratio_table(scenes, Measure::kFlip));
   output.paragraph("1 - SSIM, what the structural similarity lacks of 1:");
   output.add_table("ratios-ssim", ratio_table(scenes, Measure::kSsim));
+  output.paragraph("All methods over the scenes:");
+  output.add_table("means", means_table(scenes));
   output.paragraph("Budgets by RMSE:");
   for (const SceneCurves& s : scenes) {
     output.paragraph(fmt::format("{}: {} {}", s.scene,

@@ -145,6 +145,34 @@ TEST_CASE("comparison: the tables of ratios end with the geometric mean and the 
   CHECK(ratio_table({scene("a", 0.1, 0.5)}, measure).rows.size() == 1);
 }
 
+TEST_CASE("comparison: the table of means has all methods and measures") {
+  SceneCurves a = made_up({{0.1, 0.1}, {10, 0.01}}, Measure::kFlip);
+  const std::size_t made = a.points.size();
+  for (std::size_t i = 0; i < made; ++i) {
+    if (a.points[i].method != kProgressive) continue;
+    a.points.push_back(a.points[i]);
+    a.points.back().method = "other";
+    a.points.back().flip *= 2;
+  }
+  SceneCurves b = a;
+  for (CurvePoint& p : b.points) p.flip *= p.method == "other" ? 4 : 1;
+  const Table table = means_table({a, b});
+  REQUIRE(table.rows.size() == 2 * 3 * 2);
+  const auto number = [&](const char* method, const char* over, std::size_t column) {
+    const auto row = std::find_if(table.rows.begin(), table.rows.end(), [&](const std::vector<Cell>& cells) {
+      return to_text(cells[0]) == method && to_text(cells[1]) == "FLIP" && to_text(cells[2]) == over;
+    });
+    REQUIRE(row != table.rows.end());
+    return std::stod(to_text((*row)[column]));
+  };
+  const std::size_t at_100 = 3 + 3;
+  CHECK(table.columns[at_100] == "100 %");
+  const double own = number(kProgressive, "geometric mean", at_100);
+  CHECK(number("other", "geometric mean", at_100) == Approx(4 * own).epsilon(0.01));  // of 2 and 8
+  CHECK(number("other", "worst", at_100) == Approx(8 * own).epsilon(0.01));
+  CHECK(means_table({}).rows.empty());
+}
+
 TEST_CASE("comparison: each measure has rows of its own") {
   const std::vector<Comparison> all = comparisons({made_up({{0.1, 0.1}, {10, 0.1}}, Measure::kFlip)});
   REQUIRE(all.size() == 3 * kBudgets.size());
@@ -170,7 +198,7 @@ TEST_CASE("methods: some are chosen by their words, the uniform method and the c
         std::vector<std::string>{"progressive", "uniform", "control", "area only"});
   CHECK(methods_of("paper-weights,paper-weights").size() == 3);
   CHECK_THROWS_WITH(methods_of("progresive"),
-                    "--methods progresive: 'progresive' is none of progressive, uniform, control, "
+                    "--methods progresive: 'progresive' is none of progressive, uniform, control, lattice, "
                     "paper-weights, area-only, variance-only, no-pixel-rule, pixel-area, mean-of-samples, "
                     "pixel-centers, stratified-random; did you mean 'progressive'?");
   CHECK_THROWS_AS(methods_of("uniform,"), UsageError);

@@ -1,0 +1,71 @@
+#include "pipeline/lattice/error_estimates.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+namespace pprt {
+namespace {
+
+// What to expect before anything is learned. Errors are larger where larger ones were found, and where three
+// primitives meet, for there may be more between them.
+float expected(NodeClass c) {
+  constexpr float kOctaves = 0.3F, kMiddle = 2.5F;
+  const std::size_t error_level = c % kErrorLevels, primitives = c / kErrorLevels / kVarianceLevels + 1;
+  const auto steps = static_cast<float>(error_level / 2 + (primitives > 2 ? 1 : 0));
+  return std::exp2(kOctaves * (steps - kMiddle));
+}
+
+constexpr int kSteps = 4;  // an octave of the variance
+
+std::array<float, 128 * kSteps> make_details() {
+  std::array<float, 128 * kSteps> details{};
+  for (std::uint32_t i = 0; i < details.size(); ++i) {
+    const float least = std::bit_cast<float>(i << 21), middle = std::min(1.1F * least, 4.0F);
+    details[i] = std::sqrt(std::log(1.03F + 500 * middle));
+  }
+  return details;
+}
+
+}  // namespace
+
+NodeClass class_of(int primitives, float variance, int error_level) {
+  constexpr int kLeast = 55;  // half the exponent of a float of 2^-17
+  const int level = std::clamp(static_cast<int>(std::bit_cast<std::uint32_t>(variance) >> 24) - kLeast, 0,
+                               kVarianceLevels - 1);
+  return static_cast<std::size_t>(((primitives - 1) * kVarianceLevels + level) * kErrorLevels + error_level);
+}
+
+float detail_of(float variance) {
+  static const std::array<float, 128 * kSteps> details = make_details();
+  return details[std::bit_cast<std::uint32_t>(variance) >> 21];
+}
+
+void ErrorEstimates::clear() {
+  constexpr float kDetail = 100, kError = 2;  // of all classes together, until there is more
+  sums_ = {};
+  all_ = {kError, kDetail, 0};
+  update();
+}
+
+void ErrorEstimates::learn(NodeClass c, float detail, float error) {
+  sums_[c].error += error, sums_[c].detail += detail, sums_[c].samples += 1;
+  all_.error += error, all_.detail += detail;
+}
+
+// The error over the detail in each class, against that of all. It counts by its power of 3/4, for what is
+// learned is uncertain and refinement changes it.
+void ErrorEstimates::update() {
+  constexpr float kDoubt = 10, kMost = 32;  // samples that the expectation counts as
+  const float of_all = all_.error / all_.detail;
+  for (NodeClass c = 0; c < kNodeClasses; ++c) {
+    const Sums& sums = sums_[c];
+    const float doubt = kDoubt * (sums.samples > 0 ? sums.detail / sums.samples : 1);
+    const float ratio = (sums.error / of_all + doubt * expected(c)) / (sums.detail + doubt);
+    const float root = std::sqrt(ratio);
+    factors_[c] = std::clamp(root * std::sqrt(root), 1 / kMost, kMost);
+  }
+}
+
+}  // namespace pprt

@@ -1,0 +1,48 @@
+// Learns how wrong the picture is at nodes that hold no sample yet: the expected error by class of node.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "pipeline/lattice/local_errors.h"
+
+namespace pprt {
+
+// A class of nodes whose errors are alike. It has three parts: the number of primitives at the nodes around
+// (1 to 4), the variance of their colours (two octaves each), and the level of the errors near them.
+inline constexpr int kPrimitiveCounts = 4, kVarianceLevels = 8;
+using NodeClass = std::size_t;
+inline constexpr std::size_t kNodeClasses = std::size_t{kPrimitiveCounts} * kVarianceLevels * kErrorLevels;
+
+NodeClass class_of(int primitives, float variance, int error_level);
+
+// Returns sqrt(log(1.03 + 500 variance)), to an eighth of an octave of the variance: the refinement weight of
+// the paper for a difference instead of its square (refinement_weight.h).
+float detail_of(float variance);
+
+class ErrorEstimates {
+ public:
+  ErrorEstimates() { clear(); }
+
+  // Forgets all.
+  void clear();
+
+  // Returns the factor that turns detail_of() into the error to expect, up to a common factor.
+  float factor(NodeClass c) const { return factors_[c]; }
+
+  // Notes the error found at a node, where `detail` was to be expected, both times the area it stands for.
+  // Factors stay as they are until update().
+  void learn(NodeClass c, float detail, float error);
+
+  void update();
+
+ private:
+  struct Sums {
+    float error = 0, detail = 0, samples = 0;
+  };
+  std::array<Sums, kNodeClasses> sums_;
+  Sums all_;
+  std::array<float, kNodeClasses> factors_;
+};
+
+}  // namespace pprt

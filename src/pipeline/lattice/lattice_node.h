@@ -1,0 +1,83 @@
+// The lattice: image points at which the lattice sampler may take samples (docs/decisions/0021-lattice.md).
+//
+// Coordinates count quarters of a pixel from the image's upper left corner. The coarsest nodes lie
+// kBaseSide apart. Every level halves the area of a node: first the centres of the squares between the nodes,
+// then the middles of the squares' sides. The nodes so far then form squares of half the side.
+//
+//   o . o      o     o corners     side 4:   its centre    then the middles    then side 2
+//   . . .         +                          of its sides
+//   o . o      o     o             o     o   o     o   o + o   o + o
+//                                     +         +      + + +   + x +  ...
+//                                  o     o   o     o   o + o   o + o
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "pipeline/simd.h"
+
+namespace pprt {
+
+inline constexpr int kQuarters = 4;   // of a pixel, along a line
+inline constexpr int kBaseSide = 32;  // of the coarsest squares, quarters of a pixel
+
+struct LatticeNode {
+  int x = 0, y = 0;  // quarters of a pixel
+
+  friend bool operator==(const LatticeNode&, const LatticeNode&) = default;
+};
+
+// Whether the node lies between the four corners of a square of this side, or between two of them. A square's
+// side is even.
+enum class LatticeKind : std::uint8_t { kCenter, kMiddle };
+struct LatticeLevel {
+  int side = kBaseSide;
+  LatticeKind kind = LatticeKind::kCenter;
+
+  // The image area that a node of the level stands for once all nodes of the level are known, square pixels.
+  float area() const {
+    const float pixels = static_cast<float>(side) / kQuarters;
+    return pixels * pixels * (kind == LatticeKind::kCenter ? 0.5F : 0.25F);
+  }
+};
+
+// From coarse to fine. Nodes at the corners of the base squares belong to no level.
+inline constexpr std::array<LatticeLevel, 10> kLatticeLevels = {{{32, LatticeKind::kCenter},
+                                                                 {32, LatticeKind::kMiddle},
+                                                                 {16, LatticeKind::kCenter},
+                                                                 {16, LatticeKind::kMiddle},
+                                                                 {8, LatticeKind::kCenter},
+                                                                 {8, LatticeKind::kMiddle},
+                                                                 {4, LatticeKind::kCenter},
+                                                                 {4, LatticeKind::kMiddle},
+                                                                 {2, LatticeKind::kCenter},
+                                                                 {2, LatticeKind::kMiddle}}};
+
+// Returns the level of a node that is no corner of a base square.
+inline LatticeLevel level_of(const LatticeNode& node) {
+  const int half = 1 << std::countr_zero(static_cast<unsigned>(node.x | node.y));
+  const bool is_center = (node.x & half) != 0 && (node.y & half) != 0;
+  return {2 * half, is_center ? LatticeKind::kCenter : LatticeKind::kMiddle};
+}
+
+// What is seen at a node: colour, linear, and the primitive's number.
+class NodeValue {
+ public:
+  NodeValue() = default;
+  // The last lane of `channels` does not count.
+  NodeValue(const float4& channels, std::uint32_t primitive) {
+    int4 bits = std::bit_cast<int4>(channels);
+    bits[3] = std::bit_cast<std::int32_t>(primitive);
+    lanes_ = std::bit_cast<float4>(bits);
+  }
+
+  // Red, green, blue and 0.
+  float4 channels() const { return std::bit_cast<float4>(std::bit_cast<int4>(lanes_) & int4{-1, -1, -1, 0}); }
+  std::uint32_t primitive() const { return std::bit_cast<std::uint32_t>(std::bit_cast<int4>(lanes_)[3]); }
+
+ private:
+  float4 lanes_{};
+};
+
+}  // namespace pprt

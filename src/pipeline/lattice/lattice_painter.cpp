@@ -1,0 +1,204 @@
+#include "pipeline/lattice/lattice_painter.h"
+
+#include <algorithm>
+
+#include "pipeline/reconstruction/shape_nearness.h"
+
+namespace pprt {
+namespace {
+
+// Points of a square, in shares of its side. No two in one row or column.
+constexpr PerPoint kColumns = {0.0625F, 0.1875F, 0.3125F, 0.4375F, 0.5625F, 0.6875F, 0.8125F, 0.9375F};
+constexpr PerPoint kRows = {0.4375F, 0.8125F, 0.0625F, 0.6875F, 0.1875F, 0.5625F, 0.9375F, 0.3125F};
+
+constexpr int kBasePixels = kBaseSide / kQuarters;
+
+bool is_on_one_primitive(const SquareCorners& corners) {
+  const std::uint32_t primitive = corners[0].primitive();
+  return std::all_of(corners.begin() + 1, corners.end(),
+                     [&](const NodeValue& v) { return v.primitive() == primitive; });
+}
+
+// The eight points of a square that each of up to four shapes is nearest at, as shares.
+struct Coverage {
+  std::array<float, 4> shares{};
+  float all = 0;
+};
+
+// Null shapes cover nothing.
+PPRT_CLONED_FOR_WIDE_REGISTERS
+Coverage coverage(const ProjectedShapeCache& shapes,
+                  const std::array<const ProjectedShapeCache::Shape*, 4>& candidates, const Vec2d& corner,
+                  float side) {
+  const ImageBounds square = {static_cast<float>(corner.x), static_cast<float>(corner.y),
+                              static_cast<float>(corner.x) + side, static_cast<float>(corner.y) + side};
+  std::array<PerPoint, 4> near{};
+  PerPoint nearest{};
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (candidates[i] == nullptr) continue;
+    const ProjectedShapeCache::Shape& shape = *candidates[i];
+    const PerPoint x = kColumns * side + static_cast<float>(corner.x - shape.origin.x);
+    const PerPoint y = kRows * side + static_cast<float>(corner.y - shape.origin.y);
+    if (shape.kind == ImageShape::Kind::kQuadric) {
+      near[i] = nearness(shape.quadric, x, y);
+    } else {
+      shapes.for_each_facet(shape, square, [&](const ProjectedFacet& facet) {
+        const PerPoint n = nearness(facet, x, y);
+        near[i] = n > near[i] ? n : near[i];
+      });
+    }
+    nearest = near[i] > nearest ? near[i] : nearest;
+  }
+  Coverage found;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const PerPoint is_seen = (near[i] == nearest) & (nearest > 0) ? PerPoint{} + 1.0F / kPoints : PerPoint{};
+    found.shares[i] = sum_of(is_seen);
+    found.all += found.shares[i];
+  }
+  return found;
+}
+
+}  // namespace
+
+void LatticePainter::paint(const PixelRect& bounds, RegionPixels& pixels) {
+  pixels.bounds = bounds;
+  pixels.colors.resize(bounds.area());
+  pixels_ = &pixels;
+  const auto first = [](int pixel) { return pixel / kBasePixels * kBasePixels; };
+  const auto base = [&](int x, int y) { return predictor_.value({kQuarters * x, kQuarters * y}); };
+  for (int y = first(bounds.y0); y < bounds.y1; y += kBasePixels) {
+    for (int x = first(bounds.x0); x < bounds.x1; x += kBasePixels) {
+      const SquareCorners corners = {base(x, y), base(x + kBasePixels, y), base(x, y + kBasePixels),
+                                     base(x + kBasePixels, y + kBasePixels)};
+      paint_square({kQuarters * x, kQuarters * y}, kBaseSide, corners);
+    }
+  }
+}
+
+void LatticePainter::paint_square(const LatticeNode& corner, int side, const SquareCorners& corners) {
+  const PixelRect& bounds = pixels_->bounds;
+  const int x = corner.x / kQuarters, y = corner.y / kQuarters, size = side / kQuarters;
+  if (x >= bounds.x1 || y >= bounds.y1 || x + size <= bounds.x0 || y + size <= bounds.y0) return;
+  if (size == 1) {
+    const float4 shown =
+        may_be_refined(corner) ? mean_of_refined(corner, side, corners) : mean_of(corner, side, corners);
+    const std::size_t row =
+        static_cast<std::size_t>(y - bounds.y0) * static_cast<std::size_t>(bounds.width());
+    store_channels(shown, pixels_->colors[row + static_cast<std::size_t>(x - bounds.x0)]);
+    return;
+  }
+  if (!is_refined(corner, side) &&
+      (is_on_one_primitive(corners) || Surroundings(corners).variance() < kLeastEdgeVariance)) {
+    fill(corner, side, corners);
+    return;
+  }
+  const int half = side / 2;
+  const std::array<SquareCorners, 4> parts = quarters(corner, side, corners);
+  paint_square(corner, half, parts[0]);
+  paint_square({corner.x + half, corner.y}, half, parts[1]);
+  paint_square({corner.x, corner.y + half}, half, parts[2]);
+  paint_square({corner.x + half, corner.y + half}, half, parts[3]);
+}
+
+// Whether a sample lies at the centre of a square or in the middle of one of its sides. Without one there is
+// none in the square.
+bool LatticePainter::is_refined(const LatticeNode& corner, int side) const {
+  const auto [x, y] = corner;
+  const int half = side / 2;
+  return store_.is_sampled({x + half, y + half}) || store_.is_sampled({x + half, y}) ||
+         store_.is_sampled({x, y + half}) || store_.is_sampled({x + side, y + half}) ||
+         store_.is_sampled({x + half, y + side});
+}
+
+// Of a pixel: quick, and true for some that are not.
+bool LatticePainter::may_be_refined(const LatticeNode& pixel) const {
+  const int x = pixel.x / kQuarters, y = pixel.y / kQuarters;
+  return store_.has_block(x, y) || store_.has_block(x + 1, y) || store_.has_block(x, y + 1);
+}
+
+std::array<SquareCorners, 4> LatticePainter::quarters(const LatticeNode& corner, int side,
+                                                      const SquareCorners& corners) {
+  const auto [x, y] = corner;
+  const int half = side / 2;
+  const NodeValue center = predictor_.value({x + half, y + half});
+  const NodeValue top = predictor_.value({x + half, y}), bottom = predictor_.value({x + half, y + side});
+  const NodeValue left = predictor_.value({x, y + half}), right = predictor_.value({x + side, y + half});
+  return {{{corners[0], top, left, center},
+           {top, corners[1], center, right},
+           {left, center, corners[2], bottom},
+           {center, right, bottom, corners[3]}}};
+}
+
+// Bilinear: at the centre of a pixel it is the mean over the pixel.
+void LatticePainter::fill(const LatticeNode& corner, int side, const SquareCorners& corners) {
+  const PixelRect& bounds = pixels_->bounds;
+  const int x = corner.x / kQuarters, y = corner.y / kQuarters, size = side / kQuarters;
+  const float step = 1.0F / static_cast<float>(size);
+  const float4 upper_left = corners[0].channels(), upper_right = corners[1].channels();
+  const float4 down_left = (corners[2].channels() - upper_left) * step;
+  const float4 down_right = (corners[3].channels() - upper_right) * step;
+  const int left = std::max(x, bounds.x0), right = std::min(x + size, bounds.x1);
+  for (int row = std::max(y, bounds.y0); row < std::min(y + size, bounds.y1); ++row) {
+    const float down = static_cast<float>(row - y) + 0.5F;
+    const float4 begin = upper_left + down_left * down, end = upper_right + down_right * down;
+    const float4 along = (end - begin) * step;
+    float4 shown = begin + along * (static_cast<float>(left - x) + 0.5F);
+    Color* pixel = pixels_->colors.data() +
+                   static_cast<std::size_t>(row - bounds.y0) * static_cast<std::size_t>(bounds.width());
+    for (int column = left; column < right; ++column) {
+      store_channels(shown, pixel[column - bounds.x0]);
+      shown += along;
+    }
+  }
+}
+
+// Returns the mean over a square of at most a pixel.
+float4 LatticePainter::mean_of_refined(const LatticeNode& corner, int side, const SquareCorners& corners) {
+  if (side < 2 || !is_refined(corner, side)) return mean_of(corner, side, corners);
+  const int half = side / 2;
+  const std::array<SquareCorners, 4> parts = quarters(corner, side, corners);
+  return (mean_of_refined(corner, half, parts[0]) +
+          mean_of_refined({corner.x + half, corner.y}, half, parts[1]) +
+          mean_of_refined({corner.x, corner.y + half}, half, parts[2]) +
+          mean_of_refined({corner.x + half, corner.y + half}, half, parts[3])) *
+         0.25F;
+}
+
+// Returns the mean over a square with samples at its corners only.
+float4 LatticePainter::mean_of(const LatticeNode& corner, int side, const SquareCorners& corners) {
+  const Surroundings around(corners);
+  if (is_on_one_primitive(corners) || around.variance() < kLeastEdgeVariance) return around.mean();
+  return mean_of_edge(corner, side, corners);
+}
+
+// The same where the corners lie on different primitives.
+float4 LatticePainter::mean_of_edge(const LatticeNode& corner, int side, const SquareCorners& corners) {
+  const Surroundings around(corners);
+  const float4 mean = around.mean();
+  const Vec2d at(static_cast<double>(corner.x) / kQuarters, static_cast<double>(corner.y) / kQuarters);
+  std::array<const ProjectedShapeCache::Shape*, 4> shapes{};
+  std::array<ProjectedShapeCache::Place, 4> places{};
+  bool sees_background = false;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (!around.is_first(i)) continue;
+    if (corners[i].primitive() == 0) {
+      sees_background = true;
+    } else {
+      places[i] = shapes_.find(corners[i].primitive(), at);
+      if (shapes_.shape(places[i]).kind == ImageShape::Kind::kUnknown) return mean;
+    }
+  }
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    if (places[i] != ProjectedShapeCache::Place{0}) shapes[i] = &shapes_.shape(places[i]);
+  const Coverage found = coverage(shapes_, shapes, at, static_cast<float>(side) / kQuarters);
+  const float each = 1 / std::max(found.all, 1.0F), beyond = std::max(1 - found.all, 0.0F);
+  float4 difference{};  // from the mean
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (found.shares[i] > 0)
+      difference += (around.mean_on(corners[i].primitive()) - mean) * (found.shares[i] * each);
+  }
+  if (sees_background) difference += (around.mean_on(0) - mean) * beyond;
+  return mean + difference * share_.of(around.primitives(), errors_.near(corner).level);
+}
+
+}  // namespace pprt

@@ -1,0 +1,43 @@
+// From the lattice to pixels: each square of the lattice shows the mean over each pixel's area of what its
+// corners make of it.
+#pragma once
+
+#include <array>
+
+#include "pipeline/lattice/node_prediction.h"
+#include "pipeline/reconstruction/reconstruction.h"
+
+namespace pprt {
+
+// The values at a square's corners: upper left, upper right, lower left, lower right.
+using SquareCorners = std::array<NodeValue, 4>;
+
+// Paints a lattice. The references must outlive the object.
+class LatticePainter {
+ public:
+  LatticePainter(const LatticeStore& store, NodePredictor& predictor, ProjectedShapeCache& shapes,
+                 LocalErrors& errors, const EdgeShare& share)
+      : store_(store), predictor_(predictor), shapes_(shapes), errors_(errors), share_(share) {}
+
+  // Replaces `pixels` by those of a rectangle of the image.
+  void paint(const PixelRect& bounds, RegionPixels& pixels);
+
+ private:
+  void paint_square(const LatticeNode& corner, int side, const SquareCorners& corners);
+  void fill(const LatticeNode& corner, int side, const SquareCorners& corners);
+  std::array<SquareCorners, 4> quarters(const LatticeNode& corner, int side, const SquareCorners& corners);
+  bool is_refined(const LatticeNode& corner, int side) const;
+  bool may_be_refined(const LatticeNode& pixel) const;
+  float4 mean_of_refined(const LatticeNode& corner, int side, const SquareCorners& corners);
+  float4 mean_of(const LatticeNode& corner, int side, const SquareCorners& corners);
+  float4 mean_of_edge(const LatticeNode& corner, int side, const SquareCorners& corners);
+
+  const LatticeStore& store_;
+  NodePredictor& predictor_;
+  ProjectedShapeCache& shapes_;
+  LocalErrors& errors_;
+  const EdgeShare& share_;
+  RegionPixels* pixels_ = nullptr;
+};
+
+}  // namespace pprt

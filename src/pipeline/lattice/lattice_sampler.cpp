@@ -1,0 +1,290 @@
+#include "pipeline/lattice/lattice_sampler.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "pipeline/sampling/refinement_weight.h"
+
+namespace pprt {
+namespace {
+
+constexpr double kGridShare = 0.2;         // of all samples that the grid may take
+constexpr float kInsertion = 1;            // time of choosing and inserting a sample, in rays
+constexpr float kFirstThreshold = 4;       // above what most nodes are worth
+constexpr float kGreatestFall = 4;         // of the threshold, from pass to pass
+constexpr double kFirstGrowth = 3;         // pessimistic: nothing is learned yet
+constexpr float kUnpredicted = 1.0F / 32;  // squared error that a sample without a prediction counts as
+
+std::size_t pixels_of(const LatticeStore& store) {
+  return static_cast<std::size_t>(store.width()) * static_cast<std::size_t>(store.height());
+}
+
+float squared_error(const float4& a, const float4& b) {
+  const float4 difference = on_display(a) - on_display(b), squares = difference * difference;
+  return (squares[0] + squares[1] + squares[2]) * (1.0F / 3);
+}
+
+// Below a pixel an error is a part of what the pixel shows.
+float effect_of(const LatticeLevel& level) {
+  const float area = level.area();
+  return level.side <= kQuarters ? 2 * area * area : area;
+}
+
+}  // namespace
+
+LatticeSampler::LatticeSampler(int width, int height, ProjectedShapeCache::View view)
+    : store_(width, height),
+      shapes_(std::move(view)),
+      errors_(store_.right(), store_.bottom()),
+      predictor_(store_, shapes_, errors_, share_),
+      painter_(store_, predictor_, shapes_, errors_, share_),
+      greatest_(static_cast<std::size_t>(store_.tile_count())) {
+  clear();
+}
+
+void LatticeSampler::clear() {
+  store_.clear();
+  shapes_.forget();
+  errors_.clear();
+  estimates_.clear();
+  share_.clear();
+  samples_ = 0;
+  has_base_ = false;
+  grid_levels_ = 0;
+  growth_ = kFirstGrowth;
+  last_threshold_ = kFirstThreshold;
+  pass_ = {};
+  tile_ = store_.tile_count();
+  nodes_.clear();
+  next_ = 0;
+  std::fill(greatest_.begin(), greatest_.end(), kNotWanted);
+  wanted_.reset();
+}
+
+// The order of nodes.
+
+std::optional<Vec2d> LatticeSampler::next_point() {
+  for (;;) {
+    while (next_ == nodes_.size()) {
+      if (!next_nodes()) return std::nullopt;
+    }
+    const LatticeNode node = nodes_[next_++];
+    if (pass_.takes_base) {
+      wanted_.emplace();
+      wanted_->node = node, wanted_->is_base = true;
+    } else if (!is_wanted(node, kLatticeLevels[level_ - 1])) {
+      continue;
+    }
+    return Vec2d(static_cast<double>(node.x) / kQuarters, static_cast<double>(node.y) / kQuarters);
+  }
+}
+
+// Collects the nodes of the next level, tile or pass. False when no pass is left.
+bool LatticeSampler::next_nodes() {
+  next_ = 0;
+  nodes_.clear();
+  while (tile_ < store_.tile_count() && level_ == pass_.end_level) {
+    ++tile_;
+    level_ = pass_.first_level;
+    const bool is_skipped = tile_ < store_.tile_count() && !pass_.takes_all &&
+                            greatest_[static_cast<std::size_t>(tile_)] < pass_.least;
+    if (is_skipped) {
+      level_ = pass_.end_level;
+    } else if (tile_ < store_.tile_count() && !pass_.takes_all) {
+      greatest_[static_cast<std::size_t>(tile_)] = static_cast<NodeState>(pass_.least - 1);
+    }
+  }
+  if (tile_ >= store_.tile_count()) return start_pass();
+  const std::size_t level = level_++;
+  if (pass_.takes_base) {
+    collect_base(tile_);
+  } else if (pass_.takes_all) {
+    store_.collect_all(tile_, kLatticeLevels[level], nodes_);
+  } else {
+    store_.collect(tile_, kLatticeLevels[level], pass_.least, nodes_);
+  }
+  return true;
+}
+
+void LatticeSampler::collect_base(int tile) {
+  const LatticeNode corner = store_.corner_of(tile);
+  constexpr int kTileSide = kQuarters * LatticeStore::kTilePixels;
+  for (int y = corner.y; y < corner.y + kTileSide; y += kBaseSide) {
+    for (int x = corner.x; x < corner.x + kTileSide; x += kBaseSide)
+      if (store_.has({x, y})) nodes_.push_back({x, y});
+  }
+}
+
+bool LatticeSampler::start_pass() {
+  learn_growth();
+  estimates_.update();
+  share_.update();
+  errors_.start_round();
+  store_.forget_predictions();
+  return start_grid_pass() || start_refinement_pass();
+}
+
+void LatticeSampler::start(const Pass& pass) {
+  pass_ = pass;
+  pass_.begun_with = static_cast<std::int64_t>(samples_);
+  tile_ = -1;
+  level_ = pass_.end_level;
+}
+
+// Takes a whole level, while the levels so far are but a part of all samples to come.
+bool LatticeSampler::start_grid_pass() {
+  if (!std::exchange(has_base_, true)) {
+    start({.first_level = 0, .end_level = 1, .takes_base = true, .takes_all = true});
+    return true;
+  }
+  const LatticeLevel& level = kLatticeLevels[grid_levels_];
+  const auto with_level = static_cast<double>(pixels_of(store_)) / level.area();
+  const double expected = static_cast<double>(samples_) + samples_left_;
+  const bool is_affordable = with_level <= kGridShare * expected && level.side > kQuarters;
+  const bool was_taken = pass_.takes_all;
+  if (!was_taken || !is_affordable) return false;
+  start({.first_level = grid_levels_, .end_level = grid_levels_ + 1, .takes_all = true});
+  ++grid_levels_;
+  return true;
+}
+
+// What candidates find makes new ones, which count as well. So a pass asks for fewer candidates than there
+// are samples left, and for less when there are many.
+bool LatticeSampler::start_refinement_pass() {
+  constexpr double kShare = 0.5, kLast = 0.25, kMost = 0.6;
+  const CandidateCounts above = candidates_above();
+  const double left = std::max(samples_left_, 1.0) / growth_;
+  const double affordable = left < kLast * static_cast<double>(samples_) ? left : kShare * left;
+  const double wanted = std::min(affordable, kMost * static_cast<double>(above[kLeastCandidate + 1]));
+  NodeState least = kGreatestCandidate;
+  while (least > kLeastCandidate + 1 && static_cast<double>(above[least]) < wanted) --least;
+  if (above[least] == 0) return false;
+  last_threshold_ = std::max(least_worth(least), last_threshold_ / kGreatestFall);
+  least = priority_of(last_threshold_);
+  start({.first_level = 0,
+         .end_level = kLatticeLevels.size(),
+         .least = least,
+         .threshold = last_threshold_,
+         .candidates = above[least]});
+  return true;
+}
+
+LatticeSampler::CandidateCounts LatticeSampler::candidates_above() const {
+  CandidateCounts counts{};
+  for (int tile = 0; tile < store_.tile_count(); ++tile) {
+    if (greatest_[static_cast<std::size_t>(tile)] > kLeastCandidate) store_.count_states(tile, counts);
+  }
+  for (std::size_t i = kGreatestCandidate; i > kLeastCandidate; --i) counts[i] += counts[i + 1];
+  return counts;
+}
+
+void LatticeSampler::learn_growth() {
+  constexpr std::int64_t kEnough = 200;
+  const std::int64_t made = static_cast<std::int64_t>(samples_) - pass_.begun_with;
+  if (pass_.takes_all || made < kEnough || pass_.candidates == 0) return;
+  const double growth = static_cast<double>(made) / static_cast<double>(pass_.candidates);
+  growth_ = 0.5 * growth_ + 0.5 * std::clamp(growth, 0.3, 4.0);
+}
+
+// The worth of a sample.
+
+// Whether a node is worth a sample in this pass. Keeps its priority otherwise.
+bool LatticeSampler::is_wanted(const LatticeNode& node, const LatticeLevel& level) {
+  wanted_.emplace();
+  wanted_->node = node, wanted_->level = level;
+  wanted_->around = predictor_.around(node, level);
+  wanted_->variance = wanted_->around.variance();
+  wanted_->primitives = wanted_->around.primitives();
+  if (pass_.takes_all) return true;
+  const float worth = worth_of(node, level);
+  if (worth > pass_.threshold) return true;
+  store_.state_for_writing(node) = priority_of(worth);
+  return false;
+}
+
+// Returns the expected error at a node times its area, per time. Flat squares below a pixel have none.
+float LatticeSampler::worth_of(const LatticeNode& node, const LatticeLevel& level) {
+  constexpr float kFlat = 1e-5F;
+  const Wanted& at = *wanted_;
+  if (level.side <= kQuarters && at.variance < kFlat) return 0;
+  const LocalErrors::Mean& near = errors_.near(node);
+  const float factor = estimates_.factor(class_of(at.primitives, at.variance, near.level));
+  return effect_of(level) * detail_of(at.variance) * factor / (kInsertion + near.rays);
+}
+
+void LatticeSampler::insert(const RaySample& sample) {
+  const Wanted at = *std::exchange(wanted_, std::nullopt);
+  const float4 seen{sample.color.x, sample.color.y, sample.color.z, 0};
+  const auto rays = static_cast<float>(sample.rays);
+  ++samples_;
+  if (at.is_base) {
+    constexpr float kWeight = 0.5F, kSurely = 1e9F;
+    errors_.note(at.node, kUnpredicted, rays, kWeight);
+    store_.set_sample(at.node, NodeValue(seen, sample.primitive));
+    make_candidates(at.node, {2 * kBaseSide, LatticeKind::kMiddle}, kSurely);
+    return;
+  }
+  const Prediction predicted = predictor_.predict(at.node, at.around, at.variance, at.primitives);
+  const float error = squared_error(seen, predicted.value.channels());
+  const LocalErrors::Mean near = errors_.near(at.node);
+  const float effect = effect_of(at.level);
+  estimates_.learn(class_of(at.primitives, at.variance, near.level), effect * detail_of(at.variance),
+                   effect * std::sqrt(error));
+  if (predicted.shows_edge) learn_edge(at, seen, predicted);
+  errors_.note(at.node, error, rays);
+  store_.set_sample(at.node, NodeValue(seen, sample.primitive));
+  // The nodes that this one predicts see an edge where it did not show what was expected.
+  const float variance = 0.25F * error + 0.5F * at.variance;
+  const int primitives = std::max(at.primitives, predicted.value.primitive() == sample.primitive ? 1 : 2);
+  const float factor = estimates_.factor(class_of(primitives, variance, errors_.near(at.node).level));
+  make_candidates(at.node, at.level, detail_of(variance) * factor / (kInsertion + near.rays));
+}
+
+void LatticeSampler::learn_edge(const Wanted& at, const float4& seen, const Prediction& predicted) {
+  const float4 mean = on_display(at.around.mean());
+  const float4 direction = on_display(predicted.on_primitive) - mean;
+  const float4 along = (on_display(seen) - mean) * direction, squared = direction * direction;
+  share_.learn(at.primitives, errors_.near(at.node).level, along[0] + along[1] + along[2],
+               squared[0] + squared[1] + squared[2]);
+}
+
+// The nodes that a new sample predicts. `worth_per_area`: what is expected of them, for each square pixel.
+void LatticeSampler::make_candidates(const LatticeNode& node, const LatticeLevel& level,
+                                     float worth_per_area) {
+  const auto [x, y] = node;
+  if (level.kind == LatticeKind::kCenter) {
+    const LatticeLevel middles{level.side, LatticeKind::kMiddle};
+    const int half = level.side / 2;
+    make_candidate({x - half, y}, middles, worth_per_area);
+    make_candidate({x + half, y}, middles, worth_per_area);
+    make_candidate({x, y - half}, middles, worth_per_area);
+    make_candidate({x, y + half}, middles, worth_per_area);
+  } else if (level.side > 2) {
+    const LatticeLevel centers{level.side / 2, LatticeKind::kCenter};
+    const int quarter = level.side / 4;
+    make_candidate({x - quarter, y - quarter}, centers, worth_per_area);
+    make_candidate({x + quarter, y - quarter}, centers, worth_per_area);
+    make_candidate({x - quarter, y + quarter}, centers, worth_per_area);
+    make_candidate({x + quarter, y + quarter}, centers, worth_per_area);
+  }
+}
+
+void LatticeSampler::make_candidate(const LatticeNode& node, const LatticeLevel& level,
+                                    float worth_per_area) {
+  if (!store_.has(node)) return;
+  NodeState& state = store_.state_for_writing(node);
+  if (state == kSampled) return;
+  state = std::max(state, priority_of(worth_per_area * effect_of(level)));
+  NodeState& greatest = greatest_[static_cast<std::size_t>(store_.tile_at(node))];
+  greatest = std::max(greatest, state);
+}
+
+void LatticeSampler::paint(const PixelRect& bounds, RegionPixels& pixels) {
+  store_.forget_predictions();
+  errors_.start_round();
+  painter_.paint(bounds, pixels);
+}
+
+}  // namespace pprt

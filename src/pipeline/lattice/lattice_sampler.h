@@ -1,0 +1,113 @@
+// Chooses the samples of a picture on a lattice: a coarse grid first, then nodes where the picture is
+// expected to be most wrong, tile by tile (docs/decisions/0021-lattice.md).
+//
+// Sampling goes over the picture in passes. The first ones take all nodes of the coarsest levels. Each later
+// one takes the candidates above a threshold that falls from pass to pass; what a sample finds makes new
+// candidates around it, which the same pass may take. So rays go in neighbouring order, and what is read and
+// written stays in the caches.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "base/ray_sample.h"
+#include "base/vector.h"
+#include "pipeline/lattice/edge_share.h"
+#include "pipeline/lattice/error_estimates.h"
+#include "pipeline/lattice/lattice_painter.h"
+#include "pipeline/lattice/lattice_store.h"
+#include "pipeline/lattice/local_errors.h"
+#include "pipeline/lattice/node_prediction.h"
+
+namespace pprt {
+
+class LatticeSampler {
+ public:
+  // For an image of this size, pixels. `view` computes a primitive's shape as Probe::project does.
+  LatticeSampler(int width, int height, ProjectedShapeCache::View view);
+
+  // Removes all samples, and what was learned from them.
+  void clear();
+
+  // Tells how many samples more there will be, about. Thresholds are set by it: too few or too many make the
+  // picture coarser in one part than in another. Repeat the call on the way.
+  void expect(double samples_left) { samples_left_ = samples_left; }
+
+  // Returns the image point of the next sample, pixels. It may lie up to eight pixels beyond the right and
+  // lower border. Empty when nothing is worth a sample. The caller inserts the sample before it asks again.
+  std::optional<Vec2d> next_point();
+
+  // Takes in the sample at next_point().
+  void insert(const RaySample& sample);
+
+  std::size_t samples() const { return samples_; }
+
+  // Replaces `pixels` by those of a rectangle of the image. Each is the mean over the pixel's area.
+  void paint(const PixelRect& bounds, RegionPixels& pixels);
+
+ private:
+  // A node whose sample is wanted, and what is known of it.
+  struct Wanted {
+    LatticeNode node;
+    LatticeLevel level;
+    Surroundings around;
+    float variance = 0;
+    int primitives = 1;
+    bool is_base = false;  // a corner of a base square: nothing predicts it
+  };
+
+  // A pass over all tiles, through some levels in each. In the first passes `takes_all` nodes of one level.
+  struct Pass {
+    std::size_t first_level = 0, end_level = 0;
+    bool takes_base = false, takes_all = false;
+    NodeState least = kLeastCandidate;  // priority taken
+    float threshold = 0;                // worth taken
+    std::int64_t begun_with = 0;        // samples
+    std::int64_t candidates = 0;        // above the threshold when it began
+  };
+
+  // By priority: the candidates of at least that priority.
+  using CandidateCounts = std::array<std::int64_t, 256>;
+
+  bool next_nodes();
+  bool start_pass();
+  bool start_grid_pass();
+  bool start_refinement_pass();
+  void start(const Pass& pass);
+  void learn_growth();
+  CandidateCounts candidates_above() const;
+  void collect_base(int tile);
+  bool is_wanted(const LatticeNode& node, const LatticeLevel& level);
+  float worth_of(const LatticeNode& node, const LatticeLevel& level);
+  void learn_edge(const Wanted& at, const float4& seen, const Prediction& predicted);
+  void make_candidates(const LatticeNode& node, const LatticeLevel& level, float worth_per_area);
+  void make_candidate(const LatticeNode& node, const LatticeLevel& level, float worth_per_area);
+
+  LatticeStore store_;
+  ProjectedShapeCache shapes_;
+  LocalErrors errors_;
+  ErrorEstimates estimates_;
+  EdgeShare share_;
+  NodePredictor predictor_;
+  LatticePainter painter_;
+
+  std::size_t samples_ = 0;
+  double samples_left_ = 0;
+
+  Pass pass_;
+  std::size_t grid_levels_ = 0;  // taken whole, the base not counted
+  bool has_base_ = false;
+  double growth_ = 0;  // samples that a pass takes, for each candidate above its threshold
+  float last_threshold_ = 0;
+  int tile_ = 0;                    // of the pass
+  std::size_t level_ = 0;           // of the pass, in the tile
+  std::vector<LatticeNode> nodes_;  // of the level in the tile
+  std::size_t next_ = 0;
+  std::vector<NodeState> greatest_;  // per tile: no candidate has a greater priority
+  std::optional<Wanted> wanted_;
+};
+
+}  // namespace pprt

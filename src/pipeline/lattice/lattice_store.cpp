@@ -1,0 +1,189 @@
+#include "pipeline/lattice/lattice_store.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace pprt {
+namespace {
+
+// Returns the number of pixels, up to whole base squares.
+int covered(int pixels) {
+  constexpr int kBasePixels = kBaseSide / kQuarters;
+  return (pixels + kBasePixels - 1) / kBasePixels * kBasePixels;
+}
+
+// Returns a bit for each of 32 states: whether it is at least `least`.
+std::uint32_t at_least(const NodeState* states, NodeState least) {
+  using Sixteen = std::uint8_t __attribute__((vector_size(16)));
+  using Words = std::uint64_t __attribute__((vector_size(16)));
+  std::uint32_t bits = 0;
+  for (int half = 0; half < 2; ++half) {
+    const auto is = std::bit_cast<Words>(load<Sixteen>(states + 16 * half) >= (Sixteen{} + least));
+    for (int word = 0; word < 2; ++word) {
+      // Gathers the lowest bits of eight bytes in the highest byte.
+      const std::uint64_t lowest = is[word] & 0x0101010101010101U;
+      const auto byte = static_cast<std::uint32_t>((lowest * 0x0102040810204080U) >> 56);
+      bits |= byte << (16 * half + 8 * word);
+    }
+  }
+  return bits;
+}
+
+// Returns a bit for every `step`-th of 32 pixels, from the `first` on.
+std::uint32_t every(int step, int first) {
+  std::uint32_t bits = 0;
+  for (int x = first; x < LatticeStore::kTilePixels; x += step) bits |= std::uint32_t{1} << x;
+  return bits;
+}
+
+// The pixels of a tile's rows whose corners are nodes of a level: which row, and a bit for each pixel.
+template <class Visit>
+void for_each_row(const LatticeLevel& level, const Visit& visit) {
+  const int side = level.side / kQuarters, half = side / 2;
+  const std::uint32_t between = every(side, half), at_corners = every(side, 0);
+  if (level.kind == LatticeKind::kCenter) {
+    for (int y = half; y < LatticeStore::kTilePixels; y += side) visit(y, between);
+    return;
+  }
+  for (int y = 0; y < LatticeStore::kTilePixels; y += half) visit(y, y % side == 0 ? between : at_corners);
+}
+
+}  // namespace
+
+LatticeStore::LatticeStore(int width, int height)
+    : width_(width),
+      height_(height),
+      right_(kQuarters * covered(width)),
+      bottom_(kQuarters * covered(height)),
+      columns_(right_ / (kQuarters * kTilePixels) + 1),
+      rows_(bottom_ / (kQuarters * kTilePixels) + 1),
+      tiles_(std::make_unique_for_overwrite<Tile[]>(static_cast<std::size_t>(columns_) *
+                                                    static_cast<std::size_t>(rows_))) {
+  for (int t = 0; t < tile_count(); ++t) tiles_[static_cast<std::size_t>(t)].blocks.fill(kNoBlock);
+  clear();
+}
+
+void LatticeStore::clear() {
+  for (int t = 0; t < tile_count(); ++t) {
+    Tile& tile = tiles_[static_cast<std::size_t>(t)];
+    tile.corner_states.fill(kNotWanted);
+    tile.center_states.fill(kNotWanted);
+    tile.predicted_in.fill(0);
+    for (const std::uint16_t pixel : tile.pixels_with_blocks) tile.blocks[pixel] = kNoBlock;
+    tile.pixels_with_blocks.clear();
+  }
+  round_ = 1;
+  blocks_ = 0;
+}
+
+void LatticeStore::forget_predictions() {
+  if (++round_ != 0) return;
+  for (int t = 0; t < tile_count(); ++t) tiles_[static_cast<std::size_t>(t)].predicted_in.fill(0);
+  round_ = 1;
+}
+
+NodeState& LatticeStore::state_for_writing(const LatticeNode& node) {
+  Tile& tile = tiles_[tile_of(node)];
+  const std::size_t pixel = pixel_in_tile(node), slot = slot_of(node);
+  if (slot == 0) return tile.corner_states[pixel];
+  if (slot == kCenterSlot) return tile.center_states[pixel];
+  return block_for_writing(tile, pixel).states[slot];
+}
+
+void LatticeStore::set_sample(const LatticeNode& node, const NodeValue& value) {
+  Tile& tile = tiles_[tile_of(node)];
+  const std::size_t pixel = pixel_in_tile(node), slot = slot_of(node);
+  if (slot == 0) {
+    tile.corners[pixel] = value, tile.corner_states[pixel] = kSampled;
+    return;
+  }
+  PixelBlock& own = block_for_writing(tile, pixel);
+  own.values[place_of(slot)] = value;
+  (slot == kCenterSlot ? tile.center_states[pixel] : own.states[slot]) = kSampled;
+}
+
+LatticeStore::PixelBlock& LatticeStore::block_for_writing(Tile& tile, std::size_t pixel) {
+  if (tile.blocks[pixel] != kNoBlock) return block(tile.blocks[pixel]);
+  if (blocks_ / kChunk == chunks_.size())
+    chunks_.push_back(std::make_unique_for_overwrite<PixelBlock[]>(kChunk));
+  tile.blocks[pixel] = blocks_;
+  tile.pixels_with_blocks.push_back(static_cast<std::uint16_t>(pixel));
+  PixelBlock& made = block(blocks_++);
+  made.states.fill(kNotWanted);
+  return made;
+}
+
+LatticeNode LatticeStore::corner_of(int tile, std::size_t pixel) const {
+  const auto x = static_cast<int>(pixel % kTilePixels), y = static_cast<int>(pixel / kTilePixels);
+  return {kQuarters * (tile % columns_ * kTilePixels + x), kQuarters * (tile / columns_ * kTilePixels + y)};
+}
+
+void LatticeStore::collect(int tile, const LatticeLevel& level, NodeState least,
+                           std::vector<LatticeNode>& nodes) const {
+  nodes.clear();
+  const Tile& from = tiles_[static_cast<std::size_t>(tile)];
+  const auto add = [&](std::size_t pixel, std::size_t slot) {
+    const LatticeNode corner = corner_of(tile, pixel);
+    const auto s = static_cast<int>(slot);
+    nodes.push_back({corner.x + s % kQuarters, corner.y + s / kQuarters});
+  };
+  if (level.side > kQuarters) {
+    collect_corners(tile, level, least, nodes);
+  } else if (level.side == kQuarters && level.kind == LatticeKind::kCenter) {
+    for (std::size_t row = 0; row < kTileArea; row += kTilePixels) {
+      for (std::uint32_t bits = at_least(&from.center_states[row], least); bits != 0; bits &= bits - 1)
+        add(row + static_cast<std::size_t>(std::countr_zero(bits)), kCenterSlot);
+    }
+  } else {
+    static constexpr std::array<std::uint8_t, 2> kMiddles = {2, 8};
+    static constexpr std::array<std::uint8_t, 4> kQuarterCenters = {5, 7, 13, 15};
+    static constexpr std::array<std::uint8_t, 8> kQuarterMiddles = {1, 3, 4, 6, 9, 11, 12, 14};
+    const auto add_slots = [&](const auto& slots) {
+      for (const std::uint16_t pixel : from.pixels_with_blocks) {
+        const PixelBlock& b = block(from.blocks[pixel]);
+        for (const std::uint8_t slot : slots)
+          if (b.states[slot] >= least) add(pixel, slot);
+      }
+    };
+    if (level.side == kQuarters) return add_slots(kMiddles);
+    if (level.kind == LatticeKind::kCenter) return add_slots(kQuarterCenters);
+    add_slots(kQuarterMiddles);
+  }
+}
+
+void LatticeStore::collect_corners(int tile, const LatticeLevel& level, NodeState least,
+                                   std::vector<LatticeNode>& nodes) const {
+  const Tile& from = tiles_[static_cast<std::size_t>(tile)];
+  for_each_row(level, [&](int row, std::uint32_t pixels) {
+    const std::size_t first = static_cast<std::size_t>(row) * kTilePixels;
+    for (std::uint32_t bits = pixels & at_least(&from.corner_states[first], least); bits != 0;
+         bits &= bits - 1)
+      nodes.push_back(corner_of(tile, first + static_cast<std::size_t>(std::countr_zero(bits))));
+  });
+}
+
+void LatticeStore::collect_all(int tile, const LatticeLevel& level, std::vector<LatticeNode>& nodes) const {
+  nodes.clear();
+  for_each_row(level, [&](int row, std::uint32_t pixels) {
+    const std::size_t first = static_cast<std::size_t>(row) * kTilePixels;
+    for (std::uint32_t bits = pixels; bits != 0; bits &= bits - 1) {
+      const LatticeNode node = corner_of(tile, first + static_cast<std::size_t>(std::countr_zero(bits)));
+      if (has(node)) nodes.push_back(node);
+    }
+  });
+}
+
+void LatticeStore::count_states(int tile, std::array<std::int64_t, 256>& counts) const {
+  const Tile& from = tiles_[static_cast<std::size_t>(tile)];
+  const auto count = [&](const auto& states) {
+    for (std::size_t i = 0; i < states.size(); i += sizeof(std::uint64_t)) {
+      if (load<std::uint64_t>(&states[i]) == 0) continue;
+      for (std::size_t k = i; k < i + sizeof(std::uint64_t); ++k) ++counts[states[k]];
+    }
+  };
+  count(from.corner_states);
+  count(from.center_states);
+  for (const std::uint16_t pixel : from.pixels_with_blocks) count(block(from.blocks[pixel]).states);
+}
+
+}  // namespace pprt

@@ -1,0 +1,101 @@
+#include "pipeline/lattice/node_prediction.h"
+
+#include "pipeline/reconstruction/shape_nearness.h"
+#include "pipeline/sampling/refinement_weight.h"
+
+namespace pprt {
+namespace {
+
+float nearness_at(const ProjectedShapeCache& shapes, const ProjectedShapeCache::Shape& shape, double x,
+                  double y) {
+  const auto from_x = static_cast<float>(x - shape.origin.x), from_y = static_cast<float>(y - shape.origin.y);
+  if (shape.kind == ImageShape::Kind::kQuadric) return nearness(shape.quadric, from_x, from_y);
+  const auto left = static_cast<float>(x), top = static_cast<float>(y);
+  float nearest = 0;
+  shapes.for_each_facet(shape, {left, top, left, top}, [&](const ProjectedFacet& facet) {
+    nearest = std::max(nearest, nearness(facet, from_x, from_y));
+  });
+  return nearest;
+}
+
+// The primitive that is nearest at a point, among those around; whether there is one that is known to be
+// seen.
+struct Seen {
+  std::uint32_t primitive = 0;
+  bool is_known = false;
+};
+
+Seen seen_at(const Vec2d& point, const Surroundings& around, ProjectedShapeCache& shapes) {
+  Seen seen;
+  float nearest = 0;
+  bool sees_background = false;
+  for (std::size_t i = 0; i < around.count(); ++i) {
+    const std::uint32_t primitive = around[i].primitive();
+    if (!around.is_first(i)) continue;
+    if (primitive == 0) {
+      sees_background = true;
+      continue;
+    }
+    const ProjectedShapeCache::Shape& shape = shapes.shape(shapes.find(primitive, point));
+    if (shape.kind == ImageShape::Kind::kUnknown) return {};
+    const float n = nearness_at(shapes, shape, point.x, point.y);
+    if (n > nearest) nearest = n, seen = {primitive, true};
+  }
+  if (!seen.is_known) seen.is_known = sees_background;
+  return seen;
+}
+
+}  // namespace
+
+Surroundings NodePredictor::around(const LatticeNode& node, const LatticeLevel& level) {
+  const int half = level.side / 2;
+  const auto [x, y] = node;
+  Surroundings around;
+  if (level.kind == LatticeKind::kCenter) {
+    around.add(value({x - half, y - half}));
+    around.add(value({x + half, y - half}));
+    around.add(value({x - half, y + half}));
+    around.add(value({x + half, y + half}));
+    return around;
+  }
+  const int dx = (x & half) != 0 ? half : 0, dy = half - dx;  // along the side
+  around.add(value({x - dx, y - dy}));
+  around.add(value({x + dx, y + dy}));
+  const LatticeNode before{x - dy, y - dx}, after{x + dy, y + dx};  // the centres
+  const bool is_on_border =
+      before.x < 0 || before.y < 0 || after.x > store_.right() || after.y > store_.bottom();
+  if (!is_on_border && (store_.is_sampled(before) || store_.is_sampled(after))) {
+    around.add(value(before));
+    around.add(value(after));
+  }
+  return around;
+}
+
+Prediction NodePredictor::predict(const LatticeNode& node, const Surroundings& around, float variance,
+                                  int primitives) {
+  const float4 mean = around.mean();
+  if (primitives == 1 || variance < kLeastEdgeVariance) return {NodeValue(mean, around[0].primitive())};
+  const Vec2d point(static_cast<double>(node.x) / kQuarters, static_cast<double>(node.y) / kQuarters);
+  const Seen seen = seen_at(point, around, shapes_);
+  if (!seen.is_known) return {NodeValue(mean, around[0].primitive())};
+  const float4 on_primitive = around.mean_on(seen.primitive);
+  const float share = share_.of(primitives, errors_.near(node).level);
+  return {NodeValue(mean + (on_primitive - mean) * share, seen.primitive), true, on_primitive};
+}
+
+NodeValue NodePredictor::value(const LatticeNode& node) {
+  if (!LatticeStore::is_corner(node)) return store_.is_sampled(node) ? store_.sample(node) : predicted(node);
+  if (const NodeValue* kept = store_.kept_at(node)) return *kept;
+  const NodeValue now = predicted(node);
+  store_.keep_prediction(node, now);
+  return now;
+}
+
+// Nothing predicts the corners of base squares: without a sample they are black.
+NodeValue NodePredictor::predicted(const LatticeNode& node) {
+  if ((node.x | node.y) % kBaseSide == 0) return {};
+  const Surroundings nodes = around(node, level_of(node));
+  return predict(node, nodes, nodes.variance(), nodes.primitives()).value;
+}
+
+}  // namespace pprt

@@ -1,0 +1,239 @@
+// Pictures by the lattice sampler: where it samples, and what it paints.
+#include "pipeline/lattice/lattice_sampler.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
+#include <set>
+
+namespace pprt {
+namespace {
+
+constexpr int kWidth = 100, kHeight = 60;
+constexpr int kBase = 14 * 9;  // corners of the base squares over it
+
+// What an eye ray finds at an image point.
+using Scene = std::function<RaySample(double x, double y)>;
+
+Scene of_color(const std::function<Color(double x, double y)>& color) {
+  return [=](double x, double y) {
+    RaySample sample;
+    sample.color = color(x, y);
+    sample.primitive = 1;
+    return sample;
+  };
+}
+
+const Scene kFlat = of_color([](double, double) { return Color(0.25F, 0.5F, 0.75F); });
+const Scene kLinear = of_color([](double x, double y) {
+  return Color(static_cast<float>(x / 200), static_cast<float>(y / 100), static_cast<float>((x + y) / 300));
+});
+
+constexpr double kDiscX = 47.3, kDiscY = 28.7, kDiscRadius = 21.4;
+bool in_disc(double x, double y) {
+  return std::hypot(x - kDiscX, y - kDiscY) <= kDiscRadius;
+}
+
+// A disc, primitive 2, before a wall, primitive 1. Its edge is that of a shadow if both are one primitive.
+Scene disc(bool is_primitive) {
+  return [=](double x, double y) {
+    RaySample sample;
+    const bool inside = in_disc(x, y);
+    sample.color = inside ? Color(0.9F, 0.7F, 0.2F) : Color(0.1F, 0.1F, 0.3F);
+    sample.primitive = inside && is_primitive ? 2 : 1;
+    return sample;
+  };
+}
+
+void no_shape(std::uint32_t, ImageShape& shape) {
+  shape.kind = ImageShape::Kind::kUnknown;
+}
+
+// The shapes of disc(true), the disc to the right of its place by `by` pixels.
+ProjectedShapeCache::View shapes_of_disc(double by) {
+  return [=](std::uint32_t primitive, ImageShape& shape) {
+    constexpr double kNear = 1e-6;
+    constexpr float kFar = 1e9F;
+    shape.facets.clear();
+    if (primitive == 1) {
+      shape.kind = ImageShape::Kind::kFacets;
+      shape.facets = {{{{{1, 0, 0}, {1, 0, 0}, {1, 0, 0}}}, {1, 0, 0}, {-kFar, -kFar, kFar, kFar}}};
+      return;
+    }
+    const double x = kDiscX + by;
+    shape.kind = ImageShape::Kind::kQuadric;
+    shape.quadric.discriminant = {kNear * (kDiscRadius * kDiscRadius - x * x - kDiscY * kDiscY),
+                                  kNear * 2 * x,
+                                  kNear * 2 * kDiscY,
+                                  -kNear,
+                                  0,
+                                  -kNear};
+    shape.quadric.middle = {-2, 0, 0};
+  };
+}
+
+LatticeSampler sampled(const Scene& scene, int samples, std::vector<Vec2d>* points = nullptr,
+                       const ProjectedShapeCache::View& view = no_shape) {
+  LatticeSampler sampler(kWidth, kHeight, view);
+  for (int i = 0; i < samples; ++i) {
+    sampler.expect(samples - i);
+    const auto point = sampler.next_point();
+    if (!point) break;
+    if (points != nullptr) points->push_back(*point);
+    sampler.insert(scene(point->x, point->y));
+  }
+  return sampler;
+}
+
+RegionPixels painted(LatticeSampler& sampler, const PixelRect& bounds = {0, 0, kWidth, kHeight}) {
+  RegionPixels pixels;
+  sampler.paint(bounds, pixels);
+  return pixels;
+}
+
+// Root mean square against the mean over each pixel.
+double error_of(const RegionPixels& pixels, const Scene& scene) {
+  constexpr int kSide = 8;
+  double sum = 0;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      Color truth(0, 0, 0);
+      for (int j = 0; j < kSide; ++j) {
+        for (int i = 0; i < kSide; ++i) truth += scene(x + (i + 0.5) / kSide, y + (j + 0.5) / kSide).color;
+      }
+      const Color d = pixels.at(x, y) - truth * (1.0F / (kSide * kSide));
+      sum += d.dot(d);
+    }
+  }
+  return std::sqrt(sum / (3.0 * kWidth * kHeight));
+}
+
+double error_with(int samples, const Scene& scene, const ProjectedShapeCache::View& view = no_shape) {
+  LatticeSampler sampler = sampled(scene, samples, nullptr, view);
+  return error_of(painted(sampler), scene);
+}
+
+}  // namespace
+
+TEST_CASE("lattice sampler: one colour stays one colour") {
+  for (const int samples : {kBase, 300, 3000}) {
+    LatticeSampler sampler = sampled(kFlat, samples);
+    for (const Color& c : painted(sampler).colors) REQUIRE(c == Color(0.25F, 0.5F, 0.75F));
+  }
+  LatticeSampler unfinished = sampled(kFlat, kBase - 1);
+  CHECK(painted(unfinished).colors.back() != Color(0.25F, 0.5F, 0.75F));
+}
+
+TEST_CASE("lattice sampler: a linear picture is exact after the base grid") {
+  CHECK(error_with(kBase, kLinear) < 1e-6);
+  CHECK(error_with(kBase - 1, kLinear) > 1e-6);  // one is missing
+  CHECK(error_with(2000, kLinear) < 1e-6);
+}
+
+TEST_CASE("lattice sampler: no point is sampled twice, and none lies far outside") {
+  std::vector<Vec2d> points;
+  const LatticeSampler sampler = sampled(disc(false), 5000, &points);
+  std::set<std::pair<double, double>> places;
+  for (const Vec2d& p : points) {
+    REQUIRE((p.x >= 0 && p.y >= 0 && p.x <= kWidth + 8 && p.y <= kHeight + 8));
+    places.insert({p.x, p.y});
+  }
+  CHECK(places.size() == points.size());
+  CHECK(sampler.samples() == points.size());
+}
+
+TEST_CASE("lattice sampler: samples crowd along edges") {
+  std::vector<Vec2d> points;
+  sampled(disc(false), 2000, &points);
+  const auto at_edge = std::count_if(points.begin(), points.end(), [](const Vec2d& p) {
+    return std::abs(std::hypot(p.x - kDiscX, p.y - kDiscY) - kDiscRadius) < 1.5;
+  });
+  // The band has 400 of 6,000 square pixels.
+  CHECK(at_edge > 700);
+  sampled(kFlat, 2000, &(points = {}));
+  const auto without_edge = std::count_if(points.begin(), points.end(), [](const Vec2d& p) {
+    return std::abs(std::hypot(p.x - kDiscX, p.y - kDiscY) - kDiscRadius) < 1.5;
+  });
+  CHECK(without_edge < 200);
+}
+
+TEST_CASE("lattice sampler: more samples bring less error, far less than a grid's") {
+  const Scene scene = disc(false);
+  double last = error_with(200, scene);
+  for (const int samples : {400, 800, 1600}) {
+    const double error = error_with(samples, scene);
+    CAPTURE(samples, error, last);
+    CHECK(error < 0.75 * last);
+    last = error;
+  }
+  // One sample at each pixel's centre.
+  RegionPixels grid{{0, 0, kWidth, kHeight}, {}};
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) grid.colors.push_back(scene(x + 0.5, y + 0.5).color);
+  }
+  CHECK(last < 0.5 * error_of(grid, scene));  // with a quarter of its samples
+}
+
+TEST_CASE("lattice sampler: edges of known primitives are drawn where they are") {
+  const Scene scene = disc(true);
+  for (const int samples : {250, 500, 1000}) {
+    const double known = error_with(samples, scene, shapes_of_disc(0));
+    const double unknown = error_with(samples, scene),
+                 beside = error_with(samples, scene, shapes_of_disc(1.5));
+    CAPTURE(samples, known, unknown, beside);
+    CHECK(known < 0.3 * unknown);
+    CHECK(known < 0.5 * beside);  // the control: shapes that lie elsewhere do not pass
+  }
+}
+
+TEST_CASE("lattice sampler: a picture does not depend on how it is cut, nor on the one before") {
+  LatticeSampler sampler = sampled(disc(true), 1500, nullptr, shapes_of_disc(0));
+  const RegionPixels whole = painted(sampler);
+  for (const PixelRect& part :
+       {PixelRect{0, 0, 37, 60}, PixelRect{37, 13, 100, 14}, PixelRect{99, 59, 100, 60}}) {
+    const RegionPixels pixels = painted(sampler, part);
+    REQUIRE(pixels.colors.size() == part.area());
+    for (int y = part.y0; y < part.y1; ++y) {
+      for (int x = part.x0; x < part.x1; ++x) REQUIRE(pixels.at(x, y) == whole.at(x, y));
+    }
+  }
+  sampler.clear();
+  CHECK(sampler.samples() == 0);
+  for (int i = 0; i < 1500; ++i) {
+    sampler.expect(1500 - i);
+    const auto point = sampler.next_point();
+    REQUIRE(point);
+    sampler.insert(disc(true)(point->x, point->y));
+  }
+  CHECK(painted(sampler).colors == whole.colors);
+  REQUIRE(sampler.next_point());
+  RaySample other;
+  other.color = Color(1, 1, 1);
+  sampler.insert(other);
+  CHECK(painted(sampler).colors != whole.colors);  // the control: one sample shows
+}
+
+TEST_CASE("lattice sampler: it ends when nothing is worth a sample") {
+  std::vector<Vec2d> points;
+  sampled(kFlat, 100'000, &points);
+  CHECK(points.size() > 1000);
+  CHECK(points.size() < 2 * kWidth * kHeight);
+}
+
+TEST_CASE("lattice sampler: a picture of one pixel, and one without samples") {
+  LatticeSampler tiny(1, 1, no_shape);
+  RegionPixels pixels;
+  tiny.paint({0, 0, 1, 1}, pixels);
+  CHECK(pixels.colors == std::vector{Color(0, 0, 0)});
+  tiny.expect(100);
+  for (int i = 0; i < 4; ++i) {
+    const auto point = tiny.next_point();
+    REQUIRE(point);
+    tiny.insert(kFlat(point->x, point->y));
+  }
+  tiny.paint({0, 0, 1, 1}, pixels);
+  CHECK(pixels.colors == std::vector{Color(0.25F, 0.5F, 0.75F)});
+}
+
+}  // namespace pprt

@@ -1,0 +1,151 @@
+// The lattice's nodes, their levels, and where they are kept.
+#include "pipeline/lattice/lattice_store.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <set>
+#include <utility>
+
+namespace pprt {
+namespace {
+
+constexpr int kWidth = 70, kHeight = 41;
+
+// All nodes of the lattice over the image, those between pixels' corners only inside it.
+std::vector<LatticeNode> all_nodes(const LatticeStore& store) {
+  std::vector<LatticeNode> nodes;
+  for (int y = 0; y <= store.bottom(); ++y) {
+    for (int x = 0; x <= store.right(); ++x)
+      if (store.has({x, y})) nodes.push_back({x, y});
+  }
+  return nodes;
+}
+
+bool is_base(const LatticeNode& node) {
+  return node.x % kBaseSide == 0 && node.y % kBaseSide == 0;
+}
+
+// A value that tells its node.
+NodeValue value_at(const LatticeNode& node) {
+  const auto x = static_cast<float>(node.x), y = static_cast<float>(node.y);
+  return {float4{x, y, x - y, 7}, static_cast<std::uint32_t>(1000 * node.y + node.x)};
+}
+
+bool is_value_at(const NodeValue& value, const LatticeNode& node) {
+  const NodeValue wanted = value_at(node);
+  const float4 difference = value.channels() - wanted.channels();
+  return value.primitive() == wanted.primitive() && difference[0] == 0 && difference[1] == 0 &&
+         difference[2] == 0 && difference[3] == 0;
+}
+
+std::set<std::pair<int, int>> as_set(const std::vector<LatticeNode>& nodes) {
+  std::set<std::pair<int, int>> set;
+  for (const LatticeNode& n : nodes) set.insert({n.y, n.x});
+  return set;
+}
+
+}  // namespace
+
+TEST_CASE("lattice: each level halves the area of a node") {
+  float area = kLatticeLevels.front().area();
+  CHECK(area == 32);  // with the base, a node for each 32 square pixels
+  for (const LatticeLevel& level : kLatticeLevels) {
+    CHECK(level.area() == area);
+    area /= 2;
+  }
+}
+
+TEST_CASE("lattice: a node's level is that of the square that it refines") {
+  const LatticeLevel center = level_of({16, 48}), middle = level_of({16, 32}), fine = level_of({3, 8});
+  CHECK((center.side == 32 && center.kind == LatticeKind::kCenter));
+  CHECK((middle.side == 32 && middle.kind == LatticeKind::kMiddle));
+  CHECK((fine.side == 2 && fine.kind == LatticeKind::kMiddle));
+}
+
+TEST_CASE("lattice store: every node keeps its own sample") {
+  LatticeStore store(kWidth, kHeight);
+  const std::vector<LatticeNode> nodes = all_nodes(store);
+  REQUIRE(nodes.size() > 16U * kWidth * kHeight);
+  for (const LatticeNode& n : nodes) REQUIRE_FALSE(store.is_sampled(n));
+  for (const LatticeNode& n : nodes) store.set_sample(n, value_at(n));
+  for (const LatticeNode& n : nodes) {
+    CAPTURE(n.x, n.y);
+    REQUIRE(store.is_sampled(n));
+    REQUIRE(is_value_at(store.sample(n), n));
+  }
+  store.clear();
+  for (const LatticeNode& n : nodes) REQUIRE_FALSE(store.is_sampled(n));
+}
+
+TEST_CASE("lattice store: the levels hold every node but the base once") {
+  LatticeStore store(kWidth, kHeight);
+  const std::vector<LatticeNode> nodes = all_nodes(store);
+  for (const LatticeNode& n : nodes) store.state_for_writing(n) = 100;
+  std::vector<LatticeNode> found, all;
+  for (int tile = 0; tile < store.tile_count(); ++tile) {
+    for (const LatticeLevel& level : kLatticeLevels) {
+      store.collect(tile, level, 100, found);
+      for (const LatticeNode& n : found) {
+        const LatticeLevel own = level_of(n);
+        REQUIRE((own.side == level.side && own.kind == level.kind && store.tile_at(n) == tile));
+      }
+      all.insert(all.end(), found.begin(), found.end());
+      if (level.side > kQuarters) {
+        std::vector<LatticeNode> whole;
+        store.collect_all(tile, level, whole);
+        CHECK(whole == found);
+      }
+    }
+  }
+  std::vector<LatticeNode> wanted;
+  std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(wanted),
+               [](const LatticeNode& n) { return !is_base(n); });
+  CHECK(all.size() == wanted.size());
+  CHECK(as_set(all) == as_set(wanted));
+}
+
+TEST_CASE("lattice store: only candidates of the least priority are collected") {
+  LatticeStore store(kWidth, kHeight);
+  const LatticeNode low{16, 16}, high{48, 16}, sampled{80, 16};
+  store.state_for_writing(low) = 99;
+  store.state_for_writing(high) = 100;
+  store.set_sample(sampled, value_at(sampled));
+  std::vector<LatticeNode> found;
+  store.collect(0, kLatticeLevels[0], 100, found);
+  CHECK(found == std::vector{high});
+  store.collect(0, kLatticeLevels[0], kLeastCandidate, found);
+  CHECK(found == std::vector{low, high});
+  std::array<std::int64_t, 256> counts{};
+  store.count_states(0, counts);
+  CHECK((counts[99] == 1 && counts[100] == 1 && counts[kSampled] == 1));
+}
+
+TEST_CASE("lattice store: predictions last until they are forgotten, more often than a byte counts") {
+  LatticeStore store(kWidth, kHeight);
+  const LatticeNode corner{36, 20};
+  for (int round = 0; round < 600; ++round) {
+    REQUIRE(store.kept_at(corner) == nullptr);
+    store.keep_prediction(corner, value_at(corner));
+    REQUIRE(store.kept_at(corner) != nullptr);
+    REQUIRE_FALSE(store.is_sampled(corner));
+    store.forget_predictions();
+  }
+}
+
+TEST_CASE("lattice store: a priority is that of its least worth, and grows with the worth") {
+  NodeState last = kLeastCandidate;
+  for (float worth = 1e-15F; worth < 1e15F; worth *= 1.05F) {
+    const NodeState priority = priority_of(worth);
+    REQUIRE(priority >= last);
+    if (priority > kLeastCandidate && priority < kGreatestCandidate) {
+      REQUIRE(least_worth(priority) <= worth);
+      REQUIRE(priority_of(least_worth(priority)) == priority);
+      REQUIRE(least_worth(static_cast<NodeState>(priority + 1)) > worth);
+    }
+    last = priority;
+  }
+  CHECK(last == kGreatestCandidate);
+  CHECK(priority_of(0) == kLeastCandidate);
+}
+
+}  // namespace pprt

@@ -1,0 +1,75 @@
+// What the lattice sampler learns from its samples: errors near a point, errors by class, shares at edges.
+#include <catch2/catch.hpp>
+
+#include "pipeline/lattice/edge_share.h"
+#include "pipeline/lattice/error_estimates.h"
+#include "pipeline/lattice/local_errors.h"
+
+namespace pprt {
+
+TEST_CASE("local errors: an error counts near its point and nowhere else") {
+  LocalErrors errors(4 * 64, 4 * 64);
+  const LatticeNode here{130, 130}, beside{146, 130}, far{4, 4};
+  for (const LatticeNode& n : {here, beside, far}) errors.note(n, 1e-6F, 2);
+  errors.start_round();
+  const int flat = errors.near(here).level;
+  CHECK(flat == 0);
+  errors.note(here, 0.25F, 20);
+  CHECK(errors.near(here).level > flat);  // at once: a surprise is news in the same round
+  CHECK(errors.near(beside).level > flat);
+  CHECK(errors.near(far).level == flat);
+  CHECK(errors.near(here).rays > errors.near(far).rays);
+  errors.clear();
+  CHECK(errors.near(here).level == errors.near(far).level);
+}
+
+TEST_CASE("local errors: levels are octaves of the squared error") {
+  CHECK(error_level_of(0) == 0);
+  CHECK(error_level_of(0.25F) == error_level_of(0.125F) + 1);
+  CHECK(error_level_of(1) == kErrorLevels - 1);
+}
+
+TEST_CASE("error estimates: a class that proves worse than expected is expected to be worse") {
+  ErrorEstimates estimates;
+  const NodeClass better = class_of(1, 0.01F, 3), worse = class_of(1, 0.01F, 4),
+                  unseen = class_of(2, 0.01F, 3);
+  const float before = estimates.factor(worse) / estimates.factor(better);
+  const float unseen_before = estimates.factor(unseen) / estimates.factor(better);
+  for (int i = 0; i < 100; ++i) {
+    estimates.learn(better, 1, 0.01F);
+    estimates.learn(worse, 1, 0.1F);
+  }
+  CHECK(estimates.factor(worse) / estimates.factor(better) == before);  // not before update()
+  estimates.update();
+  CHECK(estimates.factor(worse) / estimates.factor(better) > 2 * before);
+  CHECK(estimates.factor(unseen) / estimates.factor(better) > unseen_before);
+  estimates.clear();
+  CHECK(estimates.factor(worse) / estimates.factor(better) == before);
+}
+
+TEST_CASE("error estimates: classes differ by each of their parts, and details grow with the variance") {
+  const NodeClass c = class_of(2, 0.01F, 5);
+  CHECK(class_of(3, 0.01F, 5) != c);
+  CHECK(class_of(2, 0.1F, 5) != c);
+  CHECK(class_of(2, 0.01F, 6) != c);
+  CHECK(class_of(kPrimitiveCounts, 1, kErrorLevels - 1) < kNodeClasses);
+  CHECK(class_of(1, 0, 0) == 0);
+  CHECK(detail_of(0) > 0);
+  CHECK(detail_of(0.1F) > detail_of(0.01F));
+}
+
+TEST_CASE("edge share: the share is the one with which predictions would have been right") {
+  EdgeShare share;
+  const float expected = share.of(2, 5);
+  CHECK((expected > 0.5F && expected < 1));
+  for (int i = 0; i < 1000; ++i) share.learn(2, 5, 0.3F * 0.04F, 0.04F);
+  CHECK(share.of(2, 5) == expected);  // not before update()
+  share.update();
+  CHECK(share.of(2, 5) == Approx(0.3F).margin(0.01));
+  CHECK(share.of(3, 5) == expected);
+  for (int i = 0; i < 10000; ++i) share.learn(3, 5, 4, 0.04F);
+  share.update();
+  CHECK(share.of(3, 5) == 1);
+}
+
+}  // namespace pprt
