@@ -12,8 +12,7 @@ namespace {
 
 constexpr double kGridShare = 0.2;         // of all samples that the grid may take
 constexpr float kInsertion = 1;            // time of choosing and inserting a sample, in rays
-constexpr float kFirstThreshold = 4;       // above what most nodes are worth
-constexpr float kGreatestFall = 4;         // of the threshold, from pass to pass
+constexpr float kGreatestFall = 3;         // of the threshold, from pass to pass
 constexpr double kFirstGrowth = 3;         // pessimistic: nothing is learned yet
 constexpr float kUnpredicted = 1.0F / 32;  // squared error that a sample without a prediction counts as
 
@@ -54,7 +53,7 @@ void LatticeSampler::clear() {
   has_base_ = false;
   grid_levels_ = 0;
   growth_ = kFirstGrowth;
-  last_threshold_ = kFirstThreshold;
+  last_threshold_ = 0;
   pass_ = {};
   tile_ = store_.tile_count();
   nodes_.clear();
@@ -220,10 +219,10 @@ void LatticeSampler::insert(const RaySample& sample) {
   const auto rays = static_cast<float>(sample.rays);
   ++samples_;
   if (at.is_base) {
-    constexpr float kWeight = 0.5F, kSurely = 1e9F;
+    constexpr float kWeight = 0.5F;
     errors_.note(at.node, kUnpredicted, rays, kWeight);
     store_.set_sample(at.node, NodeValue(seen, sample.primitive));
-    make_candidates(at.node, {2 * kBaseSide, LatticeKind::kMiddle}, kSurely);
+    make_candidates(at.node, {2 * kBaseSide, LatticeKind::kMiddle}, worth_around(at, kUnpredicted, 1));
     return;
   }
   const Prediction predicted = predictor_.predict(at.node, at.around, at.variance, at.primitives);
@@ -235,11 +234,17 @@ void LatticeSampler::insert(const RaySample& sample) {
   if (predicted.shows_edge) learn_edge(at, seen, predicted);
   errors_.note(at.node, error, rays);
   store_.set_sample(at.node, NodeValue(seen, sample.primitive));
-  // The nodes that this one predicts see an edge where it did not show what was expected.
-  const float variance = 0.25F * error + 0.5F * at.variance;
   const int primitives = std::max(at.primitives, predicted.value.primitive() == sample.primitive ? 1 : 2);
-  const float factor = estimates_.factor(class_of(primitives, variance, errors_.near(at.node).level));
-  make_candidates(at.node, at.level, detail_of(variance) * factor / (kInsertion + near.rays));
+  make_candidates(at.node, at.level, worth_around(at, error, primitives));
+}
+
+// Returns what a square pixel near a new sample is expected to be worth: what the sample did not find as
+// predicted is a difference between the nodes around it.
+float LatticeSampler::worth_around(const Wanted& at, float squared_error, int primitives) {
+  const float variance = 0.25F * squared_error + 0.5F * at.variance;
+  const LocalErrors::Mean& near = errors_.near(at.node);
+  return detail_of(variance) * estimates_.factor(class_of(primitives, variance, near.level)) /
+         (kInsertion + near.rays);
 }
 
 void LatticeSampler::learn_edge(const Wanted& at, const float4& seen, const Prediction& predicted) {

@@ -82,6 +82,7 @@ class LatticeSampler {
   void collect_base(int tile);
   bool is_wanted(const LatticeNode& node, const LatticeLevel& level);
   float worth_of(const LatticeNode& node, const LatticeLevel& level);
+  float worth_around(const Wanted& at, float squared_error, int primitives);
   void learn_edge(const Wanted& at, const float4& seen, const Prediction& predicted);
   void make_candidates(const LatticeNode& node, const LatticeLevel& level, float worth_per_area);
   void make_candidate(const LatticeNode& node, const LatticeLevel& level, float worth_per_area);
