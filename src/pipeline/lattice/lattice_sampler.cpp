@@ -56,10 +56,16 @@ void LatticeSampler::clear() {
   last_threshold_ = 0;
   pass_ = {};
   tile_ = store_.tile_count();
+  level_ = pass_.end_level;
   nodes_.clear();
   next_ = 0;
   std::fill(greatest_.begin(), greatest_.end(), kNotWanted);
   wanted_.reset();
+}
+
+std::size_t LatticeSampler::least_samples() const {
+  const auto along = [](int last) { return static_cast<std::size_t>(last / kBaseSide + 1); };
+  return along(store_.right()) * along(store_.bottom());
 }
 
 // The order of nodes.
@@ -80,22 +86,11 @@ std::optional<Vec2d> LatticeSampler::next_point() {
   }
 }
 
-// Collects the nodes of the next level, tile or pass. False when no pass is left.
+// Collects the nodes of the next level, in the next tile or pass if need be. False when no pass is left.
 bool LatticeSampler::next_nodes() {
   next_ = 0;
   nodes_.clear();
-  while (tile_ < store_.tile_count() && level_ == pass_.end_level) {
-    ++tile_;
-    level_ = pass_.first_level;
-    const bool is_skipped = tile_ < store_.tile_count() && !pass_.takes_all &&
-                            greatest_[static_cast<std::size_t>(tile_)] < pass_.least;
-    if (is_skipped) {
-      level_ = pass_.end_level;
-    } else if (tile_ < store_.tile_count() && !pass_.takes_all) {
-      greatest_[static_cast<std::size_t>(tile_)] = static_cast<NodeState>(pass_.least - 1);
-    }
-  }
-  if (tile_ >= store_.tile_count()) return start_pass();
+  if (level_ == pass_.end_level && !next_tile()) return start_pass();
   const std::size_t level = level_++;
   if (pass_.takes_base) {
     collect_base(tile_);
@@ -105,6 +100,20 @@ bool LatticeSampler::next_nodes() {
     store_.collect(tile_, kLatticeLevels[level], pass_.least, nodes_);
   }
   return true;
+}
+
+// Goes on to the next tile of the pass that may hold candidates for it.
+bool LatticeSampler::next_tile() {
+  level_ = pass_.first_level;
+  while (++tile_ < store_.tile_count()) {
+    if (pass_.takes_all) return true;
+    NodeState& greatest = greatest_[static_cast<std::size_t>(tile_)];
+    if (greatest < pass_.least) continue;
+    greatest = pass_.least;  // no greater one is left; new ones may come
+    return true;
+  }
+  level_ = pass_.end_level;
+  return false;
 }
 
 void LatticeSampler::collect_base(int tile) {
@@ -198,7 +207,7 @@ bool LatticeSampler::is_wanted(const LatticeNode& node, const LatticeLevel& leve
   wanted_->primitives = wanted_->around.primitives();
   if (pass_.takes_all) return true;
   const float worth = worth_of(node, level);
-  if (worth > pass_.threshold) return true;
+  if (worth >= pass_.threshold) return true;
   store_.state_for_writing(node) = priority_of(worth);
   return false;
 }

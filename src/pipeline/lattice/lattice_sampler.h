@@ -45,7 +45,11 @@ class LatticeSampler {
 
   std::size_t samples() const { return samples_; }
 
-  // Replaces `pixels` by those of a rectangle of the image. Each is the mean over the pixel's area.
+  // Returns how many samples the coarsest grid has. They come first.
+  std::size_t least_samples() const;
+
+  // Replaces `pixels` by those of a rectangle of the image. Each is the mean over the pixel's area. Parts are
+  // black while there are fewer than least_samples().
   void paint(const PixelRect& bounds, RegionPixels& pixels);
 
  private:
@@ -73,6 +77,7 @@ class LatticeSampler {
   using CandidateCounts = std::array<std::int64_t, 256>;
 
   bool next_nodes();
+  bool next_tile();
   bool start_pass();
   bool start_grid_pass();
   bool start_refinement_pass();

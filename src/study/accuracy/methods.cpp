@@ -246,6 +246,11 @@ class LatticePicture {
         sampler_(camera_.width, camera_.height,
                  [this](std::uint32_t primitive, ImageShape& shape) { tracer_.project(primitive, shape); }) {}
 
+  // Whether so few samples leave parts of the picture black.
+  bool is_too_coarse(double density) const {
+    return samples_per_pixel(static_cast<double>(sampler_.least_samples()), camera_) > density;
+  }
+
   // Makes the picture anew from so many samples, or fewer when nothing is worth more.
   Rendering render(double density) {
     const double begin = thread_cpu_seconds();
@@ -278,6 +283,7 @@ void run_lattice(const CurveTask& task) {
   LatticePicture picture(task.subject);
   picture.render(task.densities.back());
   for (const double density : task.densities) {
+    if (picture.is_too_coarse(density)) continue;
     Rendering rendering = picture.render(density);
     const bool is_last = rendering.exhausted || rendering.seconds > task.limit_s;
     task.sink(std::move(rendering));

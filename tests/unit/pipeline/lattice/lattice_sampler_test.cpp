@@ -122,6 +122,7 @@ TEST_CASE("lattice sampler: one colour stays one colour") {
     for (const Color& c : painted(sampler).colors) REQUIRE(c == Color(0.25F, 0.5F, 0.75F));
   }
   LatticeSampler unfinished = sampled(kFlat, kBase - 1);
+  CHECK(unfinished.least_samples() == kBase);
   CHECK(painted(unfinished).colors.back() != Color(0.25F, 0.5F, 0.75F));
 }
 
