@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "pipeline/lattice/lattice_sampler.h"
 #include "pipeline/preparation/casting.h"
 #include "pipeline/reconstruction/reconstruction.h"
 #include "pipeline/sampling/sample_mesh.h"
@@ -135,6 +136,49 @@ void reconstruction(benchmark::State& state) {
   }
 }
 BENCHMARK(reconstruction)->ArgsProduct({{4000, 16000, 64000}, {1, 2, 3}})->Unit(benchmark::kMillisecond);
+
+LatticeSampler lattice() {
+  return {kSize, kSize,
+          [](std::uint32_t primitive, ImageShape& shape) { tree().tracer.project(primitive, shape); }};
+}
+
+template <typename Trace>
+void refine(LatticeSampler& sampler, std::size_t samples, const Trace& trace) {
+  sampler.clear();
+  while (sampler.samples() < samples) {
+    sampler.expect(static_cast<double>(samples - sampler.samples()));
+    const std::optional<Vec2d> point = sampler.next_point();
+    if (!point) return;
+    sampler.insert(trace(point->x, point->y));
+  }
+}
+
+void lattice_choice(benchmark::State& state) {
+  look_up(0, 0);
+  LatticeSampler sampler = lattice();
+  for (auto _ : state) refine(sampler, static_cast<std::size_t>(state.range(0)), look_up);
+  per_sample(state);
+}
+BENCHMARK(lattice_choice)->Arg(4000)->Arg(16000)->Arg(64000)->Unit(benchmark::kMillisecond);
+
+void lattice_sample(benchmark::State& state) {
+  LatticeSampler sampler = lattice();
+  for (auto _ : state) {
+    refine(sampler, static_cast<std::size_t>(state.range(0)),
+           [](double x, double y) { return tree().tracer.trace(x, y); });
+  }
+  per_sample(state);
+}
+BENCHMARK(lattice_sample)->Arg(16000)->Arg(64000)->Unit(benchmark::kMillisecond);
+
+// Shapes are projected once, in the first iteration.
+void lattice_painting(benchmark::State& state) {
+  LatticeSampler sampler = lattice();
+  refine(sampler, static_cast<std::size_t>(state.range(0)), look_up);
+  RegionPixels pixels;
+  for (auto _ : state) sampler.paint({0, 0, kSize, kSize}, pixels);
+}
+BENCHMARK(lattice_painting)->Arg(4000)->Arg(16000)->Arg(64000)->Unit(benchmark::kMillisecond);
 
 void casting(benchmark::State& state) {
   SampleMesh mesh(whole());

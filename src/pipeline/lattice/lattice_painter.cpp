@@ -110,7 +110,7 @@ bool LatticePainter::is_refined(const LatticeNode& corner, int side) const {
          store_.is_sampled({x + half, y + side});
 }
 
-// Of a pixel: quick, and true for some that are not.
+// Tells it of a pixel, quickly. True for some that are not.
 bool LatticePainter::may_be_refined(const LatticeNode& pixel) const {
   const int x = pixel.x / kQuarters, y = pixel.y / kQuarters;
   return store_.has_block(x, y) || store_.has_block(x + 1, y) || store_.has_block(x, y + 1);

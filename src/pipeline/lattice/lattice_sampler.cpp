@@ -169,6 +169,7 @@ bool LatticeSampler::start_refinement_pass() {
   NodeState least = kGreatestCandidate;
   while (least > kLeastCandidate + 1 && static_cast<double>(above[least]) < wanted) --least;
   if (above[least] == 0) return false;
+  // Lower thresholds at once would let new candidates run away from what was asked for.
   last_threshold_ = std::max(least_worth(least), last_threshold_ / kGreatestFall);
   least = priority_of(last_threshold_);
   start({.first_level = 0,
@@ -190,10 +191,10 @@ LatticeSampler::CandidateCounts LatticeSampler::candidates_above() const {
 
 void LatticeSampler::learn_growth() {
   constexpr std::int64_t kEnough = 200;
+  if (pass_.takes_all || pass_.candidates == 0) return;
   const std::int64_t made = static_cast<std::int64_t>(samples_) - pass_.begun_with;
-  if (pass_.takes_all || made < kEnough || pass_.candidates == 0) return;
   const double growth = static_cast<double>(made) / static_cast<double>(pass_.candidates);
-  growth_ = 0.5 * growth_ + 0.5 * std::clamp(growth, 0.3, 4.0);
+  if (made >= kEnough) growth_ = 0.5 * growth_ + 0.5 * std::clamp(growth, 0.3, 4.0);
 }
 
 // The worth of a sample.

@@ -28,6 +28,8 @@ class LatticeSampler {
  public:
   // For an image of this size, pixels. `view` computes a primitive's shape as Probe::project does.
   LatticeSampler(int width, int height, ProjectedShapeCache::View view);
+  LatticeSampler(const LatticeSampler&) = delete;
+  LatticeSampler& operator=(const LatticeSampler&) = delete;
 
   // Removes all samples, and what was learned from them.
   void clear();

@@ -1,5 +1,5 @@
-// What is known at the nodes of the lattice, kept so that neighbours share cache lines: by tiles of 32x32
-// pixels, and in blocks of one pixel for the nodes between the pixels' corners.
+// Keeps what is known at the nodes of the lattice. Neighbours share cache lines: the corners of pixels lie in
+// tiles of 32x32, the nodes between them in blocks of one pixel.
 #pragma once
 
 #include <array>
@@ -65,7 +65,7 @@ class LatticeStore {
   }
   bool is_sampled(const LatticeNode& node) const { return state(node) == kSampled; }
 
-  // Of an existing node. Storage is made where there is none.
+  // Returns the state of an existing node. Makes storage where there is none.
   NodeState& state_for_writing(const LatticeNode& node);
 
   // Returns what was seen at a node that holds a sample.

@@ -1,8 +1,9 @@
 // What a node is taken to show before it is sampled.
 //
-// The centre of a square is predicted from its corners; the middle of a side from the side's ends and, where
-// one of them holds a sample, the centres of the squares on both sides. Where these nodes lie on different
-// primitives, the one nearest at the node's point is seen, as in docs/decisions/0017-edges.md.
+// The centre of a square is predicted from its corners. The middle of a side is predicted from the side's
+// ends. The centres of the squares on both sides count as well if one of them is sampled. Where these nodes
+// lie on different primitives, the one nearest at the node's point is seen, as in
+// docs/decisions/0017-edges.md.
 #pragma once
 
 #include <array>

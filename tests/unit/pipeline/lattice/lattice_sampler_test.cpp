@@ -73,18 +73,27 @@ ProjectedShapeCache::View shapes_of_disc(double by) {
   };
 }
 
-LatticeSampler sampled(const Scene& scene, int samples, std::vector<Vec2d>* points = nullptr,
-                       const ProjectedShapeCache::View& view = no_shape) {
-  LatticeSampler sampler(kWidth, kHeight, view);
+// Makes a number of samples, or fewer if it ends. Returns their points.
+std::vector<Vec2d> sample(LatticeSampler& sampler, const Scene& scene, int samples) {
+  std::vector<Vec2d> points;
   for (int i = 0; i < samples; ++i) {
     sampler.expect(samples - i);
     const auto point = sampler.next_point();
     if (!point) break;
-    if (points != nullptr) points->push_back(*point);
+    points.push_back(*point);
     sampler.insert(scene(point->x, point->y));
   }
-  return sampler;
+  return points;
 }
+
+// A sampler with so many samples of a scene.
+struct Sampled {
+  Sampled(const Scene& scene, int samples, const ProjectedShapeCache::View& view = no_shape)
+      : sampler(kWidth, kHeight, view), points(sample(sampler, scene, samples)) {}
+
+  LatticeSampler sampler;
+  std::vector<Vec2d> points;
+};
 
 RegionPixels painted(LatticeSampler& sampler, const PixelRect& bounds = {0, 0, kWidth, kHeight}) {
   RegionPixels pixels;
@@ -110,20 +119,20 @@ double error_of(const RegionPixels& pixels, const Scene& scene) {
 }
 
 double error_with(int samples, const Scene& scene, const ProjectedShapeCache::View& view = no_shape) {
-  LatticeSampler sampler = sampled(scene, samples, nullptr, view);
-  return error_of(painted(sampler), scene);
+  Sampled sampled(scene, samples, view);
+  return error_of(painted(sampled.sampler), scene);
 }
 
 }  // namespace
 
 TEST_CASE("lattice sampler: one colour stays one colour") {
   for (const int samples : {kBase, 300, 3000}) {
-    LatticeSampler sampler = sampled(kFlat, samples);
-    for (const Color& c : painted(sampler).colors) REQUIRE(c == Color(0.25F, 0.5F, 0.75F));
+    Sampled sampled(kFlat, samples);
+    for (const Color& c : painted(sampled.sampler).colors) REQUIRE(c == Color(0.25F, 0.5F, 0.75F));
   }
-  LatticeSampler unfinished = sampled(kFlat, kBase - 1);
-  CHECK(unfinished.least_samples() == kBase);
-  CHECK(painted(unfinished).colors.back() != Color(0.25F, 0.5F, 0.75F));
+  Sampled unfinished(kFlat, kBase - 1);
+  CHECK(unfinished.sampler.least_samples() == kBase);
+  CHECK(painted(unfinished.sampler).colors.back() != Color(0.25F, 0.5F, 0.75F));
 }
 
 TEST_CASE("lattice sampler: a linear picture is exact after the base grid") {
@@ -133,30 +142,27 @@ TEST_CASE("lattice sampler: a linear picture is exact after the base grid") {
 }
 
 TEST_CASE("lattice sampler: no point is sampled twice, and none lies far outside") {
-  std::vector<Vec2d> points;
-  const LatticeSampler sampler = sampled(disc(false), 5000, &points);
+  const Sampled sampled(disc(false), 5000);
+  const std::vector<Vec2d>& points = sampled.points;
   std::set<std::pair<double, double>> places;
   for (const Vec2d& p : points) {
     REQUIRE((p.x >= 0 && p.y >= 0 && p.x <= kWidth + 8 && p.y <= kHeight + 8));
     places.insert({p.x, p.y});
   }
   CHECK(places.size() == points.size());
-  CHECK(sampler.samples() == points.size());
+  CHECK(sampled.sampler.samples() == points.size());
 }
 
 TEST_CASE("lattice sampler: samples crowd along edges") {
-  std::vector<Vec2d> points;
-  sampled(disc(false), 2000, &points);
-  const auto at_edge = std::count_if(points.begin(), points.end(), [](const Vec2d& p) {
-    return std::abs(std::hypot(p.x - kDiscX, p.y - kDiscY) - kDiscRadius) < 1.5;
-  });
+  const auto at_edge = [](const Scene& scene) {
+    const std::vector<Vec2d> points = Sampled(scene, 2000).points;
+    return std::count_if(points.begin(), points.end(), [](const Vec2d& p) {
+      return std::abs(std::hypot(p.x - kDiscX, p.y - kDiscY) - kDiscRadius) < 1.5;
+    });
+  };
   // The band has 400 of 6,000 square pixels.
-  CHECK(at_edge > 700);
-  sampled(kFlat, 2000, &(points = {}));
-  const auto without_edge = std::count_if(points.begin(), points.end(), [](const Vec2d& p) {
-    return std::abs(std::hypot(p.x - kDiscX, p.y - kDiscY) - kDiscRadius) < 1.5;
-  });
-  CHECK(without_edge < 200);
+  CHECK(at_edge(disc(false)) > 700);
+  CHECK(at_edge(kFlat) < 200);
 }
 
 TEST_CASE("lattice sampler: more samples bring less error, far less than a grid's") {
@@ -189,7 +195,8 @@ TEST_CASE("lattice sampler: edges of known primitives are drawn where they are")
 }
 
 TEST_CASE("lattice sampler: a picture does not depend on how it is cut, nor on the one before") {
-  LatticeSampler sampler = sampled(disc(true), 1500, nullptr, shapes_of_disc(0));
+  Sampled sampled(disc(true), 1500, shapes_of_disc(0));
+  LatticeSampler& sampler = sampled.sampler;
   const RegionPixels whole = painted(sampler);
   for (const PixelRect& part :
        {PixelRect{0, 0, 37, 60}, PixelRect{37, 13, 100, 14}, PixelRect{99, 59, 100, 60}}) {
@@ -201,25 +208,16 @@ TEST_CASE("lattice sampler: a picture does not depend on how it is cut, nor on t
   }
   sampler.clear();
   CHECK(sampler.samples() == 0);
-  for (int i = 0; i < 1500; ++i) {
-    sampler.expect(1500 - i);
-    const auto point = sampler.next_point();
-    REQUIRE(point);
-    sampler.insert(disc(true)(point->x, point->y));
-  }
+  CHECK(sample(sampler, disc(true), 1500) == sampled.points);
   CHECK(painted(sampler).colors == whole.colors);
-  REQUIRE(sampler.next_point());
-  RaySample other;
-  other.color = Color(1, 1, 1);
-  sampler.insert(other);
+  sample(sampler, of_color([](double, double) { return Color(1, 1, 1); }), 1);
   CHECK(painted(sampler).colors != whole.colors);  // the control: one sample shows
 }
 
 TEST_CASE("lattice sampler: it ends when nothing is worth a sample") {
-  std::vector<Vec2d> points;
-  sampled(kFlat, 100'000, &points);
-  CHECK(points.size() > 1000);
-  CHECK(points.size() < 2 * kWidth * kHeight);
+  const std::size_t samples = Sampled(kFlat, 100'000).points.size();
+  CHECK(samples > 1000);
+  CHECK(samples < 2 * kWidth * kHeight);
 }
 
 TEST_CASE("lattice sampler: a picture of one pixel, and one without samples") {
