@@ -17,7 +17,7 @@ void AnchorSearch::plan(const FrameOrder& order, const RegionSampler& sampler, s
   if (most_ == 0 || elapsed < kAfter) return;
   double most = std::exchange(most_, 0);
   if (order.deadline_s > 0) most = std::min(most, kShare * static_cast<double>(samples_new) / elapsed);
-  planned_ = anchors_.unseen(sampler.mesh().samples(), order.camera, sampler.region(),
+  planned_ = anchors_.unseen(sampler.samples().samples(), order.camera, sampler.region(),
                              static_cast<std::size_t>(most));
   std::reverse(planned_.begin(), planned_.end());
 }

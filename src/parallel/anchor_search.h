@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "parallel/network/messages.h"
@@ -21,7 +22,7 @@ class AnchorSearch {
   void begin_frame();
 
   // The frame before is over: notes its samples' primitives, or forgets all.
-  void note(const SampleMesh& mesh) { anchors_.note(mesh.samples()); }
+  void note(std::span<const Sample> samples) { anchors_.note(samples); }
   void forget() { anchors_.clear(); }
 
   // This frame is to seek anchors; `samples`: count carried into it.

@@ -15,11 +15,11 @@ void FrameGoal::begin_frame() {
   std::fill(peer_done_.begin(), peer_done_.end(), std::uint8_t{0});
 }
 
-bool FrameGoal::is_reached(const RegionSampler& sampler, const FrameClock& clock) const {
+bool FrameGoal::is_reached(RegionSampler& sampler, const FrameClock& clock) const {
   const std::uint64_t own_pixels = sampler.region().pixel_count();
   const std::uint64_t sample_share = (stop_.samples * own_pixels + image_pixels_ - 1) / image_pixels_;
   return (stop_.samples > 0 && sampler.in_region() >= sample_share) ||
-         (stop_.quality > 0 && sampler.mesh().is_refined_to(stop_.quality)) ||
+         (stop_.quality > 0 && sampler.samples().is_refined_to(stop_.quality)) ||
          (stop_.seconds > 0 && clock.frame_seconds() >= stop_.seconds);
 }
 

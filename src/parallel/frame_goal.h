@@ -19,7 +19,7 @@ class FrameGoal {
 
   // Whether a stop rule is reached in this rank's region. Of a number of samples a rank takes the share of
   // its pixels.
-  bool is_reached(const RegionSampler& sampler, const FrameClock& clock) const;
+  bool is_reached(RegionSampler& sampler, const FrameClock& clock) const;
 
   // Records whether this rank has reached its goal after a round, and what another rank says of its own.
   void set_done(bool done) { done_ = done; }

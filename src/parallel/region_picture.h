@@ -5,32 +5,22 @@
 #include <span>
 #include <vector>
 
-#include "base/probe.h"
-#include "pipeline/reconstruction/reconstruction.h"
-#include "pipeline/sampling/sample_mesh.h"
+#include "parallel/region_samples.h"
 
 namespace pprt {
 
 class RegionPicture {
  public:
-  RegionPicture(const Probe& probe, PixelRule rule)
-      : rule_(rule), knows_shapes_(probe.project), projected_shapes_(probe.project) {}
-
-  // The probe looks from another camera: projected shapes are no longer right.
-  void camera_changed() { projected_shapes_.forget(); }
-
-  // Reconstructs the region's pixels, and those of further tiles that the mesh covers.
-  void reconstruct_region(const SampleMesh& mesh, std::span<const std::int32_t> further_tiles);
+  // Reconstructs the region's pixels, and those of further tiles that the samples cover.
+  void reconstruct(RegionSamples& samples, std::span<const std::int32_t> further_tiles) {
+    samples.paint(further_tiles, pixels_);
+  }
 
   // Appends the pixels of a tile to `rgb`: rows from the top, 3 values a pixel.
   void append_tile(const TileGrid& grid, int tile, std::vector<float>& rgb) const;
 
  private:
-  PixelRule rule_;
-  bool knows_shapes_;
   RegionPixels pixels_;
-  ReconstructionBuffers buffers_;
-  ProjectedShapeCache projected_shapes_;
 };
 
 }  // namespace pprt

@@ -1,18 +1,17 @@
-// One rank's part of the picture while it is sampled: its mesh, and which of its samples others need
-// (paper s. 2.1, 3.4).
+// One rank's part of the picture while it is sampled (paper s. 2.1, 3.4).
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "parallel/balance/cost_estimator.h"
 #include "parallel/clock/frame_clock.h"
-#include "parallel/exchange.h"
+#include "parallel/region_samples.h"
 #include "parallel/sample_tracer.h"
 #include "parallel/session_settings.h"
-#include "pipeline/sampling/sample_mesh.h"
 
 namespace pprt {
 
@@ -32,21 +31,20 @@ class RegionSampler {
   RegionSampler(const SessionSettings& settings, const Partition& partition, int rank, SampleTracer& tracer,
                 CostEstimator& costs, FrameClock& clock, std::function<void()> poll);
 
-  // --- A frame begins, and a triangulation
+  // --- A frame begins, and a picture
 
   void begin_frame() { counts_ = {}; }
 
   // Removes all samples. `keep_learned`: keeps what refinement has learned from them, for a picture much like
   // the one before.
-  void begin_triangulation(bool keep_learned);
+  void begin_picture(bool keep_learned);
 
-  // Keeps the triangulation of the frame before: all samples in the region count as cast.
+  // Keeps the picture of the frame before: all samples in the region count as cast.
   void carry_on() { counts_.cast = in_region_; }
 
   // --- Sampling
 
-  // Traces the seeds of the region and the image's corners, which every mesh needs so that its hull is the
-  // image. A foreign corner counts as its owner's sample.
+  // Traces the first samples of the region. A foreign one counts as its owner's.
   void trace_seeds();
 
   // Traces one sample where it is wanted most. False when nothing is, or when the region is full. Unless
@@ -68,23 +66,23 @@ class RegionSampler {
   // Whether further samples would serve nothing.
   bool is_full() const;
 
-  // Hint: the frame will end with `factor` times the current samples; see SampleMesh::expect_growth().
-  void expect_growth(double factor) { mesh_.expect_growth(factor); }
+  // Hint: the frame will end with `factor` times the current samples.
+  void expect_growth(double factor) { samples_->expect_growth(factor); }
 
-  // --- Exchange; see SampleExchange
+  // --- Exchange; see RegionSamples
 
-  void announce() { clock_.spend(Work::kUpdateRule, exchange_.announce(mesh_)); }
-  std::vector<Sample> take_outbox(int rank) { return exchange_.take_outbox(rank); }
-  void introduce(std::span<const int> tiles, int taker) { exchange_.introduce(mesh_, tiles, taker); }
-  void forward_tile(int tile) { exchange_.forward_tile(mesh_, tile); }
+  void announce() { clock_.spend(Work::kUpdateRule, samples_->announce()); }
+  std::vector<Sample> take_outbox(int rank) { return samples_->take_outbox(rank); }
+  void introduce(std::span<const int> tiles, int taker) { samples_->introduce(tiles, taker); }
+  void forward_tile(int tile) { samples_->forward_tile(tile); }
   void repartition(const Partition& partition);
   void transfer(const Partition& partition);
 
   // --- Readings
 
-  const SampleMesh& mesh() const { return mesh_; }
-  const SampleExchange& exchange() const { return exchange_; }
-  const Region& region() const { return mesh_.region(); }
+  RegionSamples& samples() { return *samples_; }
+  const RegionSamples& samples() const { return *samples_; }
+  const Region& region() const { return samples_->region(); }
   bool owns(const Sample& sample) const { return region().owns_point(sample.x, sample.y); }
   std::uint64_t in_region() const { return in_region_; }  // samples
   const SampleCounts& counts() const { return counts_; }
@@ -99,8 +97,7 @@ class RegionSampler {
   CostEstimator& costs_;
   FrameClock& clock_;
   std::function<void()> poll_;
-  SampleMesh mesh_;
-  SampleExchange exchange_;
+  std::unique_ptr<RegionSamples> samples_;
   std::uint64_t in_region_ = 0;
   SampleCounts counts_;
 };

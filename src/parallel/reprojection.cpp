@@ -103,7 +103,7 @@ std::vector<Sample> Reprojection::try_out(const std::vector<Sample>& samples) {
 
 CastResult Reprojection::cast_into(const FrameOrder& order, const CastSettings& settings) {
   clock_.spend(Work::kCastSample, sampler_.in_region() / settings.one_of);
-  return cast_samples(sampler_.mesh(), order.camera, order.number, settings);
+  return sampler_.samples().cast(order.camera, order.number, settings);
 }
 
 CastSummary Reprojection::summary_of(const CastResult& cast) const {

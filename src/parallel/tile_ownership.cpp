@@ -47,15 +47,15 @@ bool TileOwnership::may_give(bool fresh_mesh) const {
 std::vector<TileTransfer> TileOwnership::give_tiles(bool fresh_mesh) {
   if (!may_give(fresh_mesh)) return {};
   const StageTimer::Balancing timed(timer_);
-  const SampleExchange& exchange = sampler_.exchange();
+  RegionSamples& samples = sampler_.samples();
+  const RegionQuality refined = samples.quality();
   // What the taker must take in may cost it a tenth of the frame.
   const double most_samples = settings_.frames_per_second > 0
                                   ? static_cast<double>(clock_.affordable(Work::kReceivedSample, 0.1))
                                   : std::numeric_limits<double>::infinity();
-  handshake_.set_giving(
-      balancer_.wants_to_give(sampler_.mesh(), exchange.neighbours(), handshake_.is_giving()));
+  handshake_.set_giving(balancer_.wants_to_give(refined, samples.neighbours(), handshake_.is_giving()));
   const std::vector<TileTransfer> transfers =
-      balancer_.choose_transfers(sampler_.mesh(), exchange, handshake_, most_samples);
+      balancer_.choose_transfers(refined, samples, handshake_, most_samples);
   for (auto first = transfers.begin(); first != transfers.end();) {
     const int taker = first->owner;
     std::vector<int> tiles;
@@ -72,8 +72,9 @@ RankProgress TileOwnership::progress() {
   if (!balances_locally()) return {};
   const StageTimer::Balancing timed(timer_);
   const double elapsed = clock_.sampling_share();
-  costs_.update(sampler_.mesh(), elapsed);
-  return balancer_.progress(sampler_.mesh(), elapsed);
+  const RegionQuality refined = sampler_.samples().quality();
+  costs_.update(refined, elapsed);
+  return balancer_.progress(refined, elapsed);
 }
 
 void TileOwnership::apply(std::span<const TileTransfer> transfers) {
@@ -83,7 +84,7 @@ void TileOwnership::apply(std::span<const TileTransfer> transfers) {
 }
 
 void TileOwnership::make_true(std::span<const TileTransfer> transfers) {
-  Partition next = sampler_.exchange().partition();
+  Partition next = sampler_.samples().partition();
   bool changed = false;
   for (const TileTransfer& transfer : transfers) {
     const auto tile = static_cast<std::size_t>(transfer.tile);
@@ -100,7 +101,7 @@ void TileOwnership::make_true(std::span<const TileTransfer> transfers) {
 }
 
 void TileOwnership::forward_lost_tiles(std::span<const TileTransfer> transfers) {
-  const std::vector<std::int32_t>& owners = sampler_.exchange().partition().owner;
+  const std::vector<std::int32_t>& owners = sampler_.samples().partition().owner;
   for (const TileTransfer& transfer : transfers) {
     if (transfer.owner != rank_ || owners[static_cast<std::size_t>(transfer.tile)] == rank_) continue;
     const StageTimer::Balancing timed(timer_);
@@ -110,7 +111,7 @@ void TileOwnership::forward_lost_tiles(std::span<const TileTransfer> transfers) 
 
 void TileOwnership::repartition(const FrameOrder& order, bool keep_samples) {
   const StageTimer::Balancing timed(timer_);
-  Partition next = sampler_.exchange().partition();
+  Partition next = sampler_.samples().partition();
   if (order.owners.size() != next.owner.size()) throw ProtocolError("a partition of another image");
   next.owner = order.owners;
   std::fill(next.version.begin(), next.version.end(), first_version(order.generation));

@@ -21,8 +21,7 @@ Worker::Worker(Communicator& network, Inbox& inbox, const SessionSettings& setti
                  timer_),
       reprojection_(sampler_, tracer_, *clock_, timer_),
       anchors_(tracer_.probe().primitives),
-      goal_(settings_, network.size()),
-      picture_(tracer_.probe(), settings.pixel_rule) {}
+      goal_(settings_, network.size()) {}
 
 void Worker::render(const FrameOrder& order) {
   timer_.begin_frame();
@@ -58,7 +57,7 @@ void Worker::sample(const FrameOrder& order) {
   // Evidence is taken from the last part of the sampling time, of what refinement itself wants then.
   constexpr double kEvidenceAfter = 0.75;
   const bool has_rate = order.deadline_s > 0;
-  const std::size_t begin = sampler_.mesh().samples().size();
+  const std::size_t begin = sampler_.samples().samples().size();
   bool takes_evidence = false;
   for (int round = kSeedRound + 1;; ++round) {
     bundles_.begin_round(round);
@@ -74,7 +73,7 @@ void Worker::sample(const FrameOrder& order) {
     goal_.set_done(!has_rate && packet.idle && !packet.traced);
     exchange_bundles(goal_.is_done() != was_done);
     if (clock_->sampling_over() || (!has_rate && goal_.all_done())) break;
-    if (const auto growth = clock_->expected_growth(begin, sampler_.mesh().samples().size()))
+    if (const auto growth = clock_->expected_growth(begin, sampler_.samples().samples().size()))
       sampler_.expect_growth(*growth);
     if (packet.idle && !packet.traced) bundles_.rest();
   }
@@ -111,7 +110,7 @@ void Worker::send_bundles(bool concerns_all) {
   const bool is_progress_due =
       ownership_.balances_locally() && bundles_.policy().is_progress_due(bundles_.at().round);
   sampler_.announce();
-  const std::vector<int>& neighbours = sampler_.exchange().neighbours();
+  const std::vector<int>& neighbours = sampler_.samples().neighbours();
   for (int rank = 0; rank < network_.size(); ++rank) {
     if (rank == network_.rank()) continue;
     std::vector<Sample> samples = sampler_.take_outbox(rank);
@@ -151,14 +150,14 @@ void Worker::take_in(const std::vector<Inbox::Arrived>& bundles) {
 // --- Reconstruct and report
 
 void Worker::reconstruct() {
-  picture_.reconstruct_region(sampler_.mesh(), ownership_.given());
+  picture_.reconstruct(sampler_.samples(), ownership_.given());
   clock_->spend(Work::kPixel, sampler_.region().pixel_count());
   timer_.end_stage(&StageTimes::reconstruction);
 }
 
 void Worker::send_pixels(const FrameOrder& order, double sampling_ended_s) {
   const TileGrid& grid = sampler_.region().grid();
-  const std::vector<TileReport> tiles = costs_.report(sampler_.mesh());
+  const std::vector<TileReport> tiles = costs_.report(sampler_.samples().quality());
   PixelMessage message;
   message.frame_index = order.index;
   message.is_last = false;
@@ -174,7 +173,7 @@ void Worker::send_pixels(const FrameOrder& order, double sampling_ended_s) {
   }
   message.is_last = true;
   if (settings_.report_samples) {
-    const std::span<const Sample> samples = sampler_.mesh().samples();
+    const std::span<const Sample> samples = sampler_.samples().samples();
     std::copy_if(samples.begin(), samples.end(), std::back_inserter(message.samples),
                  [this](const Sample& s) { return sampler_.owns(s); });
   }
@@ -198,19 +197,19 @@ std::size_t Worker::send_part(PixelMessage& message) {
 }
 
 // All but the bytes of the message that carries it.
-RankReport Worker::make_report(double sampling_ended_s) const {
+RankReport Worker::make_report(double sampling_ended_s) {
   const SampleCounts& counts = sampler_.counts();
   const BundleBytes& bytes = bundles_.bytes();
+  const RegionQuality refined = sampler_.samples().quality();
   std::int64_t triangles = 0;
-  for (const int tile : sampler_.region().tiles())
-    triangles += sampler_.mesh().tile_weights()[static_cast<std::size_t>(tile)].triangles;
+  for (const int tile : refined.region.tiles()) triangles += refined.tile(tile).count;
   return {.samples_new = samples_new(),
           .samples_cast = counts.cast,
           .samples_received = counts.received,
           .samples_known = counts.known,
           .samples_in_region = sampler_.in_region(),
           .non_finite = tracer_.non_finite(),
-          .refinement = sampler_.mesh().refinement(),
+          .refinement = refined.mean_weight,
           .triangles_in_region = static_cast<std::uint64_t>(triangles),
           .rays = tracer_.rays(),
           .evidence = reprojection_.evidence(),

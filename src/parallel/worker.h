@@ -67,7 +67,7 @@ class Worker {
   FrameLikeness likeness_to_last(const FrameOrder& order, const MissedFrames& missed) const;
   void rejoin(const FrameOrder& order, const MissedFrames& missed);
   void begin_anew(const FrameOrder& order, bool keeps_samples, bool eye_rests);
-  void begin_triangulation(int epoch, bool keep_learned);
+  void begin_picture(int epoch, bool keep_learned);
   void distribute(const FrameOrder& order, const std::vector<Sample>& cast);
   std::vector<Sample> receive_seeds();
 
@@ -87,7 +87,7 @@ class Worker {
   void reconstruct();
   void send_pixels(const FrameOrder& order, double sampling_ended_s);
   std::size_t send_part(PixelMessage& message);
-  RankReport make_report(double sampling_ended_s) const;
+  RankReport make_report(double sampling_ended_s);
 
   bool is_fresh() const { return bundles_.at().epoch == bundles_.at().frame_index; }
   std::uint64_t samples_new() const { return sampler_.counts().traced + reprojection_.retraced(); }

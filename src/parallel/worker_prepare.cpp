@@ -14,7 +14,7 @@ void Worker::prepare(const FrameOrder& order) {
   const Carry carry = ownership_.carry_into(order);
   costs_.begin_frame(carry != Carry::kAccumulate || missed.triangulation, likeness_to_last(order, missed));
   const bool eye_rests = last_camera_ && (order.camera.eye - last_camera_->eye).length() <= kAtRest;
-  if (last_camera_ != order.camera) picture_.camera_changed();
+  if (last_camera_ != order.camera) sampler_.samples().camera_changed();
   last_camera_ = order.camera;
 
   if (carry != Carry::kAccumulate) {
@@ -39,7 +39,7 @@ FrameLikeness Worker::likeness_to_last(const FrameOrder& order, const MissedFram
 // the seeds of that frame and from what they have sent since.
 void Worker::rejoin(const FrameOrder& order, const MissedFrames& missed) {
   if (!order.owners.empty()) ownership_.repartition(order, false);
-  begin_triangulation(missed.epoch, !missed.cut);
+  begin_picture(missed.epoch, !missed.cut);
   sampler_.trace_seeds();
   take_in(bundles_.receive());
 }
@@ -50,30 +50,31 @@ void Worker::begin_anew(const FrameOrder& order, bool keeps_samples, bool eye_re
   if (keeps_samples) cast = reprojection_.cast(order, eye_rests);
   const bool seeks_anchors = keeps_samples && order.carry == Carry::kCastWherePaying;
   if (seeks_anchors) {
-    anchors_.note(sampler_.mesh());
+    anchors_.note(sampler_.samples().samples());
   } else {
     anchors_.forget();
   }
   timer_.end_stage(&StageTimes::casting);
   if (!order.owners.empty()) ownership_.repartition(order, false);
   if (seeks_anchors) anchors_.allow(sampler_.in_region());
-  begin_triangulation(order.index, keeps_samples);
+  begin_picture(order.index, keeps_samples);
   sampler_.trace_seeds();
   distribute(order, cast);
 }
 
-void Worker::begin_triangulation(int epoch, bool keep_learned) {
+void Worker::begin_picture(int epoch, bool keep_learned) {
   bundles_.begin_triangulation(epoch);
-  sampler_.begin_triangulation(keep_learned);
+  sampler_.begin_picture(keep_learned);
 }
 
 // Sends seeds to the ranks that they concern and each cast sample to the rank whose tile it landed in; then
 // inserts what landed here.
 void Worker::distribute(const FrameOrder& order, const std::vector<Sample>& cast) {
-  const SampleExchange& exchange = sampler_.exchange();
+  const RegionSamples& known = sampler_.samples();
   std::vector<std::vector<Sample>> landed(static_cast<std::size_t>(network_.size()));
-  for (const Sample& s : cast) landed[static_cast<std::size_t>(exchange.owner_of(s.x, s.y))].push_back(s);
-  const std::vector<int>& peers = exchange.seed_peers();
+  for (const Sample& s : cast)
+    landed[static_cast<std::size_t>(known.partition().owner_at(s.x, s.y))].push_back(s);
+  const std::vector<int>& peers = known.seed_peers();
   for (int rank = 0; rank < network_.size(); ++rank) {
     if (rank == network_.rank()) continue;
     std::vector<Sample> samples = sampler_.take_outbox(rank);
@@ -98,7 +99,7 @@ void Worker::distribute(const FrameOrder& order, const std::vector<Sample>& cast
 // Returns what lies in the own region: cast samples that landed here. Their sender keeps none of them, so
 // they are this rank's to announce, to the sender too.
 std::vector<Sample> Worker::receive_seeds() {
-  bundles_.await_seeds(sampler_.exchange().seed_peers());
+  bundles_.await_seeds(sampler_.samples().seed_peers());
   // What was sent before is taken in before: a handshake counts on the transfers that were sent ahead of it.
   take_in(bundles_.take_earlier());
   std::vector<Sample> landed;

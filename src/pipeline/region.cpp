@@ -35,6 +35,11 @@ std::vector<int> tiles_between(const TileGrid& grid, const std::vector<std::uint
   return between;
 }
 
+PixelRect united(const PixelRect& a, const PixelRect& b) {
+  if (a.area() == 0) return b;
+  return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
+}
+
 }  // namespace
 
 Region::Region(const TileGrid& grid, std::vector<std::uint8_t> owned)
@@ -43,17 +48,19 @@ Region::Region(const TileGrid& grid, std::vector<std::uint8_t> owned)
   for (int tile = 0; tile < grid.tile_count(); ++tile) {
     if (!owns_tile(tile)) continue;
     const PixelRect rect = grid.pixels(tile);
-    if (tiles_.empty()) bounds_ = rect;
-    bounds_.x0 = std::min(bounds_.x0, rect.x0);
-    bounds_.y0 = std::min(bounds_.y0, rect.y0);
-    bounds_.x1 = std::max(bounds_.x1, rect.x1);
-    bounds_.y1 = std::max(bounds_.y1, rect.y1);
+    bounds_ = united(bounds_, rect);
     tiles_.push_back(tile);
     pixel_count_ += rect.area();
   }
   inside_by_.reserve(owned_.size());
   for (const int between : tiles_between(grid, owned_))
     inside_by_.push_back(std::max(between, 0) * grid.tile_size);
+}
+
+PixelRect Region::bounds_with(std::span<const std::int32_t> further_tiles) const {
+  PixelRect bounds = bounds_;
+  for (const int tile : further_tiles) bounds = united(bounds, grid_.pixels(tile));
+  return bounds;
 }
 
 Region Region::whole(const TileGrid& grid) {

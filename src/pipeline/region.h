@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "pipeline/sampling/refinement_weight.h"
@@ -23,6 +24,7 @@ class Region {
   bool owns_point(double x, double y) const { return owns_tile(grid_.tile_at(x, y)); }
   const std::vector<int>& tiles() const { return tiles_; }  // ascending
   const PixelRect& bounds() const { return bounds_; }       // smallest rectangle that holds every owned pixel
+  PixelRect bounds_with(std::span<const std::int32_t> further_tiles) const;
   std::size_t pixel_count() const { return pixel_count_; }
   bool is_whole() const { return tiles_.size() == owned_.size(); }  // there is no other region
 

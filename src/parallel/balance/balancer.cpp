@@ -16,44 +16,44 @@ void Balancer::begin_frame() {
   std::fill(theirs_.begin(), theirs_.end(), RankProgress());
 }
 
-RankProgress Balancer::progress(const SampleMesh& mesh, double elapsed) const {
-  const double quality = mesh.refinement();
+RankProgress Balancer::progress(const RegionQuality& refined, double elapsed) const {
+  const double quality = refined.mean_weight;
   if (quality <= 0) return {};
   // The mean weight falls as the reciprocal of the samples: what it will be when the frame ends.
   const double target = target_quality(quality * elapsed);
-  return {.quality = quality, .target = target, .future_cost = costs_.future_cost_of_region(mesh, target)};
+  return {.quality = quality, .target = target, .future_cost = costs_.future_cost_of_region(refined, target)};
 }
 
 // How much more this rank has to pay than its neighbours for what they aim at: the geometric mean of the
 // ratios; 1 where no neighbour has reported.
-double Balancer::load_by_neighbours(const SampleMesh& mesh, const std::vector<int>& neighbours) const {
+double Balancer::load_by_neighbours(const RegionQuality& refined, const std::vector<int>& neighbours) const {
   constexpr double kOneSample = 1300;  // work units; costs below are all the same
   double sum = 0;
   int count = 0;
   for (const int rank : neighbours) {
     const RankProgress& theirs = theirs_[static_cast<std::size_t>(rank)];
     if (theirs.quality <= 0) continue;
-    const double own = costs_.future_cost_of_region(mesh, theirs.target);
+    const double own = costs_.future_cost_of_region(refined, theirs.target);
     sum += std::log(std::max(own, kOneSample) / std::max(theirs.future_cost, kOneSample));
     ++count;
   }
   return count > 0 ? std::exp(sum / count) : 1;
 }
 
-bool Balancer::wants_to_give(const SampleMesh& mesh, const std::vector<int>& neighbours,
+bool Balancer::wants_to_give(const RegionQuality& refined, const std::vector<int>& neighbours,
                              bool is_giving) const {
-  return load_by_neighbours(mesh, neighbours) > (is_giving ? 1 : settings_.giving_ratio);
+  return load_by_neighbours(refined, neighbours) > (is_giving ? 1 : settings_.giving_ratio);
 }
 
 // The neighbours that this rank should give to, the one that is farthest ahead first.
-std::vector<int> Balancer::takers(const SampleMesh& mesh, const std::vector<int>& neighbours,
+std::vector<int> Balancer::takers(const RegionQuality& refined, const std::vector<int>& neighbours,
                                   const TransferHandshake& handshake) const {
-  const double quality = mesh.refinement();
+  const double quality = refined.mean_weight;
   std::vector<std::pair<double, int>> ahead;
   for (const int rank : neighbours) {
     const RankProgress& theirs = theirs_[static_cast<std::size_t>(rank)];
     if (!handshake.accepts(rank) || !handshake.has_confirmed_transfers(rank) || theirs.quality <= 0) continue;
-    const double own_cost = costs_.future_cost_of_region(mesh, theirs.target);
+    const double own_cost = costs_.future_cost_of_region(refined, theirs.target);
     if (!should_give(settings_, quality, own_cost, theirs)) continue;
     ahead.emplace_back(theirs.future_cost / own_cost, rank);
   }
@@ -64,33 +64,34 @@ std::vector<int> Balancer::takers(const SampleMesh& mesh, const std::vector<int>
   return ranks;
 }
 
-std::vector<int> Balancer::tiles_for(const SampleMesh& mesh, const SampleExchange& exchange,
+std::vector<int> Balancer::tiles_for(const RegionQuality& refined, const RegionSamples& samples,
                                      const Partition& partition, int taker, double most_samples) const {
   const RankProgress& theirs = theirs_[static_cast<std::size_t>(taker)];
-  const std::vector<std::uint32_t> known = exchange.known_in_tiles(mesh, taker);
-  const std::vector<std::uint32_t> all = exchange.known_in_tiles(mesh, rank_);
+  const std::vector<std::uint32_t> known = samples.known_in_tiles(taker);
+  const std::vector<std::uint32_t> all = samples.known_in_tiles(rank_);
   const auto offer = [&](int tile) {
     const auto t = static_cast<std::size_t>(tile);
-    return TileOffer{.future_cost = costs_.future_cost(mesh, tile, theirs.target),
+    return TileOffer{.future_cost = costs_.future_cost(refined, tile, theirs.target),
                      .samples = static_cast<double>(all[t]),
                      .known_to_taker = static_cast<double>(known[t])};
   };
   const TransferBounds bounds{
-      .difference = costs_.future_cost_of_region(mesh, theirs.target) - theirs.future_cost,
+      .difference = costs_.future_cost_of_region(refined, theirs.target) - theirs.future_cost,
       .insertion_cost = static_cast<double>(price(Work::kReceivedSample)),
       .most_samples = most_samples};
   return tiles_to_give(settings_, partition, rank_, taker, bounds, offer);
 }
 
-std::vector<TileTransfer> Balancer::choose_transfers(const SampleMesh& mesh, const SampleExchange& exchange,
+std::vector<TileTransfer> Balancer::choose_transfers(const RegionQuality& refined,
+                                                     const RegionSamples& samples,
                                                      const TransferHandshake& handshake,
                                                      double most_samples) const {
   std::vector<TileTransfer> transfers;
   if (!handshake.may_transfer()) return transfers;
-  Partition partition = exchange.partition();
-  for (const int taker : takers(mesh, exchange.neighbours(), handshake)) {
+  Partition partition = samples.partition();
+  for (const int taker : takers(refined, samples.neighbours(), handshake)) {
     // None where the taker touches this region at a corner only, or where every tile is too big a transfer.
-    for (const int tile : tiles_for(mesh, exchange, partition, taker, most_samples)) {
+    for (const int tile : tiles_for(refined, samples, partition, taker, most_samples)) {
       const auto t = static_cast<std::size_t>(tile);
       transfers.push_back({.tile = tile,
                            .owner = taker,

@@ -8,8 +8,8 @@
 #include "parallel/balance/local_balance.h"
 #include "parallel/balance/tile_cost.h"
 #include "parallel/balance/transfer_handshake.h"
-#include "parallel/exchange.h"
-#include "pipeline/sampling/sample_mesh.h"
+#include "parallel/region_samples.h"
+#include "pipeline/region_quality.h"
 
 namespace pprt {
 
@@ -26,7 +26,7 @@ class Balancer {
 
   // This rank's own progress, towards the target that its quality names. `elapsed`: share of the frame's
   // sampling time that has passed, in (0, 1].
-  RankProgress progress(const SampleMesh& mesh, double elapsed) const;
+  RankProgress progress(const RegionQuality& refined, double elapsed) const;
 
   // Whether tiles may still change hands in this frame. Later they have more samples to hand over, and their
   // new owner has less time to make use of them. Without a frame before to go by, knowing takes longer.
@@ -35,18 +35,18 @@ class Balancer {
   }
 
   // Whether this rank has more to pay than its neighbours, by and large.
-  bool wants_to_give(const SampleMesh& mesh, const std::vector<int>& neighbours, bool is_giving) const;
+  bool wants_to_give(const RegionQuality& refined, const std::vector<int>& neighbours, bool is_giving) const;
 
   // The tiles to give to neighbours that accept tiles and are ahead, all of one neighbour's together. A
   // neighbour need not take in more than `most_samples`. Empty while the handshake forbids transfers.
-  std::vector<TileTransfer> choose_transfers(const SampleMesh& mesh, const SampleExchange& exchange,
+  std::vector<TileTransfer> choose_transfers(const RegionQuality& refined, const RegionSamples& samples,
                                              const TransferHandshake& handshake, double most_samples) const;
 
  private:
-  double load_by_neighbours(const SampleMesh& mesh, const std::vector<int>& neighbours) const;
-  std::vector<int> takers(const SampleMesh& mesh, const std::vector<int>& neighbours,
+  double load_by_neighbours(const RegionQuality& refined, const std::vector<int>& neighbours) const;
+  std::vector<int> takers(const RegionQuality& refined, const std::vector<int>& neighbours,
                           const TransferHandshake& handshake) const;
-  std::vector<int> tiles_for(const SampleMesh& mesh, const SampleExchange& exchange,
+  std::vector<int> tiles_for(const RegionQuality& refined, const RegionSamples& samples,
                              const Partition& partition, int taker, double most_samples) const;
 
   LocalBalanceSettings settings_;

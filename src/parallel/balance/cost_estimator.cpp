@@ -10,7 +10,7 @@ namespace pprt {
 namespace {
 
 double mean_weight(const TileWeights& weights) {
-  return weights.triangles > 0 ? weights.total_weight / static_cast<double>(weights.triangles) : 0;
+  return weights.count > 0 ? weights.total_weight / static_cast<double>(weights.count) : 0;
 }
 
 // Work units of reconstructing a tile.
@@ -25,11 +25,11 @@ CostEstimator::CostEstimator(const TileGrid& grid)
       now_(static_cast<std::size_t>(grid.tile_count())),
       last_(static_cast<std::size_t>(grid.tile_count())) {}
 
-void CostEstimator::begin_frame(bool fresh_mesh, FrameLikeness likeness) {
+void CostEstimator::begin_frame(bool fresh_picture, FrameLikeness likeness) {
   likeness_ = likeness;
   share_of_now_ = likeness == FrameLikeness::kUnknown ? 1 : 0;
   received_last_ = std::exchange(received_now_, 0);
-  if (!fresh_mesh) return;
+  if (!fresh_picture) return;
   last_ = now_;
   std::fill(now_.begin(), now_.end(), TileEstimate());
 }
@@ -49,7 +49,7 @@ void CostEstimator::accept(const TileTransfer& transfer) {
   last_[static_cast<std::size_t>(transfer.tile)] = transfer.last;
 }
 
-void CostEstimator::update(const SampleMesh& mesh, double elapsed) {
+void CostEstimator::update(const RegionQuality& refined, double elapsed) {
   switch (likeness_) {
     case FrameLikeness::kUnknown:
       share_of_now_ = 1;
@@ -61,14 +61,14 @@ void CostEstimator::update(const SampleMesh& mesh, double elapsed) {
       share_of_now_ = 0;
       break;
   }
-  if (mesh.refinement() > 0) learn_cost_per_triangle(mesh);
+  if (refined.mean_weight > 0) learn_cost_per_triangle(refined);
 }
 
-void CostEstimator::learn_cost_per_triangle(const SampleMesh& mesh) {
+void CostEstimator::learn_cost_per_triangle(const RegionQuality& refined) {
   double cost = 0, triangles = 0;
-  for (const int tile : mesh.region().tiles()) {
+  for (const int tile : refined.region.tiles()) {
     cost += now(tile).cost;
-    triangles += mesh.tile_weights()[static_cast<std::size_t>(tile)].triangles;
+    triangles += refined.tile(tile).count;
   }
   cost_per_triangle_ = triangles > 0 ? cost / triangles : 0;
 }
@@ -76,37 +76,37 @@ void CostEstimator::learn_cost_per_triangle(const SampleMesh& mesh) {
 // What a tile's refinement so far has cost; at least the region's mean for its triangles. A tile with hardly
 // a sample, but with triangles that wait for one, would else seem to cost nothing to refine: few samples fall
 // into a small tile.
-double CostEstimator::cost_of(const SampleMesh& mesh, int tile) const {
-  const TileWeights& weights = mesh.tile_weights()[static_cast<std::size_t>(tile)];
-  return std::max(now(tile).cost, static_cast<double>(weights.triangles) * cost_per_triangle_);
+double CostEstimator::cost_of(const RegionQuality& refined, int tile) const {
+  const TileWeights& weights = refined.tile(tile);
+  return std::max(now(tile).cost, static_cast<double>(weights.count) * cost_per_triangle_);
 }
 
-double CostEstimator::future_cost(const SampleMesh& mesh, int tile, double quality) const {
-  const double weight = mean_weight(mesh.tile_weights()[static_cast<std::size_t>(tile)]);
+double CostEstimator::future_cost(const RegionQuality& refined, int tile, double quality) const {
+  const double weight = mean_weight(refined.tile(tile));
   const double paid = now(tile).cost;
   const double cost_at_1 = (1 - share_of_now_) * last(tile).cost * last(tile).average_weight +
-                           share_of_now_ * cost_of(mesh, tile) * weight;
+                           share_of_now_ * cost_of(refined, tile) * weight;
   return cost_at_1 / quality - paid + reconstruction_cost(grid_, tile);
 }
 
-double CostEstimator::future_cost_of_region(const SampleMesh& mesh, double quality) const {
+double CostEstimator::future_cost_of_region(const RegionQuality& refined, double quality) const {
   double sum = likeness_ == FrameLikeness::kUnknown ? 0 : std::max(0.0, received_last_ - received_now_);
-  for (const int tile : mesh.region().tiles()) sum += future_cost(mesh, tile, quality);
+  for (const int tile : refined.region.tiles()) sum += future_cost(refined, tile, quality);
   return sum;
 }
 
-std::vector<TileReport> CostEstimator::report(const SampleMesh& mesh) {
-  learn_cost_per_triangle(mesh);
+std::vector<TileReport> CostEstimator::report(const RegionQuality& refined) {
+  learn_cost_per_triangle(refined);
   std::vector<TileReport> reports;
   const double received =
-      received_now_ / static_cast<double>(std::max<std::size_t>(1, mesh.region().tiles().size()));
-  for (const int tile : mesh.region().tiles()) {
-    const TileWeights& weights = mesh.tile_weights()[static_cast<std::size_t>(tile)];
+      received_now_ / static_cast<double>(std::max<std::size_t>(1, refined.region.tiles().size()));
+  for (const int tile : refined.region.tiles()) {
+    const TileWeights& weights = refined.tile(tile);
     TileEstimate& estimate = now_[static_cast<std::size_t>(tile)];
-    estimate.cost = cost_of(mesh, tile);
-    if (weights.triangles > 0) estimate.average_weight = mean_weight(weights);
+    estimate.cost = cost_of(refined, tile);
+    if (weights.count > 0) estimate.average_weight = mean_weight(weights);
     reports.push_back({.tile = tile,
-                       .triangles = static_cast<std::int32_t>(weights.triangles),
+                       .triangles = static_cast<std::int32_t>(weights.count),
                        .total_weight = weights.total_weight,
                        .cost = estimate.cost,
                        .reconstruction = reconstruction_cost(grid_, tile),

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "parallel/balance/tile_cost.h"
+#include "pipeline/region_quality.h"
 #include "pipeline/sample.h"
-#include "pipeline/sampling/sample_mesh.h"
 
 namespace pprt {
 
@@ -23,7 +23,7 @@ class CostEstimator {
   explicit CostEstimator(const TileGrid& grid);
 
   // Begins a frame. With a fresh triangulation what tiles have cost becomes what they cost last.
-  void begin_frame(bool fresh_mesh, FrameLikeness likeness);
+  void begin_frame(bool fresh_picture, FrameLikeness likeness);
   FrameLikeness likeness() const { return likeness_; }
 
   // Counts a sample that was traced or reinserted here: its rays and its insertion, for its tile.
@@ -32,17 +32,17 @@ class CostEstimator {
   // Counts the insertion of another rank's sample, for the region as a whole.
   void add_received();
 
-  // Brings the estimates up to date with the mesh. `elapsed`: share of the frame's sampling time that has
+  // Brings the estimates up to date. `elapsed`: share of the frame's sampling time that has
   // passed, in (0, 1].
-  void update(const SampleMesh& mesh, double elapsed);
+  void update(const RegionQuality& refined, double elapsed);
 
   // Fcost(i, Q): work units until the tile's mean weight has fallen to `quality` > 0, reconstruction
   // included. The mean weight falls as the reciprocal of the samples. Negative where more has been paid than
   // needed.
-  double future_cost(const SampleMesh& mesh, int tile, double quality) const;
+  double future_cost(const RegionQuality& refined, int tile, double quality) const;
 
   // The same for the region, with what other ranks' samples are expected to cost until the frame's end.
-  double future_cost_of_region(const SampleMesh& mesh, double quality) const;
+  double future_cost_of_region(const RegionQuality& refined, double quality) const;
 
   // A tile's figures in this frame and the one before. Right for own tiles only.
   const TileEstimate& now(int tile) const { return now_[static_cast<std::size_t>(tile)]; }
@@ -55,11 +55,11 @@ class CostEstimator {
   void expect(int tile, const TileEstimate& found) { last_[static_cast<std::size_t>(tile)] = found; }
 
   // Ends a frame: remembers the mean weights that it has led to, and returns a report of every own tile.
-  std::vector<TileReport> report(const SampleMesh& mesh);
+  std::vector<TileReport> report(const RegionQuality& refined);
 
  private:
-  void learn_cost_per_triangle(const SampleMesh& mesh);
-  double cost_of(const SampleMesh& mesh, int tile) const;
+  void learn_cost_per_triangle(const RegionQuality& refined);
+  double cost_of(const RegionQuality& refined, int tile) const;
 
   TileGrid grid_;
   std::vector<TileEstimate> now_, last_;  // per tile

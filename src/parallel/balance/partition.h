@@ -18,6 +18,8 @@ struct Partition {
   std::vector<std::int32_t> owner;  // per tile
   std::vector<std::uint64_t>
       version;  // per tile: generation of the partition << 32 | times transferred since
+
+  int owner_at(double x, double y) const { return owner[static_cast<std::size_t>(grid.tile_at(x, y))]; }
 };
 
 // First version of the tiles of a generation: higher than any of the generation before.

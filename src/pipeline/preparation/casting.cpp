@@ -26,8 +26,8 @@ struct ProjectedSample {
   bool is_before_eye = false;  // else `point` has no meaning
 };
 
-ProjectedSample project_sample(const Sample& sample, const SampleMesh& mesh, const Camera& next,
-                               int next_frame, const CastSettings& settings) {
+ProjectedSample project_sample(const Sample& sample, const Region& region, const Camera& next, int next_frame,
+                               const CastSettings& settings) {
   ProjectedSample projected;
   const Vec3d hit(sample.ray.hit);
   const Vec3d from_eye = sample.ray.at_infinity ? hit : hit - next.eye;
@@ -37,7 +37,7 @@ ProjectedSample project_sample(const Sample& sample, const SampleMesh& mesh, con
     projected.point = *point;
     projected.is_before_eye = true;
   }
-  if (!mesh.region().owns_point(sample.x, sample.y)) return projected;
+  if (!region.owns_point(sample.x, sample.y)) return projected;
   const bool in_view =
       point && point->x >= 0 && point->x <= next.width && point->y >= 0 && point->y <= next.height;
   const int max_age = sample.ray.eye_dependent ? settings.max_age_eye_dependent : settings.max_age;
@@ -84,6 +84,12 @@ void collect(const Sample& sample, const ProjectedSample& projected, CastResult&
   result.moved += std::sqrt(way.dot(way));
 }
 
+// Turns the sum of the samples' ways into their mean.
+CastResult with_mean_way(CastResult result) {
+  if (!result.samples.empty()) result.moved /= static_cast<double>(result.samples.size());
+  return result;
+}
+
 // Returns a pseudo-random number, different for every id.
 std::uint64_t scattered(SampleId id) {
   id = (id ^ (id >> 31)) * 0x9E3779B97F4A7C15u;
@@ -98,21 +104,27 @@ bool is_younger(const Sample& a, const Sample& b) {
 
 CastResult cast_samples(const SampleMesh& mesh, const Camera& next, int next_frame,
                         const CastSettings& settings) {
-  CastResult result;
   const std::span<const Sample> samples = mesh.samples();
-  const auto projected = [&](const Sample& s) { return project_sample(s, mesh, next, next_frame, settings); };
-  if (settings.method == CastMethod::kPaper) {
-    std::vector<ProjectedSample> all(samples.size());
-    std::transform(samples.begin(), samples.end(), all.begin(), projected);
-    hide_behind_turned_triangles(mesh, all);
-    for (std::size_t i = 0; i < samples.size(); ++i) collect(samples[i], all[i], result);
-  } else {
-    for (const Sample& s : samples) {
-      if (is_one_of(s, settings.one_of)) collect(s, projected(s), result);
-    }
+  if (settings.method != CastMethod::kPaper)
+    return cast_samples(samples, mesh.region(), next, next_frame, settings);
+  std::vector<ProjectedSample> all(samples.size());
+  std::transform(samples.begin(), samples.end(), all.begin(), [&](const Sample& s) {
+    return project_sample(s, mesh.region(), next, next_frame, settings);
+  });
+  hide_behind_turned_triangles(mesh, all);
+  CastResult result;
+  for (std::size_t i = 0; i < samples.size(); ++i) collect(samples[i], all[i], result);
+  return with_mean_way(std::move(result));
+}
+
+CastResult cast_samples(std::span<const Sample> samples, const Region& region, const Camera& next,
+                        int next_frame, const CastSettings& settings) {
+  CastResult result;
+  for (const Sample& s : samples) {
+    if (is_one_of(s, settings.one_of))
+      collect(s, project_sample(s, region, next, next_frame, settings), result);
   }
-  if (!result.samples.empty()) result.moved /= static_cast<double>(result.samples.size());
-  return result;
+  return with_mean_way(std::move(result));
 }
 
 std::size_t drop_hidden(std::vector<Sample>& samples, const Visibility& visible) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "base/camera.h"
@@ -45,6 +46,10 @@ using Visibility = std::function<bool(const Vec3f& hit, bool at_infinity)>;
 // Casts the samples of the mesh's region into the next camera's image, for the frame numbered `next_frame`.
 CastResult cast_samples(const SampleMesh& mesh, const Camera& next, int next_frame,
                         const CastSettings& settings);
+
+// The same for samples without a triangulation. The method must be kVerified.
+CastResult cast_samples(std::span<const Sample> samples, const Region& region, const Camera& next,
+                        int next_frame, const CastSettings& settings);
 
 // Removes the samples that are hidden and returns their number. Calls visible() once for each sample.
 std::size_t drop_hidden(std::vector<Sample>& samples, const Visibility& visible);

@@ -235,26 +235,26 @@ void SampleMesh::retire(TriangleRecord& record) {
 
 void SampleMesh::count(const TriangleRecord& record, int sign) {
   TileWeights& weights = tile_weights_[static_cast<std::size_t>(record.tile)];
-  weights.triangles += sign;
+  weights.count += sign;
   // The last triangle takes the rounding of the running sum with it.
-  weights.total_weight = weights.triangles == 0 ? 0 : weights.total_weight + sign * record.weight;
-  all_weights_.triangles += sign;
+  weights.total_weight = weights.count == 0 ? 0 : weights.total_weight + sign * record.weight;
+  all_weights_.count += sign;
   all_weights_.total_weight += sign * record.weight;
 }
 
 double SampleMesh::refinement() const {
   TileWeights all;
   for (const TileWeights& tile : tile_weights_) {
-    all.triangles += tile.triangles;
+    all.count += tile.count;
     all.total_weight += tile.total_weight;
   }
-  return all.triangles > 0 ? all.total_weight / static_cast<double>(all.triangles) : 0;
+  return all.count > 0 ? all.total_weight / static_cast<double>(all.count) : 0;
 }
 
 bool SampleMesh::is_refined_to(double quality) const {
   constexpr double kRounding = 1e-6;  // far above that of the running sum
   const double about =
-      all_weights_.total_weight / static_cast<double>(std::max<std::int64_t>(all_weights_.triangles, 1));
+      all_weights_.total_weight / static_cast<double>(std::max<std::int64_t>(all_weights_.count, 1));
   return about <= quality * (1 + kRounding) && refinement() <= quality;
 }
 

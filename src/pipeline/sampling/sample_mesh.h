@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "pipeline/region.h"
+#include "pipeline/region_quality.h"
 #include "pipeline/sample.h"
 #include "pipeline/sampling/bucket_queue.h"
 #include "pipeline/sampling/delaunay.h"
@@ -35,13 +36,6 @@ struct MeshTriangle {
 // A triangle that other regions may have to know.
 struct BorderTriangle : MeshTriangle {
   std::array<bool, 3> own;  // per corner: whether it lies in the region
-};
-
-// Sums over the triangles whose refinement point lies in a tile (paper s. 4.4: LastTotalWeight,
-// LastTotalNum).
-struct TileWeights {
-  double total_weight = 0;
-  std::int64_t triangles = 0;
 };
 
 // A triangle to refine next, as SampleMesh::next_point() found it. Valid until the mesh changes.
@@ -123,6 +117,7 @@ class SampleMesh {
   // Returns the region's quality Q_k: the mean weight of its triangles (paper s. 3.6), 0 without any. Smaller
   // is better.
   double refinement() const;
+  RegionQuality quality() const { return {region_, tile_weights_, refinement()}; }
 
   // Whether that is at most `quality`. O(1) unless they are nearly equal.
   bool is_refined_to(double quality) const;
