@@ -138,7 +138,7 @@ void reconstruction(benchmark::State& state) {
 BENCHMARK(reconstruction)->ArgsProduct({{4000, 16000, 64000}, {1, 2, 3}})->Unit(benchmark::kMillisecond);
 
 LatticeSampler lattice() {
-  return {kSize, kSize,
+  return {whole(),
           [](std::uint32_t primitive, ImageShape& shape) { tree().tracer.project(primitive, shape); }};
 }
 

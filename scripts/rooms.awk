@@ -9,8 +9,9 @@
 
 # The room of an object file, or "".
 function room_of(path) {
-  if (path ~ /pipeline.*\/sampling\//) return "sampling"
-  if (path ~ /pipeline.*\/reconstruction\//) return "reconstruction"
+  if (path ~ /\/lattice\/node_prediction\.cpp/) return ""
+  if (path ~ /pipeline.*\/sampling\/|\/lattice\/lattice_(sampler|store)\.cpp|\/lattice\/.*errors?/) return "sampling"
+  if (path ~ /pipeline.*\/reconstruction\/|\/lattice\/lattice_painter\.cpp/) return "reconstruction"
   if (path ~ /pipeline.*\/preparation\/|\/(reprojection|anchor_search|worker_prepare)\.cpp/) return "preparation"
   if (path ~ /src\/parallel\/.*\/(master|mosaic|frame_assembly)\.cpp/) return "left-out"
   if (path ~ /src\/parallel\//) return "exchange"

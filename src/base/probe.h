@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 
 #include "base/camera.h"
 #include "base/image_shape.h"
@@ -26,6 +27,9 @@ struct Probe {
   std::function<void(std::uint32_t primitive, ImageShape& shape)> project = {};
   // Largest primitive number in a RaySample; 0: not known.
   std::uint32_t primitives = 0;
+  // Traces the eye ray through image point (x, y), pixels, but sends no shadow rays from its first hit to
+  // lights that are known there. Empty: not available.
+  std::function<RaySample(double x, double y, std::span<const KnownLights> known)> trace_knowing = {};
 };
 
 }  // namespace pprt

@@ -7,6 +7,19 @@
 
 namespace pprt {
 
+// Which of a scene's first eight lights a point sees: bit i is light i.
+struct SeenLights {
+  std::uint8_t asked = 0;  // the lights before the surface, for which a shadow ray told
+  std::uint8_t seen = 0;   // of those, the ones that nothing hides
+};
+
+// What is known of the light at a primitive, near the point where an eye ray may hit it.
+struct KnownLights {
+  std::uint32_t primitive = 0;  // as RaySample's
+  SeenLights lights;
+  std::int32_t frame = 0;  // in which the shadow rays were sent
+};
+
 // Colour and first hit of one eye ray.
 struct RaySample {
   Color color{0, 0, 0};      // linear, not clamped
@@ -14,6 +27,7 @@ struct RaySample {
   bool at_infinity = false;  // the ray missed: `hit` is a direction
   bool eye_dependent =
       false;  // the colour holds highlights, reflection or refraction, so it is stale when the eye moves
+  SeenLights lights;            // at the first hit
   std::uint32_t primitive = 0;  // number of the first hit's primitive in the scene, from 1; a miss: 0
   std::uint32_t rays = 1;       // rays of all kinds in its ray tree: the work it took
 };

@@ -57,23 +57,6 @@ std::vector<int> members(std::span<const std::uint8_t> marked, int except) {
   return ranks;
 }
 
-// Other ranks with a tile beside one of the rank's own, corner to corner included; ascending.
-std::vector<int> ranks_beside(const Partition& partition, int rank) {
-  const int columns = partition.grid.columns(), rows = partition.grid.rows();
-  std::vector<std::uint8_t> near(static_cast<std::size_t>(partition.ranks), 0);
-  for (int y = 0; y < rows; ++y) {
-    for (int x = 0; x < columns; ++x) {
-      if (owner_at(partition, x, y) != rank) continue;
-      for (int v = std::max(y - 1, 0); v <= std::min(y + 1, rows - 1); ++v) {
-        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, columns - 1); ++u) {
-          near[static_cast<std::size_t>(owner_at(partition, u, v))] = 1;
-        }
-      }
-    }
-  }
-  return members(near, rank);
-}
-
 }  // namespace
 
 SampleExchange::SampleExchange(const Partition& partition, int rank, SeedPattern seeds)

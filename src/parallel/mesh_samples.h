@@ -22,7 +22,7 @@ class MeshSamples : public RegionSamples {
   bool insert_seed(const Sample& sample, std::uint32_t number) override;
 
   std::optional<Vec2d> next_point() override;
-  PictureGuess guess(std::uint32_t primitive) const override;
+  PictureGuess guess(std::uint32_t primitive) override;
   bool insert(const Sample& sample, int from) override;
   void insert_cast(std::span<const Sample> samples, const Inserted& done) override;
   void expect_growth(double factor) override { mesh_.expect_growth(factor); }
@@ -38,6 +38,7 @@ class MeshSamples : public RegionSamples {
   const std::vector<int>& seed_peers() const override { return exchange_.seed_peers(); }
   const std::vector<int>& neighbours() const override { return exchange_.neighbours(); }
 
+  std::size_t size() const override { return mesh_.samples().size(); }
   std::span<const Sample> samples() const override { return mesh_.samples(); }
   const Region& region() const override { return mesh_.region(); }
   RegionQuality quality() override { return mesh_.quality(); }
@@ -47,6 +48,7 @@ class MeshSamples : public RegionSamples {
   void paint(std::span<const std::int32_t> further_tiles, RegionPixels& pixels) override;
   Work own_sample() const override { return Work::kOwnSample; }
   Work received_sample() const override { return Work::kReceivedSample; }
+  Work kept_sample() const override { return Work::kKeptSample; }
 
  private:
   int rank_;

@@ -4,9 +4,20 @@
 #include <optional>
 #include <utility>
 
+#include "parallel/lattice_samples.h"
 #include "parallel/mesh_samples.h"
 
 namespace pprt {
+namespace {
+
+std::unique_ptr<RegionSamples> make_samples(const SessionSettings& settings, const Partition& partition,
+                                            int rank, const Probe& probe) {
+  if (settings.sampler == SamplerChoice::kDelaunay)
+    return std::make_unique<MeshSamples>(settings, partition, rank, probe);
+  return std::make_unique<LatticeSamples>(settings, partition, rank, probe);
+}
+
+}  // namespace
 
 RegionSampler::RegionSampler(const SessionSettings& settings, const Partition& partition, int rank,
                              SampleTracer& tracer, CostEstimator& costs, FrameClock& clock,
@@ -16,7 +27,7 @@ RegionSampler::RegionSampler(const SessionSettings& settings, const Partition& p
       costs_(costs),
       clock_(clock),
       poll_(std::move(poll)),
-      samples_(std::make_unique<MeshSamples>(settings, partition, rank, tracer.probe())) {
+      samples_(make_samples(settings, partition, rank, tracer.probe())) {
   clock_.region_changed(region().pixel_count());
 }
 
@@ -28,12 +39,24 @@ void RegionSampler::begin_picture(bool keep_learned) {
 
 void RegionSampler::trace_seeds() {
   for (const SeedPoint& seed : samples_->seeds()) {
-    const Sample sample = tracer_.trace(seed.at.x, seed.at.y);
+    const Sample sample = trace(seed.at);
     clock_.spend(seed.own ? samples_->own_sample() : samples_->received_sample(), 1);
     if (!seed.own) costs_.add_received();
     if (samples_->insert_seed(sample, seed.number)) in_region_ += seed.own;
     counts_.traced += seed.own;
   }
+}
+
+// A sample for which other frames' shadow rays were enough is as old as they are.
+Sample RegionSampler::trace(const Vec2d& point) {
+  const std::span<const KnownLights> known = samples_->known_lights(point);
+  Sample sample = tracer_.trace(point.x, point.y, known);
+  for (const KnownLights& at : known) {
+    if (at.primitive != sample.ray.primitive) continue;
+    sample.frame = at.frame;
+    break;
+  }
+  return sample;
 }
 
 bool RegionSampler::is_full() const {
@@ -47,7 +70,7 @@ bool RegionSampler::refine(CastEvidence* evidence) {
   if (is_full()) return false;
   const std::optional<Vec2d> point = samples_->next_point();
   if (!point) return false;
-  const Sample sample = tracer_.trace(point->x, point->y);
+  const Sample sample = trace(*point);
   if (evidence != nullptr) {
     const PictureGuess guess = samples_->guess(sample.ray.primitive);
     ++evidence->fresh;
@@ -56,7 +79,7 @@ bool RegionSampler::refine(CastEvidence* evidence) {
     evidence->fresh_rays += sample.ray.rays;
   }
   insert(sample, rank_, samples_->own_sample());
-  ++counts_.traced;
+  ++(sample.frame == tracer_.frame_number() ? counts_.traced : counts_.cast);
   return true;
 }
 
@@ -71,7 +94,7 @@ void RegionSampler::reinsert_all(std::span<const Sample> samples) {
 // A cast sample counts like one traced here: a tile's quality is that of all its samples, and so is its cost.
 void RegionSampler::note_reinserted(const Sample& sample, bool is_new) {
   poll_();
-  clock_.spend(Work::kKeptSample, 1);
+  clock_.spend(samples_->kept_sample(), 1);
   if (!is_new) return;
   in_region_ += owns(sample);
   costs_.add_own(sample);

@@ -89,6 +89,7 @@ class RegionSampler {
 
  private:
   bool insert(const Sample& sample, int from, Work work);
+  Sample trace(const Vec2d& point);
   void note_reinserted(const Sample& sample, bool is_new);
   void region_changed();
 

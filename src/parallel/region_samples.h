@@ -34,6 +34,12 @@ struct PictureGuess {
   double area = 0;  // that the sample will stand for, square pixels
 };
 
+// What becomes of cast samples.
+enum class CastUse : std::uint8_t {
+  kInserted,  // samples of the picture, if they are visible
+  kNearby     // they tell which lights are seen near them
+};
+
 class RegionSamples {
  public:
   virtual ~RegionSamples() = default;
@@ -58,11 +64,16 @@ class RegionSamples {
   virtual std::optional<Vec2d> next_point() = 0;
 
   // Returns what the picture shows at next_point(), for a sample on this primitive.
-  virtual PictureGuess guess(std::uint32_t primitive) const = 0;
+  virtual PictureGuess guess(std::uint32_t primitive) = 0;
 
   // Inserts a sample; false if its point already holds one or cannot hold one. `from`: the rank that sent it,
   // or this one.
   virtual bool insert(const Sample& sample, int from) = 0;
+
+  // Returns the lights that cast samples near a point know.
+  virtual std::span<const KnownLights> known_lights(const Vec2d& /*point*/) { return {}; }
+
+  virtual CastUse cast_use() const { return CastUse::kInserted; }
 
   // Takes in this rank's cast samples. Calls done(sample, whether it was inserted) after each one.
   using Inserted = std::function<void(const Sample& sample, bool is_new)>;
@@ -106,6 +117,9 @@ class RegionSamples {
 
   // --- Readings
 
+  virtual std::size_t size() const = 0;  // number of samples, other ranks' included
+
+  // Returns the samples. A still that nobody else needs samples of does not keep them: then there are none.
   virtual std::span<const Sample> samples() const = 0;
   virtual const Region& region() const = 0;
 
@@ -127,6 +141,7 @@ class RegionSamples {
   // What its samples cost on the work clock.
   virtual Work own_sample() const = 0;
   virtual Work received_sample() const = 0;
+  virtual Work kept_sample() const = 0;
 };
 
 }  // namespace pprt

@@ -40,6 +40,7 @@ class Reprojection {
   std::uint64_t retraced() const { return retraced_; }
 
  private:
+  std::vector<Sample> cast_for_lights(const FrameOrder& order);
   std::vector<Sample> cast_at_rest(const FrameOrder& order);
   std::vector<Sample> cast_where_paying(const FrameOrder& order);
   std::vector<Sample> try_out(const std::vector<Sample>& samples);

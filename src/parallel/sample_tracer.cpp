@@ -18,13 +18,14 @@ void SampleTracer::begin_frame(const FrameOrder& order) {
   probe_.set_camera(order.camera);
 }
 
-Sample SampleTracer::trace(double x, double y) {
+Sample SampleTracer::trace(double x, double y, std::span<const KnownLights> known) {
   Sample sample;
   sample.x = x;
   sample.y = y;
   sample.frame = frame_number_;
   sample.id = (static_cast<SampleId>(rank_) << 40) | next_id_++;
-  sample.ray = probe_.trace(x, y);
+  sample.ray =
+      known.empty() || !probe_.trace_knowing ? probe_.trace(x, y) : probe_.trace_knowing(x, y, known);
   if (!is_finite(sample.ray.color)) {
     ++non_finite_;
     sample.ray.color = Color(0, 0, 0);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <utility>
 
 #include "base/probe.h"
@@ -29,7 +30,8 @@ class SampleTracer {
 
   // Traces the eye ray through an image point. The one gate for colours that are no finite numbers: they are
   // counted, and black from here on.
-  Sample trace(double x, double y);
+  // `known`: lights that need no shadow rays where the eye ray hits their primitives.
+  Sample trace(double x, double y, std::span<const KnownLights> known = {});
 
   // Whether nothing hides a hit point from the eye.
   bool is_visible(const Vec3f& hit, bool at_infinity);

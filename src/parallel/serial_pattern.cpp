@@ -50,6 +50,7 @@ FinishedFrame serial_frame(const SessionSettings& settings, const Camera& camera
   serial.seed = settings.seed;
   serial.learned_weights = settings.learned_weights;
   serial.pixel_rule = settings.pixel_rule;
+  serial.sampler = settings.sampler;
   serial.clock = ClockKind::kWork;
   serial.stop.samples = count;
   serial.cast = CastChoice::kOff;

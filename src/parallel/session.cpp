@@ -13,6 +13,7 @@
 #include "parallel/network/inbox.h"
 #include "parallel/network/wire.h"
 #include "parallel/worker.h"
+#include "pipeline/lattice/lattice_node.h"
 
 namespace pprt {
 namespace {
@@ -83,7 +84,7 @@ double await_start(Communicator& network, Inbox& inbox) {
 }
 
 Partition equal_areas(const SessionSettings& settings, int ranks) {
-  const TileGrid grid = tile_grid_for(settings.width, settings.height, ranks);
+  const TileGrid grid = tile_grid(settings, ranks);
   std::vector<double> areas;
   areas.reserve(static_cast<std::size_t>(grid.tile_count()));
   for (int tile = 0; tile < grid.tile_count(); ++tile) {
@@ -116,6 +117,12 @@ std::optional<FrameOrder> await_order(Inbox& inbox, int index) {
 }
 
 }  // namespace
+
+TileGrid tile_grid(const SessionSettings& settings, int ranks) {
+  constexpr int kBasePixels = kBaseSide / kQuarters;
+  return tile_grid_for(settings.width, settings.height, ranks,
+                       settings.sampler == SamplerChoice::kDelaunay ? 1 : kBasePixels);
+}
 
 void run_as_master(Communicator& network, const SessionSettings& settings, const Probe& probe,
                    const CameraSource& source, const FrameSink& sink) {

@@ -14,6 +14,9 @@ void run_as_master(Communicator& network, const SessionSettings& settings, const
                    const CameraSource& source, const FrameSink& sink);
 void run_as_worker(Communicator& network, const SessionSettings& settings, const Probe& probe);
 
+// Returns the tiles of the image: the units of balancing, which suit the sampler.
+TileGrid tile_grid(const SessionSettings& settings, int ranks);
+
 // A frame's budget in work units when the user gives none: what the virtual processor does in one period.
 std::uint64_t default_budget_units(double frames_per_second);
 

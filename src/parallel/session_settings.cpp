@@ -11,8 +11,9 @@ Bytes encode(const SessionSettings& settings) {
   out.put(settings.width), out.put(settings.height), out.put(settings.clock);
   out.put(settings.frames_per_second), out.put(settings.budget_units), out.put(settings.stop);
   out.put(settings.balance), out.put(settings.cast), out.put(settings.keep_samples);
-  out.put(settings.pixel_rule), out.put(settings.learned_weights), out.put(settings.seed);
-  out.put(settings.report_samples), out.put(settings.machine);
+  out.put(settings.pixel_rule), out.put(settings.sampler), out.put(settings.learned_weights);
+  out.put(settings.seed);
+  out.put(settings.is_still), out.put(settings.report_samples), out.put(settings.machine);
   return out.take();
 }
 
@@ -23,8 +24,8 @@ SessionSettings decode_settings(const Bytes& bytes) {
   in.get(settings.frames_per_second), in.get(settings.budget_units), in.get(settings.stop);
   in.get(settings.balance, BalanceMode::kCombined), in.get(settings.cast, CastChoice::kAuto);
   in.get(settings.keep_samples), in.get(settings.pixel_rule, PixelRule::kEdges);
-  in.get(settings.learned_weights), in.get(settings.seed);
-  in.get(settings.report_samples), in.get(settings.machine);
+  in.get(settings.sampler, SamplerChoice::kGrid), in.get(settings.learned_weights), in.get(settings.seed);
+  in.get(settings.is_still), in.get(settings.report_samples), in.get(settings.machine);
   in.expect_end();
   return settings;
 }

@@ -18,6 +18,13 @@ enum class ClockKind : std::uint8_t {
 // kOff.
 enum class CastChoice : std::uint8_t { kOff, kPaper, kVerified, kAuto };
 
+// What chooses a frame's samples and makes pixels of them.
+enum class SamplerChoice : std::uint8_t {
+  kAuto,      // a grid first, then what is expected to be most wrong: on a lattice
+  kDelaunay,  // the triangles of greatest weight: the paper's
+  kGrid       // all nodes of the lattice, level by level
+};
+
 // How load is shared among ranks (paper s. 3.6, 4.4, 4.5).
 enum class BalanceMode : std::uint8_t {
   kNone,
@@ -47,8 +54,10 @@ struct SessionSettings {
   bool keep_samples =
       true;  // on a repartition: hand samples over, instead of dropping them as the paper does
   PixelRule pixel_rule = PixelRule::kEdges;
+  SamplerChoice sampler = SamplerChoice::kDelaunay;
   bool learned_weights = true;  // refinement corrects the paper's weights by what it learns
   std::uint64_t seed = 1;
+  bool is_still = false;        // there is one frame
   bool report_samples = false;  // every sample of a frame comes to the master with the pixels
   Machine machine;              // of the work clock
 

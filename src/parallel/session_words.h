@@ -31,6 +31,13 @@ inline constexpr std::array<Word<CastChoice>, 4> kWords<CastChoice>{{
 }};
 
 template <>
+inline constexpr std::array<Word<SamplerChoice>, 3> kWords<SamplerChoice>{{
+    {SamplerChoice::kAuto, "auto", "a grid, then what is most wrong"},
+    {SamplerChoice::kDelaunay, "delaunay", "the heaviest triangles, as in the paper"},
+    {SamplerChoice::kGrid, "grid", "evenly, ever finer"},
+}};
+
+template <>
 inline constexpr std::array<Word<PixelRule>, 4> kWords<PixelRule>{{
     {PixelRule::kEdges, "edges", "mean over the area, with edges of objects"},
     {PixelRule::kArea, "area", "mean over the area"},

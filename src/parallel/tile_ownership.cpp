@@ -39,7 +39,8 @@ bool TileOwnership::may_give(bool fresh_mesh) const {
   if (!fresh_mesh && samples > sampler_.region().pixel_count()) return false;
   // Where most samples were cast each tile has so many from the start that only the first transfers bring
   // more than they cost. A repartition costs hardly anything there, for the samples move anyhow.
-  const bool mostly_cast = fresh_mesh && 2 * sampler_.counts().cast > samples;
+  const bool mostly_cast = fresh_mesh && sampler_.samples().cast_use() == CastUse::kInserted &&
+                           2 * sampler_.counts().cast > samples;
   if (mostly_cast && (settings_.balance == BalanceMode::kCombined || elapsed > 0.25)) return false;
   return balancer_.is_early_enough(elapsed);
 }

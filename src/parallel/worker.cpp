@@ -57,13 +57,15 @@ void Worker::sample(const FrameOrder& order) {
   // Evidence is taken from the last part of the sampling time, of what refinement itself wants then.
   constexpr double kEvidenceAfter = 0.75;
   const bool has_rate = order.deadline_s > 0;
-  const std::size_t begin = sampler_.samples().samples().size();
+  const std::size_t begin = sampler_.samples().size();
+  const bool gives_evidence = sampler_.samples().cast_use() == CastUse::kInserted;
   bool takes_evidence = false;
   for (int round = kSeedRound + 1;; ++round) {
     bundles_.begin_round(round);
     clock_->begin_packet(sampler_.in_region());
     anchors_.plan(order, sampler_, samples_new(), clock_->sampling_share());
-    const bool took_evidence = std::exchange(takes_evidence, clock_->sampling_share() > kEvidenceAfter);
+    const bool took_evidence =
+        std::exchange(takes_evidence, gives_evidence && clock_->sampling_share() > kEvidenceAfter);
     if (takes_evidence && !took_evidence) timer_.end_stage(&StageTimes::sampling);
 
     const Packet packet = sample_packet(has_rate, takes_evidence ? &reprojection_.evidence() : nullptr);
@@ -73,7 +75,7 @@ void Worker::sample(const FrameOrder& order) {
     goal_.set_done(!has_rate && packet.idle && !packet.traced);
     exchange_bundles(goal_.is_done() != was_done);
     if (clock_->sampling_over() || (!has_rate && goal_.all_done())) break;
-    if (const auto growth = clock_->expected_growth(begin, sampler_.samples().samples().size()))
+    if (const auto growth = clock_->expected_growth(begin, sampler_.samples().size()))
       sampler_.expect_growth(*growth);
     if (packet.idle && !packet.traced) bundles_.rest();
   }
@@ -173,9 +175,13 @@ void Worker::send_pixels(const FrameOrder& order, double sampling_ended_s) {
   }
   message.is_last = true;
   if (settings_.report_samples) {
-    const std::span<const Sample> samples = sampler_.samples().samples();
-    std::copy_if(samples.begin(), samples.end(), std::back_inserter(message.samples),
-                 [this](const Sample& s) { return sampler_.owns(s); });
+    for (const Sample& s : sampler_.samples().samples()) {
+      if (!sampler_.owns(s)) continue;
+      Sample& reported = message.samples.emplace_back(s);
+      // A lattice reaches beyond the image.
+      reported.x = std::min(s.x, static_cast<double>(grid.width));
+      reported.y = std::min(s.y, static_cast<double>(grid.height));
+    }
   }
   message.report = make_report(sampling_ended_s);
   message.report.bytes_balance += tiles.size() * sizeof(TileReport);

@@ -48,7 +48,8 @@ void Worker::rejoin(const FrameOrder& order, const MissedFrames& missed) {
 void Worker::begin_anew(const FrameOrder& order, bool keeps_samples, bool eye_rests) {
   std::vector<Sample> cast;
   if (keeps_samples) cast = reprojection_.cast(order, eye_rests);
-  const bool seeks_anchors = keeps_samples && order.carry == Carry::kCastWherePaying;
+  const bool seeks_anchors = keeps_samples && order.carry == Carry::kCastWherePaying &&
+                             sampler_.samples().cast_use() == CastUse::kInserted;
   if (seeks_anchors) {
     anchors_.note(sampler_.samples().samples());
   } else {

@@ -7,7 +7,7 @@
 #include "image/contact_sheet.h"
 #include "image/metrics.h"
 #include "layers/frame_layers.h"
-#include "parallel/balance/partition.h"
+#include "parallel/session.h"
 #include "render/film.h"
 #include "render/output_check.h"
 
@@ -107,7 +107,7 @@ LayerMaker FrameRecorder::layers_of(FinishedFrame& frame) const {
   if (plan_.output.layers.empty()) return {};
   const int ranks = static_cast<int>(frame.ranks.size());
   LayerSources sources{.frame_number = frame.order.number,
-                       .grid = tile_grid_for(frame.image.width, frame.image.height, ranks),
+                       .grid = tile_grid(plan_.settings, ranks),
                        .owners = std::move(frame.owners),
                        .samples = std::move(frame.samples),
                        .first_hit = [tracer = Tracer(scene_, frame.order.camera)](double x, double y) {

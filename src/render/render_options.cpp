@@ -39,7 +39,7 @@ std::vector<std::string> and_also(std::vector<std::string> first, const std::vec
   return first;
 }
 
-// Heading in the help of the options that the next three functions add.
+// Heading in the help of the options that the next two functions add.
 constexpr const char* kRun = "Run";
 
 void add_positionals(CLI::App& app, RenderOptions& o) {
@@ -87,23 +87,26 @@ void add_stop_rules(CLI::App& app, RenderOptions& o) {
       ->check(count_from(1))
       ->type_name("N")
       ->group(kRun);
-  app.add_option("--quality", o.quality,
-                 "Without a rate: stop a frame at a mean triangle weight of Q (default: 0.005)")
+  app.add_option(
+         "--quality", o.quality,
+         "Without a rate: stop a frame at a mean weight of Q (default: 2e-5; with --sampler delaunay 0.005)")
       ->check(number_between(1e-12, 1e12))
       ->type_name("Q")
       ->group(kRun);
 }
 
 void add_method_options(CLI::App& app, RenderOptions& o) {
-  add_choice(app, "--balance", o.balance, "How ranks share the load").group(kRun);
-  add_choice(app, "--cast", o.cast, "Which samples are carried to the next frame").group(kRun);
-  add_choice(app, "--keep-samples", o.keep_samples, "Keep carried samples at a repartition").group(kRun);
-  add_choice(app, "--weights", o.weights, "Rule that chooses the next triangle to refine").group(kRun);
+  const std::string group = "Method";
+  add_choice(app, "--sampler", o.sampler, "What chooses a frame's samples").group(group);
+  add_choice(app, "--balance", o.balance, "How ranks share the load").group(group);
+  add_choice(app, "--cast", o.cast, "Which samples are carried to the next frame").group(group);
+  add_choice(app, "--keep-samples", o.keep_samples, "Keep carried samples at a repartition").group(group);
+  add_choice(app, "--weights", o.weights, "Rule that chooses the next triangle to refine").group(group);
   app.add_option("--seed", o.seed, "Seed of the pattern that every frame starts from")
       ->check(count_from(0))
       ->capture_default_str()
       ->type_name("N")
-      ->group(kRun);
+      ->group(group);
 }
 
 void add_image_options(CLI::App& app, RenderOptions& o) {

@@ -38,6 +38,7 @@ struct RenderOptions {
   BalanceMode balance = BalanceMode::kCombined;
   CastChoice cast = CastChoice::kAuto;
   bool keep_samples = true;
+  SamplerChoice sampler = SamplerChoice::kAuto;
   WeightRule weights = WeightRule::kLearned;
   PixelRule pixels = PixelRule::kEdges;
   std::uint64_t seed = 1;

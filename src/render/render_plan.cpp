@@ -130,6 +130,24 @@ double film_rate(double fps, const Sources& sources) {
   return sources.script && sources.script->animation.fps > 0 ? sources.script->animation.fps : kCustomary;
 }
 
+// What only the triangulation knows asks for it.
+bool needs_triangulation(const RenderOptions& options) {
+  return options.cast == CastChoice::kPaper || options.weights == WeightRule::kPaper ||
+         options.pixels != PixelRule::kEdges;
+}
+
+double still_quality(SamplerChoice sampler) {
+  switch (sampler) {
+    case SamplerChoice::kDelaunay:
+      return kStillQuality;
+    case SamplerChoice::kAuto:
+      return kLatticeStillQuality;
+    case SamplerChoice::kGrid:
+      break;
+  }
+  return 0;  // it ends when every node has its sample
+}
+
 // Settles what ends a frame: the deadline of its rate, or the stop rules.
 void settle_ends(const RenderOptions& options, double fps, SessionSettings& settings) {
   settings.frames_per_second = fps;
@@ -144,9 +162,10 @@ void settle_ends(const RenderOptions& options, double fps, SessionSettings& sett
     settings.budget_units = options.budget.value_or(default_budget_units(fps));
   } else {
     if (options.budget) throw UsageError("--budget needs a frame rate (--fps)");
-    settings.stop = {.seconds = options.time.value_or(0),
-                     .samples = options.samples.value_or(0),
-                     .quality = options.quality.value_or(has_stop_rule ? 0 : kStillQuality)};
+    settings.stop = {
+        .seconds = options.time.value_or(0),
+        .samples = options.samples.value_or(0),
+        .quality = options.quality.value_or(has_stop_rule ? 0 : still_quality(settings.sampler))};
   }
 }
 
@@ -159,6 +178,9 @@ SessionSettings session_settings(const RenderOptions& options, const View& view,
   settings.cast = options.cast;
   settings.keep_samples = options.keep_samples;
   settings.pixel_rule = options.pixels;
+  settings.sampler = options.sampler == SamplerChoice::kAuto && needs_triangulation(options)
+                         ? SamplerChoice::kDelaunay
+                         : options.sampler;
   settings.learned_weights = options.weights == WeightRule::kLearned;
   settings.seed = options.seed;
   settings.report_samples =
@@ -209,6 +231,11 @@ void check_usage(const RenderOptions& options) {
     throw UsageError(fmt::format("--fps {:g}: want 0, for no rate, or at least {:g}", *options.fps,
                                  kLeastFramesPerSecond));
   }
+  if (options.sampler == SamplerChoice::kGrid && needs_triangulation(options)) {
+    throw UsageError(
+        "--sampler grid has no triangles: --cast paper, --weights paper and --pixels other than "
+        "edges need --sampler delaunay");
+  }
   if (options.budget && options.clock != ClockKind::kWork)
     throw UsageError("--budget counts work: it needs --clock work");
 }
@@ -231,6 +258,7 @@ RenderPlan plan_of(const RenderOptions& options, Sources& sources) {
                  .compare_serial = options.compare_serial,
                  .census = options.census};
   plan.settings = session_settings(options, base, fps);
+  plan.settings.is_still = plan.frames.size() == 1;
   plan.compile.max_depth = options.max_depth;
   plan.compile.cull = options.cull;
   plan.compile.effects = options.effects;

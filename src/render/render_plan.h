@@ -61,6 +61,9 @@ struct RenderPlan {
 // at least 0.99 on every SPD scene tried (docs/decisions/0007-still-quality.md).
 inline constexpr double kStillQuality = 0.005;
 
+// The same for the lattice: the mean worth of what is still to be sampled (docs/decisions/0021-lattice.md).
+inline constexpr double kLatticeStillQuality = 2e-5;
+
 // Returns every file of a frame: its pictures and, beside those that cannot hold layers, the layers' own.
 std::vector<FramePattern> files_of_a_frame(const OutputPlan& output);
 

@@ -29,6 +29,7 @@ Json options_record(const RenderPlan& plan) {
                   {"balance", word_for(s.balance)},
                   {"cast", word_for(s.cast)},
                   {"keep_samples", word_for(s.keep_samples)},
+                  {"sampler", word_for(s.sampler)},
                   {"weights", word_for(weight_rule(s))},
                   {"pixels", word_for(s.pixel_rule)},
                   {"seed", s.seed},
@@ -51,9 +52,9 @@ std::string run_key(const RunIdentity& run) {
   std::string text = fmt::format("{} {} {} {} {} {} {} {} {} {}", run.scene_hash, run.ranks, s.width,
                                  s.height, word_for(s.clock), s.frames_per_second, s.budget_units,
                                  s.stop.seconds, s.stop.samples, s.stop.quality);
-  text += fmt::format(" {}{}{}{} {} {} {} {}{}", word_for(s.balance), word_for(s.keep_samples),
-                      word_for(s.pixel_rule), word_for(weight_rule(s)), word_for(s.cast), s.seed, c.max_depth,
-                      effects_word(c), c.cull ? " cull" : "");
+  text += fmt::format(" {}{}{}{}{} {} {} {} {}{}", word_for(s.balance), word_for(s.keep_samples),
+                      word_for(s.sampler), word_for(s.pixel_rule), word_for(weight_rule(s)), word_for(s.cast),
+                      s.seed, c.max_depth, effects_word(c), c.cull ? " cull" : "");
   for (const PlannedFrame& f : run.plan.script_frames) {
     const View& v = f.view;
     text += fmt::format("\n{} {} {} {} {} {} {} {} {} {} {} {}", f.number, f.cut, v.from.x, v.from.y,

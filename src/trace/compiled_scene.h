@@ -92,8 +92,9 @@ class Tracer {
   void set_camera(const Camera& camera) { camera_ = camera; }
   const Camera& camera() const { return camera_; }
 
-  // Traces the eye ray through image point (x, y), pixels, with its whole ray tree.
-  RaySample trace(double x, double y);
+  // Traces the eye ray through image point (x, y), pixels, with its whole ray tree. From its first hit no
+  // shadow rays go to lights that are `known` for that primitive.
+  RaySample trace(double x, double y, std::span<const KnownLights> known = {});
 
   // Returns the first hit at image point (x, y), pixels. The ray is not counted. Primitives are numbered as
   // in SceneDescription::order, materials as in SceneDescription::materials, both from 1.

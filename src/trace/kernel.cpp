@@ -119,7 +119,8 @@ class RayTree {
  public:
   RayTree(const CompiledScene::Impl& scene, RayCounts& counts) : scene_(scene), counts_(counts) {}
 
-  void follow_eye_ray(const Vec3f& origin, const Vec3f& direction, RaySample& sample) {
+  void follow_eye_ray(const Vec3f& origin, const Vec3f& direction, std::span<const KnownLights> known,
+                      RaySample& sample) {
     ++counts_.primary;
     RTCRayHit found;
     if (!intersect(scene_, sender_, origin, direction, kInfinity, found)) {
@@ -136,10 +137,21 @@ class RayTree {
     sample.primitive = scene_.parts[found.hit.geomID].primitives[found.hit.primID] + 1;
     sample.eye_dependent = ((kHighlights || kReflection) && material.specular > 0) ||
                            (kRefraction && material.transmittance > 0);
-    sample.color = shade(surface, d, 1);
+    const SeenLights lights = lights_known(known, sample.primitive);
+    sample.color = surface.material->ambient + from_lights<true>(surface, d, lights, sample.lights);
+    if constexpr (kReflection || kRefraction) {
+      if (1 < scene_.options.max_depth) sample.color += from_secondary_rays(surface, d, 2);
+    }
   }
 
  private:
+  static SeenLights lights_known(std::span<const KnownLights> known, std::uint32_t primitive) {
+    for (const KnownLights& at : known) {
+      if (at.primitive == primitive) return at.lights;
+    }
+    return {};
+  }
+
   static constexpr bool has(Effect effect) { return EffectSet(kEffects).has(effect); }
   static constexpr bool kShadows = has(Effect::kShadows);
   static constexpr bool kHighlights = has(Effect::kHighlights);
@@ -182,7 +194,8 @@ class RayTree {
   // Returns the colour of a surface seen along `direction`, by NFF's model: ambient light, direct light, and
   // the secondary rays that `depth` allows. An eye ray has depth 1.
   Color shade(const Surface& surface, const Vec3d& direction, int depth) {
-    Color color = surface.material->ambient + from_lights(surface, direction);
+    SeenLights unused;
+    Color color = surface.material->ambient + from_lights<false>(surface, direction, {}, unused);
     if constexpr (kReflection || kRefraction) {
       if (depth < scene_.options.max_depth) color += from_secondary_rays(surface, direction, depth + 1);
     }
@@ -190,20 +203,32 @@ class RayTree {
   }
 
   // Lambert's diffuse reflection and Phong's highlight, summed over the lights that are not in shadow.
-  Color from_lights(const Surface& surface, const Vec3d& direction) {
+  // kNotes: lights that are `known` are not asked again, and what is found of the others is noted.
+  template <bool kNotes>
+  Color from_lights(const Surface& surface, const Vec3d& direction, const SeenLights& known,
+                    SeenLights& found) {
     const ShadingMaterial& material = *surface.material;
     Color color(0, 0, 0);
     if (!kPublished && !material.lit) return color;
     const Vec3d position = surface.position + surface.normal * surface.offset;
     const Vec3f origin(position);
+    unsigned bit = 1;  // of the light; 0 after the first eight
     for (const ShadingLight& light : scene_.lights) {
+      const unsigned own_bit = std::exchange(bit, bit << 1 & 0xFF);
       const Vec3d to_light = light.position - position;
       const double cosine_length = surface.shading.dot(to_light);
       if (!(cosine_length > 0)) continue;
       const double length = std::sqrt(to_light.dot(to_light));
       const Vec3d unit_to_light = to_light * (1 / length);
       if constexpr (kShadows) {
-        if (in_shadow(light, origin, unit_to_light, length)) continue;
+        const bool is_hidden = kNotes && (known.asked & own_bit) != 0
+                                   ? (known.seen & own_bit) == 0
+                                   : in_shadow(light, origin, unit_to_light, length);
+        if constexpr (kNotes) {
+          found.asked = static_cast<std::uint8_t>(found.asked | own_bit);
+          if (!is_hidden) found.seen = static_cast<std::uint8_t>(found.seen | own_bit);
+        }
+        if (is_hidden) continue;
       }
       color += light.color * material.diffuse * static_cast<float>(cosine_length / length);
       if constexpr (kHighlights) {
@@ -258,10 +283,10 @@ class RayTree {
 
 // The kernel of one set of effects.
 template <unsigned kEffects, bool kPublished>
-void run(const CompiledScene::Impl& scene, const Vec3f& origin, const Vec3f& direction, RaySample& sample,
-         RayCounts& counts) {
+void run(const CompiledScene::Impl& scene, const Vec3f& origin, const Vec3f& direction,
+         std::span<const KnownLights> known, RaySample& sample, RayCounts& counts) {
   const std::uint64_t before = counts.traced();
-  RayTree<kEffects, kPublished>(scene, counts).follow_eye_ray(origin, direction, sample);
+  RayTree<kEffects, kPublished>(scene, counts).follow_eye_ray(origin, direction, known, sample);
   sample.rays = static_cast<std::uint32_t>(counts.traced() - before);
 }
 

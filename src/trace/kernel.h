@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "base/ray_sample.h"
 #include "base/vector.h"
@@ -11,9 +12,9 @@
 namespace pprt {
 
 // Traces the ray tree of an eye ray: fills the sample, adds to the counts. Origin and unit direction are in
-// the compiled space.
+// the compiled space. `known`: lights that need no shadow rays from the first hit.
 using Kernel = void (*)(const CompiledScene::Impl& scene, const Vec3f& origin, const Vec3f& direction,
-                        RaySample& sample, RayCounts& counts);
+                        std::span<const KnownLights> known, RaySample& sample, RayCounts& counts);
 
 // Returns the kernel that simulates exactly `effects`. `published` is CompileOptions::count_as_published.
 Kernel kernel_for(EffectSet effects, bool published);

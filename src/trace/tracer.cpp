@@ -38,11 +38,11 @@ int times_left(const CompiledScene::Impl& scene, Vec3d origin, const Vec3f& dire
 
 Tracer::Tracer(const CompiledScene& scene, const Camera& camera) : scene_(scene), camera_(camera) {}
 
-RaySample Tracer::trace(double x, double y) {
+RaySample Tracer::trace(double x, double y, std::span<const KnownLights> known) {
   const Vec3d direction = unit(ray_direction(camera_, x, y));
   const Vec3d origin = camera_.eye + direction * distance_to_scene(scene_.impl(), camera_.eye, direction);
   RaySample sample;
-  scene_.impl().kernel(scene_.impl(), Vec3f(origin), Vec3f(direction), sample, counts_);
+  scene_.impl().kernel(scene_.impl(), Vec3f(origin), Vec3f(direction), known, sample, counts_);
   return sample;
 }
 

@@ -13,7 +13,10 @@ inline Probe probe_of(Tracer& tracer) {
           [&tracer](const Vec3f& hit, bool at_infinity) { return tracer.visible(hit, at_infinity); },
           [&tracer] { return tracer.counts(); },
           [&tracer](std::uint32_t primitive, ImageShape& shape) { tracer.project(primitive, shape); },
-          tracer.primitive_count()};
+          tracer.primitive_count(),
+          [&tracer](double x, double y, std::span<const KnownLights> known) {
+            return tracer.trace(x, y, known);
+          }};
 }
 
 }  // namespace pprt

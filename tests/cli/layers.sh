@@ -51,7 +51,7 @@ expect_usage "--layers sample: 'sample' is none of samples, triangulation, regio
 
 # One rank's pattern is the serial one in every frame; that of three ranks is near it, and is not it.
 distances() { grep -o '"distance_to_serial":[0-9.e-]*' "$1" | cut -d: -f2; }
-run pprt-render ball.anim "${work[@]}" --cast off -o s/%d.png --compare-serial --stats s.ndjson; expect_code 0
+run pprt-render ball.anim "${work[@]}" --cast off --sampler delaunay -o s/%d.png --compare-serial --stats s.ndjson; expect_code 0
 expect_text <(distances s.ndjson) "$(for _ in {1..12}; do echo 0.0; done)"
 run pprt-render ball.anim "${work[@]}" --cast off -np 3 -o t/%d.png --compare-serial --stats t.ndjson; expect_code 0
 distances t.ndjson | awk '!($1 > 0 && $1 < 0.5) { bad = 1 } END { exit bad || NR != 12 }' ||

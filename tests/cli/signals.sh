@@ -66,7 +66,7 @@ expect_code 1
 
 # signal_still SIGNAL SECONDS: sends the signal while the one frame of a still is being made. The still is $pid.
 signal_still() {
-  pprt-render ball.nff --time "$2" -s 512x512 -o long.png >out 2>err &
+  pprt-render ball.nff --sampler delaunay --time "$2" -s 512x512 -o long.png >out 2>err &
   pid=$!
   sleep 1.5
   kill "-$1" "$pid"

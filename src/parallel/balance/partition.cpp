@@ -79,11 +79,11 @@ class Bisector {
 
 }  // namespace
 
-TileGrid tile_grid_for(int width, int height, int ranks) {
+TileGrid tile_grid_for(int width, int height, int ranks, int multiple_of) {
   constexpr double kTilesPerRank = 100;
   const double pixels = static_cast<double>(width) * height;
   const int size = static_cast<int>(std::sqrt(pixels / (kTilesPerRank * ranks)));
-  return {width, height, std::clamp(size, 2, 32)};
+  return {width, height, std::clamp(size / multiple_of * multiple_of, std::max(multiple_of, 2), 32)};
 }
 
 Partition bisect(const TileGrid& grid, std::span<const double> tile_costs, int ranks) {
@@ -101,6 +101,28 @@ std::vector<int> tiles_beside(const TileGrid& grid, int tile) {
   if (row > 0) tiles.push_back(tile - grid.columns());
   if (row + 1 < grid.rows()) tiles.push_back(tile + grid.columns());
   return tiles;
+}
+
+std::vector<int> ranks_beside(const Partition& partition, int rank) {
+  const TileGrid& grid = partition.grid;
+  const auto owner = [&](int x, int y) {
+    return partition.owner[static_cast<std::size_t>(y * grid.columns() + x)];
+  };
+  std::vector<std::uint8_t> near(static_cast<std::size_t>(partition.ranks), 0);
+  for (int y = 0; y < grid.rows(); ++y) {
+    for (int x = 0; x < grid.columns(); ++x) {
+      if (owner(x, y) != rank) continue;
+      for (int v = std::max(y - 1, 0); v <= std::min(y + 1, grid.rows() - 1); ++v) {
+        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, grid.columns() - 1); ++u)
+          near[static_cast<std::size_t>(owner(u, v))] = 1;
+      }
+    }
+  }
+  std::vector<int> ranks;
+  for (int r = 0; r < partition.ranks; ++r) {
+    if (r != rank && near[static_cast<std::size_t>(r)] != 0) ranks.push_back(r);
+  }
+  return ranks;
 }
 
 Region region_of(const Partition& partition, int rank) {

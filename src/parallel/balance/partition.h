@@ -27,8 +27,9 @@ inline std::uint64_t first_version(std::uint32_t generation) {
   return std::uint64_t{generation} << 32;
 }
 
-// Returns a grid of square tiles: about 100 a rank so that balancing can be fine, 2 to 32 pixels wide.
-TileGrid tile_grid_for(int width, int height, int ranks);
+// Returns a grid of square tiles: about 100 a rank so that balancing can be fine, 2 to 32 pixels wide. Their
+// side is a multiple of a number of pixels, at most 32.
+TileGrid tile_grid_for(int width, int height, int ranks, int multiple_of = 1);
 
 // Partitions the image by greedy recursive bisection (paper s. 4.4). Each cut runs across the longer side, at
 // the tile line where both sides' `tile_costs` are nearest to their shares of the ranks. Regions are
@@ -40,6 +41,9 @@ Partition bisect(const TileGrid& grid, std::span<const double> tile_costs, int r
 std::vector<int> tiles_beside(const TileGrid& grid, int tile);
 
 Region region_of(const Partition& partition, int rank);
+
+// Other ranks with a tile beside one of the rank's own, corner to corner included; ascending.
+std::vector<int> ranks_beside(const Partition& partition, int rank);
 
 // Whether the rank's tiles are connected by their sides; true for an empty region.
 bool is_connected(const Partition& partition, int rank);

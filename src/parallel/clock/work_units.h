@@ -16,8 +16,11 @@ enum class Work : std::uint8_t {
   kUpdateRule,      // finding the ranks that a new triangle at the border concerns
   kReceivedSample,  // decoding and inserting another rank's sample, painting its triangles
   kSentSample,      // encoding, per sample and receiver
+  kOwnNode,         // as kOwnSample, on a lattice
+  kReceivedNode,    // as kReceivedSample, on a lattice
   kPixel,           // of reconstruction: what a pixel costs beside the triangles
   kCastSample,      // projecting and testing one sample of the frame before
+  kKeptNode,        // keeping one of them for the nodes near it
   kKeptSample       // reinserting one of them, queueing and painting its triangles
 };
 
@@ -33,10 +36,16 @@ constexpr WorkUnits price(Work work) {
       return 580;
     case Work::kSentSample:
       return 20;
+    case Work::kOwnNode:
+      return 370;
+    case Work::kReceivedNode:
+      return 200;
     case Work::kPixel:
       return 5;
     case Work::kCastSample:
       return 20;
+    case Work::kKeptNode:
+      return 40;
     case Work::kKeptSample:
       return 805;
   }

@@ -15,7 +15,8 @@ struct WireSample {
   std::uint32_t rays;
   std::uint32_t primitive;
   std::uint8_t flags;
-  std::uint8_t unused[3];
+  std::uint8_t lights_asked, lights_seen;
+  std::uint8_t unused;
 };
 static_assert(sizeof(WireSample) == kSampleBytes);
 
@@ -37,7 +38,9 @@ WireSample to_wire(const Sample& s) {
       r.rays,
       r.primitive,
       static_cast<std::uint8_t>((r.at_infinity ? kAtInfinity : 0) | (r.eye_dependent ? kEyeDependent : 0)),
-      {}};
+      r.lights.asked,
+      r.lights.seen,
+      0};
 }
 
 Sample from_wire(const WireSample& w) {
@@ -52,6 +55,7 @@ Sample from_wire(const WireSample& w) {
   s.ray.eye_dependent = (w.flags & kEyeDependent) != 0;
   s.ray.rays = w.rays;
   s.ray.primitive = w.primitive;
+  s.ray.lights = {w.lights_asked, w.lights_seen};
   return s;
 }
 

@@ -34,7 +34,8 @@ NodeClass class_of(int primitives, float variance, int error_level) {
   constexpr int kLeast = 55;  // half the exponent of a float of 2^-17
   const int level = std::clamp(static_cast<int>(std::bit_cast<std::uint32_t>(variance) >> 24) - kLeast, 0,
                                kVarianceLevels - 1);
-  return static_cast<std::size_t>(((primitives - 1) * kVarianceLevels + level) * kErrorLevels + error_level);
+  return static_cast<std::size_t>(
+      ((std::min(primitives, kPrimitiveCounts) - 1) * kVarianceLevels + level) * kErrorLevels + error_level);
 }
 
 float detail_of(float variance) {

@@ -40,6 +40,8 @@ struct LatticeLevel {
     const float pixels = static_cast<float>(side) / kQuarters;
     return pixels * pixels * (kind == LatticeKind::kCenter ? 0.5F : 0.25F);
   }
+
+  friend bool operator==(const LatticeLevel&, const LatticeLevel&) = default;
 };
 
 // From coarse to fine. Nodes at the corners of the base squares belong to no level.
@@ -77,7 +79,7 @@ class NodeValue {
   std::uint32_t primitive() const { return std::bit_cast<std::uint32_t>(std::bit_cast<int4>(lanes_)[3]); }
 
  private:
-  float4 lanes_{};
+  float4 lanes_;
 };
 
 }  // namespace pprt

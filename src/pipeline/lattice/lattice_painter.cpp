@@ -60,14 +60,13 @@ Coverage coverage(const ProjectedShapeCache& shapes,
 
 }  // namespace
 
-void LatticePainter::paint(const PixelRect& bounds, RegionPixels& pixels) {
-  pixels.bounds = bounds;
-  pixels.colors.resize(bounds.area());
+void LatticePainter::paint(const PixelRect& part, RegionPixels& pixels) {
+  part_ = part;
   pixels_ = &pixels;
   const auto first = [](int pixel) { return pixel / kBasePixels * kBasePixels; };
   const auto base = [&](int x, int y) { return predictor_.value({kQuarters * x, kQuarters * y}); };
-  for (int y = first(bounds.y0); y < bounds.y1; y += kBasePixels) {
-    for (int x = first(bounds.x0); x < bounds.x1; x += kBasePixels) {
+  for (int y = first(part.y0); y < part.y1; y += kBasePixels) {
+    for (int x = first(part.x0); x < part.x1; x += kBasePixels) {
       const SquareCorners corners = {base(x, y), base(x + kBasePixels, y), base(x, y + kBasePixels),
                                      base(x + kBasePixels, y + kBasePixels)};
       paint_square({kQuarters * x, kQuarters * y}, kBaseSide, corners);
@@ -78,7 +77,7 @@ void LatticePainter::paint(const PixelRect& bounds, RegionPixels& pixels) {
 void LatticePainter::paint_square(const LatticeNode& corner, int side, const SquareCorners& corners) {
   const PixelRect& bounds = pixels_->bounds;
   const int x = corner.x / kQuarters, y = corner.y / kQuarters, size = side / kQuarters;
-  if (x >= bounds.x1 || y >= bounds.y1 || x + size <= bounds.x0 || y + size <= bounds.y0) return;
+  if (x >= part_.x1 || y >= part_.y1 || x + size <= part_.x0 || y + size <= part_.y0) return;
   if (size == 1) {
     const float4 shown =
         may_be_refined(corner) ? mean_of_refined(corner, side, corners) : mean_of(corner, side, corners);
@@ -137,8 +136,8 @@ void LatticePainter::fill(const LatticeNode& corner, int side, const SquareCorne
   const float4 upper_left = corners[0].channels(), upper_right = corners[1].channels();
   const float4 down_left = (corners[2].channels() - upper_left) * step;
   const float4 down_right = (corners[3].channels() - upper_right) * step;
-  const int left = std::max(x, bounds.x0), right = std::min(x + size, bounds.x1);
-  for (int row = std::max(y, bounds.y0); row < std::min(y + size, bounds.y1); ++row) {
+  const int left = std::max(x, part_.x0), right = std::min(x + size, part_.x1);
+  for (int row = std::max(y, part_.y0); row < std::min(y + size, part_.y1); ++row) {
     const float down = static_cast<float>(row - y) + 0.5F;
     const float4 begin = upper_left + down_left * down, end = upper_right + down_right * down;
     const float4 along = (end - begin) * step;

@@ -19,8 +19,8 @@ class LatticePainter {
                  LocalErrors& errors, const EdgeShare& share)
       : store_(store), predictor_(predictor), shapes_(shapes), errors_(errors), share_(share) {}
 
-  // Replaces `pixels` by those of a rectangle of the image.
-  void paint(const PixelRect& bounds, RegionPixels& pixels);
+  // Replaces the pixels of a part of `pixels`, a rectangle of the image within their bounds.
+  void paint(const PixelRect& part, RegionPixels& pixels);
 
  private:
   void paint_square(const LatticeNode& corner, int side, const SquareCorners& corners);
@@ -37,6 +37,7 @@ class LatticePainter {
   ProjectedShapeCache& shapes_;
   LocalErrors& errors_;
   const EdgeShare& share_;
+  PixelRect part_;
   RegionPixels* pixels_ = nullptr;
 };
 

@@ -10,14 +10,22 @@
 namespace pprt {
 namespace {
 
-constexpr double kGridShare = 0.2;         // of all samples that the grid may take
-constexpr float kInsertion = 1;            // time of choosing and inserting a sample, in rays
+constexpr double kGridShare = 0.5;         // of all samples that the grid may take
+constexpr float kInsertion = 2;            // time of choosing and inserting a sample, in rays
 constexpr float kGreatestFall = 3;         // of the threshold, from pass to pass
 constexpr double kFirstGrowth = 3;         // pessimistic: nothing is learned yet
+constexpr float kSurprise = 1e-4F;         // squared error
 constexpr float kUnpredicted = 1.0F / 32;  // squared error that a sample without a prediction counts as
 
-std::size_t pixels_of(const LatticeStore& store) {
-  return static_cast<std::size_t>(store.width()) * static_cast<std::size_t>(store.height());
+Vec2d point_of(const LatticeNode& node) {
+  return {static_cast<double>(node.x) / kQuarters, static_cast<double>(node.y) / kQuarters};
+}
+
+// Calls visit(x, y) for the four corners of a square of nodes.
+template <class Visit>
+void for_each_corner(const LatticeNode& corner, int side, const Visit& visit) {
+  visit(corner.x, corner.y), visit(corner.x + side, corner.y);
+  visit(corner.x, corner.y + side), visit(corner.x + side, corner.y + side);
 }
 
 float squared_error(const float4& a, const float4& b) {
@@ -33,8 +41,10 @@ float effect_of(const LatticeLevel& level) {
 
 }  // namespace
 
-LatticeSampler::LatticeSampler(int width, int height, ProjectedShapeCache::View view)
-    : store_(width, height),
+LatticeSampler::LatticeSampler(const Region& region, ProjectedShapeCache::View view, LatticeOrder order)
+    : order_(order),
+      store_(region.grid().width, region.grid().height),
+      own_(store_, region),
       shapes_(std::move(view)),
       errors_(store_.right(), store_.bottom()),
       predictor_(store_, shapes_, errors_, share_),
@@ -44,15 +54,27 @@ LatticeSampler::LatticeSampler(int width, int height, ProjectedShapeCache::View 
 }
 
 void LatticeSampler::clear() {
-  store_.clear();
   shapes_.forget();
-  errors_.clear();
   estimates_.clear();
   share_.clear();
-  samples_ = 0;
-  has_base_ = false;
-  grid_levels_ = 0;
   growth_ = kFirstGrowth;
+  forget_samples();
+}
+
+void LatticeSampler::restart() {
+  const double as_many = static_cast<double>(samples_);
+  growth_ = kFirstGrowth;  // of the last, small passes until now
+  forget_samples();
+  expect(as_many);
+}
+
+void LatticeSampler::forget_samples() {
+  store_.clear();
+  errors_.clear();
+  samples_ = 0;
+  expected_ = 0;
+  has_base_ = has_grid_ = false;
+  grid_levels_ = 0;
   last_threshold_ = 0;
   pass_ = {};
   tile_ = store_.tile_count();
@@ -63,9 +85,58 @@ void LatticeSampler::clear() {
   wanted_.reset();
 }
 
-std::size_t LatticeSampler::least_samples() const {
-  const auto along = [](int last) { return static_cast<std::size_t>(last / kBaseSide + 1); };
-  return along(store_.right()) * along(store_.bottom());
+// The region.
+
+void LatticeSampler::set_region(const Region& region) {
+  const LatticeRegion before = std::exchange(own_, LatticeRegion(store_, region));
+  own_.for_each_change(before, [&](const LatticeNode& corner, bool is_own) {
+    if (is_own) {
+      begin_square(corner);
+    } else {
+      leave_square(corner);
+    }
+  });
+  has_base_ = false;
+  if (order_ == LatticeOrder::kLevels) grid_levels_ = 0;
+}
+
+// What is known of a square already makes candidates in it.
+void LatticeSampler::begin_square(const LatticeNode& corner) {
+  for (int y = corner.y; y <= corner.y + kBaseSide; ++y) {
+    for (int x = corner.x; x <= corner.x + kBaseSide; ++x) {
+      if (!store_.has({x, y}) || !store_.is_sampled({x, y})) continue;
+      Wanted at;
+      at.node = {x, y};
+      if ((x | y) % kBaseSide == 0) {
+        at.level = {2 * kBaseSide, LatticeKind::kMiddle};
+      } else {
+        at.level = level_of(at.node);
+        at.around = known_around(at.node, at.level);
+        at.variance = at.around.count() > 0 ? at.around.variance() : 0;
+        at.primitives = std::max(at.around.primitives(), 1);
+      }
+      make_candidates(at.node, at.level, worth_around(at, kUnpredicted, at.primitives));
+    }
+  }
+}
+
+void LatticeSampler::leave_square(const LatticeNode& corner) {
+  for (int y = corner.y; y <= corner.y + kBaseSide; ++y) {
+    for (int x = corner.x; x <= corner.x + kBaseSide; ++x)
+      if (store_.has({x, y}) && !own_.owns({x, y}) && store_.state({x, y}) >= kLeastCandidate)
+        store_.state_for_writing({x, y}) = kNotWanted;
+  }
+}
+
+std::vector<Vec2d> LatticeSampler::base_points() const {
+  std::vector<Vec2d> points;
+  for (const LatticeNode& node : own_.base_nodes()) points.push_back(point_of(node));
+  return points;
+}
+
+double LatticeSampler::samples_left() const {
+  const auto now = static_cast<double>(samples_);
+  return expected_ > now ? expected_ - now : now;
 }
 
 // The order of nodes.
@@ -76,13 +147,15 @@ std::optional<Vec2d> LatticeSampler::next_point() {
       if (!next_nodes()) return std::nullopt;
     }
     const LatticeNode node = nodes_[next_++];
+    // By now the node may hold another region's sample, or its square may have gone.
+    if (store_.is_sampled(node) || !(pass_.takes_base ? own_.needs_base(node) : own_.owns(node))) continue;
     if (pass_.takes_base) {
       wanted_.emplace();
       wanted_->node = node, wanted_->is_base = true;
     } else if (!is_wanted(node, kLatticeLevels[level_ - 1])) {
       continue;
     }
-    return Vec2d(static_cast<double>(node.x) / kQuarters, static_cast<double>(node.y) / kQuarters);
+    return point_of(node);
   }
 }
 
@@ -96,6 +169,7 @@ bool LatticeSampler::next_nodes() {
     collect_base(tile_);
   } else if (pass_.takes_all) {
     store_.collect_all(tile_, kLatticeLevels[level], nodes_);
+    std::erase_if(nodes_, [&](const LatticeNode& node) { return !own_.owns(node); });
   } else {
     store_.collect(tile_, kLatticeLevels[level], pass_.least, nodes_);
   }
@@ -106,6 +180,7 @@ bool LatticeSampler::next_nodes() {
 bool LatticeSampler::next_tile() {
   level_ = pass_.first_level;
   while (++tile_ < store_.tile_count()) {
+    if (!own_.touches_tile(tile_)) continue;
     if (pass_.takes_all) return true;
     NodeState& greatest = greatest_[static_cast<std::size_t>(tile_)];
     if (greatest < pass_.least) continue;
@@ -121,7 +196,7 @@ void LatticeSampler::collect_base(int tile) {
   constexpr int kTileSide = kQuarters * LatticeStore::kTilePixels;
   for (int y = corner.y; y < corner.y + kTileSide; y += kBaseSide) {
     for (int x = corner.x; x < corner.x + kTileSide; x += kBaseSide)
-      if (store_.has({x, y})) nodes_.push_back({x, y});
+      if (store_.has({x, y}) && own_.needs_base({x, y})) nodes_.push_back({x, y});
   }
 }
 
@@ -131,7 +206,7 @@ bool LatticeSampler::start_pass() {
   share_.update();
   errors_.start_round();
   store_.forget_predictions();
-  return start_grid_pass() || start_refinement_pass();
+  return start_grid_pass() || (order_ == LatticeOrder::kAdaptive && start_refinement_pass());
 }
 
 void LatticeSampler::start(const Pass& pass) {
@@ -147,12 +222,15 @@ bool LatticeSampler::start_grid_pass() {
     start({.first_level = 0, .end_level = 1, .takes_base = true, .takes_all = true});
     return true;
   }
+  if (has_grid_ || grid_levels_ == kLatticeLevels.size()) return false;
   const LatticeLevel& level = kLatticeLevels[grid_levels_];
-  const auto with_level = static_cast<double>(pixels_of(store_)) / level.area();
-  const double expected = static_cast<double>(samples_) + samples_left_;
+  const auto with_level = static_cast<double>(region().pixel_count()) / level.area();
+  const double expected = static_cast<double>(samples_) + samples_left();
   const bool is_affordable = with_level <= kGridShare * expected && level.side > kQuarters;
-  const bool was_taken = pass_.takes_all;
-  if (!was_taken || !is_affordable) return false;
+  if (!is_affordable && order_ == LatticeOrder::kAdaptive) {
+    has_grid_ = true;
+    return false;
+  }
   start({.first_level = grid_levels_, .end_level = grid_levels_ + 1, .takes_all = true});
   ++grid_levels_;
   return true;
@@ -163,7 +241,7 @@ bool LatticeSampler::start_grid_pass() {
 bool LatticeSampler::start_refinement_pass() {
   constexpr double kShare = 0.5, kLast = 0.25, kMost = 0.6;
   const CandidateCounts above = candidates_above();
-  const double left = std::max(samples_left_, 1.0) / growth_;
+  const double left = std::max(samples_left(), 1.0) / growth_;
   const double affordable = left < kLast * static_cast<double>(samples_) ? left : kShare * left;
   const double wanted = std::min(affordable, kMost * static_cast<double>(above[kLeastCandidate + 1]));
   NodeState least = kGreatestCandidate;
@@ -183,7 +261,8 @@ bool LatticeSampler::start_refinement_pass() {
 LatticeSampler::CandidateCounts LatticeSampler::candidates_above() const {
   CandidateCounts counts{};
   for (int tile = 0; tile < store_.tile_count(); ++tile) {
-    if (greatest_[static_cast<std::size_t>(tile)] > kLeastCandidate) store_.count_states(tile, counts);
+    const auto t = static_cast<std::size_t>(tile);
+    if (own_.touches_tile(tile) && greatest_[t] > kLeastCandidate) store_.count_states(tile, counts);
   }
   for (std::size_t i = kGreatestCandidate; i > kLeastCandidate; --i) counts[i] += counts[i + 1];
   return counts;
@@ -213,14 +292,18 @@ bool LatticeSampler::is_wanted(const LatticeNode& node, const LatticeLevel& leve
   return false;
 }
 
-// Returns the expected error at a node times its area, per time. Flat squares below a pixel have none.
+// Returns the expected error at a node times its area, per time. Flat squares below a pixel come late, and
+// only near errors: something thin may pass between their corners.
 float LatticeSampler::worth_of(const LatticeNode& node, const LatticeLevel& level) {
-  constexpr float kFlat = 1e-5F;
+  constexpr float kFlat = 1e-5F, kShareOfFlat = 0.1F;
+  constexpr int kLeastLevel = 5;  // mean squared errors of 2^-10
   const Wanted& at = *wanted_;
-  if (level.side <= kQuarters && at.variance < kFlat) return 0;
   const LocalErrors::Mean& near = errors_.near(node);
+  const bool is_flat = level.side <= kQuarters && at.variance < kFlat;
+  if (is_flat && near.level < kLeastLevel) return 0;
   const float factor = estimates_.factor(class_of(at.primitives, at.variance, near.level));
-  return effect_of(level) * detail_of(at.variance) * factor / (kInsertion + near.rays);
+  const float worth = effect_of(level) * detail_of(at.variance) * factor / (kInsertion + near.rays);
+  return is_flat ? kShareOfFlat * worth : worth;
 }
 
 void LatticeSampler::insert(const RaySample& sample) {
@@ -245,7 +328,64 @@ void LatticeSampler::insert(const RaySample& sample) {
   errors_.note(at.node, error, rays);
   store_.set_sample(at.node, NodeValue(seen, sample.primitive));
   const int primitives = std::max(at.primitives, predicted.value.primitive() == sample.primitive ? 1 : 2);
-  make_candidates(at.node, at.level, worth_around(at, error, primitives));
+  const float worth = worth_around(at, error, primitives);
+  make_candidates(at.node, at.level, worth);
+  if (at.level.kind == LatticeKind::kMiddle && error > kSurprise) look_beyond(at.node, at.level.side, worth);
+}
+
+// Nothing is learned from a sample whose neighbours may not be known here.
+bool LatticeSampler::insert_at(const Vec2d& point, const RaySample& sample) {
+  Wanted at;
+  at.node = {static_cast<int>(kQuarters * point.x), static_cast<int>(kQuarters * point.y)};
+  if (wanted_ && wanted_->node == at.node) {
+    insert(sample);
+    return true;
+  }
+  if (point_of(at.node) != point || !store_.has(at.node) || store_.is_sampled(at.node)) return false;
+  const float4 seen{sample.color.x, sample.color.y, sample.color.z, 0};
+  const auto rays = static_cast<float>(sample.rays);
+  if ((at.node.x | at.node.y) % kBaseSide == 0) {
+    at.is_base = true;
+    wanted_ = at;
+    insert(sample);
+    return true;
+  }
+  ++samples_;
+  at.level = level_of(at.node);
+  at.around = known_around(at.node, at.level);
+  float error = kUnpredicted;
+  if (at.around.count() > 0) {
+    at.variance = at.around.variance();
+    at.primitives = at.around.primitives();
+    error = squared_error(seen, at.around.mean());
+  }
+  errors_.note(at.node, error, rays);
+  store_.set_sample(at.node, NodeValue(seen, sample.primitive));
+  make_candidates(at.node, at.level, worth_around(at, error, at.primitives));
+  return true;
+}
+
+// Returns the samples at the corners of a node's square or at the ends of its side.
+Surroundings LatticeSampler::known_around(const LatticeNode& node, const LatticeLevel& level) const {
+  Surroundings around;
+  const auto add = [&](int x, int y) {
+    if (store_.has({x, y}) && store_.is_sampled({x, y})) around.add(store_.sample({x, y}));
+  };
+  const int half = level.side / 2;
+  if (level.kind == LatticeKind::kCenter) {
+    for_each_corner({node.x - half, node.y - half}, level.side, add);
+  } else {
+    const int dx = (node.x & half) != 0 ? half : 0, dy = half - dx;
+    add(node.x - dx, node.y - dy), add(node.x + dx, node.y + dy);
+  }
+  return around;
+}
+
+LatticeSampler::Guess LatticeSampler::guess() {
+  const Wanted& at = *wanted_;
+  if (at.is_base) return {Color(0, 0, 0), LatticeLevel{2 * kBaseSide, LatticeKind::kMiddle}.area()};
+  const float4 shown = predictor_.predict(at.node, at.around, at.variance, at.primitives).value.channels();
+  return {{shown[0], shown[1], shown[2]}, at.level.area()};
 }
 
 // Returns what a square pixel near a new sample is expected to be worth: what the sample did not find as
@@ -286,9 +426,17 @@ void LatticeSampler::make_candidates(const LatticeNode& node, const LatticeLevel
   }
 }
 
+// What came as a surprise on the side of two squares may go on in them: their centres get another chance.
+void LatticeSampler::look_beyond(const LatticeNode& middle, int side, float worth_per_area) {
+  const int half = side / 2, dx = (middle.x & half) != 0 ? 0 : half, dy = half - dx;  // across the side
+  const LatticeLevel centers{side, LatticeKind::kCenter};
+  make_candidate({middle.x - dx, middle.y - dy}, centers, worth_per_area);
+  make_candidate({middle.x + dx, middle.y + dy}, centers, worth_per_area);
+}
+
 void LatticeSampler::make_candidate(const LatticeNode& node, const LatticeLevel& level,
                                     float worth_per_area) {
-  if (!store_.has(node)) return;
+  if (!store_.has(node) || !own_.owns(node)) return;
   NodeState& state = store_.state_for_writing(node);
   if (state == kSampled) return;
   state = std::max(state, priority_of(worth_per_area * effect_of(level)));
@@ -296,10 +444,30 @@ void LatticeSampler::make_candidate(const LatticeNode& node, const LatticeLevel&
   greatest = std::max(greatest, state);
 }
 
-void LatticeSampler::paint(const PixelRect& bounds, RegionPixels& pixels) {
+void LatticeSampler::weigh(std::vector<TileWeights>& weights) const {
+  static const std::array<double, 256> kWorth = [] {
+    std::array<double, 256> worth{};
+    for (int i = kLeastCandidate + 1; i <= kGreatestCandidate; ++i)
+      worth[static_cast<std::size_t>(i)] = static_cast<double>(least_worth(static_cast<NodeState>(i)));
+    return worth;
+  }();
+  const TileGrid& grid = region().grid();
+  weights.assign(static_cast<std::size_t>(grid.tile_count()), {});
+  for (int tile = 0; tile < store_.tile_count(); ++tile) {
+    if (!own_.touches_tile(tile)) continue;
+    store_.for_each_candidate(tile, [&](int x, int y, NodeState state) {
+      TileWeights& here = weights[static_cast<std::size_t>(grid.tile_at(x, y))];
+      ++here.count, here.total_weight += kWorth[state];
+    });
+  }
+}
+
+void LatticeSampler::paint(const PixelRect& bounds, std::span<const PixelRect> parts, RegionPixels& pixels) {
   store_.forget_predictions();
   errors_.start_round();
-  painter_.paint(bounds, pixels);
+  pixels.bounds = bounds;
+  pixels.colors.resize(bounds.area());
+  for (const PixelRect& part : parts) painter_.paint(part, pixels);
 }
 
 }  // namespace pprt

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "base/ray_sample.h"
@@ -18,25 +19,49 @@
 #include "pipeline/lattice/edge_share.h"
 #include "pipeline/lattice/error_estimates.h"
 #include "pipeline/lattice/lattice_painter.h"
+#include "pipeline/lattice/lattice_region.h"
 #include "pipeline/lattice/lattice_store.h"
 #include "pipeline/lattice/local_errors.h"
 #include "pipeline/lattice/node_prediction.h"
+#include "pipeline/region_quality.h"
 
 namespace pprt {
 
+// What is sampled after the coarsest nodes.
+enum class LatticeOrder : std::uint8_t {
+  kAdaptive,  // what is worth most for its time
+  kLevels     // all nodes of a level, then those of the next: each doubles the density
+};
+
 class LatticeSampler {
  public:
-  // For an image of this size, pixels. `view` computes a primitive's shape as Probe::project does.
-  LatticeSampler(int width, int height, ProjectedShapeCache::View view);
+  // For a region of an image; its tiles are whole base squares. `view` computes a primitive's shape as
+  // Probe::project does.
+  LatticeSampler(const Region& region, ProjectedShapeCache::View view,
+                 LatticeOrder order = LatticeOrder::kAdaptive);
   LatticeSampler(const LatticeSampler&) = delete;
   LatticeSampler& operator=(const LatticeSampler&) = delete;
 
   // Removes all samples, and what was learned from them.
   void clear();
 
+  // Removes all samples, but keeps what was learned from them: for a picture much like this one.
+  void restart();
+
+  // Changes which nodes are wanted; keeps all samples.
+  void set_region(const Region& region);
+  const Region& region() const { return own_.region(); }
+
+  // Projected shapes are of another camera from now on.
+  void camera_changed() { shapes_.forget(); }
+
   // Tells how many samples more there will be, about. Thresholds are set by it: too few or too many make the
-  // picture coarser in one part than in another. Repeat the call on the way.
-  void expect(double samples_left) { samples_left_ = samples_left; }
+  // picture coarser in one part than in another. Repeat the call on the way. Where it is not repeated as many
+  // samples again are expected as there are.
+  void expect(double samples_left) { expected_ = static_cast<double>(samples_) + samples_left; }
+
+  // Returns the nodes at the corners of the region's base squares, some of which belong to other regions.
+  std::vector<Vec2d> base_points() const;
 
   // Returns the image point of the next sample, pixels. It may lie up to eight pixels beyond the right and
   // lower border. Empty when nothing is worth a sample. The caller inserts the sample before it asks again.
@@ -45,14 +70,28 @@ class LatticeSampler {
   // Takes in the sample at next_point().
   void insert(const RaySample& sample);
 
-  std::size_t samples() const { return samples_; }
+  // Takes in a sample at another point. False if the lattice has no node there, or one that holds a sample.
+  bool insert_at(const Vec2d& point, const RaySample& sample);
+
+  // Returns what the picture shows at next_point(), and the area that its node stands for, square pixels.
+  struct Guess {
+    Color color;
+    double area = 0;
+  };
+  Guess guess();
+
+  std::size_t samples() const { return samples_; }  // other regions' included
 
   // Returns how many samples the coarsest grid has. They come first.
-  std::size_t least_samples() const;
+  std::size_t least_samples() const { return base_points().size(); }
 
-  // Replaces `pixels` by those of a rectangle of the image. Each is the mean over the pixel's area. Parts are
-  // black while there are fewer than least_samples().
-  void paint(const PixelRect& bounds, RegionPixels& pixels);
+  // Replaces `weights` by the sums over the candidates of each tile: what samples are expected to be worth.
+  void weigh(std::vector<TileWeights>& weights) const;
+
+  // Replaces `pixels` by those of a rectangle of the image, of the parts of it that are named. Each is the
+  // mean over the pixel's area. Parts are black while there are fewer than least_samples().
+  void paint(const PixelRect& bounds, std::span<const PixelRect> parts, RegionPixels& pixels);
+  void paint(const PixelRect& bounds, RegionPixels& pixels) { paint(bounds, {&bounds, 1}, pixels); }
 
  private:
   // A node whose sample is wanted, and what is known of it.
@@ -78,6 +117,11 @@ class LatticeSampler {
   // By priority: the candidates of at least that priority.
   using CandidateCounts = std::array<std::int64_t, 256>;
 
+  void forget_samples();
+  void begin_square(const LatticeNode& corner);
+  void leave_square(const LatticeNode& corner);
+  double samples_left() const;
+
   bool next_nodes();
   bool next_tile();
   bool start_pass();
@@ -87,14 +131,18 @@ class LatticeSampler {
   void learn_growth();
   CandidateCounts candidates_above() const;
   void collect_base(int tile);
+  Surroundings known_around(const LatticeNode& node, const LatticeLevel& level) const;
   bool is_wanted(const LatticeNode& node, const LatticeLevel& level);
   float worth_of(const LatticeNode& node, const LatticeLevel& level);
   float worth_around(const Wanted& at, float squared_error, int primitives);
   void learn_edge(const Wanted& at, const float4& seen, const Prediction& predicted);
   void make_candidates(const LatticeNode& node, const LatticeLevel& level, float worth_per_area);
+  void look_beyond(const LatticeNode& middle, int side, float worth_per_area);
   void make_candidate(const LatticeNode& node, const LatticeLevel& level, float worth_per_area);
 
+  LatticeOrder order_;
   LatticeStore store_;
+  LatticeRegion own_;
   ProjectedShapeCache shapes_;
   LocalErrors errors_;
   ErrorEstimates estimates_;
@@ -103,11 +151,11 @@ class LatticeSampler {
   LatticePainter painter_;
 
   std::size_t samples_ = 0;
-  double samples_left_ = 0;
+  double expected_ = 0;  // samples in the end
 
   Pass pass_;
   std::size_t grid_levels_ = 0;  // taken whole, the base not counted
-  bool has_base_ = false;
+  bool has_base_ = false, has_grid_ = false;
   double growth_ = 0;  // samples that a pass takes, for each candidate above its threshold
   float last_threshold_ = 0;
   int tile_ = 0;                    // of the pass

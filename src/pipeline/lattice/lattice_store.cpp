@@ -1,7 +1,9 @@
 #include "pipeline/lattice/lattice_store.h"
 
 #include <algorithm>
-#include <cstring>
+#include <new>
+#include <type_traits>
+#include <utility>
 
 namespace pprt {
 namespace {
@@ -57,57 +59,61 @@ LatticeStore::LatticeStore(int width, int height)
       bottom_(kQuarters * covered(height)),
       columns_(right_ / (kQuarters * kTilePixels) + 1),
       rows_(bottom_ / (kQuarters * kTilePixels) + 1),
-      tiles_(std::make_unique_for_overwrite<Tile[]>(static_cast<std::size_t>(columns_) *
-                                                    static_cast<std::size_t>(rows_))) {
-  for (int t = 0; t < tile_count(); ++t) tiles_[static_cast<std::size_t>(t)].blocks.fill(kNoBlock);
-  clear();
+      tiles_(static_cast<Tile*>(std::calloc(static_cast<std::size_t>(tile_count()), sizeof(Tile)))),
+      is_touched_(static_cast<std::size_t>(tile_count())),
+      pixels_with_blocks_(static_cast<std::size_t>(tile_count())) {
+  static_assert(std::is_trivially_destructible_v<Tile> && std::is_trivially_copyable_v<Tile>);
+  if (tiles_ == nullptr) throw std::bad_alloc();
 }
 
 void LatticeStore::clear() {
-  for (int t = 0; t < tile_count(); ++t) {
-    Tile& tile = tiles_[static_cast<std::size_t>(t)];
+  for (std::size_t t = 0; t < is_touched_.size(); ++t) {
+    if (std::exchange(is_touched_[t], std::uint8_t{0}) == 0) continue;
+    Tile& tile = tiles_[t];
     tile.corner_states.fill(kNotWanted);
     tile.center_states.fill(kNotWanted);
     tile.predicted_in.fill(0);
-    for (const std::uint16_t pixel : tile.pixels_with_blocks) tile.blocks[pixel] = kNoBlock;
-    tile.pixels_with_blocks.clear();
+    for (const std::uint16_t pixel : pixels_with_blocks_[t]) tile.blocks[pixel] = kNoBlock;
+    pixels_with_blocks_[t].clear();
   }
   round_ = 1;
-  blocks_ = 0;
+  blocks_ = kNoBlock + 1;
 }
 
 void LatticeStore::forget_predictions() {
   if (++round_ != 0) return;
-  for (int t = 0; t < tile_count(); ++t) tiles_[static_cast<std::size_t>(t)].predicted_in.fill(0);
+  for (std::size_t t = 0; t < is_touched_.size(); ++t)
+    if (is_touched_[t] != 0) tiles_[t].predicted_in.fill(0);
   round_ = 1;
 }
 
 NodeState& LatticeStore::state_for_writing(const LatticeNode& node) {
-  Tile& tile = tiles_[tile_of(node)];
-  const std::size_t pixel = pixel_in_tile(node), slot = slot_of(node);
+  const std::size_t number = tile_of(node), pixel = pixel_in_tile(node), slot = slot_of(node);
+  Tile& tile = tile_for_writing(number);
   if (slot == 0) return tile.corner_states[pixel];
   if (slot == kCenterSlot) return tile.center_states[pixel];
-  return block_for_writing(tile, pixel).states[slot];
+  return block_for_writing(number, pixel).states[slot];
 }
 
 void LatticeStore::set_sample(const LatticeNode& node, const NodeValue& value) {
-  Tile& tile = tiles_[tile_of(node)];
-  const std::size_t pixel = pixel_in_tile(node), slot = slot_of(node);
+  const std::size_t number = tile_of(node), pixel = pixel_in_tile(node), slot = slot_of(node);
+  Tile& tile = tile_for_writing(number);
   if (slot == 0) {
     tile.corners[pixel] = value, tile.corner_states[pixel] = kSampled;
     return;
   }
-  PixelBlock& own = block_for_writing(tile, pixel);
+  PixelBlock& own = block_for_writing(number, pixel);
   own.values[place_of(slot)] = value;
   (slot == kCenterSlot ? tile.center_states[pixel] : own.states[slot]) = kSampled;
 }
 
-LatticeStore::PixelBlock& LatticeStore::block_for_writing(Tile& tile, std::size_t pixel) {
+LatticeStore::PixelBlock& LatticeStore::block_for_writing(std::size_t number, std::size_t pixel) {
+  Tile& tile = tiles_[number];
   if (tile.blocks[pixel] != kNoBlock) return block(tile.blocks[pixel]);
   if (blocks_ / kChunk == chunks_.size())
     chunks_.push_back(std::make_unique_for_overwrite<PixelBlock[]>(kChunk));
   tile.blocks[pixel] = blocks_;
-  tile.pixels_with_blocks.push_back(static_cast<std::uint16_t>(pixel));
+  pixels_with_blocks_[number].push_back(static_cast<std::uint16_t>(pixel));
   PixelBlock& made = block(blocks_++);
   made.states.fill(kNotWanted);
   return made;
@@ -139,7 +145,7 @@ void LatticeStore::collect(int tile, const LatticeLevel& level, NodeState least,
     static constexpr std::array<std::uint8_t, 4> kQuarterCenters = {5, 7, 13, 15};
     static constexpr std::array<std::uint8_t, 8> kQuarterMiddles = {1, 3, 4, 6, 9, 11, 12, 14};
     const auto add_slots = [&](const auto& slots) {
-      for (const std::uint16_t pixel : from.pixels_with_blocks) {
+      for (const std::uint16_t pixel : pixels_with_blocks_[static_cast<std::size_t>(tile)]) {
         const PixelBlock& b = block(from.blocks[pixel]);
         for (const std::uint8_t slot : slots)
           if (b.states[slot] >= least) add(pixel, slot);
@@ -164,6 +170,7 @@ void LatticeStore::collect_corners(int tile, const LatticeLevel& level, NodeStat
 
 void LatticeStore::collect_all(int tile, const LatticeLevel& level, std::vector<LatticeNode>& nodes) const {
   nodes.clear();
+  if (level.side <= kQuarters) return collect_all_between_corners(tile, level, nodes);
   for_each_row(level, [&](int row, std::uint32_t pixels) {
     const std::size_t first = static_cast<std::size_t>(row) * kTilePixels;
     for (std::uint32_t bits = pixels; bits != 0; bits &= bits - 1) {
@@ -171,6 +178,19 @@ void LatticeStore::collect_all(int tile, const LatticeLevel& level, std::vector<
       if (has(node)) nodes.push_back(node);
     }
   });
+}
+
+void LatticeStore::collect_all_between_corners(int tile, const LatticeLevel& level,
+                                               std::vector<LatticeNode>& nodes) const {
+  for (std::size_t pixel = 0; pixel < kTileArea; ++pixel) {
+    const LatticeNode corner = corner_of(tile, pixel);
+    for (int y = corner.y; y < corner.y + kQuarters; ++y) {
+      for (int x = corner.x; x < corner.x + kQuarters; ++x) {
+        const LatticeNode node{x, y};
+        if (!is_corner(node) && level_of(node) == level && has(node)) nodes.push_back(node);
+      }
+    }
+  }
 }
 
 void LatticeStore::count_states(int tile, std::array<std::int64_t, 256>& counts) const {
@@ -183,7 +203,8 @@ void LatticeStore::count_states(int tile, std::array<std::int64_t, 256>& counts)
   };
   count(from.corner_states);
   count(from.center_states);
-  for (const std::uint16_t pixel : from.pixels_with_blocks) count(block(from.blocks[pixel]).states);
+  for (const std::uint16_t pixel : pixels_with_blocks_[static_cast<std::size_t>(tile)])
+    count(block(from.blocks[pixel]).states);
 }
 
 }  // namespace pprt

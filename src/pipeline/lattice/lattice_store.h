@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
 #include <vector>
 
@@ -40,7 +41,7 @@ class LatticeStore {
   // For an image of this size, pixels. The lattice covers whole base squares.
   LatticeStore(int width, int height);
 
-  // Removes all samples and candidates. Keeps the storage.
+  // Removes all samples and candidates. Keeps the storage. O(tiles written to).
   void clear();
 
   int width() const { return width_; }
@@ -87,7 +88,7 @@ class LatticeStore {
     return is_kept ? &tile.corners[i] : nullptr;
   }
   void keep_prediction(const LatticeNode& corner, const NodeValue& value) {
-    Tile& tile = tiles_[tile_of(corner)];
+    Tile& tile = tile_for_writing(tile_of(corner));
     const std::size_t i = pixel_in_tile(corner);
     tile.corners[i] = value, tile.predicted_in[i] = round_;
   }
@@ -104,11 +105,15 @@ class LatticeStore {
   // by block in the order of their making.
   void collect(int tile, const LatticeLevel& level, NodeState least, std::vector<LatticeNode>& nodes) const;
 
-  // Replaces `nodes` by all nodes of a level of pixels' corners in a tile.
+  // Replaces `nodes` by all nodes of a level in a tile.
   void collect_all(int tile, const LatticeLevel& level, std::vector<LatticeNode>& nodes) const;
 
   // Adds the states of a tile's nodes to a histogram.
   void count_states(int tile, std::array<std::int64_t, 256>& counts) const;
+
+  // Calls visit(pixel_x, pixel_y, state) for each candidate of a tile.
+  template <class Visit>
+  void for_each_candidate(int tile, const Visit& visit) const;
 
   // The upper left corner of a pixel of a tile; pixels are numbered row by row.
   LatticeNode corner_of(int tile, std::size_t pixel = 0) const;
@@ -118,7 +123,7 @@ class LatticeStore {
 
  private:
   static constexpr std::size_t kTileArea = std::size_t{kTilePixels} * kTilePixels;
-  static constexpr std::uint32_t kNoBlock = ~std::uint32_t{0};
+  static constexpr std::uint32_t kNoBlock = 0;
   static constexpr int kSlots = kQuarters * kQuarters;
 
   // The nodes of a pixel but its corner and its centre's state. The state of slot 0 is not used. Values stand
@@ -132,7 +137,9 @@ class LatticeStore {
     std::array<NodeState, kTileArea> corner_states, center_states;  // of each pixel
     std::array<std::uint8_t, kTileArea> predicted_in;  // the round of the prediction in `corners`
     std::array<std::uint32_t, kTileArea> blocks;       // of each pixel
-    std::vector<std::uint16_t> pixels_with_blocks;
+  };
+  struct Release {
+    void operator()(Tile* tiles) const { std::free(tiles); }
   };
 
   std::size_t tile_of(const LatticeNode& node) const {
@@ -157,17 +164,45 @@ class LatticeStore {
 
   PixelBlock& block(std::uint32_t number) { return chunks_[number / kChunk][number % kChunk]; }
   const PixelBlock& block(std::uint32_t number) const { return chunks_[number / kChunk][number % kChunk]; }
-  PixelBlock& block_for_writing(Tile& tile, std::size_t pixel);
+  Tile& tile_for_writing(std::size_t number) {
+    is_touched_[number] = 1;
+    return tiles_[number];
+  }
+  PixelBlock& block_for_writing(std::size_t tile, std::size_t pixel);
   void collect_corners(int tile, const LatticeLevel& level, NodeState least,
                        std::vector<LatticeNode>& nodes) const;
+  void collect_all_between_corners(int tile, const LatticeLevel& level,
+                                   std::vector<LatticeNode>& nodes) const;
 
   static constexpr std::uint32_t kChunk = 256;
 
   int width_, height_, right_, bottom_, columns_, rows_;
   std::uint8_t round_ = 1;
-  std::unique_ptr<Tile[]> tiles_;
-  std::vector<std::unique_ptr<PixelBlock[]>> chunks_;  // of kChunk blocks each: blocks never move
-  std::uint32_t blocks_ = 0;                           // in use
+  // Zeroed pages, so that tiles which nothing is written to take no memory: their nodes are not wanted.
+  std::unique_ptr<Tile[], Release> tiles_;
+  std::vector<std::uint8_t> is_touched_;                        // per tile: written to since clear()
+  std::vector<std::vector<std::uint16_t>> pixels_with_blocks_;  // per tile
+  std::vector<std::unique_ptr<PixelBlock[]>> chunks_;           // of kChunk blocks each: blocks never move
+  std::uint32_t blocks_ = 1;                                    // in use; none has the number kNoBlock
 };
+
+template <class Visit>
+void LatticeStore::for_each_candidate(int tile, const Visit& visit) const {
+  const Tile& from = tiles_[static_cast<std::size_t>(tile)];
+  const int left = tile % columns_ * kTilePixels, top = tile / columns_ * kTilePixels;
+  const auto visit_pixel = [&](std::size_t pixel, NodeState state) {
+    if (state >= kLeastCandidate)
+      visit(left + static_cast<int>(pixel % kTilePixels), top + static_cast<int>(pixel / kTilePixels), state);
+  };
+  for (std::size_t i = 0; i < kTileArea; i += sizeof(std::uint64_t)) {
+    const auto corners = load<std::uint64_t>(&from.corner_states[i]);
+    const auto centers = load<std::uint64_t>(&from.center_states[i]);
+    if ((corners | centers) == 0) continue;
+    for (std::size_t k = i; k < i + sizeof(std::uint64_t); ++k)
+      visit_pixel(k, from.corner_states[k]), visit_pixel(k, from.center_states[k]);
+  }
+  for (const std::uint16_t pixel : pixels_with_blocks_[static_cast<std::size_t>(tile)])
+    for (const NodeState state : block(from.blocks[pixel]).states) visit_pixel(pixel, state);
+}
 
 }  // namespace pprt

@@ -1,11 +1,13 @@
 // What a node is taken to show before it is sampled.
 //
-// The centre of a square is predicted from its corners. The middle of a side is predicted from the side's
-// ends. The centres of the squares on both sides count as well if one of them is sampled. Where these nodes
-// lie on different primitives, the one nearest at the node's point is seen, as in
+// The centre of a square is predicted from its corners, and from the middles of its sides that are sampled:
+// what is thin is followed from one square to the next that way. The middle of a side is predicted from the
+// side's ends. The centres of the squares on both sides count as well if one of them is sampled. Where these
+// nodes lie on different primitives, the one nearest at the node's point is seen, as in
 // docs/decisions/0017-edges.md.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -20,11 +22,13 @@ namespace pprt {
 // Least variance of colours at which edges are looked for.
 inline constexpr float kLeastEdgeVariance = 3e-4F;
 
-// Some nodes around a point, two to four.
+// Some nodes around a point, two to eight.
 class Surroundings {
  public:
   Surroundings() = default;
-  explicit Surroundings(const std::array<NodeValue, 4>& values) : values_(values), count_(4) {}
+  explicit Surroundings(const std::array<NodeValue, 4>& values) : count_(values.size()) {
+    std::copy(values.begin(), values.end(), values_.begin());
+  }
 
   void add(const NodeValue& value) { values_[count_++] = value; }
 
@@ -47,7 +51,7 @@ class Surroundings {
   float4 mean_on(std::uint32_t primitive) const;
 
  private:
-  std::array<NodeValue, 4> values_;
+  std::array<NodeValue, 8> values_;  // the first count_ of them
   std::size_t count_ = 0;
 };
 

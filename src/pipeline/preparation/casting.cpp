@@ -121,7 +121,8 @@ CastResult cast_samples(std::span<const Sample> samples, const Region& region, c
                         int next_frame, const CastSettings& settings) {
   CastResult result;
   for (const Sample& s : samples) {
-    if (is_one_of(s, settings.one_of))
+    const bool is_asked_for = !settings.lit_only || s.ray.lights.asked != 0;
+    if (is_asked_for && is_one_of(s, settings.one_of))
       collect(s, project_sample(s, region, next, next_frame, settings), result);
   }
   return with_mean_way(std::move(result));

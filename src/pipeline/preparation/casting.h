@@ -25,6 +25,7 @@ struct CastSettings {
   int max_age_eye_dependent = 2;
   // kVerified: casts one sample in so many, drawn by is_one_of(). The orientation test needs all samples.
   std::uint64_t one_of = 1;
+  bool lit_only = false;  // kVerified: only samples that shadow rays were sent from
 };
 
 // Largest age of verified samples, frames. Outlines have moved by then, and older samples tell little of them

@@ -243,7 +243,7 @@ class LatticePicture {
   explicit LatticePicture(const Subject& subject)
       : camera_(subject.camera),
         tracer_(subject.scene, subject.camera),
-        sampler_(camera_.width, camera_.height,
+        sampler_(Region::whole({camera_.width, camera_.height, kTilePixels}),
                  [this](std::uint32_t primitive, ImageShape& shape) { tracer_.project(primitive, shape); }) {}
 
   // Whether so few samples leave parts of the picture black.

@@ -1,5 +1,6 @@
 #include "unit/parallel/virtual_run.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -7,6 +8,7 @@
 #include <limits>
 #include <mutex>
 #include <random>
+#include <span>
 #include <thread>
 #include <utility>
 
@@ -32,10 +34,13 @@ class DiscTracer {
                 std::this_thread::sleep_for(std::chrono::duration<double>(conditions_.sleeps_s));
               }
             },
-            [this](double x, double y) { return trace(x, y); }, [](const Vec3f&, bool) { return true; },
+            [this](double x, double y) { return trace(x, y); },
+            [](const Vec3f&, bool) { return true; },
             [this] { return counts_; },
             conditions_.tells_shapes ? [this](std::uint32_t p, ImageShape& shape) { view(p, shape); }
-                                     : std::function<void(std::uint32_t, ImageShape&)>()};
+                                     : std::function<void(std::uint32_t, ImageShape&)>(),
+            0,
+            [this](double x, double y, std::span<const KnownLights> known) { return trace(x, y, known); }};
   }
 
   std::vector<Traced> take_traced() { return std::move(traced_); }
@@ -66,7 +71,8 @@ class DiscTracer {
     }
   }
 
-  RaySample trace(double x, double y) {
+  // All rays but the first are shadow rays, to as many lights, all of which are seen.
+  RaySample trace(double x, double y, std::span<const KnownLights> known = {}) {
     traced_.push_back({frame_, x, y});
     ++counts_.primary;
     const Vec3d hit = camera_.eye + ray_direction(camera_, x, y) * kPlaneDistance;
@@ -79,6 +85,10 @@ class DiscTracer {
     sample.color = in_disc ? Color(0.9f, 0.7f, 0.2f) : Color(0.1f, 0.1f, 0.3f);
     sample.primitive = in_disc ? 1 : 2;
     sample.rays = (in_disc ? 4u : 1u) + static_cast<std::uint32_t>(conditions_.more_rays);
+    const auto lights = static_cast<std::uint8_t>((1U << std::min(sample.rays - 1, 8U)) - 1);
+    sample.lights = {lights, lights};
+    for (const KnownLights& at : known)
+      if (at.primitive == sample.primitive && at.lights.asked == lights) sample.rays = 1;
     counts_.shadow += sample.rays - 1;
     if (conditions_.no_number_every > 0 &&
         traced_.size() % static_cast<std::size_t>(conditions_.no_number_every) == 0) {

@@ -59,7 +59,7 @@ TEST_CASE("a still has the scene's view and ends at the quality for stills") {
   CHECK((plan.settings.width == 512 && plan.settings.height == 512));
   CHECK((plan.frames[0].view.width == 512 && plan.frames[0].view.height == 512));
   CHECK(plan.settings.frames_per_second == 0);
-  CHECK(plan.settings.stop.quality == kStillQuality);
+  CHECK(plan.settings.stop.quality == kLatticeStillQuality);
   CHECK((plan.settings.stop.samples == 0 && plan.settings.stop.seconds == 0));
   REQUIRE(plan.output.pictures.size() == 1);
   CHECK(file_name(plan.output.pictures[0], 1) == "frame_0001.png");
@@ -114,7 +114,27 @@ TEST_CASE("the frame rate of the options precedes the script's, and 0 turns it o
   options.clock = ClockKind::kWork, options.budget = 123;
   CHECK(plan_render(options).settings.budget_units == 123);
   options.budget.reset(), options.fps = 0;
-  CHECK(plan_render(options).settings.stop.quality == kStillQuality);
+  CHECK(plan_render(options).settings.stop.quality == kLatticeStillQuality);
+}
+
+TEST_CASE("the triangulation is taken where an option asks for what it alone knows") {
+  RenderOptions options = options_for("spd:tree:1");
+  CHECK(plan_render(options).settings.sampler == SamplerChoice::kAuto);
+  CHECK(plan_render(options).settings.is_still);
+  const auto with = [&](const auto& change) {
+    RenderOptions changed = options;
+    change(changed);
+    check_usage(changed);
+    return plan_render(changed).settings;
+  };
+  CHECK(with([](RenderOptions& o) { o.cast = CastChoice::kPaper; }).sampler == SamplerChoice::kDelaunay);
+  CHECK(with([](RenderOptions& o) { o.weights = WeightRule::kPaper; }).sampler == SamplerChoice::kDelaunay);
+  CHECK(with([](RenderOptions& o) { o.pixels = PixelRule::kMean; }).sampler == SamplerChoice::kDelaunay);
+  CHECK(with([](RenderOptions& o) { o.pixels = PixelRule::kMean; }).stop.quality == kStillQuality);
+  options.sampler = SamplerChoice::kGrid;
+  CHECK(with([](RenderOptions&) {}).stop.quality == 0);
+  options.cast = CastChoice::kPaper;
+  CHECK_THROWS_WITH(check_usage(options), Catch::Contains("--sampler grid has no triangles"));
 }
 
 TEST_CASE("a stop rule that is given replaces the quality for stills") {

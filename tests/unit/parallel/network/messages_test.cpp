@@ -16,9 +16,13 @@ Sample some_sample(int i) {
   s.y = 1e-300 * (i + 1);
   s.id = (SampleId{7} << 40) | static_cast<SampleId>(i);
   s.frame = -3 + i;
-  s.ray = {
-      Color(0.5f, 1e-38f, 2.0f),     Vec3f(1, 2, 3.5f), i % 2 == 0, i % 3 == 0, 5u + static_cast<unsigned>(i),
-      17u + static_cast<unsigned>(i)};
+  s.ray = {Color(0.5f, 1e-38f, 2.0f),
+           Vec3f(1, 2, 3.5f),
+           i % 2 == 0,
+           i % 3 == 0,
+           {.asked = 6, .seen = 4},
+           5u + static_cast<unsigned>(i),
+           17u + static_cast<unsigned>(i)};
   return s;
 }
 
@@ -145,6 +149,7 @@ TEST_CASE("messages: a bundle is decoded as it was encoded") {
     CHECK((a.x == b.x && a.y == b.y && a.id == b.id && a.frame == b.frame));
     CHECK((a.ray.color == b.ray.color && a.ray.hit == b.ray.hit && a.ray.rays == b.ray.rays));
     CHECK(a.ray.primitive == b.ray.primitive);
+    CHECK((a.ray.lights.asked == b.ray.lights.asked && a.ray.lights.seen == b.ray.lights.seen));
     CHECK((a.ray.at_infinity == b.ray.at_infinity && a.ray.eye_dependent == b.ray.eye_dependent));
   }
   CHECK(decode_bundle(encode(Bundle())).samples.empty());
@@ -202,7 +207,8 @@ TEST_CASE("messages: a value that its type does not have is refused") {
   CHECK_THROWS_AS(decode_settings(with(settings, 50, 4)), ProtocolError);  // cast
   CHECK_THROWS_AS(decode_settings(with(settings, 51, 2)), ProtocolError);  // keep_samples
   CHECK_THROWS_AS(decode_settings(with(settings, 52, 4)), ProtocolError);  // pixel_rule
-  CHECK_THROWS_AS(decode_settings(with(settings, 53, 2)), ProtocolError);  // learned_weights
+  CHECK_THROWS_AS(decode_settings(with(settings, 53, 3)), ProtocolError);  // sampler
+  CHECK_THROWS_AS(decode_settings(with(settings, 54, 2)), ProtocolError);  // learned_weights
 }
 
 TEST_CASE("messages: runs of more tiles than an image has are refused") {

@@ -114,9 +114,9 @@ TEST_CASE("sample mesh: running statistics equal a fresh count") {
   mesh.set_region(Region::whole(kGrid));  // scans every triangle anew
   std::int64_t all = 0;
   for (std::size_t i = 0; i < running.size(); ++i) {
-    CHECK(running[i].triangles == mesh.tile_weights()[i].triangles);
+    CHECK(running[i].count == mesh.tile_weights()[i].count);
     CHECK(running[i].total_weight == Approx(mesh.tile_weights()[i].total_weight).epsilon(1e-6).margin(1e-6));
-    all += running[i].triangles;
+    all += running[i].count;
   }
   CHECK(static_cast<std::size_t>(all) == triangles(mesh).size());
   CHECK(quality == Approx(mesh.refinement()).epsilon(1e-6));
@@ -297,7 +297,7 @@ TEST_CASE("sample mesh: samples inserted all at once make the mesh that they mak
   CHECK(singly.wanted.size() > 100);
   CHECK(at_once.refinement == Approx(singly.refinement));
   for (std::size_t i = 0; i < singly.weights.size(); ++i) {
-    CHECK(at_once.weights[i].triangles == singly.weights[i].triangles);
+    CHECK(at_once.weights[i].count == singly.weights[i].count);
     CHECK(at_once.weights[i].total_weight == Approx(singly.weights[i].total_weight).margin(1e-6));
   }
 }
