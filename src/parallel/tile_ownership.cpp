@@ -26,7 +26,9 @@ void TileOwnership::begin_frame() {
 }
 
 bool TileOwnership::balances_locally() const {
-  return settings_.balance == BalanceMode::kLocal || settings_.balance == BalanceMode::kCombined;
+  const bool is_alone = sampler_.samples().partition().ranks == 1;
+  return !is_alone &&
+         (settings_.balance == BalanceMode::kLocal || settings_.balance == BalanceMode::kCombined);
 }
 
 bool TileOwnership::may_give(bool fresh_mesh) const {

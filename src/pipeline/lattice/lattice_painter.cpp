@@ -19,6 +19,16 @@ bool is_on_one_primitive(const SquareCorners& corners) {
                      [&](const NodeValue& v) { return v.primitive() == primitive; });
 }
 
+Vec2d point_of(const LatticeNode& node) {
+  return {static_cast<double>(node.x) / kQuarters, static_cast<double>(node.y) / kQuarters};
+}
+
+float4 weighted_mean(const SquareCorners& corners, const std::array<float, 4>& weights) {
+  float4 sum{};
+  for (std::size_t i = 0; i < corners.size(); ++i) sum += corners[i].channels() * weights[i];
+  return sum;
+}
+
 // The eight points of a square that each of up to four shapes is nearest at, as shares.
 struct Coverage {
   std::array<float, 4> shares{};
@@ -75,20 +85,21 @@ void LatticePainter::paint(const PixelRect& part, RegionPixels& pixels) {
 }
 
 void LatticePainter::paint_square(const LatticeNode& corner, int side, const SquareCorners& corners) {
-  const PixelRect& bounds = pixels_->bounds;
   const int x = corner.x / kQuarters, y = corner.y / kQuarters, size = side / kQuarters;
   if (x >= part_.x1 || y >= part_.y1 || x + size <= part_.x0 || y + size <= part_.y0) return;
   if (size == 1) {
     const float4 shown =
         may_be_refined(corner) ? mean_of_refined(corner, side, corners) : mean_of(corner, side, corners);
-    const std::size_t row =
-        static_cast<std::size_t>(y - bounds.y0) * static_cast<std::size_t>(bounds.width());
-    store_channels(shown, pixels_->colors[row + static_cast<std::size_t>(x - bounds.x0)]);
+    store_channels(shown, pixel(x, y));
     return;
   }
   if (!is_refined(corner, side) &&
       (is_on_one_primitive(corners) || Surroundings(corners).variance() < kLeastEdgeVariance)) {
     fill(corner, side, corners);
+    return;
+  }
+  if (size == 2 && !is_refined(corner, side)) {
+    paint_edge(corner, corners);
     return;
   }
   const int half = side / 2;
@@ -173,31 +184,75 @@ float4 LatticePainter::mean_of(const LatticeNode& corner, int side, const Square
 // The same where the corners lie on different primitives.
 float4 LatticePainter::mean_of_edge(const LatticeNode& corner, int side, const SquareCorners& corners) {
   const Surroundings around(corners);
-  const float4 mean = around.mean();
-  const Vec2d at(static_cast<double>(corner.x) / kQuarters, static_cast<double>(corner.y) / kQuarters);
-  std::array<const ProjectedShapeCache::Shape*, 4> shapes{};
+  const EdgeShapes shapes = shapes_of(corner, corners);
+  constexpr std::array<float, 4> kEqual = {0.25F, 0.25F, 0.25F, 0.25F};
+  if (!shapes.are_known) return around.mean();
+  const float share = share_.of(around.primitives(), errors_.near(corner).level);
+  return mean_by_shapes(point_of(corner), static_cast<float>(side) / kQuarters, corners, shapes, kEqual,
+                        share);
+}
+
+// The four pixels of a square whose corners lie on different primitives and that holds no other sample. In
+// each pixel the corners count by their distance.
+void LatticePainter::paint_edge(const LatticeNode& corner, const SquareCorners& corners) {
+  constexpr float kNear = 0.75F, kFar = 0.25F;
+  const EdgeShapes shapes = shapes_of(corner, corners);
+  const float share = share_.of(Surroundings(corners).primitives(), errors_.near(corner).level);
+  for (std::size_t p = 0; p < 4; ++p) {
+    const LatticeNode at{corner.x + static_cast<int>(p % 2) * kQuarters,
+                         corner.y + static_cast<int>(p / 2) * kQuarters};
+    const int x = at.x / kQuarters, y = at.y / kQuarters;
+    if (x < part_.x0 || y < part_.y0 || x >= part_.x1 || y >= part_.y1) continue;
+    std::array<float, 4> weights{};
+    for (std::size_t i = 0; i < 4; ++i)
+      weights[i] = (i % 2 == p % 2 ? kNear : kFar) * (i / 2 == p / 2 ? kNear : kFar);
+    store_channels(shapes.are_known ? mean_by_shapes(point_of(at), 1, corners, shapes, weights, share)
+                                    : weighted_mean(corners, weights),
+                   pixel(x, y));
+  }
+}
+
+// The shapes of the corners' primitives, as seen near the square.
+LatticePainter::EdgeShapes LatticePainter::shapes_of(const LatticeNode& corner,
+                                                     const SquareCorners& corners) {
+  EdgeShapes found;
+  const Surroundings around(corners);
   std::array<ProjectedShapeCache::Place, 4> places{};
-  bool sees_background = false;
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    if (!around.is_first(i)) continue;
-    if (corners[i].primitive() == 0) {
-      sees_background = true;
-    } else {
-      places[i] = shapes_.find(corners[i].primitive(), at);
-      if (shapes_.shape(places[i]).kind == ImageShape::Kind::kUnknown) return mean;
-    }
+    if (!around.is_first(i) || corners[i].primitive() == 0) continue;
+    places[i] = shapes_.find(corners[i].primitive(), point_of(corner));
+    if (shapes_.shape(places[i]).kind == ImageShape::Kind::kUnknown) return found;
   }
   for (std::size_t i = 0; i < corners.size(); ++i)
-    if (places[i] != ProjectedShapeCache::Place{0}) shapes[i] = &shapes_.shape(places[i]);
-  const Coverage found = coverage(shapes_, shapes, at, static_cast<float>(side) / kQuarters);
+    if (places[i] != ProjectedShapeCache::Place{0}) found.shapes[i] = &shapes_.shape(places[i]);
+  found.are_known = true;
+  return found;
+}
+
+// Returns the mean over a square of at most a pixel, of weighted colours: where a shape is seen, mostly those
+// of the corners on its primitive.
+float4 LatticePainter::mean_by_shapes(const Vec2d& at, float size, const SquareCorners& corners,
+                                      const EdgeShapes& shapes, const std::array<float, 4>& weights,
+                                      float share) {
+  const Coverage found = coverage(shapes_, shapes.shapes, at, size);
   const float each = 1 / std::max(found.all, 1.0F), beyond = std::max(1 - found.all, 0.0F);
+  const float4 mean = weighted_mean(corners, weights);
   float4 difference{};  // from the mean
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    if (found.shares[i] > 0)
-      difference += (around.mean_on(corners[i].primitive()) - mean) * (found.shares[i] * each);
+    const std::uint32_t primitive = corners[i].primitive();
+    const auto is_before = [&](const SquareCorners::value_type& v) { return v.primitive() == primitive; };
+    if (std::any_of(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(i), is_before)) continue;
+    const float covered = primitive == 0 ? beyond : found.shares[i] * each;
+    if (covered <= 0) continue;
+    float4 sum{};
+    float weight = 0;
+    for (std::size_t k = i; k < corners.size(); ++k) {
+      if (corners[k].primitive() == primitive)
+        sum += corners[k].channels() * weights[k], weight += weights[k];
+    }
+    difference += (sum * (1 / weight) - mean) * covered;
   }
-  if (sees_background) difference += (around.mean_on(0) - mean) * beyond;
-  return mean + difference * share_.of(around.primitives(), errors_.near(corner).level);
+  return mean + difference * share;
 }
 
 }  // namespace pprt

@@ -32,6 +32,22 @@ class LatticePainter {
   float4 mean_of(const LatticeNode& corner, int side, const SquareCorners& corners);
   float4 mean_of_edge(const LatticeNode& corner, int side, const SquareCorners& corners);
 
+  // The shapes of the corners' primitives; null for repeated ones and the background.
+  struct EdgeShapes {
+    std::array<const ProjectedShapeCache::Shape*, 4> shapes{};
+    bool are_known = false;
+  };
+  EdgeShapes shapes_of(const LatticeNode& corner, const SquareCorners& corners);
+  void paint_edge(const LatticeNode& corner, const SquareCorners& corners);
+  float4 mean_by_shapes(const Vec2d& at, float size, const SquareCorners& corners, const EdgeShapes& shapes,
+                        const std::array<float, 4>& weights, float share);
+  Color& pixel(int x, int y) {
+    const PixelRect& bounds = pixels_->bounds;
+    return pixels_
+        ->colors[static_cast<std::size_t>(y - bounds.y0) * static_cast<std::size_t>(bounds.width()) +
+                 static_cast<std::size_t>(x - bounds.x0)];
+  }
+
   const LatticeStore& store_;
   NodePredictor& predictor_;
   ProjectedShapeCache& shapes_;
