@@ -1,11 +1,9 @@
 #include "parallel/lattice_samples.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 namespace pprt {
-
 namespace {
 
 ProjectedShapeCache::View view_of(const Probe& probe) {
@@ -62,18 +60,20 @@ std::vector<SeedPoint> LatticeSamples::seeds() const {
 
 bool LatticeSamples::insert_seed(const Sample& sample, std::uint32_t /*number*/) {
   if (!lattice_.insert_at({sample.x, sample.y}, sample.ray)) return false;
-  if (keeps_samples_) samples_.push_back(sample);
+  keep(sample);
   return true;
-}
-
-PictureGuess LatticeSamples::guess(std::uint32_t /*primitive*/) {
-  const LatticeSampler::Guess guess = lattice_.guess();
-  return {guess.color, guess.area};
 }
 
 bool LatticeSamples::insert(const Sample& sample, int from) {
   if (!lattice_.insert_at({sample.x, sample.y}, sample.ray)) return false;
-  return note(sample, from);
+  keep(sample);
+  // What others send is theirs to tell, but for tiles that were this rank's.
+  if (partition_.ranks > 1 && (from == rank_ || forwards_)) tell_others(sample, from);
+  return true;
+}
+
+void LatticeSamples::keep(const Sample& sample) {
+  if (keeps_samples_) samples_.push_back(sample);
 }
 
 void LatticeSamples::insert_cast(std::span<const Sample> samples, const Inserted& done) {
@@ -89,42 +89,30 @@ void LatticeSamples::expect_growth(double factor) {
 
 LatticeSamples::TileRange LatticeSamples::tiles_that_need(const Sample& sample) const {
   constexpr double kBefore = 0.25 / kQuarters;  // less than between two nodes
-  const LatticeNode node{static_cast<int>(kQuarters * sample.x), static_cast<int>(kQuarters * sample.y)};
-  double reach = 0;
-  if ((node.x | node.y) % kBaseSide != 0) {
-    const LatticeLevel level = level_of(node);
-    if (level.kind == LatticeKind::kCenter) reach = 0.5 * level.side / kQuarters;
-  }
+  const LatticeNode node = node_at({sample.x, sample.y});
+  const bool is_center = !is_base(node) && level_of(node).kind == LatticeKind::kCenter;
+  const double reach = is_center ? 0.5 * level_of(node).side / kQuarters : 0;
   const TileGrid& grid = partition_.grid;
   return {grid.column_at(sample.x - reach - kBefore), grid.row_at(sample.y - reach - kBefore),
           grid.column_at(sample.x + reach), grid.row_at(sample.y + reach)};
 }
 
-bool LatticeSamples::note(const Sample& sample, int from) {
-  if (keeps_samples_) samples_.push_back(sample);
-  if (partition_.ranks == 1) return true;
+void LatticeSamples::tell_others(const Sample& sample, int from) {
   const TileRange tiles = tiles_that_need(sample);
-  const bool is_own = from == rank_;
-  if (is_own && tiles.x0 == tiles.x1 && tiles.y0 == tiles.y1) return true;
-  if (!is_own && !forwards_) return true;
+  if (from == rank_ && tiles.x0 == tiles.x1 && tiles.y0 == tiles.y1) return;
   ++applied_;
-  std::array<int, 9> told{};
-  std::size_t count = 0;
+  told_.clear();
   for (int y = tiles.y0; y <= tiles.y1; ++y) {
     for (int x = tiles.x0; x <= tiles.x1; ++x) {
       const auto tile = static_cast<std::size_t>(y * partition_.grid.columns() + x);
       const int owner = partition_.owner[tile];
-      if (owner == rank_ || owner == from || (!is_own && was_own_[tile] == 0)) continue;
-      if (std::find(told.begin(), told.begin() + count, owner) != told.begin() + count) continue;
-      if (count < told.size()) told[count++] = owner;
-      post(sample, owner);
+      const bool concerns = from == rank_ || was_own_[tile] != 0;
+      if (!concerns || owner == rank_ || owner == from) continue;
+      if (std::find(told_.begin(), told_.end(), owner) != told_.end()) continue;
+      told_.push_back(owner);
+      outbox_[static_cast<std::size_t>(owner)].push_back(sample);
     }
   }
-  return true;
-}
-
-void LatticeSamples::post(const Sample& sample, int rank) {
-  outbox_[static_cast<std::size_t>(rank)].push_back(sample);
 }
 
 std::vector<Sample> LatticeSamples::take_outbox(int rank) {
@@ -141,7 +129,7 @@ void LatticeSamples::introduce(std::span<const int> tiles, int taker) {
       for (int x = range.x0; x <= range.x1; ++x)
         concerns |= is_given[static_cast<std::size_t>(y * partition_.grid.columns() + x)] != 0;
     }
-    if (concerns) post(sample, taker);
+    if (concerns) outbox_[static_cast<std::size_t>(taker)].push_back(sample);
   }
 }
 

@@ -1,7 +1,7 @@
 // Samples on a lattice (docs/decisions/0021-lattice.md), and which of them other ranks need.
 //
-// A node's sample is needed by the ranks whose region touches what it predicts: the centre of a square
-// predicts the middles of the square's sides, all other nodes lie on the squares that they predict. A base
+// A node's sample is needed by the ranks whose region touches what it predicts. The centre of a square
+// predicts the middles of the square's sides. All other nodes lie on the squares that they predict. A base
 // square lies in one tile. So a rank is told of nodes on its border, and of centres half a square beyond it.
 #pragma once
 
@@ -27,7 +27,6 @@ class LatticeSamples : public RegionSamples {
   bool insert_seed(const Sample& sample, std::uint32_t number) override;
 
   std::optional<Vec2d> next_point() override { return lattice_.next_point(); }
-  PictureGuess guess(std::uint32_t primitive) override;
   bool insert(const Sample& sample, int from) override;
   std::span<const KnownLights> known_lights(const Vec2d& point) override { return carried_.near(point); }
   CastUse cast_use() const override { return CastUse::kNearby; }
@@ -64,8 +63,8 @@ class LatticeSamples : public RegionSamples {
   };
   void expect_goal();
   TileRange tiles_that_need(const Sample& sample) const;
-  bool note(const Sample& sample, int from);
-  void post(const Sample& sample, int rank);
+  void keep(const Sample& sample);
+  void tell_others(const Sample& sample, int from);
 
   int rank_;
   std::uint64_t goal_;  // samples in the whole image; 0: none
@@ -76,6 +75,7 @@ class LatticeSamples : public RegionSamples {
   std::size_t applied_ = 0;                  // samples near other regions since announce()
   std::vector<std::uint8_t> was_own_;        // per tile: given away since clear()
   bool forwards_ = false;                    // whether there are such tiles
+  std::vector<int> told_;                    // ranks that a sample is sent to
   bool casts_, keeps_samples_;
   std::vector<int> neighbours_, nobody_;
   CarriedLights carried_;

@@ -45,7 +45,7 @@ std::optional<Vec2d> MeshSamples::next_point() {
   return wanted_ ? std::optional(wanted_->point) : std::nullopt;
 }
 
-PictureGuess MeshSamples::guess(std::uint32_t primitive) {
+PictureGuess MeshSamples::guess(std::uint32_t primitive) const {
   const SampleMesh::Guess guess = mesh_.guess(*wanted_, primitive);
   return {guess.color, guess.area};
 }

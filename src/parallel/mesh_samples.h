@@ -22,7 +22,7 @@ class MeshSamples : public RegionSamples {
   bool insert_seed(const Sample& sample, std::uint32_t number) override;
 
   std::optional<Vec2d> next_point() override;
-  PictureGuess guess(std::uint32_t primitive) override;
+  PictureGuess guess(std::uint32_t primitive) const override;
   bool insert(const Sample& sample, int from) override;
   void insert_cast(std::span<const Sample> samples, const Inserted& done) override;
   void expect_growth(double factor) override { mesh_.expect_growth(factor); }

@@ -1,6 +1,6 @@
-// What a sampler is to the worker: the samples that one rank knows of a picture, the next point that it
-// wants, the pixels that they make, and which of them other ranks need. MeshSamples is the paper's sampler,
-// LatticeSamples the one of docs/decisions/0021-lattice.md.
+// What a sampler is to the worker. It holds the samples that one rank knows of a picture, and wants the next
+// point. It knows which samples other ranks need, and makes pixels of all. MeshSamples is the paper's
+// sampler, LatticeSamples the one of docs/decisions/0021-lattice.md.
 #pragma once
 
 #include <cstddef>
@@ -63,8 +63,9 @@ class RegionSamples {
   // caller inserts a sample there before it asks again.
   virtual std::optional<Vec2d> next_point() = 0;
 
-  // Returns what the picture shows at next_point(), for a sample on this primitive.
-  virtual PictureGuess guess(std::uint32_t primitive) = 0;
+  // Returns what the picture shows at next_point(), for a sample on this primitive. Asked only where cast
+  // samples are inserted, for their worth is judged by it.
+  virtual PictureGuess guess(std::uint32_t /*primitive*/) const { return {}; }
 
   // Inserts a sample; false if its point already holds one or cannot hold one. `from`: the rank that sent it,
   // or this one.

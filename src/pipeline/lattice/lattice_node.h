@@ -15,6 +15,7 @@
 #include <bit>
 #include <cstdint>
 
+#include "base/vector.h"
 #include "pipeline/simd.h"
 
 namespace pprt {
@@ -27,6 +28,19 @@ struct LatticeNode {
 
   friend bool operator==(const LatticeNode&, const LatticeNode&) = default;
 };
+
+// Whether the node is a corner of base squares: these belong to no level.
+inline bool is_base(const LatticeNode& node) {
+  return (node.x | node.y) % kBaseSide == 0;
+}
+
+// The image point of a node, pixels, and the node at or before a point.
+inline Vec2d point_of(const LatticeNode& node) {
+  return {static_cast<double>(node.x) / kQuarters, static_cast<double>(node.y) / kQuarters};
+}
+inline LatticeNode node_at(const Vec2d& point) {
+  return {static_cast<int>(kQuarters * point.x), static_cast<int>(kQuarters * point.y)};
+}
 
 // Whether the node lies between the four corners of a square of this side, or between two of them. A square's
 // side is even.
@@ -44,7 +58,7 @@ struct LatticeLevel {
   friend bool operator==(const LatticeLevel&, const LatticeLevel&) = default;
 };
 
-// From coarse to fine. Nodes at the corners of the base squares belong to no level.
+// From coarse to fine.
 inline constexpr std::array<LatticeLevel, 10> kLatticeLevels = {{{32, LatticeKind::kCenter},
                                                                  {32, LatticeKind::kMiddle},
                                                                  {16, LatticeKind::kCenter},

@@ -19,10 +19,6 @@ bool is_on_one_primitive(const SquareCorners& corners) {
                      [&](const NodeValue& v) { return v.primitive() == primitive; });
 }
 
-Vec2d point_of(const LatticeNode& node) {
-  return {static_cast<double>(node.x) / kQuarters, static_cast<double>(node.y) / kQuarters};
-}
-
 float4 weighted_mean(const SquareCorners& corners, const std::array<float, 4>& weights) {
   float4 sum{};
   for (std::size_t i = 0; i < corners.size(); ++i) sum += corners[i].channels() * weights[i];

@@ -10,8 +10,8 @@ LatticeRegion::LatticeRegion(const LatticeStore& store, const Region& region)
       touched_(static_cast<std::size_t>(store.tile_count()), 0) {
   for (int y = 0; y < store.bottom(); y += kBaseSide) {
     for (int x = 0; x < store.right(); x += kBaseSide) {
-      if (!region.owns_point(static_cast<double>(x) / kQuarters, static_cast<double>(y) / kQuarters))
-        continue;
+      const Vec2d corner = point_of({x, y});
+      if (!region.owns_point(corner.x, corner.y)) continue;
       owned_[square_of({x, y})] = 1;
       for (const int v : {y, y + kBaseSide}) {
         for (const int u : {x, x + kBaseSide}) touched_[static_cast<std::size_t>(store.tile_at({u, v}))] = 1;

@@ -17,10 +17,6 @@ constexpr double kFirstGrowth = 3;         // pessimistic: nothing is learned ye
 constexpr float kSurprise = 1e-4F;         // squared error
 constexpr float kUnpredicted = 1.0F / 32;  // squared error that a sample without a prediction counts as
 
-Vec2d point_of(const LatticeNode& node) {
-  return {static_cast<double>(node.x) / kQuarters, static_cast<double>(node.y) / kQuarters};
-}
-
 // Calls visit(x, y) for the four corners of a square of nodes.
 template <class Visit>
 void for_each_corner(const LatticeNode& corner, int side, const Visit& visit) {
@@ -107,7 +103,7 @@ void LatticeSampler::begin_square(const LatticeNode& corner) {
       if (!store_.has({x, y}) || !store_.is_sampled({x, y})) continue;
       Wanted at;
       at.node = {x, y};
-      if ((x | y) % kBaseSide == 0) {
+      if (is_base(at.node)) {
         at.level = {2 * kBaseSide, LatticeKind::kMiddle};
       } else {
         at.level = level_of(at.node);
@@ -336,7 +332,7 @@ void LatticeSampler::insert(const RaySample& sample) {
 // Nothing is learned from a sample whose neighbours may not be known here.
 bool LatticeSampler::insert_at(const Vec2d& point, const RaySample& sample) {
   Wanted at;
-  at.node = {static_cast<int>(kQuarters * point.x), static_cast<int>(kQuarters * point.y)};
+  at.node = node_at(point);
   if (wanted_ && wanted_->node == at.node) {
     insert(sample);
     return true;
@@ -344,7 +340,7 @@ bool LatticeSampler::insert_at(const Vec2d& point, const RaySample& sample) {
   if (point_of(at.node) != point || !store_.has(at.node) || store_.is_sampled(at.node)) return false;
   const float4 seen{sample.color.x, sample.color.y, sample.color.z, 0};
   const auto rays = static_cast<float>(sample.rays);
-  if ((at.node.x | at.node.y) % kBaseSide == 0) {
+  if (is_base(at.node)) {
     at.is_base = true;
     wanted_ = at;
     insert(sample);
@@ -379,13 +375,6 @@ Surroundings LatticeSampler::known_around(const LatticeNode& node, const Lattice
     add(node.x - dx, node.y - dy), add(node.x + dx, node.y + dy);
   }
   return around;
-}
-
-LatticeSampler::Guess LatticeSampler::guess() {
-  const Wanted& at = *wanted_;
-  if (at.is_base) return {Color(0, 0, 0), LatticeLevel{2 * kBaseSide, LatticeKind::kMiddle}.area()};
-  const float4 shown = predictor_.predict(at.node, at.around, at.variance, at.primitives).value.channels();
-  return {{shown[0], shown[1], shown[2]}, at.level.area()};
 }
 
 // Returns what a square pixel near a new sample is expected to be worth: what the sample did not find as

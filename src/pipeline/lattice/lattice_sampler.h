@@ -73,13 +73,6 @@ class LatticeSampler {
   // Takes in a sample at another point. False if the lattice has no node there, or one that holds a sample.
   bool insert_at(const Vec2d& point, const RaySample& sample);
 
-  // Returns what the picture shows at next_point(), and the area that its node stands for, square pixels.
-  struct Guess {
-    Color color;
-    double area = 0;
-  };
-  Guess guess();
-
   std::size_t samples() const { return samples_; }  // other regions' included
 
   // Returns how many samples the coarsest grid has. They come first.

@@ -78,8 +78,7 @@ Prediction NodePredictor::predict(const LatticeNode& node, const Surroundings& a
                                   int primitives) {
   const float4 mean = around.mean();
   if (primitives == 1 || variance < kLeastEdgeVariance) return {NodeValue(mean, around[0].primitive())};
-  const Vec2d point(static_cast<double>(node.x) / kQuarters, static_cast<double>(node.y) / kQuarters);
-  const Seen seen = seen_at(point, around, shapes_);
+  const Seen seen = seen_at(point_of(node), around, shapes_);
   if (!seen.is_known) return {NodeValue(mean, around[0].primitive())};
   const float4 on_primitive = around.mean_on(seen.primitive);
   const float share = share_.of(primitives, errors_.near(node).level);
@@ -96,7 +95,7 @@ NodeValue NodePredictor::value(const LatticeNode& node) {
 
 // Nothing predicts the corners of base squares: without a sample they are black.
 NodeValue NodePredictor::predicted(const LatticeNode& node) {
-  if ((node.x | node.y) % kBaseSide == 0) return {};
+  if (is_base(node)) return {};
   const Surroundings nodes = around(node, level_of(node));
   return predict(node, nodes, nodes.variance(), nodes.primitives()).value;
 }

@@ -1,7 +1,7 @@
 // What a node is taken to show before it is sampled.
 //
-// The centre of a square is predicted from its corners, and from the middles of its sides that are sampled:
-// what is thin is followed from one square to the next that way. The middle of a side is predicted from the
+// The centre of a square is predicted from its corners, and from the middles of its sides that are sampled.
+// That way what is thin is followed from one square to the next. The middle of a side is predicted from the
 // side's ends. The centres of the squares on both sides count as well if one of them is sampled. Where these
 // nodes lie on different primitives, the one nearest at the node's point is seen, as in
 // docs/decisions/0017-edges.md.

@@ -54,7 +54,7 @@ TEST_CASE("known lights: what is known is not asked, and shades as if it had bee
   CHECK(again.sample.color == first.sample.color);
   CHECK((again.sample.lights.asked == 3 && again.sample.lights.seen == 1));
 
-  // Of one of them nothing is known; what is known wrongly is believed.
+  // One of them is asked; what is known wrongly is believed.
   const std::array first_only = {KnownLights{kFloor, {1, 1}, 0}}, wrong = {KnownLights{kFloor, {3, 3}, 0}};
   CHECK(traced(compiled, *scene.view, first_only).shadow_rays == 1);
   CHECK(traced(compiled, *scene.view, first_only).sample.color == first.sample.color);

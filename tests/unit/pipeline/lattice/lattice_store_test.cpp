@@ -21,10 +21,6 @@ std::vector<LatticeNode> all_nodes(const LatticeStore& store) {
   return nodes;
 }
 
-bool is_base(const LatticeNode& node) {
-  return node.x % kBaseSide == 0 && node.y % kBaseSide == 0;
-}
-
 // A value that tells its node.
 NodeValue value_at(const LatticeNode& node) {
   const auto x = static_cast<float>(node.x), y = static_cast<float>(node.y);
