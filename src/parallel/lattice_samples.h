@@ -52,9 +52,6 @@ class LatticeSamples : public RegionSamples {
   CastResult cast(const Camera& next, int next_frame, const CastSettings& settings) const override;
   void camera_changed() override { lattice_.camera_changed(); }
   void paint(std::span<const std::int32_t> further_tiles, RegionPixels& pixels) override;
-  Work own_sample() const override { return Work::kOwnNode; }
-  Work received_sample() const override { return Work::kReceivedNode; }
-  Work kept_sample() const override { return Work::kKeptNode; }
 
  private:
   // Tiles in whose closed area a sample is needed.

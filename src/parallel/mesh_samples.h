@@ -46,9 +46,6 @@ class MeshSamples : public RegionSamples {
   CastResult cast(const Camera& next, int next_frame, const CastSettings& settings) const override;
   void camera_changed() override { projected_shapes_.forget(); }
   void paint(std::span<const std::int32_t> further_tiles, RegionPixels& pixels) override;
-  Work own_sample() const override { return Work::kOwnSample; }
-  Work received_sample() const override { return Work::kReceivedSample; }
-  Work kept_sample() const override { return Work::kKeptSample; }
 
  private:
   int rank_;

@@ -27,6 +27,7 @@ RegionSampler::RegionSampler(const SessionSettings& settings, const Partition& p
       costs_(costs),
       clock_(clock),
       poll_(std::move(poll)),
+      work_(sample_work(settings)),
       samples_(make_samples(settings, partition, rank, tracer.probe())) {
   clock_.region_changed(region().pixel_count());
 }
@@ -40,7 +41,7 @@ void RegionSampler::begin_picture(bool keep_learned) {
 void RegionSampler::trace_seeds() {
   for (const SeedPoint& seed : samples_->seeds()) {
     const Sample sample = trace(seed.at);
-    clock_.spend(seed.own ? samples_->own_sample() : samples_->received_sample(), 1);
+    clock_.spend(seed.own ? work_.own : work_.received, 1);
     if (!seed.own) costs_.add_received();
     if (samples_->insert_seed(sample, seed.number)) in_region_ += seed.own;
     counts_.traced += seed.own;
@@ -78,7 +79,7 @@ bool RegionSampler::refine(CastEvidence* evidence) {
     evidence->fresh_area += guess.area;
     evidence->fresh_rays += sample.ray.rays;
   }
-  insert(sample, rank_, samples_->own_sample());
+  insert(sample, rank_, work_.own);
   ++(sample.frame == tracer_.frame_number() ? counts_.traced : counts_.cast);
   return true;
 }
@@ -94,7 +95,7 @@ void RegionSampler::reinsert_all(std::span<const Sample> samples) {
 // A cast sample counts like one traced here: a tile's quality is that of all its samples, and so is its cost.
 void RegionSampler::note_reinserted(const Sample& sample, bool is_new) {
   poll_();
-  clock_.spend(samples_->kept_sample(), 1);
+  clock_.spend(work_.kept, 1);
   if (!is_new) return;
   in_region_ += owns(sample);
   costs_.add_own(sample);
@@ -104,13 +105,13 @@ void RegionSampler::note_reinserted(const Sample& sample, bool is_new) {
 void RegionSampler::insert_received(std::span<const Sample> samples, int from) {
   for (const Sample& s : samples) {
     costs_.add_received();
-    ++(insert(s, from, samples_->received_sample()) ? counts_.received : counts_.known);
+    ++(insert(s, from, work_.received) ? counts_.received : counts_.known);
   }
 }
 
 void RegionSampler::insert_late(std::span<const Sample> samples) {
   for (const Sample& s : samples) {
-    const bool inserted = insert(s, rank_, samples_->own_sample());
+    const bool inserted = insert(s, rank_, work_.own);
     ++(inserted ? counts_.received : counts_.known);
     counts_.cast += inserted && owns(s);
   }

@@ -98,6 +98,7 @@ class RegionSampler {
   CostEstimator& costs_;
   FrameClock& clock_;
   std::function<void()> poll_;
+  SampleWork work_;
   std::unique_ptr<RegionSamples> samples_;
   std::uint64_t in_region_ = 0;
   SampleCounts counts_;

@@ -13,7 +13,6 @@
 
 #include "base/camera.h"
 #include "parallel/balance/partition.h"
-#include "parallel/clock/work_units.h"
 #include "pipeline/preparation/casting.h"
 #include "pipeline/reconstruction/reconstruction.h"
 #include "pipeline/region_quality.h"
@@ -138,11 +137,6 @@ class RegionSamples {
 
   // Replaces `pixels` by those of the region, and of further tiles that the samples cover.
   virtual void paint(std::span<const std::int32_t> further_tiles, RegionPixels& pixels) = 0;
-
-  // What its samples cost on the work clock.
-  virtual Work own_sample() const = 0;
-  virtual Work received_sample() const = 0;
-  virtual Work kept_sample() const = 0;
 };
 
 }  // namespace pprt

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "parallel/clock/machine.h"
+#include "parallel/clock/work_units.h"
 #include "parallel/network/communicator.h"
 #include "pipeline/reconstruction/reconstruction.h"
 
@@ -63,6 +64,10 @@ struct SessionSettings {
 
   friend bool operator==(const SessionSettings&, const SessionSettings&) = default;
 };
+
+inline const SampleWork& sample_work(const SessionSettings& settings) {
+  return settings.sampler == SamplerChoice::kDelaunay ? kMeshWork : kLatticeWork;
+}
 
 // For the master's broadcast.
 Bytes encode(const SessionSettings& settings);

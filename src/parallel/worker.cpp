@@ -13,7 +13,7 @@ Worker::Worker(Communicator& network, Inbox& inbox, const SessionSettings& setti
       settings_(settings),
       clock_(std::move(clock)),
       timer_(*clock_),
-      costs_(partition.grid),
+      costs_(partition.grid, sample_work(settings_)),
       bundles_(network, inbox, make_exchange_policy(settings, network.size()), *clock_, timer_),
       tracer_(std::move(probe), network.rank(), *clock_, costs_, [this] { bundles_.poll(); }),
       sampler_(settings_, partition, network.rank(), tracer_, costs_, *clock_, [this] { bundles_.poll(); }),

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# odd_runs.sh: images of one tile, of fewer tiles than ranks, and of one row, with every --balance; and cameras that
-# turn round, jump and zoom by a million between frames, with every --cast. Every frame must be whole and finite.
+# odd_runs.sh: images of one tile, of fewer tiles than ranks, and of one row, with every --balance and clock; and
+# cameras that turn round, jump and zoom by a million between frames, with every --cast. Every frame must be whole and
+# finite.
 source "$(dirname "$0")/lib.sh"
 cat >odd.anim <<'SCRIPT'
 animation {
@@ -19,10 +20,11 @@ SCRIPT
 
 # run NAME SCRIPT OPTIONS...
 checked=0
+clock=(--clock work --budget 300000)
 run() {
   local out=$1 script=$2
   shift 2
-  pprt-render spd:tree:4 "$script" -np 5 --clock work --budget 300000 "$@" --progress none -o "$out/%04d.png" \
+  pprt-render spd:tree:4 "$script" -np 5 "${clock[@]}" "$@" --progress none -o "$out/%04d.png" \
     --stats "$out.ndjson" 2>told || { cat told >&2; fail "$out ended with code $?"; }
   expect_frames "$out" png 6
   for file in "$out"/????.png; do
@@ -42,4 +44,6 @@ for cast in off paper verified auto; do run cast-$cast odd.anim --cast $cast; do
 [[ $(grep -c '"record":"frame".*"samples_cast":0' cast-paper.ndjson) -gt 1 ]] ||
   fail "samples survived a turn by 180 degrees"
 [[ $(grep -c '"record":"frame".*"samples_cast":[1-9]' cast-paper.ndjson) -gt 0 ]] || fail "nothing was cast at all"
-[[ $checked == 9 ]] || fail "only $checked runs were made"
+clock=(--clock wall --fps 20)
+for sampler in auto delaunay; do run wall-$sampler "$here/short.anim" -s 2x1 --sampler $sampler; done
+[[ $checked == 11 ]] || fail "only $checked runs were made"

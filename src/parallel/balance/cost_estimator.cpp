@@ -4,8 +4,6 @@
 #include <cstddef>
 #include <utility>
 
-#include "parallel/clock/work_units.h"
-
 namespace pprt {
 namespace {
 
@@ -20,8 +18,10 @@ double reconstruction_cost(const TileGrid& grid, int tile) {
 
 }  // namespace
 
-CostEstimator::CostEstimator(const TileGrid& grid)
+CostEstimator::CostEstimator(const TileGrid& grid, const SampleWork& work)
     : grid_(grid),
+      own_sample_(static_cast<double>(price(work.own))),
+      received_sample_(static_cast<double>(price(work.received))),
       now_(static_cast<std::size_t>(grid.tile_count())),
       last_(static_cast<std::size_t>(grid.tile_count())) {}
 
@@ -37,11 +37,11 @@ void CostEstimator::begin_frame(bool fresh_picture, FrameLikeness likeness) {
 void CostEstimator::add_own(const Sample& sample) {
   const int tile = grid_.tile_at(sample.x, sample.y);
   now_[static_cast<std::size_t>(tile)].cost +=
-      static_cast<double>(price(Work::kRay) * sample.ray.rays + price(Work::kOwnSample));
+      static_cast<double>(price(Work::kRay) * sample.ray.rays) + own_sample_;
 }
 
 void CostEstimator::add_received() {
-  received_now_ += static_cast<double>(price(Work::kReceivedSample));
+  received_now_ += received_sample_;
 }
 
 void CostEstimator::accept(const TileTransfer& transfer) {

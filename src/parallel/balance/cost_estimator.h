@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "parallel/balance/tile_cost.h"
+#include "parallel/clock/work_units.h"
 #include "pipeline/region_quality.h"
 #include "pipeline/sample.h"
 
@@ -20,7 +21,8 @@ enum class FrameLikeness : std::uint8_t {
 
 class CostEstimator {
  public:
-  explicit CostEstimator(const TileGrid& grid);
+  // `work`: what the sampler does with a sample.
+  CostEstimator(const TileGrid& grid, const SampleWork& work);
 
   // Begins a frame. With a fresh triangulation what tiles have cost becomes what they cost last.
   void begin_frame(bool fresh_picture, FrameLikeness likeness);
@@ -62,6 +64,7 @@ class CostEstimator {
   double cost_of(const RegionQuality& refined, int tile) const;
 
   TileGrid grid_;
+  double own_sample_, received_sample_;   // work units, without rays
   std::vector<TileEstimate> now_, last_;  // per tile
   double cost_per_triangle_ = 0;          // of this region in this frame, mean
   double received_now_ = 0;               // work units spent on other ranks' samples

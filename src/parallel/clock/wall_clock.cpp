@@ -35,7 +35,7 @@ void WallClock::begin_frame(const FrameOrder& order) {
 }
 
 void WallClock::end_frame(double reconstruction_ms) {
-  reconstruction_s_per_size_.add(1e-3 * reconstruction_ms / size_);
+  if (size_ > 0) reconstruction_s_per_size_.add(1e-3 * reconstruction_ms / size_);
 }
 
 void WallClock::region_changed(std::size_t pixels) {
@@ -71,7 +71,7 @@ double WallClock::sampling_share() const {
 }
 
 std::optional<double> WallClock::expected_growth(std::size_t begin, std::size_t now) const {
-  if (deadline_s_ == 0) return std::nullopt;
+  if (deadline_s_ == 0 || now == 0) return std::nullopt;
   const double share = sampling_share();
   return 1 + (1 - static_cast<double>(begin) / static_cast<double>(now)) * (1 - share) / share;
 }

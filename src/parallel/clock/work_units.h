@@ -52,6 +52,13 @@ constexpr WorkUnits price(Work work) {
   return 0;
 }
 
+// What a sampler does with a sample: one that is traced here, another rank's, and one that was cast.
+struct SampleWork {
+  Work own, received, kept;
+};
+inline constexpr SampleWork kMeshWork = {Work::kOwnSample, Work::kReceivedSample, Work::kKeptSample};
+inline constexpr SampleWork kLatticeWork = {Work::kOwnNode, Work::kReceivedNode, Work::kKeptNode};
+
 // What the choice of casting compares on this clock.
 constexpr CastPrices cast_prices() {
   return {

@@ -130,6 +130,18 @@ TEST_CASE("wall clock: a new picture that has had its time ends at the deadline 
   CHECK(clock->sampling_over());
 }
 
+// A tiny picture on many ranks leaves some of them without a tile.
+TEST_CASE("wall clock: a rank without pixels and samples ends its frames as the others do", "[realtime]") {
+  const auto clock = clock_in_a_frame(0.01);
+  clock->region_changed(0);
+  CHECK(left_with(*clock, 0) == Approx(0.01));
+  CHECK_FALSE(clock->expected_growth(0, 0));
+  clock->end_frame(0);
+  CHECK(left_with(*clock, 0) == Approx(0.01));
+  clock->region_changed(kPixels);
+  CHECK(left_with(*clock, 0) == Approx(0.01));  // nothing was learned
+}
+
 TEST_CASE("wall clock: the slowest of the last eight reconstructions counts", "[realtime]") {
   const auto clock = clock_in_a_frame(0);
   const auto left_after = [&](double reconstruction_ms) {

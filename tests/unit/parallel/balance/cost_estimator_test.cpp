@@ -1,0 +1,38 @@
+#include "parallel/balance/cost_estimator.h"
+
+#include <array>
+#include <catch2/catch.hpp>
+
+namespace pprt {
+namespace {
+
+Sample sample_at(double x, std::uint32_t rays) {
+  Sample sample;
+  sample.x = x;
+  sample.y = 3;
+  sample.ray.rays = rays;
+  return sample;
+}
+
+TEST_CASE("cost estimator: a sample costs its tile its rays, and what its sampler does with it") {
+  const TileGrid grid(20, 10, 10);
+  const Region region = Region::whole(grid);
+  const std::array<TileWeights, 2> weights{
+      {{.total_weight = 4, .count = 1}, {.total_weight = 2, .count = 1}}};
+  const auto [work, own, received] = GENERATE(table<SampleWork, double, double>(
+      {{kMeshWork, 705, 580}, {kLatticeWork, 370, 200}}));  // docs/decisions/0006-work-clock.md
+  CostEstimator costs(grid, work);
+  costs.begin_frame(true, FrameLikeness::kUnknown);
+  costs.add_own(sample_at(2, 3));
+  costs.add_own(sample_at(4, 1));
+  costs.add_own(sample_at(12, 0));
+  costs.add_received();
+  CHECK(costs.now(0).cost == 4 * 110 + 2 * own);
+  CHECK(costs.now(1).cost == own);
+  const std::vector<TileReport> report = costs.report({region, weights, 3});
+  REQUIRE(report.size() == 2);
+  for (const TileReport& tile : report) CHECK(tile.preparation == received / 2);
+}
+
+}  // namespace
+}  // namespace pprt
