@@ -135,6 +135,36 @@ std::array<SquareCorners, 4> LatticePainter::quarters(const LatticeNode& corner,
            {center, right, bottom, corners[3]}}};
 }
 
+// The same for a square of at most a pixel. What is not sampled is predicted from this square alone: that is
+// quicker, and differences between neighbours do not show.
+std::array<SquareCorners, 4> LatticePainter::quarters_within_pixel(const LatticeNode& corner, int side,
+                                                                   const SquareCorners& corners) {
+  const int half = side / 2;
+  const LatticeNode center{corner.x + half, corner.y + half};
+  const std::array<LatticeNode, 4> middles = {
+      {{center.x, corner.y}, {corner.x, center.y}, {corner.x + side, center.y}, {center.x, corner.y + side}}};
+  constexpr std::array<std::array<std::size_t, 2>, 4> kEnds = {{{0, 1}, {0, 2}, {1, 3}, {2, 3}}};
+  const bool sees_center = store_.is_sampled(center);
+  Surroundings around(corners);
+  std::array<NodeValue, 4> shown;
+  for (std::size_t i = 0; i < middles.size(); ++i) {
+    if (store_.is_sampled(middles[i])) {
+      shown[i] = store_.sample(middles[i]);
+      around.add(shown[i]);
+      continue;
+    }
+    Surroundings ends;
+    for (const std::size_t end : kEnds[i]) ends.add(corners[end]);
+    if (sees_center) ends.add(store_.sample(center));
+    shown[i] = predictor_.predict(middles[i], ends);
+  }
+  const NodeValue inner = sees_center ? store_.sample(center) : predictor_.predict(center, around);
+  return {{{corners[0], shown[0], shown[1], inner},
+           {shown[0], corners[1], inner, shown[2]},
+           {shown[1], inner, corners[2], shown[3]},
+           {inner, shown[2], shown[3], corners[3]}}};
+}
+
 // Bilinear: at the centre of a pixel it is the mean over the pixel.
 void LatticePainter::fill(const LatticeNode& corner, int side, const SquareCorners& corners) {
   const PixelRect& bounds = pixels_->bounds;
@@ -162,7 +192,7 @@ void LatticePainter::fill(const LatticeNode& corner, int side, const SquareCorne
 float4 LatticePainter::mean_of_refined(const LatticeNode& corner, int side, const SquareCorners& corners) {
   if (side < 2 || !is_refined(corner, side)) return mean_of(corner, side, corners);
   const int half = side / 2;
-  const std::array<SquareCorners, 4> parts = quarters(corner, side, corners);
+  const std::array<SquareCorners, 4> parts = quarters_within_pixel(corner, side, corners);
   return (mean_of_refined(corner, half, parts[0]) +
           mean_of_refined({corner.x + half, corner.y}, half, parts[1]) +
           mean_of_refined({corner.x, corner.y + half}, half, parts[2]) +

@@ -26,6 +26,8 @@ class LatticePainter {
   void paint_square(const LatticeNode& corner, int side, const SquareCorners& corners);
   void fill(const LatticeNode& corner, int side, const SquareCorners& corners);
   std::array<SquareCorners, 4> quarters(const LatticeNode& corner, int side, const SquareCorners& corners);
+  std::array<SquareCorners, 4> quarters_within_pixel(const LatticeNode& corner, int side,
+                                                     const SquareCorners& corners);
   bool is_refined(const LatticeNode& corner, int side) const;
   bool may_be_refined(const LatticeNode& pixel) const;
   float4 mean_of_refined(const LatticeNode& corner, int side, const SquareCorners& corners);

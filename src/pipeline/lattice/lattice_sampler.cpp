@@ -10,7 +10,7 @@
 namespace pprt {
 namespace {
 
-constexpr double kGridShare = 0.5;         // of all samples that the grid may take
+constexpr double kGridShare = 0.35;        // of all samples that the grid may take
 constexpr float kInsertion = 2;            // time of choosing and inserting a sample, in rays
 constexpr float kGreatestFall = 3;         // of the threshold, from pass to pass
 constexpr double kFirstGrowth = 3;         // pessimistic: nothing is learned yet
@@ -78,7 +78,7 @@ void LatticeSampler::forget_samples() {
   nodes_.clear();
   next_ = 0;
   std::fill(greatest_.begin(), greatest_.end(), kNotWanted);
-  wanted_.reset();
+  has_wanted_ = false;
 }
 
 // The region.
@@ -146,11 +146,11 @@ std::optional<Vec2d> LatticeSampler::next_point() {
     // By now the node may hold another region's sample, or its square may have gone.
     if (store_.is_sampled(node) || !(pass_.takes_base ? own_.needs_base(node) : own_.owns(node))) continue;
     if (pass_.takes_base) {
-      wanted_.emplace();
-      wanted_->node = node, wanted_->is_base = true;
+      wanted_.node = node, wanted_.is_base = true, wanted_.variance = 0;
     } else if (!is_wanted(node, kLatticeLevels[level_ - 1])) {
       continue;
     }
+    has_wanted_ = true;
     return point_of(node);
   }
 }
@@ -258,7 +258,7 @@ LatticeSampler::CandidateCounts LatticeSampler::candidates_above() const {
   CandidateCounts counts{};
   for (int tile = 0; tile < store_.tile_count(); ++tile) {
     const auto t = static_cast<std::size_t>(tile);
-    if (own_.touches_tile(tile) && greatest_[t] > kLeastCandidate) store_.count_states(tile, counts);
+    if (own_.touches_tile(tile) && greatest_[t] > kLeastCandidate) store_.count_candidates(tile, counts);
   }
   for (std::size_t i = kGreatestCandidate; i > kLeastCandidate; --i) counts[i] += counts[i + 1];
   return counts;
@@ -276,11 +276,10 @@ void LatticeSampler::learn_growth() {
 
 // Whether a node is worth a sample in this pass. Keeps its priority otherwise.
 bool LatticeSampler::is_wanted(const LatticeNode& node, const LatticeLevel& level) {
-  wanted_.emplace();
-  wanted_->node = node, wanted_->level = level;
-  wanted_->around = predictor_.around(node, level);
-  wanted_->variance = wanted_->around.variance();
-  wanted_->primitives = wanted_->around.primitives();
+  wanted_.node = node, wanted_.level = level, wanted_.is_base = false;
+  wanted_.around = predictor_.around(node, level);
+  wanted_.variance = wanted_.around.variance();
+  wanted_.primitives = wanted_.around.primitives();
   if (pass_.takes_all) return true;
   const float worth = worth_of(node, level);
   if (worth >= pass_.threshold) return true;
@@ -293,7 +292,7 @@ bool LatticeSampler::is_wanted(const LatticeNode& node, const LatticeLevel& leve
 float LatticeSampler::worth_of(const LatticeNode& node, const LatticeLevel& level) {
   constexpr float kFlat = 1e-5F, kShareOfFlat = 0.1F;
   constexpr int kLeastLevel = 5;  // mean squared errors of 2^-10
-  const Wanted& at = *wanted_;
+  const Wanted& at = wanted_;
   const LocalErrors::Mean& near = errors_.near(node);
   const bool is_flat = level.side <= kQuarters && at.variance < kFlat;
   if (is_flat && near.level < kLeastLevel) return 0;
@@ -303,7 +302,8 @@ float LatticeSampler::worth_of(const LatticeNode& node, const LatticeLevel& leve
 }
 
 void LatticeSampler::insert(const RaySample& sample) {
-  const Wanted at = *std::exchange(wanted_, std::nullopt);
+  const Wanted& at = wanted_;
+  has_wanted_ = false;
   const float4 seen{sample.color.x, sample.color.y, sample.color.z, 0};
   const auto rays = static_cast<float>(sample.rays);
   ++samples_;
@@ -333,7 +333,7 @@ void LatticeSampler::insert(const RaySample& sample) {
 bool LatticeSampler::insert_at(const Vec2d& point, const RaySample& sample) {
   Wanted at;
   at.node = node_at(point);
-  if (wanted_ && wanted_->node == at.node) {
+  if (has_wanted_ && wanted_.node == at.node) {
     insert(sample);
     return true;
   }
@@ -399,38 +399,38 @@ void LatticeSampler::make_candidates(const LatticeNode& node, const LatticeLevel
                                      float worth_per_area) {
   const auto [x, y] = node;
   if (level.kind == LatticeKind::kCenter) {
-    const LatticeLevel middles{level.side, LatticeKind::kMiddle};
     const int half = level.side / 2;
-    make_candidate({x - half, y}, middles, worth_per_area);
-    make_candidate({x + half, y}, middles, worth_per_area);
-    make_candidate({x, y - half}, middles, worth_per_area);
-    make_candidate({x, y + half}, middles, worth_per_area);
+    const NodeState priority = priority_of(worth_per_area * effect_of({level.side, LatticeKind::kMiddle}));
+    make_candidate({x - half, y}, priority);
+    make_candidate({x + half, y}, priority);
+    make_candidate({x, y - half}, priority);
+    make_candidate({x, y + half}, priority);
   } else if (level.side > 2) {
-    const LatticeLevel centers{level.side / 2, LatticeKind::kCenter};
     const int quarter = level.side / 4;
-    make_candidate({x - quarter, y - quarter}, centers, worth_per_area);
-    make_candidate({x + quarter, y - quarter}, centers, worth_per_area);
-    make_candidate({x - quarter, y + quarter}, centers, worth_per_area);
-    make_candidate({x + quarter, y + quarter}, centers, worth_per_area);
+    const NodeState priority =
+        priority_of(worth_per_area * effect_of({level.side / 2, LatticeKind::kCenter}));
+    make_candidate({x - quarter, y - quarter}, priority);
+    make_candidate({x + quarter, y - quarter}, priority);
+    make_candidate({x - quarter, y + quarter}, priority);
+    make_candidate({x + quarter, y + quarter}, priority);
   }
 }
 
 // What came as a surprise on the side of two squares may go on in them: their centres get another chance.
 void LatticeSampler::look_beyond(const LatticeNode& middle, int side, float worth_per_area) {
   const int half = side / 2, dx = (middle.x & half) != 0 ? 0 : half, dy = half - dx;  // across the side
-  const LatticeLevel centers{side, LatticeKind::kCenter};
-  make_candidate({middle.x - dx, middle.y - dy}, centers, worth_per_area);
-  make_candidate({middle.x + dx, middle.y + dy}, centers, worth_per_area);
+  const NodeState priority = priority_of(worth_per_area * effect_of({side, LatticeKind::kCenter}));
+  make_candidate({middle.x - dx, middle.y - dy}, priority);
+  make_candidate({middle.x + dx, middle.y + dy}, priority);
 }
 
-void LatticeSampler::make_candidate(const LatticeNode& node, const LatticeLevel& level,
-                                    float worth_per_area) {
+void LatticeSampler::make_candidate(const LatticeNode& node, NodeState priority) {
   if (!store_.has(node) || !own_.owns(node)) return;
   NodeState& state = store_.state_for_writing(node);
-  if (state == kSampled) return;
-  state = std::max(state, priority_of(worth_per_area * effect_of(level)));
+  if (state == kSampled || state >= priority) return;
+  state = priority;
   NodeState& greatest = greatest_[static_cast<std::size_t>(store_.tile_at(node))];
-  greatest = std::max(greatest, state);
+  greatest = std::max(greatest, priority);
 }
 
 void LatticeSampler::weigh(std::vector<TileWeights>& weights) const {

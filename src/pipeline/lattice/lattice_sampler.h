@@ -131,7 +131,7 @@ class LatticeSampler {
   void learn_edge(const Wanted& at, const float4& seen, const Prediction& predicted);
   void make_candidates(const LatticeNode& node, const LatticeLevel& level, float worth_per_area);
   void look_beyond(const LatticeNode& middle, int side, float worth_per_area);
-  void make_candidate(const LatticeNode& node, const LatticeLevel& level, float worth_per_area);
+  void make_candidate(const LatticeNode& node, NodeState priority);
 
   LatticeOrder order_;
   LatticeStore store_;
@@ -156,7 +156,8 @@ class LatticeSampler {
   std::vector<LatticeNode> nodes_;  // of the level in the tile
   std::size_t next_ = 0;
   std::vector<NodeState> greatest_;  // per tile: no candidate has a greater priority
-  std::optional<Wanted> wanted_;
+  Wanted wanted_;
+  bool has_wanted_ = false;  // next_point() has returned it
 };
 
 }  // namespace pprt

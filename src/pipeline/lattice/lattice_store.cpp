@@ -193,12 +193,14 @@ void LatticeStore::collect_all_between_corners(int tile, const LatticeLevel& lev
   }
 }
 
-void LatticeStore::count_states(int tile, std::array<std::int64_t, 256>& counts) const {
+void LatticeStore::count_candidates(int tile, std::array<std::int64_t, 256>& counts) const {
   const Tile& from = tiles_[static_cast<std::size_t>(tile)];
+  constexpr std::uint64_t kAllSampled = 0x0101010101010101U * kSampled;
   const auto count = [&](const auto& states) {
     for (std::size_t i = 0; i < states.size(); i += sizeof(std::uint64_t)) {
-      if (load<std::uint64_t>(&states[i]) == 0) continue;
-      for (std::size_t k = i; k < i + sizeof(std::uint64_t); ++k) ++counts[states[k]];
+      if ((load<std::uint64_t>(&states[i]) & ~kAllSampled) == 0) continue;
+      for (std::size_t k = i; k < i + sizeof(std::uint64_t); ++k)
+        if (states[k] >= kLeastCandidate) ++counts[states[k]];
     }
   };
   count(from.corner_states);

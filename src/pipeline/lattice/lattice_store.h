@@ -108,8 +108,8 @@ class LatticeStore {
   // Replaces `nodes` by all nodes of a level in a tile.
   void collect_all(int tile, const LatticeLevel& level, std::vector<LatticeNode>& nodes) const;
 
-  // Adds the states of a tile's nodes to a histogram.
-  void count_states(int tile, std::array<std::int64_t, 256>& counts) const;
+  // Adds a tile's candidates to a histogram, by their states.
+  void count_candidates(int tile, std::array<std::int64_t, 256>& counts) const;
 
   // Calls visit(pixel_x, pixel_y, state) for each candidate of a tile.
   template <class Visit>

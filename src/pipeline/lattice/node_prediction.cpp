@@ -85,19 +85,16 @@ Prediction NodePredictor::predict(const LatticeNode& node, const Surroundings& a
   return {NodeValue(mean + (on_primitive - mean) * share, seen.primitive), true, on_primitive};
 }
 
-NodeValue NodePredictor::value(const LatticeNode& node) {
-  if (!LatticeStore::is_corner(node)) return store_.is_sampled(node) ? store_.sample(node) : predicted(node);
-  if (const NodeValue* kept = store_.kept_at(node)) return *kept;
-  const NodeValue now = predicted(node);
-  store_.keep_prediction(node, now);
+NodeValue NodePredictor::kept_prediction(const LatticeNode& corner) {
+  const NodeValue now = predicted(corner);
+  store_.keep_prediction(corner, now);
   return now;
 }
 
 // Nothing predicts the corners of base squares: without a sample they are black.
 NodeValue NodePredictor::predicted(const LatticeNode& node) {
   if (is_base(node)) return {};
-  const Surroundings nodes = around(node, level_of(node));
-  return predict(node, nodes, nodes.variance(), nodes.primitives()).value;
+  return predict(node, around(node, level_of(node)));
 }
 
 }  // namespace pprt

@@ -72,11 +72,20 @@ class NodePredictor {
 
   // Predicts a node from them. `variance` and `primitives` are theirs.
   Prediction predict(const LatticeNode& node, const Surroundings& around, float variance, int primitives);
+  NodeValue predict(const LatticeNode& node, const Surroundings& around) {
+    return predict(node, around, around.variance(), around.primitives()).value;
+  }
 
   // Returns a node's sample or, where there is none, its prediction.
-  NodeValue value(const LatticeNode& node);
+  NodeValue value(const LatticeNode& node) {
+    if (!LatticeStore::is_corner(node))
+      return store_.is_sampled(node) ? store_.sample(node) : predicted(node);
+    const NodeValue* kept = store_.kept_at(node);
+    return kept != nullptr ? *kept : kept_prediction(node);
+  }
 
  private:
+  NodeValue kept_prediction(const LatticeNode& corner);
   NodeValue predicted(const LatticeNode& node);
 
   LatticeStore& store_;

@@ -112,8 +112,8 @@ TEST_CASE("lattice store: only candidates of the least priority are collected") 
   store.collect(0, kLatticeLevels[0], kLeastCandidate, found);
   CHECK(found == std::vector{low, high});
   std::array<std::int64_t, 256> counts{};
-  store.count_states(0, counts);
-  CHECK((counts[99] == 1 && counts[100] == 1 && counts[kSampled] == 1));
+  store.count_candidates(0, counts);
+  CHECK((counts[99] == 1 && counts[100] == 1 && counts[kSampled] == 0));
 }
 
 TEST_CASE("lattice store: predictions last until they are forgotten, more often than a byte counts") {
