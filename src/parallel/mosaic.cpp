@@ -16,17 +16,16 @@ void Mosaic::paste(int from, const PixelMessage& message) {
   const auto paste_tile = [&](std::int32_t tile, bool by_owner) {
     if (tile < 0 || tile >= grid_.tile_count()) throw ProtocolError("pixels of a tile that is none");
     const PixelRect rect = grid_.pixels(tile);
-    if (message.rgb.size() - next < 3 * rect.area()) throw ProtocolError("pixels are missing in a message");
-    const float* rgb = message.rgb.data() + next;
-    next += 3 * rect.area();
+    if (message.colors.size() - next < rect.area()) throw ProtocolError("pixels are missing in a message");
+    const Color* row = message.colors.data() + next;
+    next += rect.area();
     const auto t = static_cast<std::size_t>(tile);
     const Age age{message.frame_index, by_owner};
     if (age < ages_[t]) return;
     ages_[t] = age;
     ranks_[t] = from;
-    for (int y = rect.y0; y < rect.y1; ++y) {
-      for (int x = rect.x0; x < rect.x1; ++x, rgb += 3) image_.at(x, y) = Color(rgb[0], rgb[1], rgb[2]);
-    }
+    for (int y = rect.y0; y < rect.y1; ++y, row += rect.width())
+      std::copy_n(row, rect.width(), &image_.at(rect.x0, y));
   };
   for (const TileReport& tile : message.tiles) paste_tile(tile.tile, true);
   for (const std::int32_t tile : message.given) paste_tile(tile, false);

@@ -2,13 +2,11 @@
 
 namespace pprt {
 
-void RegionPicture::append_tile(const TileGrid& grid, int tile, std::vector<float>& rgb) const {
+void RegionPicture::append_tile(const TileGrid& grid, int tile, std::vector<Color>& colors) const {
   const PixelRect rect = grid.pixels(tile);
   for (int y = rect.y0; y < rect.y1; ++y) {
-    for (int x = rect.x0; x < rect.x1; ++x) {
-      const Color& c = pixels_.at(x, y);
-      rgb.insert(rgb.end(), {c.x, c.y, c.z});
-    }
+    const Color* row = &pixels_.at(rect.x0, y);
+    colors.insert(colors.end(), row, row + rect.width());
   }
 }
 

@@ -16,8 +16,8 @@ class RegionPicture {
     samples.paint(further_tiles, pixels_);
   }
 
-  // Appends the pixels of a tile to `rgb`: rows from the top, 3 values a pixel.
-  void append_tile(const TileGrid& grid, int tile, std::vector<float>& rgb) const;
+  // Appends the pixels of a tile to `colors`, rows from the top.
+  void append_tile(const TileGrid& grid, int tile, std::vector<Color>& colors) const;
 
  private:
   RegionPixels pixels_;

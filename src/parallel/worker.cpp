@@ -163,11 +163,12 @@ void Worker::send_pixels(const FrameOrder& order, double sampling_ended_s) {
   PixelMessage message;
   message.frame_index = order.index;
   message.is_last = false;
+  message.colors.reserve(std::min(sampler_.region().pixel_count(), kPixelsInMessage));
   std::size_t bytes = 0;
   const auto append = [&](auto& list, const auto& tile, int number) {
     list.push_back(tile);
-    picture_.append_tile(grid, number, message.rgb);
-    if (message.rgb.size() >= 3 * kPixelsInMessage) bytes += send_part(message);
+    picture_.append_tile(grid, number, message.colors);
+    if (message.colors.size() >= kPixelsInMessage) bytes += send_part(message);
   };
   for (const TileReport& tile : tiles) append(message.tiles, tile, tile.tile);
   if (bundles_.policy().sends_substitute_pixels()) {
@@ -185,7 +186,7 @@ void Worker::send_pixels(const FrameOrder& order, double sampling_ended_s) {
   }
   message.report = make_report(sampling_ended_s);
   message.report.bytes_balance += tiles.size() * sizeof(TileReport);
-  message.report.bytes_pixels = bytes + message.rgb.size() * sizeof(float);
+  message.report.bytes_pixels = bytes + message.colors.size() * sizeof(Color);
   network_.send(0, Tag::kPixels, encode(message));
   clock_->end_frame(message.report.cpu_ms.reconstruction);
 }
@@ -195,10 +196,10 @@ void Worker::send_pixels(const FrameOrder& order, double sampling_ended_s) {
 std::size_t Worker::send_part(PixelMessage& message) {
   network_.send(0, Tag::kPixels, encode(message));
   bundles_.look();
-  const std::size_t bytes = message.rgb.size() * sizeof(float);
+  const std::size_t bytes = message.colors.size() * sizeof(Color);
   message.tiles.clear();
   message.given.clear();
-  message.rgb.clear();
+  message.colors.clear();
   return bytes;
 }
 

@@ -149,7 +149,7 @@ Bytes encode(const PixelMessage& pixels) {
   out.put(pixels.frame_index), out.put(pixels.is_last), out.put(pixels.report);
   out.put_all(std::span<const TileReport>(pixels.tiles));
   out.put_all(std::span<const std::int32_t>(pixels.given));
-  out.put_all(std::span<const float>(pixels.rgb));
+  out.put_all(std::span<const Color>(pixels.colors));
   put_samples(out, pixels.samples);
   return out.take();
 }
@@ -160,7 +160,7 @@ PixelMessage decode_pixels(std::span<const std::byte> bytes) {
   in.get(pixels.frame_index), in.get(pixels.is_last), in.get(pixels.report);
   in.get_all(pixels.tiles);
   in.get_all(pixels.given);
-  in.get_all(pixels.rgb);
+  in.get_all(pixels.colors);
   pixels.samples = get_samples(in);
   in.expect_end();
   return pixels;

@@ -98,7 +98,7 @@ struct PixelMessage {
   RankReport report;
   std::vector<TileReport> tiles;
   std::vector<std::int32_t> given;  // tiles given away in this frame: shown unless their new owner sends them
-  std::vector<float> rgb;           // 3 per pixel
+  std::vector<Color> colors;        // of the pixels
   std::vector<Sample> samples;      // of the region; empty unless the settings ask for them
 };
 

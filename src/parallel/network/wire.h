@@ -37,6 +37,11 @@ class WireWriter {
     put(static_cast<std::uint64_t>(values.size()));
     append(values.data(), values.size_bytes());
   }
+  void put_all(std::span<const Color> colors) {
+    static_assert(sizeof(Color) == 3 * sizeof(float));
+    put(static_cast<std::uint64_t>(colors.size()));
+    append(colors.data(), colors.size_bytes());
+  }
 
   Bytes take() { return std::move(bytes_); }
 
@@ -89,6 +94,11 @@ class WireReader {
   void get_all(std::vector<T>& values) {
     values.resize(count(sizeof(T)));
     copy_out(values.data(), values.size() * sizeof(T));
+  }
+  void get_all(std::vector<Color>& colors) {
+    colors.resize(
+        count(sizeof(Color)));  // leaves them as they are: most of a message must not be written twice
+    for (Color& c : colors) copy_out(&c.x, sizeof(Color));
   }
 
   // Call it after the last value.

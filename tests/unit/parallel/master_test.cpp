@@ -51,7 +51,8 @@ class Stage {
                                .total_weight = rank == 1 ? 40.0 : 4.0,
                                .cost = 100,
                                .reconstruction = 1});
-      message.rgb.insert(message.rgb.end(), 3 * partition_.grid.pixels(tile).area(), value(rank, frame));
+      message.colors.insert(message.colors.end(), partition_.grid.pixels(tile).area(),
+                            Color(value(rank, frame)));
     }
     master_.handle({rank, Tag::kPixels, encode(message)});
   }
@@ -65,7 +66,7 @@ class Stage {
       message.frame_index = frame;
       message.is_last = ++sent == 2;
       message.tiles.push_back({.tile = tile});
-      message.rgb.assign(3 * partition_.grid.pixels(tile).area(), value(rank, frame));
+      message.colors.assign(partition_.grid.pixels(tile).area(), Color(value(rank, frame)));
       master_.handle({rank, Tag::kPixels, encode(message)});
     }
   }

@@ -15,7 +15,7 @@ PixelMessage pixels(int frame, std::initializer_list<int> own, std::initializer_
   message.frame_index = frame;
   for (const int tile : own) message.tiles.push_back({tile, 0, 0, 0, 0, 0});
   message.given = given;
-  message.rgb.assign(3 * 16 * (own.size() + given.size()), value);
+  message.colors.assign(16 * (own.size() + given.size()), Color(value));
   return message;
 }
 
@@ -68,7 +68,7 @@ TEST_CASE("mosaic: pixels that are not those of their tiles are refused") {
   CHECK_THROWS_AS(mosaic.paste(0, pixels(0, {4}, {}, 0)), ProtocolError);
   CHECK_THROWS_AS(mosaic.paste(0, pixels(0, {}, {-1}, 0)), ProtocolError);
   PixelMessage message = pixels(0, {0, 1}, {}, 0);
-  message.rgb.pop_back();
+  message.colors.pop_back();
   CHECK_THROWS_AS(mosaic.paste(0, message), ProtocolError);
 }
 

@@ -58,7 +58,7 @@ PixelMessage some_pixels() {
   pixels.report.finished_s = 6.5;
   pixels.tiles = {{4, 12, 0.5, 100, 20, 3}, {1, 0, 0, 0, 0, 0}};
   pixels.given = {7};
-  pixels.rgb = {0.1f, 0.2f, 0.3f, 1, 2, 3};
+  pixels.colors = {{0.1f, 0.2f, 0.3f}, {1, 2, 3}};
   return pixels;
 }
 
@@ -162,7 +162,7 @@ TEST_CASE("messages: pixels and their report are decoded as they were encoded") 
   CHECK((back.tiles[0].tile == 4 && back.tiles[0].triangles == 12 && back.tiles[0].total_weight == 0.5));
   CHECK((back.tiles[0].cost == 100 && back.tiles[0].reconstruction == 20 && back.tiles[0].preparation == 3));
   CHECK(back.given == pixels.given);
-  CHECK(back.rgb == pixels.rgb);
+  CHECK(back.colors == pixels.colors);
   CHECK(back.report.samples_new == 1);
   CHECK(back.report.samples_known == 2);
   CHECK(back.report.non_finite == 3);
@@ -237,9 +237,10 @@ TEST_CASE("messages: a count that a message cannot hold takes no memory") {
 
   const PixelMessage pixels = some_pixels();
   const Bytes bytes = encode(pixels);
-  const std::size_t rgb = bytes.size() - 6 * sizeof(float) - 2 * sizeof(std::uint64_t);  // no samples follow
-  check_hostile_count(bytes, rgb, kDecodePixels);
-  const std::size_t given = rgb - sizeof(std::int32_t) - sizeof(std::uint64_t);
+  const std::size_t colors =
+      bytes.size() - 6 * sizeof(float) - 2 * sizeof(std::uint64_t);  // no samples follow
+  check_hostile_count(bytes, colors, kDecodePixels);
+  const std::size_t given = colors - sizeof(std::int32_t) - sizeof(std::uint64_t);
   check_hostile_count(bytes, given, kDecodePixels);
   check_hostile_count(bytes, given - 2 * sizeof(TileReport) - sizeof(std::uint64_t), kDecodePixels);
 }

@@ -34,7 +34,7 @@ std::size_t pixels_bytes(std::size_t tiles, std::size_t transfers, std::size_t p
   PixelMessage message;
   message.tiles.resize(tiles);
   message.given.resize(transfers);
-  message.rgb.resize(3 * pixels);
+  message.colors.resize(pixels);
   message.samples.resize(samples);
   return encode(message).size();
 }
