@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "parallel/clock/frame_clock.h"
+#include "parallel/flip_estimate.h"
 #include "parallel/region_sampler.h"
 #include "parallel/session_settings.h"
 
@@ -15,11 +16,12 @@ class FrameGoal {
  public:
   FrameGoal(const SessionSettings& settings, int ranks);
 
-  void begin_frame();
+  // `has_new_picture`: no sample of the frame before is left.
+  void begin_frame(bool has_new_picture);
 
   // Whether a stop rule is reached in this rank's region. Of a number of samples a rank takes the share of
-  // its pixels.
-  bool is_reached(RegionSampler& sampler, const FrameClock& clock) const;
+  // its pixels. May reconstruct `picture`, to estimate how good it is.
+  bool is_reached(RegionSampler& sampler, RegionPicture& picture, FrameClock& clock);
 
   // Records whether this rank has reached its goal after a round, and what another rank says of its own.
   void set_done(bool done) { done_ = done; }
@@ -31,6 +33,7 @@ class FrameGoal {
  private:
   const StopRules stop_;
   std::uint64_t image_pixels_;
+  FlipEstimate flip_;
   bool done_ = false;
   std::vector<std::uint8_t> peer_done_;  // per rank
 };

@@ -19,6 +19,8 @@ class RegionPicture {
   // Appends the pixels of a tile to `colors`, rows from the top.
   void append_tile(const TileGrid& grid, int tile, std::vector<Color>& colors) const;
 
+  const RegionPixels& pixels() const { return pixels_; }
+
  private:
   RegionPixels pixels_;
 };

@@ -38,7 +38,8 @@ enum class BalanceMode : std::uint8_t {
 struct StopRules {
   double seconds = 0;         // wall clock: elapsed; work clock: work units / kWorkUnitsPerSecond
   std::uint64_t samples = 0;  // in the whole image; each rank takes the share of its pixels
-  double quality = 0;         // mean weight of a rank's triangles (refinement), smaller is better
+  double flip = 0;            // estimated mean FLIP of a rank's region
+  double weight = 0;          // mean weight of what a rank may still refine, smaller is better
 
   friend bool operator==(const StopRules&, const StopRules&) = default;
 };

@@ -30,7 +30,7 @@ void Worker::render(const FrameOrder& order) {
   ownership_.begin_frame();
   reprojection_.begin_frame();
   anchors_.begin_frame();
-  goal_.begin_frame();
+  goal_.begin_frame(order.carry != Carry::kAccumulate);
 
   bundles_.await([&] { return clock_->may_begin(order); });
   if (clock_->is_past(order)) {
@@ -86,7 +86,7 @@ void Worker::sample(const FrameOrder& order) {
 Worker::Packet Worker::sample_packet(bool has_rate, CastEvidence* evidence) {
   Packet packet;
   while (!packet.idle && !clock_->packet_over()) {
-    packet.idle = (!has_rate && goal_.is_reached(sampler_, *clock_)) || !sample_once(evidence);
+    packet.idle = (!has_rate && goal_.is_reached(sampler_, picture_, *clock_)) || !sample_once(evidence);
     packet.traced = packet.traced || !packet.idle;
   }
   return packet;

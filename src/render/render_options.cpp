@@ -87,10 +87,9 @@ void add_stop_rules(CLI::App& app, RenderOptions& o) {
       ->check(count_from(1))
       ->type_name("N")
       ->group(kRun);
-  app.add_option(
-         "--quality", o.quality,
-         "Without a rate: stop a frame at a mean weight of Q (default: 2e-5; with --sampler delaunay 0.005)")
-      ->check(number_between(1e-12, 1e12))
+  app.add_option("--quality", o.quality,
+                 "Without a rate: stop a frame at an estimated FLIP of Q (default: when it looks converged)")
+      ->check(number_between(1e-6, 1))
       ->type_name("Q")
       ->group(kRun);
 }

@@ -34,7 +34,7 @@ struct RenderOptions {
   std::optional<std::uint64_t> budget;   // work units for each rank and frame
   std::optional<double> time;            // seconds
   std::optional<std::uint64_t> samples;  // in the image
-  std::optional<double> quality;         // mean triangle weight
+  std::optional<double> quality;         // mean FLIP
   BalanceMode balance = BalanceMode::kCombined;
   CastChoice cast = CastChoice::kAuto;
   bool keep_samples = true;

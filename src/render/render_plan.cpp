@@ -136,12 +136,12 @@ bool needs_triangulation(const RenderOptions& options) {
          options.pixels != PixelRule::kEdges;
 }
 
-double still_quality(SamplerChoice sampler) {
+double still_weight(SamplerChoice sampler) {
   switch (sampler) {
     case SamplerChoice::kDelaunay:
-      return kStillQuality;
+      return kStillWeight;
     case SamplerChoice::kAuto:
-      return kLatticeStillQuality;
+      return kLatticeStillWeight;
     case SamplerChoice::kGrid:
       break;
   }
@@ -162,10 +162,10 @@ void settle_ends(const RenderOptions& options, double fps, SessionSettings& sett
     settings.budget_units = options.budget.value_or(default_budget_units(fps));
   } else {
     if (options.budget) throw UsageError("--budget needs a frame rate (--fps)");
-    settings.stop = {
-        .seconds = options.time.value_or(0),
-        .samples = options.samples.value_or(0),
-        .quality = options.quality.value_or(has_stop_rule ? 0 : still_quality(settings.sampler))};
+    settings.stop = {.seconds = options.time.value_or(0),
+                     .samples = options.samples.value_or(0),
+                     .flip = options.quality.value_or(0),
+                     .weight = has_stop_rule ? 0 : still_weight(settings.sampler)};
   }
 }
 

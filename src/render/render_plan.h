@@ -59,10 +59,10 @@ struct RenderPlan {
 
 // Mean triangle weight at which a still looks converged: the structural similarity to a converged picture is
 // at least 0.99 on every SPD scene tried (docs/decisions/0007-still-quality.md).
-inline constexpr double kStillQuality = 0.005;
+inline constexpr double kStillWeight = 0.005;
 
 // The same for the lattice: the mean worth of what is still to be sampled (docs/decisions/0021-lattice.md).
-inline constexpr double kLatticeStillQuality = 2e-5;
+inline constexpr double kLatticeStillWeight = 2e-5;
 
 // Returns every file of a frame: its pictures and, beside those that cannot hold layers, the layers' own.
 std::vector<FramePattern> files_of_a_frame(const OutputPlan& output);

@@ -39,7 +39,7 @@ Json options_record(const RenderPlan& plan) {
   if (s.frames_per_second <= 0) {
     options["time"] = s.stop.seconds;
     options["samples"] = s.stop.samples;
-    options["quality"] = s.stop.quality;
+    options["quality"] = s.stop.flip;
   }
   return options;
 }
@@ -51,7 +51,7 @@ std::string run_key(const RunIdentity& run) {
   const CompileOptions& c = run.plan.compile;
   std::string text = fmt::format("{} {} {} {} {} {} {} {} {} {}", run.scene_hash, run.ranks, s.width,
                                  s.height, word_for(s.clock), s.frames_per_second, s.budget_units,
-                                 s.stop.seconds, s.stop.samples, s.stop.quality);
+                                 s.stop.seconds, s.stop.samples, s.stop.flip);
   text += fmt::format(" {}{}{}{}{} {} {} {} {}{}", word_for(s.balance), word_for(s.keep_samples),
                       word_for(s.sampler), word_for(s.pixel_rule), word_for(weight_rule(s)), word_for(s.cast),
                       s.seed, c.max_depth, effects_word(c), c.cull ? " cull" : "");

@@ -19,6 +19,7 @@ enum class Work : std::uint8_t {
   kOwnNode,         // as kOwnSample, on a lattice
   kReceivedNode,    // as kReceivedSample, on a lattice
   kPixel,           // of reconstruction: what a pixel costs beside the triangles
+  kComparedPixel,   // comparing a pixel with itself earlier, by FLIP
   kCastSample,      // projecting and testing one sample of the frame before
   kKeptNode,        // keeping one of them for the nodes near it
   kKeptSample       // reinserting one of them, queueing and painting its triangles
@@ -42,6 +43,8 @@ constexpr WorkUnits price(Work work) {
       return 200;
     case Work::kPixel:
       return 5;
+    case Work::kComparedPixel:
+      return 200;
     case Work::kCastSample:
       return 20;
     case Work::kKeptNode:

@@ -127,9 +127,9 @@ TEST_CASE("session: a stop rule on samples counts those of the whole image") {
   }
 }
 
-TEST_CASE("session: a stop rule on quality holds in every region") {
+TEST_CASE("session: a stop rule on weight holds in every region") {
   for (const int ranks : {1, 3, 5}) {
-    const SessionSettings settings = free_settings(ClockKind::kWork, {.quality = 0.1});
+    const SessionSettings settings = free_settings(ClockKind::kWork, {.weight = 0.1});
     const VirtualRun run = run_session(ranks, settings, still_or_pan(settings, 1));
     REQUIRE(run.frames.size() == 1);
     for (const RankReport& r : run.frames[0].ranks) {
@@ -151,7 +151,7 @@ TEST_CASE("session: a stop rule on time counts work") {
 }
 
 TEST_CASE("session: the first stop rule reached ends the frame") {
-  const SessionSettings settings = free_settings(ClockKind::kWork, {.samples = 600, .quality = 1e-9});
+  const SessionSettings settings = free_settings(ClockKind::kWork, {.samples = 600, .weight = 1e-9});
   const VirtualRun run = run_session(2, settings, still_or_pan(settings, 1));
   REQUIRE(run.frames.size() == 1);
   CHECK(total(run.frames[0], &RankReport::samples_in_region) < 610);
@@ -185,7 +185,7 @@ TEST_CASE("session: more ranks than tiles still make a whole picture") {
     for (const Color& c : run.frames[1].image.pixels) CHECK(c.z > 0.15f);
   }
   for (const StopRules& stop :
-       {StopRules{.samples = 50}, StopRules{.quality = 0.5}, StopRules{.seconds = 0.02}}) {
+       {StopRules{.samples = 50}, StopRules{.weight = 0.5}, StopRules{.seconds = 0.02}}) {
     const SessionSettings free = free_settings(ClockKind::kWork, stop);
     SessionSettings small = free;
     small.width = 9, small.height = 7;
@@ -286,7 +286,7 @@ TEST_CASE("session: frames without a rate end in real time, whenever the last me
           "[realtime]") {
   // Messages say when a frame may end: none may be overlooked.
   for (int repeat = 0; repeat < 5; ++repeat) {
-    const SessionSettings settings = free_settings(ClockKind::kWall, {.quality = 0.5});
+    const SessionSettings settings = free_settings(ClockKind::kWall, {.weight = 0.5});
     const VirtualRun run =
         run_session(4, settings, still_or_pan(settings, 5, 1), {.arrive_at_random = true, .patience_s = 10});
     CHECK(run.error.empty());

@@ -41,12 +41,12 @@ Shown shown(const CompiledScene& scene, const View& view) {
 TEST_CASE("a render job arrives as it was sent") {
   RenderJob job;
   job.go = true;
-  job.settings.width = 77, job.settings.stop.quality = 0.25;
+  job.settings.width = 77, job.settings.stop.flip = 0.25;
   job.compile.max_depth = 3, job.compile.cull = true;
   job.compile.effects = parse_effects("shadows,reflection");
   job.scene_name = "ball.nff", job.scene_nff = "s 0 0 0 1\n";
   const RenderJob back = decode_job(encode(job));
-  CHECK((back.go && back.settings.width == 77 && back.settings.stop.quality == 0.25));
+  CHECK((back.go && back.settings.width == 77 && back.settings.stop.flip == 0.25));
   CHECK((back.compile.max_depth == 3 && back.compile.cull));
   REQUIRE(back.compile.effects);
   CHECK(back.compile.effects->bits() == job.compile.effects->bits());

@@ -52,14 +52,14 @@ RenderOptions scripted(const Files& files) {
 
 }  // namespace
 
-TEST_CASE("a still has the scene's view and ends at the quality for stills") {
+TEST_CASE("a still has the scene's view and ends at the weight for stills") {
   const RenderPlan plan = plan_render(options_for("spd:tree:1"));
   REQUIRE(plan.frames.size() == 1);
   CHECK((plan.frames[0].number == 1 && !plan.frames[0].cut));
   CHECK((plan.settings.width == 512 && plan.settings.height == 512));
   CHECK((plan.frames[0].view.width == 512 && plan.frames[0].view.height == 512));
   CHECK(plan.settings.frames_per_second == 0);
-  CHECK(plan.settings.stop.quality == kLatticeStillQuality);
+  CHECK(plan.settings.stop.weight == kLatticeStillWeight);
   CHECK((plan.settings.stop.samples == 0 && plan.settings.stop.seconds == 0));
   REQUIRE(plan.output.pictures.size() == 1);
   CHECK(file_name(plan.output.pictures[0], 1) == "frame_0001.png");
@@ -114,7 +114,7 @@ TEST_CASE("the frame rate of the options precedes the script's, and 0 turns it o
   options.clock = ClockKind::kWork, options.budget = 123;
   CHECK(plan_render(options).settings.budget_units == 123);
   options.budget.reset(), options.fps = 0;
-  CHECK(plan_render(options).settings.stop.quality == kLatticeStillQuality);
+  CHECK(plan_render(options).settings.stop.weight == kLatticeStillWeight);
 }
 
 TEST_CASE("the triangulation is taken where an option asks for what it alone knows") {
@@ -130,20 +130,20 @@ TEST_CASE("the triangulation is taken where an option asks for what it alone kno
   CHECK(with([](RenderOptions& o) { o.cast = CastChoice::kPaper; }).sampler == SamplerChoice::kDelaunay);
   CHECK(with([](RenderOptions& o) { o.weights = WeightRule::kPaper; }).sampler == SamplerChoice::kDelaunay);
   CHECK(with([](RenderOptions& o) { o.pixels = PixelRule::kMean; }).sampler == SamplerChoice::kDelaunay);
-  CHECK(with([](RenderOptions& o) { o.pixels = PixelRule::kMean; }).stop.quality == kStillQuality);
+  CHECK(with([](RenderOptions& o) { o.pixels = PixelRule::kMean; }).stop.weight == kStillWeight);
   options.sampler = SamplerChoice::kGrid;
-  CHECK(with([](RenderOptions&) {}).stop.quality == 0);
+  CHECK(with([](RenderOptions&) {}).stop.weight == 0);
   options.cast = CastChoice::kPaper;
   CHECK_THROWS_WITH(check_usage(options), Catch::Contains("--sampler grid has no triangles"));
 }
 
-TEST_CASE("a stop rule that is given replaces the quality for stills") {
+TEST_CASE("a stop rule that is given replaces the weight for stills") {
   RenderOptions options = options_for("spd:tree:1");
   options.samples = 500;
   CHECK(plan_render(options).settings.stop.samples == 500);
-  CHECK(plan_render(options).settings.stop.quality == 0);
+  CHECK(plan_render(options).settings.stop.weight == 0);
   options.quality = 0.5;
-  CHECK(plan_render(options).settings.stop.quality == 0.5);
+  CHECK((plan_render(options).settings.stop.flip == 0.5 && plan_render(options).settings.stop.weight == 0));
 }
 
 TEST_CASE("all frames, a range or one are planned, and camera cuts keep their frames") {

@@ -23,7 +23,7 @@ TEST_CASE("a run's key changes with every setting that decides its pictures") {
       [](RenderPlan& p) { p.settings.clock = ClockKind::kWork; },
       [](RenderPlan& p) { p.settings.frames_per_second = 3; },
       [](RenderPlan& p) { p.settings.budget_units = 3; },
-      [](RenderPlan& p) { p.settings.stop.quality = 3; },
+      [](RenderPlan& p) { p.settings.stop.flip = 3; },
       [](RenderPlan& p) { p.settings.balance = BalanceMode::kLocal; },
       [](RenderPlan& p) { p.settings.keep_samples = false; },
       [](RenderPlan& p) { p.settings.pixel_rule = PixelRule::kMean; },

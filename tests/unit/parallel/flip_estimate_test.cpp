@@ -1,0 +1,84 @@
+// Frames that end at an estimated FLIP, against the FLIP that they have.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "image/metrics.h"
+#include "parallel/session.h"
+#include "unit/parallel/virtual_run.h"
+
+namespace pprt {
+namespace {
+
+SessionSettings settings_for(SamplerChoice sampler, const StopRules& stop) {
+  SessionSettings settings;
+  settings.width = 192, settings.height = 128;
+  settings.clock = ClockKind::kWork;
+  settings.cast = CastChoice::kOff;
+  settings.sampler = sampler;
+  settings.stop = stop;
+  return settings;
+}
+
+Conditions discs() {
+  Conditions conditions;
+  conditions.period = 2.3;
+  return conditions;
+}
+
+FinishedFrame still(int ranks, SamplerChoice sampler, const StopRules& stop) {
+  const SessionSettings settings = settings_for(sampler, stop);
+  VirtualRun run = run_session(ranks, settings, still_or_pan(settings, 1), discs());
+  REQUIRE(run.error.empty());
+  REQUIRE(run.frames.size() == 1);
+  return std::move(run.frames[0]);
+}
+
+std::uint64_t samples_of(const FinishedFrame& frame) {
+  std::uint64_t sum = 0;
+  for (const RankReport& r : frame.ranks) sum += r.samples_in_region;
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("estimated FLIP: a frame that ends at one has about that FLIP") {
+  static const Image finished = still(1, SamplerChoice::kDelaunay, {.samples = 250'000}).image;
+  const SamplerChoice sampler =
+      GENERATE(SamplerChoice::kAuto, SamplerChoice::kDelaunay, SamplerChoice::kGrid);
+  const int ranks = GENERATE(1, 4);
+  INFO("sampler " << static_cast<int>(sampler) << ", " << ranks << " ranks");
+  std::uint64_t fewer = 0;
+  for (const double target : {0.08, 0.04, 0.02}) {
+    const FinishedFrame frame = still(ranks, sampler, {.flip = target});
+    const double found = mean_flip(frame.image, finished);
+    INFO("target " << target << ", samples " << samples_of(frame));
+    CHECK(found < 1.5 * target);
+    // Refinement of triangles finds some discs late, and all of one at once.
+    if (sampler == SamplerChoice::kDelaunay) continue;
+    CHECK(found > target / 4);
+    CHECK(samples_of(frame) >= fewer);
+    fewer = samples_of(frame);
+  }
+}
+
+TEST_CASE("estimated FLIP: a resting picture is good enough at once, one of another view is not") {
+  SessionSettings settings = settings_for(SamplerChoice::kAuto, {.flip = 0.05});
+  settings.cast = CastChoice::kAuto;
+  const VirtualRun rests = run_session(1, settings, still_or_pan(settings, 2), discs());
+  const VirtualRun pans = run_session(1, settings, still_or_pan(settings, 2, 30), discs());
+  REQUIRE((rests.frames.size() == 2 && pans.frames.size() == 2));
+  CHECK(rests.frames[1].ranks[0].samples_new == 0);
+  CHECK(static_cast<double>(pans.frames[1].ranks[0].samples_new) >
+        0.5 * static_cast<double>(pans.frames[0].ranks[0].samples_new));
+}
+
+TEST_CASE("estimated FLIP: looking costs work, and the frame is the same each time") {
+  const StopRules stop{.flip = 0.04};
+  const FinishedFrame first = still(3, SamplerChoice::kAuto, stop),
+                      again = still(3, SamplerChoice::kAuto, stop);
+  CHECK(first.image.pixels == again.image.pixels);
+  const FinishedFrame counted = still(3, SamplerChoice::kAuto, {.samples = samples_of(first)});
+  CHECK(first.ranks[0].finished_s > 1.02 * counted.ranks[0].finished_s);
+}
+
+}  // namespace pprt
