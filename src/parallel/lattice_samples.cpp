@@ -151,9 +151,9 @@ bool LatticeSamples::transfer(const Partition& partition) {
   neighbours_ = ranks_beside(partition, rank_);
   const Region own = region_of(partition, rank_);
   if (own.tiles() == region().tiles()) return false;
+  forget_weights(own);
   lattice_.set_region(own);
   expect_goal();
-  weighed_ = 0;
   return true;
 }
 
@@ -166,20 +166,47 @@ std::vector<std::uint32_t> LatticeSamples::known_in_tiles(int rank) const {
 
 // --- Readings
 
-// Weighs anew when there are a quarter more samples, for that costs as much as some of them, and after
-// painting: what is reported is exact.
+// Weighing costs as much as some hundred samples. What is reported after painting is exact.
 RegionQuality LatticeSamples::quality() {
-  if (weighed_ == 0 || lattice_.samples() > weighed_ + weighed_ / 4) {
-    weighed_ = std::max<std::size_t>(lattice_.samples(), 1);
-    lattice_.weigh(weights_);
-    TileWeights all;
-    for (const int tile : region().tiles()) {
-      const TileWeights& weights = weights_[static_cast<std::size_t>(tile)];
-      all.count += weights.count, all.total_weight += weights.total_weight;
-    }
-    mean_weight_ = all.count > 0 ? all.total_weight / static_cast<double>(all.count) : 0;
-  }
+  constexpr double kGrowth = 1.5;
+  weigh_after(kGrowth);
   return {region(), weights_, mean_weight_};
+}
+
+bool LatticeSamples::is_refined_to(double quality) {
+  constexpr double kGrowth = 1.25;
+  weigh_after(kGrowth);
+  return mean_weight_ <= quality;
+}
+
+// Weighs anew when there are so many times the samples of the last time.
+void LatticeSamples::weigh_after(double growth) {
+  const auto samples = static_cast<double>(lattice_.samples());
+  if (weighed_ > 0 && samples <= growth * static_cast<double>(weighed_)) return;
+  weighed_ = std::max<std::size_t>(lattice_.samples(), 1);
+  lattice_.weigh(weights_);
+  average_weights(region());
+}
+
+// The region becomes another one. If it only gets smaller, what is left has the weights that it had.
+void LatticeSamples::forget_weights(const Region& next) {
+  const std::vector<int>&before = region().tiles(), &after = next.tiles();
+  if (weighed_ == 0 || !std::includes(before.begin(), before.end(), after.begin(), after.end())) {
+    weighed_ = 0;
+    return;
+  }
+  for (const int tile : before)
+    if (!next.owns_tile(tile)) weights_[static_cast<std::size_t>(tile)] = {};
+  average_weights(next);
+}
+
+void LatticeSamples::average_weights(const Region& region) {
+  TileWeights all;
+  for (const int tile : region.tiles()) {
+    const TileWeights& weights = weights_[static_cast<std::size_t>(tile)];
+    all.count += weights.count, all.total_weight += weights.total_weight;
+  }
+  mean_weight_ = all.count > 0 ? all.total_weight / static_cast<double>(all.count) : 0;
 }
 
 CastResult LatticeSamples::cast(const Camera& next, int next_frame, const CastSettings& settings) const {

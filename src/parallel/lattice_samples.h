@@ -48,7 +48,7 @@ class LatticeSamples : public RegionSamples {
   std::span<const Sample> samples() const override { return samples_; }
   const Region& region() const override { return lattice_.region(); }
   RegionQuality quality() override;
-  bool is_refined_to(double quality) override { return this->quality().mean_weight <= quality; }
+  bool is_refined_to(double quality) override;
   CastResult cast(const Camera& next, int next_frame, const CastSettings& settings) const override;
   void camera_changed() override { lattice_.camera_changed(); }
   void paint(std::span<const std::int32_t> further_tiles, RegionPixels& pixels) override;
@@ -59,6 +59,9 @@ class LatticeSamples : public RegionSamples {
     int x0, y0, x1, y1;  // inclusive
   };
   void expect_goal();
+  void weigh_after(double growth);
+  void forget_weights(const Region& next);
+  void average_weights(const Region& region);
   TileRange tiles_that_need(const Sample& sample) const;
   void keep(const Sample& sample);
   void tell_others(const Sample& sample, int from);

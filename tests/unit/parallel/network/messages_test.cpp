@@ -203,12 +203,12 @@ TEST_CASE("messages: a value that its type does not have is refused") {
   CHECK_THROWS_AS(decode_bundle(with(bundle, 12, 255)), ProtocolError);  // done
   const Bytes settings = encode(some_settings());
   CHECK_THROWS_AS(decode_settings(with(settings, 8, 2)), ProtocolError);   // clock
-  CHECK_THROWS_AS(decode_settings(with(settings, 49, 4)), ProtocolError);  // balance
-  CHECK_THROWS_AS(decode_settings(with(settings, 50, 4)), ProtocolError);  // cast
-  CHECK_THROWS_AS(decode_settings(with(settings, 51, 2)), ProtocolError);  // keep_samples
-  CHECK_THROWS_AS(decode_settings(with(settings, 52, 4)), ProtocolError);  // pixel_rule
-  CHECK_THROWS_AS(decode_settings(with(settings, 53, 3)), ProtocolError);  // sampler
-  CHECK_THROWS_AS(decode_settings(with(settings, 54, 2)), ProtocolError);  // learned_weights
+  CHECK_THROWS_AS(decode_settings(with(settings, 57, 4)), ProtocolError);  // balance
+  CHECK_THROWS_AS(decode_settings(with(settings, 58, 4)), ProtocolError);  // cast
+  CHECK_THROWS_AS(decode_settings(with(settings, 59, 2)), ProtocolError);  // keep_samples
+  CHECK_THROWS_AS(decode_settings(with(settings, 60, 4)), ProtocolError);  // pixel_rule
+  CHECK_THROWS_AS(decode_settings(with(settings, 61, 3)), ProtocolError);  // sampler
+  CHECK_THROWS_AS(decode_settings(with(settings, 62, 2)), ProtocolError);  // learned_weights
 }
 
 TEST_CASE("messages: runs of more tiles than an image has are refused") {
