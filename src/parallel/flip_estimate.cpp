@@ -36,13 +36,17 @@ bool FlipEstimate::is_at_most(double target, RegionSampler& sampler, RegionPictu
   if (samples >= next_look_ && static_cast<double>(samples) >= first) {
     picture.reconstruct(sampler.samples(), {});
     clock.spend(Work::kPixel, region.pixel_count());
-    look(target, samples, region, picture.pixels(), clock);
+    const std::optional<double> change = look(region, picture.pixels(), clock);
+    if (change) foretell(target, kErrorOfChange * *change, static_cast<double>(samples));
+    samples_ = samples;
+    next_look_ = 2 * samples;
   }
   return static_cast<double>(samples) >= enough_;
 }
 
-void FlipEstimate::look(double target, std::uint64_t samples, const Region& region,
-                        const RegionPixels& picture, FrameClock& clock) {
+// Keeps what it sees. Returns the mean FLIP to the last look, of the blocks that were looked at then.
+std::optional<double> FlipEstimate::look(const Region& region, const RegionPixels& picture,
+                                         FrameClock& clock) {
   std::vector<Block> now;
   double sum = 0;
   std::size_t compared = 0;
@@ -57,19 +61,19 @@ void FlipEstimate::look(double target, std::uint64_t samples, const Region& regi
     for (std::size_t i = 0; i < errors.size(); ++i)
       if (block.owned[i] != 0) sum += errors[i], ++compared;
   }
-  if (compared > 0) {
-    const double estimate = kErrorOfChange * sum / static_cast<double>(compared);
-    const double growth = static_cast<double>(samples) / static_cast<double>(samples_);
-    const double slope =
-        estimate_ > 0 && estimate > 0 ? std::log(estimate_ / estimate) / std::log(growth) : kExpectedSlope;
-    const double lacking = std::max(1.0, estimate / target);
-    enough_ =
-        static_cast<double>(samples) * std::pow(lacking, 1 / std::clamp(slope, kLeastSlope, kGreatestSlope));
-    estimate_ = estimate;
-  }
   blocks_ = std::move(now);
-  samples_ = samples;
-  next_look_ = 2 * samples;
+  if (compared == 0) return std::nullopt;
+  return sum / static_cast<double>(compared);
+}
+
+// The error is taken to fall as a power of the samples: as it did since the last look.
+void FlipEstimate::foretell(double target, double estimate, double samples) {
+  const double last = std::exchange(estimate_, estimate);
+  const double slope = last > 0 && estimate > 0
+                           ? std::log(last / estimate) / std::log(samples / static_cast<double>(samples_))
+                           : kExpectedSlope;
+  const double lacking = std::max(1.0, estimate / target);
+  enough_ = samples * std::pow(lacking, 1 / std::clamp(slope, kLeastSlope, kGreatestSlope));
 }
 
 // Some blocks of a region of many, wherever.

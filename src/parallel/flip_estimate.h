@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "image/flip.h"
@@ -36,8 +37,8 @@ class FlipEstimate {
 
   static std::vector<PixelRect> choose_blocks(const Region& region);
   static Block look_at(const PixelRect& pixels, const Region& region, const RegionPixels& picture);
-  void look(double target, std::uint64_t samples, const Region& region, const RegionPixels& picture,
-            FrameClock& clock);
+  std::optional<double> look(const Region& region, const RegionPixels& picture, FrameClock& clock);
+  void foretell(double target, double estimate, double samples);
 
   std::vector<Block> blocks_;    // of the last look
   std::uint64_t samples_ = 0;    // at the last look

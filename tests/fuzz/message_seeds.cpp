@@ -29,7 +29,8 @@ int main(int argc, char** argv) {
   bundle.transfers.resize(2), bundle.samples.resize(3);
   write(directory / "bundle", 1, encode(bundle));
   pprt::PixelMessage pixels;
-  pixels.tiles.resize(1), pixels.given = {5}, pixels.colors = {Color(1, 0.5f, 0)}, pixels.samples.resize(2);
+  pixels.tiles.resize(1), pixels.given = {5}, pixels.colors = {pprt::Color(1, 0.5f, 0)},
+                          pixels.samples.resize(2);
   write(directory / "pixels", 2, encode(pixels));
   write(directory / "settings", 3, encode(pprt::SessionSettings()));
 }
