@@ -13,6 +13,7 @@
 
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 
 #include "base/vector.h"
@@ -69,6 +70,12 @@ inline constexpr std::array<LatticeLevel, 10> kLatticeLevels = {{{32, LatticeKin
                                                                  {4, LatticeKind::kMiddle},
                                                                  {2, LatticeKind::kCenter},
                                                                  {2, LatticeKind::kMiddle}}};
+
+// Returns the place of a level among kLatticeLevels.
+inline std::size_t index_of(const LatticeLevel& level) {
+  const int halvings = std::bit_width(unsigned{kBaseSide}) - std::bit_width(static_cast<unsigned>(level.side));
+  return static_cast<std::size_t>(2 * halvings + (level.kind == LatticeKind::kMiddle ? 1 : 0));
+}
 
 // Returns the level of a node that is no corner of a base square.
 inline LatticeLevel level_of(const LatticeNode& node) {

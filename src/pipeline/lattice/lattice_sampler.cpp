@@ -45,7 +45,7 @@ LatticeSampler::LatticeSampler(const Region& region, ProjectedShapeCache::View v
       errors_(store_.right(), store_.bottom()),
       predictor_(store_, shapes_, errors_, share_),
       painter_(store_, predictor_, shapes_, errors_, share_),
-      greatest_(static_cast<std::size_t>(store_.tile_count())) {
+      greatest_(static_cast<std::size_t>(store_.tile_count()) * kLatticeLevels.size()) {
   clear();
 }
 
@@ -120,7 +120,7 @@ void LatticeSampler::leave_square(const LatticeNode& corner) {
   for (int y = corner.y; y <= corner.y + kBaseSide; ++y) {
     for (int x = corner.x; x <= corner.x + kBaseSide; ++x)
       if (store_.has({x, y}) && !own_.owns({x, y}) && store_.state({x, y}) >= kLeastCandidate)
-        store_.state_for_writing({x, y}) = kNotWanted;
+        store_.set_state({x, y}, kNotWanted);
   }
 }
 
@@ -166,24 +166,20 @@ bool LatticeSampler::next_nodes() {
   } else if (pass_.takes_all) {
     store_.collect_all(tile_, kLatticeLevels[level], nodes_);
     std::erase_if(nodes_, [&](const LatticeNode& node) { return !own_.owns(node); });
-  } else {
+  } else if (NodeState& greatest = greatest_in(tile_, level); greatest >= pass_.least) {
+    greatest = pass_.least;  // no greater one will be left; new ones may come
     store_.collect(tile_, kLatticeLevels[level], pass_.least, nodes_);
   }
   return true;
 }
 
-// Goes on to the next tile of the pass that may hold candidates for it.
+// Goes on to the next tile of the pass.
 bool LatticeSampler::next_tile() {
-  level_ = pass_.first_level;
   while (++tile_ < store_.tile_count()) {
     if (!own_.touches_tile(tile_)) continue;
-    if (pass_.takes_all) return true;
-    NodeState& greatest = greatest_[static_cast<std::size_t>(tile_)];
-    if (greatest < pass_.least) continue;
-    greatest = pass_.least;  // no greater one is left; new ones may come
+    level_ = pass_.first_level;
     return true;
   }
-  level_ = pass_.end_level;
   return false;
 }
 
@@ -255,11 +251,7 @@ bool LatticeSampler::start_refinement_pass() {
 }
 
 LatticeSampler::CandidateCounts LatticeSampler::candidates_above() const {
-  CandidateCounts counts{};
-  for (int tile = 0; tile < store_.tile_count(); ++tile) {
-    const auto t = static_cast<std::size_t>(tile);
-    if (own_.touches_tile(tile) && greatest_[t] > kLeastCandidate) store_.count_candidates(tile, counts);
-  }
+  CandidateCounts counts = store_.candidates();
   for (std::size_t i = kGreatestCandidate; i > kLeastCandidate; --i) counts[i] += counts[i + 1];
   return counts;
 }
@@ -283,7 +275,7 @@ bool LatticeSampler::is_wanted(const LatticeNode& node, const LatticeLevel& leve
   if (pass_.takes_all) return true;
   const float worth = worth_of(node, level);
   if (worth >= pass_.threshold) return true;
-  store_.state_for_writing(node) = priority_of(worth);
+  store_.set_state(node, priority_of(worth));
   return false;
 }
 
@@ -400,36 +392,35 @@ void LatticeSampler::make_candidates(const LatticeNode& node, const LatticeLevel
   const auto [x, y] = node;
   if (level.kind == LatticeKind::kCenter) {
     const int half = level.side / 2;
-    const NodeState priority = priority_of(worth_per_area * effect_of({level.side, LatticeKind::kMiddle}));
-    make_candidate({x - half, y}, priority);
-    make_candidate({x + half, y}, priority);
-    make_candidate({x, y - half}, priority);
-    make_candidate({x, y + half}, priority);
+    const LatticeLevel next{level.side, LatticeKind::kMiddle};
+    const NodeState priority = priority_of(worth_per_area * effect_of(next));
+    make_candidate({x - half, y}, next, priority);
+    make_candidate({x + half, y}, next, priority);
+    make_candidate({x, y - half}, next, priority);
+    make_candidate({x, y + half}, next, priority);
   } else if (level.side > 2) {
     const int quarter = level.side / 4;
-    const NodeState priority =
-        priority_of(worth_per_area * effect_of({level.side / 2, LatticeKind::kCenter}));
-    make_candidate({x - quarter, y - quarter}, priority);
-    make_candidate({x + quarter, y - quarter}, priority);
-    make_candidate({x - quarter, y + quarter}, priority);
-    make_candidate({x + quarter, y + quarter}, priority);
+    const LatticeLevel next{level.side / 2, LatticeKind::kCenter};
+    const NodeState priority = priority_of(worth_per_area * effect_of(next));
+    make_candidate({x - quarter, y - quarter}, next, priority);
+    make_candidate({x + quarter, y - quarter}, next, priority);
+    make_candidate({x - quarter, y + quarter}, next, priority);
+    make_candidate({x + quarter, y + quarter}, next, priority);
   }
 }
 
 // What came as a surprise on the side of two squares may go on in them: their centres get another chance.
 void LatticeSampler::look_beyond(const LatticeNode& middle, int side, float worth_per_area) {
   const int half = side / 2, dx = (middle.x & half) != 0 ? 0 : half, dy = half - dx;  // across the side
-  const NodeState priority = priority_of(worth_per_area * effect_of({side, LatticeKind::kCenter}));
-  make_candidate({middle.x - dx, middle.y - dy}, priority);
-  make_candidate({middle.x + dx, middle.y + dy}, priority);
+  const LatticeLevel level{side, LatticeKind::kCenter};
+  const NodeState priority = priority_of(worth_per_area * effect_of(level));
+  make_candidate({middle.x - dx, middle.y - dy}, level, priority);
+  make_candidate({middle.x + dx, middle.y + dy}, level, priority);
 }
 
-void LatticeSampler::make_candidate(const LatticeNode& node, NodeState priority) {
-  if (!store_.has(node) || !own_.owns(node)) return;
-  NodeState& state = store_.state_for_writing(node);
-  if (state == kSampled || state >= priority) return;
-  state = priority;
-  NodeState& greatest = greatest_[static_cast<std::size_t>(store_.tile_at(node))];
+void LatticeSampler::make_candidate(const LatticeNode& node, const LatticeLevel& level, NodeState priority) {
+  if (!store_.has(node) || !own_.owns(node) || !store_.raise(node, priority)) return;
+  NodeState& greatest = greatest_in(store_.tile_at(node), index_of(level));
   greatest = std::max(greatest, priority);
 }
 

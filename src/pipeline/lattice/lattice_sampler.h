@@ -124,6 +124,9 @@ class LatticeSampler {
   void learn_growth();
   CandidateCounts candidates_above() const;
   void collect_base(int tile);
+  NodeState& greatest_in(int tile, std::size_t level) {
+    return greatest_[static_cast<std::size_t>(tile) * kLatticeLevels.size() + level];
+  }
   Surroundings known_around(const LatticeNode& node, const LatticeLevel& level) const;
   bool is_wanted(const LatticeNode& node, const LatticeLevel& level);
   float worth_of(const LatticeNode& node, const LatticeLevel& level);
@@ -131,7 +134,7 @@ class LatticeSampler {
   void learn_edge(const Wanted& at, const float4& seen, const Prediction& predicted);
   void make_candidates(const LatticeNode& node, const LatticeLevel& level, float worth_per_area);
   void look_beyond(const LatticeNode& middle, int side, float worth_per_area);
-  void make_candidate(const LatticeNode& node, NodeState priority);
+  void make_candidate(const LatticeNode& node, const LatticeLevel& level, NodeState priority);
 
   LatticeOrder order_;
   LatticeStore store_;
@@ -155,7 +158,7 @@ class LatticeSampler {
   std::size_t level_ = 0;           // of the pass, in the tile
   std::vector<LatticeNode> nodes_;  // of the level in the tile
   std::size_t next_ = 0;
-  std::vector<NodeState> greatest_;  // per tile: no candidate has a greater priority
+  std::vector<NodeState> greatest_;  // per tile and level: no candidate has a greater priority
   Wanted wanted_;
   bool has_wanted_ = false;  // next_point() has returned it
 };

@@ -77,6 +77,7 @@ void LatticeStore::clear() {
     pixels_with_blocks_[t].clear();
   }
   round_ = 1;
+  counts_.fill(0);
   blocks_ = kNoBlock + 1;
 }
 
@@ -99,12 +100,13 @@ void LatticeStore::set_sample(const LatticeNode& node, const NodeValue& value) {
   const std::size_t number = tile_of(node), pixel = pixel_in_tile(node), slot = slot_of(node);
   Tile& tile = tile_for_writing(number);
   if (slot == 0) {
-    tile.corners[pixel] = value, tile.corner_states[pixel] = kSampled;
+    --counts_[std::exchange(tile.corner_states[pixel], kSampled)];
+    tile.corners[pixel] = value;
     return;
   }
   PixelBlock& own = block_for_writing(number, pixel);
   own.values[place_of(slot)] = value;
-  (slot == kCenterSlot ? tile.center_states[pixel] : own.states[slot]) = kSampled;
+  --counts_[std::exchange(slot == kCenterSlot ? tile.center_states[pixel] : own.states[slot], kSampled)];
 }
 
 LatticeStore::PixelBlock& LatticeStore::block_for_writing(std::size_t number, std::size_t pixel) {
@@ -191,22 +193,6 @@ void LatticeStore::collect_all_between_corners(int tile, const LatticeLevel& lev
       }
     }
   }
-}
-
-void LatticeStore::count_candidates(int tile, std::array<std::int64_t, 256>& counts) const {
-  const Tile& from = tiles_[static_cast<std::size_t>(tile)];
-  constexpr std::uint64_t kAllSampled = 0x0101010101010101U * kSampled;
-  const auto count = [&](const auto& states) {
-    for (std::size_t i = 0; i < states.size(); i += sizeof(std::uint64_t)) {
-      if ((load<std::uint64_t>(&states[i]) & ~kAllSampled) == 0) continue;
-      for (std::size_t k = i; k < i + sizeof(std::uint64_t); ++k)
-        if (states[k] >= kLeastCandidate) ++counts[states[k]];
-    }
-  };
-  count(from.corner_states);
-  count(from.center_states);
-  for (const std::uint16_t pixel : pixels_with_blocks_[static_cast<std::size_t>(tile)])
-    count(block(from.blocks[pixel]).states);
 }
 
 }  // namespace pprt

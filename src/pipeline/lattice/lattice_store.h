@@ -66,8 +66,21 @@ class LatticeStore {
   }
   bool is_sampled(const LatticeNode& node) const { return state(node) == kSampled; }
 
-  // Returns the state of an existing node. Makes storage where there is none.
-  NodeState& state_for_writing(const LatticeNode& node);
+  // Changes the state of a node that holds no sample. Makes storage where there is none.
+  void set_state(const LatticeNode& node, NodeState state) {
+    NodeState& now = state_for_writing(node);
+    --counts_[now], ++counts_[state];
+    now = state;
+  }
+
+  // Makes a node a candidate of at least this priority. False if it is one already, or holds a sample.
+  bool raise(const LatticeNode& node, NodeState priority) {
+    NodeState& now = state_for_writing(node);
+    if (now == kSampled || now >= priority) return false;
+    --counts_[now], ++counts_[priority];
+    now = priority;
+    return true;
+  }
 
   // Returns what was seen at a node that holds a sample.
   const NodeValue& sample(const LatticeNode& node) const {
@@ -108,8 +121,8 @@ class LatticeStore {
   // Replaces `nodes` by all nodes of a level in a tile.
   void collect_all(int tile, const LatticeLevel& level, std::vector<LatticeNode>& nodes) const;
 
-  // Adds a tile's candidates to a histogram, by their states.
-  void count_candidates(int tile, std::array<std::int64_t, 256>& counts) const;
+  // Returns how many candidates have each state. Other states do not count.
+  const std::array<std::int64_t, 256>& candidates() const { return counts_; }
 
   // Calls visit(pixel_x, pixel_y, state) for each candidate of a tile.
   template <class Visit>
@@ -168,6 +181,7 @@ class LatticeStore {
     is_touched_[number] = 1;
     return tiles_[number];
   }
+  NodeState& state_for_writing(const LatticeNode& node);
   PixelBlock& block_for_writing(std::size_t tile, std::size_t pixel);
   void collect_corners(int tile, const LatticeLevel& level, NodeState least,
                        std::vector<LatticeNode>& nodes) const;
@@ -178,6 +192,7 @@ class LatticeStore {
 
   int width_, height_, right_, bottom_, columns_, rows_;
   std::uint8_t round_ = 1;
+  std::array<std::int64_t, 256> counts_{};  // by state; of candidates only
   // Zeroed pages, so that tiles which nothing is written to take no memory: their nodes are not wanted.
   std::unique_ptr<Tile[], Release> tiles_;
   std::vector<std::uint8_t> is_touched_;                        // per tile: written to since clear()

@@ -76,7 +76,7 @@ TEST_CASE("lattice store: every node keeps its own sample") {
 TEST_CASE("lattice store: the levels hold every node but the base once") {
   LatticeStore store(kWidth, kHeight);
   const std::vector<LatticeNode> nodes = all_nodes(store);
-  for (const LatticeNode& n : nodes) store.state_for_writing(n) = 100;
+  for (const LatticeNode& n : nodes) store.set_state(n, 100);
   std::vector<LatticeNode> found, all;
   for (int tile = 0; tile < store.tile_count(); ++tile) {
     for (const LatticeLevel& level : kLatticeLevels) {
@@ -103,17 +103,38 @@ TEST_CASE("lattice store: the levels hold every node but the base once") {
 TEST_CASE("lattice store: only candidates of the least priority are collected") {
   LatticeStore store(kWidth, kHeight);
   const LatticeNode low{16, 16}, high{48, 16}, sampled{80, 16};
-  store.state_for_writing(low) = 99;
-  store.state_for_writing(high) = 100;
+  store.set_state(low, 99);
+  store.set_state(high, 100);
   store.set_sample(sampled, value_at(sampled));
   std::vector<LatticeNode> found;
   store.collect(0, kLatticeLevels[0], 100, found);
   CHECK(found == std::vector{high});
   store.collect(0, kLatticeLevels[0], kLeastCandidate, found);
   CHECK(found == std::vector{low, high});
-  std::array<std::int64_t, 256> counts{};
-  store.count_candidates(0, counts);
-  CHECK((counts[99] == 1 && counts[100] == 1 && counts[kSampled] == 0));
+}
+
+TEST_CASE("lattice store: candidates are counted by their states") {
+  LatticeStore store(kWidth, kHeight);
+  const LatticeNode corner{16, 16}, center{18, 18}, between{17, 16};
+  for (const LatticeNode& node : {corner, center, between}) {
+    CAPTURE(node.x, node.y);
+    store.clear();
+    CHECK(store.raise(node, 99));
+    CHECK(store.candidates()[99] == 1);
+    CHECK_FALSE(store.raise(node, 99));
+    CHECK(store.raise(node, 100));
+    CHECK((store.candidates()[99] == 0 && store.candidates()[100] == 1));
+    store.set_state(node, 98);
+    CHECK((store.candidates()[98] == 1 && store.candidates()[100] == 0));
+    store.set_sample(node, value_at(node));
+    CHECK(store.candidates()[98] == 0);
+    CHECK_FALSE(store.raise(node, 100));
+    CHECK(store.is_sampled(node));
+  }
+  store.clear();
+  store.set_state(corner, 100);
+  store.clear();
+  CHECK(store.candidates()[100] == 0);
 }
 
 TEST_CASE("lattice store: predictions last until they are forgotten, more often than a byte counts") {
