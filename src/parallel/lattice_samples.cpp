@@ -88,10 +88,10 @@ void LatticeSamples::expect_growth(double factor) {
 // --- Exchange
 
 LatticeSamples::TileRange LatticeSamples::tiles_that_need(const Sample& sample) const {
-  constexpr double kBefore = 0.25 / kQuarters;  // less than between two nodes
+  constexpr double kBefore = 0.25 / kPixelSide;  // less than between two nodes
   const LatticeNode node = node_at({sample.x, sample.y});
   const bool is_center = !is_base(node) && level_of(node).kind == LatticeKind::kCenter;
-  const double reach = is_center ? 0.5 * level_of(node).side / kQuarters : 0;
+  const double reach = is_center ? 0.5 * level_of(node).side / kPixelSide : 0;
   const TileGrid& grid = partition_.grid;
   return {grid.column_at(sample.x - reach - kBefore), grid.row_at(sample.y - reach - kBefore),
           grid.column_at(sample.x + reach), grid.row_at(sample.y + reach)};

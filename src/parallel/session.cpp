@@ -119,7 +119,7 @@ std::optional<FrameOrder> await_order(Inbox& inbox, int index) {
 }  // namespace
 
 TileGrid tile_grid(const SessionSettings& settings, int ranks) {
-  constexpr int kBasePixels = kBaseSide / kQuarters;
+  constexpr int kBasePixels = kBaseSide / kPixelSide;
   return tile_grid_for(settings.width, settings.height, ranks,
                        settings.sampler == SamplerChoice::kDelaunay ? 1 : kBasePixels);
 }

@@ -62,7 +62,7 @@ struct RenderPlan {
 inline constexpr double kStillWeight = 0.005;
 
 // The same for the lattice: the mean worth of what is still to be sampled (docs/decisions/0021-lattice.md).
-inline constexpr double kLatticeStillWeight = 2e-5;
+inline constexpr double kLatticeStillWeight = 2.8e-5;
 
 // Returns every file of a frame: its pictures and, beside those that cannot hold layers, the layers' own.
 std::vector<FramePattern> files_of_a_frame(const OutputPlan& output);

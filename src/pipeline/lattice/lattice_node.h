@@ -1,6 +1,6 @@
 // The lattice: image points at which the lattice sampler may take samples (docs/decisions/0021-lattice.md).
 //
-// Coordinates count quarters of a pixel from the image's upper left corner. The coarsest nodes lie
+// Coordinates count sixteenths of a pixel from the image's upper left corner. The coarsest nodes lie
 // kBaseSide apart. Every level halves the area of a node: first the centres of the squares between the nodes,
 // then the middles of the squares' sides. The nodes so far then form squares of half the side.
 //
@@ -21,11 +21,11 @@
 
 namespace pprt {
 
-inline constexpr int kQuarters = 4;   // of a pixel, along a line
-inline constexpr int kBaseSide = 32;  // of the coarsest squares, quarters of a pixel
+inline constexpr int kPixelSide = 16;
+inline constexpr int kBaseSide = 8 * kPixelSide;  // of the coarsest squares
 
 struct LatticeNode {
-  int x = 0, y = 0;  // quarters of a pixel
+  int x = 0, y = 0;  // sixteenths of a pixel
 
   friend bool operator==(const LatticeNode&, const LatticeNode&) = default;
 };
@@ -37,10 +37,10 @@ inline bool is_base(const LatticeNode& node) {
 
 // The image point of a node, pixels, and the node at or before a point.
 inline Vec2d point_of(const LatticeNode& node) {
-  return {static_cast<double>(node.x) / kQuarters, static_cast<double>(node.y) / kQuarters};
+  return {static_cast<double>(node.x) / kPixelSide, static_cast<double>(node.y) / kPixelSide};
 }
 inline LatticeNode node_at(const Vec2d& point) {
-  return {static_cast<int>(kQuarters * point.x), static_cast<int>(kQuarters * point.y)};
+  return {static_cast<int>(kPixelSide * point.x), static_cast<int>(kPixelSide * point.y)};
 }
 
 // Whether the node lies between the four corners of a square of this side, or between two of them. A square's
@@ -52,7 +52,7 @@ struct LatticeLevel {
 
   // The image area that a node of the level stands for once all nodes of the level are known, square pixels.
   float area() const {
-    const float pixels = static_cast<float>(side) / kQuarters;
+    const float pixels = static_cast<float>(side) / kPixelSide;
     return pixels * pixels * (kind == LatticeKind::kCenter ? 0.5F : 0.25F);
   }
 
@@ -60,16 +60,12 @@ struct LatticeLevel {
 };
 
 // From coarse to fine.
-inline constexpr std::array<LatticeLevel, 10> kLatticeLevels = {{{32, LatticeKind::kCenter},
-                                                                 {32, LatticeKind::kMiddle},
-                                                                 {16, LatticeKind::kCenter},
-                                                                 {16, LatticeKind::kMiddle},
-                                                                 {8, LatticeKind::kCenter},
-                                                                 {8, LatticeKind::kMiddle},
-                                                                 {4, LatticeKind::kCenter},
-                                                                 {4, LatticeKind::kMiddle},
-                                                                 {2, LatticeKind::kCenter},
-                                                                 {2, LatticeKind::kMiddle}}};
+inline constexpr std::array<LatticeLevel, 14> kLatticeLevels = [] {
+  std::array<LatticeLevel, 14> levels;
+  for (std::size_t i = 0; i < levels.size(); ++i)
+    levels[i] = {kBaseSide >> (i / 2), i % 2 == 0 ? LatticeKind::kCenter : LatticeKind::kMiddle};
+  return levels;
+}();
 
 // Returns the place of a level among kLatticeLevels.
 inline std::size_t index_of(const LatticeLevel& level) {

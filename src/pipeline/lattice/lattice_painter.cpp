@@ -1,6 +1,7 @@
 #include "pipeline/lattice/lattice_painter.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "pipeline/reconstruction/shape_nearness.h"
 
@@ -11,7 +12,7 @@ namespace {
 constexpr PerPoint kColumns = {0.0625F, 0.1875F, 0.3125F, 0.4375F, 0.5625F, 0.6875F, 0.8125F, 0.9375F};
 constexpr PerPoint kRows = {0.4375F, 0.8125F, 0.0625F, 0.6875F, 0.1875F, 0.5625F, 0.9375F, 0.3125F};
 
-constexpr int kBasePixels = kBaseSide / kQuarters;
+constexpr int kBasePixels = kBaseSide / kPixelSide;
 
 bool is_on_one_primitive(const SquareCorners& corners) {
   const std::uint32_t primitive = corners[0].primitive();
@@ -23,6 +24,14 @@ float4 weighted_mean(const SquareCorners& corners, const std::array<float, 4>& w
   float4 sum{};
   for (std::size_t i = 0; i < corners.size(); ++i) sum += corners[i].channels() * weights[i];
   return sum;
+}
+
+// Four colours of three channels as they lie in memory.
+using PackedColors = std::array<float4, 3>;
+
+PackedColors pack(const std::array<float4, 4>& colors) {
+  const auto& [a, b, c, d] = colors;
+  return {float4{a[0], a[1], a[2], b[0]}, float4{b[1], b[2], c[0], c[1]}, float4{c[2], d[0], d[1], d[2]}};
 }
 
 // The eight points of a square that each of up to four shapes is nearest at, as shares.
@@ -70,33 +79,33 @@ void LatticePainter::paint(const PixelRect& part, RegionPixels& pixels) {
   part_ = part;
   pixels_ = &pixels;
   const auto first = [](int pixel) { return pixel / kBasePixels * kBasePixels; };
-  const auto base = [&](int x, int y) { return predictor_.value({kQuarters * x, kQuarters * y}); };
+  const auto base = [&](int x, int y) { return predictor_.value({kPixelSide * x, kPixelSide * y}); };
   for (int y = first(part.y0); y < part.y1; y += kBasePixels) {
     for (int x = first(part.x0); x < part.x1; x += kBasePixels) {
       const SquareCorners corners = {base(x, y), base(x + kBasePixels, y), base(x, y + kBasePixels),
                                      base(x + kBasePixels, y + kBasePixels)};
-      paint_square({kQuarters * x, kQuarters * y}, kBaseSide, corners);
+      paint_square({kPixelSide * x, kPixelSide * y}, kBaseSide, corners);
     }
   }
 }
 
 void LatticePainter::paint_square(const LatticeNode& corner, int side, const SquareCorners& corners) {
-  const int x = corner.x / kQuarters, y = corner.y / kQuarters, size = side / kQuarters;
+  const int x = corner.x / kPixelSide, y = corner.y / kPixelSide, size = side / kPixelSide;
   if (x >= part_.x1 || y >= part_.y1 || x + size <= part_.x0 || y + size <= part_.y0) return;
   if (size == 1) {
-    const float4 shown =
-        may_be_refined(corner) ? mean_of_refined(corner, side, corners) : mean_of(corner, side, corners);
-    store_channels(shown, pixel(x, y));
+    finest_side_ = finest_side(corner);
+    store_channels(mean_of_refined(corner, side, corners), pixel(x, y));
     return;
   }
-  if (!is_refined(corner, side) &&
-      (is_on_one_primitive(corners) || Surroundings(corners).variance() < kLeastEdgeVariance)) {
-    fill(corner, side, corners);
-    return;
-  }
-  if (size == 2 && !is_refined(corner, side)) {
-    paint_edge(corner, corners);
-    return;
+  if (!is_refined(corner, side)) {
+    if (is_on_one_primitive(corners) || Surroundings(corners).variance() < kLeastEdgeVariance) {
+      fill(corner, side, corners);
+      return;
+    }
+    if (size == 2) {
+      paint_edge(corner, corners);
+      return;
+    }
   }
   const int half = side / 2;
   const std::array<SquareCorners, 4> parts = quarters(corner, side, corners);
@@ -111,15 +120,23 @@ void LatticePainter::paint_square(const LatticeNode& corner, int side, const Squ
 bool LatticePainter::is_refined(const LatticeNode& corner, int side) const {
   const auto [x, y] = corner;
   const int half = side / 2;
+  if (half >= kPixelSide) {
+    return store_.is_corner_sampled({x + half, y + half}) || store_.is_corner_sampled({x + half, y}) ||
+           store_.is_corner_sampled({x, y + half}) || store_.is_corner_sampled({x + side, y + half}) ||
+           store_.is_corner_sampled({x + half, y + side});
+  }
   return store_.is_sampled({x + half, y + half}) || store_.is_sampled({x + half, y}) ||
          store_.is_sampled({x, y + half}) || store_.is_sampled({x + side, y + half}) ||
          store_.is_sampled({x + half, y + side});
 }
 
-// Tells it of a pixel, quickly. True for some that are not.
-bool LatticePainter::may_be_refined(const LatticeNode& pixel) const {
-  const int x = pixel.x / kQuarters, y = pixel.y / kQuarters;
-  return store_.has_block(x, y) || store_.has_block(x + 1, y) || store_.has_block(x, y + 1);
+// Returns the side at which no square of a pixel holds samples any more.
+int LatticePainter::finest_side(const LatticeNode& pixel) const {
+  const int x = pixel.x / kPixelSide, y = pixel.y / kPixelSide;
+  if (!store_.has_block(x, y) && !store_.has_block(x + 1, y) && !store_.has_block(x, y + 1))
+    return kPixelSide;
+  const bool has_cells = store_.has_cells(x, y) || store_.has_cells(x + 1, y) || store_.has_cells(x, y + 1);
+  return has_cells ? 1 : LatticeStore::kCellSide;
 }
 
 std::array<SquareCorners, 4> LatticePainter::quarters(const LatticeNode& corner, int side,
@@ -144,21 +161,21 @@ std::array<SquareCorners, 4> LatticePainter::quarters_within_pixel(const Lattice
   const std::array<LatticeNode, 4> middles = {
       {{center.x, corner.y}, {corner.x, center.y}, {corner.x + side, center.y}, {center.x, corner.y + side}}};
   constexpr std::array<std::array<std::size_t, 2>, 4> kEnds = {{{0, 1}, {0, 2}, {1, 3}, {2, 3}}};
-  const bool sees_center = store_.is_sampled(center);
+  const NodeValue* seen = store_.sample_at(center);
   Surroundings around(corners);
   std::array<NodeValue, 4> shown;
   for (std::size_t i = 0; i < middles.size(); ++i) {
-    if (store_.is_sampled(middles[i])) {
-      shown[i] = store_.sample(middles[i]);
+    if (const NodeValue* sample = store_.sample_at(middles[i])) {
+      shown[i] = *sample;
       around.add(shown[i]);
       continue;
     }
     Surroundings ends;
     for (const std::size_t end : kEnds[i]) ends.add(corners[end]);
-    if (sees_center) ends.add(store_.sample(center));
+    if (seen != nullptr) ends.add(*seen);
     shown[i] = predictor_.predict(middles[i], ends);
   }
-  const NodeValue inner = sees_center ? store_.sample(center) : predictor_.predict(center, around);
+  const NodeValue inner = seen != nullptr ? *seen : predictor_.predict(center, around);
   return {{{corners[0], shown[0], shown[1], inner},
            {shown[0], corners[1], inner, shown[2]},
            {shown[1], inner, corners[2], shown[3]},
@@ -168,29 +185,50 @@ std::array<SquareCorners, 4> LatticePainter::quarters_within_pixel(const Lattice
 // Bilinear: at the centre of a pixel it is the mean over the pixel.
 void LatticePainter::fill(const LatticeNode& corner, int side, const SquareCorners& corners) {
   const PixelRect& bounds = pixels_->bounds;
-  const int x = corner.x / kQuarters, y = corner.y / kQuarters, size = side / kQuarters;
+  const int x = corner.x / kPixelSide, y = corner.y / kPixelSide, size = side / kPixelSide;
   const float step = 1.0F / static_cast<float>(size);
   const float4 upper_left = corners[0].channels(), upper_right = corners[1].channels();
   const float4 down_left = (corners[2].channels() - upper_left) * step;
   const float4 down_right = (corners[3].channels() - upper_right) * step;
   const int left = std::max(x, part_.x0), right = std::min(x + size, part_.x1);
-  for (int row = std::max(y, part_.y0); row < std::min(y + size, part_.y1); ++row) {
-    const float down = static_cast<float>(row - y) + 0.5F;
-    const float4 begin = upper_left + down_left * down, end = upper_right + down_right * down;
-    const float4 along = (end - begin) * step;
-    float4 shown = begin + along * (static_cast<float>(left - x) + 0.5F);
-    Color* pixel = pixels_->colors.data() +
-                   static_cast<std::size_t>(row - bounds.y0) * static_cast<std::size_t>(bounds.width());
-    for (int column = left; column < right; ++column) {
-      store_channels(shown, pixel[column - bounds.x0]);
-      shown += along;
+  const int top = std::max(y, part_.y0), bottom = std::min(y + size, part_.y1);
+  // Down each column a colour changes evenly.
+  const float4 down_along = (down_right - down_left) * step, along = (upper_right - upper_left) * step;
+  const float first = static_cast<float>(left - x) + 0.5F;
+  float4 down = down_left + down_along * first;
+  float4 shown = upper_left + along * first + down * (static_cast<float>(top - y) + 0.5F);
+  const float4 across = along + down_along * (static_cast<float>(top - y) + 0.5F);
+  const auto width = static_cast<std::size_t>(bounds.width());
+  Color* pixels = &pixel(left, top);
+  int column = left;
+  for (; column + 4 <= right; column += 4, pixels += 4) {
+    std::array<float4, 4> four, four_down;
+    for (std::size_t i = 0; i < 4; ++i) {
+      four[i] = shown, four_down[i] = down;
+      shown += across, down += down_along;
     }
+    PackedColors packed = pack(four);
+    const PackedColors packed_down = pack(four_down);
+    Color* at = pixels;
+    for (int row = top; row < bottom; ++row, at += width) {
+      std::memcpy(static_cast<void*>(at), &packed, sizeof packed);
+      for (std::size_t i = 0; i < packed.size(); ++i) packed[i] += packed_down[i];
+    }
+  }
+  for (; column < right; ++column, ++pixels) {
+    float4 color = shown;
+    Color* at = pixels;
+    for (int row = top; row < bottom; ++row, at += width) {
+      store_channels(color, *at);
+      color += down;
+    }
+    shown += across, down += down_along;
   }
 }
 
-// Returns the mean over a square of at most a pixel.
+// Returns the mean over a pixel or a square of it.
 float4 LatticePainter::mean_of_refined(const LatticeNode& corner, int side, const SquareCorners& corners) {
-  if (side < 2 || !is_refined(corner, side)) return mean_of(corner, side, corners);
+  if (side <= finest_side_ || !is_refined(corner, side)) return mean_of(corner, side, corners);
   const int half = side / 2;
   const std::array<SquareCorners, 4> parts = quarters_within_pixel(corner, side, corners);
   return (mean_of_refined(corner, half, parts[0]) +
@@ -214,7 +252,7 @@ float4 LatticePainter::mean_of_edge(const LatticeNode& corner, int side, const S
   constexpr std::array<float, 4> kEqual = {0.25F, 0.25F, 0.25F, 0.25F};
   if (!shapes.are_known) return around.mean();
   const float share = share_.of(around.primitives(), errors_.near(corner).level);
-  return mean_by_shapes(point_of(corner), static_cast<float>(side) / kQuarters, corners, shapes, kEqual,
+  return mean_by_shapes(point_of(corner), static_cast<float>(side) / kPixelSide, corners, shapes, kEqual,
                         share);
 }
 
@@ -225,9 +263,9 @@ void LatticePainter::paint_edge(const LatticeNode& corner, const SquareCorners& 
   const EdgeShapes shapes = shapes_of(corner, corners);
   const float share = share_.of(Surroundings(corners).primitives(), errors_.near(corner).level);
   for (std::size_t p = 0; p < 4; ++p) {
-    const LatticeNode at{corner.x + static_cast<int>(p % 2) * kQuarters,
-                         corner.y + static_cast<int>(p / 2) * kQuarters};
-    const int x = at.x / kQuarters, y = at.y / kQuarters;
+    const LatticeNode at{corner.x + static_cast<int>(p % 2) * kPixelSide,
+                         corner.y + static_cast<int>(p / 2) * kPixelSide};
+    const int x = at.x / kPixelSide, y = at.y / kPixelSide;
     if (x < part_.x0 || y < part_.y0 || x >= part_.x1 || y >= part_.y1) continue;
     std::array<float, 4> weights{};
     for (std::size_t i = 0; i < 4; ++i)

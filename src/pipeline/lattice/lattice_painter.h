@@ -29,7 +29,7 @@ class LatticePainter {
   std::array<SquareCorners, 4> quarters_within_pixel(const LatticeNode& corner, int side,
                                                      const SquareCorners& corners);
   bool is_refined(const LatticeNode& corner, int side) const;
-  bool may_be_refined(const LatticeNode& pixel) const;
+  int finest_side(const LatticeNode& pixel) const;
   float4 mean_of_refined(const LatticeNode& corner, int side, const SquareCorners& corners);
   float4 mean_of(const LatticeNode& corner, int side, const SquareCorners& corners);
   float4 mean_of_edge(const LatticeNode& corner, int side, const SquareCorners& corners);
@@ -57,6 +57,7 @@ class LatticePainter {
   const EdgeShare& share_;
   PixelRect part_;
   RegionPixels* pixels_ = nullptr;
+  int finest_side_ = 1;  // of the pixel that is painted
 };
 
 }  // namespace pprt

@@ -32,7 +32,7 @@ float squared_error(const float4& a, const float4& b) {
 // Below a pixel an error is a part of what the pixel shows.
 float effect_of(const LatticeLevel& level) {
   const float area = level.area();
-  return level.side <= kQuarters ? 2 * area * area : area;
+  return level.side <= kPixelSide ? 2 * area * area : area;
 }
 
 }  // namespace
@@ -98,30 +98,28 @@ void LatticeSampler::set_region(const Region& region) {
 
 // What is known of a square already makes candidates in it.
 void LatticeSampler::begin_square(const LatticeNode& corner) {
-  for (int y = corner.y; y <= corner.y + kBaseSide; ++y) {
-    for (int x = corner.x; x <= corner.x + kBaseSide; ++x) {
-      if (!store_.has({x, y}) || !store_.is_sampled({x, y})) continue;
-      Wanted at;
-      at.node = {x, y};
-      if (is_base(at.node)) {
-        at.level = {2 * kBaseSide, LatticeKind::kMiddle};
-      } else {
-        at.level = level_of(at.node);
-        at.around = known_around(at.node, at.level);
-        at.variance = at.around.count() > 0 ? at.around.variance() : 0;
-        at.primitives = std::max(at.around.primitives(), 1);
-      }
-      make_candidates(at.node, at.level, worth_around(at, kUnpredicted, at.primitives));
+  std::vector<LatticeNode> known;
+  store_.for_each_known(corner, kBaseSide, [&](const LatticeNode& node) { known.push_back(node); });
+  for (const LatticeNode& node : known) {
+    if (!store_.is_sampled(node)) continue;
+    Wanted at;
+    at.node = node;
+    if (is_base(at.node)) {
+      at.level = {2 * kBaseSide, LatticeKind::kMiddle};
+    } else {
+      at.level = level_of(at.node);
+      at.around = known_around(at.node, at.level);
+      at.variance = at.around.count() > 0 ? at.around.variance() : 0;
+      at.primitives = std::max(at.around.primitives(), 1);
     }
+    make_candidates(at.node, at.level, worth_around(at, kUnpredicted, at.primitives));
   }
 }
 
 void LatticeSampler::leave_square(const LatticeNode& corner) {
-  for (int y = corner.y; y <= corner.y + kBaseSide; ++y) {
-    for (int x = corner.x; x <= corner.x + kBaseSide; ++x)
-      if (store_.has({x, y}) && !own_.owns({x, y}) && store_.state({x, y}) >= kLeastCandidate)
-        store_.set_state({x, y}, kNotWanted);
-  }
+  store_.for_each_known(corner, kBaseSide, [&](const LatticeNode& node) {
+    if (!own_.owns(node) && !store_.is_sampled(node)) store_.set_state(node, kNotWanted);
+  });
 }
 
 std::vector<Vec2d> LatticeSampler::base_points() const {
@@ -185,7 +183,7 @@ bool LatticeSampler::next_tile() {
 
 void LatticeSampler::collect_base(int tile) {
   const LatticeNode corner = store_.corner_of(tile);
-  constexpr int kTileSide = kQuarters * LatticeStore::kTilePixels;
+  constexpr int kTileSide = kPixelSide * LatticeStore::kTilePixels;
   for (int y = corner.y; y < corner.y + kTileSide; y += kBaseSide) {
     for (int x = corner.x; x < corner.x + kTileSide; x += kBaseSide)
       if (store_.has({x, y}) && own_.needs_base({x, y})) nodes_.push_back({x, y});
@@ -218,7 +216,7 @@ bool LatticeSampler::start_grid_pass() {
   const LatticeLevel& level = kLatticeLevels[grid_levels_];
   const auto with_level = static_cast<double>(region().pixel_count()) / level.area();
   const double expected = static_cast<double>(samples_) + samples_left();
-  const bool is_affordable = with_level <= kGridShare * expected && level.side > kQuarters;
+  const bool is_affordable = with_level <= kGridShare * expected && level.side > kPixelSide;
   if (!is_affordable && order_ == LatticeOrder::kAdaptive) {
     has_grid_ = true;
     return false;
@@ -286,7 +284,7 @@ float LatticeSampler::worth_of(const LatticeNode& node, const LatticeLevel& leve
   constexpr int kLeastLevel = 5;  // mean squared errors of 2^-10
   const Wanted& at = wanted_;
   const LocalErrors::Mean& near = errors_.near(node);
-  const bool is_flat = level.side <= kQuarters && at.variance < kFlat;
+  const bool is_flat = level.side <= kPixelSide && at.variance < kFlat;
   if (is_flat && near.level < kLeastLevel) return 0;
   const float factor = estimates_.factor(class_of(at.primitives, at.variance, near.level));
   const float worth = effect_of(level) * detail_of(at.variance) * factor / (kInsertion + near.rays);
@@ -357,7 +355,8 @@ bool LatticeSampler::insert_at(const Vec2d& point, const RaySample& sample) {
 Surroundings LatticeSampler::known_around(const LatticeNode& node, const LatticeLevel& level) const {
   Surroundings around;
   const auto add = [&](int x, int y) {
-    if (store_.has({x, y}) && store_.is_sampled({x, y})) around.add(store_.sample({x, y}));
+    const NodeValue* sample = store_.has({x, y}) ? store_.sample_at({x, y}) : nullptr;
+    if (sample != nullptr) around.add(*sample);
   };
   const int half = level.side / 2;
   if (level.kind == LatticeKind::kCenter) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <new>
+#include <span>
 #include <type_traits>
 #include <utility>
 
@@ -10,7 +11,7 @@ namespace {
 
 // Returns the number of pixels, up to whole base squares.
 int covered(int pixels) {
-  constexpr int kBasePixels = kBaseSide / kQuarters;
+  constexpr int kBasePixels = kBaseSide / kPixelSide;
   return (pixels + kBasePixels - 1) / kBasePixels * kBasePixels;
 }
 
@@ -31,6 +32,18 @@ std::uint32_t at_least(const NodeState* states, NodeState least) {
   return bits;
 }
 
+// Returns the slots of a level's nodes in the block of a pixel or a cell. Sides of two sizes have the same.
+std::span<const std::uint8_t> slots_of(const LatticeLevel& level) {
+  static constexpr std::array<std::uint8_t, 1> kCenter = {10};
+  static constexpr std::array<std::uint8_t, 2> kMiddles = {2, 8};
+  static constexpr std::array<std::uint8_t, 4> kCellCenters = {5, 7, 13, 15};
+  static constexpr std::array<std::uint8_t, 8> kCellMiddles = {1, 3, 4, 6, 9, 11, 12, 14};
+  const bool is_whole = level.side == kPixelSide || level.side == kPixelSide / 4;
+  if (level.kind == LatticeKind::kCenter)
+    return is_whole ? std::span<const std::uint8_t>(kCenter) : kCellCenters;
+  return is_whole ? std::span<const std::uint8_t>(kMiddles) : kCellMiddles;
+}
+
 // Returns a bit for every `step`-th of 32 pixels, from the `first` on.
 std::uint32_t every(int step, int first) {
   std::uint32_t bits = 0;
@@ -41,7 +54,7 @@ std::uint32_t every(int step, int first) {
 // The pixels of a tile's rows whose corners are nodes of a level: which row, and a bit for each pixel.
 template <class Visit>
 void for_each_row(const LatticeLevel& level, const Visit& visit) {
-  const int side = level.side / kQuarters, half = side / 2;
+  const int side = level.side / kPixelSide, half = side / 2;
   const std::uint32_t between = every(side, half), at_corners = every(side, 0);
   if (level.kind == LatticeKind::kCenter) {
     for (int y = half; y < LatticeStore::kTilePixels; y += side) visit(y, between);
@@ -55,13 +68,14 @@ void for_each_row(const LatticeLevel& level, const Visit& visit) {
 LatticeStore::LatticeStore(int width, int height)
     : width_(width),
       height_(height),
-      right_(kQuarters * covered(width)),
-      bottom_(kQuarters * covered(height)),
-      columns_(right_ / (kQuarters * kTilePixels) + 1),
-      rows_(bottom_ / (kQuarters * kTilePixels) + 1),
+      right_(kPixelSide * covered(width)),
+      bottom_(kPixelSide * covered(height)),
+      columns_(right_ / (kPixelSide * kTilePixels) + 1),
+      rows_(bottom_ / (kPixelSide * kTilePixels) + 1),
       tiles_(static_cast<Tile*>(std::calloc(static_cast<std::size_t>(tile_count()), sizeof(Tile)))),
       is_touched_(static_cast<std::size_t>(tile_count())),
-      pixels_with_blocks_(static_cast<std::size_t>(tile_count())) {
+      pixels_with_blocks_(static_cast<std::size_t>(tile_count())),
+      cells_with_blocks_(static_cast<std::size_t>(tile_count())) {
   static_assert(std::is_trivially_destructible_v<Tile> && std::is_trivially_copyable_v<Tile>);
   if (tiles_ == nullptr) throw std::bad_alloc();
 }
@@ -73,12 +87,17 @@ void LatticeStore::clear() {
     tile.corner_states.fill(kNotWanted);
     tile.center_states.fill(kNotWanted);
     tile.predicted_in.fill(0);
-    for (const std::uint16_t pixel : pixels_with_blocks_[t]) tile.blocks[pixel] = kNoBlock;
+    for (const Cell& cell : cells_with_blocks_[t]) tile.cells[cell.pixel] = kNone;
+    cells_with_blocks_[t].clear();
+    for (const std::uint16_t pixel : pixels_with_blocks_[t]) tile.blocks[pixel] = kNone;
     pixels_with_blocks_[t].clear();
   }
   round_ = 1;
   counts_.fill(0);
-  blocks_ = kNoBlock + 1;
+  pixel_blocks_.clear();
+  cells_.clear();
+  cell_blocks_.clear();
+  last_values_.clear();
 }
 
 void LatticeStore::forget_predictions() {
@@ -88,74 +107,130 @@ void LatticeStore::forget_predictions() {
   round_ = 1;
 }
 
+NodeState LatticeStore::state_in_cell(const LatticeNode& node) const {
+  const std::uint32_t cells = tiles_[tile_of(node)].cells[pixel_in_tile(node)];
+  if (cells == kNone) return kNotWanted;
+  const std::uint32_t block = cells_[cells].blocks[cell_of(node)];
+  return block == kNone ? kNotWanted : cell_blocks_[block].states[slot_in_cell(node)];
+}
+
 NodeState& LatticeStore::state_for_writing(const LatticeNode& node) {
-  const std::size_t number = tile_of(node), pixel = pixel_in_tile(node), slot = slot_of(node);
+  if (!is_cell_corner(node)) return cell_block_for_writing(node).states[slot_in_cell(node)];
+  const std::size_t number = tile_of(node), pixel = pixel_in_tile(node), slot = cell_of(node);
   Tile& tile = tile_for_writing(number);
   if (slot == 0) return tile.corner_states[pixel];
   if (slot == kCenterSlot) return tile.center_states[pixel];
-  return block_for_writing(number, pixel).states[slot];
+  return pixel_block_for_writing(number, pixel).states[slot];
+}
+
+const NodeValue* LatticeStore::sample_in_cell(const LatticeNode& node) const {
+  if (state_in_cell(node) != kSampled) return nullptr;
+  const PixelCells& cells = cells_[tiles_[tile_of(node)].cells[pixel_in_tile(node)]];
+  const std::size_t cell = cell_of(node), place = place_of(slot_in_cell(node));
+  return place < kFirstValues ? &cell_blocks_[cells.blocks[cell]].values[place]
+                              : &last_values_[cells.last_values[cell]][place - kFirstValues];
 }
 
 void LatticeStore::set_sample(const LatticeNode& node, const NodeValue& value) {
-  const std::size_t number = tile_of(node), pixel = pixel_in_tile(node), slot = slot_of(node);
+  if (!is_cell_corner(node)) {
+    set_sample_in_cell(node, value);
+    return;
+  }
+  const std::size_t number = tile_of(node), pixel = pixel_in_tile(node), slot = cell_of(node);
   Tile& tile = tile_for_writing(number);
   if (slot == 0) {
     --counts_[std::exchange(tile.corner_states[pixel], kSampled)];
     tile.corners[pixel] = value;
     return;
   }
-  PixelBlock& own = block_for_writing(number, pixel);
+  PixelBlock& own = pixel_block_for_writing(number, pixel);
   own.values[place_of(slot)] = value;
   --counts_[std::exchange(slot == kCenterSlot ? tile.center_states[pixel] : own.states[slot], kSampled)];
 }
 
-LatticeStore::PixelBlock& LatticeStore::block_for_writing(std::size_t number, std::size_t pixel) {
-  Tile& tile = tiles_[number];
-  if (tile.blocks[pixel] != kNoBlock) return block(tile.blocks[pixel]);
-  if (blocks_ / kChunk == chunks_.size())
-    chunks_.push_back(std::make_unique_for_overwrite<PixelBlock[]>(kChunk));
-  tile.blocks[pixel] = blocks_;
+void LatticeStore::set_sample_in_cell(const LatticeNode& node, const NodeValue& value) {
+  const std::size_t slot = slot_in_cell(node), place = place_of(slot);
+  CellBlock& block = cell_block_for_writing(node);
+  --counts_[std::exchange(block.states[slot], kSampled)];
+  if (place < kFirstValues) {
+    block.values[place] = value;
+    return;
+  }
+  std::uint32_t& values = cells_for_writing(tile_of(node), pixel_in_tile(node)).last_values[cell_of(node)];
+  if (values == kNone) values = last_values_.make();
+  last_values_[values][place - kFirstValues] = value;
+}
+
+LatticeStore::PixelBlock& LatticeStore::pixel_block_for_writing(std::size_t number, std::size_t pixel) {
+  std::uint32_t& block = tile_for_writing(number).blocks[pixel];
+  if (block != kNone) return pixel_blocks_[block];
+  block = pixel_blocks_.make();
   pixels_with_blocks_[number].push_back(static_cast<std::uint16_t>(pixel));
-  PixelBlock& made = block(blocks_++);
+  PixelBlock& made = pixel_blocks_[block];
+  made.states.fill(kNotWanted);
+  return made;
+}
+
+LatticeStore::PixelCells& LatticeStore::cells_for_writing(std::size_t tile, std::size_t pixel) {
+  std::uint32_t& cells = tiles_[tile].cells[pixel];
+  if (cells != kNone) return cells_[cells];
+  pixel_block_for_writing(tile, pixel);
+  cells = cells_.make();
+  cells_[cells] = {};
+  return cells_[cells];
+}
+
+LatticeStore::CellBlock& LatticeStore::cell_block_for_writing(const LatticeNode& node) {
+  const std::size_t tile = tile_of(node), pixel = pixel_in_tile(node), cell = cell_of(node);
+  std::uint32_t& block = cells_for_writing(tile, pixel).blocks[cell];
+  if (block != kNone) return cell_blocks_[block];
+  block = cell_blocks_.make();
+  cells_with_blocks_[tile].push_back(
+      {static_cast<std::uint16_t>(pixel), static_cast<std::uint8_t>(cell), block});
+  CellBlock& made = cell_blocks_[block];
   made.states.fill(kNotWanted);
   return made;
 }
 
 LatticeNode LatticeStore::corner_of(int tile, std::size_t pixel) const {
   const auto x = static_cast<int>(pixel % kTilePixels), y = static_cast<int>(pixel / kTilePixels);
-  return {kQuarters * (tile % columns_ * kTilePixels + x), kQuarters * (tile / columns_ * kTilePixels + y)};
+  return {kPixelSide * (tile % columns_ * kTilePixels + x), kPixelSide * (tile / columns_ * kTilePixels + y)};
 }
 
 void LatticeStore::collect(int tile, const LatticeLevel& level, NodeState least,
                            std::vector<LatticeNode>& nodes) const {
   nodes.clear();
   const Tile& from = tiles_[static_cast<std::size_t>(tile)];
-  const auto add = [&](std::size_t pixel, std::size_t slot) {
-    const LatticeNode corner = corner_of(tile, pixel);
+  const auto add = [&](const LatticeNode& corner, std::size_t slot, int step) {
     const auto s = static_cast<int>(slot);
-    nodes.push_back({corner.x + s % kQuarters, corner.y + s / kQuarters});
+    nodes.push_back({corner.x + s % kCells * step, corner.y + s / kCells * step});
   };
-  if (level.side > kQuarters) {
+  if (level.side > kPixelSide) {
     collect_corners(tile, level, least, nodes);
-  } else if (level.side == kQuarters && level.kind == LatticeKind::kCenter) {
+    return;
+  }
+  if (level == LatticeLevel{kPixelSide, LatticeKind::kCenter}) {
     for (std::size_t row = 0; row < kTileArea; row += kTilePixels) {
       for (std::uint32_t bits = at_least(&from.center_states[row], least); bits != 0; bits &= bits - 1)
-        add(row + static_cast<std::size_t>(std::countr_zero(bits)), kCenterSlot);
+        add(corner_of(tile, row + static_cast<std::size_t>(std::countr_zero(bits))), kCenterSlot, kCellSide);
     }
-  } else {
-    static constexpr std::array<std::uint8_t, 2> kMiddles = {2, 8};
-    static constexpr std::array<std::uint8_t, 4> kQuarterCenters = {5, 7, 13, 15};
-    static constexpr std::array<std::uint8_t, 8> kQuarterMiddles = {1, 3, 4, 6, 9, 11, 12, 14};
-    const auto add_slots = [&](const auto& slots) {
-      for (const std::uint16_t pixel : pixels_with_blocks_[static_cast<std::size_t>(tile)]) {
-        const PixelBlock& b = block(from.blocks[pixel]);
-        for (const std::uint8_t slot : slots)
-          if (b.states[slot] >= least) add(pixel, slot);
-      }
-    };
-    if (level.side == kQuarters) return add_slots(kMiddles);
-    if (level.kind == LatticeKind::kCenter) return add_slots(kQuarterCenters);
-    add_slots(kQuarterMiddles);
+    return;
+  }
+  const std::span<const std::uint8_t> slots = slots_of(level);
+  const auto add_slots = [&](const auto& block, const LatticeNode& corner, int step) {
+    for (const std::uint8_t slot : slots)
+      if (block.states[slot] >= least) add(corner, slot, step);
+  };
+  const auto t = static_cast<std::size_t>(tile);
+  if (level.side > kCellSide) {
+    for (const std::uint16_t pixel : pixels_with_blocks_[t])
+      add_slots(pixel_blocks_[from.blocks[pixel]], corner_of(tile, pixel), kCellSide);
+    return;
+  }
+  for (const Cell& cell : cells_with_blocks_[t]) {
+    LatticeNode corner = corner_of(tile, cell.pixel);
+    corner.x += cell.number % kCells * kCellSide, corner.y += cell.number / kCells * kCellSide;
+    add_slots(cell_blocks_[cell.block], corner, 1);
   }
 }
 
@@ -172,7 +247,7 @@ void LatticeStore::collect_corners(int tile, const LatticeLevel& level, NodeStat
 
 void LatticeStore::collect_all(int tile, const LatticeLevel& level, std::vector<LatticeNode>& nodes) const {
   nodes.clear();
-  if (level.side <= kQuarters) return collect_all_between_corners(tile, level, nodes);
+  if (level.side <= kPixelSide) return collect_all_between_corners(tile, level, nodes);
   for_each_row(level, [&](int row, std::uint32_t pixels) {
     const std::size_t first = static_cast<std::size_t>(row) * kTilePixels;
     for (std::uint32_t bits = pixels; bits != 0; bits &= bits - 1) {
@@ -186,8 +261,8 @@ void LatticeStore::collect_all_between_corners(int tile, const LatticeLevel& lev
                                                std::vector<LatticeNode>& nodes) const {
   for (std::size_t pixel = 0; pixel < kTileArea; ++pixel) {
     const LatticeNode corner = corner_of(tile, pixel);
-    for (int y = corner.y; y < corner.y + kQuarters; ++y) {
-      for (int x = corner.x; x < corner.x + kQuarters; ++x) {
+    for (int y = corner.y; y < corner.y + kPixelSide; ++y) {
+      for (int x = corner.x; x < corner.x + kPixelSide; ++x) {
         const LatticeNode node{x, y};
         if (!is_corner(node) && level_of(node) == level && has(node)) nodes.push_back(node);
       }

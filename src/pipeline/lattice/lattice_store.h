@@ -1,7 +1,9 @@
-// Keeps what is known at the nodes of the lattice. Neighbours share cache lines: the corners of pixels lie in
-// tiles of 32x32, the nodes between them in blocks of one pixel.
+// Keeps what is known at the nodes of the lattice. Neighbours share cache lines. The corners of pixels lie in
+// tiles of 32x32. A pixel has 4x4 cells, whose corners lie in a block of the pixel. The nodes between these,
+// which few pixels ever need, lie in a block of the cell.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -34,9 +36,37 @@ inline float least_worth(NodeState priority) {
   return std::bit_cast<float>((priority - std::uint32_t{kLeastCandidate} + kLeast) << 21);
 }
 
+// Numbered blocks that never move. Numbers start at 1.
+template <class Block>
+class BlockPool {
+ public:
+  static constexpr std::uint32_t kNone = 0;
+
+  Block& operator[](std::uint32_t number) { return chunks_[number / kChunk][number % kChunk]; }
+  const Block& operator[](std::uint32_t number) const { return chunks_[number / kChunk][number % kChunk]; }
+
+  // Returns the number of a new block, whose contents are not set.
+  std::uint32_t make() {
+    if (used_ / kChunk == chunks_.size()) chunks_.push_back(std::make_unique_for_overwrite<Block[]>(kChunk));
+    return used_++;
+  }
+
+  bool is_empty() const { return used_ == kNone + 1; }
+
+  // Removes all blocks. Keeps the storage.
+  void clear() { used_ = kNone + 1; }
+
+ private:
+  static constexpr std::uint32_t kChunk = 256;
+  std::vector<std::unique_ptr<Block[]>> chunks_;
+  std::uint32_t used_ = kNone + 1;
+};
+
 class LatticeStore {
  public:
   static constexpr int kTilePixels = 32;
+  static constexpr int kCells = 4;  // in a row of a pixel
+  static constexpr int kCellSide = kPixelSide / kCells;
 
   // For an image of this size, pixels. The lattice covers whole base squares.
   LatticeStore(int width, int height);
@@ -46,25 +76,32 @@ class LatticeStore {
 
   int width() const { return width_; }
   int height() const { return height_; }
-  int right() const { return right_; }    // x of the last nodes, quarters of a pixel
+  int right() const { return right_; }    // x of the last nodes, sixteenths of a pixel
   int bottom() const { return bottom_; }  // y of the last nodes
   int tile_count() const { return columns_ * rows_; }
 
   // Whether the node exists. Nodes between the corners of pixels do so inside the image only.
   bool has(const LatticeNode& node) const {
-    if (node.x < 0 || node.y < 0 || node.x > right_ || node.y > bottom_) return false;
-    return is_corner(node) || (node.x < kQuarters * width_ && node.y < kQuarters * height_);
+    if (static_cast<unsigned>(node.x) > static_cast<unsigned>(right_) ||
+        static_cast<unsigned>(node.y) > static_cast<unsigned>(bottom_))
+      return false;
+    return is_corner(node) || (node.x < kPixelSide * width_ && node.y < kPixelSide * height_);
   }
 
   NodeState state(const LatticeNode& node) const {
+    if (!is_cell_corner(node)) [[unlikely]]
+      return state_in_cell(node);
     const Tile& tile = tiles_[tile_of(node)];
-    const std::size_t pixel = pixel_in_tile(node), slot = slot_of(node);
+    const std::size_t pixel = pixel_in_tile(node), slot = cell_of(node);
     if (slot == 0) return tile.corner_states[pixel];
     if (slot == kCenterSlot) return tile.center_states[pixel];
-    const std::uint32_t number = tile.blocks[pixel];
-    return number == kNoBlock ? kNotWanted : block(number).states[slot];
+    const std::uint32_t block = tile.blocks[pixel];
+    return block == kNone ? kNotWanted : pixel_blocks_[block].states[slot];
   }
   bool is_sampled(const LatticeNode& node) const { return state(node) == kSampled; }
+  bool is_corner_sampled(const LatticeNode& corner) const {
+    return tiles_[tile_of(corner)].corner_states[pixel_in_tile(corner)] == kSampled;
+  }
 
   // Changes the state of a node that holds no sample. Makes storage where there is none.
   void set_state(const LatticeNode& node, NodeState state) {
@@ -82,11 +119,18 @@ class LatticeStore {
     return true;
   }
 
-  // Returns what was seen at a node that holds a sample.
-  const NodeValue& sample(const LatticeNode& node) const {
+  // Returns a node's sample; null: it holds none.
+  const NodeValue* sample_at(const LatticeNode& node) const {
+    if (!is_cell_corner(node)) [[unlikely]]
+      return sample_in_cell(node);
     const Tile& tile = tiles_[tile_of(node)];
-    const std::size_t pixel = pixel_in_tile(node), slot = slot_of(node);
-    return slot == 0 ? tile.corners[pixel] : block(tile.blocks[pixel]).values[place_of(slot)];
+    const std::size_t pixel = pixel_in_tile(node), slot = cell_of(node);
+    if (slot == 0) return tile.corner_states[pixel] == kSampled ? &tile.corners[pixel] : nullptr;
+    const std::uint32_t number = tile.blocks[pixel];
+    if (number == kNone) return nullptr;
+    const PixelBlock& block = pixel_blocks_[number];
+    const NodeState state = slot == kCenterSlot ? tile.center_states[pixel] : block.states[slot];
+    return state == kSampled ? &block.values[place_of(slot)] : nullptr;
   }
 
   // Makes the node hold a sample.
@@ -110,9 +154,19 @@ class LatticeStore {
   // Whether a pixel's block holds a node between the pixel's corners that is sampled or a candidate. A block
   // owns the nodes in the pixel and on its left and upper side.
   bool has_block(int pixel_x, int pixel_y) const {
-    const LatticeNode node{kQuarters * pixel_x, kQuarters * pixel_y};
-    return tiles_[tile_of(node)].blocks[pixel_in_tile(node)] != kNoBlock;
+    const LatticeNode node{kPixelSide * pixel_x, kPixelSide * pixel_y};
+    return tiles_[tile_of(node)].blocks[pixel_in_tile(node)] != kNone;
   }
+
+  // The same of nodes between the corners of the pixel's cells. A pixel with cells has a block.
+  bool has_cells(int pixel_x, int pixel_y) const {
+    const LatticeNode node{kPixelSide * pixel_x, kPixelSide * pixel_y};
+    return !cells_.is_empty() && tiles_[tile_of(node)].cells[pixel_in_tile(node)] != kNone;
+  }
+
+  // Calls visit(node) for the nodes of a square, its border included, that hold a sample or are candidates.
+  template <class Visit>
+  void for_each_known(const LatticeNode& corner, int side, const Visit& visit) const;
 
   // Replaces `nodes` by the nodes of a level in a tile whose state is at least `least`, row by row, or block
   // by block in the order of their making.
@@ -132,41 +186,65 @@ class LatticeStore {
   LatticeNode corner_of(int tile, std::size_t pixel = 0) const;
   int tile_at(const LatticeNode& node) const { return static_cast<int>(tile_of(node)); }
 
-  static bool is_corner(const LatticeNode& node) { return ((node.x | node.y) & (kQuarters - 1)) == 0; }
+  static bool is_corner(const LatticeNode& node) { return ((node.x | node.y) & (kPixelSide - 1)) == 0; }
 
  private:
   static constexpr std::size_t kTileArea = std::size_t{kTilePixels} * kTilePixels;
-  static constexpr std::uint32_t kNoBlock = 0;
-  static constexpr int kSlots = kQuarters * kQuarters;
+  static constexpr std::uint32_t kNone = 0;
+  static constexpr int kSlots = kCells * kCells;
+  static_assert(kCellSide == kCells);  // a pixel's block is like a cell's
 
-  // The nodes of a pixel but its corner and its centre's state. The state of slot 0 is not used. Values stand
-  // in the order of levels, so that the first line of memory holds the states and the coarsest nodes.
+  // The nodes of a pixel at the corners of its cells. The state of slot 0, the pixel's corner, is not used,
+  // nor that of its centre. Values stand in the order of levels, so that the first line of memory holds the
+  // states and the coarsest nodes.
   struct alignas(64) PixelBlock {
     std::array<NodeState, kSlots> states;
     std::array<NodeValue, kSlots - 1> values;
   };
+  // The nodes of a cell. The state of slot 0, its corner, is not used. The values of the last two levels are
+  // kept apart, for few cells need them.
+  static constexpr std::size_t kFirstValues = 3, kLastValues = kSlots - 1 - kFirstValues;
+  struct alignas(64) CellBlock {
+    std::array<NodeState, kSlots> states;
+    std::array<NodeValue, kFirstValues> values;
+  };
+  using LastValues = std::array<NodeValue, kLastValues>;
+  struct PixelCells {
+    std::array<std::uint32_t, kSlots> blocks, last_values;  // of each cell
+  };
   struct Tile {
     std::array<NodeValue, kTileArea> corners;
     std::array<NodeState, kTileArea> corner_states, center_states;  // of each pixel
-    std::array<std::uint8_t, kTileArea> predicted_in;  // the round of the prediction in `corners`
-    std::array<std::uint32_t, kTileArea> blocks;       // of each pixel
+    std::array<std::uint8_t, kTileArea> predicted_in;    // the round of the prediction in `corners`
+    std::array<std::uint32_t, kTileArea> blocks, cells;  // of each pixel
+  };
+  struct Cell {
+    std::uint16_t pixel;
+    std::uint8_t number;  // in the pixel
+    std::uint32_t block;
   };
   struct Release {
     void operator()(Tile* tiles) const { std::free(tiles); }
   };
 
   std::size_t tile_of(const LatticeNode& node) const {
-    constexpr int kShift = std::bit_width(unsigned{kTilePixels * kQuarters}) - 1;
+    constexpr int kShift = std::bit_width(unsigned{kTilePixels * kPixelSide}) - 1;
     return static_cast<std::size_t>((node.y >> kShift) * columns_ + (node.x >> kShift));
   }
   static std::size_t pixel_in_tile(const LatticeNode& node) {
-    const auto x = static_cast<unsigned>(node.x) / kQuarters % kTilePixels;
-    const auto y = static_cast<unsigned>(node.y) / kQuarters % kTilePixels;
+    const auto x = static_cast<unsigned>(node.x) / kPixelSide % kTilePixels;
+    const auto y = static_cast<unsigned>(node.y) / kPixelSide % kTilePixels;
     return std::size_t{y} * kTilePixels + x;
   }
-  static std::size_t slot_of(const LatticeNode& node) {
-    const auto x = static_cast<unsigned>(node.x) % kQuarters, y = static_cast<unsigned>(node.y) % kQuarters;
-    return std::size_t{y} * kQuarters + x;
+  static bool is_cell_corner(const LatticeNode& node) { return ((node.x | node.y) & (kCellSide - 1)) == 0; }
+  // The cell that a node lies in, and the slot of its upper left corner in the pixel's block.
+  static std::size_t cell_of(const LatticeNode& node) {
+    const auto x = static_cast<unsigned>(node.x) / kCellSide, y = static_cast<unsigned>(node.y) / kCellSide;
+    return std::size_t{y % kCells} * kCells + x % kCells;
+  }
+  static std::size_t slot_in_cell(const LatticeNode& node) {
+    const auto x = static_cast<unsigned>(node.x) % kCellSide, y = static_cast<unsigned>(node.y) % kCellSide;
+    return std::size_t{y} * kCellSide + x;
   }
   static constexpr std::size_t kCenterSlot = 10;
   static std::size_t place_of(std::size_t slot) {
@@ -175,20 +253,21 @@ class LatticeStore {
     return kPlaces[slot];
   }
 
-  PixelBlock& block(std::uint32_t number) { return chunks_[number / kChunk][number % kChunk]; }
-  const PixelBlock& block(std::uint32_t number) const { return chunks_[number / kChunk][number % kChunk]; }
+  NodeState state_in_cell(const LatticeNode& node) const;
+  const NodeValue* sample_in_cell(const LatticeNode& node) const;
   Tile& tile_for_writing(std::size_t number) {
     is_touched_[number] = 1;
     return tiles_[number];
   }
   NodeState& state_for_writing(const LatticeNode& node);
-  PixelBlock& block_for_writing(std::size_t tile, std::size_t pixel);
+  PixelBlock& pixel_block_for_writing(std::size_t tile, std::size_t pixel);
+  PixelCells& cells_for_writing(std::size_t tile, std::size_t pixel);
+  CellBlock& cell_block_for_writing(const LatticeNode& node);
+  void set_sample_in_cell(const LatticeNode& node, const NodeValue& value);
   void collect_corners(int tile, const LatticeLevel& level, NodeState least,
                        std::vector<LatticeNode>& nodes) const;
   void collect_all_between_corners(int tile, const LatticeLevel& level,
                                    std::vector<LatticeNode>& nodes) const;
-
-  static constexpr std::uint32_t kChunk = 256;
 
   int width_, height_, right_, bottom_, columns_, rows_;
   std::uint8_t round_ = 1;
@@ -197,8 +276,11 @@ class LatticeStore {
   std::unique_ptr<Tile[], Release> tiles_;
   std::vector<std::uint8_t> is_touched_;                        // per tile: written to since clear()
   std::vector<std::vector<std::uint16_t>> pixels_with_blocks_;  // per tile
-  std::vector<std::unique_ptr<PixelBlock[]>> chunks_;           // of kChunk blocks each: blocks never move
-  std::uint32_t blocks_ = 1;                                    // in use; none has the number kNoBlock
+  std::vector<std::vector<Cell>> cells_with_blocks_;            // per tile
+  BlockPool<PixelBlock> pixel_blocks_;
+  BlockPool<PixelCells> cells_;
+  BlockPool<CellBlock> cell_blocks_;
+  BlockPool<LastValues> last_values_;
 };
 
 template <class Visit>
@@ -217,7 +299,30 @@ void LatticeStore::for_each_candidate(int tile, const Visit& visit) const {
       visit_pixel(k, from.corner_states[k]), visit_pixel(k, from.center_states[k]);
   }
   for (const std::uint16_t pixel : pixels_with_blocks_[static_cast<std::size_t>(tile)])
-    for (const NodeState state : block(from.blocks[pixel]).states) visit_pixel(pixel, state);
+    for (const NodeState state : pixel_blocks_[from.blocks[pixel]].states) visit_pixel(pixel, state);
+  for (const Cell& cell : cells_with_blocks_[static_cast<std::size_t>(tile)])
+    for (const NodeState state : cell_blocks_[cell.block].states) visit_pixel(cell.pixel, state);
+}
+
+template <class Visit>
+void LatticeStore::for_each_known(const LatticeNode& corner, int side, const Visit& visit) const {
+  const int right = std::min(corner.x + side, right_), bottom = std::min(corner.y + side, bottom_);
+  const auto look = [&](const LatticeNode& node) {
+    if (node.x <= right && node.y <= bottom && state(node) != kNotWanted) visit(node);
+  };
+  for (int y = corner.y; y <= bottom; y += kPixelSide) {
+    for (int x = corner.x; x <= right; x += kPixelSide) {
+      // Without a block only the pixel's corner and centre may be known.
+      const int pixel_x = x / kPixelSide, pixel_y = y / kPixelSide;
+      if (!has_block(pixel_x, pixel_y)) {
+        look({x, y}), look({x + kPixelSide / 2, y + kPixelSide / 2});
+        continue;
+      }
+      const int step = has_cells(pixel_x, pixel_y) ? 1 : kCellSide;
+      for (int v = y; v < y + kPixelSide; v += step)
+        for (int u = x; u < x + kPixelSide; u += step) look({u, v});
+    }
+  }
 }
 
 }  // namespace pprt

@@ -2,8 +2,8 @@
 
 namespace pprt {
 
-LocalErrors::LocalErrors(int right, int bottom) : columns_(right / (4 * kQuarters) + 3) {
-  const int rows = bottom / (4 * kQuarters) + 3;
+LocalErrors::LocalErrors(int right, int bottom) : columns_(right / (4 * kPixelSide) + 3) {
+  const int rows = bottom / (4 * kPixelSide) + 3;
   sums_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows));
   means_.resize(sums_.size());
 }

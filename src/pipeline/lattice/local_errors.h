@@ -24,7 +24,7 @@ inline int error_level_of(float squared_error) {
 // until start_round() or until a larger error is found there.
 class LocalErrors {
  public:
-  // For the nodes of a lattice up to (right, bottom), quarters of a pixel.
+  // For the nodes of a lattice up to (right, bottom), sixteenths of a pixel.
   LocalErrors(int right, int bottom);
 
   void clear();
@@ -53,7 +53,7 @@ class LocalErrors {
 
   // Cells have a border of empty ones.
   std::size_t cell_of(const LatticeNode& node) const {
-    constexpr int kCell = 4 * kQuarters;
+    constexpr int kCell = 4 * kPixelSide;
     return static_cast<std::size_t>((node.y / kCell + 1) * columns_ + node.x / kCell + 1);
   }
   void compute(std::size_t cell, Mean& mean) const;

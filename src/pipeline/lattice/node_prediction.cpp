@@ -58,7 +58,7 @@ Surroundings NodePredictor::around(const LatticeNode& node, const LatticeLevel& 
     around.add(value({x + half, y + half}));
     for (const LatticeNode& middle : {LatticeNode{x - half, y}, LatticeNode{x + half, y},
                                       LatticeNode{x, y - half}, LatticeNode{x, y + half}})
-      if (store_.is_sampled(middle)) around.add(store_.sample(middle));
+      if (const NodeValue* sample = store_.sample_at(middle)) around.add(*sample);
     return around;
   }
   const int dx = (x & half) != 0 ? half : 0, dy = half - dx;  // along the side

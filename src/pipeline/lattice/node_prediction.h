@@ -78,10 +78,10 @@ class NodePredictor {
 
   // Returns a node's sample or, where there is none, its prediction.
   NodeValue value(const LatticeNode& node) {
-    if (!LatticeStore::is_corner(node))
-      return store_.is_sampled(node) ? store_.sample(node) : predicted(node);
-    const NodeValue* kept = store_.kept_at(node);
-    return kept != nullptr ? *kept : kept_prediction(node);
+    const bool is_corner = LatticeStore::is_corner(node);
+    const NodeValue* known = is_corner ? store_.kept_at(node) : store_.sample_at(node);
+    if (known != nullptr) return *known;
+    return is_corner ? kept_prediction(node) : predicted(node);
   }
 
  private:

@@ -58,10 +58,10 @@ using Point = std::tuple<int, double, double>;  // frame, x, y
 // The ranks whose closed area a node's sample is needed in, by looking at every pixel about it.
 std::set<int> ranks_that_need(const Traced& sample, const TileGrid& grid,
                               const std::vector<std::int32_t>& owners) {
-  const LatticeNode node{static_cast<int>(4 * sample.x), static_cast<int>(4 * sample.y)};
+  const LatticeNode node = node_at({sample.x, sample.y});
   double reach = 0;
   if ((node.x | node.y) % kBaseSide != 0 && level_of(node).kind == LatticeKind::kCenter)
-    reach = level_of(node).side / 8.0;
+    reach = 0.5 * level_of(node).side / kPixelSide;
   std::set<int> ranks;
   for (int y = 0; y < grid.height; ++y) {
     if (y > sample.y + reach || y + 1 < sample.y - reach) continue;

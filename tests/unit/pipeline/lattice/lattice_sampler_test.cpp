@@ -347,12 +347,12 @@ TEST_CASE("lattice sampler: weights are sums over the region's candidates, and f
 
 TEST_CASE("lattice sampler: level by level, each level is whole before the next begins") {
   LatticeSampler sampler(Region::whole({kWidth, kHeight, kTileSide}), no_shape, LatticeOrder::kLevels);
-  const std::vector<Vec2d> points = sample_all(sampler, disc(true));
-  CHECK(points.size() > 16 * kWidth * kHeight);  // every node
+  const std::vector<Vec2d> points = sample_all(sampler, disc(true), 2'000'000);
+  CHECK(points.size() > std::size_t{kPixelSide} * kPixelSide * kWidth * kHeight);  // every node
   std::size_t level = 0;
   const std::size_t base = sampler.base_points().size();
   for (std::size_t i = base; i < points.size(); ++i) {
-    const LatticeNode node{static_cast<int>(4 * points[i].x), static_cast<int>(4 * points[i].y)};
+    const LatticeNode node = node_at(points[i]);
     std::size_t of_node = 0;
     while (!(kLatticeLevels[of_node] == level_of(node))) ++of_node;
     REQUIRE(of_node >= level);

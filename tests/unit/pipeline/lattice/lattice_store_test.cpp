@@ -52,22 +52,22 @@ TEST_CASE("lattice: each level halves the area of a node") {
 }
 
 TEST_CASE("lattice: a node's level is that of the square that it refines") {
-  const LatticeLevel center = level_of({16, 48}), middle = level_of({16, 32}), fine = level_of({3, 8});
-  CHECK((center.side == 32 && center.kind == LatticeKind::kCenter));
-  CHECK((middle.side == 32 && middle.kind == LatticeKind::kMiddle));
+  const LatticeLevel center = level_of({64, 192}), middle = level_of({64, 128}), fine = level_of({3, 8});
+  CHECK((center.side == 128 && center.kind == LatticeKind::kCenter));
+  CHECK((middle.side == 128 && middle.kind == LatticeKind::kMiddle));
   CHECK((fine.side == 2 && fine.kind == LatticeKind::kMiddle));
 }
 
 TEST_CASE("lattice store: every node keeps its own sample") {
   LatticeStore store(kWidth, kHeight);
   const std::vector<LatticeNode> nodes = all_nodes(store);
-  REQUIRE(nodes.size() > 16U * kWidth * kHeight);
+  REQUIRE(nodes.size() > std::size_t{kPixelSide} * kPixelSide * kWidth * kHeight);
   for (const LatticeNode& n : nodes) REQUIRE_FALSE(store.is_sampled(n));
   for (const LatticeNode& n : nodes) store.set_sample(n, value_at(n));
   for (const LatticeNode& n : nodes) {
     CAPTURE(n.x, n.y);
     REQUIRE(store.is_sampled(n));
-    REQUIRE(is_value_at(store.sample(n), n));
+    REQUIRE(is_value_at(*store.sample_at(n), n));
   }
   store.clear();
   for (const LatticeNode& n : nodes) REQUIRE_FALSE(store.is_sampled(n));
@@ -86,7 +86,7 @@ TEST_CASE("lattice store: the levels hold every node but the base once") {
         REQUIRE((own.side == level.side && own.kind == level.kind && store.tile_at(n) == tile));
       }
       all.insert(all.end(), found.begin(), found.end());
-      if (level.side > kQuarters) {
+      if (level.side > kPixelSide) {
         std::vector<LatticeNode> whole;
         store.collect_all(tile, level, whole);
         CHECK(whole == found);
@@ -102,7 +102,7 @@ TEST_CASE("lattice store: the levels hold every node but the base once") {
 
 TEST_CASE("lattice store: only candidates of the least priority are collected") {
   LatticeStore store(kWidth, kHeight);
-  const LatticeNode low{16, 16}, high{48, 16}, sampled{80, 16};
+  const LatticeNode low{64, 64}, high{192, 64}, sampled{320, 64};
   store.set_state(low, 99);
   store.set_state(high, 100);
   store.set_sample(sampled, value_at(sampled));
@@ -115,8 +115,8 @@ TEST_CASE("lattice store: only candidates of the least priority are collected") 
 
 TEST_CASE("lattice store: candidates are counted by their states") {
   LatticeStore store(kWidth, kHeight);
-  const LatticeNode corner{16, 16}, center{18, 18}, between{17, 16};
-  for (const LatticeNode& node : {corner, center, between}) {
+  const LatticeNode corner{16, 16}, center{24, 24}, between{20, 16}, in_cell{21, 18};
+  for (const LatticeNode& node : {corner, center, between, in_cell}) {
     CAPTURE(node.x, node.y);
     store.clear();
     CHECK(store.raise(node, 99));
@@ -139,7 +139,7 @@ TEST_CASE("lattice store: candidates are counted by their states") {
 
 TEST_CASE("lattice store: predictions last until they are forgotten, more often than a byte counts") {
   LatticeStore store(kWidth, kHeight);
-  const LatticeNode corner{36, 20};
+  const LatticeNode corner{9 * kPixelSide, 5 * kPixelSide};
   for (int round = 0; round < 600; ++round) {
     REQUIRE(store.kept_at(corner) == nullptr);
     store.keep_prediction(corner, value_at(corner));

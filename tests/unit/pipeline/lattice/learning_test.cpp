@@ -8,8 +8,8 @@
 namespace pprt {
 
 TEST_CASE("local errors: an error counts near its point and nowhere else") {
-  LocalErrors errors(4 * 64, 4 * 64);
-  const LatticeNode here{130, 130}, beside{146, 130}, far{4, 4};
+  LocalErrors errors(64 * kPixelSide, 64 * kPixelSide);
+  const LatticeNode here = node_at({32.5, 32.5}), beside = node_at({36.5, 32.5}), far = node_at({1, 1});
   for (const LatticeNode& n : {here, beside, far}) errors.note(n, 1e-6F, 2);
   errors.start_round();
   const int flat = errors.near(here).level;
