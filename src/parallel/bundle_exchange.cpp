@@ -100,7 +100,7 @@ void BundleExchange::await(const std::function<bool()>& condition) {
   if (condition()) return;
   const double began = monotonic_seconds();
   do {
-    if (!inbox_.pump()) rest_briefly();
+    inbox_.pump_or_rest();
   } while (!condition());
   timer_.rested(monotonic_seconds() - began);
 }
@@ -108,7 +108,7 @@ void BundleExchange::await(const std::function<bool()>& condition) {
 void BundleExchange::rest() {
   if (!policy_->rests_when_idle()) return;
   const double began = monotonic_seconds();
-  if (!inbox_.pump()) rest_briefly();
+  inbox_.pump_or_rest();
   timer_.rested(monotonic_seconds() - began);
 }
 

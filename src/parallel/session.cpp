@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -19,6 +18,7 @@ namespace pprt {
 namespace {
 
 constexpr int kPings = 8;
+constexpr double kLongestRest = 0.1;  // seconds, where only a message can bring news
 constexpr double kHeadStart = 0.005;  // seconds between the start message and the sequence's start
 
 // Ranks that started earlier may already be sending what belongs to the first frame.
@@ -26,7 +26,7 @@ Message wait_for(Communicator& network, Inbox& inbox, Tag tag) {
   while (true) {
     std::optional<Message> message = network.receive();
     if (!message) {
-      rest_briefly();
+      network.rest(kLongestRest);
     } else if (message->tag == tag) {
       return std::move(*message);
     } else {
@@ -95,8 +95,13 @@ Partition equal_areas(const SessionSettings& settings, int ranks) {
 
 // How many ranks share one of this host's cores, at least 1.
 double ranks_per_core(const Communicator& network) {
-  return std::max(
-      1.0, network.ranks_on_host() / static_cast<double>(std::max(1u, std::thread::hardware_concurrency())));
+  return std::max(1.0, network.ranks_on_host() / static_cast<double>(network.cores_on_host()));
+}
+
+// Seconds between two looks at a deadline.
+double longest_rest_s(const SessionSettings& settings) {
+  constexpr double kRest = 5e-4;
+  return is_reproducible(settings) ? kLongestRest : kRest;
 }
 
 Worker make_worker(Communicator& network, Inbox& inbox, const SessionSettings& settings,
@@ -110,7 +115,7 @@ Worker make_worker(Communicator& network, Inbox& inbox, const SessionSettings& s
 std::optional<FrameOrder> await_order(Inbox& inbox, int index) {
   std::optional<FrameOrder> order;
   while (!(order = inbox.take_order(index))) {
-    if (!inbox.pump()) rest_briefly();
+    inbox.pump_or_rest();
   }
   if (order->end) order.reset();
   return order;
@@ -129,26 +134,27 @@ void run_as_master(Communicator& network, const SessionSettings& settings, const
   const Partition partition = equal_areas(settings, network.size());
   Master master(network, settings, partition, ranks_per_core(network), source, sink);
   Inbox inbox(
-      network, [&](const Message& message) { master.handle(message); }, [&] { master.keep_deadlines(); });
+      network, longest_rest_s(settings), [&](const Message& message) { master.handle(message); },
+      [&] { master.keep_deadlines(); });
   const double start_s = start_together(network, inbox);
   Worker worker = make_worker(network, inbox, settings, partition, probe, start_s);
   master.begin_sequence(start_s);
   for (int index = 0; const std::optional<FrameOrder> order = await_order(inbox, index); ++index) {
     while (!master.may_begin(index)) {
-      if (!inbox.pump()) rest_briefly();
+      inbox.pump_or_rest();
     }
     master.frame_begun();
     worker.render(*order);
   }
   while (!master.idle()) {
-    if (!inbox.pump()) rest_briefly();
+    inbox.pump_or_rest();
   }
   network.finish();
 }
 
 void run_as_worker(Communicator& network, const SessionSettings& settings, const Probe& probe) {
   const Partition partition = equal_areas(settings, network.size());
-  Inbox inbox(network,
+  Inbox inbox(network, longest_rest_s(settings),
               [](const Message&) { throw ProtocolError("pixels came to a rank that is not the master"); });
   Worker worker = make_worker(network, inbox, settings, partition, probe, await_start(network, inbox));
   for (int index = 0; const std::optional<FrameOrder> order = await_order(inbox, index); ++index) {

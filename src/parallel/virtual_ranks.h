@@ -8,9 +8,9 @@
 
 namespace pprt {
 
-// Runs all ranks; returns when every frame has been delivered to the sink, which is called on rank 0's
-// thread. `make_probe` is called once a rank, on that rank's thread; what the probe refers to must outlive
-// the call. The first exception of a rank ends all of them and is thrown here.
+// Runs all ranks; returns when every frame has been delivered to the sink. Rank 0 runs on the caller's
+// thread, and so the sink. `make_probe` is called once a rank, on that rank's thread; what the probe refers
+// to must outlive the call. The first exception of a rank ends all of them and is thrown here.
 void run_virtual_ranks(int ranks, const SessionSettings& settings,
                        const std::function<Probe(int rank)>& make_probe, const CameraSource& source,
                        const FrameSink& sink);

@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 #include <malloc.h>
 
+#include <algorithm>
+#include <functional>
 #include <iostream>
 #include <utility>
 
@@ -13,8 +15,9 @@
 #include "cli/log.h"
 #include "cli/rank_limits.h"
 #include "cli/stop_signals.h"
-#include "parallel/network/local_communicator.h"
+#include "parallel/network/host_cores.h"
 #include "parallel/network/mpi_communicator.h"
+#include "parallel/network/process_ranks.h"
 #include "parallel/session.h"
 #include "render/frame_recorder.h"
 #include "render/frame_requests.h"
@@ -45,32 +48,33 @@ void print_rays(const RunTotals& totals) {
                   rays.primary, rays.shadow, rays.reflection, rays.refraction, rays.visibility));
 }
 
-// The master's one message to the other ranks before a run, for which they wait: the job, or that there is
+// The first process's one message to the others before a run, for which they wait: the job, or that there is
 // none.
 class JobBroadcast {
  public:
-  explicit JobBroadcast(Communicator& network) : network_(network) {}
+  // Null: there are no others.
+  explicit JobBroadcast(MpiCommunicator* processes) : processes_(processes) {}
 
-  // Whether the other ranks have their job. Then they cannot be dismissed any more.
+  // Whether the others have their job. Then they cannot be dismissed any more.
   bool run_begun() const { return run_begun_; }
 
   void send(const RenderJob& job) {
     Bytes bytes = encode(job);
-    network_.broadcast(bytes);
+    if (processes_ != nullptr) processes_->broadcast(bytes);
     run_begun_ = job.go;
   }
 
-  // Lets the other ranks leave, unless they have their job.
+  // Lets the others leave, unless they have their job.
   void dismiss() {
     if (!run_begun_) send(RenderJob());
   }
 
  private:
-  Communicator& network_;
+  MpiCommunicator* processes_;
   bool run_begun_ = false;
 };
 
-// What the master reads and checks before any other rank is told to begin.
+// What the first process reads and checks before any other is told to begin.
 struct PreparedRun {
   RenderPlan plan;
   RenderJob job;
@@ -99,24 +103,40 @@ void log_frame(const FinishedFrame& frame) {
                         frame.order.number, frame.finished_s, 1e3 * frame.order.reserve_s, frame.late_ms));
 }
 
-int run_frames(Communicator& network, const PreparedRun& run, ProgressReporter& progress,
+// Calls run(communicator, probe) for each rank of this process, with a tracer of its own.
+void run_ranks(ProcessRanks& ranks, const CompiledScene& scene,
+               const std::function<void(Communicator&, const Probe&)>& run) {
+  ranks.run([&](Communicator& network) {
+    Tracer tracer(scene, Camera());
+    run(network, probe_of(tracer));
+  });
+}
+
+int run_frames(ProcessRanks& ranks, const PreparedRun& run, ProgressReporter& progress,
                JobBroadcast& broadcast) {
-  // Open the outputs, which may fail, while the other ranks wait.
-  const RunIdentity identity{run.plan, network.size(), content_hash(run.job.scene_nff)};
+  // Open the outputs, which may fail, while the other processes wait.
+  const int size = ranks.ranks().size;
+  const RunIdentity identity{run.plan, size, content_hash(run.job.scene_nff)};
   FrameRecorder recorder(run.plan, run.scene, run_key(identity), run_record(identity, run.scene.effects()),
                          progress);
   const auto finished_before = [&](int frame) { return recorder.finished_before(frame); };
   const CameraSource source =
-      camera_source(frame_requests(run.plan, run.scene, network.size(), finished_before), recorder);
+      camera_source(frame_requests(run.plan, run.scene, size, finished_before), recorder);
 
   // Render with all ranks.
   broadcast.send(run.job);
   watch_signals();
   const StatusPrinter printer([&recorder] { recorder.status(); }, [&progress] { progress.stopping(); });
-  Tracer tracer(run.scene, Camera());
-  run_as_master(network, run.plan.settings, probe_of(tracer), source, [&](FinishedFrame&& frame) {
+  const FrameSink sink = [&](FinishedFrame&& frame) {
     log_frame(frame);
     if (!recorder.finished_before(frame.order.number)) recorder.record(std::move(frame));
+  };
+  run_ranks(ranks, run.scene, [&](Communicator& network, const Probe& probe) {
+    if (network.rank() == 0) {
+      run_as_master(network, run.plan.settings, probe, source, sink);
+    } else {
+      run_as_worker(network, run.plan.settings, probe);
+    }
   });
 
   // All other ranks have finished: a file that cannot be written now concerns this rank alone.
@@ -131,8 +151,8 @@ int run_frames(Communicator& network, const PreparedRun& run, ProgressReporter& 
   return stop_requested() ? 128 + *stop_requested() : kExitDone;
 }
 
-int master_rank(Communicator& network, const RenderOptions& options, ProgressReporter& progress,
-                JobBroadcast& broadcast) {
+int run_first_process(ProcessRanks& ranks, const RenderOptions& options, ProgressReporter& progress,
+                      JobBroadcast& broadcast) {
   try {
     const PreparedRun run = prepare(options);
     if (!run.plan.renders) {
@@ -141,38 +161,42 @@ int master_rank(Communicator& network, const RenderOptions& options, ProgressRep
     }
     check_files(run.plan);
     std::cerr << preflight(run.plan, run.scene);
-    return run_frames(network, run, progress, broadcast);
+    return run_frames(ranks, run, progress, broadcast);
   } catch (...) {
     broadcast.dismiss();
     throw;
   }
 }
 
-int worker_rank(Communicator& network) {
+int run_further_process(MpiCommunicator& processes, ProcessRanks& ranks) {
   ignore_signals();
   Bytes bytes;
-  network.broadcast(bytes);
+  processes.broadcast(bytes);
   const RenderJob job = decode_job(bytes);
   if (!job.go) return kExitDone;
   const CompiledScene scene = compile_scene(job);
-  Tracer tracer(scene, Camera());
-  run_as_worker(network, job.settings, probe_of(tracer));
+  run_ranks(ranks, scene,
+            [&](Communicator& network, const Probe& probe) { run_as_worker(network, job.settings, probe); });
   return kExitDone;
 }
 
-// No exception may leave a rank while others wait for it. An error of the master before the run dismisses the
-// other ranks; any later error aborts all ranks at once.
-int run_mpi_rank(const RenderOptions& options, ProgressReporter& progress) {
-  MpiCommunicator network;
-  set_up_log(options.log, network.rank());
-  JobBroadcast broadcast(network);
+// No exception may leave a process while others wait for it. An error of the first before the run dismisses
+// the others; any later error aborts all at once.
+int run_mpi_process(const RenderOptions& options, ProgressReporter& progress) {
+  MpiCommunicator processes;
+  const int share = std::max(1, processes.cores_on_host() / processes.ranks_on_host());
+  ProcessRanks ranks(processes, options.threads.value_or(share));
+  set_up_log(options.log, ranks.ranks().first);
+  JobBroadcast broadcast(&processes);
+  const bool is_first = processes.rank() == 0;
   try {
-    return network.rank() == 0 ? master_rank(network, options, progress, broadcast) : worker_rank(network);
+    return is_first ? run_first_process(ranks, options, progress, broadcast)
+                    : run_further_process(processes, ranks);
   } catch (const std::exception& e) {
-    if (network.rank() == 0 && !broadcast.run_begun()) throw;
-    print_message(fmt::format("pprt-render: rank {}: error: {}\n", network.rank(), message_of(e)));
+    if (is_first && !broadcast.run_begun()) throw;
+    print_message(fmt::format("pprt-render: rank {}: error: {}\n", ranks.ranks().first, message_of(e)));
     progress.fail(message_of(e));
-    network.abort_all(kExitFailure);
+    processes.abort_all(kExitFailure);
   }
 }
 
@@ -188,17 +212,16 @@ void keep_freed_memory() {
 
 int run(const RenderOptions& options, ProgressReporter& progress, std::span<const std::string> words) {
   keep_freed_memory();
-  if (started_by_mpi_launcher()) return run_mpi_rank(options, progress);
+  if (started_by_mpi_launcher()) return run_mpi_process(options, progress);
   if (options.ranks > 1) {
     if (options.hostfile.empty()) make_room_for(options.ranks);
     return run_under_mpirun(options.ranks, options.hostfile, words,
                             [&](std::string_view said) { progress.overhear(said); });
   }
   set_up_log(options.log, 0);
-  LocalNetwork alone(1);
-  LocalCommunicator network(alone, 0);
-  JobBroadcast broadcast(network);
-  return master_rank(network, options, progress, broadcast);
+  ProcessRanks ranks(options.threads.value_or(usable_cores()));
+  JobBroadcast broadcast(nullptr);
+  return run_first_process(ranks, options, progress, broadcast);
 }
 
 }  // namespace

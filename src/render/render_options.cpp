@@ -53,13 +53,34 @@ void add_positionals(CLI::App& app, RenderOptions& o) {
       ->type_name("FILE");
 }
 
+void add_threads_option(CLI::App& app, RenderOptions& o) {
+  constexpr std::uint64_t kMost = 256;
+  static const CLI::Validator is_count = count_from(1, kMost);
+  const auto check = [](std::string& text) {
+    if (text == "auto") return std::string();
+    const std::string problem = is_count(text);
+    return problem.empty() ? problem : problem + ", nor auto";
+  };
+  const auto set = [&o](const std::string& text) {
+    o.threads = text == "auto" ? std::nullopt : std::optional(std::stoi(text));
+  };
+  app.add_option_function<std::string>(
+         "--threads", set,
+         "Number of ranks in each process, as threads that share the scene; auto: one for each core")
+      ->check(CLI::Validator(check, "", ""))
+      ->default_str("1")
+      ->type_name("N")
+      ->group(kRun);
+}
+
 void add_run_options(CLI::App& app, RenderOptions& o) {
   app.add_option("--np", o.ranks,
-                 "Number of ranks (also -np N, as in mpirun); starts mpirun if more than one")
+                 "Number of processes (also -np N, as in mpirun); starts mpirun if more than one")
       ->check(count_from(1, 4096))
       ->capture_default_str()
       ->type_name("N")
       ->group(kRun);
+  add_threads_option(app, o);
   app.add_option("--hostfile", o.hostfile, "Hosts to run on, passed to mpirun")
       ->type_name("FILE")
       ->group(kRun);

@@ -6,6 +6,10 @@ run pprt-render; expect_usage "SCENE is required"
 run pprt-render --bogus ball.nff; expect_usage "there is no option --bogus"
 run pprt-render ball.nff ball.anim third; expect_usage "'third' is one argument too many"
 run pprt-render ball.nff --np 0; expect_usage "--np: value 0 is not a whole number from 1 to 4096"
+for threads in 0 257 1.5 many; do
+  run pprt-render ball.nff --threads $threads
+  expect_usage "--threads: value $threads is not a whole number from 1 to 256, nor auto"
+done
 run pprt-render ball.nff --clock sun; expect_usage "--clock: 'sun' is none of wall, work"
 run pprt-render ball.nff --resume --overwrite; expect_usage "--overwrite excludes --resume"
 run pprt-render ball.nff --budget 5; expect_usage "--budget counts work: it needs --clock work"

@@ -32,8 +32,8 @@ class ProtocolError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// One rank's end of the network. Used by one thread. No call waits for another rank but broadcast() and
-// finish().
+// One rank's end of the network. Used by one thread. No call waits for another rank but broadcast(),
+// rest() and finish().
 class Communicator {
  public:
   virtual ~Communicator() = default;
@@ -41,14 +41,19 @@ class Communicator {
   virtual int rank() const = 0;
   virtual int size() const = 0;
 
-  // How many of the ranks run on this host.
+  // How many of the ranks run on this host, and how many cores these may use.
   virtual int ranks_on_host() const = 0;
+  virtual int cores_on_host() const = 0;
 
   // Takes the payload and sends it; a rank may send to itself. Messages between two ranks keep their order.
   virtual void send(int to, Tag tag, Bytes payload) = 0;
 
   // The next message that has arrived from anyone.
   virtual std::optional<Message> receive() = 0;
+
+  // Waits until a message may have arrived, at most so many seconds: idle ranks must not take the cores from
+  // busy ones.
+  virtual void rest(double at_most_s) = 0;
 
   // Gives every rank what rank 0 holds in `data`. All ranks call it together.
   virtual void broadcast(Bytes& data) = 0;

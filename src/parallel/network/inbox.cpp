@@ -1,9 +1,7 @@
 #include "parallel/network/inbox.h"
 
 #include <algorithm>
-#include <chrono>
 #include <iterator>
-#include <thread>
 
 namespace pprt {
 
@@ -57,10 +55,6 @@ std::vector<Inbox::Arrived> Inbox::take_bundles(const std::function<bool(const A
 
 std::size_t Inbox::count_bundles(const std::function<bool(const Arrived&)>& wanted) const {
   return static_cast<std::size_t>(std::count_if(bundles_.begin(), bundles_.end(), wanted));
-}
-
-void rest_briefly() {
-  std::this_thread::sleep_for(std::chrono::microseconds(150));
 }
 
 }  // namespace pprt

@@ -21,14 +21,23 @@ class Inbox {
   };
 
   // `to_master` is called with pixels, which are for rank 0 alone. `after_look` is called at the end of every
-  // pump(): rank 0 keeps the deadlines by it.
+  // pump(): rank 0 keeps the deadlines by it. `longest_rest_s`: seconds between two looks while nothing
+  // arrives.
   Inbox(
-      Communicator& network, std::function<void(const Message&)> to_master,
+      Communicator& network, double longest_rest_s, std::function<void(const Message&)> to_master,
       std::function<void()> after_look = [] {})
-      : network_(network), to_master_(std::move(to_master)), after_look_(std::move(after_look)) {}
+      : network_(network),
+        longest_rest_s_(longest_rest_s),
+        to_master_(std::move(to_master)),
+        after_look_(std::move(after_look)) {}
 
   // Takes in all messages that have arrived; returns false when there were none.
   bool pump();
+
+  // The same; waits for a while if there are none.
+  void pump_or_rest() {
+    if (!pump()) network_.rest(longest_rest_s_);
+  }
 
   // Takes in one message. Throws ProtocolError for a kind that has no place in a sequence.
   void accept(const Message& message);
@@ -47,13 +56,11 @@ class Inbox {
 
  private:
   Communicator& network_;
+  double longest_rest_s_;
   std::function<void(const Message&)> to_master_;
   std::function<void()> after_look_;
   std::deque<FrameOrder> orders_;
   std::vector<Arrived> bundles_;
 };
-
-// A short sleep between looks into the inbox: idle ranks must not take the cores from busy ones.
-void rest_briefly();
 
 }  // namespace pprt

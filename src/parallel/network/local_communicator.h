@@ -1,34 +1,80 @@
-// A network inside one process: for a run on one rank, and for tests of many.
+// A network inside one process: each rank is a thread.
 #pragma once
 
 #include <atomic>
+#include <condition_variable>
 #include <deque>
-#include <memory>
+#include <functional>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "parallel/network/communicator.h"
 
 namespace pprt {
 
-// The mailboxes of all ranks; must outlive their communicators.
+// Which ranks are threads of this process, of all those of the run.
+struct LocalRanks {
+  int first = 0;
+  int count = 1;
+  int size = 1;     // of the run
+  int on_host = 1;  // of the run, on this host
+  int cores = 1;    // that those may use
+};
+
+// Returns the ranks of a run that is one process.
+LocalRanks all_local(int ranks);
+
+// The mailboxes of this process's ranks; must outlive their communicators.
 class LocalNetwork {
  public:
-  explicit LocalNetwork(int size) : boxes_(static_cast<std::size_t>(size)) {}
+  explicit LocalNetwork(const LocalRanks& ranks);
+  explicit LocalNetwork(int size) : LocalNetwork(all_local(size)) {}
 
-  int size() const { return static_cast<int>(boxes_.size()); }
+  const LocalRanks& ranks() const { return ranks_; }
+
+  // Puts a message into its receiver's box or, if that is another process's rank, into the outbox.
   void deliver(int to, Message message);
-  // Throws once a rank has failed: nobody must wait for it.
+
+  // Returns the next message to a rank. Throws once a rank has failed: nobody must wait for it.
   std::optional<Message> collect(int rank);
-  void fail() { failed_ = true; }
+
+  // Waits until a rank may have a message, at most so many seconds.
+  void rest(int rank, double at_most_s);
+
+  // What ranks of this process send to those of others.
+  struct Outgoing {
+    int to = 0;
+    Message message;
+  };
+  // Throws once a rank has failed.
+  std::optional<Outgoing> collect_outgoing();
+  void rest_until_outgoing(double at_most_s);
+
+  void fail();
+  void finish_rank() { ++finished_; }
+  bool is_finished() const { return finished_ == ranks_.count; }
 
  private:
+  template <class Content>
   struct Box {
     std::mutex mutex;
-    std::deque<Message> messages;
+    std::condition_variable arrival;
+    std::deque<Content> contents;
   };
-  std::vector<Box> boxes_;
+  Box<Message>& box_of(int rank) { return boxes_.at(static_cast<std::size_t>(rank - ranks_.first)); }
+  template <class Content>
+  void put(Box<Content>& box, Content content);
+  template <class Content>
+  std::optional<Content> take(Box<Content>& box);
+  template <class Content>
+  void rest_at(Box<Content>& box, double at_most_s);
+
+  LocalRanks ranks_;
+  std::vector<Box<Message>> boxes_;
+  Box<Outgoing> outbox_;
   std::atomic<bool> failed_ = false;
+  std::atomic<int> finished_ = 0;
 };
 
 // One rank of a LocalNetwork, driven by a thread of its own.
@@ -37,16 +83,24 @@ class LocalCommunicator final : public Communicator {
   LocalCommunicator(LocalNetwork& network, int rank) : network_(network), rank_(rank) {}
 
   int rank() const override { return rank_; }
-  int size() const override { return network_.size(); }
-  int ranks_on_host() const override { return size(); }
+  int size() const override { return network_.ranks().size; }
+  int ranks_on_host() const override { return network_.ranks().on_host; }
+  int cores_on_host() const override { return network_.ranks().cores; }
   void send(int to, Tag tag, Bytes payload) override;
   std::optional<Message> receive() override { return network_.collect(rank_); }
+  void rest(double at_most_s) override { network_.rest(rank_, at_most_s); }
   void broadcast(Bytes& data) override;
-  void finish() override {}
+  void finish() override { network_.finish_rank(); }
 
  private:
   LocalNetwork& network_;
   int rank_;
 };
+
+// Runs each rank of the network on a thread of its own and, beside them, `meanwhile` on the caller's. Without
+// one the first rank takes the caller's thread. The first exception of any ends all of them and is thrown
+// here.
+void run_on_threads(LocalNetwork& network, const std::function<void(Communicator&)>& run_rank,
+                    const std::function<void()>& meanwhile = nullptr);
 
 }  // namespace pprt

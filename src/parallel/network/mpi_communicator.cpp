@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "parallel/network/host_cores.h"
+
 namespace pprt {
 namespace {
 
@@ -100,6 +102,8 @@ class MpiCommunicator::Impl {
   int rank = 0;
   int size = 1;
   int on_host = 1;
+  CoreSet cores;  // that the ranks on this host may use
+  MPI_Comm host = MPI_COMM_NULL;
   std::vector<Lane> lanes;  // by receiver
   std::deque<Message> to_self;
 };
@@ -111,14 +115,16 @@ MpiCommunicator::MpiCommunicator() : impl_(std::make_unique<Impl>()) {
   check(MPI_Comm_rank(MPI_COMM_WORLD, &impl_->rank), "MPI_Comm_rank");
   check(MPI_Comm_size(MPI_COMM_WORLD, &impl_->size), "MPI_Comm_size");
   impl_->lanes.resize(static_cast<std::size_t>(impl_->size));
-  MPI_Comm host = MPI_COMM_NULL;
-  check(MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &host),
+  check(MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &impl_->host),
         "MPI_Comm_split_type");
-  check(MPI_Comm_size(host, &impl_->on_host), "MPI_Comm_size");
-  check(MPI_Comm_free(&host), "MPI_Comm_free");
+  check(MPI_Comm_size(impl_->host, &impl_->on_host), "MPI_Comm_size");
+  impl_->cores = own_cores();
+  check(MPI_Allreduce(MPI_IN_PLACE, &impl_->cores, sizeof impl_->cores, MPI_BYTE, MPI_BOR, impl_->host),
+        "MPI_Allreduce");
 }
 
 MpiCommunicator::~MpiCommunicator() {
+  MPI_Comm_free(&impl_->host);
   MPI_Finalize();
 }
 
@@ -130,6 +136,21 @@ int MpiCommunicator::size() const {
 }
 int MpiCommunicator::ranks_on_host() const {
   return impl_->on_host;
+}
+int MpiCommunicator::cores_on_host() const {
+  return std::max(1, static_cast<int>(impl_->cores.count()));
+}
+
+std::vector<int> MpiCommunicator::gather(int number) {
+  std::vector<int> numbers(static_cast<std::size_t>(impl_->size));
+  check(MPI_Allgather(&number, 1, MPI_INT, numbers.data(), 1, MPI_INT, MPI_COMM_WORLD), "MPI_Allgather");
+  return numbers;
+}
+
+int MpiCommunicator::sum_on_host(int number) {
+  int sum = 0;
+  check(MPI_Allreduce(&number, &sum, 1, MPI_INT, MPI_SUM, impl_->host), "MPI_Allreduce");
+  return sum;
 }
 
 void MpiCommunicator::send(int to, Tag tag, Bytes payload) {
@@ -159,6 +180,12 @@ std::optional<Message> MpiCommunicator::receive() {
                   Bytes(static_cast<std::size_t>(bytes))};
   check(MPI_Mrecv(message.payload.data(), bytes, MPI_BYTE, &handle, MPI_STATUS_IGNORE), "MPI_Mrecv");
   return message;
+}
+
+// MPI wakes nobody, so a rank looks often.
+void MpiCommunicator::rest(double at_most_s) {
+  constexpr double kLongest = 150e-6;
+  std::this_thread::sleep_for(std::chrono::duration<double>(std::min(at_most_s, kLongest)));
 }
 
 void MpiCommunicator::broadcast(Bytes& data) {

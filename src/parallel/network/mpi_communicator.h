@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "parallel/network/communicator.h"
 
@@ -19,10 +20,18 @@ class MpiCommunicator final : public Communicator {
   int rank() const override;
   int size() const override;
   int ranks_on_host() const override;
+  int cores_on_host() const override;
   void send(int to, Tag tag, Bytes payload) override;
   std::optional<Message> receive() override;
+  void rest(double at_most_s) override;
   void broadcast(Bytes& data) override;
   void finish() override;
+
+  // Returns every rank's number. All ranks call it together.
+  std::vector<int> gather(int number);
+
+  // Returns the sum of the numbers of the ranks on this host. All ranks call it together.
+  int sum_on_host(int number);
 
   // Ends every rank of the run with this exit code.
   [[noreturn]] void abort_all(int exit_code);

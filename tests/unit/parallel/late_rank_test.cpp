@@ -27,7 +27,7 @@ class Pair {
     for (int rank = 0; rank < 2; ++rank) {
       const auto r = static_cast<std::size_t>(rank);
       communicators_.push_back(std::make_unique<LocalCommunicator>(network_, rank));
-      inboxes_.push_back(std::make_unique<Inbox>(*communicators_[r], [this](const Message& message) {
+      inboxes_.push_back(std::make_unique<Inbox>(*communicators_[r], 0.1, [this](const Message& message) {
         const PixelMessage pixels = decode_pixels(message.payload);
         sent_[static_cast<std::size_t>(message.from)].push_back(pixels);
         pictures_.try_emplace(pixels.frame_index, partition_.grid).first->second.paste(message.from, pixels);

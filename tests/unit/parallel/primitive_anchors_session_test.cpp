@@ -64,7 +64,7 @@ class Session {
 
   LocalNetwork network_{1};
   LocalCommunicator communicator_{network_, 0};
-  Inbox inbox_{communicator_, [this](const Message& message) { take_in(message); }};
+  Inbox inbox_{communicator_, 0.1, [this](const Message& message) { take_in(message); }};
   std::vector<Sample> samples_;
   std::unique_ptr<Worker> worker_;
   int index_ = -1;

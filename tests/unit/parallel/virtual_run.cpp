@@ -143,6 +143,7 @@ class WatchedCommunicator final : public Communicator {
   int rank() const override { return inner_.rank(); }
   int size() const override { return inner_.size(); }
   int ranks_on_host() const override { return inner_.ranks_on_host(); }
+  int cores_on_host() const override { return inner_.cores_on_host(); }
   void send(int to, Tag tag, Bytes payload) override {
     if (tag == Tag::kBundle) {
       Bundle bundle = decode_bundle(payload);
@@ -166,6 +167,7 @@ class WatchedCommunicator final : public Communicator {
     if (conditions_.bundle_delay_s > 0) message = delayed(std::move(message));
     return message ? (last_arrival_s_ = monotonic_seconds(), message) : look();
   }
+  void rest(double at_most_s) override { inner_.rest(std::min(at_most_s, kLongestRest)); }
   void broadcast(Bytes& data) override { inner_.broadcast(data); }
   void finish() override { inner_.finish(); }
 
@@ -189,6 +191,8 @@ class WatchedCommunicator final : public Communicator {
     on_their_way_.pop_front();
     return message;
   }
+
+  static constexpr double kLongestRest = 150e-6;  // seconds: what is held back here wakes nobody
 
   LocalCommunicator inner_;
   std::deque<std::pair<double, Message>> on_their_way_;  // with the time when each is seen

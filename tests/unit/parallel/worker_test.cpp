@@ -22,7 +22,7 @@ class Scene {
     for (int rank = 0; rank < 3; ++rank) {
       communicators_.push_back(std::make_unique<LocalCommunicator>(network_, rank));
     }
-    inbox_ = std::make_unique<Inbox>(*communicators_[1], [](const Message&) {});
+    inbox_ = std::make_unique<Inbox>(*communicators_[1], 0.1, [](const Message&) {});
     auto clock = std::make_unique<SetClock>(20, kPeriod, kNow);
     clock_ = clock.get();
     worker_ = std::make_unique<Worker>(*communicators_[1], *inbox_, settings_, partition_, probe(),

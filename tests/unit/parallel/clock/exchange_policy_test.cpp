@@ -16,7 +16,7 @@ struct Network {
   LocalNetwork network{kRanks};
   LocalCommunicator receiver{network, 0};
   LocalCommunicator senders[2] = {{network, 1}, {network, 2}};
-  Inbox inbox{receiver, [](const Message&) {}};
+  Inbox inbox{receiver, 0.1, [](const Message&) {}};
 
   void send(int from, const Bundle& bundle) {
     senders[from - 1].send(0, Tag::kBundle, encode(bundle));

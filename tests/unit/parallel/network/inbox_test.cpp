@@ -26,7 +26,7 @@ void send_bundle(LocalNetwork& network, int from, int round) {
 TEST_CASE("inbox: orders wait for their turn") {
   LocalNetwork network(2);
   LocalCommunicator me(network, 1);
-  Inbox inbox(me, kNoMaster);
+  Inbox inbox(me, 0.1, kNoMaster);
   CHECK_FALSE(inbox.pump());
   CHECK_FALSE(inbox.take_order(0));
   send_order(network, 0), send_order(network, 1), send_order(network, 0, true);
@@ -40,7 +40,7 @@ TEST_CASE("inbox: orders wait for their turn") {
 TEST_CASE("inbox: bundles are taken in order of rank, then of sending") {
   LocalNetwork network(4);
   LocalCommunicator me(network, 1);
-  Inbox inbox(me, kNoMaster);
+  Inbox inbox(me, 0.1, kNoMaster);
   send_bundle(network, 3, 1), send_bundle(network, 0, 1), send_bundle(network, 3, 2),
       send_bundle(network, 2, 1);
   inbox.pump();
@@ -60,7 +60,7 @@ TEST_CASE("inbox: bundles are taken in order of rank, then of sending") {
 TEST_CASE("inbox: messages that do not belong into a sequence are refused") {
   LocalNetwork network(2);
   LocalCommunicator me(network, 1);
-  Inbox inbox(me, kNoMaster);
+  Inbox inbox(me, 0.1, kNoMaster);
   LocalCommunicator(network, 0).send(1, Tag::kStart, {});
   CHECK_THROWS_AS(inbox.pump(), ProtocolError);
   LocalCommunicator(network, 0).send(1, Tag::kBundle, Bytes(3));

@@ -1,0 +1,32 @@
+#!/usr/bin/env bash
+# However eight ranks are divided into processes and threads, they give the same files under the work clock. In real time
+# every frame comes.
+source "$(dirname "$0")/lib.sh"
+
+render() { pprt-render spd:tree:5 "$here/short.anim" --progress none "$@"; }
+for division in 8x1 4x2 2x4 1x8; do
+  render -np "${division%x*}" --threads "${division#*x}" --clock work -o "$division/%04d.png"
+  expect_frames "$division" png 6
+done
+render -np 7 --clock work -o 'seven/%04d.png'
+for division in 4x2 2x4 1x8; do
+  for file in "$division"/*.png; do
+    cmp "$file" "8x1/${file##*/}" || fail "$file differs from that of eight processes"
+  done
+done
+cmp -s seven/0003.png 8x1/0003.png && fail "seven ranks give what eight give: the comparison cannot fail"
+
+# Processes may have different numbers of threads.
+each() { echo "-np 1 pprt-render spd:tree:5 $here/short.anim --progress none --clock work -o mixed/%04d.png --threads $1"; }
+mpirun_by_hand --bind-to none $(each 1) : $(each 5) : $(each 2)
+for file in mixed/*.png; do
+  cmp "$file" "8x1/${file##*/}" || fail "$file differs from that of eight processes"
+done
+expect_frames mixed png 6
+
+for division in 2x2 1x4; do
+  render -np "${division%x*}" --threads "${division#*x}" --fps 10 -o "real-$division/%04d.png"
+  expect_frames "real-$division" png 6
+done
+render --threads auto --fps 10 -o 'auto/%04d.png'
+expect_frames auto png 6
