@@ -9,8 +9,8 @@
 #include "base/vector.h"
 
 // Compiles a second copy of the function for hosts with AVX2, whose registers hold four doubles. The results
-// are equal to the bit (docs/decisions/0003-instruction-sets.md). Flattened, so that callees are cloned too. Not
-// for the thread sanitizer, whose library the choice between the copies would call before it is ready.
+// are equal to the bit (docs/decisions/0003-instruction-sets.md). Flattened, so that callees are cloned too.
+// Not for the thread sanitizer, whose library the choice between the copies would call before it is ready.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
 #define PPRT_CLONED_FOR_WIDE_REGISTERS [[gnu::flatten, gnu::target_clones("default", "arch=x86-64-v3")]]
 #else
