@@ -112,6 +112,15 @@ void run_ranks(ProcessRanks& ranks, const CompiledScene& scene,
   });
 }
 
+void warn_of_few_cores(const LocalRanks& ranks) {
+  const int installed = installed_cores();
+  if (ranks.cores >= std::min(ranks.on_host, installed)) return;
+  print_message(fmt::format(
+      "pprt-render: warning: {} ranks may use only {} of this host's {} cores, by their affinity; "
+      "mpirun's --bind-to none lifts it\n",
+      ranks.on_host, ranks.cores, installed));
+}
+
 int run_frames(ProcessRanks& ranks, const PreparedRun& run, ProgressReporter& progress,
                JobBroadcast& broadcast) {
   // Open the outputs, which may fail, while the other processes wait.
@@ -161,6 +170,7 @@ int run_first_process(ProcessRanks& ranks, const RenderOptions& options, Progres
     }
     check_files(run.plan);
     std::cerr << preflight(run.plan, run.scene);
+    warn_of_few_cores(ranks.ranks());
     return run_frames(ranks, run, progress, broadcast);
   } catch (...) {
     broadcast.dismiss();

@@ -30,3 +30,14 @@ for division in 2x2 1x4; do
 done
 render --threads auto --fps 10 -o 'auto/%04d.png'
 expect_frames auto png 6
+
+# Ranks that may not use all cores are told of; others are not.
+if [[ $(nproc) -gt 1 ]]; then
+  core=$(taskset -cp $$ | sed 's/.*: //; s/[-,].*//')
+  taskset -c "$core" pprt-render spd:tree:3 --threads 2 --samples 500 --progress none -o few.png 2>few
+  grep -q "^pprt-render: warning: 2 ranks may use only 1 of this host's [0-9]* cores" few || fail "no warning of one core: $(cat few)"
+  taskset -c "$core" pprt-render spd:tree:3 --threads auto --samples 500 --progress none -o auto.png 2>one
+  pprt-render spd:tree:3 --threads 2 --samples 500 --progress none -o all.png 2>all
+  cat one all | grep "affinity" && fail "a warning of few cores where there are enough"
+fi
+exit 0
