@@ -1,4 +1,4 @@
-#include "parallel/network/host_cores.h"
+#include "base/host_cores.h"
 
 #include <sched.h>
 #include <unistd.h>

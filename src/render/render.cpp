@@ -10,12 +10,12 @@
 
 #include "base/content_hash.h"
 #include "base/diagnostics.h"
+#include "base/host_cores.h"
 #include "cli/exit.h"
 #include "cli/launch.h"
 #include "cli/log.h"
 #include "cli/rank_limits.h"
 #include "cli/stop_signals.h"
-#include "parallel/network/host_cores.h"
 #include "parallel/network/mpi_communicator.h"
 #include "parallel/network/process_ranks.h"
 #include "parallel/session.h"
@@ -223,9 +223,9 @@ void keep_freed_memory() {
 int run(const RenderOptions& options, ProgressReporter& progress, std::span<const std::string> words) {
   keep_freed_memory();
   if (started_by_mpi_launcher()) return run_mpi_process(options, progress);
-  if (options.ranks > 1) {
-    if (options.hostfile.empty()) make_room_for(options.ranks);
-    return run_under_mpirun(options.ranks, options.hostfile, words,
+  if (options.processes > 1) {
+    if (options.hostfile.empty()) make_room_for(options.processes);
+    return run_under_mpirun(options.processes, options.hostfile, words,
                             [&](std::string_view said) { progress.overhear(said); });
   }
   set_up_log(options.log, 0);

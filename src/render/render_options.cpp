@@ -74,7 +74,7 @@ void add_threads_option(CLI::App& app, RenderOptions& o) {
 }
 
 void add_run_options(CLI::App& app, RenderOptions& o) {
-  app.add_option("--np", o.ranks,
+  app.add_option("--np", o.processes,
                  "Number of processes (also -np N, as in mpirun); starts mpirun if more than one")
       ->check(count_from(1, 4096))
       ->capture_default_str()

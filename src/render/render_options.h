@@ -26,8 +26,8 @@ struct RenderOptions {
   std::string input;   // scene, or script that names its scene
   std::string script;  // empty: none, or `input` is one
 
-  int ranks = 1;                   // processes, each with so many ranks:
-  std::optional<int> threads = 1;  // empty: as many as there are cores for it
+  int processes = 1;
+  std::optional<int> threads = 1;  // ranks in each process; empty: as many as it has cores
   ClockKind clock = ClockKind::kWall;
   std::string hostfile;                  // empty: none
   std::string config;                    // the file that options were read from; empty: none

@@ -32,8 +32,8 @@ class ProtocolError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// One rank's end of the network. Used by one thread. No call waits for another rank but broadcast(),
-// rest() and finish().
+// One rank's end of the network. Used by one thread. No call waits for another rank but rest() and
+// finish().
 class Communicator {
  public:
   virtual ~Communicator() = default;
@@ -54,9 +54,6 @@ class Communicator {
   // Waits until a message may have arrived, at most so many seconds: idle ranks must not take the cores from
   // busy ones.
   virtual void rest(double at_most_s) = 0;
-
-  // Gives every rank what rank 0 holds in `data`. All ranks call it together.
-  virtual void broadcast(Bytes& data) = 0;
 
   // The last call: returns when nothing that was sent here can be lost any more. What still arrives is
   // dropped.

@@ -6,7 +6,7 @@
 #include <thread>
 #include <utility>
 
-#include "parallel/network/host_cores.h"
+#include "base/host_cores.h"
 
 namespace pprt {
 
@@ -80,17 +80,6 @@ void LocalNetwork::fail() {
 
 void LocalCommunicator::send(int to, Tag tag, Bytes payload) {
   network_.deliver(to, {rank_, tag, std::move(payload)});
-}
-
-void LocalCommunicator::broadcast(Bytes& data) {
-  if (rank_ == 0) {
-    for (int to = 1; to < size(); ++to) send(to, Tag::kStart, data);
-    return;
-  }
-  constexpr double kRest = 0.1;
-  std::optional<Message> message;
-  while (!(message = receive())) rest(kRest);
-  data = std::move(message->payload);
 }
 
 void run_on_threads(LocalNetwork& network, const std::function<void(Communicator&)>& run_rank,

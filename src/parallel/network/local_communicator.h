@@ -89,7 +89,6 @@ class LocalCommunicator final : public Communicator {
   void send(int to, Tag tag, Bytes payload) override;
   std::optional<Message> receive() override { return network_.collect(rank_); }
   void rest(double at_most_s) override { network_.rest(rank_, at_most_s); }
-  void broadcast(Bytes& data) override;
   void finish() override { network_.finish_rank(); }
 
  private:

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "parallel/network/host_cores.h"
+#include "base/host_cores.h"
 
 namespace pprt {
 namespace {

@@ -1,11 +1,7 @@
 // The ranks of one process: threads that share what the process holds, beside those of other processes.
-//
-//   process 0                        process 1
-//   rank 0  rank 1  rank 2           rank 3  rank 4        threads; each has a mailbox
-//     \       |       /                 \       /
-//      LocalNetwork                   LocalNetwork         to a rank of this process: no copy, no system call
-//           |                              |
-//     the main thread ------ MPI ------ the main thread    to another process's
+// Each rank has a mailbox in its process's LocalNetwork. A message to a rank of the same process is moved
+// there. One to another process waits in the outbox. The main thread sends it by MPI, and delivers what
+// comes.
 #pragma once
 
 #include <functional>
@@ -27,8 +23,9 @@ class ProcessRanks {
 
   const LocalRanks& ranks() const { return ranks_; }
 
-  // Runs each rank of this process; returns when all have ended. A process with one rank runs it on the
-  // caller's thread. The first exception of a rank ends this process's ranks and is thrown here.
+  // Runs each rank of this process; returns when all have ended. Where each process has one rank, it
+  // runs on the caller's thread and calls MPI itself. The first exception of a rank ends this process's ranks
+  // and is thrown here.
   void run(const std::function<void(Communicator&)>& run_rank);
 
  private:

@@ -21,7 +21,7 @@
 
 namespace pprt {
 
-inline constexpr int kPixelSide = 16;
+inline constexpr int kPixelSide = 16;             // sixteenths of a pixel, as all sides
 inline constexpr int kBaseSide = 8 * kPixelSide;  // of the coarsest squares
 
 struct LatticeNode {

@@ -28,6 +28,7 @@ float4 weighted_mean(const SquareCorners& corners, const std::array<float, 4>& w
 
 // Four colours of three channels as they lie in memory.
 using PackedColors = std::array<float4, 3>;
+static_assert(sizeof(PackedColors) == 4 * sizeof(Color));
 
 PackedColors pack(const std::array<float4, 4>& colors) {
   const auto& [a, b, c, d] = colors;
@@ -120,14 +121,12 @@ void LatticePainter::paint_square(const LatticeNode& corner, int side, const Squ
 bool LatticePainter::is_refined(const LatticeNode& corner, int side) const {
   const auto [x, y] = corner;
   const int half = side / 2;
-  if (half >= kPixelSide) {
-    return store_.is_corner_sampled({x + half, y + half}) || store_.is_corner_sampled({x + half, y}) ||
-           store_.is_corner_sampled({x, y + half}) || store_.is_corner_sampled({x + side, y + half}) ||
-           store_.is_corner_sampled({x + half, y + side});
-  }
-  return store_.is_sampled({x + half, y + half}) || store_.is_sampled({x + half, y}) ||
-         store_.is_sampled({x, y + half}) || store_.is_sampled({x + side, y + half}) ||
-         store_.is_sampled({x + half, y + side});
+  const auto any = [&](const auto& is_sampled) {
+    return is_sampled({x + half, y + half}) || is_sampled({x + half, y}) || is_sampled({x, y + half}) ||
+           is_sampled({x + side, y + half}) || is_sampled({x + half, y + side});
+  };
+  if (half < kPixelSide) return any([&](const LatticeNode& node) { return store_.is_sampled(node); });
+  return any([&](const LatticeNode& node) { return store_.is_corner_sampled(node); });
 }
 
 // Returns the side at which no square of a pixel holds samples any more.

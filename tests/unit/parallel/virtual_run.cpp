@@ -168,7 +168,6 @@ class WatchedCommunicator final : public Communicator {
     return message ? (last_arrival_s_ = monotonic_seconds(), message) : look();
   }
   void rest(double at_most_s) override { inner_.rest(std::min(at_most_s, kLongestRest)); }
-  void broadcast(Bytes& data) override { inner_.broadcast(data); }
   void finish() override { inner_.finish(); }
 
  private:

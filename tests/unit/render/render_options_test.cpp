@@ -25,10 +25,10 @@ RenderOptions parse(std::vector<std::string> words) {
 }  // namespace
 
 TEST_CASE("mpirun's -np is accepted anywhere on the command line") {
-  CHECK(parse({"-np", "32", "spd:tree"}).ranks == 32);
-  CHECK(parse({"spd:tree", "a.anim", "-np", "3", "--fps", "4"}).ranks == 3);
-  CHECK(parse({"spd:tree", "--np", "3"}).ranks == 3);
-  CHECK(parse({"spd:tree"}).ranks == 1);
+  CHECK(parse({"-np", "32", "spd:tree"}).processes == 32);
+  CHECK(parse({"spd:tree", "a.anim", "-np", "3", "--fps", "4"}).processes == 3);
+  CHECK(parse({"spd:tree", "--np", "3"}).processes == 3);
+  CHECK(parse({"spd:tree"}).processes == 1);
 }
 
 TEST_CASE("scene and script may stand among the options, in their order") {
