@@ -69,9 +69,9 @@ inline constexpr std::array<LatticeLevel, 14> kLatticeLevels = [] {
 
 // Returns the place of a level among kLatticeLevels.
 inline std::size_t index_of(const LatticeLevel& level) {
-  const int halvings =
-      std::bit_width(unsigned{kBaseSide}) - std::bit_width(static_cast<unsigned>(level.side));
-  return static_cast<std::size_t>(2 * halvings + (level.kind == LatticeKind::kMiddle ? 1 : 0));
+  const auto halvings = static_cast<std::size_t>(std::bit_width(unsigned{kBaseSide}) -
+                                                 std::bit_width(static_cast<unsigned>(level.side)));
+  return 2 * halvings + (level.kind == LatticeKind::kMiddle ? 1 : 0);
 }
 
 // Returns the level of a node that is no corner of a base square.

@@ -119,8 +119,7 @@ void LatticePainter::paint_square(const LatticeNode& corner, int side, const Squ
 // Whether a sample lies at the centre of a square or in the middle of one of its sides. Without one there is
 // none in the square.
 bool LatticePainter::is_refined(const LatticeNode& corner, int side) const {
-  const auto [x, y] = corner;
-  const int half = side / 2;
+  const int x = corner.x, y = corner.y, half = side / 2;
   const auto any = [&](const auto& is_sampled) {
     return is_sampled({x + half, y + half}) || is_sampled({x + half, y}) || is_sampled({x, y + half}) ||
            is_sampled({x + side, y + half}) || is_sampled({x + half, y + side});

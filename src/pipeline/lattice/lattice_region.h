@@ -50,7 +50,8 @@ class LatticeRegion {
 
 inline std::size_t LatticeRegion::square_of(const LatticeNode& node) const {
   const int x = std::min(node.x / kBaseSide, columns_ - 1), y = std::min(node.y / kBaseSide, rows_ - 1);
-  return static_cast<std::size_t>(y * columns_ + x);
+  const int square = y * columns_ + x;
+  return static_cast<std::size_t>(square);
 }
 
 template <class Visit>

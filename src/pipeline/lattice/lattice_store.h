@@ -229,7 +229,8 @@ class LatticeStore {
 
   std::size_t tile_of(const LatticeNode& node) const {
     constexpr int kShift = std::bit_width(unsigned{kTilePixels * kPixelSide}) - 1;
-    return static_cast<std::size_t>((node.y >> kShift) * columns_ + (node.x >> kShift));
+    const int tile = (node.y >> kShift) * columns_ + (node.x >> kShift);
+    return static_cast<std::size_t>(tile);
   }
   static std::size_t pixel_in_tile(const LatticeNode& node) {
     const auto x = static_cast<unsigned>(node.x) / kPixelSide % kTilePixels;

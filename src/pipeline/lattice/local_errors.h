@@ -54,7 +54,8 @@ class LocalErrors {
   // Cells have a border of empty ones.
   std::size_t cell_of(const LatticeNode& node) const {
     constexpr int kCell = 4 * kPixelSide;
-    return static_cast<std::size_t>((node.y / kCell + 1) * columns_ + node.x / kCell + 1);
+    const int cell = (node.y / kCell + 1) * columns_ + node.x / kCell + 1;
+    return static_cast<std::size_t>(cell);
   }
   void compute(std::size_t cell, Mean& mean) const;
 
