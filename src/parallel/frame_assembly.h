@@ -20,7 +20,7 @@ class FrameAssembly {
   bool is_whole() const { return missing_ == 0; }
   const FrameOrder& order() const { return order_; }
   std::span<const RankReport> reports() const { return reports_; }  // empty ones of late ranks
-  std::span<const std::vector<TileReport>> tiles_of_ranks() const { return tiles_; }
+  const std::vector<std::vector<TileReport>>& tiles_of_ranks() const { return tiles_; }
   std::vector<std::int32_t> late_ranks() const;  // whose pixels have not come: ascending
 
   // Moved out when the frame is delivered.

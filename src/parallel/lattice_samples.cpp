@@ -176,7 +176,7 @@ RegionQuality LatticeSamples::quality() {
 bool LatticeSamples::is_refined_to(double quality) {
   constexpr double kGrowth = 1.25;
   weigh_after(kGrowth);
-  return mean_weight_ <= quality;
+  return mean_worth_ <= quality;
 }
 
 // Weighs anew when there are so many times the samples of the last time.
@@ -184,7 +184,7 @@ void LatticeSamples::weigh_after(double growth) {
   const auto samples = static_cast<double>(lattice_.samples());
   if (weighed_ > 0 && samples <= growth * static_cast<double>(weighed_)) return;
   weighed_ = std::max<std::size_t>(lattice_.samples(), 1);
-  lattice_.weigh(weights_);
+  mean_worth_ = lattice_.weigh(weights_);
   average_weights(region());
 }
 

@@ -80,8 +80,9 @@ class LatticeSamples : public RegionSamples {
   std::vector<int> neighbours_, nobody_;
   CarriedLights carried_;
   std::vector<TileWeights> weights_;  // per tile
-  double mean_weight_ = 0;
-  std::size_t weighed_ = 0;  // samples when the weights were computed; 0: they are not
+  double mean_weight_ = 0;            // of the weights: what balancing goes by
+  double mean_worth_ = 0;             // what a sample is expected to bring: what the stop rule goes by
+  std::size_t weighed_ = 0;           // samples when the weights were computed; 0: they are not
   std::vector<PixelRect> parts_;
 };
 

@@ -160,13 +160,18 @@ void Master::deliver_first() {
 }
 
 void Master::learn_from(const PendingFrame& frame) {
-  std::uint64_t samples = 0;
+  const FrameOrder& order = frame.assembly.order();
+  FrameReports reports{.is_whole = frame.assembly.is_whole(),
+                       .accumulates = order.carry == Carry::kAccumulate,
+                       .tiles = frame.assembly.tiles_of_ranks(),
+                       .speeds = {}};
   evidence_ = halved(evidence_);
   for (const RankReport& r : frame.assembly.reports()) {
-    samples += r.samples_in_region;
-    if (frame.assembly.order().index >= evidence_since_) evidence_ += r.evidence;
+    reports.samples += r.samples_in_region;
+    reports.speeds.push_back(1 / r.pace);
+    if (order.index >= evidence_since_) evidence_ += r.evidence;
   }
-  balancer_.consider(frame.assembly.tiles_of_ranks(), frame.assembly.is_whole(), samples);
+  balancer_.consider(reports);
   if (clock_->keeps_deadlines()) reserve_.learn(frame.after_sampling_s);
 }
 

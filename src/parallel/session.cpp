@@ -108,7 +108,7 @@ Worker make_worker(Communicator& network, Inbox& inbox, const SessionSettings& s
                    const Partition& partition, const Probe& probe, double start_s) {
   const std::size_t pixels = region_of(partition, network.rank()).pixel_count();
   return Worker(network, inbox, settings, partition, probe,
-                make_frame_clock(settings, start_s, pixels, ranks_per_core(network)));
+                make_frame_clock(settings, network.rank(), start_s, pixels, ranks_per_core(network)));
 }
 
 // Empty: the sequence is over.

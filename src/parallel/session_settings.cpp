@@ -4,7 +4,7 @@
 
 namespace pprt {
 
-static_assert(sizeof(SessionSettings) == 112, "what is added to the settings must be sent as well");
+static_assert(sizeof(SessionSettings) == 128, "what is added to the settings must be sent as well");
 
 Bytes encode(const SessionSettings& settings) {
   WireWriter out;

@@ -22,7 +22,7 @@ TileOwnership::TileOwnership(const SessionSettings& settings, int rank, int rank
 void TileOwnership::begin_frame() {
   given_.clear();
   partition_bytes_ = 0;
-  balancer_.begin_frame();
+  balancer_.begin_frame(clock_.pace());
 }
 
 bool TileOwnership::balances_locally() const {
@@ -34,6 +34,9 @@ bool TileOwnership::balances_locally() const {
 bool TileOwnership::may_give(bool fresh_mesh) const {
   // Where a number of samples is the goal each rank takes the share of its area, which stays as it is.
   if (!balances_locally() || settings_.stop.samples > 0) return false;
+  // Without a rate each rank ends at its own region's mean. On a lattice a region of costly tiles alone would
+  // be refined for ever: three times the samples of the whole picture.
+  if (settings_.frames_per_second == 0 && settings_.sampler != SamplerChoice::kDelaunay) return false;
   const double elapsed = clock_.sampling_share();
   const std::uint64_t samples = sampler_.in_region();
   // Under a resting camera a region with more samples than pixels is fine enough, and its samples are too

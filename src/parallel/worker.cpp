@@ -58,6 +58,7 @@ void Worker::sample(const FrameOrder& order) {
   constexpr double kEvidenceAfter = 0.75;
   const bool has_rate = order.deadline_s > 0;
   const std::size_t begin = sampler_.samples().size();
+  const double counted_before = costs_.counted();
   const bool gives_evidence = sampler_.samples().cast_use() == CastUse::kInserted;
   bool takes_evidence = false;
   for (int round = kSeedRound + 1;; ++round) {
@@ -79,6 +80,7 @@ void Worker::sample(const FrameOrder& order) {
       sampler_.expect_growth(*growth);
     if (packet.idle && !packet.traced) bundles_.rest();
   }
+  clock_->end_sampling(costs_.counted() - counted_before);
   const double last_ms = timer_.end_stage(&StageTimes::sampling);
   if (takes_evidence) reprojection_.evidence().fresh_ms = clock_->as_evidence_ms(last_ms);
 }
@@ -217,6 +219,7 @@ RankReport Worker::make_report(double sampling_ended_s) {
           .samples_in_region = sampler_.in_region(),
           .non_finite = tracer_.non_finite(),
           .refinement = refined.mean_weight,
+          .pace = clock_->pace(),
           .triangles_in_region = static_cast<std::uint64_t>(triangles),
           .rays = tracer_.rays(),
           .evidence = reprojection_.evidence(),

@@ -12,7 +12,8 @@ namespace pprt {
 Balancer::Balancer(int rank, int ranks, const CostEstimator& costs)
     : rank_(rank), costs_(costs), theirs_(static_cast<std::size_t>(ranks)) {}
 
-void Balancer::begin_frame() {
+void Balancer::begin_frame(double pace) {
+  pace_ = pace;
   std::fill(theirs_.begin(), theirs_.end(), RankProgress());
 }
 
@@ -21,19 +22,25 @@ RankProgress Balancer::progress(const RegionQuality& refined, double elapsed) co
   if (quality <= 0) return {};
   // The mean weight falls as the reciprocal of the samples: what it will be when the frame ends.
   const double target = target_quality(quality * elapsed);
-  return {.quality = quality, .target = target, .future_cost = costs_.future_cost_of_region(refined, target)};
+  return {
+      .quality = quality, .target = target, .future_cost = own_future_cost(refined, target), .pace = pace_};
+}
+
+// In time.
+double Balancer::own_future_cost(const RegionQuality& refined, double quality) const {
+  return pace_ * costs_.future_cost_of_region(refined, quality);
 }
 
 // How much more this rank has to pay than its neighbours for what they aim at: the geometric mean of the
 // ratios; 1 where no neighbour has reported.
 double Balancer::load_by_neighbours(const RegionQuality& refined, const std::vector<int>& neighbours) const {
-  constexpr double kOneSample = 1300;  // work units; costs below are all the same
+  constexpr double kOneSample = 1300;  // time at pace 1; costs below are all the same
   double sum = 0;
   int count = 0;
   for (const int rank : neighbours) {
     const RankProgress& theirs = theirs_[static_cast<std::size_t>(rank)];
     if (theirs.quality <= 0) continue;
-    const double own = costs_.future_cost_of_region(refined, theirs.target);
+    const double own = own_future_cost(refined, theirs.target);
     sum += std::log(std::max(own, kOneSample) / std::max(theirs.future_cost, kOneSample));
     ++count;
   }
@@ -53,7 +60,7 @@ std::vector<int> Balancer::takers(const RegionQuality& refined, const std::vecto
   for (const int rank : neighbours) {
     const RankProgress& theirs = theirs_[static_cast<std::size_t>(rank)];
     if (!handshake.accepts(rank) || !handshake.has_confirmed_transfers(rank) || theirs.quality <= 0) continue;
-    const double own_cost = costs_.future_cost_of_region(refined, theirs.target);
+    const double own_cost = own_future_cost(refined, theirs.target);
     if (!should_give(settings_, quality, own_cost, theirs)) continue;
     ahead.emplace_back(theirs.future_cost / own_cost, rank);
   }
@@ -69,15 +76,16 @@ std::vector<int> Balancer::tiles_for(const RegionQuality& refined, const RegionS
   const RankProgress& theirs = theirs_[static_cast<std::size_t>(taker)];
   const std::vector<std::uint32_t> known = samples.known_in_tiles(taker);
   const std::vector<std::uint32_t> all = samples.known_in_tiles(rank_);
+  const double mean_pace = 0.5 * (pace_ + theirs.pace);
   const auto offer = [&](int tile) {
     const auto t = static_cast<std::size_t>(tile);
-    return TileOffer{.future_cost = costs_.future_cost(refined, tile, theirs.target),
+    return TileOffer{.future_cost = mean_pace * costs_.future_cost(refined, tile, theirs.target),
                      .samples = static_cast<double>(all[t]),
                      .known_to_taker = static_cast<double>(known[t])};
   };
   const TransferBounds bounds{
-      .difference = costs_.future_cost_of_region(refined, theirs.target) - theirs.future_cost,
-      .insertion_cost = static_cast<double>(price(Work::kReceivedSample)),
+      .difference = own_future_cost(refined, theirs.target) - theirs.future_cost,
+      .insertion_cost = theirs.pace * static_cast<double>(price(Work::kReceivedSample)),
       .most_samples = most_samples};
   return tiles_to_give(settings_, partition, rank_, taker, bounds, offer);
 }

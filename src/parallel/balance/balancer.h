@@ -19,8 +19,8 @@ class Balancer {
   // `costs`, the rank's own, must outlive the balancer.
   Balancer(int rank, int ranks, const CostEstimator& costs);
 
-  // A frame begins: nothing is known of the neighbours' progress in it.
-  void begin_frame();
+  // A frame begins: nothing is known of the neighbours' progress in it. `pace`: this rank's.
+  void begin_frame(double pace);
 
   void receive(int from, const RankProgress& progress) { theirs_[static_cast<std::size_t>(from)] = progress; }
 
@@ -43,6 +43,7 @@ class Balancer {
                                              const TransferHandshake& handshake, double most_samples) const;
 
  private:
+  double own_future_cost(const RegionQuality& refined, double quality) const;
   double load_by_neighbours(const RegionQuality& refined, const std::vector<int>& neighbours) const;
   std::vector<int> takers(const RegionQuality& refined, const std::vector<int>& neighbours,
                           const TransferHandshake& handshake) const;
@@ -52,6 +53,7 @@ class Balancer {
   LocalBalanceSettings settings_;
   int rank_;
   const CostEstimator& costs_;
+  double pace_ = 1;
   std::vector<RankProgress> theirs_;  // per rank, in this frame
 };
 

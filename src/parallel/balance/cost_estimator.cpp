@@ -36,12 +36,14 @@ void CostEstimator::begin_frame(bool fresh_picture, FrameLikeness likeness) {
 
 void CostEstimator::add_own(const Sample& sample) {
   const int tile = grid_.tile_at(sample.x, sample.y);
-  now_[static_cast<std::size_t>(tile)].cost +=
-      static_cast<double>(price(Work::kRay) * sample.ray.rays) + own_sample_;
+  const double cost = static_cast<double>(price(Work::kRay) * sample.ray.rays) + own_sample_;
+  now_[static_cast<std::size_t>(tile)].cost += cost;
+  counted_ += cost;
 }
 
 void CostEstimator::add_received() {
   received_now_ += received_sample_;
+  counted_ += received_sample_;
 }
 
 void CostEstimator::accept(const TileTransfer& transfer) {

@@ -34,6 +34,9 @@ class CostEstimator {
   // Counts the insertion of another rank's sample, for the region as a whole.
   void add_received();
 
+  // Work units counted so far, in the whole sequence.
+  double counted() const { return counted_; }
+
   // Brings the estimates up to date. `elapsed`: share of the frame's sampling time that has
   // passed, in (0, 1].
   void update(const RegionQuality& refined, double elapsed);
@@ -67,8 +70,9 @@ class CostEstimator {
   double own_sample_, received_sample_;   // work units, without rays
   std::vector<TileEstimate> now_, last_;  // per tile
   double cost_per_triangle_ = 0;          // of this region in this frame, mean
-  double received_now_ = 0;               // work units spent on other ranks' samples
-  double received_last_ = 0;              // the same in the frame before
+  double counted_ = 0;
+  double received_now_ = 0;   // work units spent on other ranks' samples
+  double received_last_ = 0;  // the same in the frame before
   FrameLikeness likeness_ = FrameLikeness::kUnknown;
   double share_of_now_ = 1;  // of this frame's figures in an estimate, against the last one's
 };

@@ -71,17 +71,17 @@ std::vector<double> predicted_costs(const TileGrid& grid, std::span<const std::v
   return costs;
 }
 
-void GlobalBalancer::consider(std::span<const std::vector<TileReport>> of_rank, bool is_whole,
-                              std::uint64_t samples) {
-  samples_ = samples;
+void GlobalBalancer::consider(const FrameReports& frame) {
+  samples_ = frame.samples;
   const bool always = settings_.balance == BalanceMode::kGlobal;
   if (!always && settings_.balance != BalanceMode::kCombined) return;
-  if (ranks_ == 1 || !is_whole || (!always && imbalance(of_rank) <= kImbalanceTrigger)) return;
-  next_owners_ = bisect(grid_, predicted_costs(grid_, of_rank), ranks_).owner;
-  found_ = tile_estimates(grid_, of_rank);
-  handed_over_.assign(of_rank.size(), 0);
-  for (std::size_t rank = 0; rank < of_rank.size(); ++rank) {
-    for (const TileReport& tile : of_rank[rank]) {
+  if (ranks_ == 1 || !frame.is_whole || (!always && imbalance(frame.tiles) <= kImbalanceTrigger)) return;
+  accumulated_ = frame.accumulates;
+  next_owners_ = bisect(grid_, predicted_costs(grid_, frame.tiles), frame.speeds).owner;
+  found_ = tile_estimates(grid_, frame.tiles);
+  handed_over_.assign(frame.tiles.size(), 0);
+  for (std::size_t rank = 0; rank < frame.tiles.size(); ++rank) {
+    for (const TileReport& tile : frame.tiles[rank]) {
       const auto taker = static_cast<std::size_t>(next_owners_[static_cast<std::size_t>(tile.tile)]);
       // A triangulation has about two triangles a sample.
       if (taker != rank) handed_over_[taker] += 0.5 * tile.triangles;
@@ -91,11 +91,15 @@ void GlobalBalancer::consider(std::span<const std::vector<TileReport>> of_rank, 
 
 // Cast samples are reinserted anyhow, by their new owners.
 void GlobalBalancer::add_partition(FrameOrder& order) {
-  const bool hands_over = order.carry == Carry::kAccumulate && settings_.keep_samples;
-  if (hands_over && !can_afford_to_hand_over()) next_owners_.clear();
+  if (!is_useful_for(order)) next_owners_.clear();
   if (!next_owners_.empty()) ++generation_;
   order.owners = std::exchange(next_owners_, {});
   order.generation = generation_;
+}
+
+bool GlobalBalancer::is_useful_for(const FrameOrder& order) const {
+  if (order.carry == Carry::kAccumulate) return !settings_.keep_samples || can_afford_to_hand_over();
+  return !accumulated_ || settings_.sampler == SamplerChoice::kDelaunay;
 }
 
 // Whether every rank can take in the samples of its new tiles in a twentieth of a frame; their former owner

@@ -25,6 +25,15 @@ std::vector<TileEstimate> tile_estimates(const TileGrid& grid,
 // others.
 std::vector<double> predicted_costs(const TileGrid& grid, std::span<const std::vector<TileReport>> of_rank);
 
+// What the ranks report of a frame.
+struct FrameReports {
+  bool is_whole = true;      // all have: else it says nothing of the balance
+  bool accumulates = false;  // its samples are those of the frames before, too
+  std::uint64_t samples = 0;
+  std::vector<std::vector<TileReport>> tiles;  // per rank
+  std::vector<double> speeds;                  // per rank: the reciprocals of their paces
+};
+
 // Turns the reports of a delivered frame into a new partition for the next order, where the mode asks for it.
 class GlobalBalancer {
  public:
@@ -32,18 +41,19 @@ class GlobalBalancer {
   GlobalBalancer(const SessionSettings& settings, const TileGrid& grid, int ranks, double units_per_frame)
       : settings_(settings), grid_(grid), ranks_(ranks), units_per_frame_(units_per_frame) {}
 
-  // Considers a frame's reports: `of_rank[k]` are rank k's tiles, `samples` the count in the whole image. A
-  // frame that some ranks did not report (`is_whole` false) says nothing of the balance.
-  void consider(std::span<const std::vector<TileReport>> of_rank, bool is_whole, std::uint64_t samples);
+  // Considers the reports of a frame that is delivered.
+  void consider(const FrameReports& frame);
 
   // Puts the new partition, if there is one, into the order, and the generation in force. A partition whose
-  // samples would have to be handed over is dropped where that costs too much.
+  // samples would have to be handed over is dropped where that costs too much. On a lattice so is one that
+  // was made from the samples of many frames, where the picture begins anew: other tiles are costly then.
   void add_partition(FrameOrder& order);
 
   // What the tiles that the order's new partition gives to a rank were found to be, ascending by tile.
   std::vector<TileEstimate> estimates_for(const FrameOrder& order, int rank) const;
 
  private:
+  bool is_useful_for(const FrameOrder& order) const;
   bool can_afford_to_hand_over() const;
 
   SessionSettings settings_;
@@ -53,6 +63,7 @@ class GlobalBalancer {
   std::vector<std::int32_t> next_owners_;  // of a new partition, for the next order
   std::vector<TileEstimate> found_;        // per tile, what that partition stands on
   std::vector<double> handed_over_;  // per rank: samples that it will have to take in with that partition
+  bool accumulated_ = false;         // the frame that it was made from
   std::uint64_t samples_ = 0;        // in the frame considered last
   std::uint32_t generation_ = 0;     // of the partition ordered last
 };

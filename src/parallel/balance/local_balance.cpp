@@ -127,7 +127,7 @@ double target_quality(double quality) {
 namespace {
 
 // The best of the candidates by the paper's three terms and the regions' shapes; null if none may be given.
-// `to_move`: work units; `room`: samples that the taker may still take in.
+// `to_move`: time; `room`: samples that the taker may still take in.
 const Candidate* best_candidate(const LocalBalanceSettings& settings, Partition& partition, int giver,
                                 int taker, const std::vector<Candidate>& candidates, const Shape& shape,
                                 double to_move, double insertion_cost, double room) {

@@ -22,7 +22,7 @@ struct LocalBalanceSettings {
   double shape_weight = 0.25;         // of the change of the regions' shapes
 };
 
-// Whether a rank should give tiles to the neighbour that sent `theirs`. `own_future_cost`: work units, at
+// Whether a rank should give tiles to the neighbour that sent `theirs`. `own_future_cost`: by its pace, at
 // theirs.target.
 bool should_give(const LocalBalanceSettings& settings, double own_quality, double own_future_cost,
                  const RankProgress& theirs);
@@ -33,15 +33,15 @@ double target_quality(double quality);
 
 // What the giver knows of one of its tiles.
 struct TileOffer {
-  double future_cost = 0;     // Fcost(s, Q'), work units
+  double future_cost = 0;     // Fcost(s, Q') by the mean of both ranks' paces: what one saves and one pays
   double samples = 0;         // N_s
   double known_to_taker = 0;  // U(j, s)
 };
 
 // What bounds one transfer.
 struct TransferBounds {
-  double difference = 0;      // Delta: by how much the giver's future cost exceeds the taker's, work units
-  double insertion_cost = 0;  // Icost: of one sample at the taker, work units
+  double difference = 0;      // Delta: by how much the giver's future cost exceeds the taker's, in time
+  double insertion_cost = 0;  // Icost: of one sample at the taker, in time
   double most_samples = 0;    // that the taker need take in
 };
 

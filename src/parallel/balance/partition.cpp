@@ -17,25 +17,27 @@ struct TileRect {
 // Cuts rectangles of tiles among ranges of ranks.
 class Bisector {
  public:
-  Bisector(const TileGrid& grid, std::span<const double> costs, Partition& partition)
-      : columns_(grid.columns()), partition_(partition), costs_(costs.begin(), costs.end()) {
+  Bisector(const TileGrid& grid, std::span<const double> costs, std::span<const double> speeds,
+           Partition& partition)
+      : columns_(grid.columns()), partition_(partition), speeds_(speeds), costs_(costs.begin(), costs.end()) {
     if (std::accumulate(costs_.begin(), costs_.end(), 0.0) <= 0) std::fill(costs_.begin(), costs_.end(), 1.0);
   }
 
-  void share(TileRect rect, int first_rank, int ranks) {
+  void share(TileRect rect, std::span<const int> ranks) {
     if (rect.count() == 0) return;
-    if (ranks == 1 || rect.count() == 1) {
-      give(rect, first_rank);
+    if (ranks.size() == 1 || rect.count() == 1) {
+      give(rect, ranks.front());
       return;
     }
-    const int left_ranks = ranks / 2;
+    const std::span<const int> left_ranks = ranks.first(ranks.size() / 2);
+    const std::span<const int> right_ranks = ranks.subspan(left_ranks.size());
     const bool across_x = rect.width() >= rect.height();
-    const int at = best_cut(rect, across_x, left_ranks, ranks);
+    const int at = best_cut(rect, across_x, left_ranks, right_ranks);
     TileRect left = rect, right = rect;
     (across_x ? left.x1 : left.y1) = at;
     (across_x ? right.x0 : right.y0) = at;
-    share(left, first_rank, left_ranks);
-    share(right, first_rank + left_ranks, ranks - left_ranks);
+    share(left, left_ranks);
+    share(right, right_ranks);
   }
 
  private:
@@ -43,6 +45,11 @@ class Bisector {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x);
   }
   double cost(int x, int y) const { return costs_[tile_index(x, y)]; }
+  double speed(std::span<const int> ranks) const {
+    return std::accumulate(ranks.begin(), ranks.end(), 0.0, [this](double sum, int rank) {
+      return sum + speeds_[static_cast<std::size_t>(rank)];
+    });
+  }
 
   void give(const TileRect& rect, int rank) {
     for (int y = rect.y0; y < rect.y1; ++y) {
@@ -52,7 +59,11 @@ class Bisector {
 
   // The line whose left side comes nearest to its share, among those that leave every rank a tile if
   // possible.
-  int best_cut(const TileRect& rect, bool across_x, int left_ranks, int ranks) const {
+  int best_cut(const TileRect& rect, bool across_x, std::span<const int> left_ranks,
+               std::span<const int> right_ranks) const {
+    const int least_left = static_cast<int>(left_ranks.size());
+    const int least_right = static_cast<int>(right_ranks.size());
+    const double left_speed = speed(left_ranks);
     const int begin = across_x ? rect.x0 : rect.y0, end = across_x ? rect.x1 : rect.y1;
     const int lane = across_x ? rect.height() : rect.width();
     std::vector<double> lanes(static_cast<std::size_t>(end - begin), 0.0);
@@ -60,12 +71,13 @@ class Bisector {
       for (int x = rect.x0; x < rect.x1; ++x)
         lanes[static_cast<std::size_t>((across_x ? x : y) - begin)] += cost(x, y);
     }
-    const double wanted = std::accumulate(lanes.begin(), lanes.end(), 0.0) * left_ranks / ranks;
+    const double wanted =
+        std::accumulate(lanes.begin(), lanes.end(), 0.0) * left_speed / (left_speed + speed(right_ranks));
     double left = 0, best_error = std::numeric_limits<double>::infinity();
     int best = begin + 1;
     for (int at = begin + 1; at < end; ++at) {
       left += lanes[static_cast<std::size_t>(at - 1 - begin)];
-      const bool starves = (at - begin) * lane < left_ranks || (end - at) * lane < ranks - left_ranks;
+      const bool starves = (at - begin) * lane < least_left || (end - at) * lane < least_right;
       const double error = std::abs(left - wanted) + (starves ? 1e30 : 0);
       if (error < best_error) best_error = error, best = at;
     }
@@ -74,6 +86,7 @@ class Bisector {
 
   int columns_;
   Partition& partition_;
+  std::span<const double> speeds_;  // per rank
   std::vector<double> costs_;
 };
 
@@ -86,11 +99,20 @@ TileGrid tile_grid_for(int width, int height, int ranks, int multiple_of) {
   return {width, height, std::clamp(size / multiple_of * multiple_of, std::max(multiple_of, 2), 32)};
 }
 
-Partition bisect(const TileGrid& grid, std::span<const double> tile_costs, int ranks) {
-  Partition partition{grid, ranks, std::vector<std::int32_t>(static_cast<std::size_t>(grid.tile_count()), 0),
+Partition bisect(const TileGrid& grid, std::span<const double> tile_costs, std::span<const double> speeds) {
+  std::vector<int> ranks;
+  for (std::size_t rank = 0; rank < speeds.size(); ++rank) {
+    if (speeds[rank] > 0) ranks.push_back(static_cast<int>(rank));
+  }
+  Partition partition{grid, static_cast<int>(speeds.size()),
+                      std::vector<std::int32_t>(static_cast<std::size_t>(grid.tile_count()), 0),
                       std::vector<std::uint64_t>(static_cast<std::size_t>(grid.tile_count()), 0)};
-  Bisector(grid, tile_costs, partition).share({0, 0, grid.columns(), grid.rows()}, 0, ranks);
+  Bisector(grid, tile_costs, speeds, partition).share({0, 0, grid.columns(), grid.rows()}, ranks);
   return partition;
+}
+
+Partition bisect(const TileGrid& grid, std::span<const double> tile_costs, int ranks) {
+  return bisect(grid, tile_costs, std::vector<double>(static_cast<std::size_t>(ranks), 1));
 }
 
 std::vector<int> tiles_beside(const TileGrid& grid, int tile) {

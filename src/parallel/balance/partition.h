@@ -32,9 +32,13 @@ inline std::uint64_t first_version(std::uint32_t generation) {
 TileGrid tile_grid_for(int width, int height, int ranks, int multiple_of = 1);
 
 // Partitions the image by greedy recursive bisection (paper s. 4.4). Each cut runs across the longer side, at
-// the tile line where both sides' `tile_costs` are nearest to their shares of the ranks. Regions are
-// rectangles. With fewer tiles than ranks some ranks own none. Costs must not be negative; all zero counts as
+// the tile line where both sides' `tile_costs` are nearest to their shares of the ranks' `speeds`. Regions
+// are rectangles. A rank without speed owns no tile, and with fewer tiles than ranks some others own none.
+// Costs and speeds must not be negative, one speed at least greater than 0; costs that are all zero count as
 // all equal.
+Partition bisect(const TileGrid& grid, std::span<const double> tile_costs, std::span<const double> speeds);
+
+// The same for ranks of equal speed.
 Partition bisect(const TileGrid& grid, std::span<const double> tile_costs, int ranks);
 
 // Returns the tiles that share a side with this one, at most four.

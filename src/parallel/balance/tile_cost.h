@@ -1,5 +1,6 @@
 // What a tile has cost and will cost (paper s. 3.6, 4.3, 4.4). Costs are work units under either clock: they
-// need only be right in proportion, and counting them disturbs nothing.
+// need only be right in proportion, and counting them disturbs nothing. What they take on a rank in time is
+// that by the rank's pace (frame_clock.h).
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,8 @@ struct TileEstimate {
 struct RankProgress {
   double quality = 0;      // Q_k; 0: nothing is known yet
   double target = 0;       // Q'
-  double future_cost = 0;  // Fcost_k(Q'), work units
+  double future_cost = 0;  // Fcost_k(Q') by the sender's pace: time, where a work unit is one at pace 1
+  double pace = 1;         // of the sender
 };
 
 // A tile changes hands, with all that the new owner needs to estimate its cost.

@@ -46,6 +46,14 @@ class FrameClock {
   // little where the rank was not let run. Without a rate: false.
   virtual bool sampling_over() = 0;
 
+  // Sampling has ended. `units`: the work that it took by the table of prices, from which the clock learns
+  // this rank's pace.
+  virtual void end_sampling(double units) = 0;
+
+  // How many times its price a piece of work takes this rank, 1 before anything is known. Balancing counts
+  // costs in time by it, so that a slow host is given less.
+  virtual double pace() const = 0;
+
   // Share of the frame's sampling time that has passed, in (0, 1]; 0.5 without a rate.
   virtual double sampling_share() const = 0;
 

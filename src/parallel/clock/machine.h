@@ -9,9 +9,16 @@ struct Machine {
   double units_per_second = kWorkUnitsPerSecond;  // of one processor
   double latency_s = 2e-6;           // seconds from the end of sending to the beginning of receiving
   double bytes_per_second = 12.5e9;  // of one rank's way into the network, and of its way out
+  int slow_ranks = 0;                // the first so many ranks, on slower processors:
+  double slowness = 1;               // each of them takes so many times as long, at least 1
 
   friend bool operator==(const Machine&, const Machine&) = default;
 };
+
+// How many times as long as the other ranks this one takes.
+inline double slowness_of(const Machine& machine, int rank) {
+  return rank < machine.slow_ranks ? machine.slowness : 1;
+}
 
 // A present-day cluster: each rank has a core like the one that the prices were measured on, and a share of
 // a 100 Gbit/s network with 2 microseconds between processes.

@@ -31,9 +31,11 @@ bool is_reproducible(const SessionSettings& settings) {
   return settings.clock == ClockKind::kWork;
 }
 
-std::unique_ptr<FrameClock> make_frame_clock(const SessionSettings& settings, double start_s,
+std::unique_ptr<FrameClock> make_frame_clock(const SessionSettings& settings, int rank, double start_s,
                                              std::size_t region_pixels, double ranks_per_core) {
-  if (is_reproducible(settings)) return std::make_unique<WorkClock>(budget(settings), region_pixels);
+  if (is_reproducible(settings)) {
+    return std::make_unique<WorkClock>(budget(settings), region_pixels, slowness_of(settings.machine, rank));
+  }
   return std::make_unique<WallClock>(start_s, period_s(settings), ranks_per_core);
 }
 

@@ -18,7 +18,7 @@ bool is_reproducible(const SessionSettings& settings);
 
 // A rank's clock. `start_s`: monotonic_seconds() at which the sequence begins. `region_pixels`: number of
 // pixels that the rank reconstructs. `ranks_per_core`: number of ranks that share a core, at least 1.
-std::unique_ptr<FrameClock> make_frame_clock(const SessionSettings& settings, double start_s,
+std::unique_ptr<FrameClock> make_frame_clock(const SessionSettings& settings, int rank, double start_s,
                                              std::size_t region_pixels, double ranks_per_core);
 
 // How a rank exchanges bundles with the others.

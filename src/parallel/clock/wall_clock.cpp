@@ -47,7 +47,7 @@ void WallClock::begin_packet(std::uint64_t samples) {
   size_ = static_cast<double>(samples) + region_size_;
   set_stop();
   const double now = monotonic_seconds();
-  if (sampling_began_s_ == 0) sampling_began_s_ = now;
+  if (sampling_began_s_ == 0) sampling_began_s_ = now, rested_before_sampling_s_ = rested_s_;
   if (stop_s_ > 0 && now >= stop_s_) extend(now);
   // With more ranks than cores, short turns keep every rank near its deadline.
   if (ranks_per_core_ > 1) sched_yield();
@@ -62,6 +62,16 @@ bool WallClock::sampling_over() {
   if (stop_s_ == 0) return false;
   const double now = monotonic_seconds();
   return now >= stop_s_ && !extend(now);
+}
+
+void WallClock::end_sampling(double units) {
+  // About 150 samples: fewer say nothing.
+  constexpr double kLeastUnits = 2e5, kShareOfNew = 0.25;
+  if (units < kLeastUnits) return;
+  const double took_s = monotonic_seconds() - sampling_began_s_ - (rested_s_ - rested_before_sampling_s_);
+  const double pace = 1e9 * took_s / units;
+  pace_ += (knows_pace_ ? kShareOfNew : 1) * (pace - pace_);
+  knows_pace_ = true;
 }
 
 double WallClock::sampling_share() const {

@@ -39,6 +39,8 @@ class WallClock final : public FrameClock {
   void begin_packet(std::uint64_t samples) override;
   bool packet_over() override;
   bool sampling_over() override;
+  void end_sampling(double units) override;
+  double pace() const override { return pace_; }
   double sampling_share() const override;
   std::optional<double> expected_growth(std::size_t begin, std::size_t now) const override;
 
@@ -68,7 +70,10 @@ class WallClock final : public FrameClock {
   double stop_s_ = 0;            // when sampling must stop; 0: no rate
   double sampling_began_s_ = 0;  // of this frame; 0: not yet
   std::int64_t frame_began_ns_ = 0;
-  double rested_s_ = 0;     // in this frame
+  double rested_s_ = 0;  // in this frame
+  double rested_before_sampling_s_ = 0;
+  double pace_ = 1;
+  bool knows_pace_ = false;
   double size_ = 1;         // of what is to be reconstructed, in samples
   double region_size_ = 0;  // what the region's pixels add to it
   RecentMaximum reconstruction_s_per_size_;

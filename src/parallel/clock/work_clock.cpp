@@ -22,7 +22,8 @@ double WorkClock::sampling_share() const {
 }
 
 std::size_t WorkClock::affordable(Work work, double share) const {
-  return static_cast<std::size_t>(share * static_cast<double>(budget_) / static_cast<double>(price(work)));
+  return static_cast<std::size_t>(share * static_cast<double>(budget_) /
+                                  (slowness_ * static_cast<double>(price(work))));
 }
 
 }  // namespace pprt

@@ -14,22 +14,25 @@ namespace pprt {
 class WorkClock final : public FrameClock {
  public:
   // `budget`: work units of one frame, 0 without a rate. `region_pixels`: pixels that this rank reconstructs.
-  WorkClock(WorkUnits budget, std::size_t region_pixels)
-      : budget_(budget), reconstruction_(price(Work::kPixel) * region_pixels) {}
+  // `slowness`: how many times its price each piece of work takes this rank.
+  WorkClock(WorkUnits budget, std::size_t region_pixels, double slowness = 1)
+      : budget_(budget), slowness_(slowness), reconstruction_(cost(Work::kPixel, region_pixels)) {}
 
   bool may_begin(const FrameOrder&) const override { return true; }
   bool is_past(const FrameOrder&) const override { return false; }
   void begin_frame(const FrameOrder& order) override;
   void end_frame(double) override { frames_before_ += std::exchange(frame_units_, 0); }
-  void region_changed(std::size_t pixels) override { reconstruction_ = price(Work::kPixel) * pixels; }
+  void region_changed(std::size_t pixels) override { reconstruction_ = cost(Work::kPixel, pixels); }
 
   void begin_packet(std::uint64_t samples) override;
   bool packet_over() override { return frame_units_ >= round_end_; }
   bool sampling_over() override { return budget_ > 0 && round_ >= kRoundsPerFrame; }
+  void end_sampling(double) override {}
+  double pace() const override { return slowness_; }
   double sampling_share() const override;
   std::optional<double> expected_growth(std::size_t, std::size_t) const override { return std::nullopt; }
 
-  void spend(Work work, std::uint64_t count) override { frame_units_ += price(work) * count; }
+  void spend(Work work, std::uint64_t count) override { frame_units_ += cost(work, count); }
   std::size_t affordable(Work work, double share) const override;
   double rested(double) override { return 0; }
 
@@ -41,7 +44,12 @@ class WorkClock final : public FrameClock {
   }
 
  private:
-  WorkUnits budget_;          // a frame's; 0: no rate
+  WorkUnits cost(Work work, std::uint64_t count) const {
+    return static_cast<WorkUnits>(slowness_ * static_cast<double>(price(work) * count));
+  }
+
+  WorkUnits budget_;  // a frame's; 0: no rate
+  double slowness_;
   WorkUnits reconstruction_;  // what it will cost
   WorkUnits frame_units_ = 0;
   WorkUnits frames_before_ = 0;  // units of all frames before this one

@@ -72,6 +72,7 @@ struct RankReport {
   std::uint64_t samples_in_region = 0;  // at the end
   std::uint64_t non_finite = 0;         // colours that were no numbers
   double refinement = 0;                // Q_k
+  double pace = 1;                      // frame_clock.h
   std::uint64_t triangles_in_region = 0;
   RayCounts rays;
   CastEvidence evidence;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "pipeline/sampling/refinement_weight.h"
@@ -226,39 +227,40 @@ bool LatticeSampler::start_grid_pass() {
   return true;
 }
 
-// What candidates find makes new ones, which count as well. So a pass asks for fewer candidates than there
-// are samples left, and for less when there are many.
+// What candidates find makes new ones, which count as well: the more, the farther a candidate's worth lies
+// above the threshold. Halving a node's area leaves a quarter of its worth to each of two, so that its square
+// root tells how many there will be. A pass asks for half of the samples left, for all that is but an
+// estimate.
 bool LatticeSampler::start_refinement_pass() {
   constexpr double kShare = 0.5, kLast = 0.25, kMost = 0.6;
-  const CandidateCounts above = candidates_above();
+  const std::array<std::int64_t, 256>& counts = store_.candidates();
+  const double all = std::accumulate(counts.begin() + kLeastCandidate + 1, counts.end(), 0.0);
+  if (all == 0) return false;
   const double left = std::max(samples_left(), 1.0) / growth_;
   const double affordable = left < kLast * static_cast<double>(samples_) ? left : kShare * left;
-  const double wanted = std::min(affordable, kMost * static_cast<double>(above[kLeastCandidate + 1]));
-  NodeState least = kGreatestCandidate;
-  while (least > kLeastCandidate + 1 && static_cast<double>(above[least]) < wanted) --least;
-  if (above[least] == 0) return false;
+  NodeState least = kGreatestCandidate + 1;
+  double above = 0, roots = 0, root = 0;
+  do {
+    --least;
+    root = std::sqrt(static_cast<double>(least_worth(least)));
+    above += static_cast<double>(counts[least]);
+    roots += static_cast<double>(counts[least]) * root;
+  } while (least > kLeastCandidate + 1 && above < kMost * all && roots < affordable * root);
   // Lower thresholds at once would let new candidates run away from what was asked for.
   last_threshold_ = std::max(least_worth(least), last_threshold_ / kGreatestFall);
-  least = priority_of(last_threshold_);
   start({.first_level = 0,
          .end_level = kLatticeLevels.size(),
-         .least = least,
+         .least = priority_of(last_threshold_),
          .threshold = last_threshold_,
-         .candidates = above[least]});
+         .promised = roots / std::sqrt(static_cast<double>(last_threshold_))});
   return true;
-}
-
-LatticeSampler::CandidateCounts LatticeSampler::candidates_above() const {
-  CandidateCounts counts = store_.candidates();
-  for (std::size_t i = kGreatestCandidate; i > kLeastCandidate; --i) counts[i] += counts[i + 1];
-  return counts;
 }
 
 void LatticeSampler::learn_growth() {
   constexpr std::int64_t kEnough = 200;
-  if (pass_.takes_all || pass_.candidates == 0) return;
+  if (pass_.takes_all || pass_.promised == 0) return;
   const std::int64_t made = static_cast<std::int64_t>(samples_) - pass_.begun_with;
-  const double growth = static_cast<double>(made) / static_cast<double>(pass_.candidates);
+  const double growth = static_cast<double>(made) / pass_.promised;
   if (made >= kEnough) growth_ = 0.5 * growth_ + 0.5 * std::clamp(growth, 0.3, 4.0);
 }
 
@@ -423,22 +425,31 @@ void LatticeSampler::make_candidate(const LatticeNode& node, const LatticeLevel&
   greatest = std::max(greatest, priority);
 }
 
-void LatticeSampler::weigh(std::vector<TileWeights>& weights) const {
-  static const std::array<double, 256> kWorth = [] {
-    std::array<double, 256> worth{};
-    for (int i = kLeastCandidate + 1; i <= kGreatestCandidate; ++i)
-      worth[static_cast<std::size_t>(i)] = static_cast<double>(least_worth(static_cast<NodeState>(i)));
-    return worth;
+double LatticeSampler::weigh(std::vector<TileWeights>& weights) const {
+  struct Values {
+    std::array<double, 256> worth{}, root{};
+  };
+  static const Values kOf = [] {
+    Values of;
+    for (std::size_t i = kLeastCandidate + 1; i <= kGreatestCandidate; ++i) {
+      of.worth[i] = static_cast<double>(least_worth(static_cast<NodeState>(i)));
+      of.root[i] = std::sqrt(of.worth[i]);
+    }
+    return of;
   }();
   const TileGrid& grid = region().grid();
   weights.assign(static_cast<std::size_t>(grid.tile_count()), {});
+  double worth = 0;
+  std::int64_t candidates = 0;
   for (int tile = 0; tile < store_.tile_count(); ++tile) {
     if (!own_.touches_tile(tile)) continue;
     store_.for_each_candidate(tile, [&](int x, int y, NodeState state) {
       TileWeights& here = weights[static_cast<std::size_t>(grid.tile_at(x, y))];
-      ++here.count, here.total_weight += kWorth[state];
+      ++here.count, here.total_weight += kOf.root[state];
+      ++candidates, worth += kOf.worth[state];
     });
   }
+  return candidates > 0 ? worth / static_cast<double>(candidates) : 0;
 }
 
 void LatticeSampler::paint(const PixelRect& bounds, std::span<const PixelRect> parts, RegionPixels& pixels) {

@@ -78,8 +78,11 @@ class LatticeSampler {
   // Returns how many samples the coarsest grid has. They come first.
   std::size_t least_samples() const { return base_points().size(); }
 
-  // Replaces `weights` by the sums over the candidates of each tile: what samples are expected to be worth.
-  void weigh(std::vector<TileWeights>& weights) const;
+  // Returns what a sample is worth at the candidates, their mean; 0 without any. Replaces `weights` by the
+  // sums over the candidates of each tile: the square roots of their worth, whose mean falls as the
+  // reciprocal of the samples. A sample's error and its area both halve with the area of a node, so its worth
+  // is a quarter.
+  double weigh(std::vector<TileWeights>& weights) const;
 
   // Replaces `pixels` by those of a rectangle of the image, of the parts of it that are named. Each is the
   // mean over the pixel's area. Parts are black while there are fewer than least_samples().
@@ -104,11 +107,8 @@ class LatticeSampler {
     NodeState least = kLeastCandidate;  // priority taken
     float threshold = 0;                // worth taken
     std::int64_t begun_with = 0;        // samples
-    std::int64_t candidates = 0;        // above the threshold when it began
+    double promised = 0;                // samples that its candidates were expected to lead to
   };
-
-  // By priority: the candidates of at least that priority.
-  using CandidateCounts = std::array<std::int64_t, 256>;
 
   void forget_samples();
   void begin_square(const LatticeNode& corner);
@@ -122,7 +122,6 @@ class LatticeSampler {
   bool start_refinement_pass();
   void start(const Pass& pass);
   void learn_growth();
-  CandidateCounts candidates_above() const;
   void collect_base(int tile);
   NodeState& greatest_in(int tile, std::size_t level) {
     return greatest_[static_cast<std::size_t>(tile) * kLatticeLevels.size() + level];
@@ -152,7 +151,7 @@ class LatticeSampler {
   Pass pass_;
   std::size_t grid_levels_ = 0;  // taken whole, the base not counted
   bool has_base_ = false, has_grid_ = false;
-  double growth_ = 0;  // samples that a pass takes, for each candidate above its threshold
+  double growth_ = 0;  // samples that a pass takes, for each that its candidates promise
   float last_threshold_ = 0;
   int tile_ = 0;                    // of the pass
   std::size_t level_ = 0;           // of the pass, in the tile

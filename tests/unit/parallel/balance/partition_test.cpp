@@ -104,6 +104,19 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("partition: ranks own what their speeds make equally long, and nothing without speed") {
+  const TileGrid grid = tile_grid_for(640, 480, 8);
+  const std::vector<double> speeds = {1, 0, 2, 4, 0, 1, 2, 2};
+  const Partition partition = bisect(grid, uniform_costs(grid), speeds);
+  for (int rank = 0; rank < 8; ++rank) {
+    INFO("rank " << rank);
+    const double share = static_cast<double>(region_of(partition, rank).tiles().size()) / grid.tile_count();
+    CHECK(share == Approx(speeds[static_cast<std::size_t>(rank)] / 12).margin(0.02));
+  }
+  CHECK(region_of(partition, 1).tiles().empty());
+  CHECK(region_of(partition, 4).tiles().empty());
+}
+
 TEST_CASE("partition: every cut of the bisection balances cost to within half a tile line") {
   for (const int ranks : {2, 3, 5, 8, 13, 32, 62}) {
     INFO(ranks << " ranks");

@@ -18,7 +18,7 @@ std::unique_ptr<FrameClock> clock_in_a_frame(double reserve_s, Carry carry = Car
   settings.clock = ClockKind::kWall;
   settings.frames_per_second = 1 / kPeriod;
   std::unique_ptr<FrameClock> clock =
-      make_frame_clock(settings, monotonic_seconds(), kPixels, ranks_per_core);
+      make_frame_clock(settings, 0, monotonic_seconds(), kPixels, ranks_per_core);
   clock->region_changed(kPixels);
   FrameOrder order;
   order.deadline_s = 1;
@@ -73,7 +73,7 @@ std::unique_ptr<FrameClock> clock_about_to_stop(double period_s, double stops_in
   SessionSettings settings;
   settings.clock = ClockKind::kWall;
   settings.frames_per_second = 1 / period_s;
-  auto clock = make_frame_clock(settings, monotonic_seconds(), 0, ranks_per_core);
+  auto clock = make_frame_clock(settings, 0, monotonic_seconds(), 0, ranks_per_core);
   FrameOrder order;
   order.reserve_s = 0.7 * period_s - 1.25 * reconstruction_s * ranks_per_core;
   order.carry = carry;

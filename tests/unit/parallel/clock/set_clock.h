@@ -23,6 +23,8 @@ class SetClock final : public FrameClock {
   void begin_packet(std::uint64_t) override { left_ = samples_per_packet_, ++packets_; }
   bool packet_over() override { return left_-- == 0; }
   bool sampling_over() override { return packets_ >= 6; }
+  void end_sampling(double) override {}
+  double pace() const override { return 1; }
   double sampling_share() const override { return 0.25; }
   std::optional<double> expected_growth(std::size_t, std::size_t) const override { return std::nullopt; }
 

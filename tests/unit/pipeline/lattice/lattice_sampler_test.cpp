@@ -2,6 +2,7 @@
 #include "pipeline/lattice/lattice_sampler.h"
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
@@ -360,6 +361,34 @@ TEST_CASE("lattice sampler: level by level, each level is whole before the next 
   }
   CHECK(level == kLatticeLevels.size() - 1);
   CHECK_FALSE(sampler.next_point());
+}
+
+TEST_CASE("lattice sampler: what is like the picture before is refined evenly, not from the top down") {
+  // A fine pattern on the left, hardly a change on the right; all rows are alike.
+  constexpr int kSide = 256, kSamples = 45'000;
+  const Scene scene = of_color([](double x, double y) {
+    const double height = x < kSide / 2.0 ? 0.4 : 0.02;
+    const double wave = std::sin(1.9 * x + std::sin(0.7 * y)) * std::sin(2.3 * y + std::sin(0.9 * x));
+    return Color(static_cast<float>(0.5 + height * wave), 0.5F, 0.5F);
+  });
+  LatticeSampler sampler(Region::whole({kSide, kSide, 32}), no_shape);
+  const auto samples_of_frame = [&] {
+    std::array<int, 2> in_half{};
+    for (int i = 0; i < kSamples; ++i) {
+      const auto point = sampler.next_point();
+      if (!point) break;
+      ++in_half[point->y < kSide / 2.0 ? 0 : 1];
+      sampler.insert(scene(point->x, point->y));
+    }
+    return in_half;
+  };
+  for (int frame = 0; frame < 6; ++frame) {
+    const std::array<int, 2> in_half = samples_of_frame();
+    INFO("frame " << frame << ": " << in_half[0] << " samples above, " << in_half[1] << " below");
+    CHECK(in_half[0] + in_half[1] == kSamples);
+    CHECK(in_half[0] < 1.35 * in_half[1]);
+    sampler.restart();
+  }
 }
 
 }  // namespace pprt
