@@ -34,8 +34,8 @@ bool TileOwnership::balances_locally() const {
 bool TileOwnership::may_give(bool fresh_mesh) const {
   // Where a number of samples is the goal each rank takes the share of its area, which stays as it is.
   if (!balances_locally() || settings_.stop.samples > 0) return false;
-  // Without a rate each rank ends at its own region's mean. On a lattice a region of costly tiles alone would
-  // be refined for ever: three times the samples of the whole picture.
+  // Without a rate each rank ends at its own region's mean. On a lattice a region of costly tiles alone
+  // reaches it late: with three times the samples that the picture needs.
   if (settings_.frames_per_second == 0 && settings_.sampler != SamplerChoice::kDelaunay) return false;
   const double elapsed = clock_.sampling_share();
   const std::uint64_t samples = sampler_.in_region();

@@ -1,8 +1,6 @@
 // Ranks of unlike speed: each is given as much of the image as it has time for.
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <cmath>
-#include <numeric>
 
 #include "unit/parallel/virtual_run.h"
 
@@ -27,18 +25,10 @@ VirtualRun pan(const SessionSettings& settings) {
   return run_session(kRanks, settings, still_or_pan(settings, kFrames, 1.5), {.period = 20});
 }
 
-// Standard deviation by mean over the ranks' refinement.
-double deviation(const FinishedFrame& frame) {
-  double sum = 0, squares = 0;
-  for (const RankReport& r : frame.ranks) sum += r.refinement, squares += r.refinement * r.refinement;
-  const double mean = sum / kRanks;
-  return std::sqrt(squares / kRanks - mean * mean) / mean;
-}
-
 // Median over the second half of the sequence.
-double settled_deviation(const VirtualRun& run) {
+double settled_unevenness(const VirtualRun& run) {
   std::vector<double> values;
-  for (std::size_t i = kFrames / 2; i < run.frames.size(); ++i) values.push_back(deviation(run.frames[i]));
+  for (std::size_t i = kFrames / 2; i < run.frames.size(); ++i) values.push_back(unevenness(run.frames[i]));
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
                    values.end());
   return values[values.size() / 2];
@@ -58,13 +48,13 @@ TEST_CASE(
     "unlike ranks: four of eight at half speed are as far as the others, by global and combined balancing") {
   const VirtualRun none = pan(unlike_ranks(BalanceMode::kNone));
   REQUIRE(none.error.empty());
-  CHECK(settled_deviation(none) > 0.3);  // what is to be evened out
+  CHECK(settled_unevenness(none) > 0.3);  // what is to be evened out
   for (const BalanceMode balance : {BalanceMode::kGlobal, BalanceMode::kCombined}) {
     const VirtualRun run = pan(unlike_ranks(balance));
     REQUIRE(run.error.empty());
-    INFO("balance " << static_cast<int>(balance) << ": deviation " << settled_deviation(run)
+    INFO("balance " << static_cast<int>(balance) << ": deviation " << settled_unevenness(run)
                     << ", slow ranks own " << share_of_slow(run));
-    CHECK(settled_deviation(run) <= 0.25);
+    CHECK(settled_unevenness(run) <= 0.25);
     CHECK((share_of_slow(run) > 0.2 && share_of_slow(run) < 0.42));
   }
 }

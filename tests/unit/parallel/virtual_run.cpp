@@ -248,6 +248,13 @@ VirtualRun run_session(int ranks, const SessionSettings& settings, const CameraS
   return run;
 }
 
+double unevenness(const FinishedFrame& frame) {
+  double sum = 0, squares = 0;
+  for (const RankReport& r : frame.ranks) sum += r.refinement, squares += r.refinement * r.refinement;
+  const auto n = static_cast<double>(frame.ranks.size());
+  return std::sqrt(std::max(0.0, squares / n - sum * sum / n / n)) / (sum / n);
+}
+
 bool same_pictures(const VirtualRun& a, const VirtualRun& b) {
   if (a.frames.size() != b.frames.size()) return false;
   for (std::size_t i = 0; i < a.frames.size(); ++i) {

@@ -63,6 +63,9 @@ struct VirtualRun {
 VirtualRun run_session(int ranks, const SessionSettings& settings, const CameraSource& source,
                        const Conditions& conditions = {});
 
+// Standard deviation of the ranks' refinement by its mean.
+double unevenness(const FinishedFrame& frame);
+
 // Whether two sequences hold the same pictures, bit by bit.
 bool same_pictures(const VirtualRun& a, const VirtualRun& b);
 

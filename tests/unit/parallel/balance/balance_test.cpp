@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numeric>
 
+#include "parallel/balance/balancer.h"
 #include "parallel/balance/global_balance.h"
 #include "parallel/balance/local_balance.h"
 #include "unit/parallel/virtual_run.h"
@@ -34,14 +36,6 @@ SessionSettings without_carrying(BalanceMode mode) {
   settings.cast = CastChoice::kOff;
   settings.balance = mode;
   return settings;
-}
-
-// Deviation of the ranks' refinement by its mean.
-double unevenness(const FinishedFrame& frame) {
-  double sum = 0, squares = 0;
-  for (const RankReport& r : frame.ranks) sum += r.refinement, squares += r.refinement * r.refinement;
-  const auto n = static_cast<double>(frame.ranks.size());
-  return std::sqrt(std::max(0.0, squares / n - sum * sum / n / n)) / (sum / n);
 }
 
 }  // namespace
@@ -138,6 +132,60 @@ TEST_CASE("global balancing: a tile's predicted cost grows with its weight over 
   CHECK(costs[1] == Approx(100 * 0.75 / a));
   CHECK(costs[2] == Approx((costs[0] + costs[1]) / 2));  // nobody reported it
   for (const double c : predicted_costs(TileGrid(30, 10, 10), {})) CHECK(c == 1);
+}
+
+TEST_CASE("local balancing: a rank's future cost is a time, by its pace") {
+  const TileGrid grid(20, 10, 10);
+  const Region region = Region::whole(grid);
+  const std::array<TileWeights, 2> weights{
+      {{.total_weight = 4, .count = 1}, {.total_weight = 2, .count = 1}}};
+  const RegionQuality refined{region, weights, 3};
+  CostEstimator costs(grid, kMeshWork);
+  costs.begin_frame(true, FrameLikeness::kUnknown);
+  Sample sample;
+  sample.x = 4, sample.y = 5, sample.ray.rays = 20;
+  costs.add_own(sample);
+  costs.update(refined, 0.5);
+  Balancer balancer(0, 2, costs);
+  balancer.begin_frame(1);
+  const RankProgress even = balancer.progress(refined, 0.5);
+  REQUIRE(even.future_cost > 1300);
+  const auto gives_to_like = [&](double pace) {
+    balancer.begin_frame(pace);
+    balancer.receive(1, even);
+    return balancer.wants_to_give(refined, {1}, false);
+  };
+  CHECK_FALSE(gives_to_like(1));
+  CHECK(gives_to_like(2));
+  CHECK_FALSE(gives_to_like(0.5));
+  const RankProgress slow = (balancer.begin_frame(2), balancer.progress(refined, 0.5));
+  CHECK(slow.pace == 2);
+  CHECK(slow.future_cost == Approx(2 * even.future_cost));
+}
+
+TEST_CASE("global balancing: on a lattice, a partition from accumulated samples serves no new picture") {
+  const auto repartitions = [](SamplerChoice sampler, bool accumulated, Carry next) {
+    SessionSettings settings;
+    settings.balance = BalanceMode::kGlobal;
+    settings.sampler = sampler;
+    GlobalBalancer balancer(settings, TileGrid(40, 10, 10), 2, 0);
+    FrameReports frame;
+    frame.accumulates = accumulated;
+    frame.tiles = {{report(0, 100, 1, 4), report(1, 100, 1, 1)},
+                   {report(2, 100, 1, 1), report(3, 100, 1, 1)}};
+    frame.speeds = {1, 1};
+    balancer.consider(frame);
+    FrameOrder order;
+    order.carry = next;
+    balancer.add_partition(order);
+    return !order.owners.empty();
+  };
+  for (const Carry next : {Carry::kNothing, Carry::kCastWherePaying}) {
+    CHECK(repartitions(SamplerChoice::kAuto, false, next));
+    CHECK_FALSE(repartitions(SamplerChoice::kAuto, true, next));
+    CHECK(repartitions(SamplerChoice::kDelaunay, true, next));
+  }
+  CHECK(repartitions(SamplerChoice::kAuto, true, Carry::kAccumulate));
 }
 
 TEST_CASE("balancing: every mode evens the refinement out") {

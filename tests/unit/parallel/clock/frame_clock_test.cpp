@@ -66,6 +66,30 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("wall clock: the pace is the time of sampling, without rest, by the work that it took",
+          "[realtime]") {
+  constexpr double kUnits = 1e6;
+  const auto clock = clock_in_a_frame(0);
+  CHECK(clock->pace() == 1);
+  clock->rested(5);  // before sampling: does not count
+  const double before_s = monotonic_seconds();
+  clock->begin_packet(1000);
+  const double began_s = monotonic_seconds();
+  std::this_thread::sleep_for(std::chrono::milliseconds(30));
+  clock->rested(0.01);
+  const double least_s = monotonic_seconds() - began_s - 0.01;
+  clock->end_sampling(kUnits);
+  const double most_s = monotonic_seconds() - before_s - 0.01;
+  const double pace = clock->pace();
+  CHECK((pace >= 1e9 * least_s / kUnits && pace <= 1e9 * most_s / kUnits));
+  clock->end_sampling(1000);  // too little work to learn from
+  CHECK(clock->pace() == pace);
+  std::this_thread::sleep_for(std::chrono::milliseconds(30));
+  clock->end_sampling(kUnits);  // the new time counts a quarter
+  CHECK(
+      (clock->pace() > pace && clock->pace() < pace + 0.5 * 1e9 * (monotonic_seconds() - before_s) / kUnits));
+}
+
 // A clock in a frame that has to end sampling in `stops_in_s`, with a reserve of seven tenths of the period,
 // and whose reconstruction takes so long.
 std::unique_ptr<FrameClock> clock_about_to_stop(double period_s, double stops_in_s, double reconstruction_s,
