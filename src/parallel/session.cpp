@@ -2,85 +2,66 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "parallel/clock/make_clocks.h"
+#include "parallel/clock/sequence_clock.h"
 #include "parallel/clock/work_units.h"
 #include "parallel/network/inbox.h"
 #include "parallel/network/wire.h"
+#include "parallel/rank_clocks.h"
 #include "parallel/worker.h"
 #include "pipeline/lattice/lattice_node.h"
 
 namespace pprt {
 namespace {
 
-constexpr int kPings = 8;
+constexpr int kFirstQuestions = 8;    // to each rank, about its clock
 constexpr double kLongestRest = 0.1;  // seconds, where only a message can bring news
 constexpr double kHeadStart = 0.005;  // seconds between the start message and the sequence's start
 
+// Rank 0 compares its clock with every other rank's and tells all when the sequence begins.
+double start_together(Communicator& network, Inbox& inbox, RankClocks& clocks) {
+  for (int rank = 1; rank < network.size(); ++rank) {
+    for (int i = 0; i < kFirstQuestions; ++i) {
+      clocks.ask(rank);
+      while (clocks.is_asked(rank)) inbox.pump_or_rest();
+    }
+  }
+  const double start_s = monotonic_seconds() + kHeadStart;
+  for (int rank = 1; rank < network.size(); ++rank) {
+    // Once more, for what was found out by the last answer.
+    clocks.ask(rank);
+    WireWriter out;
+    out.put(start_s);
+    network.send(rank, Tag::kStart, out.take());
+  }
+  return start_s;
+}
+
 // Ranks that started earlier may already be sending what belongs to the first frame.
-Message wait_for(Communicator& network, Inbox& inbox, Tag tag) {
+void await_start(Communicator& network, Inbox& inbox, SequenceClock& clock) {
   while (true) {
-    std::optional<Message> message = network.receive();
+    const std::optional<Message> message = network.receive();
     if (!message) {
       network.rest(kLongestRest);
-    } else if (message->tag == tag) {
-      return std::move(*message);
+    } else if (message->tag == Tag::kStart) {
+      double start_s = 0;
+      WireReader(message->payload).get(start_s);
+      return clock.begin(start_s);
     } else {
       inbox.accept(*message);
     }
   }
 }
 
-double time_in(const Message& message) {
-  double seconds = 0;
-  WireReader(message.payload).get(seconds);
-  return seconds;
-}
-
-void send_time(Communicator& network, int to, Tag tag, double seconds) {
-  WireWriter out;
-  out.put(seconds);
-  network.send(to, tag, out.take());
-}
-
-// How far a rank's steady clock is ahead of ours, from the exchange with the shortest way. Within the
-// uncertainty of half a round trip the clocks count as one: ranks of a host share theirs.
-double clock_offset(Communicator& network, Inbox& inbox, int rank) {
-  double shortest = std::numeric_limits<double>::infinity(), offset = 0;
-  for (int i = 0; i < kPings; ++i) {
-    const double sent = monotonic_seconds();
-    send_time(network, rank, Tag::kClockPing, sent);
-    const double theirs = time_in(wait_for(network, inbox, Tag::kClockPong));
-    const double received = monotonic_seconds();
-    if (received - sent >= shortest) continue;
-    shortest = received - sent;
-    offset = theirs - 0.5 * (sent + received);
-  }
-  return std::abs(offset) <= 0.5 * shortest ? 0 : offset;
-}
-
-double start_together(Communicator& network, Inbox& inbox) {
-  std::vector<double> offsets(static_cast<std::size_t>(network.size()), 0);
-  for (int rank = 1; rank < network.size(); ++rank) {
-    offsets[static_cast<std::size_t>(rank)] = clock_offset(network, inbox, rank);
-  }
-  const double start = monotonic_seconds() + kHeadStart;
-  for (int rank = 1; rank < network.size(); ++rank) {
-    send_time(network, rank, Tag::kStart, start + offsets[static_cast<std::size_t>(rank)]);
-  }
-  return start;
-}
-
-double await_start(Communicator& network, Inbox& inbox) {
-  for (int i = 0; i < kPings; ++i) {
-    wait_for(network, inbox, Tag::kClockPing);
-    send_time(network, 0, Tag::kClockPong, monotonic_seconds());
-  }
-  return time_in(wait_for(network, inbox, Tag::kStart));
+void answer(Communicator& network, SequenceClock& clock, const Message& question) {
+  const double now_s = clock.own_s();
+  const ClockPing ping = decode_clock_ping(question.payload);
+  clock.set(ping.line);
+  network.send(question.from, Tag::kClockPong, encode(ClockPong{ping.sent_s, now_s}));
 }
 
 Partition equal_areas(const SessionSettings& settings, int ranks) {
@@ -105,10 +86,10 @@ double longest_rest_s(const SessionSettings& settings) {
 }
 
 Worker make_worker(Communicator& network, Inbox& inbox, const SessionSettings& settings,
-                   const Partition& partition, const Probe& probe, double start_s) {
+                   const Partition& partition, const Probe& probe, const SequenceClock& clock) {
   const std::size_t pixels = region_of(partition, network.rank()).pixel_count();
   return Worker(network, inbox, settings, partition, probe,
-                make_frame_clock(settings, network.rank(), start_s, pixels, ranks_per_core(network)));
+                make_frame_clock(settings, network.rank(), clock, pixels, ranks_per_core(network)));
 }
 
 // Empty: the sequence is over.
@@ -130,15 +111,29 @@ TileGrid tile_grid(const SessionSettings& settings, int ranks) {
 }
 
 void run_as_master(Communicator& network, const SessionSettings& settings, const Probe& probe,
-                   const CameraSource& source, const FrameSink& sink) {
+                   const CameraSource& source, const FrameSink& sink, const SessionEvents& events) {
   const Partition partition = equal_areas(settings, network.size());
   Master master(network, settings, partition, ranks_per_core(network), source, sink);
-  Inbox inbox(
-      network, longest_rest_s(settings), [&](const Message& message) { master.handle(message); },
-      [&] { master.keep_deadlines(); });
-  const double start_s = start_together(network, inbox);
-  Worker worker = make_worker(network, inbox, settings, partition, probe, start_s);
-  master.begin_sequence(start_s);
+  RankClocks clocks(network);
+  const auto take_in = [&](const Message& message) {
+    if (message.tag == Tag::kClockPong) {
+      clocks.receive(message);
+    } else {
+      master.handle(message);
+    }
+  };
+  const auto after_look = [&] {
+    clocks.look();
+    for (const RankClocks::Jump& jump : clocks.take_jumps()) events.clock_jumped(jump.rank, jump.seconds);
+    master.keep_deadlines();
+  };
+  Inbox inbox(network, longest_rest_s(settings), take_in, after_look);
+  SequenceClock clock;
+  clock.begin(start_together(network, inbox, clocks));
+  Worker worker = make_worker(network, inbox, settings, partition, probe, clock);
+  // On the work clock nothing may depend on the time.
+  if (!is_reproducible(settings)) clocks.watch();
+  master.begin_sequence(clock.start_s());
   for (int index = 0; const std::optional<FrameOrder> order = await_order(inbox, index); ++index) {
     while (!master.may_begin(index)) {
       inbox.pump_or_rest();
@@ -152,11 +147,16 @@ void run_as_master(Communicator& network, const SessionSettings& settings, const
   network.finish();
 }
 
-void run_as_worker(Communicator& network, const SessionSettings& settings, const Probe& probe) {
+void run_as_worker(Communicator& network, const SessionSettings& settings, const Probe& probe,
+                   std::function<double()> now) {
   const Partition partition = equal_areas(settings, network.size());
-  Inbox inbox(network, longest_rest_s(settings),
-              [](const Message&) { throw ProtocolError("pixels came to a rank that is not the master"); });
-  Worker worker = make_worker(network, inbox, settings, partition, probe, await_start(network, inbox));
+  SequenceClock clock(std::move(now));
+  Inbox inbox(network, longest_rest_s(settings), [&](const Message& message) {
+    if (message.tag != Tag::kClockPing) throw ProtocolError("a message came that is for rank 0");
+    answer(network, clock, message);
+  });
+  await_start(network, inbox, clock);
+  Worker worker = make_worker(network, inbox, settings, partition, probe, clock);
   for (int index = 0; const std::optional<FrameOrder> order = await_order(inbox, index); ++index) {
     worker.render(*order);
   }

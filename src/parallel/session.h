@@ -2,17 +2,28 @@
 // one.
 #pragma once
 
+#include <functional>
+
 #include "base/probe.h"
+#include "parallel/clock/host_time.h"
 #include "parallel/master.h"
 #include "parallel/network/communicator.h"
 #include "parallel/session_settings.h"
 
 namespace pprt {
 
-// Both return when every frame has been delivered to the master's sink. All ranks get equal settings.
+// What happens to a run besides its frames. Called on the master's thread.
+struct SessionEvents {
+  // A rank's clock was found to have gone ahead by so many seconds more than it should. Wall clock only.
+  std::function<void(int rank, double seconds)> clock_jumped = [](int, double) {};
+};
+
+// Both return when every frame has been delivered to the master's sink. All ranks get equal settings. A
+// worker's `now` tells the time as monotonic_seconds() does, since a moment of its own.
 void run_as_master(Communicator& network, const SessionSettings& settings, const Probe& probe,
-                   const CameraSource& source, const FrameSink& sink);
-void run_as_worker(Communicator& network, const SessionSettings& settings, const Probe& probe);
+                   const CameraSource& source, const FrameSink& sink, const SessionEvents& events = {});
+void run_as_worker(Communicator& network, const SessionSettings& settings, const Probe& probe,
+                   std::function<double()> now = monotonic_seconds);
 
 // Returns the tiles of the image: the units of balancing, which suit the sampler.
 TileGrid tile_grid(const SessionSettings& settings, int ranks);

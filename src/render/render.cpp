@@ -103,6 +103,11 @@ void log_frame(const FinishedFrame& frame) {
                         frame.order.number, frame.finished_s, 1e3 * frame.order.reserve_s, frame.late_ms));
 }
 
+void warn_of_jump(int rank, double seconds) {
+  print_message(
+      fmt::format("pprt-render: warning: the clock of rank {} has jumped by {:+.3f} s\n", rank, seconds));
+}
+
 // Calls run(communicator, probe) for each rank of this process, with a tracer of its own.
 void run_ranks(ProcessRanks& ranks, const CompiledScene& scene,
                const std::function<void(Communicator&, const Probe&)>& run) {
@@ -142,7 +147,7 @@ int run_frames(ProcessRanks& ranks, const PreparedRun& run, ProgressReporter& pr
   };
   run_ranks(ranks, run.scene, [&](Communicator& network, const Probe& probe) {
     if (network.rank() == 0) {
-      run_as_master(network, run.plan.settings, probe, source, sink);
+      run_as_master(network, run.plan.settings, probe, source, sink, {.clock_jumped = warn_of_jump});
     } else {
       run_as_worker(network, run.plan.settings, probe);
     }

@@ -31,12 +31,13 @@ bool is_reproducible(const SessionSettings& settings) {
   return settings.clock == ClockKind::kWork;
 }
 
-std::unique_ptr<FrameClock> make_frame_clock(const SessionSettings& settings, int rank, double start_s,
-                                             std::size_t region_pixels, double ranks_per_core) {
+std::unique_ptr<FrameClock> make_frame_clock(const SessionSettings& settings, int rank,
+                                             const SequenceClock& sequence, std::size_t region_pixels,
+                                             double ranks_per_core) {
   if (is_reproducible(settings)) {
     return std::make_unique<WorkClock>(budget(settings), region_pixels, slowness_of(settings.machine, rank));
   }
-  return std::make_unique<WallClock>(start_s, period_s(settings), ranks_per_core);
+  return std::make_unique<WallClock>(sequence, period_s(settings), ranks_per_core);
 }
 
 std::unique_ptr<ExchangePolicy> make_exchange_policy(const SessionSettings& settings, int ranks) {

@@ -9,6 +9,7 @@
 #include "parallel/clock/exchange_policy.h"
 #include "parallel/clock/frame_clock.h"
 #include "parallel/clock/host_time.h"
+#include "parallel/clock/sequence_clock.h"
 #include "parallel/session_settings.h"
 
 namespace pprt {
@@ -16,10 +17,11 @@ namespace pprt {
 // Whether equal runs give equal frames whatever the machine: time is counted work, in a budget of units.
 bool is_reproducible(const SessionSettings& settings);
 
-// A rank's clock. `start_s`: monotonic_seconds() at which the sequence begins. `region_pixels`: number of
-// pixels that the rank reconstructs. `ranks_per_core`: number of ranks that share a core, at least 1.
-std::unique_ptr<FrameClock> make_frame_clock(const SessionSettings& settings, int rank, double start_s,
-                                             std::size_t region_pixels, double ranks_per_core);
+// A rank's clock. `sequence` must outlive it. `region_pixels`: number of pixels that the rank reconstructs.
+// `ranks_per_core`: number of ranks that share a core, at least 1.
+std::unique_ptr<FrameClock> make_frame_clock(const SessionSettings& settings, int rank,
+                                             const SequenceClock& sequence, std::size_t region_pixels,
+                                             double ranks_per_core);
 
 // How a rank exchanges bundles with the others.
 std::unique_ptr<ExchangePolicy> make_exchange_policy(const SessionSettings& settings, int ranks);

@@ -2,6 +2,8 @@
 
 #include <sched.h>
 
+#include <utility>
+
 namespace pprt {
 namespace {
 
@@ -17,18 +19,20 @@ constexpr double kLeastLeft = 0.04, kMostLeftOfANewPicture = 0.7;
 }  // namespace
 
 bool WallClock::may_begin(const FrameOrder& order) const {
-  return ranks_per_core_ <= 1 || monotonic_seconds() >= start_s_ + order.deadline_s - period_s_;
+  return ranks_per_core_ <= 1 || sequence_.now_s() >= order.deadline_s - period_s_;
 }
 
 bool WallClock::is_past(const FrameOrder& order) const {
-  return order.deadline_s > 0 && order.index > 0 && monotonic_seconds() - start_s_ >= order.deadline_s;
+  return order.deadline_s > 0 && order.index > 0 && sequence_.now_s() >= order.deadline_s;
 }
 
 void WallClock::begin_frame(const FrameOrder& order) {
-  frame_began_s_ = monotonic_seconds();
+  frame_began_s_ = sequence_.now_s();
   frame_began_ns_ = thread_cpu_ns();
-  sampling_began_s_ = rested_s_ = 0;
-  deadline_s_ = order.deadline_s > 0 ? start_s_ + order.deadline_s : 0;
+  sampling_began_s_ = frame_began_s_;
+  is_sampling_ = false;
+  rested_s_ = 0;
+  deadline_s_ = order.deadline_s;
   reserve_s_ = order.reserve_s;
   is_at_rest_ = order.carry == Carry::kAccumulate;
   set_stop();
@@ -46,8 +50,8 @@ void WallClock::begin_packet(std::uint64_t samples) {
   left_in_packet_ = ranks_per_core_ > 1 ? kSamplesOfAShortTurn : kSamplesPerPacket;
   size_ = static_cast<double>(samples) + region_size_;
   set_stop();
-  const double now = monotonic_seconds();
-  if (sampling_began_s_ == 0) sampling_began_s_ = now, rested_before_sampling_s_ = rested_s_;
+  const double now = sequence_.now_s();
+  if (!std::exchange(is_sampling_, true)) sampling_began_s_ = now, rested_before_sampling_s_ = rested_s_;
   if (stop_s_ > 0 && now >= stop_s_) extend(now);
   // With more ranks than cores, short turns keep every rank near its deadline.
   if (ranks_per_core_ > 1) sched_yield();
@@ -60,7 +64,7 @@ bool WallClock::packet_over() {
 
 bool WallClock::sampling_over() {
   if (stop_s_ == 0) return false;
-  const double now = monotonic_seconds();
+  const double now = sequence_.now_s();
   return now >= stop_s_ && !extend(now);
 }
 
@@ -68,7 +72,7 @@ void WallClock::end_sampling(double units) {
   // About 150 samples: fewer say nothing.
   constexpr double kLeastUnits = 2e5, kShareOfNew = 0.25;
   if (units < kLeastUnits) return;
-  const double took_s = monotonic_seconds() - sampling_began_s_ - (rested_s_ - rested_before_sampling_s_);
+  const double took_s = sequence_.now_s() - sampling_began_s_ - (rested_s_ - rested_before_sampling_s_);
   const double pace = 1e9 * took_s / units;
   pace_ += (knows_pace_ ? kShareOfNew : 1) * (pace - pace_);
   knows_pace_ = true;
@@ -77,7 +81,7 @@ void WallClock::end_sampling(double units) {
 double WallClock::sampling_share() const {
   if (stop_s_ == 0) return kShareWithoutEnd;
   const double span = stop_s_ - sampling_began_s_;
-  return span > 0 ? std::clamp((monotonic_seconds() - sampling_began_s_) / span, 0.01, 1.0) : 1;
+  return span > 0 ? std::clamp((sequence_.now_s() - sampling_began_s_) / span, 0.01, 1.0) : 1;
 }
 
 std::optional<double> WallClock::expected_growth(std::size_t begin, std::size_t now) const {

@@ -9,6 +9,7 @@
 
 #include "parallel/clock/frame_clock.h"
 #include "parallel/clock/host_time.h"
+#include "parallel/clock/sequence_clock.h"
 
 namespace pprt {
 
@@ -25,10 +26,10 @@ class RecentMaximum {
 
 class WallClock final : public FrameClock {
  public:
-  // `start_s`: monotonic_seconds() at which the sequence begins. `period_s`: seconds from frame to frame, 0
-  // without a rate. `ranks_per_core`: number of ranks that share one of this host's cores, at least 1.
-  WallClock(double start_s, double period_s, double ranks_per_core)
-      : start_s_(start_s), period_s_(period_s), ranks_per_core_(ranks_per_core) {}
+  // `sequence` must outlive it. `period_s`: seconds from frame to frame, 0 without a rate. `ranks_per_core`:
+  // number of ranks that share one of this host's cores, at least 1.
+  WallClock(const SequenceClock& sequence, double period_s, double ranks_per_core)
+      : sequence_(sequence), period_s_(period_s), ranks_per_core_(ranks_per_core) {}
 
   bool may_begin(const FrameOrder& order) const override;
   bool is_past(const FrameOrder& order) const override;
@@ -50,8 +51,8 @@ class WallClock final : public FrameClock {
 
   std::int64_t used_ns() const override { return thread_cpu_ns(); }
   double as_evidence_ms(double measured_ms) const override { return measured_ms; }
-  double frame_seconds() const override { return monotonic_seconds() - frame_began_s_; }
-  double sampling_end_seconds() const override { return std::max(stop_s_, sampling_began_s_) - start_s_; }
+  double frame_seconds() const override { return sequence_.now_s() - frame_began_s_; }
+  double sampling_end_seconds() const override { return std::max(stop_s_, sampling_began_s_); }
 
  private:
   void set_stop() { stop_s_ = deadline_s_ > 0 ? deadline_s_ - left_for_the_rest() : 0; }
@@ -60,15 +61,17 @@ class WallClock final : public FrameClock {
   double left_for_the_rest() const;
   double reconstruction_s() const;
 
-  double start_s_;
+  // All times are seconds since the sequence began.
+  const SequenceClock& sequence_;
   double period_s_;
   double ranks_per_core_;
   double frame_began_s_ = 0;
   double deadline_s_ = 0;  // 0: no rate
   double reserve_s_ = 0;   // for what follows reconstruction
   bool is_at_rest_ = false;
-  double stop_s_ = 0;            // when sampling must stop; 0: no rate
-  double sampling_began_s_ = 0;  // of this frame; 0: not yet
+  double stop_s_ = 0;  // when sampling must stop; 0: no rate
+  double sampling_began_s_ = 0;
+  bool is_sampling_ = false;  // this frame has begun to
   std::int64_t frame_began_ns_ = 0;
   double rested_s_ = 0;  // in this frame
   double rested_before_sampling_s_ = 0;

@@ -12,9 +12,9 @@ using Bytes = std::vector<std::byte>;
 
 // Kind of a message: its sender, receiver and reason. docs/protocol.md has more.
 enum class Tag : int {
-  kClockPing = 1,  // master -> rank, before the sequence: what time is it?
+  kClockPing = 1,  // master -> rank, before the sequence and once a second: what time is it?
   kClockPong,      // rank -> master: its time
-  kStart,          // master -> rank: when the sequence begins, in the rank's own time
+  kStart,          // master -> rank: when the sequence begins, by the master's clock
   kFrameOrder,     // master -> rank, one frame ahead: the next frame, or the end
   kBundle,         // rank -> rank, before and during sampling: samples that the receiver's region needs
   kPixels,         // rank -> master, after reconstruction: pixels and what they cost

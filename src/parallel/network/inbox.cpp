@@ -24,10 +24,10 @@ void Inbox::accept(const Message& message) {
       bundles_.push_back({message.from, decode_bundle(message.payload)});
       return;
     case Tag::kPixels:
-      to_master_(message);
-      return;
     case Tag::kClockPing:
     case Tag::kClockPong:
+      to_session_(message);
+      return;
     case Tag::kStart:
       throw ProtocolError("a message came that belongs before the sequence");
   }

@@ -12,7 +12,7 @@
 
 namespace pprt {
 
-// Receives everything and sorts it: frame orders, bundles, and for rank 0 what the master handles.
+// Receives everything and sorts it. Orders and bundles wait here; all else is passed on at once.
 class Inbox {
  public:
   struct Arrived {
@@ -20,15 +20,15 @@ class Inbox {
     Bundle bundle;
   };
 
-  // `to_master` is called with pixels, which are for rank 0 alone. `after_look` is called at the end of every
-  // pump(): rank 0 keeps the deadlines by it. `longest_rest_s`: seconds between two looks while nothing
-  // arrives.
+  // `to_session` is called with pixels, and with questions about clocks and their answers. `after_look` is
+  // called at the end of every pump(): rank 0 keeps the deadlines by it. `longest_rest_s`: seconds between
+  // two looks while nothing arrives.
   Inbox(
-      Communicator& network, double longest_rest_s, std::function<void(const Message&)> to_master,
+      Communicator& network, double longest_rest_s, std::function<void(const Message&)> to_session,
       std::function<void()> after_look = [] {})
       : network_(network),
         longest_rest_s_(longest_rest_s),
-        to_master_(std::move(to_master)),
+        to_session_(std::move(to_session)),
         after_look_(std::move(after_look)) {}
 
   // Takes in all messages that have arrived; returns false when there were none.
@@ -57,7 +57,7 @@ class Inbox {
  private:
   Communicator& network_;
   double longest_rest_s_;
-  std::function<void(const Message&)> to_master_;
+  std::function<void(const Message&)> to_session_;
   std::function<void()> after_look_;
   std::deque<FrameOrder> orders_;
   std::vector<Arrived> bundles_;

@@ -99,6 +99,34 @@ std::vector<OwnerRun> owner_runs(std::span<const std::int32_t> owners) {
   return runs;
 }
 
+Bytes encode(const ClockPing& ping) {
+  WireWriter out;
+  out.put(ping.sent_s), out.put(ping.line);
+  return out.take();
+}
+
+ClockPing decode_clock_ping(std::span<const std::byte> bytes) {
+  WireReader in(bytes);
+  ClockPing ping;
+  in.get(ping.sent_s), in.get(ping.line);
+  in.expect_end();
+  return ping;
+}
+
+Bytes encode(const ClockPong& pong) {
+  WireWriter out;
+  out.put(pong.sent_s), out.put(pong.answered_s);
+  return out.take();
+}
+
+ClockPong decode_clock_pong(std::span<const std::byte> bytes) {
+  WireReader in(bytes);
+  ClockPong pong;
+  in.get(pong.sent_s), in.get(pong.answered_s);
+  in.expect_end();
+  return pong;
+}
+
 Bytes encode(const FrameOrder& order) {
   WireWriter out;
   out.put(order.end), out.put(order.index), out.put(order.number), out.put(order.cut), out.put(order.carry);

@@ -10,6 +10,7 @@
 #include "base/vector.h"
 #include "parallel/balance/tile_cost.h"
 #include "parallel/balance/transfer_handshake.h"
+#include "parallel/clock/clock_estimate.h"
 #include "parallel/network/communicator.h"
 #include "pipeline/preparation/cast_choice.h"
 #include "pipeline/sample.h"
@@ -39,6 +40,18 @@ struct FrameOrder {
   std::vector<std::int32_t> owners;  // per tile, when that partition is a new one
   std::vector<TileEstimate> tiles;   // and what those of the receiver were found to be, ascending by tile
   double reserve_s = 0;  // wall clock: for what follows sampling, besides the rank's own reconstruction
+};
+
+// Master to another rank: what time is it? And what is known of that rank's clock.
+struct ClockPing {
+  double sent_s = 0;  // by the master's clock
+  ClockLine line = {};
+};
+
+// The answer.
+struct ClockPong {
+  double sent_s = 0;      // of the question
+  double answered_s = 0;  // by the rank's clock
 };
 
 // Rank to rank: samples whose triangles touch the receiver's region.
@@ -113,11 +126,15 @@ struct OwnerRun {
 };
 std::vector<OwnerRun> owner_runs(std::span<const std::int32_t> owners);
 
+Bytes encode(const ClockPing& ping);
+Bytes encode(const ClockPong& pong);
 Bytes encode(const FrameOrder& order);
 Bytes encode(const Bundle& bundle);
 Bytes encode(const PixelMessage& pixels);
 
 // Throw ProtocolError on bytes that are no such message.
+ClockPing decode_clock_ping(std::span<const std::byte> bytes);
+ClockPong decode_clock_pong(std::span<const std::byte> bytes);
 FrameOrder decode_frame_order(std::span<const std::byte> bytes);
 Bundle decode_bundle(std::span<const std::byte> bytes);
 PixelMessage decode_pixels(std::span<const std::byte> bytes);

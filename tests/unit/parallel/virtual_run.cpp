@@ -227,12 +227,14 @@ VirtualRun run_session(int ranks, const SessionSettings& settings, const CameraS
   const auto rank_body = [&](int rank) {
     WatchedCommunicator communicator(network, rank, conditions, log);
     DiscTracer tracer(conditions, rank);
+    const double apart = conditions.clocks_differ ? 1 : 0;
     try {
       if (rank == 0) {
         run_as_master(communicator, settings, tracer.probe(), source,
                       [&](FinishedFrame&& frame) { run.frames.push_back(std::move(frame)); });
       } else {
-        run_as_worker(communicator, settings, tracer.probe());
+        run_as_worker(communicator, settings, tracer.probe(),
+                      [&] { return monotonic_seconds() * (1 + 2e-4 * apart * rank) + 1e5 * apart * rank; });
       }
     } catch (const std::exception& e) {
       log.fail(rank, e.what());

@@ -28,6 +28,7 @@ struct Conditions {
   double bundle_delay_s = 0;      // bundles are seen so long after they have been sent
   int sleeper = -1;               // a rank that stands still before the first ray of its third frame
   double sleeps_s = 0;            // so long
+  bool clocks_differ = false;     // rank k's is 100,000 k seconds ahead, and faster by 200 k millionths
   double patience_s = 120;        // after so long a rank that still waits for a message gives up: an error
 };
 

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <ctime>
+#include <deque>
 #include <thread>
 
 namespace pprt {
@@ -11,6 +12,13 @@ namespace {
 constexpr double kPeriod = 0.1;
 constexpr std::size_t kPixels = 8 * 1000;  // as long to reconstruct as 1000 samples
 
+// A sequence that begins now. It lives as long as the tests.
+const SequenceClock& sequence_of_now() {
+  static std::deque<SequenceClock> sequences;
+  sequences.emplace_back().begin(monotonic_seconds());
+  return sequences.back();
+}
+
 // A clock of a sequence that began now, in its frame 0, whose deadline is a second away.
 std::unique_ptr<FrameClock> clock_in_a_frame(double reserve_s, Carry carry = Carry::kNothing,
                                              double ranks_per_core = 1) {
@@ -18,7 +26,7 @@ std::unique_ptr<FrameClock> clock_in_a_frame(double reserve_s, Carry carry = Car
   settings.clock = ClockKind::kWall;
   settings.frames_per_second = 1 / kPeriod;
   std::unique_ptr<FrameClock> clock =
-      make_frame_clock(settings, 0, monotonic_seconds(), kPixels, ranks_per_core);
+      make_frame_clock(settings, 0, sequence_of_now(), kPixels, ranks_per_core);
   clock->region_changed(kPixels);
   FrameOrder order;
   order.deadline_s = 1;
@@ -97,7 +105,7 @@ std::unique_ptr<FrameClock> clock_about_to_stop(double period_s, double stops_in
   SessionSettings settings;
   settings.clock = ClockKind::kWall;
   settings.frames_per_second = 1 / period_s;
-  auto clock = make_frame_clock(settings, 0, monotonic_seconds(), 0, ranks_per_core);
+  auto clock = make_frame_clock(settings, 0, sequence_of_now(), 0, ranks_per_core);
   FrameOrder order;
   order.reserve_s = 0.7 * period_s - 1.25 * reconstruction_s * ranks_per_core;
   order.carry = carry;

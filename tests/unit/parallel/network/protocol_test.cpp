@@ -68,6 +68,9 @@ TEST_CASE("docs/protocol.md: its size formulas are those of the encoders") {
   CHECK(states(n(pixels) + " + " + n(pixels_bytes(1, 0, 0) - pixels) + " t + " +
                n(pixels_bytes(0, 1, 0) - pixels) + " g + " + n(pixels_bytes(0, 0, 1) - pixels) + " p + " +
                n(pixels_bytes(0, 0, 0, 1) - pixels) + " s"));
+  CHECK(text.find("once a second from then on | `" + n(encode(ClockPing{}).size()) + "` |") !=
+        std::string::npos);
+  CHECK(text.find("with its time | `" + n(encode(ClockPong{}).size()) + "` |") != std::string::npos);
   CHECK(text.find("report (" + n(sizeof(RankReport)) + ")") != std::string::npos);
 }
 
