@@ -10,8 +10,10 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 namespace pprt {
@@ -204,6 +206,21 @@ std::size_t Subprocess::read(std::span<char> buffer) const {
     if (errno != EINTR) throw_errno("read");
   }
   return static_cast<std::size_t>(count);
+}
+
+ExitStatus Subprocess::end_within(double seconds) {
+  constexpr auto kBetweenLooks = std::chrono::milliseconds(20);
+  const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  kill(id_, SIGTERM);
+  siginfo_t info{};
+  while (waitid(P_PID, static_cast<id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == 0) {
+    if (std::chrono::steady_clock::now() > until) {
+      kill(id_, SIGKILL);
+      break;
+    }
+    std::this_thread::sleep_for(kBetweenLooks);
+  }
+  return wait();
 }
 
 ExitStatus Subprocess::wait() {

@@ -1,5 +1,6 @@
 #include "cli/launch.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <stdexcept>
+#include <utility>
 
 #include "base/subprocess.h"
 #include "cli/exit.h"
@@ -20,8 +22,9 @@ volatile std::sig_atomic_t mpirun_pid = 0;
 volatile std::sig_atomic_t stopped_by = 0;
 volatile std::sig_atomic_t forced = 0;  // a second signal came
 
-// Tells the ranks that the pipe to mpirun, which is their standard error, ends at a terminal.
-constexpr const char* kTerminalVariable = "PPRT_ON_TERMINAL";
+// Tells the ranks where the pipe to mpirun, which is their standard error, ends: at a terminal or elsewhere.
+constexpr const char* kLauncherVariable = "PPRT_LAUNCHED";
+constexpr std::string_view kFromTerminal = "from-terminal", kFromElsewhere = "from-elsewhere";
 
 // Stands before quoted words, each of which begins with '='.
 constexpr std::string_view kQuotedWords = "=words";
@@ -60,7 +63,9 @@ void show(std::string_view text) {
 MpirunMessages relay(const Subprocess& mpirun, const std::function<void(std::string_view)>& overhear) {
   MpirunMessages messages;
   std::array<char, 4096> piece{};
-  while (const std::size_t count = mpirun.read(piece)) {
+  while (!messages.end_code() && !messages.has_lost_host()) {
+    const std::size_t count = mpirun.read(piece);
+    if (count == 0) break;
     const std::string said = messages.take({piece.data(), count});
     show(said);
     overhear(said);
@@ -69,20 +74,36 @@ MpirunMessages relay(const Subprocess& mpirun, const std::function<void(std::str
   return messages;
 }
 
+// Waits for mpirun's end, but not long where it may wait itself for a host that is out of reach. The ranks
+// that it can reach end with it in any case. Returns its exit code, or what a rank has said instead.
+int mpirun_code(Subprocess& mpirun, const MpirunMessages& messages) {
+  constexpr double kPatience_s = 2;
+  if (!messages.end_code() && !messages.has_lost_host()) return mpirun.wait().code;
+  const int code = mpirun.end_within(kPatience_s).code;
+  return messages.end_code().value_or(code);
+}
+
 // mpirun has a process group of its own: a terminal's Ctrl-C must reach it through this process alone.
 constexpr SubprocessSettings kMpirunSettings{
     .errors = StreamTo::kPipe, .own_process_group = true, .ends_with_parent = true};
 
 }  // namespace
 
-std::vector<std::string> mpirun_command(int ranks, const std::filesystem::path& hostfile,
-                                        std::span<const std::string> words) {
-  std::vector<std::string> command = {"mpirun", "-np", std::to_string(ranks)};
-  if (!hostfile.empty()) command.insert(command.end(), {"--hostfile", absolute(hostfile)});
+std::vector<std::string> mpirun_command(const Launch& launch, std::span<const std::string> words) {
+  std::vector<std::string> command = {"mpirun", "-np", std::to_string(launch.processes)};
+  if (!launch.hostfile.empty()) {
+    command.insert(command.end(), {"--hostfile", absolute(launch.hostfile)});
+    // The system asks a silent connection between mpirun's daemons after 2 s, and gives it up after 4 more
+    // questions, one a second. By default that takes 8 minutes.
+    for (const auto& [name, value] : {std::pair("time", "2"), {"intvl", "1"}, {"probes", "4"}})
+      command.insert(command.end(), {"--mca", std::string("oob_tcp_keepalive_") + name, value});
+  }
+  if (launch.goes_on) command.emplace_back("--enable-recovery");
   // More ranks than cores is normal here: idle ranks sleep, and no rank may be bound to a core.
   command.insert(command.end(), {"--oversubscribe", "--bind-to", "none"});
   if (geteuid() == 0) command.emplace_back("--allow-run-as-root");
-  if (on_terminal()) command.insert(command.end(), {"-x", std::string(kTerminalVariable) + "=1"});
+  command.emplace_back("-x");
+  command.push_back(fmt::format("{}={}", kLauncherVariable, on_terminal() ? kFromTerminal : kFromElsewhere));
   command.push_back(std::filesystem::read_symlink("/proc/self/exe"));
   command.emplace_back(kQuotedWords);
   for (const std::string& word : words) command.push_back("=" + word);
@@ -97,18 +118,18 @@ std::vector<std::string> user_words(int argc, const char* const* argv) {
   return words;
 }
 
-int run_under_mpirun(int ranks, const std::string& hostfile, std::span<const std::string> words,
+int run_under_mpirun(const Launch& launch, std::span<const std::string> words,
                      const std::function<void(std::string_view)>& overhear) try {
-  Subprocess mpirun(mpirun_command(ranks, hostfile, words), kMpirunSettings);
+  Subprocess mpirun(mpirun_command(launch, words), kMpirunSettings);
   mpirun_pid = mpirun.id();
   pass_signals_on();
   const MpirunMessages messages = relay(mpirun, overhear);
-  const int code = mpirun.wait().code;
+  const int code = mpirun_code(mpirun, messages);
   // A run that was asked to stop may still fail. The code of an mpirun that was ended says nothing.
   const bool failed = code >= kExitFailure && code <= kExitInput;
   if (stopped_by != 0 && (forced != 0 || !failed)) return 128 + stopped_by;
-  if (code > kExitInput) {
-    throw std::runtime_error(messages.lost_rank().value_or("mpirun ended with code " + std::to_string(code)) +
+  if (messages.loss() || code > kExitInput) {
+    throw std::runtime_error(messages.loss().value_or("mpirun ended with code " + std::to_string(code)) +
                              "; frames that are in place are whole, and --resume goes on after them");
   }
   return code;
@@ -117,7 +138,16 @@ int run_under_mpirun(int ranks, const std::string& hostfile, std::span<const std
 }
 
 bool on_terminal() {
-  return isatty(STDERR_FILENO) != 0 || std::getenv(kTerminalVariable) != nullptr;
+  const char* launched = std::getenv(kLauncherVariable);
+  return isatty(STDERR_FILENO) != 0 || (launched != nullptr && launched == kFromTerminal);
+}
+
+void tell_launcher_of_begin() {
+  if (std::getenv(kLauncherVariable) != nullptr) show(begin_line());
+}
+
+void tell_launcher_of_end(int exit_code) {
+  if (std::getenv(kLauncherVariable) != nullptr) show(end_line(exit_code));
 }
 
 int launcher_rank() {

@@ -8,8 +8,8 @@
 namespace pprt {
 
 // Filters standard error. Open MPI puts its own messages between lines of dashes. Those that only repeat a
-// rank's exit code are dropped. One that names a rank ended by a signal is kept for lost_rank(). All else is
-// passed on as it comes.
+// rank's exit code are dropped. One that names a rank ended by a signal, or a host out of reach, is kept for
+// loss(). All else is passed on as it comes.
 class MpirunMessages {
  public:
   // Takes what was read next and returns what is to be shown. Holds back only what may belong to a message of
@@ -19,17 +19,31 @@ class MpirunMessages {
   // Returns what is still held back, when nothing more comes.
   std::string finish();
 
-  // "rank 2 on host was ended by signal 9 (Killed)", once mpirun has said so.
-  const std::optional<std::string>& lost_rank() const { return lost_rank_; }
+  // "rank 2 on host was ended by signal 9 (Killed)" or "host alpha does not answer", once mpirun has said so.
+  const std::optional<std::string>& loss() const { return loss_; }
+
+  // Whether loss() is that of a host, for which mpirun may wait in vain.
+  bool has_lost_host() const { return has_lost_host_; }
+
+  // The run's exit code, once a rank has printed end_line().
+  std::optional<int> end_code() const { return end_code_; }
 
  private:
-  std::string end_line();
+  std::string take_line();
   std::string end_message();
 
   std::string line_;            // held back so far
   bool in_shown_line_ = false;  // its beginning has been handed on
   std::string message_;         // of mpirun, from its first line of dashes on
-  std::optional<std::string> lost_rank_;
+  bool has_begun_ = false;
+  std::optional<std::string> loss_;
+  bool has_lost_host_ = false;
+  std::optional<int> end_code_;
 };
+
+// Lines by which a rank says that the run has begun or ended. They are not shown. In a run that has begun,
+// mpirun's complaint that it cannot start a daemon only repeats the loss of a host.
+std::string begin_line();
+std::string end_line(int exit_code);
 
 }  // namespace pprt

@@ -28,7 +28,14 @@ void BundleExchange::begin_triangulation(int epoch) {
   policy_->begin_triangulation();
 }
 
+void BundleExchange::give_up(int rank) {
+  if (!given_up_.insert(rank).second) return;
+  network_.give_up(rank);
+  handshake_.forget(rank);
+}
+
 void BundleExchange::send(int rank, bool concerns, Content content) {
+  if (given_up_.contains(rank)) return;
   if (!concerns && !policy_->sends_to_all()) return;
   const std::size_t sample_bytes = content.samples.size() * kSampleBytes;
   clock_.spend(Work::kSentSample, content.samples.size());
@@ -77,6 +84,7 @@ std::vector<Inbox::Arrived> BundleExchange::take_of_round() {
 // Takes in the handshakes of the bundles, which are in the order of sending.
 std::vector<Inbox::Arrived> BundleExchange::read_handshakes(std::vector<Inbox::Arrived> bundles) {
   for (const auto& [from, bundle] : bundles) {
+    if (given_up_.contains(from)) continue;
     handshake_.receive(from, bundle.handshake);
     if (std::any_of(bundle.transfers.begin(), bundle.transfers.end(),
                     [this](const TileTransfer& t) { return t.owner == network_.rank(); })) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -49,6 +50,9 @@ class BundleExchange {
   TransferHandshake& handshake() { return handshake_; }
   const BundleBytes& bytes() const { return bytes_; }
 
+  // Neither sends anything to this rank any more, nor expects anything of it.
+  void give_up(int rank);
+
   // Sends a bundle of this round to the rank. `concerns`: whether the content matters to it; if not, the
   // policy or a pending reply of the handshake may call for a bundle all the same.
   void send(int rank, bool concerns, Content content);
@@ -89,6 +93,7 @@ class BundleExchange {
   FrameClock& clock_;
   StageTimer& timer_;
   TransferHandshake handshake_;
+  std::set<int> given_up_;  // ranks
   ExchangeRound at_;
   BundleBytes bytes_;
   unsigned polls_ = 0;  // wraps

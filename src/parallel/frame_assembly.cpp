@@ -10,7 +10,9 @@ FrameAssembly::FrameAssembly(const FrameOrder& order, const TileGrid& grid, int 
       reports_(static_cast<std::size_t>(ranks)),
       tiles_(static_cast<std::size_t>(ranks)),
       has_come_(static_cast<std::size_t>(ranks), 0),
-      missing_(ranks) {}
+      missing_(ranks - static_cast<int>(order.lost.size())) {
+  for (const int rank : order.lost) has_come_[static_cast<std::size_t>(rank)] = 1;
+}
 
 void FrameAssembly::add(int from, const PixelMessage& message) {
   const auto rank = static_cast<std::size_t>(from);

@@ -12,11 +12,13 @@ namespace pprt {
 
 class FrameAssembly {
  public:
+  // Of ranks that the order says are lost nothing is expected.
   FrameAssembly(const FrameOrder& order, const TileGrid& grid, int ranks);
 
   // Takes in one rank's pixels, or a part of them. Throws ProtocolError when they come a second time.
   void add(int from, const PixelMessage& message);
 
+  bool awaits(int rank) const { return has_come_[static_cast<std::size_t>(rank)] == 0; }
   bool is_whole() const { return missing_ == 0; }
   const FrameOrder& order() const { return order_; }
   std::span<const RankReport> reports() const { return reports_; }  // empty ones of late ranks

@@ -1,6 +1,7 @@
 #include "parallel/master.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include "parallel/clock/make_clocks.h"
@@ -70,6 +71,7 @@ FrameOrder Master::make_order(const FrameRequest& request) {
   order.evidence = evidence_;
   order.deadline_s = clock_->deadline_s(order.index, request.left_out);
   order.reserve_s = reserve_.reserve_s();
+  order.lost = lost_;
   balancer_.add_partition(order);
   return order;
 }
@@ -93,6 +95,7 @@ Carry Master::carry_into(const FrameRequest& request) const {
 
 void Master::send(FrameOrder order) {
   for (int rank = 0; rank < network_.size(); ++rank) {
+    if (is_lost(rank)) continue;
     order.tiles = balancer_.estimates_for(order, rank);
     network_.send(rank, Tag::kFrameOrder, encode(order));
   }
@@ -101,6 +104,7 @@ void Master::send(FrameOrder order) {
 // --- Pixels
 
 void Master::handle(const Message& message) {
+  if (is_lost(message.from)) return;  // it answers again, too late
   const PixelMessage pixels = decode_pixels(message.payload);
   const auto found = frames_.find(pixels.frame_index);
   if (found == frames_.end()) {
@@ -131,6 +135,27 @@ void Master::handle_overdue(int from, const PixelMessage& pixels) {
 // handle_overdue() learns.
 double Master::after_sampling_s(const RankReport& report) const {
   return reserve_.after_sampling_s(clock_->now_s(), report.sampling_ended_s, report.cpu_ms.reconstruction);
+}
+
+// --- Lost ranks
+
+bool Master::is_lost(int rank) const {
+  return std::binary_search(lost_.begin(), lost_.end(), rank);
+}
+
+bool Master::awaits(int rank) const {
+  return std::any_of(frames_.begin(), frames_.end(),
+                     [rank](const auto& frame) { return frame.second.assembly.awaits(rank); });
+}
+
+// Frames that are under way are delivered at their deadlines with what has come.
+void Master::give_up(const std::vector<int>& ranks) {
+  if (delivered_ == 0) throw std::runtime_error("the first frame needs all ranks");
+  lost_.insert(lost_.end(), ranks.begin(), ranks.end());
+  std::sort(lost_.begin(), lost_.end());
+  for (const int rank : ranks) network_.give_up(rank);
+  balancer_.take_over(lost_);
+  before_.reset();
 }
 
 // --- Delivery
@@ -168,10 +193,11 @@ void Master::learn_from(const PendingFrame& frame) {
   evidence_ = halved(evidence_);
   for (const RankReport& r : frame.assembly.reports()) {
     reports.samples += r.samples_in_region;
-    reports.speeds.push_back(1 / r.pace);
+    const bool gone = is_lost(static_cast<int>(reports.speeds.size()));
+    reports.speeds.push_back(gone ? 0 : 1 / r.pace);
     if (order.index >= evidence_since_) evidence_ += r.evidence;
   }
-  balancer_.consider(reports);
+  balancer_.consider(std::move(reports));
   if (clock_->keeps_deadlines()) reserve_.learn(frame.after_sampling_s);
 }
 

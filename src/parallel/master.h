@@ -81,6 +81,13 @@ class Master {
   // Delivers what is due: to be called whenever all that has arrived has been taken in.
   void keep_deadlines();
 
+  // Whether a frame that was ordered lacks pixels of this rank.
+  bool awaits(int rank) const;
+
+  // With deadlines: goes on without these ranks. The next order gives their tiles to others, and begins a new
+  // picture. Throws std::runtime_error before the first frame is delivered, which needs all ranks.
+  void give_up(const std::vector<int>& ranks);
+
   // Whether rank 0 may begin a frame, or has to look after the one before.
   bool may_begin(int index) const { return delivered_ >= index || clock_->may_overlap(index); }
 
@@ -104,6 +111,7 @@ class Master {
   double after_sampling_s(const RankReport& report) const;
   bool is_due(const PendingFrame& frame) const;
   void deliver_first();
+  bool is_lost(int rank) const;
   void learn_from(const PendingFrame& frame);
   FinishedFrame finish(PendingFrame& frame);
 
@@ -116,8 +124,9 @@ class Master {
   CameraSource source_;
   FrameSink sink_;
   std::map<int, PendingFrame> frames_;  // by frame index
-  std::optional<Mosaic> shown_;  // with deadlines: the frame delivered last, and what came for it since
-  int overdue_pixels_ = 0;       // since that frame was delivered
+  std::optional<Mosaic> shown_;     // with deadlines: the frame delivered last, and what came for it since
+  int overdue_pixels_ = 0;          // since that frame was delivered
+  std::vector<std::int32_t> lost_;  // ranks given up, ascending
   std::optional<FrameRequest> before_;  // the frame ordered last
   CastEvidence evidence_;               // of the frames delivered, the latest counting most
   int evidence_since_ = 0;              // index of the last frame that nothing was carried into

@@ -37,7 +37,9 @@ void RankClocks::look() {
   last_look_s_ = now;
   if (now < next_s_) return;
   next_s_ = now + kPeriod_s;
-  for (int rank = 1; rank < network_.size(); ++rank) ask(rank);
+  for (int rank = 1; rank < network_.size(); ++rank) {
+    if (!of(rank).is_given_up) ask(rank);
+  }
 }
 
 std::vector<RankClocks::Jump> RankClocks::take_jumps() {

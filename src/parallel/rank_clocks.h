@@ -40,6 +40,12 @@ class RankClocks {
   // others.
   void look();
 
+  // Seconds for which this process has been looking, since the beginning.
+  double awake_s() const { return awake_s_; }
+
+  // Stops asking a rank.
+  void give_up(int rank) { of(rank).is_given_up = true; }
+
   // Seconds for which the rank has owed an answer.
   double silent_s(int rank) const { return is_asked(rank) ? awake_s_ - of(rank).asked_at_s : 0; }
 
@@ -49,7 +55,8 @@ class RankClocks {
  private:
   struct Rank {
     ClockEstimate clock;
-    int unanswered = 0;     // questions
+    int unanswered = 0;  // questions
+    bool is_given_up = false;
     double asked_at_s = 0;  // by awake_s_, the first of them
   };
   Rank& of(int rank) { return ranks_.at(static_cast<std::size_t>(rank)); }

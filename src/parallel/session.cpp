@@ -115,6 +115,7 @@ void run_as_master(Communicator& network, const SessionSettings& settings, const
   const Partition partition = equal_areas(settings, network.size());
   Master master(network, settings, partition, ranks_per_core(network), source, sink);
   RankClocks clocks(network);
+  LossWatch losses(events.loss, clocks, network.size());
   const auto take_in = [&](const Message& message) {
     if (message.tag == Tag::kClockPong) {
       clocks.receive(message);
@@ -122,17 +123,24 @@ void run_as_master(Communicator& network, const SessionSettings& settings, const
       master.handle(message);
     }
   };
-  const auto after_look = [&] {
+  // On the work clock nothing may depend on the time.
+  const bool watches = !is_reproducible(settings);
+  const auto watch = [&] {
     clocks.look();
     for (const RankClocks::Jump& jump : clocks.take_jumps()) events.clock_jumped(jump.rank, jump.seconds);
+    const std::vector<int> lost = losses.newly_lost([&](int rank) { return master.awaits(rank); });
+    for (const int rank : lost) clocks.give_up(rank);
+    if (!lost.empty()) master.give_up(lost);
+  };
+  const auto after_look = [&] {
+    if (watches) watch();
     master.keep_deadlines();
   };
   Inbox inbox(network, longest_rest_s(settings), take_in, after_look);
   SequenceClock clock;
   clock.begin(start_together(network, inbox, clocks));
   Worker worker = make_worker(network, inbox, settings, partition, probe, clock);
-  // On the work clock nothing may depend on the time.
-  if (!is_reproducible(settings)) clocks.watch();
+  if (watches) clocks.watch();
   master.begin_sequence(clock.start_s());
   for (int index = 0; const std::optional<FrameOrder> order = await_order(inbox, index); ++index) {
     while (!master.may_begin(index)) {

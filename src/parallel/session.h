@@ -6,20 +6,23 @@
 
 #include "base/probe.h"
 #include "parallel/clock/host_time.h"
+#include "parallel/loss_watch.h"
 #include "parallel/master.h"
 #include "parallel/network/communicator.h"
 #include "parallel/session_settings.h"
 
 namespace pprt {
 
-// What happens to a run besides its frames. Called on the master's thread.
+// What may happen to a run on the wall clock besides its frames. Called on the master's thread.
 struct SessionEvents {
-  // A rank's clock was found to have gone ahead by so many seconds more than it should. Wall clock only.
+  // A rank's clock was found to have gone ahead by so many seconds more than it should.
   std::function<void(int rank, double seconds)> clock_jumped = [](int, double) {};
+  LossRule loss = {};
 };
 
-// Both return when every frame has been delivered to the master's sink. All ranks get equal settings. A
-// worker's `now` tells the time as monotonic_seconds() does, since a moment of its own.
+// Both return when every frame has been delivered to the master's sink. Throw std::runtime_error when ranks
+// do not answer and the run cannot go on without them. All ranks get equal settings. A worker's `now` tells
+// the time as monotonic_seconds() does, since a moment of its own.
 void run_as_master(Communicator& network, const SessionSettings& settings, const Probe& probe,
                    const CameraSource& source, const FrameSink& sink, const SessionEvents& events = {});
 void run_as_worker(Communicator& network, const SessionSettings& settings, const Probe& probe,

@@ -31,6 +31,7 @@ void Worker::render(const FrameOrder& order) {
   reprojection_.begin_frame();
   anchors_.begin_frame();
   goal_.begin_frame(order.carry != Carry::kAccumulate);
+  for (const int rank : order.lost) bundles_.give_up(rank);
 
   bundles_.await([&] { return clock_->may_begin(order); });
   if (clock_->is_past(order)) {

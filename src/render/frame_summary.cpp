@@ -57,6 +57,7 @@ FrameSummary summarize(const FinishedFrame& frame) {
   summary.finished_s = frame.finished_s;
   summary.late_ms = frame.late_ms;
   summary.late_ranks = frame.late_ranks;
+  summary.lost_ranks = frame.order.lost;
   summary.stale_tiles = frame.stale_tiles;
   summary.overdue_pixels = frame.overdue_pixels;
   summary.repartitioned = frame.global_balance;

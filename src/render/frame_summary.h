@@ -25,6 +25,7 @@ struct FrameSummary {
   double finished_s = 0;                 // likewise
   double late_ms = 0;                    // after the deadline; <= 0: on time
   std::vector<std::int32_t> late_ranks;  // ascending
+  std::vector<std::int32_t> lost_ranks;  // given up before this frame, ascending
   int stale_tiles = 0;                   // that show an earlier frame
   int overdue_pixels = 0;                // messages that came too late for earlier frames
   std::uint64_t samples_new = 0;         // traced in this frame

@@ -38,6 +38,7 @@ Json frame_record(const FrameSummary& frame) {
           {"finished_s", frame.finished_s},
           {"late_ms", frame.late_ms},
           {"late_ranks", frame.late_ranks},
+          {"lost_ranks", frame.lost_ranks},
           {"stale_tiles", frame.stale_tiles},
           {"overdue_pixels", frame.overdue_pixels},
           {"samples_new", frame.samples_new},

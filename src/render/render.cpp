@@ -108,6 +108,18 @@ void warn_of_jump(int rank, double seconds) {
       fmt::format("pprt-render: warning: the clock of rank {} has jumped by {:+.3f} s\n", rank, seconds));
 }
 
+SessionEvents events_of(const RenderOptions& options, const ProcessRanks& ranks) {
+  const auto host_of = [&ranks](int rank) { return ranks.host_of(rank); };
+  LossRule loss;
+  loss.goes_on = options.go_on;
+  loss.host_of = host_of;
+  loss.told = [host_of, patience_s = loss.patience_s](std::span<const int> lost) {
+    print_message(fmt::format("pprt-render: warning: no answer for {} s from {}; the run goes on without\n",
+                              patience_s, name_ranks(lost, host_of)));
+  };
+  return {.clock_jumped = warn_of_jump, .loss = loss};
+}
+
 // Calls run(communicator, probe) for each rank of this process, with a tracer of its own.
 void run_ranks(ProcessRanks& ranks, const CompiledScene& scene,
                const std::function<void(Communicator&, const Probe&)>& run) {
@@ -126,8 +138,8 @@ void warn_of_few_cores(const LocalRanks& ranks) {
       ranks.on_host, ranks.cores, installed));
 }
 
-int run_frames(ProcessRanks& ranks, const PreparedRun& run, ProgressReporter& progress,
-               JobBroadcast& broadcast) {
+int run_frames(ProcessRanks& ranks, const PreparedRun& run, const SessionEvents& events,
+               ProgressReporter& progress, JobBroadcast& broadcast) {
   // Open the outputs, which may fail, while the other processes wait.
   const int size = ranks.ranks().size;
   const RunIdentity identity{run.plan, size, content_hash(run.job.scene_nff)};
@@ -139,6 +151,7 @@ int run_frames(ProcessRanks& ranks, const PreparedRun& run, ProgressReporter& pr
 
   // Render with all ranks.
   broadcast.send(run.job);
+  tell_launcher_of_begin();
   watch_signals();
   const StatusPrinter printer([&recorder] { recorder.status(); }, [&progress] { progress.stopping(); });
   const FrameSink sink = [&](FinishedFrame&& frame) {
@@ -147,7 +160,7 @@ int run_frames(ProcessRanks& ranks, const PreparedRun& run, ProgressReporter& pr
   };
   run_ranks(ranks, run.scene, [&](Communicator& network, const Probe& probe) {
     if (network.rank() == 0) {
-      run_as_master(network, run.plan.settings, probe, source, sink, {.clock_jumped = warn_of_jump});
+      run_as_master(network, run.plan.settings, probe, source, sink, events);
     } else {
       run_as_worker(network, run.plan.settings, probe);
     }
@@ -176,7 +189,7 @@ int run_first_process(ProcessRanks& ranks, const RenderOptions& options, Progres
     check_files(run.plan);
     std::cerr << preflight(run.plan, run.scene);
     warn_of_few_cores(ranks.ranks());
-    return run_frames(ranks, run, progress, broadcast);
+    return run_frames(ranks, run, events_of(options, ranks), progress, broadcast);
   } catch (...) {
     broadcast.dismiss();
     throw;
@@ -205,8 +218,12 @@ int run_mpi_process(const RenderOptions& options, ProgressReporter& progress) {
   JobBroadcast broadcast(&processes);
   const bool is_first = processes.rank() == 0;
   try {
-    return is_first ? run_first_process(ranks, options, progress, broadcast)
-                    : run_further_process(processes, ranks);
+    const int code = is_first ? run_first_process(ranks, options, progress, broadcast)
+                              : run_further_process(processes, ranks);
+    if (processes.all_finished()) return code;
+    progress.close(code);
+    tell_launcher_of_end(code);
+    processes.abort_all(code);
   } catch (const std::exception& e) {
     if (is_first && !broadcast.run_begun()) throw;
     print_message(fmt::format("pprt-render: rank {}: error: {}\n", ranks.ranks().first, message_of(e)));
@@ -230,7 +247,7 @@ int run(const RenderOptions& options, ProgressReporter& progress, std::span<cons
   if (started_by_mpi_launcher()) return run_mpi_process(options, progress);
   if (options.processes > 1) {
     if (options.hostfile.empty()) make_room_for(options.processes);
-    return run_under_mpirun(options.processes, options.hostfile, words,
+    return run_under_mpirun({options.processes, options.hostfile, options.go_on}, words,
                             [&](std::string_view said) { progress.overhear(said); });
   }
   set_up_log(options.log, 0);

@@ -84,6 +84,8 @@ void add_run_options(CLI::App& app, RenderOptions& o) {
   app.add_option("--hostfile", o.hostfile, "Hosts to run on, passed to mpirun")
       ->type_name("FILE")
       ->group(kRun);
+  app.add_flag("--go-on", o.go_on, "With a rate in real time: when a rank answers no more, go on without it")
+      ->group(kRun);
   app.add_option("--fps", o.fps,
                  "Frame rate, which gives every frame a deadline; 0: none (default: the script's)")
       ->check(number_between(0, 1000))

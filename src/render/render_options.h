@@ -30,6 +30,7 @@ struct RenderOptions {
   std::optional<int> threads = 1;  // ranks in each process; empty: as many as it has cores
   ClockKind clock = ClockKind::kWall;
   std::string hostfile;                  // empty: none
+  bool go_on = false;                    // without ranks that do not answer
   std::string config;                    // the file that options were read from; empty: none
   std::optional<double> fps;             // frames/s; 0: no rate
   std::optional<std::uint64_t> budget;   // work units for each rank and frame

@@ -162,6 +162,12 @@ void settle_ends(const RenderOptions& options, double fps, SessionSettings& sett
     settings.budget_units = options.budget.value_or(default_budget_units(fps));
   } else {
     if (options.budget) throw UsageError("--budget needs a frame rate (--fps)");
+    if (options.go_on) {
+      throw UsageError(
+          "--go-on needs a frame rate (--fps): without one a frame waits for all ranks; --resume goes on "
+          "after "
+          "a run that has ended");
+    }
     settings.stop = {.seconds = options.time.value_or(0),
                      .samples = options.samples.value_or(0),
                      .flip = options.quality.value_or(0),
@@ -238,6 +244,8 @@ void check_usage(const RenderOptions& options) {
   }
   if (options.budget && options.clock != ClockKind::kWork)
     throw UsageError("--budget counts work: it needs --clock work");
+  if (options.go_on && options.clock == ClockKind::kWork)
+    throw UsageError("--go-on needs real time: with --clock work all ranks wait for each other");
 }
 
 namespace {

@@ -71,17 +71,30 @@ std::vector<double> predicted_costs(const TileGrid& grid, std::span<const std::v
   return costs;
 }
 
-void GlobalBalancer::consider(const FrameReports& frame) {
-  samples_ = frame.samples;
+void GlobalBalancer::consider(FrameReports frame) {
+  if (!frame.is_whole) return;
+  latest_ = std::move(frame);
   const bool always = settings_.balance == BalanceMode::kGlobal;
   if (!always && settings_.balance != BalanceMode::kCombined) return;
-  if (ranks_ == 1 || !frame.is_whole || (!always && imbalance(frame.tiles) <= kImbalanceTrigger)) return;
-  accumulated_ = frame.accumulates;
-  next_owners_ = bisect(grid_, predicted_costs(grid_, frame.tiles), frame.speeds).owner;
-  found_ = tile_estimates(grid_, frame.tiles);
-  handed_over_.assign(frame.tiles.size(), 0);
-  for (std::size_t rank = 0; rank < frame.tiles.size(); ++rank) {
-    for (const TileReport& tile : frame.tiles[rank]) {
+  if (ranks_ == 1 || (!always && imbalance(latest_.tiles) <= kImbalanceTrigger)) return;
+  make_partition(latest_.speeds);
+}
+
+void GlobalBalancer::take_over(std::span<const std::int32_t> lost) {
+  std::vector<double> speeds = latest_.speeds;
+  speeds.resize(static_cast<std::size_t>(ranks_), 1);
+  for (const std::int32_t rank : lost) speeds[static_cast<std::size_t>(rank)] = 0;
+  make_partition(speeds);
+  accumulated_ = false;  // what was sampled is lost, too: the picture begins anew
+}
+
+void GlobalBalancer::make_partition(const std::vector<double>& speeds) {
+  accumulated_ = latest_.accumulates;
+  next_owners_ = bisect(grid_, predicted_costs(grid_, latest_.tiles), speeds).owner;
+  found_ = tile_estimates(grid_, latest_.tiles);
+  handed_over_.assign(static_cast<std::size_t>(ranks_), 0);
+  for (std::size_t rank = 0; rank < latest_.tiles.size(); ++rank) {
+    for (const TileReport& tile : latest_.tiles[rank]) {
       const auto taker = static_cast<std::size_t>(next_owners_[static_cast<std::size_t>(tile.tile)]);
       // A triangulation has about two triangles a sample.
       if (taker != rank) handed_over_[taker] += 0.5 * tile.triangles;
@@ -109,7 +122,7 @@ bool GlobalBalancer::can_afford_to_hand_over() const {
   if (next_owners_.empty() || settings_.frames_per_second <= 0) return true;
   const auto pixels =
       static_cast<std::uint64_t>(settings_.width) * static_cast<std::uint64_t>(settings_.height);
-  if (samples_ > pixels) return false;  // fine enough as it is
+  if (latest_.samples > pixels) return false;  // fine enough as it is
   const double most = *std::max_element(handed_over_.begin(), handed_over_.end());
   return most * static_cast<double>(price(Work::kReceivedSample)) <= 0.05 * units_per_frame_;
 }

@@ -42,7 +42,11 @@ class GlobalBalancer {
       : settings_(settings), grid_(grid), ranks_(ranks), units_per_frame_(units_per_frame) {}
 
   // Considers the reports of a frame that is delivered.
-  void consider(const FrameReports& frame);
+  void consider(FrameReports frame);
+
+  // Gives the tiles of the ranks that are lost to the others, by what is known of costs and speeds. `lost`:
+  // all of them.
+  void take_over(std::span<const std::int32_t> lost);
 
   // Puts the new partition, if there is one, into the order, and the generation in force. A partition whose
   // samples would have to be handed over is dropped where that costs too much. On a lattice so is one that
@@ -53,6 +57,7 @@ class GlobalBalancer {
   std::vector<TileEstimate> estimates_for(const FrameOrder& order, int rank) const;
 
  private:
+  void make_partition(const std::vector<double>& speeds);
   bool is_useful_for(const FrameOrder& order) const;
   bool can_afford_to_hand_over() const;
 
@@ -60,11 +65,11 @@ class GlobalBalancer {
   TileGrid grid_;
   int ranks_;
   double units_per_frame_;
+  FrameReports latest_;                    // whole ones
   std::vector<std::int32_t> next_owners_;  // of a new partition, for the next order
   std::vector<TileEstimate> found_;        // per tile, what that partition stands on
   std::vector<double> handed_over_;  // per rank: samples that it will have to take in with that partition
   bool accumulated_ = false;         // the frame that it was made from
-  std::uint64_t samples_ = 0;        // in the frame considered last
   std::uint32_t generation_ = 0;     // of the partition ordered last
 };
 

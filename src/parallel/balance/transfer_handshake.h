@@ -94,6 +94,9 @@ class TransferHandshake {
     return peer(rank).transfers_sent == peer(rank).transfers_confirmed;
   }
 
+  // Nothing is expected of this rank any more.
+  void forget(int rank) { peers_[static_cast<std::size_t>(rank)] = {}; }
+
   // Equal handshakes answer every call alike from now on.
   friend bool operator==(const TransferHandshake&, const TransferHandshake&) = default;
 

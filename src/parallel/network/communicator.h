@@ -55,8 +55,12 @@ class Communicator {
   // busy ones.
   virtual void rest(double at_most_s) = 0;
 
+  // Gives up a rank that does not answer any more: what is sent to it from now on is dropped, and finish()
+  // does not wait for it.
+  virtual void give_up(int rank) = 0;
+
   // The last call: returns when nothing that was sent here can be lost any more. What still arrives is
-  // dropped.
+  // dropped. Where a rank was given up, only rank 0 returns: its end ends the others.
   virtual void finish() = 0;
 };
 

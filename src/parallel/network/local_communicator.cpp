@@ -15,7 +15,9 @@ LocalRanks all_local(int ranks) {
 }
 
 LocalNetwork::LocalNetwork(const LocalRanks& ranks)
-    : ranks_(ranks), boxes_(static_cast<std::size_t>(ranks.count)) {}
+    : ranks_(ranks),
+      boxes_(static_cast<std::size_t>(ranks.count)),
+      given_up_(static_cast<std::size_t>(ranks.size)) {}
 
 template <class Content>
 void LocalNetwork::put(Box<Content>& box, Content content) {
@@ -44,6 +46,7 @@ void LocalNetwork::rest_at(Box<Content>& box, double at_most_s) {
 }
 
 void LocalNetwork::deliver(int to, Message message) {
+  if (is_given_up(to)) return;
   const int here = to - ranks_.first;
   if (here >= 0 && here < ranks_.count) {
     put(box_of(to), std::move(message));

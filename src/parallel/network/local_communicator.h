@@ -36,6 +36,10 @@ class LocalNetwork {
   // Puts a message into its receiver's box or, if that is another process's rank, into the outbox.
   void deliver(int to, Message message);
 
+  // Drops what is sent to this rank from now on.
+  void give_up(int rank) { given_up_.at(static_cast<std::size_t>(rank)) = true; }
+  bool is_given_up(int rank) const { return given_up_.at(static_cast<std::size_t>(rank)); }
+
   // Returns the next message to a rank. Throws once a rank has failed: nobody must wait for it.
   std::optional<Message> collect(int rank);
 
@@ -73,6 +77,7 @@ class LocalNetwork {
   LocalRanks ranks_;
   std::vector<Box<Message>> boxes_;
   Box<Outgoing> outbox_;
+  std::vector<std::atomic<bool>> given_up_;  // per rank of the run
   std::atomic<bool> failed_ = false;
   std::atomic<int> finished_ = 0;
 };
@@ -89,6 +94,7 @@ class LocalCommunicator final : public Communicator {
   void send(int to, Tag tag, Bytes payload) override;
   std::optional<Message> receive() override { return network_.collect(rank_); }
   void rest(double at_most_s) override { network_.rest(rank_, at_most_s); }
+  void give_up(int rank) override { network_.give_up(rank); }
   void finish() override { network_.finish_rank(); }
 
  private:

@@ -134,6 +134,7 @@ Bytes encode(const FrameOrder& order) {
       out.put(order.generation);
   out.put_all(std::span<const OwnerRun>(owner_runs(order.owners)));
   out.put_all(std::span<const TileEstimate>(order.tiles));
+  out.put_all(std::span<const std::int32_t>(order.lost));
   return out.take();
 }
 
@@ -145,7 +146,7 @@ FrameOrder decode_frame_order(std::span<const std::byte> bytes) {
   in.get(order.camera), in.get(order.evidence), in.get(order.deadline_s), in.get(order.reserve_s),
       in.get(order.generation);
   order.owners = get_owners(in);
-  in.get_all(order.tiles);
+  in.get_all(order.tiles), in.get_all(order.lost);
   in.expect_end();
   return order;
 }

@@ -39,6 +39,7 @@ struct FrameOrder {
   std::uint32_t generation = 0;      // of the partition in force from this frame on
   std::vector<std::int32_t> owners;  // per tile, when that partition is a new one
   std::vector<TileEstimate> tiles;   // and what those of the receiver were found to be, ascending by tile
+  std::vector<std::int32_t> lost;    // ranks that have been given up, ascending: none has a tile any more
   double reserve_s = 0;  // wall clock: for what follows sampling, besides the rank's own reconstruction
 };
 

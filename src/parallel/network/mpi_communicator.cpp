@@ -3,10 +3,12 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdlib>
 #include <deque>
 #include <limits>
+#include <list>
 #include <string>
 #include <thread>
 #include <utility>
@@ -38,11 +40,19 @@ int mpi_count(std::size_t bytes) {
 class Lane {
  public:
   void send(int to, Tag tag, Bytes payload) {
+    if (is_given_up_) return;
     under_way_.push_back({std::move(payload), tag, MPI_REQUEST_NULL});
     advance(to);
   }
 
-  bool empty() const { return under_way_.empty(); }
+  // Drops what has not left, and all that comes. What MPI has is its own until it is sent, or for ever.
+  void give_up() {
+    is_given_up_ = true;
+    under_way_.erase(under_way_.begin() + static_cast<std::ptrdiff_t>(handed_over_), under_way_.end());
+  }
+
+  bool is_given_up() const { return is_given_up_; }
+  bool has_sent_all() const { return is_given_up_ || under_way_.empty(); }
 
   // Forgets what has left, and hands over to MPI what may go.
   void advance(int to) {
@@ -85,6 +95,7 @@ class Lane {
   std::deque<Sending> under_way_;
   std::size_t handed_over_ = 0;  // of those, to MPI
   int unconfirmed_ = 0;          // handed over since the last that is known to have been taken
+  bool is_given_up_ = false;
 };
 
 }  // namespace
@@ -96,8 +107,54 @@ class MpiCommunicator::Impl {
   }
 
   bool all_sent() const {
-    return std::all_of(lanes.begin(), lanes.end(), [](const Lane& lane) { return lane.empty(); });
+    return std::all_of(lanes.begin(), lanes.end(), [](const Lane& lane) { return lane.has_sent_all(); });
   }
+
+  bool has_given_up() const {
+    return std::any_of(lanes.begin(), lanes.end(), [](const Lane& lane) { return lane.is_given_up(); });
+  }
+
+  // Lets MPI receive what has been announced. A large message takes its time, or never comes whole when its
+  // sender is cut off: nobody may wait for it.
+  void begin_arrivals() {
+    while (true) {
+      int announced = 0;
+      MPI_Message handle = MPI_MESSAGE_NULL;
+      MPI_Status status;
+      check(MPI_Improbe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &announced, &handle, &status),
+            "MPI_Improbe");
+      if (!announced) return;
+      int bytes = 0;
+      check(MPI_Get_count(&status, MPI_BYTE, &bytes), "MPI_Get_count");
+      Arrival& arrival = arrivals.emplace_back();
+      arrival.message = {status.MPI_SOURCE, static_cast<Tag>(status.MPI_TAG),
+                         Bytes(static_cast<std::size_t>(bytes))};
+      check(MPI_Imrecv(arrival.message.payload.data(), bytes, MPI_BYTE, &handle, &arrival.request),
+            "MPI_Imrecv");
+    }
+  }
+
+  // The first message that is whole, but none before an earlier one of its sender.
+  std::optional<Message> next_whole() {
+    for (auto arrival = arrivals.begin(); arrival != arrivals.end(); ++arrival) {
+      const int from = arrival->message.from;
+      if (std::any_of(arrivals.begin(), arrival, [from](const Arrival& a) { return a.message.from == from; }))
+        continue;
+      int whole = 0;
+      check(MPI_Test(&arrival->request, &whole, MPI_STATUS_IGNORE), "MPI_Test");
+      if (!whole) continue;
+      Message message = std::move(arrival->message);
+      arrivals.erase(arrival);
+      return message;
+    }
+    return std::nullopt;
+  }
+
+  // A message on its way in; a list keeps it where MPI writes to.
+  struct Arrival {
+    Message message;
+    MPI_Request request = MPI_REQUEST_NULL;
+  };
 
   int rank = 0;
   int size = 1;
@@ -106,6 +163,8 @@ class MpiCommunicator::Impl {
   MPI_Comm host = MPI_COMM_NULL;
   std::vector<Lane> lanes;  // by receiver
   std::deque<Message> to_self;
+  std::list<Arrival> arrivals;
+  bool all_finished = true;
 };
 
 MpiCommunicator::MpiCommunicator() : impl_(std::make_unique<Impl>()) {
@@ -147,6 +206,19 @@ std::vector<int> MpiCommunicator::gather(int number) {
   return numbers;
 }
 
+std::vector<std::string> MpiCommunicator::host_names() {
+  std::array<char, MPI_MAX_PROCESSOR_NAME> own{};
+  int length = 0;
+  check(MPI_Get_processor_name(own.data(), &length), "MPI_Get_processor_name");
+  std::vector<std::array<char, MPI_MAX_PROCESSOR_NAME>> all(static_cast<std::size_t>(impl_->size));
+  check(MPI_Allgather(own.data(), MPI_MAX_PROCESSOR_NAME, MPI_CHAR, all.data(), MPI_MAX_PROCESSOR_NAME,
+                      MPI_CHAR, MPI_COMM_WORLD),
+        "MPI_Allgather");
+  std::vector<std::string> names;
+  for (const auto& name : all) names.emplace_back(name.data());
+  return names;
+}
+
 int MpiCommunicator::sum_on_host(int number) {
   int sum = 0;
   check(MPI_Allreduce(&number, &sum, 1, MPI_INT, MPI_SUM, impl_->host), "MPI_Allreduce");
@@ -169,17 +241,8 @@ std::optional<Message> MpiCommunicator::receive() {
   }
   if (impl_->size == 1) return std::nullopt;
   impl_->advance();
-  int arrived = 0;
-  MPI_Message handle = MPI_MESSAGE_NULL;
-  MPI_Status status;
-  check(MPI_Improbe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &arrived, &handle, &status), "MPI_Improbe");
-  if (!arrived) return std::nullopt;
-  int bytes = 0;
-  check(MPI_Get_count(&status, MPI_BYTE, &bytes), "MPI_Get_count");
-  Message message{status.MPI_SOURCE, static_cast<Tag>(status.MPI_TAG),
-                  Bytes(static_cast<std::size_t>(bytes))};
-  check(MPI_Mrecv(message.payload.data(), bytes, MPI_BYTE, &handle, MPI_STATUS_IGNORE), "MPI_Mrecv");
-  return message;
+  impl_->begin_arrivals();
+  return impl_->next_whole();
 }
 
 // MPI wakes nobody, so a rank looks often.
@@ -199,25 +262,43 @@ void MpiCommunicator::broadcast(Bytes& data) {
   }
 }
 
+void MpiCommunicator::give_up(int rank) {
+  impl_->lanes.at(static_cast<std::size_t>(rank)).give_up();
+}
+
 void MpiCommunicator::finish() {
   // A large message leaves only when its receiver takes it, so all go on receiving until none has anything to
-  // send.
-  const auto drain_until = [this](const auto& over) {
+  // send. Rank 0 has everything that counts, and waits no longer than this for others.
+  constexpr auto kPatience = std::chrono::seconds(10);
+  const auto began = std::chrono::steady_clock::now();
+  const auto drain_until = [&](const auto& over) {
     while (!over()) {
+      if (impl_->rank == 0 && std::chrono::steady_clock::now() - began > kPatience) return false;
       if (!receive()) std::this_thread::sleep_for(std::chrono::microseconds(100));
     }
+    return true;
   };
-  drain_until([this] {
+  const bool has_sent = drain_until([this] {
     impl_->advance();
     return impl_->all_sent();
   });
+  impl_->all_finished = has_sent && !impl_->has_given_up();
+  if (!impl_->all_finished) {
+    // Nobody can be told that all have come: rank 0's end ends the others.
+    drain_until([this] { return impl_->rank == 0; });
+    return;
+  }
   MPI_Request all_here = MPI_REQUEST_NULL;
   check(MPI_Ibarrier(MPI_COMM_WORLD, &all_here), "MPI_Ibarrier");
-  drain_until([&all_here] {
+  impl_->all_finished = drain_until([&all_here] {
     int over = 0;
     check(MPI_Test(&all_here, &over, MPI_STATUS_IGNORE), "MPI_Test");
     return over != 0;
   });
+}
+
+bool MpiCommunicator::all_finished() const {
+  return impl_->all_finished;
 }
 
 void MpiCommunicator::abort_all(int exit_code) {

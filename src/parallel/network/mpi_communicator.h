@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "parallel/network/communicator.h"
@@ -24,13 +25,20 @@ class MpiCommunicator final : public Communicator {
   void send(int to, Tag tag, Bytes payload) override;
   std::optional<Message> receive() override;
   void rest(double at_most_s) override;
+  void give_up(int rank) override;
   void finish() override;
+
+  // Whether all ranks came to finish(). Else MPI cannot be finalised: call abort_all().
+  bool all_finished() const;
 
   // Gives every rank what rank 0 holds in `data`. All ranks call it together.
   void broadcast(Bytes& data);
 
   // Returns every rank's number. All ranks call it together.
   std::vector<int> gather(int number);
+
+  // Returns the name of every rank's host. All ranks call it together.
+  std::vector<std::string> host_names();
 
   // Returns the sum of the numbers of the ranks on this host. All ranks call it together.
   int sum_on_host(int number);

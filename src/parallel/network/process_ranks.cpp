@@ -33,13 +33,17 @@ Ends take_off(Bytes& payload) {
 ProcessRanks::ProcessRanks(int threads) : ranks_(all_local(threads)) {}
 
 ProcessRanks::ProcessRanks(MpiCommunicator& processes, int threads)
-    : processes_(&processes), ends_(processes.gather(threads)) {
+    : processes_(&processes), ends_(processes.gather(threads)), hosts_(processes.host_names()) {
   std::partial_sum(ends_.begin(), ends_.end(), ends_.begin());
   ranks_ = {.first = ends_[static_cast<std::size_t>(processes.rank())] - threads,
             .count = threads,
             .size = ends_.back(),
             .on_host = processes.sum_on_host(threads),
             .cores = processes.cores_on_host()};
+}
+
+std::string ProcessRanks::host_of(int rank) const {
+  return hosts_.empty() ? std::string() : hosts_[static_cast<std::size_t>(process_of(rank))];
 }
 
 void ProcessRanks::run(const std::function<void(Communicator&)>& run_rank) {
@@ -67,9 +71,20 @@ void ProcessRanks::carry_messages(LocalNetwork& network) {
       network.deliver(ends.to, {ends.from, in->tag, std::move(in->payload)});
     }
     if (is_last) break;
+    give_up_processes(network);
     if (!any) network.rest_until_outgoing(kRest);
   }
   processes_->finish();
+}
+
+// A process is given up with the last of its ranks.
+void ProcessRanks::give_up_processes(const LocalNetwork& network) {
+  for (int process = 0, rank = 0; process < processes_->size(); ++process) {
+    const int end = ends_[static_cast<std::size_t>(process)];
+    bool answers = false;
+    for (; rank < end; ++rank) answers = answers || !network.is_given_up(rank);
+    if (!answers) processes_->give_up(process);
+  }
 }
 
 int ProcessRanks::process_of(int rank) const {

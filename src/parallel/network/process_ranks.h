@@ -5,6 +5,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "parallel/network/local_communicator.h"
@@ -23,6 +24,9 @@ class ProcessRanks {
 
   const LocalRanks& ranks() const { return ranks_; }
 
+  // Returns the name of the host that a rank runs on; empty where the run is this process alone.
+  std::string host_of(int rank) const;
+
   // Runs each rank of this process; returns when all have ended. Where each process has one rank, it
   // runs on the caller's thread and calls MPI itself. The first exception of a rank ends this process's ranks
   // and is thrown here.
@@ -30,10 +34,12 @@ class ProcessRanks {
 
  private:
   void carry_messages(LocalNetwork& network);
+  void give_up_processes(const LocalNetwork& network);
   int process_of(int rank) const;
 
   MpiCommunicator* processes_ = nullptr;  // null: there is one
   std::vector<int> ends_;                 // of each process's ranks
+  std::vector<std::string> hosts_;        // of each process
   LocalRanks ranks_;
 };
 

@@ -22,8 +22,8 @@ Words words_of_rank(const Words& command) {
 
 TEST_CASE("no word of the user's stands in mpirun's command line as it was given") {
   const Words hostile = {":", "/usr/bin/id", "--mca", "plm_rsh_agent", "-x", "=words", "", "-np", "2", "a b"};
-  const Words own = mpirun_command(7, {}, {});
-  const Words command = mpirun_command(7, {}, hostile);
+  const Words own = mpirun_command({.processes = 7}, {});
+  const Words command = mpirun_command({.processes = 7}, hostile);
   REQUIRE(std::equal(own.begin(), own.end(), command.begin()));
   for (std::size_t i = own.size(); i < command.size(); ++i) CHECK(command[i].front() == '=');
   CHECK(words_of_rank(command) == hostile);
@@ -31,12 +31,23 @@ TEST_CASE("no word of the user's stands in mpirun's command line as it was given
 
 TEST_CASE("a hostfile's name cannot be a word of mpirun's") {
   for (const char* name : {":", "--mca"}) {
-    const Words command = mpirun_command(2, name, {});
+    const Words command = mpirun_command({.processes = 2, .hostfile = name}, {});
     const auto option = std::find(command.begin(), command.end(), "--hostfile");
     REQUIRE(option != command.end());
     CHECK(*(option + 1) == std::filesystem::current_path() / name);
-    CHECK(std::find(command.begin(), command.end(), name) == command.end());
+    const Words usual = mpirun_command({.processes = 2, .hostfile = "hosts"}, {});
+    CHECK(std::count(command.begin(), command.end(), name) == std::count(usual.begin(), usual.end(), name));
   }
+}
+
+TEST_CASE("hosts that do not answer are given up within seconds, and a run may go on without") {
+  const auto has = [](const Words& command, const char* word) {
+    return std::find(command.begin(), command.end(), word) != command.end();
+  };
+  CHECK_FALSE(has(mpirun_command({.processes = 2}, {}), "oob_tcp_keepalive_time"));
+  const Words ends = mpirun_command({.processes = 2, .hostfile = "hosts"}, {});
+  CHECK((has(ends, "oob_tcp_keepalive_time") && !has(ends, "--enable-recovery")));
+  CHECK(has(mpirun_command({.processes = 2, .hostfile = "hosts", .goes_on = true}, {}), "--enable-recovery"));
 }
 
 TEST_CASE("words that nobody has quoted are taken as they are") {

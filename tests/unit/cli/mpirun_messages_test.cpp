@@ -31,7 +31,34 @@ TEST_CASE("messages of ranks are passed on, and mpirun's that repeat an exit cod
     MpirunMessages messages;
     CHECK(shown(messages, "a.nff:1:2: error\n-- \n" + kExitCode + "\rframe 2 of 3", piece) ==
           "a.nff:1:2: error\n-- \n\rframe 2 of 3");
-    CHECK_FALSE(messages.lost_rank());
+    CHECK_FALSE(messages.loss());
+  }
+}
+
+TEST_CASE("a host out of reach is named, and what mpirun says of it is dropped") {
+  const std::string lost = framed(
+      "ORTE has lost communication with a remote daemon.\n\n  HNP daemon   : [[1,0],0] on node host1\n"
+      "  Remote daemon: [[1,0],2] on node 10.77.0.3\n\nThis is usually due to\n");
+  const std::string start = framed("ORTE was unable to reliably start one or more daemons.\n");
+  for (const std::size_t piece : {1, 7, 4096}) {
+    MpirunMessages messages;
+    CHECK(shown(messages, lost, piece).empty());
+    CHECK(messages.loss() == "host 10.77.0.3 does not answer");
+    CHECK(messages.has_lost_host());
+    // A daemon that could not be started is a reason of its own; one that was, is lost.
+    MpirunMessages before, after;
+    CHECK(shown(before, start, piece) == start);
+    CHECK(shown(after, begin_line() + start + "frame 2\n", piece) == "frame 2\n");
+  }
+}
+
+TEST_CASE("the end of a run is told by a line that is not shown") {
+  for (const std::size_t piece : {1, 7, 4096}) {
+    MpirunMessages messages;
+    CHECK(shown(messages, "done\n" + begin_line(), piece) == "done\n");
+    CHECK_FALSE(messages.end_code());
+    CHECK(shown(messages, end_line(130) + "pprt: the road\n", piece) == "pprt: the road\n");
+    CHECK(messages.end_code() == 130);
   }
 }
 
@@ -47,7 +74,7 @@ TEST_CASE("the first rank that a signal ended is named") {
   for (const std::size_t piece : {1, 7, 4096}) {
     MpirunMessages messages;
     CHECK(shown(messages, kExitCode + kKilled, piece).empty());
-    CHECK(messages.lost_rank() == "rank 12 on vm-1 was ended by signal 9 (Killed)");
+    CHECK(messages.loss() == "rank 12 on vm-1 was ended by signal 9 (Killed)");
   }
 }
 

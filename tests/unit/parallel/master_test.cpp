@@ -139,6 +139,41 @@ TEST_CASE("master: a whole frame is delivered at once") {
   CHECK(stage.delivered[0].late_ms == Approx(-50));
 }
 
+TEST_CASE("master: goes on without lost ranks, and lets the others take over their tiles") {
+  Stage stage;
+  CHECK_THROWS(stage.master().give_up({2}));  // nothing has been shown yet
+  stage.begin();
+  stage.send_all(0);
+  stage.begin();
+  CHECK(stage.master().awaits(2));
+  const std::uint32_t generation = stage.orders().back().generation;
+  stage.master().give_up({2});
+  stage.begin();
+  const std::vector<FrameOrder> orders = stage.orders();
+  REQUIRE(orders.size() == 1);
+  const FrameOrder& order = orders[0];
+  CHECK(order.lost == std::vector<std::int32_t>{2});
+  CHECK((order.carry == Carry::kNothing && order.generation == generation + 1));
+  REQUIRE(order.owners.size() == 6);
+  CHECK(std::count(order.owners.begin(), order.owners.end(), 2) == 0);
+  CHECK(std::count(order.owners.begin(), order.owners.end(), 0) > 0);
+  // The frames ordered before end at their deadlines.
+  for (const int frame : {1, 2}) {
+    stage.send(0, frame), stage.send(1, frame), stage.send(2, frame);
+    CHECK(stage.delivered.size() == static_cast<std::size_t>(frame));
+    stage.at((frame + 1) * kPeriod);
+    stage.at((frame + 1) * kPeriod + kGraceSeconds);
+    REQUIRE(stage.delivered.size() == static_cast<std::size_t>(frame) + 1);
+    CHECK(stage.delivered.back().late_ranks == std::vector<std::int32_t>{2});
+    CHECK(stage.shown(stage.delivered.back(), 2) == Stage::value(2, 0));
+  }
+  // From then on a frame is whole without.
+  CHECK_FALSE(stage.master().awaits(2));
+  stage.send(0, 3), stage.send(1, 3);
+  REQUIRE(stage.delivered.size() == 4);
+  CHECK(stage.delivered.back().late_ranks.empty());
+}
+
 TEST_CASE("master: pixels in parts are a rank's once the last part has come") {
   Stage stage;
   stage.begin();

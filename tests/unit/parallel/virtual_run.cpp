@@ -135,6 +135,9 @@ class Log {
   std::string error_;
 };
 
+// Ends the thread of a rank that nobody hears any more.
+struct Unplugged {};
+
 class WatchedCommunicator final : public Communicator {
  public:
   WatchedCommunicator(LocalNetwork& network, int rank, const Conditions& conditions, Log& log)
@@ -145,6 +148,7 @@ class WatchedCommunicator final : public Communicator {
   int ranks_on_host() const override { return inner_.ranks_on_host(); }
   int cores_on_host() const override { return inner_.cores_on_host(); }
   void send(int to, Tag tag, Bytes payload) override {
+    if (is_unplugged()) return;
     if (tag == Tag::kBundle) {
       Bundle bundle = decode_bundle(payload);
       if (conditions_.drop_samples) {
@@ -162,15 +166,22 @@ class WatchedCommunicator final : public Communicator {
     inner_.send(to, tag, std::move(payload));
   }
   std::optional<Message> receive() override {
+    if (is_unplugged()) throw Unplugged();
     if (conditions_.arrive_at_random && random_() % 2 == 0) return look();
     std::optional<Message> message = inner_.receive();
     if (conditions_.bundle_delay_s > 0) message = delayed(std::move(message));
     return message ? (last_arrival_s_ = monotonic_seconds(), message) : look();
   }
   void rest(double at_most_s) override { inner_.rest(std::min(at_most_s, kLongestRest)); }
+  void give_up(int rank) override { inner_.give_up(rank); }
   void finish() override { inner_.finish(); }
 
  private:
+  bool is_unplugged() const {
+    return conditions_.unplugged.contains(rank()) &&
+           monotonic_seconds() > began_s_ + conditions_.unplugged_at_s;
+  }
+
   std::optional<Message> look() const {
     if (monotonic_seconds() - last_arrival_s_ > conditions_.patience_s) {
       throw std::runtime_error("waited in vain for a message");
@@ -198,7 +209,8 @@ class WatchedCommunicator final : public Communicator {
   Conditions conditions_;
   Log& log_;
   std::mt19937 random_;
-  double last_arrival_s_ = monotonic_seconds();
+  double began_s_ = monotonic_seconds();
+  double last_arrival_s_ = began_s_;
 };
 
 }  // namespace
@@ -231,11 +243,13 @@ VirtualRun run_session(int ranks, const SessionSettings& settings, const CameraS
     try {
       if (rank == 0) {
         run_as_master(communicator, settings, tracer.probe(), source,
-                      [&](FinishedFrame&& frame) { run.frames.push_back(std::move(frame)); });
+                      [&](FinishedFrame&& frame) { run.frames.push_back(std::move(frame)); },
+                      {.loss = conditions.loss});
       } else {
         run_as_worker(communicator, settings, tracer.probe(),
                       [&] { return monotonic_seconds() * (1 + 2e-4 * apart * rank) + 1e5 * apart * rank; });
       }
+    } catch (const Unplugged&) {
     } catch (const std::exception& e) {
       log.fail(rank, e.what());
     }

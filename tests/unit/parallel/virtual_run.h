@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,10 @@ struct Conditions {
   int sleeper = -1;               // a rank that stands still before the first ray of its third frame
   double sleeps_s = 0;            // so long
   bool clocks_differ = false;     // rank k's is 100,000 k seconds ahead, and faster by 200 k millionths
-  double patience_s = 120;        // after so long a rank that still waits for a message gives up: an error
+  std::set<int> unplugged = {};   // ranks that are cut off from the others
+  double unplugged_at_s = 0;      // after the run began
+  LossRule loss = {};
+  double patience_s = 120;  // after so long a rank that still waits for a message gives up: an error
 };
 
 // A bundle on its way, as the network saw it.

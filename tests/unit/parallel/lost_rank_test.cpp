@@ -1,0 +1,102 @@
+// Ranks that answer no more: who notices, who takes over, when the run ends.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "parallel/loss_watch.h"
+#include "parallel/network/local_communicator.h"
+#include "unit/parallel/virtual_run.h"
+
+namespace pprt {
+namespace {
+
+constexpr int kFrames = 30;
+
+SessionSettings real_time(BalanceMode balance = BalanceMode::kCombined) {
+  SessionSettings settings;
+  settings.width = 96, settings.height = 64;
+  settings.clock = ClockKind::kWall;
+  settings.frames_per_second = 10;
+  settings.balance = balance;
+  return settings;
+}
+
+double mean_difference(const Image& a, const Image& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+    const Color d = a.pixels[i] - b.pixels[i];
+    sum += std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
+  }
+  return sum / static_cast<double>(a.pixels.size());
+}
+
+TEST_CASE("lost ranks: the others take over, and the picture is whole again", "[realtime]") {
+  for (const double shift : {0.0, 1.0}) {  // a resting camera accumulates samples, some of which are lost
+    for (const BalanceMode balance : {BalanceMode::kNone, BalanceMode::kCombined}) {
+      const SessionSettings settings = real_time(balance);
+      std::vector<int> told;
+      Conditions conditions{.unplugged = {2}, .unplugged_at_s = 0.5};
+      conditions.loss = {.patience_s = 0.5, .goes_on = true};
+      conditions.loss.told = [&](std::span<const int> ranks) { told.assign(ranks.begin(), ranks.end()); };
+      const VirtualRun run = run_session(4, settings, still_or_pan(settings, kFrames, shift), conditions);
+      INFO(run.error);
+      CHECK(run.error.empty());
+      CHECK(told == std::vector<int>{2});
+      REQUIRE(run.frames.size() == kFrames);
+      // The frames between loss and take-over show what rank 2 sent last.
+      CHECK(std::any_of(run.frames.begin(), run.frames.end(), [](const FinishedFrame& f) {
+        return f.late_ranks == std::vector<std::int32_t>{2} && f.stale_tiles > 0;
+      }));
+      const FinishedFrame& last = run.frames.back();
+      CHECK(last.order.lost == std::vector<std::int32_t>{2});
+      const auto is_whole = [](const FinishedFrame& f) {
+        return !f.order.lost.empty() && f.stale_tiles == 0 &&
+               std::count(f.owners.begin(), f.owners.end(), 2) == 0;
+      };
+      CHECK(std::count_if(run.frames.begin(), run.frames.end(), is_whole) >= 5);
+      const VirtualRun undisturbed = run_session(4, settings, still_or_pan(settings, kFrames, shift));
+      REQUIRE(undisturbed.frames.size() == kFrames);
+      CHECK(mean_difference(last.image, undisturbed.frames.back().image) < 0.02);
+      if (shift > 0) CHECK(mean_difference(run.frames[0].image, last.image) > 0.05);
+    }
+  }
+}
+
+TEST_CASE("lost ranks: a run that does not go on ends once no rank of a host answers", "[realtime]") {
+  const SessionSettings settings = real_time();
+  Conditions conditions{.unplugged_at_s = 0.4, .patience_s = 2};
+  conditions.loss.patience_s = 0.5;
+  conditions.loss.host_of = [](int rank) { return rank < 2 ? "alpha" : "beta"; };
+  conditions.unplugged = {2, 3};
+  CHECK_THAT(run_session(4, settings, still_or_pan(settings, kFrames, 1), conditions).error,
+             Catch::Contains("no answer for 0.5 s from ranks 2 to 3 on beta"));
+  conditions.unplugged = {3};  // may be slow
+  CHECK(run_session(4, settings, still_or_pan(settings, kFrames, 1), conditions).frames.size() == kFrames);
+}
+
+TEST_CASE("lost ranks: ranks are named by host, those in a row together") {
+  const auto host_of = [](int rank) { return rank < 4 ? std::string("alpha") : std::string("beta"); };
+  CHECK(name_ranks(std::vector{2}, host_of) == "rank 2 on alpha");
+  CHECK(name_ranks(std::vector{1, 2, 3, 4, 5, 7}, host_of) ==
+        "ranks 1 to 3 on alpha, ranks 4 to 5 on beta, rank 7 on beta");
+  CHECK(name_ranks(std::vector{3, 4}, [](int) { return std::string(); }) == "ranks 3 to 4");
+}
+
+TEST_CASE("lost ranks: a rank that no frame waits for may be silent") {
+  double now_s = 0;
+  LocalNetwork network(2);
+  LocalCommunicator end(network, 0);
+  RankClocks clocks(end, [&] { return now_s; });
+  LossWatch watch({.patience_s = 3, .goes_on = true}, clocks, 2);
+  clocks.watch();
+  const auto lost_after = [&](double seconds, bool awaited) {
+    for (const double until = now_s + seconds; now_s < until; now_s += 0.25) clocks.look();
+    return watch.newly_lost([awaited](int) { return awaited; });
+  };
+  CHECK(lost_after(5, false).empty());
+  CHECK(lost_after(1, true) == std::vector<int>{1});
+  CHECK(lost_after(5, true).empty());  // told once
+}
+
+}  // namespace
+}  // namespace pprt
