@@ -208,10 +208,19 @@ int run_further_process(MpiCommunicator& processes, ProcessRanks& ranks) {
   return kExitDone;
 }
 
+// Most hosts that do not reach each other have a network of their own besides.
+void meet_others(MpiCommunicator& processes) try {
+  processes.meet_others();
+} catch (const std::exception& e) {
+  print_message(fmt::format("pprt-render: error: {}\n", message_of(e)));
+  processes.abort_all(kExitFailure);
+}
+
 // No exception may leave a process while others wait for it. An error of the first before the run dismisses
 // the others; any later error aborts all at once.
 int run_mpi_process(const RenderOptions& options, ProgressReporter& progress) {
   MpiCommunicator processes;
+  meet_others(processes);
   const int share = std::max(1, processes.cores_on_host() / processes.ranks_on_host());
   ProcessRanks ranks(processes, options.threads.value_or(share));
   set_up_log(options.log, ranks.ranks().first);

@@ -1,54 +1,23 @@
 #!/usr/bin/env bash
-# hosts.sh CASE: runs on three hosts, which are network namespaces on one bridge; mpirun enters them instead of using
-# ssh. Prints the result in one line, "case | what was done | what happened".
+# hosts.sh CASE: runs on three hosts. Prints the result in one line, "case | what was done | what happened".
 #
 #   cable        the third host is cut off without a word; the run ends
 #   cable-go-on  the same with --go-on; the others take over
 #   clocks       the third host's steady clock is 100,000 s ahead
 #
-# Exits with 77 (skipped) where a test may not make networks, or clocks.
-source "$(dirname "$0")/lib.sh"
+# Exits with 77 (skipped) where a test may not make networks or clocks.
+source "$(dirname "$0")/hosts_lib.sh"
+own_network "$here/hosts.sh" "$@"
 case=$1
-
-if [[ -z ${PPRT_OWN_NETWORK:-} ]]; then
-  own=(unshare --net --mount)
-  if [[ $(id -u) != 0 ]]; then own=(unshare --map-root-user --net --mount); fi
-  probe='ip link add pprt type bridge'
-  if [[ $case == clocks ]]; then probe+=' && unshare --time --monotonic 100 true'; fi
-  "${own[@]}" sh -c "$probe" 2>/dev/null || { echo "$case: no networks or clocks of one's own here" >&2; exit 77; }
-  PPRT_OWN_NETWORK=1 exec "${own[@]}" bash "$here/hosts.sh" "$case"
+make_hosts 3
+if [[ $case == clocks ]]; then
+  if ! unshare --time --monotonic 100 true 2>/dev/null; then
+    echo "clocks: no clocks of one's own here" >&2
+    exit 77
+  fi
+  sed -i 's/$/ unshare --time --monotonic 100000 --fork/' enter.10.84.0.3
 fi
-
-# Temporary files of a killed MPI are removed with the test's directory.
-mkdir tmp
-export OMPI_MCA_orte_tmpdir_base=$work/tmp OMPI_MCA_btl_vader_backing_directory=$work/tmp
-
-# Makes the hosts 10.84.0.1 to 3. The first is this namespace.
-make_hosts() {
-  local host holder
-  ip link set lo up
-  ip link add bridge type bridge
-  ip addr add 10.84.0.1/24 dev bridge
-  ip link set bridge up
-  hostname host1
-  holders=()
-  for host in 2 3; do
-    unshare --net --uts sleep 300 &
-    holder=$!
-    holders+=("$holder")
-    until [[ $(readlink /proc/$holder/ns/net) != $(readlink /proc/self/ns/net) ]]; do sleep 0.01; done
-    ip link add "port$host" type veth peer name eth0 netns $holder
-    ip link set "port$host" master bridge up
-    inside="nsenter --target $holder --net --uts --"
-    $inside sh -c "hostname host$host; ip link set lo up; ip addr add 10.84.0.$host/24 dev eth0; ip link set eth0 up"
-    echo "$inside $([[ $case == clocks && $host == 3 ]] && echo unshare --time --monotonic 100000 --fork)" >"enter.10.84.0.$host"
-  done
-  trap 'kill "${holders[@]}" 2>/dev/null; rm -rf "$work"' EXIT
-  printf '#!/bin/sh\nenter=$(cat "%s/enter.$1")\nshift\nexec $enter sh -c "$*"\n' "$work" >agent
-  chmod +x agent
-  printf '10.84.0.%s slots=1\n' 1 2 3 >hosts
-  export OMPI_MCA_plm_rsh_agent=$work/agent
-}
+enter_by_mpirun
 
 cut_off() { ip link set port3 down; }
 
@@ -84,7 +53,6 @@ expect_nobody_left() {
   fail "processes are left: $(pgrep -af '[ ]=out/%04d.png')"
 }
 
-make_hosts
 case $case in
   cable)
     start 400

@@ -1,5 +1,6 @@
 #include "parallel/network/mpi_communicator.h"
 
+#include <fmt/format.h>
 #include <mpi.h>
 
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "base/host_cores.h"
+#include "base/host_networks.h"
 
 namespace pprt {
 namespace {
@@ -99,6 +101,67 @@ class Lane {
   bool is_given_up_ = false;
 };
 
+// "networks here: 10.0.0.0/24 (eth0), 172.17.0.0/16 (docker0)"
+std::string networks_here() {
+  std::string list;
+  for (const HostNetwork& n : host_networks()) {
+    list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", n.address, n.interface);
+  }
+  return "networks here: " + (list.empty() ? "none" : list);
+}
+
+std::string own_host() {
+  std::array<char, MPI_MAX_PROCESSOR_NAME> name{};
+  int length = 0;
+  check(MPI_Get_processor_name(name.data(), &length), "MPI_Get_processor_name");
+  return name.data();
+}
+
+bool all_on_this_host(int size) {
+  const char* here = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
+  return here != nullptr && std::atoi(here) == size;
+}
+
+// Sends a message without content to the other processes, or to the 64 nearest by number, and awaits theirs.
+// Open MPI believes that hosts with addresses of one network reach each other, and waits for ever when they
+// do not.
+void require_answers(int rank, int size) {
+  constexpr int kMostPeers = 64, kTag = 100;
+  constexpr auto kPatience = std::chrono::seconds(15);
+  if (all_on_this_host(size)) return;
+  struct Peer {
+    int rank;
+    MPI_Request sent = MPI_REQUEST_NULL, received = MPI_REQUEST_NULL;
+  };
+  std::vector<Peer> peers;
+  for (int other = 0; other < size; ++other) {
+    const int apart = std::abs(other - rank);
+    if (other != rank && std::min(apart, size - apart) <= kMostPeers / 2) peers.push_back({other});
+  }
+  for (Peer& p : peers) {
+    check(MPI_Irecv(nullptr, 0, MPI_BYTE, p.rank, kTag, MPI_COMM_WORLD, &p.received), "MPI_Irecv");
+    check(MPI_Isend(nullptr, 0, MPI_BYTE, p.rank, kTag, MPI_COMM_WORLD, &p.sent), "MPI_Isend");
+  }
+  const auto is_over = [](Peer& p) {
+    int sent = 0, received = 0;
+    check(MPI_Test(&p.sent, &sent, MPI_STATUS_IGNORE), "MPI_Test");
+    check(MPI_Test(&p.received, &received, MPI_STATUS_IGNORE), "MPI_Test");
+    return sent != 0 && received != 0;
+  };
+  auto last_answer = std::chrono::steady_clock::now();
+  while (true) {
+    if (std::erase_if(peers, is_over) > 0) last_answer = std::chrono::steady_clock::now();
+    if (peers.empty()) return;
+    if (std::chrono::steady_clock::now() - last_answer > kPatience) break;
+    std::this_thread::sleep_for(std::chrono::microseconds(100));
+  }
+  throw std::runtime_error(
+      fmt::format("{} gets no answer from process {} within {} s; {}. If one of them does not lead to the "
+                  "other hosts, name the one "
+                  "that does: export OMPI_MCA_btl_tcp_if_include=NETWORK",
+                  own_host(), peers.front().rank, kPatience.count(), networks_here()));
+}
+
 }  // namespace
 
 class MpiCommunicator::Impl {
@@ -175,6 +238,10 @@ MpiCommunicator::MpiCommunicator() : impl_(std::make_unique<Impl>()) {
   check(MPI_Comm_rank(MPI_COMM_WORLD, &impl_->rank), "MPI_Comm_rank");
   check(MPI_Comm_size(MPI_COMM_WORLD, &impl_->size), "MPI_Comm_size");
   impl_->lanes.resize(static_cast<std::size_t>(impl_->size));
+}
+
+void MpiCommunicator::meet_others() {
+  require_answers(impl_->rank, impl_->size);
   check(MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &impl_->host),
         "MPI_Comm_split_type");
   check(MPI_Comm_size(impl_->host, &impl_->on_host), "MPI_Comm_size");
@@ -184,7 +251,7 @@ MpiCommunicator::MpiCommunicator() : impl_(std::make_unique<Impl>()) {
 }
 
 MpiCommunicator::~MpiCommunicator() {
-  MPI_Comm_free(&impl_->host);
+  if (impl_->host != MPI_COMM_NULL) MPI_Comm_free(&impl_->host);
   MPI_Finalize();
 }
 
@@ -209,8 +276,7 @@ std::vector<int> MpiCommunicator::gather(int number) {
 
 std::vector<std::string> MpiCommunicator::host_names() {
   std::array<char, MPI_MAX_PROCESSOR_NAME> own{};
-  int length = 0;
-  check(MPI_Get_processor_name(own.data(), &length), "MPI_Get_processor_name");
+  own_host().copy(own.data(), own.size() - 1);
   std::vector<std::array<char, MPI_MAX_PROCESSOR_NAME>> all(static_cast<std::size_t>(impl_->size));
   check(MPI_Allgather(own.data(), MPI_MAX_PROCESSOR_NAME, MPI_CHAR, all.data(), MPI_MAX_PROCESSOR_NAME,
                       MPI_CHAR, MPI_COMM_WORLD),

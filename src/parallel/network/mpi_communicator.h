@@ -18,6 +18,11 @@ class MpiCommunicator final : public Communicator {
   MpiCommunicator(const MpiCommunicator&) = delete;
   MpiCommunicator& operator=(const MpiCommunicator&) = delete;
 
+  // Makes sure that the processes reach each other, and counts those of this host. All call it together,
+  // before anything below. Throws std::runtime_error with what may help when another does not answer within
+  // 15 s.
+  void meet_others();
+
   int rank() const override;
   int size() const override;
   int ranks_on_host() const override;
