@@ -63,12 +63,12 @@ void BundleExchange::count(const Bundle& bundle, std::size_t encoded_size) {
 }
 
 std::vector<Inbox::Arrived> BundleExchange::receive() {
-  await([this] { return policy_->is_ready(inbox_, at_); });
+  await_bundles([this] { return policy_->missing(inbox_, at_); });
   return read_handshakes(policy_->take_due(inbox_, at_));
 }
 
 void BundleExchange::await_seeds(std::span<const int> peers) {
-  await([&] { return policy_->has_seeds(inbox_, at_, peers, clock_.frame_seconds()); });
+  await_bundles([&] { return policy_->missing_seeds(inbox_, at_, peers, clock_.frame_seconds()); });
 }
 
 std::vector<Inbox::Arrived> BundleExchange::take_earlier() {
@@ -104,12 +104,19 @@ std::vector<TileTransfer> BundleExchange::earlier_transfers() const {
 }
 
 void BundleExchange::await(const std::function<bool()>& condition) {
+  await_bundles([&] { return condition() ? std::size_t{0} : std::size_t{1}; });
+}
+
+// A rank sleeps until as many messages have come as it needs: with many ranks, each of them would wake it.
+void BundleExchange::await_bundles(const std::function<std::size_t()>& count_missing) {
   inbox_.pump();
-  if (condition()) return;
+  std::size_t missing = count_missing();
+  if (missing == 0) return;
   const double began = monotonic_seconds();
   do {
-    inbox_.pump_or_rest();
-  } while (!condition());
+    inbox_.pump_or_rest(missing);
+    missing = count_missing();
+  } while (missing > 0);
   timer_.rested(monotonic_seconds() - began);
 }
 

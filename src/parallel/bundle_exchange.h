@@ -84,6 +84,7 @@ class BundleExchange {
   void look() { inbox_.pump(); }
 
  private:
+  void await_bundles(const std::function<std::size_t()>& count_missing);
   std::vector<Inbox::Arrived> read_handshakes(std::vector<Inbox::Arrived> bundles);
   void count(const Bundle& bundle, std::size_t encoded_size);
 

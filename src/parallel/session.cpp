@@ -46,7 +46,7 @@ void await_start(Communicator& network, Inbox& inbox, SequenceClock& clock) {
   while (true) {
     const std::optional<Message> message = network.receive();
     if (!message) {
-      network.rest(kLongestRest);
+      network.rest(kLongestRest, 1);
     } else if (message->tag == Tag::kStart) {
       double start_s = 0;
       WireReader(message->payload).get(start_s);

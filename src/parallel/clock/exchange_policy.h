@@ -46,16 +46,16 @@ class ExchangePolicy {
 
   // --- Receiving
 
-  // Whether all bundles that this round waits for have arrived.
-  virtual bool is_ready(const Inbox& inbox, const ExchangeRound& at) const = 0;
+  // How many of the bundles that this round waits for have not arrived.
+  virtual std::size_t missing(const Inbox& inbox, const ExchangeRound& at) const = 0;
 
   // Removes the bundles due in this round and returns them, ordered by rank and then by sending.
   virtual std::vector<Inbox::Arrived> take_due(Inbox& inbox, const ExchangeRound& at) = 0;
 
-  // Whether a fresh triangulation need not wait any longer for others' seeds. `peers`: ranks whose
-  // seeds this one needs, ascending. `frame_s`: seconds since the frame began.
-  virtual bool has_seeds(const Inbox& inbox, const ExchangeRound& at, std::span<const int> peers,
-                         double frame_s) const = 0;
+  // For how many bundles of others' seeds a fresh triangulation still has to wait. `peers`: ranks whose seeds
+  // this one needs, ascending. `frame_s`: seconds since the frame began.
+  virtual std::size_t missing_seeds(const Inbox& inbox, const ExchangeRound& at, std::span<const int> peers,
+                                    double frame_s) const = 0;
 
   // A triangulation begins: what is still under way to the one before is dropped.
   virtual void begin_triangulation() = 0;

@@ -12,13 +12,13 @@ std::vector<Inbox::Arrived> FreeExchange::take_due(Inbox& inbox, const ExchangeR
   });
 }
 
-bool FreeExchange::has_seeds(const Inbox& inbox, const ExchangeRound& at, std::span<const int> peers,
-                             double frame_s) const {
-  if (frame_s > patience_s_) return true;
+std::size_t FreeExchange::missing_seeds(const Inbox& inbox, const ExchangeRound& at,
+                                        std::span<const int> peers, double frame_s) const {
+  if (frame_s > patience_s_) return 0;
   const auto from_peer = [&](const Inbox::Arrived& a) {
     return is_of_round(a, at) && std::binary_search(peers.begin(), peers.end(), a.from);
   };
-  return inbox.count_bundles(from_peer) >= peers.size();
+  return peers.size() - std::min(peers.size(), inbox.count_bundles(from_peer));
 }
 
 }  // namespace pprt

@@ -21,10 +21,10 @@ class FreeExchange final : public ExchangePolicy {
   int delivery_delay(const ExchangeRound&, std::size_t) override { return 0; }
   bool sends_substitute_pixels() const override { return true; }
 
-  bool is_ready(const Inbox&, const ExchangeRound&) const override { return true; }
+  std::size_t missing(const Inbox&, const ExchangeRound&) const override { return 0; }
   std::vector<Inbox::Arrived> take_due(Inbox& inbox, const ExchangeRound& at) override;
-  bool has_seeds(const Inbox& inbox, const ExchangeRound& at, std::span<const int> peers,
-                 double frame_s) const override;
+  std::size_t missing_seeds(const Inbox& inbox, const ExchangeRound& at, std::span<const int> peers,
+                            double frame_s) const override;
   void begin_triangulation() override {}
   bool rests_when_idle() const override { return true; }
 

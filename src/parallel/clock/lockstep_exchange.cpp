@@ -24,9 +24,9 @@ int LockstepExchange::delivery_delay(const ExchangeRound& at, std::size_t bytes)
   return static_cast<int>(std::min(seconds * machine_.units_per_second / round_units_, kMostRounds));
 }
 
-bool LockstepExchange::is_ready(const Inbox& inbox, const ExchangeRound& at) const {
+std::size_t LockstepExchange::missing(const Inbox& inbox, const ExchangeRound& at) const {
   const auto of_this_round = [&](const Inbox::Arrived& a) { return is_of_round(a, at); };
-  return inbox.count_bundles(of_this_round) >= static_cast<std::size_t>(ranks_ - 1);
+  return static_cast<std::size_t>(ranks_ - 1) - inbox.count_bundles(of_this_round);
 }
 
 // Returns the round's bundles, their samples replaced by those that arrive in this round, whenever these were

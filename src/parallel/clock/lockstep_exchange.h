@@ -23,10 +23,11 @@ class LockstepExchange final : public ExchangePolicy {
   int delivery_delay(const ExchangeRound& at, std::size_t bytes) override;
   bool sends_substitute_pixels() const override { return false; }
 
-  bool is_ready(const Inbox& inbox, const ExchangeRound& at) const override;
+  std::size_t missing(const Inbox& inbox, const ExchangeRound& at) const override;
   std::vector<Inbox::Arrived> take_due(Inbox& inbox, const ExchangeRound& at) override;
-  bool has_seeds(const Inbox& inbox, const ExchangeRound& at, std::span<const int>, double) const override {
-    return is_ready(inbox, at);
+  std::size_t missing_seeds(const Inbox& inbox, const ExchangeRound& at, std::span<const int>,
+                            double) const override {
+    return missing(inbox, at);
   }
   void begin_triangulation() override { under_way_.clear(); }
   bool rests_when_idle() const override { return false; }

@@ -51,9 +51,9 @@ class Communicator {
   // The next message that has arrived from anyone.
   virtual std::optional<Message> receive() = 0;
 
-  // Waits until a message may have arrived, at most so many seconds: idle ranks must not take the cores from
-  // busy ones.
-  virtual void rest(double at_most_s) = 0;
+  // Waits until so many messages may have arrived, at most so many seconds: idle ranks must not take the
+  // cores from busy ones.
+  virtual void rest(double at_most_s, std::size_t messages) = 0;
 
   // Gives up a rank that does not answer any more: what is sent to it from now on is dropped, and finish()
   // does not wait for it.

@@ -34,9 +34,9 @@ class Inbox {
   // Takes in all messages that have arrived; returns false when there were none.
   bool pump();
 
-  // The same; waits for a while if there are none.
-  void pump_or_rest() {
-    if (!pump()) network_.rest(longest_rest_s_);
+  // The same; waits for a while if there are none, or until so many have come.
+  void pump_or_rest(std::size_t messages = 1) {
+    if (!pump()) network_.rest(longest_rest_s_, messages);
   }
 
   // Takes in one message. Throws ProtocolError for a kind that has no place in a sequence.

@@ -21,11 +21,13 @@ LocalNetwork::LocalNetwork(const LocalRanks& ranks)
 
 template <class Content>
 void LocalNetwork::put(Box<Content>& box, Content content) {
+  bool wakes = false;
   {
     const std::lock_guard lock(box.mutex);
     box.contents.push_back(std::move(content));
+    wakes = box.contents.size() >= box.awaited;
   }
-  box.arrival.notify_one();
+  if (wakes) box.arrival.notify_one();
 }
 
 template <class Content>
@@ -39,10 +41,11 @@ std::optional<Content> LocalNetwork::take(Box<Content>& box) {
 }
 
 template <class Content>
-void LocalNetwork::rest_at(Box<Content>& box, double at_most_s) {
+void LocalNetwork::rest_at(Box<Content>& box, double at_most_s, std::size_t awaited) {
   std::unique_lock lock(box.mutex);
+  box.awaited = awaited;
   box.arrival.wait_for(lock, std::chrono::duration<double>(at_most_s),
-                       [&] { return !box.contents.empty() || failed_; });
+                       [&] { return box.contents.size() >= awaited || failed_; });
 }
 
 void LocalNetwork::deliver(int to, Message message) {
@@ -59,8 +62,8 @@ std::optional<Message> LocalNetwork::collect(int rank) {
   return take(box_of(rank));
 }
 
-void LocalNetwork::rest(int rank, double at_most_s) {
-  rest_at(box_of(rank), at_most_s);
+void LocalNetwork::rest(int rank, double at_most_s, std::size_t messages) {
+  rest_at(box_of(rank), at_most_s, messages);
 }
 
 std::optional<LocalNetwork::Outgoing> LocalNetwork::collect_outgoing() {
@@ -68,7 +71,7 @@ std::optional<LocalNetwork::Outgoing> LocalNetwork::collect_outgoing() {
 }
 
 void LocalNetwork::rest_until_outgoing(double at_most_s) {
-  rest_at(outbox_, at_most_s);
+  rest_at(outbox_, at_most_s, 1);
 }
 
 void LocalNetwork::fail() {

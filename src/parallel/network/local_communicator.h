@@ -43,8 +43,8 @@ class LocalNetwork {
   // Returns the next message to a rank. Throws once a rank has failed: nobody must wait for it.
   std::optional<Message> collect(int rank);
 
-  // Waits until a rank may have a message, at most so many seconds.
-  void rest(int rank, double at_most_s);
+  // Waits until a rank may have so many messages, at most so many seconds.
+  void rest(int rank, double at_most_s, std::size_t messages = 1);
 
   // What ranks of this process send to those of others.
   struct Outgoing {
@@ -65,6 +65,7 @@ class LocalNetwork {
     std::mutex mutex;
     std::condition_variable arrival;
     std::deque<Content> contents;
+    std::size_t awaited = 1;  // contents that wake whoever waits
   };
   Box<Message>& box_of(int rank) { return boxes_.at(static_cast<std::size_t>(rank - ranks_.first)); }
   template <class Content>
@@ -72,7 +73,7 @@ class LocalNetwork {
   template <class Content>
   std::optional<Content> take(Box<Content>& box);
   template <class Content>
-  void rest_at(Box<Content>& box, double at_most_s);
+  void rest_at(Box<Content>& box, double at_most_s, std::size_t awaited);
 
   LocalRanks ranks_;
   std::vector<Box<Message>> boxes_;
@@ -93,7 +94,7 @@ class LocalCommunicator final : public Communicator {
   int cores_on_host() const override { return network_.ranks().cores; }
   void send(int to, Tag tag, Bytes payload) override;
   std::optional<Message> receive() override { return network_.collect(rank_); }
-  void rest(double at_most_s) override { network_.rest(rank_, at_most_s); }
+  void rest(double at_most_s, std::size_t messages) override { network_.rest(rank_, at_most_s, messages); }
   void give_up(int rank) override { network_.give_up(rank); }
   void finish() override { network_.finish_rank(); }
 

@@ -314,7 +314,7 @@ std::optional<Message> MpiCommunicator::receive() {
 }
 
 // MPI wakes nobody, so a rank looks often.
-void MpiCommunicator::rest(double at_most_s) {
+void MpiCommunicator::rest(double at_most_s, std::size_t) {
   constexpr double kLongest = 150e-6;
   std::this_thread::sleep_for(std::chrono::duration<double>(std::min(at_most_s, kLongest)));
 }

@@ -29,7 +29,7 @@ class MpiCommunicator final : public Communicator {
   int cores_on_host() const override;
   void send(int to, Tag tag, Bytes payload) override;
   std::optional<Message> receive() override;
-  void rest(double at_most_s) override;
+  void rest(double at_most_s, std::size_t messages) override;
   void give_up(int rank) override;
   void finish() override;
 

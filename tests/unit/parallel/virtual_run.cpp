@@ -172,7 +172,9 @@ class WatchedCommunicator final : public Communicator {
     if (conditions_.bundle_delay_s > 0) message = delayed(std::move(message));
     return message ? (last_arrival_s_ = monotonic_seconds(), message) : look();
   }
-  void rest(double at_most_s) override { inner_.rest(std::min(at_most_s, kLongestRest)); }
+  void rest(double at_most_s, std::size_t messages) override {
+    inner_.rest(std::min(at_most_s, kLongestRest), messages);
+  }
   void give_up(int rank) override { inner_.give_up(rank); }
   void finish() override { inner_.finish(); }
 

@@ -49,13 +49,13 @@ TEST_CASE("exchange policy: on the work clock a round is ready when every other 
   Network network;
   const auto lockstep = policy(ClockKind::kWork), free = policy(ClockKind::kWall);
   const ExchangeRound at{.frame_index = 0, .epoch = 0, .round = 3};
-  CHECK_FALSE(lockstep->is_ready(network.inbox, at));
-  CHECK(free->is_ready(network.inbox, at));
+  CHECK(lockstep->missing(network.inbox, at) > 0);
+  CHECK(free->missing(network.inbox, at) == 0);
   network.send(1, {.round = 3});
   network.send(2, {.round = 4});
-  CHECK_FALSE(lockstep->is_ready(network.inbox, at));
+  CHECK(lockstep->missing(network.inbox, at) > 0);
   network.send(2, {.round = 3});
-  CHECK(lockstep->is_ready(network.inbox, at));
+  CHECK(lockstep->missing(network.inbox, at) == 0);
   CHECK(lockstep->take_due(network.inbox, at).size() == 2);
   CHECK(network.inbox.bundles().size() == 1);  // of round 4
 }
@@ -76,14 +76,14 @@ TEST_CASE(
   const ExchangeRound at{.frame_index = 0, .epoch = 0, .round = kSeedRound};
   const std::vector<int> peers = {2};
   const auto with_rate = policy(ClockKind::kWall), without = policy(ClockKind::kWall, 0);
-  CHECK_FALSE(with_rate->has_seeds(network.inbox, at, peers, 0.009));
-  CHECK(with_rate->has_seeds(network.inbox, at, peers, 0.011));
-  CHECK_FALSE(without->has_seeds(network.inbox, at, peers, 1e6));
+  CHECK(with_rate->missing_seeds(network.inbox, at, peers, 0.009) > 0);
+  CHECK(with_rate->missing_seeds(network.inbox, at, peers, 0.011) == 0);
+  CHECK(without->missing_seeds(network.inbox, at, peers, 1e6) > 0);
   network.send(1, {.round = kSeedRound});  // no peer
-  CHECK_FALSE(without->has_seeds(network.inbox, at, peers, 0));
+  CHECK(without->missing_seeds(network.inbox, at, peers, 0) > 0);
   network.send(2, {.round = kSeedRound});
-  CHECK(without->has_seeds(network.inbox, at, peers, 0));
-  CHECK(with_rate->has_seeds(network.inbox, at, peers, 0));
+  CHECK(without->missing_seeds(network.inbox, at, peers, 0) == 0);
+  CHECK(with_rate->missing_seeds(network.inbox, at, peers, 0) == 0);
 }
 
 TEST_CASE(

@@ -55,6 +55,22 @@ TEST_CASE("local ranks: a message wakes the rank that waits for it, and no other
   CHECK(monotonic_seconds() - later >= 0.05);
 }
 
+TEST_CASE("local ranks: a rank that waits for two messages sleeps through the first") {
+  LocalNetwork network(2);
+  const auto send_one = [&] { LocalCommunicator(network, 0).send(1, Tag::kBundle, {}); };
+  send_one();
+  const double began = monotonic_seconds();
+  network.rest(1, 0.05, 2);
+  CHECK(monotonic_seconds() - began >= 0.05);
+  std::thread sender([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    send_one();
+  });
+  network.rest(1, kLong, 2);
+  CHECK(monotonic_seconds() - began < kLong / 2);
+  sender.join();
+}
+
 TEST_CASE("local ranks: what is for another process's rank goes to the outbox") {
   LocalNetwork network(LocalRanks{.first = 2, .count = 2, .size = 6, .on_host = 6, .cores = 1});
   LocalCommunicator me(network, 3);
@@ -89,7 +105,7 @@ TEST_CASE("local ranks: a rank that fails ends those that wait, and its reason i
   const double began = monotonic_seconds();
   const auto run = [](Communicator& rank) {
     if (rank.rank() == 1) throw std::runtime_error("out of paint");
-    while (!rank.receive()) rank.rest(kLong);
+    while (!rank.receive()) rank.rest(kLong, 1);
   };
   CHECK_THROWS_WITH(run_on_threads(network, run), "out of paint");
   CHECK(monotonic_seconds() - began < kLong / 2);
