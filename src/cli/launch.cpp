@@ -91,13 +91,11 @@ constexpr SubprocessSettings kMpirunSettings{
 
 std::vector<std::string> mpirun_command(const Launch& launch, std::span<const std::string> words) {
   std::vector<std::string> command = {"mpirun", "-np", std::to_string(launch.processes)};
-  if (!launch.hostfile.empty()) {
-    command.insert(command.end(), {"--hostfile", absolute(launch.hostfile)});
-    // The system asks a silent connection between mpirun's daemons after 2 s, and gives it up after 4 more
-    // questions, one a second. By default that takes 8 minutes.
-    for (const auto& [name, value] : {std::pair("time", "2"), {"intvl", "1"}, {"probes", "4"}})
-      command.insert(command.end(), {"--mca", std::string("oob_tcp_keepalive_") + name, value});
-  }
+  if (!launch.hostfile.empty()) command.insert(command.end(), {"--hostfile", absolute(launch.hostfile)});
+  // The system asks a silent connection between mpirun's daemons after 2 s, and gives it up after 4 more
+  // questions, one a second. By default that takes 8 minutes. A batch system may name hosts, too.
+  for (const auto& [name, value] : {std::pair("time", "2"), {"intvl", "1"}, {"probes", "4"}})
+    command.insert(command.end(), {"--mca", std::string("oob_tcp_keepalive_") + name, value});
   if (launch.goes_on) command.emplace_back("--enable-recovery");
   // More ranks than cores is normal here: idle ranks sleep, and no rank may be bound to a core.
   command.insert(command.end(), {"--oversubscribe", "--bind-to", "none"});
@@ -128,7 +126,9 @@ int run_under_mpirun(const Launch& launch, std::span<const std::string> words,
   // A run that was asked to stop may still fail. The code of an mpirun that was ended says nothing.
   const bool failed = code >= kExitFailure && code <= kExitInput;
   if (stopped_by != 0 && (forced != 0 || !failed)) return 128 + stopped_by;
-  if (messages.loss() || code > kExitInput) {
+  // A run that goes on without what it has lost says itself how it ended.
+  const bool is_lost = messages.loss() && !messages.end_code();
+  if (is_lost || code > kExitInput) {
     throw std::runtime_error(messages.loss().value_or("mpirun ended with code " + std::to_string(code)) +
                              "; frames that are in place are whole, and --resume goes on after them");
   }

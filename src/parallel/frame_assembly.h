@@ -12,7 +12,7 @@ namespace pprt {
 
 class FrameAssembly {
  public:
-  // Of ranks that the order says are lost nothing is expected.
+  // Expects nothing of the ranks that the order calls lost.
   FrameAssembly(const FrameOrder& order, const TileGrid& grid, int ranks);
 
   // Takes in one rank's pixels, or a part of them. Throws ProtocolError when they come a second time.

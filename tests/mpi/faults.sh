@@ -5,6 +5,7 @@
 #   stopped         one rank is stopped for 2 s at 4 frames/s
 #   stopped-master  the same for rank 0
 #   lost            one rank is killed
+#   lost-go-on      the same with --go-on, in real time
 #   killed          the whole run is killed, TIMES times at random moments
 #   full            the disk is full
 #   read-only       the directory cannot be written to
@@ -168,6 +169,22 @@ case $fault in
     expect_equal out
     report "rank 2 of 3 was killed" \
       "exit 1 after $took ms, the rank named; $found frames in place, all whole; --resume made the others, all as undisturbed"
+    ;;
+  lost-go-on)
+    sed "s/frames [0-9]*/frames 56/" "$script" >long.anim
+    pprt-render spd:tree:5 long.anim -np 3 --go-on --progress none -o 'out/%04d.png' --stats ledger.ndjson 2>told &
+    run=$!
+    await_frames out 4
+    kill -KILL "$(rank_process $run 2)"
+    code=0
+    wait $run || code=$?
+    [[ $code == 0 ]] || { cat told >&2; fail "the run ended with code $code"; }
+    grep -q 'warning: no answer for 8 s from rank 2 on .*; the run goes on without' told ||
+      { cat told >&2; fail "nobody named the rank"; }
+    expect_frames out png 56
+    without=$(grep -c '"lost_ranks":\[2\],"stale_tiles":0' ledger.ndjson || true)
+    [[ $without -ge 10 ]] || fail "only $without frames are whole without the rank"
+    report "rank 2 of 3 was killed, --go-on" "all 56 frames, the last $without whole ones of two ranks; exit 0"
     ;;
   killed)
     began=$(date +%s%N)

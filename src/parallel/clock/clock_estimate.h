@@ -26,8 +26,8 @@ struct ClockExchange {
 
 // Estimates a rank's clock as NTP does (RFC 5905, s. 8 and 10). An answer was given at some moment between
 // question and receipt. So the middle of the two is wrong by at most half the round trip, and the shortest
-// round trips tell most. Of each eight exchanges the shortest counts; a line is put through the last 32 of
-// these, some four minutes at an exchange a second.
+// round trips tell most. The shortest of each eight exchanges counts. A line is put through the last 32 of
+// these: some four minutes, at an exchange a second.
 //
 // Ranks of one host share their clock: as long as every exchange allows it, the clocks count as the same one.
 class ClockEstimate {

@@ -157,8 +157,7 @@ void require_answers(int rank, int size) {
   }
   throw std::runtime_error(
       fmt::format("{} gets no answer from process {} within {} s; {}. If one of them does not lead to the "
-                  "other hosts, name the one "
-                  "that does: export OMPI_MCA_btl_tcp_if_include=NETWORK",
+                  "other hosts, name the one that does: export OMPI_MCA_btl_tcp_if_include=NETWORK",
                   own_host(), peers.front().rank, kPatience.count(), networks_here()));
 }
 

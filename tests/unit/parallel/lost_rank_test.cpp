@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
+#include "image/metrics.h"
 #include "parallel/loss_watch.h"
 #include "parallel/network/local_communicator.h"
 #include "unit/parallel/virtual_run.h"
@@ -21,13 +22,8 @@ SessionSettings real_time(BalanceMode balance = BalanceMode::kCombined) {
   return settings;
 }
 
-double mean_difference(const Image& a, const Image& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
-    const Color d = a.pixels[i] - b.pixels[i];
-    sum += std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
-  }
-  return sum / static_cast<double>(a.pixels.size());
+double rmse(const Image& a, const Image& b) {
+  return difference(a, b, 0).rmse;
 }
 
 TEST_CASE("lost ranks: the others take over, and the picture is whole again", "[realtime]") {
@@ -56,8 +52,8 @@ TEST_CASE("lost ranks: the others take over, and the picture is whole again", "[
       CHECK(std::count_if(run.frames.begin(), run.frames.end(), is_whole) >= 5);
       const VirtualRun undisturbed = run_session(4, settings, still_or_pan(settings, kFrames, shift));
       REQUIRE(undisturbed.frames.size() == kFrames);
-      CHECK(mean_difference(last.image, undisturbed.frames.back().image) < 0.02);
-      if (shift > 0) CHECK(mean_difference(run.frames[0].image, last.image) > 0.05);
+      CHECK(rmse(last.image, undisturbed.frames.back().image) < 0.02);
+      if (shift > 0) CHECK(rmse(run.frames[0].image, last.image) > 0.05);
     }
   }
 }
