@@ -36,7 +36,7 @@ start() {
   local frames=$1
   shift
   sed "s/frames [0-9]*/frames $((frames > 28 ? frames : 28))/" "$here/moving.anim" >script.anim
-  pprt-render spd:tree:5 script.anim --frames "1-$frames" -np 3 --hostfile hosts --progress none -o 'out/%04d.png' --stats ledger.ndjson \
+  pprt-render spd:tree:5 script.anim --frames "1-$frames" -np 3 --hostfile hosts --progress none -o "$work/out/%04d.png" --stats ledger.ndjson \
     "$@" 2>told &
   run=$!
 }
@@ -47,10 +47,10 @@ count_frames() { grep '"record":"frame"' ledger.ndjson | grep -c "$1" || true; }
 # No process of the run may be left on a host that can be reached.
 expect_nobody_left() {
   for ((i = 0; i < 200; ++i)); do
-    pgrep -f "$work/out|[ ]=out/%04d.png" >/dev/null || return 0
+    pgrep -f "=$work/out" >/dev/null || return 0
     sleep 0.05
   done
-  fail "processes are left: $(pgrep -af '[ ]=out/%04d.png')"
+  fail "processes are left: $(pgrep -af "=$work/out")"
 }
 
 case $case in

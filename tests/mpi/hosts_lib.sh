@@ -8,12 +8,15 @@ own_network() {
   local own=(unshare --net --uts --mount)
   if [[ -n ${PPRT_OWN_NETWORK:-} ]]; then return; fi
   if [[ $(id -u) != 0 ]]; then own+=(--map-root-user); fi
-  # /mnt holds what all hosts see.
+  # /mnt holds what all hosts see, the programs too: those may lie in /tmp.
   "${own[@]}" sh -c 'ip link add bridge0 type bridge && mount -t tmpfs none /mnt' 2>/dev/null || {
     echo "$(basename "$1"): no networks of one's own here" >&2
     exit 77
   }
-  PPRT_OWN_NETWORK=1 exec "${own[@]}" sh -c 'mount -t tmpfs none /mnt && TMPDIR=/mnt exec bash "$@"' sh "$@"
+  local programs
+  programs=$(dirname "$(command -v pprt-render)")
+  PPRT_OWN_NETWORK=1 exec "${own[@]}" sh -c 'mount -t tmpfs none /mnt && mkdir /mnt/bin && mount --bind "$1" /mnt/bin &&
+    shift && TMPDIR=/mnt PATH=/mnt/bin:$PATH exec bash "$@"' sh "$programs" "$@"
 }
 
 # make_hosts COUNT: hosts 10.84.0.1 to COUNT, named host1 and so on. The first is this process's own.
