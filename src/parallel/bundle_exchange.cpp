@@ -36,7 +36,8 @@ void BundleExchange::give_up(int rank) {
 
 void BundleExchange::send(int rank, bool concerns, Content content) {
   if (given_up_.contains(rank)) return;
-  if (!concerns && !policy_->sends_to_all()) return;
+  const bool is_owed = policy_->owes_bundle(rank, at_);
+  if (!concerns && !is_owed) return;
   const std::size_t sample_bytes = content.samples.size() * kSampleBytes;
   clock_.spend(Work::kSentSample, content.samples.size());
   const Bundle bundle{
@@ -44,13 +45,14 @@ void BundleExchange::send(int rank, bool concerns, Content content) {
       .epoch = at_.epoch,
       .round = at_.round,
       .done = content.done,
-      .rounds_under_way = policy_->delivery_delay(at_, sample_bytes),
+      .rounds_under_way = policy_->delivery_delay(rank, at_, sample_bytes),
       .progress = content.progress,
       .handshake = handshake_.send(rank),
       .transfers = std::vector<TileTransfer>(content.transfers.begin(), content.transfers.end()),
       .samples = std::move(content.samples)};
   Bytes bytes = encode(bundle);
   if (concerns) count(bundle, bytes.size());
+  if (policy_->counts_bundles()) receivers_.push_back(rank);
   network_.send(rank, Tag::kBundle, std::move(bytes));
 }
 
@@ -62,12 +64,20 @@ void BundleExchange::count(const Bundle& bundle, std::size_t encoded_size) {
   bytes_.progress += encoded_size - of_samples - of_transfers;
 }
 
+void BundleExchange::close_round() {
+  if (!policy_->counts_bundles()) return;
+  network_.send(0, Tag::kRoundSent, encode(RoundSent{at_.frame_index, at_.round, std::move(receivers_)}));
+  receivers_.clear();
+}
+
 std::vector<Inbox::Arrived> BundleExchange::receive() {
+  close_round();
   await_bundles([this] { return policy_->missing(inbox_, at_); });
   return read_handshakes(policy_->take_due(inbox_, at_));
 }
 
 void BundleExchange::await_seeds(std::span<const int> peers) {
+  close_round();
   await_bundles([&] { return policy_->missing_seeds(inbox_, at_, peers, clock_.frame_seconds()); });
 }
 

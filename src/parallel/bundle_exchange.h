@@ -17,8 +17,7 @@
 
 namespace pprt {
 
-// Bytes sent in one frame by kind (paper Fig. 9b). Counted are bundles that concern their receiver: those
-// that would be sent if ranks did not wait for each other, too.
+// Bytes sent in one frame by kind (paper Fig. 9b).
 struct BundleBytes {
   std::uint64_t samples = 0;
   std::uint64_t transfers = 0;
@@ -53,14 +52,16 @@ class BundleExchange {
   // Neither sends anything to this rank any more, nor expects anything of it.
   void give_up(int rank);
 
-  // Sends a bundle of this round to the rank. `concerns`: whether the content matters to it; if not, the
-  // policy or a pending reply of the handshake may call for a bundle all the same.
+  // Sends a bundle of this round to the rank. `concerns`: whether the content matters to it; if not, a bundle
+  // goes only where the policy asks for one.
   void send(int rank, bool concerns, Content content);
 
-  // Returns the bundles due in this round, by rank and then by sending; waits for them if the policy says so.
+  // All bundles of this round are sent. Returns those due in it, by rank and then by sending; waits for them
+  // if the policy says so.
   std::vector<Inbox::Arrived> receive();
 
-  // Waits for the seeds of `peers` (ascending), as long as the policy says.
+  // All bundles of this round are sent. Waits for the seeds of `peers` (ascending), as long as the policy
+  // says.
   void await_seeds(std::span<const int> peers);
 
   // Returns the bundles of frames before this one, or exactly those of this round.
@@ -84,6 +85,7 @@ class BundleExchange {
   void look() { inbox_.pump(); }
 
  private:
+  void close_round();
   void await_bundles(const std::function<std::size_t()>& count_missing);
   std::vector<Inbox::Arrived> read_handshakes(std::vector<Inbox::Arrived> bundles);
   void count(const Bundle& bundle, std::size_t encoded_size);
@@ -97,7 +99,8 @@ class BundleExchange {
   std::set<int> given_up_;  // ranks
   ExchangeRound at_;
   BundleBytes bytes_;
-  unsigned polls_ = 0;  // wraps
+  std::vector<std::int32_t> receivers_;  // of this round's bundles
+  unsigned polls_ = 0;                   // wraps
 };
 
 }  // namespace pprt

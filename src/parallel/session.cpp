@@ -12,6 +12,7 @@
 #include "parallel/network/inbox.h"
 #include "parallel/network/wire.h"
 #include "parallel/rank_clocks.h"
+#include "parallel/round_census.h"
 #include "parallel/worker.h"
 #include "pipeline/lattice/lattice_node.h"
 
@@ -116,9 +117,12 @@ void run_as_master(Communicator& network, const SessionSettings& settings, const
   Master master(network, settings, partition, ranks_per_core(network), source, sink);
   RankClocks clocks(network);
   LossWatch losses(events.loss, clocks, network.size());
+  RoundCensus census(network);
   const auto take_in = [&](const Message& message) {
     if (message.tag == Tag::kClockPong) {
       clocks.receive(message);
+    } else if (message.tag == Tag::kRoundSent) {
+      census.receive(message);
     } else {
       master.handle(message);
     }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -22,31 +23,38 @@ struct ExchangeRound {
 // The round of seeds and cast samples, before the first packet.
 inline constexpr int kSeedRound = 0;
 
+// More than any number of messages.
+inline constexpr std::size_t kUnknownNumber = std::numeric_limits<std::size_t>::max();
+
 // One rank's policy. make_clocks.h makes it; the two kinds are
-//   LockstepExchange   work clock: every rank sends one bundle a round to every other, and awaits theirs
-//   FreeExchange       wall clock: a rank sends what concerns the receiver, and takes what has come
+//   LockstepExchange   work clock: a rank awaits all bundles that are sent to it in a round
+//   FreeExchange       wall clock: it takes what has come
 class ExchangePolicy {
  public:
   virtual ~ExchangePolicy() = default;
 
   // --- Sending
 
-  // Whether a rank is sent a bundle in every round, even one that does not concern it.
-  virtual bool sends_to_all() const = 0;
+  // Whether the master counts each round's bundles, so that every rank knows how many to wait for.
+  virtual bool counts_bundles() const = 0;
+
+  // Whether a rank must be sent a bundle in this round, even one that does not concern it: samples that a
+  // slow network has kept arrive with it.
+  virtual bool owes_bundle(int rank, const ExchangeRound& at) = 0;
 
   // Whether progress is sent to neighbours after this round's packet, even without a sample to send.
   virtual bool is_progress_due(int round) const = 0;
 
-  // Delivery delay, in rounds, of samples that are sent at `at`; bytes sent earlier in that round go first. 0
-  // where the network itself takes its time.
-  virtual int delivery_delay(const ExchangeRound& at, std::size_t bytes) = 0;
+  // Delivery delay, in rounds, of samples that are sent to a rank at `at`; bytes sent earlier in that round
+  // go first. 0 where the network itself takes its time.
+  virtual int delivery_delay(int rank, const ExchangeRound& at, std::size_t bytes) = 0;
 
   // Whether the former owner of a tile sends its pixels too, because the new owner's may come too late.
   virtual bool sends_substitute_pixels() const = 0;
 
   // --- Receiving
 
-  // How many of the bundles that this round waits for have not arrived.
+  // How many of the bundles that this round waits for have not arrived; kUnknownNumber before that is known.
   virtual std::size_t missing(const Inbox& inbox, const ExchangeRound& at) const = 0;
 
   // Removes the bundles due in this round and returns them, ordered by rank and then by sending.

@@ -16,9 +16,10 @@ class FreeExchange final : public ExchangePolicy {
   explicit FreeExchange(double period_s)
       : patience_s_(period_s > 0 ? kSeedPatience * period_s : std::numeric_limits<double>::infinity()) {}
 
-  bool sends_to_all() const override { return false; }
+  bool counts_bundles() const override { return false; }
+  bool owes_bundle(int, const ExchangeRound&) override { return false; }
   bool is_progress_due(int round) const override { return round % kRoundsPerProgress == 0; }
-  int delivery_delay(const ExchangeRound&, std::size_t) override { return 0; }
+  int delivery_delay(int, const ExchangeRound&, std::size_t) override { return 0; }
   bool sends_substitute_pixels() const override { return true; }
 
   std::size_t missing(const Inbox&, const ExchangeRound&) const override { return 0; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include "parallel/clock/work_units.h"
@@ -16,17 +17,26 @@ int round_number(const ExchangeRound& at) {
 
 }  // namespace
 
-int LockstepExchange::delivery_delay(const ExchangeRound& at, std::size_t bytes) {
+int LockstepExchange::delivery_delay(int rank, const ExchangeRound& at, std::size_t bytes) {
   constexpr double kMostRounds = 1e6;
   if (std::exchange(sending_, at) != at) link_bytes_ = 0;
   link_bytes_ += static_cast<double>(bytes);
   const double seconds = machine_.latency_s + link_bytes_ / machine_.bytes_per_second;
-  return static_cast<int>(std::min(seconds * machine_.units_per_second / round_units_, kMostRounds));
+  const int rounds =
+      static_cast<int>(std::min(seconds * machine_.units_per_second / round_units_, kMostRounds));
+  if (rounds > 0 && bytes > 0) owed_.emplace(round_number(at) + rounds, rank);
+  return rounds;
+}
+
+bool LockstepExchange::owes_bundle(int rank, const ExchangeRound& at) {
+  return owed_.erase({round_number(at), rank}) > 0;
 }
 
 std::size_t LockstepExchange::missing(const Inbox& inbox, const ExchangeRound& at) const {
-  const auto of_this_round = [&](const Inbox::Arrived& a) { return is_of_round(a, at); };
-  return static_cast<std::size_t>(ranks_ - 1) - inbox.count_bundles(of_this_round);
+  if (!counts_bundles()) return 0;
+  const std::optional<std::size_t> due = inbox.bundles_due(at.frame_index, at.round);
+  if (!due) return kUnknownNumber;
+  return *due - inbox.count_bundles([&](const Inbox::Arrived& a) { return is_of_round(a, at); });
 }
 
 // Returns the round's bundles, their samples replaced by those that arrive in this round, whenever these were
@@ -36,19 +46,20 @@ std::vector<Inbox::Arrived> LockstepExchange::take_due(Inbox& inbox, const Excha
       inbox.take_bundles([&](const Inbox::Arrived& a) { return is_of_round(a, at); });
   const int now = round_number(at);
   for (Inbox::Arrived& a : bundles) {
-    if (a.bundle.rounds_under_way == 0) continue;
+    if (a.bundle.rounds_under_way == 0 || a.bundle.samples.empty()) continue;
     under_way_.push_back(
         {.from = a.from, .due = now + a.bundle.rounds_under_way, .samples = std::move(a.bundle.samples)});
     a.bundle.samples.clear();
   }
-  for (const UnderWay& u : under_way_) {
-    if (u.due > now) continue;
+  std::erase_if(under_way_, [&](const UnderWay& u) {
+    if (u.due > now) return false;
     const auto from_same = std::find_if(bundles.begin(), bundles.end(),
                                         [&](const Inbox::Arrived& a) { return a.from == u.from; });
+    if (from_same == bundles.end()) throw ProtocolError("a bundle with samples that were delayed is missing");
     std::vector<Sample>& samples = from_same->bundle.samples;
     samples.insert(samples.end(), u.samples.begin(), u.samples.end());
-  }
-  std::erase_if(under_way_, [now](const UnderWay& u) { return u.due <= now; });
+    return true;
+  });
   return bundles;
 }
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <set>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "parallel/clock/exchange_policy.h"
@@ -10,17 +12,18 @@
 
 namespace pprt {
 
-// Simulates the machine's network: a slow one delays samples by whole rounds. All else in a bundle is small
-// and arrives in its own round.
+// Bundles go to those that they concern, as on the wall clock. Simulates the machine's network: a slow one
+// delays samples by whole rounds. All else in a bundle is small and arrives in its own round.
 class LockstepExchange final : public ExchangePolicy {
  public:
   // `round_units`: work units of one round.
   LockstepExchange(int ranks, const Machine& machine, double round_units)
       : ranks_(ranks), machine_(machine), round_units_(round_units) {}
 
-  bool sends_to_all() const override { return true; }
+  bool counts_bundles() const override { return ranks_ > 1; }
+  bool owes_bundle(int rank, const ExchangeRound& at) override;
   bool is_progress_due(int) const override { return true; }
-  int delivery_delay(const ExchangeRound& at, std::size_t bytes) override;
+  int delivery_delay(int rank, const ExchangeRound& at, std::size_t bytes) override;
   bool sends_substitute_pixels() const override { return false; }
 
   std::size_t missing(const Inbox& inbox, const ExchangeRound& at) const override;
@@ -29,7 +32,10 @@ class LockstepExchange final : public ExchangePolicy {
                             double) const override {
     return missing(inbox, at);
   }
-  void begin_triangulation() override { under_way_.clear(); }
+  void begin_triangulation() override {
+    under_way_.clear();
+    owed_.clear();
+  }
   bool rests_when_idle() const override { return false; }
 
  private:
@@ -43,9 +49,10 @@ class LockstepExchange final : public ExchangePolicy {
   int ranks_;
   Machine machine_;
   double round_units_;
-  ExchangeRound sending_;  // of what was sent last
-  double link_bytes_ = 0;  // sent in that round
-  std::vector<UnderWay> under_way_;
+  ExchangeRound sending_;               // of what was sent last
+  double link_bytes_ = 0;               // sent in that round
+  std::vector<UnderWay> under_way_;     // to this rank
+  std::set<std::pair<int, int>> owed_;  // by this rank: round_number() of the delivery, receiver
 };
 
 }  // namespace pprt

@@ -18,7 +18,14 @@ enum class Tag : int {
   kFrameOrder,     // master -> rank, one frame ahead: the next frame, or the end
   kBundle,         // rank -> rank, before and during sampling: samples that the receiver's region needs
   kPixels,         // rank -> master, after reconstruction: pixels and what they cost
+  kRoundSent,      // work clock: rank -> master, after a round's bundles: whom they went to
+  kRoundDue,       // work clock: master -> rank, when all have sent theirs: how many come to it
 };
+
+// Bundles may come in numbers; whoever rests is woken by each message of another kind.
+constexpr bool wakes_alone(Tag tag) {
+  return tag != Tag::kBundle;
+}
 
 struct Message {
   int from = 0;
@@ -51,8 +58,8 @@ class Communicator {
   // The next message that has arrived from anyone.
   virtual std::optional<Message> receive() = 0;
 
-  // Waits until so many messages may have arrived, at most so many seconds: idle ranks must not take the
-  // cores from busy ones.
+  // Waits until so many messages may have arrived, or one that wakes alone, at most so many seconds: idle
+  // ranks must not take the cores from busy ones.
   virtual void rest(double at_most_s, std::size_t messages) = 0;
 
   // Gives up a rank that does not answer any more: what is sent to it from now on is dropped, and finish()

@@ -23,7 +23,11 @@ void Inbox::accept(const Message& message) {
     case Tag::kBundle:
       bundles_.push_back({message.from, decode_bundle(message.payload)});
       return;
+    case Tag::kRoundDue:
+      due_ = decode_round_due(message.payload);
+      return;
     case Tag::kPixels:
+    case Tag::kRoundSent:
     case Tag::kClockPing:
     case Tag::kClockPong:
       to_session_(message);
@@ -51,6 +55,11 @@ std::vector<Inbox::Arrived> Inbox::take_bundles(const std::function<bool(const A
   std::stable_sort(taken.begin(), taken.end(),
                    [](const Arrived& a, const Arrived& b) { return a.from < b.from; });
   return taken;
+}
+
+std::optional<std::size_t> Inbox::bundles_due(int frame_index, int round) const {
+  if (!due_ || due_->frame_index != frame_index || due_->round != round) return std::nullopt;
+  return due_->bundles;
 }
 
 std::size_t Inbox::count_bundles(const std::function<bool(const Arrived&)>& wanted) const {

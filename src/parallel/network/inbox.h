@@ -12,7 +12,8 @@
 
 namespace pprt {
 
-// Receives everything and sorts it. Orders and bundles wait here; all else is passed on at once.
+// Receives everything and sorts it. Orders, bundles and their number in a round wait here; all else is passed
+// on at once.
 class Inbox {
  public:
   struct Arrived {
@@ -20,9 +21,9 @@ class Inbox {
     Bundle bundle;
   };
 
-  // `to_session` is called with pixels, and with questions about clocks and their answers. `after_look` is
-  // called at the end of every pump(): rank 0 keeps the deadlines by it. `longest_rest_s`: seconds between
-  // two looks while nothing arrives.
+  // `to_session` is called with pixels, with questions about clocks and their answers, and with RoundSent.
+  // `after_look` is called at the end of every pump(): rank 0 keeps the deadlines by it. `longest_rest_s`:
+  // seconds between two looks while nothing arrives.
   Inbox(
       Communicator& network, double longest_rest_s, std::function<void(const Message&)> to_session,
       std::function<void()> after_look = [] {})
@@ -51,6 +52,9 @@ class Inbox {
   // All bundles that are here.
   const std::vector<Arrived>& bundles() const { return bundles_; }
 
+  // Work clock: how many bundles come in this round; empty while the master has not said.
+  std::optional<std::size_t> bundles_due(int frame_index, int round) const;
+
   // How many bundles that `wanted` accepts are here.
   std::size_t count_bundles(const std::function<bool(const Arrived&)>& wanted) const;
 
@@ -61,6 +65,7 @@ class Inbox {
   std::function<void()> after_look_;
   std::deque<FrameOrder> orders_;
   std::vector<Arrived> bundles_;
+  std::optional<RoundDue> due_;  // said last
 };
 
 }  // namespace pprt

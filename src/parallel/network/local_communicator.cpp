@@ -20,12 +20,12 @@ LocalNetwork::LocalNetwork(const LocalRanks& ranks)
       given_up_(static_cast<std::size_t>(ranks.size)) {}
 
 template <class Content>
-void LocalNetwork::put(Box<Content>& box, Content content) {
-  bool wakes = false;
+void LocalNetwork::put(Box<Content>& box, Content content, bool wakes) {
   {
     const std::lock_guard lock(box.mutex);
     box.contents.push_back(std::move(content));
-    wakes = box.contents.size() >= box.awaited;
+    box.wakes = box.wakes || wakes;
+    wakes = box.wakes || box.contents.size() >= box.awaited;
   }
   if (wakes) box.arrival.notify_one();
 }
@@ -34,7 +34,10 @@ template <class Content>
 std::optional<Content> LocalNetwork::take(Box<Content>& box) {
   if (failed_) throw std::runtime_error("another rank has failed");
   const std::lock_guard lock(box.mutex);
-  if (box.contents.empty()) return std::nullopt;
+  if (box.contents.empty()) {
+    box.wakes = false;
+    return std::nullopt;
+  }
   Content content = std::move(box.contents.front());
   box.contents.pop_front();
   return content;
@@ -45,16 +48,17 @@ void LocalNetwork::rest_at(Box<Content>& box, double at_most_s, std::size_t awai
   std::unique_lock lock(box.mutex);
   box.awaited = awaited;
   box.arrival.wait_for(lock, std::chrono::duration<double>(at_most_s),
-                       [&] { return box.contents.size() >= awaited || failed_; });
+                       [&] { return box.wakes || box.contents.size() >= awaited || failed_; });
 }
 
 void LocalNetwork::deliver(int to, Message message) {
   if (is_given_up(to)) return;
   const int here = to - ranks_.first;
   if (here >= 0 && here < ranks_.count) {
-    put(box_of(to), std::move(message));
+    const bool wakes = wakes_alone(message.tag);
+    put(box_of(to), std::move(message), wakes);
   } else {
-    put(outbox_, {to, std::move(message)});
+    put(outbox_, {to, std::move(message)}, true);
   }
 }
 

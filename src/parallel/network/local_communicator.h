@@ -65,11 +65,12 @@ class LocalNetwork {
     std::mutex mutex;
     std::condition_variable arrival;
     std::deque<Content> contents;
+    bool wakes = false;       // one of them wakes alone
     std::size_t awaited = 1;  // contents that wake whoever waits
   };
   Box<Message>& box_of(int rank) { return boxes_.at(static_cast<std::size_t>(rank - ranks_.first)); }
   template <class Content>
-  void put(Box<Content>& box, Content content);
+  void put(Box<Content>& box, Content content, bool wakes);
   template <class Content>
   std::optional<Content> take(Box<Content>& box);
   template <class Content>

@@ -195,4 +195,34 @@ PixelMessage decode_pixels(std::span<const std::byte> bytes) {
   return pixels;
 }
 
+Bytes encode(const RoundSent& sent) {
+  WireWriter out;
+  out.put(sent.frame_index), out.put(sent.round);
+  out.put_all(std::span<const std::int32_t>(sent.receivers));
+  return out.take();
+}
+
+RoundSent decode_round_sent(std::span<const std::byte> bytes) {
+  WireReader in(bytes);
+  RoundSent sent;
+  in.get(sent.frame_index), in.get(sent.round);
+  in.get_all(sent.receivers);
+  in.expect_end();
+  return sent;
+}
+
+Bytes encode(const RoundDue& due) {
+  WireWriter out;
+  out.put(due.frame_index), out.put(due.round), out.put(due.bundles);
+  return out.take();
+}
+
+RoundDue decode_round_due(std::span<const std::byte> bytes) {
+  WireReader in(bytes);
+  RoundDue due;
+  in.get(due.frame_index), in.get(due.round), in.get(due.bundles);
+  in.expect_end();
+  return due;
+}
+
 }  // namespace pprt

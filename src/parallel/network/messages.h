@@ -68,6 +68,20 @@ struct Bundle {
   std::vector<Sample> samples = {};
 };
 
+// Work clock. A rank to the master: all its bundles of a round are sent.
+struct RoundSent {
+  std::int32_t frame_index = 0;
+  std::int32_t round = 0;
+  std::vector<std::int32_t> receivers;  // one of each bundle
+};
+
+// The master to a rank, once all have said so: how many bundles of that round come to it.
+struct RoundDue {
+  std::int32_t frame_index = 0;
+  std::int32_t round = 0;
+  std::uint32_t bundles = 0;
+};
+
 // CPU time by stage, milliseconds (work clock: work units / 1e6).
 struct StageTimes {
   double sampling = 0;
@@ -132,6 +146,8 @@ Bytes encode(const ClockPong& pong);
 Bytes encode(const FrameOrder& order);
 Bytes encode(const Bundle& bundle);
 Bytes encode(const PixelMessage& pixels);
+Bytes encode(const RoundSent& sent);
+Bytes encode(const RoundDue& due);
 
 // Throw ProtocolError on bytes that are no such message.
 ClockPing decode_clock_ping(std::span<const std::byte> bytes);
@@ -139,5 +155,7 @@ ClockPong decode_clock_pong(std::span<const std::byte> bytes);
 FrameOrder decode_frame_order(std::span<const std::byte> bytes);
 Bundle decode_bundle(std::span<const std::byte> bytes);
 PixelMessage decode_pixels(std::span<const std::byte> bytes);
+RoundSent decode_round_sent(std::span<const std::byte> bytes);
+RoundDue decode_round_due(std::span<const std::byte> bytes);
 
 }  // namespace pprt

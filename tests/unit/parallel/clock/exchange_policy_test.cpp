@@ -22,6 +22,12 @@ struct Network {
     senders[from - 1].send(0, Tag::kBundle, encode(bundle));
     inbox.pump();
   }
+
+  // Rank 0 is told how many bundles come to it in a round of frame 0.
+  void count(int round, std::uint32_t bundles) {
+    receiver.send(0, Tag::kRoundDue, encode(RoundDue{.round = round, .bundles = bundles}));
+    inbox.pump();
+  }
 };
 
 std::unique_ptr<ExchangePolicy> policy(ClockKind clock, double frames_per_second = 10) {
@@ -45,15 +51,19 @@ std::size_t samples_in(const std::vector<Inbox::Arrived>& bundles) {
   return count;
 }
 
-TEST_CASE("exchange policy: on the work clock a round is ready when every other rank's bundle is here") {
+TEST_CASE("exchange policy: on the work clock a round is ready when all bundles that were counted are here") {
   Network network;
   const auto lockstep = policy(ClockKind::kWork), free = policy(ClockKind::kWall);
   const ExchangeRound at{.frame_index = 0, .epoch = 0, .round = 3};
-  CHECK(lockstep->missing(network.inbox, at) > 0);
+  CHECK(lockstep->missing(network.inbox, at) == kUnknownNumber);
   CHECK(free->missing(network.inbox, at) == 0);
   network.send(1, {.round = 3});
   network.send(2, {.round = 4});
-  CHECK(lockstep->missing(network.inbox, at) > 0);
+  CHECK(lockstep->missing(network.inbox, at) == kUnknownNumber);
+  network.count(2, 2);
+  CHECK(lockstep->missing(network.inbox, at) == kUnknownNumber);
+  network.count(3, 2);
+  CHECK(lockstep->missing(network.inbox, at) == 1);
   network.send(2, {.round = 3});
   CHECK(lockstep->missing(network.inbox, at) == 0);
   CHECK(lockstep->take_due(network.inbox, at).size() == 2);
@@ -90,11 +100,25 @@ TEST_CASE(
     "exchange policy: the work clock delays samples by latency and by the bytes of a round, no other clock") {
   const auto lockstep = policy(ClockKind::kWork);  // a round takes a millisecond
   const ExchangeRound first{.frame_index = 0, .epoch = 0, .round = 1}, next{.frame_index = 0, .round = 2};
-  CHECK(lockstep->delivery_delay(first, 0) == 0);
-  CHECK(lockstep->delivery_delay(first, 1000) == 1);  // half a millisecond of latency and one for the bytes
-  CHECK(lockstep->delivery_delay(first, 1000) == 2);  // the others go first
-  CHECK(lockstep->delivery_delay(next, 1000) == 1);
-  CHECK(policy(ClockKind::kWall)->delivery_delay(first, 1'000'000) == 0);
+  CHECK(lockstep->delivery_delay(1, first, 0) == 0);
+  CHECK(lockstep->delivery_delay(1, first, 1000) ==
+        1);  // half a millisecond of latency and one for the bytes
+  CHECK(lockstep->delivery_delay(1, first, 1000) == 2);  // the others go first
+  CHECK(lockstep->delivery_delay(1, next, 1000) == 1);
+  CHECK(policy(ClockKind::kWall)->delivery_delay(1, first, 1'000'000) == 0);
+}
+
+TEST_CASE("exchange policy: the round in which delayed samples arrive has a bundle to arrive with") {
+  const auto lockstep = policy(ClockKind::kWork);
+  const auto at = [](int frame, int round) { return ExchangeRound{.frame_index = frame, .round = round}; };
+  CHECK(lockstep->delivery_delay(2, at(0, 23), 2000) == 2);
+  CHECK_FALSE(lockstep->owes_bundle(2, at(0, 24)));
+  CHECK_FALSE(lockstep->owes_bundle(1, at(1, 1)));
+  CHECK(lockstep->owes_bundle(2, at(1, 1)));
+  CHECK_FALSE(lockstep->owes_bundle(2, at(1, 1)));  // once
+  CHECK(lockstep->delivery_delay(2, at(1, 1), 2000) == 2);
+  lockstep->begin_triangulation();
+  CHECK_FALSE(lockstep->owes_bundle(2, at(1, 3)));
 }
 
 TEST_CASE("exchange policy: delayed samples arrive in their round, in the next frame if need be, or never") {

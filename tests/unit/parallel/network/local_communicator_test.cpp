@@ -71,6 +71,23 @@ TEST_CASE("local ranks: a rank that waits for two messages sleeps through the fi
   sender.join();
 }
 
+TEST_CASE("local ranks: who waits for many bundles wakes for a message of another kind") {
+  LocalNetwork network(2);
+  LocalCommunicator sender(network, 0), receiver(network, 1);
+  constexpr std::size_t kMany = 1000;
+  sender.send(1, Tag::kBundle, {});
+  sender.send(1, Tag::kRoundDue, {});
+  const double began = monotonic_seconds();
+  receiver.rest(kLong, kMany);
+  CHECK(monotonic_seconds() - began < kLong / 2);
+  while (receiver.receive()) {
+  }
+  sender.send(1, Tag::kBundle, {});
+  const double later = monotonic_seconds();
+  receiver.rest(0.05, kMany);  // the other one has been taken
+  CHECK(monotonic_seconds() - later >= 0.05);
+}
+
 TEST_CASE("local ranks: what is for another process's rank goes to the outbox") {
   LocalNetwork network(LocalRanks{.first = 2, .count = 2, .size = 6, .on_host = 6, .cores = 1});
   LocalCommunicator me(network, 3);

@@ -71,6 +71,11 @@ TEST_CASE("docs/protocol.md: its size formulas are those of the encoders") {
   CHECK(text.find("once a second from then on | `" + n(encode(ClockPing{}).size()) + "` |") !=
         std::string::npos);
   CHECK(text.find("with its time | `" + n(encode(ClockPong{}).size()) + "` |") != std::string::npos);
+  RoundSent sent;
+  const std::size_t to_nobody = encode(sent).size();
+  sent.receivers.resize(1);
+  CHECK(states(n(to_nobody) + " + " + n(encode(sent).size() - to_nobody) + " b"));
+  CHECK(text.find("in that round | `" + n(encode(RoundDue{}).size()) + "` |") != std::string::npos);
   CHECK(text.find("report (" + n(sizeof(RankReport)) + ")") != std::string::npos);
 }
 
@@ -91,7 +96,8 @@ TEST_CASE("docs/protocol.md: its tags are those of the communicator") {
   const std::string text = page();
   const std::vector<std::pair<Tag, std::string>> tags = {
       {Tag::kClockPing, "kClockPing"},   {Tag::kClockPong, "kClockPong"}, {Tag::kStart, "kStart"},
-      {Tag::kFrameOrder, "kFrameOrder"}, {Tag::kBundle, "kBundle"},       {Tag::kPixels, "kPixels"}};
+      {Tag::kFrameOrder, "kFrameOrder"}, {Tag::kBundle, "kBundle"},       {Tag::kPixels, "kPixels"},
+      {Tag::kRoundSent, "kRoundSent"},   {Tag::kRoundDue, "kRoundDue"}};
   for (const auto& [tag, name] : tags) {
     const std::string row = "| " + std::to_string(static_cast<int>(tag)) + " `" + name + "` |";
     INFO(row);
