@@ -40,16 +40,15 @@ void BundleExchange::send(int rank, bool concerns, Content content) {
   if (!concerns && !is_owed) return;
   const std::size_t sample_bytes = content.samples.size() * kSampleBytes;
   clock_.spend(Work::kSentSample, content.samples.size());
-  const Bundle bundle{
-      .frame_index = at_.frame_index,
-      .epoch = at_.epoch,
-      .round = at_.round,
-      .done = content.done,
-      .rounds_under_way = policy_->delivery_delay(rank, at_, sample_bytes),
-      .progress = content.progress,
-      .handshake = handshake_.send(rank),
-      .transfers = std::vector<TileTransfer>(content.transfers.begin(), content.transfers.end()),
-      .samples = std::move(content.samples)};
+  const Bundle bundle{.frame_index = at_.frame_index,
+                      .epoch = at_.epoch,
+                      .round = at_.round,
+                      .done = content.done,
+                      .rounds_under_way = policy_->delivery_delay(rank, at_, sample_bytes),
+                      .progress = content.progress,
+                      .handshake = handshake_.send(rank),
+                      .tiles = std::move(content.tiles),
+                      .samples = std::move(content.samples)};
   Bytes bytes = encode(bundle);
   if (concerns) count(bundle, bytes.size());
   if (policy_->counts_bundles()) receivers_.push_back(rank);
@@ -58,10 +57,10 @@ void BundleExchange::send(int rank, bool concerns, Content content) {
 
 void BundleExchange::count(const Bundle& bundle, std::size_t encoded_size) {
   const std::size_t of_samples = bundle.samples.size() * kSampleBytes;
-  const std::size_t of_transfers = bundle.transfers.size() * sizeof(TileTransfer);
+  const std::size_t of_tiles = news_bytes(bundle.tiles);
   bytes_.samples += of_samples;
-  bytes_.transfers += of_transfers;
-  bytes_.progress += encoded_size - of_samples - of_transfers;
+  bytes_.tiles += of_tiles;
+  bytes_.progress += encoded_size - of_samples - of_tiles;
 }
 
 void BundleExchange::close_round() {
@@ -96,21 +95,17 @@ std::vector<Inbox::Arrived> BundleExchange::read_handshakes(std::vector<Inbox::A
   for (const auto& [from, bundle] : bundles) {
     if (given_up_.contains(from)) continue;
     handshake_.receive(from, bundle.handshake);
-    if (std::any_of(bundle.transfers.begin(), bundle.transfers.end(),
-                    [this](const TileTransfer& t) { return t.owner == network_.rank(); })) {
-      handshake_.transfer_received(from);
-    }
+    if (!bundle.tiles.given.empty()) handshake_.transfer_received(from);
   }
   return bundles;
 }
 
-std::vector<TileTransfer> BundleExchange::earlier_transfers() const {
-  std::vector<TileTransfer> transfers;
+TileNews BundleExchange::earlier_news() const {
+  TileNews news;
   for (const auto& [from, bundle] : inbox_.bundles()) {
-    if (bundle.frame_index < at_.frame_index)
-      transfers.insert(transfers.end(), bundle.transfers.begin(), bundle.transfers.end());
+    if (bundle.frame_index < at_.frame_index) news.append(bundle.tiles);
   }
-  return transfers;
+  return news;
 }
 
 void BundleExchange::await(const std::function<bool()>& condition) {

@@ -20,7 +20,7 @@ namespace pprt {
 // Bytes sent in one frame by kind (paper Fig. 9b).
 struct BundleBytes {
   std::uint64_t samples = 0;
-  std::uint64_t transfers = 0;
+  std::uint64_t tiles = 0;     // who owns them
   std::uint64_t progress = 0;  // all else
 };
 
@@ -31,7 +31,7 @@ class BundleExchange {
   struct Content {
     bool done = false;           // the sender has reached its goal
     RankProgress progress = {};  // of the sender
-    std::span<const TileTransfer> transfers = {};
+    TileNews tiles = {};
     std::vector<Sample> samples = {};
   };
 
@@ -68,8 +68,8 @@ class BundleExchange {
   std::vector<Inbox::Arrived> take_earlier();
   std::vector<Inbox::Arrived> take_of_round();
 
-  // Transfers in bundles of frames before this one that have not been taken.
-  std::vector<TileTransfer> earlier_transfers() const;
+  // What bundles of frames before this one that have not been taken say of tiles.
+  TileNews earlier_news() const;
 
   // Takes in messages until the condition holds. The waiting counts as idle.
   void await(const std::function<bool()>& condition);

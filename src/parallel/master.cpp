@@ -34,9 +34,18 @@ void Master::frame_begun() {
 // Where all ranks are waited for, one that falls behind holds back the orders: its frames would pile up.
 void Master::order_if_due() {
   constexpr std::size_t kMostPendingFrames = 4;
-  if (!order_is_due_ || frames_.size() >= kMostPendingFrames) return;
+  if (!order_is_due_ || frames_.size() >= kMostPendingFrames || awaits_reports()) return;
   order_is_due_ = false;
   order_next();
+}
+
+// After a camera cut little is known of what tiles cost. The next frames are better ordered a little later,
+// with a partition, than at once and without.
+bool Master::awaits_reports() const {
+  constexpr int kFramesToKnow = 2;
+  const bool is_unknown = next_index_ - last_cut_ <= kFramesToKnow;
+  return is_unknown && !frames_.empty() && network_.size() > 1 && settings_.frames_per_second > 0 &&
+         balancer_.repartitions();
 }
 
 void Master::order_next() {
@@ -55,6 +64,7 @@ void Master::order_next() {
   if (clock_->keeps_deadlines() && clock_->now_s() >= order.deadline_s + kGraceSeconds)
     frame.overdue_since_s = order.deadline_s;
   frames_.emplace(order.index, std::move(frame));
+  if (request->cut) last_cut_ = order.index;
   before_ = request;
   ++next_index_;
   send(std::move(order));
@@ -187,6 +197,7 @@ void Master::deliver_first() {
 void Master::learn_from(const PendingFrame& frame) {
   const FrameOrder& order = frame.assembly.order();
   FrameReports reports{.is_whole = frame.assembly.is_whole(),
+                       .generation = order.generation,
                        .accumulates = order.carry == Carry::kAccumulate,
                        .tiles = frame.assembly.tiles_of_ranks(),
                        .speeds = {}};

@@ -103,6 +103,7 @@ class Master {
   };
 
   void order_if_due();
+  bool awaits_reports() const;
   void order_next();
   FrameOrder make_order(const FrameRequest& request);
   Carry carry_into(const FrameRequest& request) const;
@@ -134,6 +135,7 @@ class Master {
   bool order_is_due_ = false;           // but too many frames are not delivered yet
   bool ended_ = false;
   int next_index_ = 0;
+  int last_cut_ = 0;  // index of the frame
 };
 
 }  // namespace pprt

@@ -6,6 +6,16 @@
 #include <utility>
 
 namespace pprt {
+namespace {
+
+std::vector<OwnerChange> changes_of(const std::vector<TileTransfer>& transfers) {
+  std::vector<OwnerChange> changes;
+  changes.reserve(transfers.size());
+  for (const TileTransfer& transfer : transfers) changes.push_back(transfer.change());
+  return changes;
+}
+
+}  // namespace
 
 TileOwnership::TileOwnership(const SessionSettings& settings, int rank, int ranks, RegionSampler& sampler,
                              CostEstimator& costs, TransferHandshake& handshake, FrameClock& clock,
@@ -59,9 +69,11 @@ std::vector<TileTransfer> TileOwnership::give_tiles(bool fresh_mesh) {
   const double most_samples = settings_.frames_per_second > 0
                                   ? static_cast<double>(clock_.affordable(Work::kReceivedSample, 0.1))
                                   : std::numeric_limits<double>::infinity();
-  handshake_.set_giving(balancer_.wants_to_give(refined, samples.neighbours(), handshake_.is_giving()));
+  const double elapsed = clock_.sampling_share();
+  handshake_.set_giving(
+      balancer_.wants_to_give(refined, samples.neighbours(), elapsed, handshake_.is_giving()));
   const std::vector<TileTransfer> transfers =
-      balancer_.choose_transfers(refined, samples, handshake_, most_samples);
+      balancer_.choose_transfers(refined, samples, handshake_, elapsed, most_samples);
   for (auto first = transfers.begin(); first != transfers.end();) {
     const int taker = first->owner;
     std::vector<int> tiles;
@@ -70,8 +82,20 @@ std::vector<TileTransfer> TileOwnership::give_tiles(bool fresh_mesh) {
     handshake_.transfer_sent(taker);
     given_.insert(given_.end(), tiles.begin(), tiles.end());
   }
-  make_true(transfers);
+  make_true(changes_of(transfers));
   return transfers;
+}
+
+std::vector<OwnerChange> TileOwnership::take_gains() {
+  constexpr double kLateEnough = 0.9;  // of the sampling time; tiles are given before
+  if (settings_.frames_per_second == 0 || clock_.sampling_share() < kLateEnough) return {};
+  const Partition& partition = sampler_.samples().partition();
+  std::vector<OwnerChange> gains;
+  for (const std::int32_t tile : std::exchange(gained_, {})) {
+    const auto t = static_cast<std::size_t>(tile);
+    if (partition.owner[t] == rank_) gains.push_back({tile, rank_, partition.version[t]});
+  }
+  return gains;
 }
 
 RankProgress TileOwnership::progress() {
@@ -83,32 +107,40 @@ RankProgress TileOwnership::progress() {
   return balancer_.progress(refined, elapsed);
 }
 
-void TileOwnership::apply(std::span<const TileTransfer> transfers) {
-  if (transfers.empty()) return;
+void TileOwnership::apply(const TileNews& news) {
+  if (news.empty()) return;
   const StageTimer::Balancing timed(timer_);
-  make_true(transfers);
+  std::vector<OwnerChange> changes = changes_of(news.given);
+  changes.insert(changes.end(), news.changes.begin(), news.changes.end());
+  make_true(changes);
+  const Partition& partition = sampler_.samples().partition();
+  for (const TileTransfer& transfer : news.given) {
+    const auto tile = static_cast<std::size_t>(transfer.tile);
+    if (partition.owner[tile] != rank_ || partition.version[tile] != transfer.version) continue;
+    costs_.accept(transfer);
+    gained_.push_back(transfer.tile);
+  }
 }
 
-void TileOwnership::make_true(std::span<const TileTransfer> transfers) {
+void TileOwnership::make_true(std::span<const OwnerChange> changes) {
   Partition next = sampler_.samples().partition();
   bool changed = false;
-  for (const TileTransfer& transfer : transfers) {
-    const auto tile = static_cast<std::size_t>(transfer.tile);
-    if (tile >= next.owner.size() || transfer.owner < 0 || transfer.owner >= next.ranks) {
+  for (const OwnerChange& change : changes) {
+    const auto tile = static_cast<std::size_t>(change.tile);
+    if (tile >= next.owner.size() || change.owner < 0 || change.owner >= next.ranks) {
       throw ProtocolError("a tile was given that is none, or to nobody");
     }
-    if (transfer.version <= next.version[tile]) continue;
+    if (change.version <= next.version[tile]) continue;
     changed = true;
-    if (transfer.owner == rank_) costs_.accept(transfer);
-    next.owner[tile] = transfer.owner;
-    next.version[tile] = transfer.version;
+    next.owner[tile] = change.owner;
+    next.version[tile] = change.version;
   }
   if (changed) sampler_.transfer(next);
 }
 
-void TileOwnership::forward_lost_tiles(std::span<const TileTransfer> transfers) {
+void TileOwnership::forward_lost_tiles(std::span<const TileTransfer> given) {
   const std::vector<std::int32_t>& owners = sampler_.samples().partition().owner;
-  for (const TileTransfer& transfer : transfers) {
+  for (const TileTransfer& transfer : given) {
     if (transfer.owner != rank_ || owners[static_cast<std::size_t>(transfer.tile)] == rank_) continue;
     const StageTimer::Balancing timed(timer_);
     sampler_.forward_tile(transfer.tile);
@@ -135,8 +167,8 @@ void TileOwnership::repartition(const FrameOrder& order, bool keep_samples) {
     const auto t = static_cast<int>(tile);
     if (!sampler_.region().owns_tile(t)) costs_.expect(t, found);
   }
-  partition_bytes_ +=
-      owner_runs(order.owners).size() * sizeof(OwnerRun) + order.tiles.size() * sizeof(TileEstimate);
+  partition_bytes_ += pprt::partition_bytes(order);
+  gained_.clear();
   sampler_.repartition(next);
 }
 

@@ -37,19 +37,24 @@ class TileOwnership {
   bool balances_locally() const;
 
   // Gives tiles to neighbours that are ahead. They are theirs at once as far as this rank is concerned; the
-  // caller sends the transfers to every rank. `fresh_mesh`: the triangulation began in this frame.
+  // caller tells takers and neighbours. Without a rate all ranks are to be told: they await each other's
+  // seeds without limit, and must agree whose these are. `fresh_mesh`: the triangulation began in this frame.
   std::vector<TileTransfer> give_tiles(bool fresh_mesh);
+
+  // Tiles that this rank has taken and has still, for all ranks, once a frame when tiles hardly change hands
+  // any more; else none. Those that are far from them need not be told of every transfer on the way.
+  std::vector<OwnerChange> take_gains();
 
   // This rank's progress, for its neighbours; nothing unless tiles change hands.
   RankProgress progress();
   void receive_progress(int from, const RankProgress& theirs) { balancer_.receive(from, theirs); }
 
-  // Makes transfers by any rank true here, unless a newer owner is known. Throws ProtocolError for tiles or
-  // ranks that do not exist.
-  void apply(std::span<const TileTransfer> transfers);
+  // Makes news true here, except where a newer owner is known. Throws ProtocolError for tiles or ranks that
+  // do not exist.
+  void apply(const TileNews& news);
 
   // Forwards what came with transfers to this rank of tiles that have another owner by now.
-  void forward_lost_tiles(std::span<const TileTransfer> transfers);
+  void forward_lost_tiles(std::span<const TileTransfer> given);
 
   // Tiles that this rank has given away in this frame.
   const std::vector<std::int32_t>& given() const { return given_; }
@@ -77,7 +82,7 @@ class TileOwnership {
 
  private:
   bool may_give(bool fresh_mesh) const;
-  void make_true(std::span<const TileTransfer> transfers);
+  void make_true(std::span<const OwnerChange> changes);
 
   const SessionSettings& settings_;
   int rank_;
@@ -88,6 +93,7 @@ class TileOwnership {
   StageTimer& timer_;
   Balancer balancer_;
   std::vector<std::int32_t> given_;
+  std::vector<std::int32_t> gained_;  // and not told to all
   std::uint64_t partition_bytes_ = 0;
   MissedFrames missed_;
 };

@@ -42,7 +42,7 @@ void Worker::render(const FrameOrder& order) {
   timer_.start();
   // Transfers of frames before that have arrived since: the tiles' owners must be known before seeds are
   // traced.
-  ownership_.apply(bundles_.earlier_transfers());
+  ownership_.apply(bundles_.earlier_news());
   clock_->begin_frame(order);
 
   prepare(order);
@@ -110,22 +110,35 @@ void Worker::exchange_bundles(bool concerns_all) {
 }
 
 void Worker::send_bundles(bool concerns_all) {
+  // Those before a transfer: they send samples for its tiles to this rank.
+  const std::vector<int> neighbours = sampler_.samples().neighbours();
   const std::vector<TileTransfer> transfers = ownership_.give_tiles(is_fresh());
+  const std::vector<OwnerChange> gains = ownership_.take_gains();
   const RankProgress progress = ownership_.progress();
   const bool is_progress_due =
       ownership_.balances_locally() && bundles_.policy().is_progress_due(bundles_.at().round);
   sampler_.announce();
-  const std::vector<int>& neighbours = sampler_.samples().neighbours();
+  const bool tells_all =
+      concerns_all || !gains.empty() || (!transfers.empty() && settings_.frames_per_second == 0);
   for (int rank = 0; rank < network_.size(); ++rank) {
     if (rank == network_.rank()) continue;
     std::vector<Sample> samples = sampler_.take_outbox(rank);
     const bool is_neighbour = std::binary_search(neighbours.begin(), neighbours.end(), rank);
-    const bool concerns = concerns_all || !samples.empty() || !transfers.empty() ||
-                          (is_progress_due && is_neighbour) || bundles_.handshake().has_pending_reply(rank);
+    const bool concerns = tells_all || !samples.empty() ||
+                          (is_neighbour && (is_progress_due || !transfers.empty())) ||
+                          bundles_.handshake().has_pending_reply(rank);
+    TileNews tiles{.changes = gains};
+    for (const TileTransfer& transfer : transfers) {
+      if (transfer.owner == rank) {
+        tiles.given.push_back(transfer);
+      } else {
+        tiles.changes.push_back(transfer.change());
+      }
+    }
     bundles_.send(rank, concerns,
                   {.done = goal_.is_done(),
                    .progress = progress,
-                   .transfers = transfers,
+                   .tiles = std::move(tiles),
                    .samples = std::move(samples)});
   }
 }
@@ -133,17 +146,17 @@ void Worker::send_bundles(bool concerns_all) {
 // First who owns what from now on, then the samples: those that fall to new tiles are refined at once.
 void Worker::take_in(const std::vector<Inbox::Arrived>& bundles) {
   const ExchangeRound& now = bundles_.at();
-  std::vector<TileTransfer> transfers;
+  TileNews news;
   for (const auto& [from, bundle] : bundles) {
-    transfers.insert(transfers.end(), bundle.transfers.begin(), bundle.transfers.end());
+    news.append(bundle.tiles);
     if (bundle.frame_index != now.frame_index) continue;
     ownership_.receive_progress(from, bundle.progress);
     goal_.receive(from, bundle.done);
   }
-  ownership_.apply(transfers);
+  ownership_.apply(news);
   for (const auto& [from, bundle] : bundles) {
     if (bundle.epoch != now.epoch) continue;
-    ownership_.forward_lost_tiles(bundle.transfers);
+    ownership_.forward_lost_tiles(bundle.tiles.given);
     if (bundle.round == kSeedRound && bundle.frame_index == now.epoch) {
       sampler_.insert_late(bundle.samples);
     } else {
@@ -188,7 +201,7 @@ void Worker::send_pixels(const FrameOrder& order, double sampling_ended_s) {
     }
   }
   message.report = make_report(sampling_ended_s);
-  message.report.bytes_balance += tiles.size() * sizeof(TileReport);
+  message.report.bytes_balance += tiles.size() * kTileReportBytes;
   message.report.bytes_pixels = bytes + message.colors.size() * sizeof(Color);
   network_.send(0, Tag::kPixels, encode(message));
   clock_->end_frame(message.report.cpu_ms.reconstruction);
@@ -227,7 +240,7 @@ RankReport Worker::make_report(double sampling_ended_s) {
           .cpu_ms = timer_.times(),
           .tiles_given = ownership_.given().size(),
           .bytes_progress = bytes.progress,
-          .bytes_balance = bytes.transfers + ownership_.partition_bytes(),
+          .bytes_balance = bytes.tiles + ownership_.partition_bytes(),
           .bytes_samples = bytes.samples,
           .bytes_pixels = 0,
           .finished_s = clock_->frame_seconds(),

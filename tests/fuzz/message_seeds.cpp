@@ -23,10 +23,11 @@ int main(int argc, char** argv) {
   std::filesystem::create_directories(directory);
   pprt::FrameOrder order;
   order.number = 7, order.carry = pprt::Carry::kCastVerified;
-  order.owners = {1, 1, 1, 0, 0, 1}, order.tiles = {{1, 2}, {3, 4}};
+  order.owners = {1, 1, 1, 0, 0, 1}, order.columns = 3, order.tiles = {{1, 2}, {3, 4}};
   write(directory / "order", 0, encode(order));
   pprt::Bundle bundle;
-  bundle.transfers.resize(2), bundle.samples.resize(3);
+  bundle.progress.quality = 0.5, bundle.samples.resize(3);
+  bundle.tiles.given.resize(2), bundle.tiles.changes.resize(1);
   write(directory / "bundle", 1, encode(bundle));
   pprt::PixelMessage pixels;
   pixels.tiles.resize(1), pixels.given = {5}, pixels.colors = {pprt::Color(1, 0.5f, 0)},

@@ -47,21 +47,22 @@ double Balancer::load_by_neighbours(const RegionQuality& refined, const std::vec
   return count > 0 ? std::exp(sum / count) : 1;
 }
 
-bool Balancer::wants_to_give(const RegionQuality& refined, const std::vector<int>& neighbours,
+bool Balancer::wants_to_give(const RegionQuality& refined, const std::vector<int>& neighbours, double elapsed,
                              bool is_giving) const {
-  return load_by_neighbours(refined, neighbours) > (is_giving ? 1 : settings_.giving_ratio);
+  const double ratio = settings_.giving_ratio + settings_.giving_noise * relative_noise(refined, elapsed);
+  return load_by_neighbours(refined, neighbours) > (is_giving ? 1 : ratio);
 }
 
 // The neighbours that this rank should give to, the one that is farthest ahead first.
 std::vector<int> Balancer::takers(const RegionQuality& refined, const std::vector<int>& neighbours,
-                                  const TransferHandshake& handshake) const {
-  const double quality = refined.mean_weight;
+                                  double elapsed, const TransferHandshake& handshake) const {
+  const double quality = refined.mean_weight, noise = relative_noise(refined, elapsed);
   std::vector<std::pair<double, int>> ahead;
   for (const int rank : neighbours) {
     const RankProgress& theirs = theirs_[static_cast<std::size_t>(rank)];
     if (!handshake.accepts(rank) || !handshake.has_confirmed_transfers(rank) || theirs.quality <= 0) continue;
     const double own_cost = own_future_cost(refined, theirs.target);
-    if (!should_give(settings_, quality, own_cost, theirs)) continue;
+    if (!should_give(settings_, quality, own_cost, noise, theirs)) continue;
     ahead.emplace_back(theirs.future_cost / own_cost, rank);
   }
   std::sort(ahead.begin(), ahead.end());
@@ -92,12 +93,12 @@ std::vector<int> Balancer::tiles_for(const RegionQuality& refined, const RegionS
 
 std::vector<TileTransfer> Balancer::choose_transfers(const RegionQuality& refined,
                                                      const RegionSamples& samples,
-                                                     const TransferHandshake& handshake,
+                                                     const TransferHandshake& handshake, double elapsed,
                                                      double most_samples) const {
   std::vector<TileTransfer> transfers;
   if (!handshake.may_transfer()) return transfers;
   Partition partition = samples.partition();
-  for (const int taker : takers(refined, samples.neighbours(), handshake)) {
+  for (const int taker : takers(refined, samples.neighbours(), elapsed, handshake)) {
     // None where the taker touches this region at a corner only, or where every tile is too big a transfer.
     for (const int tile : tiles_for(refined, samples, partition, taker, most_samples)) {
       const auto t = static_cast<std::size_t>(tile);

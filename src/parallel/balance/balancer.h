@@ -35,17 +35,19 @@ class Balancer {
   }
 
   // Whether this rank has more to pay than its neighbours, by and large.
-  bool wants_to_give(const RegionQuality& refined, const std::vector<int>& neighbours, bool is_giving) const;
+  bool wants_to_give(const RegionQuality& refined, const std::vector<int>& neighbours, double elapsed,
+                     bool is_giving) const;
 
   // The tiles to give to neighbours that accept tiles and are ahead, all of one neighbour's together. A
   // neighbour need not take in more than `most_samples`. Empty while the handshake forbids transfers.
   std::vector<TileTransfer> choose_transfers(const RegionQuality& refined, const RegionSamples& samples,
-                                             const TransferHandshake& handshake, double most_samples) const;
+                                             const TransferHandshake& handshake, double elapsed,
+                                             double most_samples) const;
 
  private:
   double own_future_cost(const RegionQuality& refined, double quality) const;
   double load_by_neighbours(const RegionQuality& refined, const std::vector<int>& neighbours) const;
-  std::vector<int> takers(const RegionQuality& refined, const std::vector<int>& neighbours,
+  std::vector<int> takers(const RegionQuality& refined, const std::vector<int>& neighbours, double elapsed,
                           const TransferHandshake& handshake) const;
   std::vector<int> tiles_for(const RegionQuality& refined, const RegionSamples& samples,
                              const Partition& partition, int taker, double most_samples) const;

@@ -11,12 +11,11 @@ double mean_weight(const TileWeights& weights) {
   return weights.count > 0 ? weights.total_weight / static_cast<double>(weights.count) : 0;
 }
 
-// Work units of reconstructing a tile.
+}  // namespace
+
 double reconstruction_cost(const TileGrid& grid, int tile) {
   return static_cast<double>(grid.pixels(tile).area()) * static_cast<double>(price(Work::kPixel));
 }
-
-}  // namespace
 
 CostEstimator::CostEstimator(const TileGrid& grid, const SampleWork& work)
     : grid_(grid),
@@ -111,7 +110,6 @@ std::vector<TileReport> CostEstimator::report(const RegionQuality& refined) {
                        .triangles = static_cast<std::int32_t>(weights.count),
                        .total_weight = weights.total_weight,
                        .cost = estimate.cost,
-                       .reconstruction = reconstruction_cost(grid_, tile),
                        .preparation = received});
   }
   return reports;

@@ -19,6 +19,9 @@ enum class FrameLikeness : std::uint8_t {
   kSame      // it showed the same
 };
 
+// Restore of s. 4.4: work units of reconstructing a tile.
+double reconstruction_cost(const TileGrid& grid, int tile);
+
 class CostEstimator {
  public:
   // `work`: what the sampler does with a sample.

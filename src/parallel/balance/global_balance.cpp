@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "parallel/balance/cost_estimator.h"
 #include "parallel/balance/partition.h"
 #include "parallel/clock/work_units.h"
 
@@ -13,7 +14,7 @@ namespace {
 
 // In `combined` the image is repartitioned when the ranks' mean weights deviate by more than this share of
 // their mean. Found by measurement (docs/decisions/0009-balancing.md).
-constexpr double kImbalanceTrigger = 0.2;
+constexpr double kImbalanceTrigger = 0.25;
 
 }  // namespace
 
@@ -60,7 +61,7 @@ std::vector<double> predicted_costs(const TileGrid& grid, std::span<const std::v
       // Fcost(i, A) + LastCost(i): what the tile takes in all.
       const double sampling = std::max(t.cost * mean_weight / quality, 0.0);
       double& cost = costs[static_cast<std::size_t>(t.tile)];
-      cost = sampling + t.reconstruction + t.preparation;
+      cost = sampling + reconstruction_cost(grid, t.tile) + t.preparation;
       sum += cost;
       ++known;
     }
@@ -74,9 +75,13 @@ std::vector<double> predicted_costs(const TileGrid& grid, std::span<const std::v
 void GlobalBalancer::consider(FrameReports frame) {
   if (!frame.is_whole) return;
   latest_ = std::move(frame);
+  if (!repartitions()) return;
   const bool always = settings_.balance == BalanceMode::kGlobal;
-  if (!always && settings_.balance != BalanceMode::kCombined) return;
-  if (ranks_ == 1 || (!always && imbalance(latest_.tiles) <= kImbalanceTrigger)) return;
+  if (ranks_ == 1) return;
+  // A partition is in force two frames after the one that it was made from. The frame between does not show
+  // yet what it brings; where samples would be handed over once more, it is not answered.
+  const bool is_answered = latest_.accumulates && latest_.generation != generation_;
+  if (!always && (is_answered || imbalance(latest_.tiles) <= kImbalanceTrigger)) return;
   make_partition(latest_.speeds);
 }
 
@@ -107,6 +112,7 @@ void GlobalBalancer::add_partition(FrameOrder& order) {
   if (!is_useful_for(order)) next_owners_.clear();
   if (!next_owners_.empty()) ++generation_;
   order.owners = std::exchange(next_owners_, {});
+  order.columns = order.owners.empty() ? 0 : grid_.columns();
   order.generation = generation_;
 }
 

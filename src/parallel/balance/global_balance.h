@@ -27,8 +27,9 @@ std::vector<double> predicted_costs(const TileGrid& grid, std::span<const std::v
 
 // What the ranks report of a frame.
 struct FrameReports {
-  bool is_whole = true;      // all have: else it says nothing of the balance
-  bool accumulates = false;  // its samples are those of the frames before, too
+  bool is_whole = true;          // all have: else it says nothing of the balance
+  std::uint32_t generation = 0;  // of its partition
+  bool accumulates = false;      // its samples are those of the frames before, too
   std::uint64_t samples = 0;
   std::vector<std::vector<TileReport>> tiles;  // per rank
   std::vector<double> speeds;                  // per rank: the reciprocals of their paces
@@ -40,6 +41,11 @@ class GlobalBalancer {
   // `units_per_frame`: work units that a rank can do in one frame's period; with a rate only.
   GlobalBalancer(const SessionSettings& settings, const TileGrid& grid, int ranks, double units_per_frame)
       : settings_(settings), grid_(grid), ranks_(ranks), units_per_frame_(units_per_frame) {}
+
+  // Whether this mode of balancing makes partitions.
+  bool repartitions() const {
+    return settings_.balance == BalanceMode::kGlobal || settings_.balance == BalanceMode::kCombined;
+  }
 
   // Considers the reports of a frame that is delivered.
   void consider(FrameReports frame);

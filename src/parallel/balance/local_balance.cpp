@@ -114,10 +114,16 @@ std::vector<Candidate> candidates_of(const Partition& partition, const std::vect
 
 }  // namespace
 
+double relative_noise(const RegionQuality& refined, double elapsed) {
+  std::int64_t triangles = 0;
+  for (const int tile : refined.region.tiles()) triangles += refined.tile(tile).count;
+  return std::sqrt(elapsed / static_cast<double>(std::max(triangles, std::int64_t{1})));
+}
+
 bool should_give(const LocalBalanceSettings& settings, double own_quality, double own_future_cost,
-                 const RankProgress& theirs) {
+                 double noise, const RankProgress& theirs) {
   return theirs.quality > 0 && own_quality > settings.quality_ratio * theirs.quality &&
-         own_future_cost > settings.cost_ratio * theirs.future_cost;
+         own_future_cost > (settings.cost_ratio + settings.cost_noise * noise) * theirs.future_cost;
 }
 
 double target_quality(double quality) {

@@ -7,14 +7,17 @@
 
 #include "parallel/balance/partition.h"
 #include "parallel/balance/tile_cost.h"
+#include "pipeline/region_quality.h"
 
 namespace pprt {
 
 // Found by measurement (docs/decisions/0009-balancing.md).
 struct LocalBalanceSettings {
-  double giving_ratio = 1.03;   // a rank gives once its future cost is this multiple of its neighbours',
+  double giving_ratio = 1.0;    // a rank gives once its future cost is this multiple of its neighbours',
+  double giving_noise = 3.5;    // and this much of its relative noise more,
   double quality_ratio = 1.0;   // to those whose quality is better by this factor
-  double cost_ratio = 1.4;      // and whose future cost is lower by this one
+  double cost_ratio = 1.0;      // and whose future cost is lower by this one
+  double cost_noise = 14;       // and by this much of the noise
   double share = 0.3;           // of the difference in future cost that moves at once
   double balance_weight = 0.5;  // w1, of what a tile takes away, by the most that any takes away
   double communication_weight = 0.1;  // w2, of the share of its samples that the taker knows
@@ -22,10 +25,15 @@ struct LocalBalanceSettings {
   double shape_weight = 0.25;         // of the change of the regions' shapes
 };
 
+// How uncertain a region's future cost is, as a share of it: the reciprocal root of the triangles that it
+// will have at the frame's end. Answering smaller differences would move tiles to and fro. `elapsed`: share
+// of the sampling time that has passed.
+double relative_noise(const RegionQuality& refined, double elapsed);
+
 // Whether a rank should give tiles to the neighbour that sent `theirs`. `own_future_cost`: by its pace, at
-// theirs.target.
+// theirs.target. `noise`: relative_noise() of its region.
 bool should_give(const LocalBalanceSettings& settings, double own_quality, double own_future_cost,
-                 const RankProgress& theirs);
+                 double noise, const RankProgress& theirs);
 
 // A target quality that a rank at `quality` > 0 names: the power of two at or below it, so that estimates are
 // comparable.

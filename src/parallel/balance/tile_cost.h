@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 namespace pprt {
 
@@ -22,6 +23,13 @@ struct RankProgress {
   double pace = 1;         // of the sender
 };
 
+// A tile has changed hands.
+struct OwnerChange {
+  std::int32_t tile = 0;
+  std::int32_t owner = 0;     // from now on
+  std::uint64_t version = 0;  // of this ownership; see Partition
+};
+
 // A tile changes hands, with all that the new owner needs to estimate its cost.
 struct TileTransfer {
   std::int32_t tile = 0;
@@ -29,6 +37,20 @@ struct TileTransfer {
   std::uint64_t version = 0;  // of this ownership; see Partition
   TileEstimate now = {};      // in this frame
   TileEstimate last = {};     // at the end of the frame before
+
+  OwnerChange change() const { return {tile, owner, version}; }
+};
+
+// What a bundle says of tiles. All versions in it are of one generation.
+struct TileNews {
+  std::vector<TileTransfer> given = {};   // to the receiver
+  std::vector<OwnerChange> changes = {};  // among others
+
+  bool empty() const { return given.empty() && changes.empty(); }
+  void append(const TileNews& more) {
+    given.insert(given.end(), more.given.begin(), more.given.end());
+    changes.insert(changes.end(), more.changes.begin(), more.changes.end());
+  }
 };
 
 // Rank to master, with its pixels (paper s. 4.4).
@@ -37,7 +59,6 @@ struct TileReport {
   std::int32_t triangles = 0;  // LastTotalNum
   double total_weight = 0;     // LastTotalWeight
   double cost = 0;             // LastCost, work units
-  double reconstruction = 0;   // Restore, work units
   double preparation = 0;      // Pre, work units, with its share of what other ranks' samples cost its owner
 };
 

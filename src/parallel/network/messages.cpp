@@ -1,5 +1,7 @@
 #include "parallel/network/messages.h"
 
+#include <algorithm>
+
 #include "parallel/network/wire.h"
 
 namespace pprt {
@@ -59,44 +61,192 @@ Sample from_wire(const WireSample& w) {
   return s;
 }
 
-void put_samples(WireWriter& out, std::span<const Sample> samples) {
-  std::vector<WireSample> wire;
-  wire.reserve(samples.size());
-  for (const Sample& s : samples) wire.push_back(to_wire(s));
-  out.put_all(std::span<const WireSample>(wire));
+// A rank's estimates are right to some per cent at best: single precision will do.
+struct WireEstimate {
+  float cost, average_weight;
+};
+
+WireEstimate to_wire(const TileEstimate& e) {
+  return {static_cast<float>(e.cost), static_cast<float>(e.average_weight)};
 }
 
-std::vector<Sample> get_samples(WireReader& in) {
-  std::vector<WireSample> wire;
+TileEstimate from_wire(const WireEstimate& w) {
+  return {w.cost, w.average_weight};
+}
+
+struct WireReport {
+  std::int32_t tile, triangles;
+  float total_weight, cost, preparation;
+};
+static_assert(sizeof(WireReport) == kTileReportBytes);
+
+WireReport to_wire(const TileReport& r) {
+  return {r.tile, r.triangles, static_cast<float>(r.total_weight), static_cast<float>(r.cost),
+          static_cast<float>(r.preparation)};
+}
+
+TileReport from_wire(const WireReport& w) {
+  return {w.tile, w.triangles, w.total_weight, w.cost, w.preparation};
+}
+
+struct WireProgress {
+  float quality, target, future_cost, pace;
+};
+
+// Versions without their generation, which a bundle tells once.
+struct WireChange {
+  std::int32_t tile, owner;
+  std::uint32_t times;  // transferred
+};
+
+struct WireTransfer {
+  WireChange change;
+  WireEstimate now, last;
+};
+
+std::uint32_t generation_of(std::uint64_t version) {
+  return static_cast<std::uint32_t>(version >> 32);
+}
+
+WireChange to_wire(const OwnerChange& c) {
+  return {c.tile, c.owner, static_cast<std::uint32_t>(c.version)};
+}
+
+WireTransfer to_wire(const TileTransfer& t) {
+  return {to_wire(t.change()), to_wire(t.now), to_wire(t.last)};
+}
+
+template <typename Wire, typename Value>
+std::vector<Wire> all_to_wire(const std::vector<Value>& values) {
+  std::vector<Wire> wire;
+  wire.reserve(values.size());
+  for (const Value& v : values) wire.push_back(to_wire(v));
+  return wire;
+}
+
+template <typename Wire, typename Value>
+void put_as(WireWriter& out, const std::vector<Value>& values) {
+  out.put_all(std::span<const Wire>(all_to_wire<Wire>(values)));
+}
+
+template <typename Wire, typename Value>
+void get_as(WireReader& in, std::vector<Value>& values) {
+  std::vector<Wire> wire;
   in.get_all(wire);
-  std::vector<Sample> samples;
-  samples.reserve(wire.size());
-  for (const WireSample& w : wire) samples.push_back(from_wire(w));
-  return samples;
+  values.clear();
+  values.reserve(wire.size());
+  for (const Wire& w : wire) values.push_back(from_wire(w));
 }
 
-std::vector<std::int32_t> get_owners(WireReader& in) {
-  std::vector<OwnerRun> runs;
-  in.get_all(runs);
-  std::vector<std::int32_t> owners;
-  for (const OwnerRun& run : runs) {
-    if (run.tiles <= 0 || owners.size() + static_cast<std::size_t>(run.tiles) > kMostTiles) {
-      throw ProtocolError("a message announces tiles that cannot be");
-    }
-    owners.insert(owners.end(), static_cast<std::size_t>(run.tiles), run.owner);
-  }
-  return owners;
+void put_news(WireWriter& out, const TileNews& tiles) {
+  const std::uint64_t version =
+      tiles.given.empty() ? tiles.changes.front().version : tiles.given.front().version;
+  out.put(generation_of(version));
+  put_as<WireTransfer>(out, tiles.given);
+  put_as<WireChange>(out, tiles.changes);
 }
+
+TileNews get_news(WireReader& in) {
+  std::uint32_t generation = 0;
+  std::vector<WireTransfer> given;
+  std::vector<WireChange> changes;
+  in.get(generation), in.get_all(given), in.get_all(changes);
+  const auto version = [&](const WireChange& c) { return std::uint64_t{generation} << 32 | c.times; };
+  TileNews tiles;
+  for (const WireTransfer& w : given) {
+    const WireChange& c = w.change;
+    tiles.given.push_back({c.tile, c.owner, version(c), from_wire(w.now), from_wire(w.last)});
+  }
+  for (const WireChange& c : changes) tiles.changes.push_back({c.tile, c.owner, version(c)});
+  return tiles;
+}
+
+// Tiles of one owner, of which the first is the first one, row by row, that no rectangle before has. Regions
+// of a new partition are rectangles.
+struct OwnerRect {
+  std::int32_t owner;
+  std::uint16_t columns, rows;
+};
+
+std::vector<OwnerRect> owner_rects(std::span<const std::int32_t> owners, std::size_t columns) {
+  std::vector<OwnerRect> rects;
+  const std::size_t rows = columns > 0 ? owners.size() / columns : 0;
+  std::vector<std::uint8_t> covered(owners.size(), 0);
+  for (std::size_t first = 0; first < owners.size(); ++first) {
+    if (covered[first] != 0) continue;
+    const std::size_t x0 = first % columns, y0 = first / columns;
+    const auto fits = [&](std::size_t x, std::size_t y) {
+      const std::size_t tile = y * columns + x;
+      return covered[tile] == 0 && owners[tile] == owners[first];
+    };
+    std::size_t x1 = x0 + 1, y1 = y0 + 1;
+    while (x1 < columns && fits(x1, y0)) ++x1;
+    const auto row_fits = [&](std::size_t y) {
+      for (std::size_t x = x0; x < x1; ++x) {
+        if (!fits(x, y)) return false;
+      }
+      return true;
+    };
+    while (y1 < rows && row_fits(y1)) ++y1;
+    for (std::size_t y = y0; y < y1; ++y)
+      std::fill_n(covered.begin() + static_cast<std::ptrdiff_t>(y * columns + x0), x1 - x0, std::uint8_t{1});
+    rects.push_back(
+        {owners[first], static_cast<std::uint16_t>(x1 - x0), static_cast<std::uint16_t>(y1 - y0)});
+  }
+  return rects;
+}
+
+void put_owners(WireWriter& out, const FrameOrder& order) {
+  const auto columns = static_cast<std::size_t>(order.columns);
+  if (columns > 0 ? order.owners.size() % columns != 0 : !order.owners.empty())
+    throw ProtocolError("the owners of tiles do not make whole rows");
+  out.put(order.columns);
+  out.put(static_cast<std::int32_t>(columns > 0 ? order.owners.size() / columns : 0));
+  out.put_all(std::span<const OwnerRect>(owner_rects(order.owners, columns)));
+}
+
+void get_owners(WireReader& in, FrameOrder& order) {
+  std::int32_t rows = 0;
+  std::vector<OwnerRect> rects;
+  in.get(order.columns), in.get(rows), in.get_all(rects);
+  if (order.columns < 0 || rows < 0 ||
+      static_cast<std::uint64_t>(order.columns) * static_cast<std::uint64_t>(rows) > kMostTiles)
+    throw ProtocolError("a message announces tiles that cannot be");
+  const auto columns = static_cast<std::size_t>(order.columns);
+  constexpr std::int32_t kNobody = -1;
+  order.owners.assign(columns * static_cast<std::size_t>(rows), kNobody);
+  const auto take = [&](std::size_t tile, std::int32_t owner) {
+    if (order.owners[tile] != kNobody || owner < 0) throw ProtocolError("a message gives a tile twice");
+    order.owners[tile] = owner;
+  };
+  std::size_t first = 0;
+  for (const OwnerRect& rect : rects) {
+    while (first < order.owners.size() && order.owners[first] != kNobody) ++first;
+    const std::size_t x0 = columns > 0 ? first % columns : 0, y0 = columns > 0 ? first / columns : 0;
+    if (rect.columns == 0 || x0 + rect.columns > columns || y0 + rect.rows > static_cast<std::size_t>(rows) ||
+        rect.rows == 0)
+      throw ProtocolError("a message gives tiles outside the image");
+    for (std::size_t y = y0; y < y0 + rect.rows; ++y) {
+      for (std::size_t x = x0; x < x0 + rect.columns; ++x) take(y * columns + x, rect.owner);
+    }
+  }
+  if (std::find(order.owners.begin(), order.owners.end(), kNobody) != order.owners.end())
+    throw ProtocolError("a message gives some tiles to nobody");
+}
+
+// What a bundle holds besides what all hold.
+constexpr std::uint8_t kDone = 1, kHasProgress = 2, kHasNews = 4, kAllFlags = 7;
 
 }  // namespace
 
-std::vector<OwnerRun> owner_runs(std::span<const std::int32_t> owners) {
-  std::vector<OwnerRun> runs;
-  for (const std::int32_t owner : owners) {
-    if (runs.empty() || runs.back().owner != owner) runs.push_back({owner, 0});
-    ++runs.back().tiles;
-  }
-  return runs;
+std::size_t partition_bytes(const FrameOrder& order) {
+  if (order.owners.empty()) return 0;
+  return owner_rects(order.owners, static_cast<std::size_t>(order.columns)).size() * sizeof(OwnerRect) +
+         order.tiles.size() * sizeof(WireEstimate);
+}
+
+std::size_t news_bytes(const TileNews& tiles) {
+  return tiles.given.size() * sizeof(WireTransfer) + tiles.changes.size() * sizeof(WireChange);
 }
 
 Bytes encode(const ClockPing& ping) {
@@ -132,8 +282,8 @@ Bytes encode(const FrameOrder& order) {
   out.put(order.end), out.put(order.index), out.put(order.number), out.put(order.cut), out.put(order.carry);
   out.put(order.camera), out.put(order.evidence), out.put(order.deadline_s), out.put(order.reserve_s),
       out.put(order.generation);
-  out.put_all(std::span<const OwnerRun>(owner_runs(order.owners)));
-  out.put_all(std::span<const TileEstimate>(order.tiles));
+  put_owners(out, order);
+  put_as<WireEstimate>(out, order.tiles);
   out.put_all(std::span<const std::int32_t>(order.lost));
   return out.take();
 }
@@ -145,30 +295,46 @@ FrameOrder decode_frame_order(std::span<const std::byte> bytes) {
       in.get(order.carry, Carry::kCastWherePaying);
   in.get(order.camera), in.get(order.evidence), in.get(order.deadline_s), in.get(order.reserve_s),
       in.get(order.generation);
-  order.owners = get_owners(in);
-  in.get_all(order.tiles), in.get_all(order.lost);
+  get_owners(in, order);
+  get_as<WireEstimate>(in, order.tiles);
+  in.get_all(order.lost);
   in.expect_end();
   return order;
 }
 
 Bytes encode(const Bundle& bundle) {
   WireWriter out;
-  out.put(bundle.frame_index), out.put(bundle.epoch), out.put(bundle.round), out.put(bundle.done);
-  out.put(bundle.rounds_under_way);
-  out.put(bundle.progress), out.put(bundle.handshake);
-  out.put_all(std::span<const TileTransfer>(bundle.transfers));
-  put_samples(out, bundle.samples);
+  const bool has_progress = bundle.progress.quality > 0, has_news = !bundle.tiles.empty();
+  out.put(static_cast<std::uint8_t>((bundle.done ? kDone : 0) | (has_progress ? kHasProgress : 0) |
+                                    (has_news ? kHasNews : 0)));
+  out.put(bundle.frame_index), out.put(bundle.epoch), out.put(bundle.round);
+  out.put(bundle.rounds_under_way), out.put(bundle.handshake);
+  if (has_progress) {
+    const RankProgress& p = bundle.progress;
+    out.put(WireProgress{static_cast<float>(p.quality), static_cast<float>(p.target),
+                         static_cast<float>(p.future_cost), static_cast<float>(p.pace)});
+  }
+  if (has_news) put_news(out, bundle.tiles);
+  put_as<WireSample>(out, bundle.samples);
   return out.take();
 }
 
 Bundle decode_bundle(std::span<const std::byte> bytes) {
   WireReader in(bytes);
   Bundle bundle;
-  in.get(bundle.frame_index), in.get(bundle.epoch), in.get(bundle.round), in.get(bundle.done);
-  in.get(bundle.rounds_under_way);
-  in.get(bundle.progress), in.get(bundle.handshake);
-  in.get_all(bundle.transfers);
-  bundle.samples = get_samples(in);
+  std::uint8_t flags = 0;
+  in.get(flags);
+  if (flags > kAllFlags) throw ProtocolError("a bundle holds what there is not");
+  bundle.done = (flags & kDone) != 0;
+  in.get(bundle.frame_index), in.get(bundle.epoch), in.get(bundle.round);
+  in.get(bundle.rounds_under_way), in.get(bundle.handshake);
+  if ((flags & kHasProgress) != 0) {
+    WireProgress p{};
+    in.get(p);
+    bundle.progress = {p.quality, p.target, p.future_cost, p.pace};
+  }
+  if ((flags & kHasNews) != 0) bundle.tiles = get_news(in);
+  get_as<WireSample>(in, bundle.samples);
   in.expect_end();
   return bundle;
 }
@@ -176,10 +342,10 @@ Bundle decode_bundle(std::span<const std::byte> bytes) {
 Bytes encode(const PixelMessage& pixels) {
   WireWriter out;
   out.put(pixels.frame_index), out.put(pixels.is_last), out.put(pixels.report);
-  out.put_all(std::span<const TileReport>(pixels.tiles));
+  put_as<WireReport>(out, pixels.tiles);
   out.put_all(std::span<const std::int32_t>(pixels.given));
   out.put_all(std::span<const Color>(pixels.colors));
-  put_samples(out, pixels.samples);
+  put_as<WireSample>(out, pixels.samples);
   return out.take();
 }
 
@@ -187,10 +353,10 @@ PixelMessage decode_pixels(std::span<const std::byte> bytes) {
   WireReader in(bytes);
   PixelMessage pixels;
   in.get(pixels.frame_index), in.get(pixels.is_last), in.get(pixels.report);
-  in.get_all(pixels.tiles);
+  get_as<WireReport>(in, pixels.tiles);
   in.get_all(pixels.given);
   in.get_all(pixels.colors);
-  pixels.samples = get_samples(in);
+  get_as<WireSample>(in, pixels.samples);
   in.expect_end();
   return pixels;
 }

@@ -37,7 +37,8 @@ struct FrameOrder {
   CastEvidence evidence;             // of all ranks, in frames before
   double deadline_s = 0;             // since the start of the sequence; 0: no rate
   std::uint32_t generation = 0;      // of the partition in force from this frame on
-  std::vector<std::int32_t> owners;  // per tile, when that partition is a new one
+  std::vector<std::int32_t> owners;  // per tile, row by row, when that partition is a new one
+  std::int32_t columns = 0;          // tiles a row of it
   std::vector<TileEstimate> tiles;   // and what those of the receiver were found to be, ascending by tile
   std::vector<std::int32_t> lost;    // ranks that have been given up, ascending: none has a tile any more
   double reserve_s = 0;  // wall clock: for what follows sampling, besides the rank's own reconstruction
@@ -64,7 +65,7 @@ struct Bundle {
   std::int32_t rounds_under_way = 0;  // work clock: rounds until the receiver gets the samples
   RankProgress progress = {};         // of the sender
   HandshakeState handshake = {};
-  std::vector<TileTransfer> transfers = {};  // tiles that the sender has given away
+  TileNews tiles = {};
   std::vector<Sample> samples = {};
 };
 
@@ -131,15 +132,15 @@ struct PixelMessage {
   std::vector<Sample> samples;      // of the region; empty unless the settings ask for them
 };
 
-// What a sample takes in a message.
+// What a sample takes in a message, and a tile's report.
 inline constexpr std::size_t kSampleBytes = 64;
+inline constexpr std::size_t kTileReportBytes = 20;
 
-// A rank's tiles in an order, one after the other: whose, and how many.
-struct OwnerRun {
-  std::int32_t owner = 0;
-  std::int32_t tiles = 0;
-};
-std::vector<OwnerRun> owner_runs(std::span<const std::int32_t> owners);
+// Bytes of the new partition in an order, and of the estimates that come with it.
+std::size_t partition_bytes(const FrameOrder& order);
+
+// Bytes of what a bundle says of tiles.
+std::size_t news_bytes(const TileNews& tiles);
 
 Bytes encode(const ClockPing& ping);
 Bytes encode(const ClockPong& pong);

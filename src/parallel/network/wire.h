@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -28,24 +29,29 @@ class WireWriter {
     put(c.slope_per_pixel), put(c.width), put(c.height);
   }
   void put(const std::string& text) {
-    put(static_cast<std::uint64_t>(text.size()));
+    put_count(text.size());
     append(text.data(), text.size());
   }
   template <typename T>
   requires std::is_trivially_copyable_v<T>
   void put_all(std::span<const T> values) {
-    put(static_cast<std::uint64_t>(values.size()));
+    put_count(values.size());
     append(values.data(), values.size_bytes());
   }
   void put_all(std::span<const Color> colors) {
     static_assert(sizeof(Color) == 3 * sizeof(float));
-    put(static_cast<std::uint64_t>(colors.size()));
+    put_count(colors.size());
     append(colors.data(), colors.size_bytes());
   }
 
   Bytes take() { return std::move(bytes_); }
 
  private:
+  // Throws ProtocolError for more than 2^32 - 1.
+  void put_count(std::size_t count) {
+    if (count > std::numeric_limits<std::uint32_t>::max()) throw ProtocolError("a message is too long");
+    put(static_cast<std::uint32_t>(count));
+  }
   void append(const void* data, std::size_t size) {
     const auto* first = static_cast<const std::byte*>(data);
     bytes_.insert(bytes_.end(), first, first + size);
@@ -109,10 +115,10 @@ class WireReader {
  private:
   // A length that what is left can hold: a broken one must not take the memory.
   std::size_t count(std::size_t element_size) {
-    std::uint64_t n = 0;
+    std::uint32_t n = 0;
     get(n);
     if (n > rest_.size() / element_size) throw ProtocolError("a message announces more than it holds");
-    return static_cast<std::size_t>(n);
+    return n;
   }
   void copy_out(void* to, std::size_t size) {
     if (size > rest_.size()) throw ProtocolError("a message ends too soon");

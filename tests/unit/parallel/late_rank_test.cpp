@@ -46,6 +46,7 @@ class Pair {
     order.camera = camera_before_disc(settings_.width, settings_.height, step.shift);
     order.deadline_s = (order.index + 1) * kPeriod;
     order.owners = step.owners;
+    order.columns = step.owners.empty() ? 0 : partition_.grid.columns();
     if (!step.owners.empty()) ++generation_;
     order.generation = generation_;
     orders_.push_back(order);

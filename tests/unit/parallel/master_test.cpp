@@ -18,8 +18,8 @@ constexpr double kMoment = 0.001;  // less than the grace
 class Stage {
  public:
   explicit Stage(ClockKind clock = ClockKind::kWall, double frames_per_second = 1 / kPeriod,
-                 double ranks_per_core = 16)
-      : settings_(settings_for(clock, frames_per_second)),
+                 double ranks_per_core = 16, BalanceMode balance = BalanceMode::kLocal)
+      : settings_(settings_for(clock, frames_per_second, balance)),
         master_(
             communicator_, settings_, partition_, ranks_per_core, still_or_pan(settings_, 40, 1),
             [this](FinishedFrame&& frame) { delivered.push_back(std::move(frame)); },
@@ -46,11 +46,8 @@ class Stage {
     for (int tile = 0; tile < partition_.grid.tile_count(); ++tile) {
       if (partition_.owner[static_cast<std::size_t>(tile)] != rank) continue;
       // The middle rank's triangles weigh more: worth a new partition.
-      message.tiles.push_back({.tile = tile,
-                               .triangles = 4,
-                               .total_weight = rank == 1 ? 40.0 : 4.0,
-                               .cost = 100,
-                               .reconstruction = 1});
+      message.tiles.push_back(
+          {.tile = tile, .triangles = 4, .total_weight = rank == 1 ? 40.0 : 4.0, .cost = 100});
       message.colors.insert(message.colors.end(), partition_.grid.pixels(tile).area(),
                             Color(value(rank, frame)));
     }
@@ -106,13 +103,13 @@ class Stage {
   std::vector<FinishedFrame> delivered;
 
  private:
-  static SessionSettings settings_for(ClockKind clock, double frames_per_second) {
+  static SessionSettings settings_for(ClockKind clock, double frames_per_second, BalanceMode balance) {
     SessionSettings settings;
     settings.width = 24, settings.height = 16;
     settings.clock = clock;
     settings.frames_per_second = frames_per_second;
     settings.budget_units = 1'000'000;
-    settings.balance = BalanceMode::kCombined;
+    settings.balance = balance;
     settings.cast = CastChoice::kOff;
     return settings;
   }
@@ -333,20 +330,52 @@ TEST_CASE("master: rank 0 does not begin a frame while it must still deliver the
 
 TEST_CASE("master: a frame that lacks a rank's report leads to no new partition") {
   for (const bool late : {false, true}) {
-    Stage stage;
+    Stage stage(ClockKind::kWall, 1 / kPeriod, 1, BalanceMode::kCombined);
     stage.begin();
     stage.send_all(0);
     stage.orders();
-    stage.begin();  // with the partition that frame 0 led to
-    CHECK(stage.orders().at(0).owners.size() == 6);
+    stage.begin();
     stage.send(0, 1), stage.send(1, 1);
     if (!late) stage.send(2, 1);
     stage.at(2 * kPeriod);
     stage.at(2 * kPeriod + kGraceSeconds);
     REQUIRE(stage.delivered.size() == 2);
-    stage.begin();
     CHECK(stage.orders().at(0).owners.empty() == late);
   }
+}
+
+TEST_CASE("master: the two frames after a picture of which nothing is known are ordered with its partition") {
+  Stage stage(ClockKind::kWall, 1 / kPeriod, 1, BalanceMode::kCombined);
+  stage.orders();
+  for (const int frame : {0, 1}) {
+    stage.begin();
+    CHECK(stage.orders().empty());  // waits for this frame's reports
+    stage.send_all(frame);
+    const std::vector<FrameOrder> orders = stage.orders();
+    REQUIRE(orders.size() == 1);
+    CHECK(orders[0].index == frame + 1);
+    CHECK(orders[0].owners.size() == 6);
+  }
+  stage.begin();
+  CHECK(stage.orders().size() == 1);  // goes ahead
+  // Where nobody repartitions there is nothing to wait for.
+  Stage local(ClockKind::kWall, 1 / kPeriod, 1, BalanceMode::kLocal);
+  local.orders();
+  local.begin();
+  CHECK(local.orders().size() == 1);
+}
+
+TEST_CASE("master: an order that waits for reports goes out when its frame ends without them") {
+  Stage stage(ClockKind::kWall, 1 / kPeriod, 1, BalanceMode::kCombined);
+  stage.begin();
+  stage.send_all(0);
+  stage.begin();
+  stage.send(0, 1), stage.send(1, 1);
+  stage.orders();
+  stage.at(2 * kPeriod);
+  CHECK(stage.orders().empty());
+  stage.at(2 * kPeriod + kGraceSeconds);
+  CHECK(stage.orders().size() == 1);
 }
 
 TEST_CASE("master: the reserve learns from a late rank, but not from one that stood still") {

@@ -13,7 +13,7 @@ PixelMessage pixels(int frame, std::initializer_list<int> own, std::initializer_
                     float value) {
   PixelMessage message;
   message.frame_index = frame;
-  for (const int tile : own) message.tiles.push_back({tile, 0, 0, 0, 0, 0});
+  for (const int tile : own) message.tiles.push_back({tile, 0, 0, 0, 0});
   message.given = given;
   message.colors.assign(16 * (own.size() + given.size()), Color(value));
   return message;

@@ -37,6 +37,7 @@ class Scene {
     order.camera = camera_before_disc(settings_.width, settings_.height);
     order.deadline_s = (index_ + 1) * kPeriod;
     order.owners = owners;
+    if (!owners.empty()) order.columns = partition().grid.columns();
     order.generation = owners.empty() ? 0 : 1;
     worker_->render(order);
   }
@@ -155,7 +156,7 @@ TEST_CASE("worker: samples that come with a tile that has another owner by now r
   std::vector<std::int32_t> owners = scene.partition().owner;
   owners[static_cast<std::size_t>(tile)] = 2;
   scene.send_while_tracing(0, {.round = 5,
-                               .transfers = {{.tile = tile, .owner = 1, .version = 1}},
+                               .tiles = {.given = {{.tile = tile, .owner = 1, .version = 1}}},
                                .samples = {scene.sample_in(tile, kMarked)}});
   scene.render(Carry::kAccumulate, owners);
   CHECK(contain(scene.sent_to(2), kMarked));

@@ -43,10 +43,13 @@ SessionSettings without_carrying(BalanceMode mode) {
 TEST_CASE("local balancing: a rank gives only when it is behind in quality and in cost") {
   LocalBalanceSettings settings;
   settings.quality_ratio = settings.cost_ratio = 1.1;
-  CHECK(should_give(settings, 2.0, 200, {1.0, 0.5, 100}));
-  CHECK_FALSE(should_give(settings, 1.05, 200, {1.0, 0.5, 100}));
-  CHECK_FALSE(should_give(settings, 2.0, 105, {1.0, 0.5, 100}));
-  CHECK_FALSE(should_give(settings, 2.0, 200, {}));  // no progress was received
+  settings.cost_noise = 2;
+  CHECK(should_give(settings, 2.0, 200, 0, {1.0, 0.5, 100}));
+  CHECK_FALSE(should_give(settings, 1.05, 200, 0, {1.0, 0.5, 100}));
+  CHECK_FALSE(should_give(settings, 2.0, 105, 0, {1.0, 0.5, 100}));
+  CHECK(should_give(settings, 2.0, 200, 0.4, {1.0, 0.5, 100}));
+  CHECK_FALSE(should_give(settings, 2.0, 200, 0.5, {1.0, 0.5, 100}));
+  CHECK_FALSE(should_give(settings, 2.0, 200, 0, {}));  // no progress was received
 }
 
 TEST_CASE("local balancing: target qualities are powers of two, at most the quality") {
@@ -128,8 +131,9 @@ TEST_CASE("global balancing: a tile's predicted cost grows with its weight over 
   const std::vector<std::vector<TileReport>> ranks = {{report(0, 100, 1, 4)}, {report(1, 100, 8, 6)}};
   std::vector<double> costs = predicted_costs(TileGrid(30, 10, 10), ranks);
   const double a = 10.0 / 9;
-  CHECK(costs[0] == Approx(100 * 4 / a));
-  CHECK(costs[1] == Approx(100 * 0.75 / a));
+  const double pixels = 100 * static_cast<double>(price(Work::kPixel));
+  CHECK(costs[0] == Approx(100 * 4 / a + pixels));
+  CHECK(costs[1] == Approx(100 * 0.75 / a + pixels));
   CHECK(costs[2] == Approx((costs[0] + costs[1]) / 2));  // nobody reported it
   for (const double c : predicted_costs(TileGrid(30, 10, 10), {})) CHECK(c == 1);
 }
@@ -153,10 +157,10 @@ TEST_CASE("local balancing: a rank's future cost is a time, by its pace") {
   const auto gives_to_like = [&](double pace) {
     balancer.begin_frame(pace);
     balancer.receive(1, even);
-    return balancer.wants_to_give(refined, {1}, false);
+    return balancer.wants_to_give(refined, {1}, 0.5, false);
   };
   CHECK_FALSE(gives_to_like(1));
-  CHECK(gives_to_like(2));
+  CHECK(gives_to_like(4));  // of two triangles little is certain
   CHECK_FALSE(gives_to_like(0.5));
   const RankProgress slow = (balancer.begin_frame(2), balancer.progress(refined, 0.5));
   CHECK(slow.pace == 2);
@@ -211,11 +215,44 @@ TEST_CASE("balancing: every mode evens the refinement out") {
   CHECK(combined < 0.5 * none);
 }
 
-TEST_CASE("global balancing: a new partition is in force two frames after the frame it was made from") {
+// Orders go a frame ahead, except the two after a picture of which nothing is known.
+TEST_CASE(
+    "global balancing: a partition is in force two frames after the one it was made from, one after a cut") {
   const SessionSettings settings = without_carrying(BalanceMode::kGlobal);
-  const VirtualRun run = run_session(4, settings, still_or_pan(settings, 5, 0));
-  REQUIRE(run.frames.size() == 5);
-  for (std::size_t i = 0; i < 5; ++i) CHECK(run.frames[i].global_balance == (i >= 2));
+  const CameraSource still = still_or_pan(settings, 8, 0);
+  const auto with_cut = [&](int index) {
+    std::optional<FrameRequest> request = still(index);
+    if (request && index == 4) request->cut = true;
+    return request;
+  };
+  const VirtualRun run = run_session(4, settings, with_cut);
+  std::vector<bool> repartitioned;
+  for (const FinishedFrame& frame : run.frames) repartitioned.push_back(frame.global_balance);
+  // Made from the frames: none, 0, 1, none, 2, 4, 5, none.
+  CHECK(repartitioned == std::vector<bool>{false, true, true, false, true, true, true, false});
+}
+
+TEST_CASE(
+    "combined balancing: samples are not handed over again before the last partition's effect is known") {
+  SessionSettings settings;
+  settings.balance = BalanceMode::kCombined;
+  GlobalBalancer balancer(settings, TileGrid(40, 10, 10), 2, 0);
+  const auto repartitions = [&](std::uint32_t generation, bool accumulates) {
+    FrameReports frame;
+    frame.generation = generation;
+    frame.accumulates = accumulates;
+    frame.tiles = {{report(0, 100, 1, 4), report(1, 100, 1, 4)},
+                   {report(2, 100, 1, 1), report(3, 100, 1, 1)}};
+    frame.speeds = {1, 1};
+    balancer.consider(frame);
+    FrameOrder order;
+    balancer.add_partition(order);
+    return !order.owners.empty();
+  };
+  CHECK(repartitions(0, true));
+  CHECK_FALSE(repartitions(0, true));  // ordered before that partition was in force
+  CHECK(repartitions(1, true));
+  CHECK(repartitions(1, false));  // nothing is handed over
 }
 
 }  // namespace pprt

@@ -26,15 +26,19 @@ Sample some_sample(int i) {
   return s;
 }
 
+constexpr std::uint64_t kVersion = std::uint64_t{6} << 32;  // of generation 6
+
 Bundle some_bundle() {
-  Bundle bundle{.frame_index = 3,
-                .epoch = 2,
-                .round = 19,
-                .done = true,
-                .rounds_under_way = 4,
-                .progress = {.quality = 0.5, .target = 0.25, .future_cost = 1e6},
-                .handshake = {.phase = 5, .acknowledged = 8, .transfers_received = 2},
-                .transfers = {{.tile = 4, .owner = 2, .version = 7, .now = {1, 2}, .last = {3, 4}}}};
+  Bundle bundle{
+      .frame_index = 3,
+      .epoch = 2,
+      .round = 19,
+      .done = true,
+      .rounds_under_way = 4,
+      .progress = {.quality = 0.5, .target = 0.25, .future_cost = 1e6},
+      .handshake = {.phase = 5, .acknowledged = 8, .transfers_received = 2},
+      .tiles = {.given = {{.tile = 4, .owner = 2, .version = kVersion + 7, .now = {1, 2}, .last = {3, 4}}},
+                .changes = {{.tile = 5, .owner = 3, .version = kVersion}}}};
   for (int i = 0; i < 6; ++i) bundle.samples.push_back(some_sample(i));
   return bundle;
 }
@@ -46,7 +50,8 @@ FrameOrder some_order() {
   order.camera.forward = {1, 0, 0}, order.camera.slope_per_pixel = 0.01;
   order.camera.width = 320, order.camera.height = 200;
   order.deadline_s = 1.5, order.reserve_s = 0.02;
-  order.generation = 3, order.owners = {1, 0, 0, 1}, order.tiles = {{1, 2}, {3, 4}, {5, 6}};
+  order.generation = 3, order.owners = {1, 0, 0, 1}, order.columns = 2,
+  order.tiles = {{1, 2}, {3, 4}, {5, 6}};
   return order;
 }
 
@@ -56,7 +61,7 @@ PixelMessage some_pixels() {
   pixels.report.samples_new = 1, pixels.report.samples_known = 2, pixels.report.non_finite = 3;
   pixels.report.refinement = 0.125, pixels.report.rays.shadow = 77, pixels.report.cpu_ms.idle = 4.5;
   pixels.report.finished_s = 6.5;
-  pixels.tiles = {{4, 12, 0.5, 100, 20, 3}, {1, 0, 0, 0, 0, 0}};
+  pixels.tiles = {{4, 12, 0.5, 100, 3}, {1, 0, 0, 0, 0}};
   pixels.given = {7};
   pixels.colors = {{0.1f, 0.2f, 0.3f}, {1, 2, 3}};
   return pixels;
@@ -91,8 +96,8 @@ void check_one_too_many(Bytes whole, const std::function<void(const Bytes&)>& de
 
 // Announces counts that no message can hold at the place where the count stands.
 void check_hostile_count(Bytes whole, std::size_t at, const std::function<void(const Bytes&)>& decode) {
-  for (const std::uint64_t count : {std::numeric_limits<std::uint64_t>::max(), std::uint64_t{1} << 63,
-                                    std::uint64_t{1} << 58, std::uint64_t{1} << 40, std::uint64_t{1000}}) {
+  for (const std::uint32_t count : {std::numeric_limits<std::uint32_t>::max(), std::uint32_t{1} << 31,
+                                    std::uint32_t{1} << 26, std::uint32_t{1} << 20, std::uint32_t{1000}}) {
     INFO("count " << count);
     std::memcpy(whole.data() + at, &count, sizeof count);
     CHECK_THROWS_AS(decode(whole), ProtocolError);
@@ -119,15 +124,45 @@ TEST_CASE("messages: a frame order is decoded as it was encoded") {
   CHECK((back.generation == 3 && back.owners == order.owners));
   REQUIRE(back.tiles.size() == 3);
   CHECK((back.tiles[1].cost == 3 && back.tiles[1].average_weight == 4));
-  // Runs of tiles travel, not tiles.
-  FrameOrder longer = order;
-  longer.owners.insert(longer.owners.end(), 1000, 1);
-  CHECK(encode(longer).size() == encode(order).size());
-  longer.owners.push_back(2);
-  CHECK(encode(longer).size() == encode(order).size() + sizeof(OwnerRun));
   FrameOrder end;
   end.end = true;
   CHECK(decode_frame_order(encode(end)).end);
+}
+
+TEST_CASE("messages: owners travel as rectangles, of any partition") {
+  constexpr std::size_t kRect = 8;
+  FrameOrder order;
+  order.columns = 40;
+  order.owners.assign(40 * 30, 1);
+  const std::size_t one = encode(order).size();
+  for (std::size_t tile = 0; tile < 40 * 30; ++tile) {
+    if (tile % 40 < 15) order.owners[tile] = tile / 40 < 20 ? 0 : 2;
+  }
+  CHECK(encode(order).size() == one + 2 * kRect);
+  CHECK(partition_bytes(order) == 3 * kRect);
+  order.tiles.resize(5);
+  CHECK(partition_bytes(order) == 3 * kRect + 5 * 2 * sizeof(float));
+  order.owners[7 * 40 + 3] = 9;  // a hole: left and right of it, above and below
+  CHECK(decode_frame_order(encode(order)).owners == order.owners);
+  for (std::size_t tile = 0; tile < order.owners.size(); ++tile) {
+    order.owners[tile] = static_cast<std::int32_t>(tile * tile % 7 % 3);
+  }
+  CHECK(decode_frame_order(encode(order)).owners == order.owners);
+  order.owners.pop_back();
+  CHECK_THROWS_AS(encode(order), ProtocolError);
+}
+
+TEST_CASE("messages: a bundle holds progress and news of tiles only where there are any") {
+  Bundle bundle = some_bundle();
+  bundle.samples.clear();
+  const std::size_t all = encode(bundle).size();
+  bundle.tiles = {};
+  const std::size_t with_progress = encode(bundle).size();
+  CHECK(all == with_progress + news_bytes(some_bundle().tiles) + 3 * sizeof(std::uint32_t));
+  bundle.progress = {};
+  CHECK(encode(bundle).size() == with_progress - 4 * sizeof(float));
+  CHECK(decode_bundle(encode(bundle)).progress.quality == 0);
+  CHECK(decode_bundle(encode(bundle)).tiles.empty());
 }
 
 TEST_CASE("messages: a bundle is decoded as it was encoded") {
@@ -137,12 +172,15 @@ TEST_CASE("messages: a bundle is decoded as it was encoded") {
   CHECK(back.round == 19);
   CHECK(back.done);
   CHECK((back.progress.quality == 0.5 && back.progress.target == 0.25 && back.progress.future_cost == 1e6));
-  REQUIRE(back.transfers.size() == 1);
+  REQUIRE((back.tiles.given.size() == 1 && back.tiles.changes.size() == 1));
   CHECK(back.rounds_under_way == 4);
   CHECK((back.handshake.phase == 5 && back.handshake.acknowledged == 8 &&
          back.handshake.transfers_received == 2));
-  CHECK((back.transfers[0].tile == 4 && back.transfers[0].owner == 2 && back.transfers[0].version == 7));
-  CHECK((back.transfers[0].now.cost == 1 && back.transfers[0].last.average_weight == 4));
+  const TileTransfer& given = back.tiles.given[0];
+  CHECK((given.tile == 4 && given.owner == 2 && given.version == kVersion + 7));
+  CHECK((given.now.cost == 1 && given.last.average_weight == 4));
+  const OwnerChange& change = back.tiles.changes[0];
+  CHECK((change.tile == 5 && change.owner == 3 && change.version == kVersion));
   REQUIRE(back.samples.size() == bundle.samples.size());
   for (std::size_t i = 0; i < back.samples.size(); ++i) {
     const Sample &a = bundle.samples[i], &b = back.samples[i];
@@ -160,7 +198,7 @@ TEST_CASE("messages: pixels and their report are decoded as they were encoded") 
   CHECK(back.frame_index == 9);
   REQUIRE(back.tiles.size() == 2);
   CHECK((back.tiles[0].tile == 4 && back.tiles[0].triangles == 12 && back.tiles[0].total_weight == 0.5));
-  CHECK((back.tiles[0].cost == 100 && back.tiles[0].reconstruction == 20 && back.tiles[0].preparation == 3));
+  CHECK((back.tiles[0].cost == 100 && back.tiles[0].preparation == 3));
   CHECK(back.given == pixels.given);
   CHECK(back.colors == pixels.colors);
   CHECK(back.report.samples_new == 1);
@@ -200,7 +238,7 @@ TEST_CASE("messages: a value that its type does not have is refused") {
   CHECK_THROWS_AS(decode_frame_order(with(order, 9, 2)), ProtocolError);   // cut
   CHECK_THROWS_AS(decode_frame_order(with(order, 10, 5)), ProtocolError);  // carry
   CHECK(decode_frame_order(with(order, 10, 4)).carry == Carry::kCastWherePaying);
-  CHECK_THROWS_AS(decode_bundle(with(bundle, 12, 255)), ProtocolError);  // done
+  CHECK_THROWS_AS(decode_bundle(with(bundle, 0, 8)), ProtocolError);  // flags
   const Bytes settings = encode(some_settings());
   CHECK_THROWS_AS(decode_settings(with(settings, 8, 2)), ProtocolError);   // clock
   CHECK_THROWS_AS(decode_settings(with(settings, 57, 4)), ProtocolError);  // balance
@@ -211,38 +249,60 @@ TEST_CASE("messages: a value that its type does not have is refused") {
   CHECK_THROWS_AS(decode_settings(with(settings, 62, 2)), ProtocolError);  // learned_weights
 }
 
-TEST_CASE("messages: runs of more tiles than an image has are refused") {
-  FrameOrder order = some_order();
-  order.owners.clear(), order.tiles.clear();
-  Bytes bytes = encode(order);
-  const std::size_t counts = 2 * sizeof(std::uint64_t);
-  for (const std::int32_t tiles : {0, -1, std::numeric_limits<std::int32_t>::max(), 1 << 28}) {
-    WireWriter runs;
-    runs.put_all<OwnerRun>(std::vector<OwnerRun>{{0, tiles}});
-    runs.put(std::uint64_t{0});
-    Bytes hostile(bytes.begin(), bytes.end() - static_cast<std::ptrdiff_t>(counts));
-    const Bytes end = runs.take();
-    hostile.insert(hostile.end(), end.begin(), end.end());
-    CHECK_THROWS_AS(decode_frame_order(hostile), ProtocolError);
-  }
+TEST_CASE("messages: owners of tiles that an image has not, or has twice, are refused") {
+  struct Rect {
+    std::int32_t owner;
+    std::uint16_t columns, rows;
+  };
+  const auto is_refused = [](std::int32_t columns, std::int32_t rows, const std::vector<Rect>& rects) {
+    FrameOrder order = some_order();
+    order.owners.clear(), order.tiles.clear(), order.columns = 0;
+    Bytes bytes = encode(order);
+    constexpr std::size_t kTail = 2 * sizeof(std::int32_t) + 3 * sizeof(std::uint32_t);  // owners and lists
+    bytes.resize(bytes.size() - kTail);
+    WireWriter tail;
+    tail.put(columns), tail.put(rows), tail.put_all(std::span<const Rect>(rects));
+    tail.put(std::uint32_t{0}), tail.put(std::uint32_t{0});
+    const Bytes end = tail.take();
+    bytes.insert(bytes.end(), end.begin(), end.end());
+    try {
+      decode_frame_order(bytes);
+      return false;
+    } catch (const ProtocolError&) {
+      return true;
+    }
+  };
+  CHECK_FALSE(is_refused(3, 2, {{0, 2, 2}, {1, 1, 2}}));
+  CHECK(is_refused(3, 2, {{0, 2, 2}}));             // one column is nobody's
+  CHECK(is_refused(3, 2, {{0, 2, 1}, {1, 2, 2}}));  // too wide
+  CHECK(is_refused(3, 2, {{0, 3, 3}}));             // too high
+  CHECK(is_refused(3, 2, {{0, 3, 2}, {1, 1, 1}}));  // all have owners
+  CHECK(is_refused(3, 2, {{0, 0, 1}, {0, 3, 2}}));
+  CHECK(is_refused(3, 2, {{0, 3, 0}, {0, 3, 2}}));
+  CHECK(is_refused(3, 2, {{-1, 3, 2}}));
+  CHECK(is_refused(3, 2, {{0, 1, 1}, {1, 2, 1}, {2, 1, 1}, {3, 3, 1}}));
+  CHECK(is_refused(-3, 2, {}));
+  CHECK(is_refused(1 << 30, 1 << 30, {}));
 }
 
 TEST_CASE("messages: a count that a message cannot hold takes no memory") {
   const Bytes bundle = encode(some_bundle());
   Bundle without = some_bundle();
   without.samples.clear();
-  check_hostile_count(bundle, encode(without).size() - sizeof(std::uint64_t), kDecodeBundle);
-  check_hostile_count(bundle, encode(without).size() - 2 * sizeof(std::uint64_t) - sizeof(TileTransfer),
-                      kDecodeBundle);
+  check_hostile_count(bundle, encode(without).size() - sizeof(std::uint32_t), kDecodeBundle);
+  constexpr std::size_t kTransfer = 28, kChange = 12;
+  const std::size_t changes = encode(without).size() - 2 * sizeof(std::uint32_t) - kChange;
+  check_hostile_count(bundle, changes, kDecodeBundle);
+  check_hostile_count(bundle, changes - kTransfer - sizeof(std::uint32_t), kDecodeBundle);
 
   const PixelMessage pixels = some_pixels();
   const Bytes bytes = encode(pixels);
   const std::size_t colors =
-      bytes.size() - 6 * sizeof(float) - 2 * sizeof(std::uint64_t);  // no samples follow
+      bytes.size() - 6 * sizeof(float) - 2 * sizeof(std::uint32_t);  // no samples follow
   check_hostile_count(bytes, colors, kDecodePixels);
-  const std::size_t given = colors - sizeof(std::int32_t) - sizeof(std::uint64_t);
+  const std::size_t given = colors - sizeof(std::int32_t) - sizeof(std::uint32_t);
   check_hostile_count(bytes, given, kDecodePixels);
-  check_hostile_count(bytes, given - 2 * sizeof(TileReport) - sizeof(std::uint64_t), kDecodePixels);
+  check_hostile_count(bytes, given - 2 * kTileReportBytes - sizeof(std::uint32_t), kDecodePixels);
 }
 
 TEST_CASE("messages: texts are encoded with their length") {

@@ -15,16 +15,20 @@ std::string page() {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-std::size_t order_bytes(std::size_t runs, std::size_t tiles) {
+// The owners make a row of so many rectangles.
+std::size_t order_bytes(std::size_t rects, std::size_t tiles) {
   FrameOrder order;
-  for (std::size_t i = 0; i < runs; ++i) order.owners.push_back(static_cast<std::int32_t>(i % 2));
+  for (std::size_t i = 0; i < rects; ++i) order.owners.push_back(static_cast<std::int32_t>(i % 2));
+  order.columns = static_cast<std::int32_t>(rects);
   order.tiles.resize(tiles);
   return encode(order).size();
 }
 
-std::size_t bundle_bytes(std::size_t transfers, std::size_t samples) {
+std::size_t bundle_bytes(std::size_t progress, std::size_t given, std::size_t changes, std::size_t samples) {
   Bundle bundle;
-  bundle.transfers.resize(transfers);
+  bundle.progress.quality = static_cast<double>(progress);
+  bundle.tiles.given.resize(given);
+  bundle.tiles.changes.resize(changes);
   bundle.samples.resize(samples);
   return encode(bundle).size();
 }
@@ -39,14 +43,18 @@ std::size_t pixels_bytes(std::size_t tiles, std::size_t transfers, std::size_t p
   return encode(message).size();
 }
 
-// Numbers on the page, found by a pattern; each match's numbers go to `check`.
+// Numbers on the page, found by a pattern; each match's numbers go to `check`. What is optional and missing
+// counts as 0, a "q " as 1.
 template <typename Check>
 int for_each_match(const std::string& text, const std::string& pattern, const Check& check) {
   const std::regex regex(pattern);
   int count = 0;
   for (std::sregex_iterator match(text.begin(), text.end(), regex), end; match != end; ++match, ++count) {
     INFO(match->str());
-    check([&](std::size_t i) { return static_cast<std::size_t>(std::stoul((*match)[i].str())); });
+    check([&](std::size_t i) {
+      const std::string found = (*match)[i].str();
+      return found.empty() ? std::size_t{0} : found == "q " ? std::size_t{1} : std::stoul(found);
+    });
   }
   return count;
 }
@@ -59,12 +67,16 @@ TEST_CASE("docs/protocol.md: its size formulas are those of the encoders") {
     return text.find('`' + formula + '`') != std::string::npos;
   };
   const auto n = [](std::size_t value) { return std::to_string(value); };
-  const std::size_t order = order_bytes(0, 0), bundle = bundle_bytes(0, 0), pixels = pixels_bytes(0, 0, 0);
+  const std::size_t order = order_bytes(0, 0), bundle = bundle_bytes(0, 0, 0, 0),
+                    pixels = pixels_bytes(0, 0, 0);
   CHECK(states(n(order)));
   CHECK(states(n(order) + " + " + n(order_bytes(1, 0) - order) + " r + " + n(order_bytes(0, 1) - order) +
                " t"));
-  CHECK(states(n(bundle) + " + " + n(bundle_bytes(1, 0) - bundle) + " g + " + n(bundle_bytes(0, 1) - bundle) +
-               " s"));
+  const std::size_t given = bundle_bytes(0, 2, 0, 0) - bundle_bytes(0, 1, 0, 0);
+  const std::size_t change = bundle_bytes(0, 1, 1, 0) - bundle_bytes(0, 1, 0, 0);
+  CHECK(states(n(bundle) + " + " + n(bundle_bytes(1, 0, 0, 0) - bundle) + " q + " +
+               n(bundle_bytes(0, 0, 0, 1) - bundle) + " s"));
+  CHECK(states(n(bundle_bytes(0, 1, 0, 0) - bundle - given) + " + " + n(given) + " g + " + n(change) + " c"));
   CHECK(states(n(pixels) + " + " + n(pixels_bytes(1, 0, 0) - pixels) + " t + " +
                n(pixels_bytes(0, 1, 0) - pixels) + " g + " + n(pixels_bytes(0, 0, 1) - pixels) + " p + " +
                n(pixels_bytes(0, 0, 0, 1) - pixels) + " s"));
@@ -84,8 +96,9 @@ TEST_CASE("docs/protocol.md: the sizes in its worked example are those of the en
   CHECK(3 == for_each_match(text, R"(\[order (\d+)r (\d+)t = (\d+)\])", [](const auto& number) {
           CHECK(order_bytes(number(1), number(2)) == number(3));
         }));
-  CHECK(16 <= for_each_match(text, R"(\[bundle (\d+)g (\d+)s = (\d+)\])", [](const auto& number) {
-          CHECK(bundle_bytes(number(1), number(2)) == number(3));
+  constexpr const char* kBundle = R"(\[bundle (q )?(?:(\d+)g )?(?:(\d+)c )?(\d+)s = (\d+)\])";
+  CHECK(17 <= for_each_match(text, kBundle, [](const auto& number) {
+          CHECK(bundle_bytes(number(1), number(2), number(3), number(4)) == number(5));
         }));
   CHECK(6 == for_each_match(text, R"(\[pixels (\d+)t (\d+)g (\d+)p = (\d+)\])", [](const auto& number) {
           CHECK(pixels_bytes(number(1), number(2), number(3)) == number(4));
