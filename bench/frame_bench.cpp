@@ -1,5 +1,5 @@
-// Measures the cost of a frame on one rank apart from its samples, and of encoding and decoding bundles of
-// samples.
+// Measures the cost of a frame on one rank apart from its samples, of encoding and decoding bundles of
+// samples, and what rank 0 does for a frame of many ranks.
 //
 // A session of one rank runs in this process with a budget that is spent before sampling begins. Its cost is
 // that of orders, seeds, reconstruction and pixel transfer. "ms_per_frame" is the CPU time of the frame,
@@ -12,6 +12,9 @@
 #include <utility>
 #include <vector>
 
+#include "parallel/balance/global_balance.h"
+#include "parallel/balance/partition.h"
+#include "parallel/frame_assembly.h"
 #include "parallel/network/local_communicator.h"
 #include "parallel/network/messages.h"
 #include "parallel/session.h"
@@ -117,6 +120,56 @@ void decode_bundle(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(pprt::decode_bundle(bytes));
 }
 BENCHMARK(decode_bundle)->Unit(benchmark::kMicrosecond);
+
+// What rank 0 does for a frame beside its own region: takes in all ranks' pixels and reports, makes a
+// partition, and orders the next frame by it. A tree of assemblers would leave it the pixels from as many
+// ranks as the tree's root has children; "partition" false leaves out what only a repartition costs.
+void rank_0(benchmark::State& state, bool partition) {
+  const int ranks = static_cast<int>(state.range(0)), side = static_cast<int>(state.range(1));
+  const TileGrid grid = tile_grid_for(side, side, ranks);
+  const std::vector<double> costs(static_cast<std::size_t>(grid.tile_count()), 1);
+  const Partition owners = bisect(grid, costs, ranks);
+  std::vector<Bytes> messages;
+  for (int rank = 0; rank < ranks; ++rank) {
+    PixelMessage message;
+    const Region region = region_of(owners, rank);
+    for (const int tile : region.tiles()) {
+      message.tiles.push_back({.tile = tile, .triangles = 10 + rank % 7, .total_weight = 5, .cost = 1e4});
+      message.colors.insert(message.colors.end(), grid.pixels(tile).area(), Color(0.5f, 0.5f, 0.5f));
+    }
+    messages.push_back(encode(message));
+  }
+  SessionSettings settings;
+  settings.balance = BalanceMode::kGlobal;
+  GlobalBalancer balancer(settings, grid, ranks, 0);
+  FrameOrder order;
+  order.carry = Carry::kCastPaper;
+  std::size_t ordered = 0;
+  for (auto _ : state) {
+    FrameAssembly assembly(order, grid, ranks);
+    for (int rank = 0; rank < ranks; ++rank)
+      assembly.add(rank, decode_pixels(messages[static_cast<std::size_t>(rank)]));
+    FrameOrder next = order;
+    if (partition) {
+      balancer.consider({.tiles = assembly.tiles_of_ranks(),
+                         .speeds = std::vector<double>(static_cast<std::size_t>(ranks), 1)});
+      balancer.add_partition(next);
+    }
+    ordered = 0;
+    for (const Bytes& message : encode_for_ranks(next, balancer.estimates_for(next)))
+      ordered += message.size();
+    benchmark::DoNotOptimize(assembly.picture.take_image());
+  }
+  state.counters["order_bytes"] = static_cast<double>(ordered);
+}
+BENCHMARK_CAPTURE(rank_0, partition, true)
+    ->ArgsProduct({{1, 16, 64, 256}, {256, 1024}})
+    ->Args({1024, 1024})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(rank_0, pixels, false)
+    ->ArgsProduct({{1, 16, 64, 256}, {256, 1024}})
+    ->Args({1024, 1024})
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 

@@ -55,7 +55,7 @@ void Master::order_next() {
     ended_ = true;
     FrameOrder order;
     order.end = true;
-    send(std::move(order));
+    send(order);
     return;
   }
   FrameOrder order = make_order(*request);
@@ -67,7 +67,7 @@ void Master::order_next() {
   if (request->cut) last_cut_ = order.index;
   before_ = request;
   ++next_index_;
-  send(std::move(order));
+  send(order);
 }
 
 FrameOrder Master::make_order(const FrameRequest& request) {
@@ -103,11 +103,11 @@ Carry Master::carry_into(const FrameRequest& request) const {
   return Carry::kNothing;
 }
 
-void Master::send(FrameOrder order) {
+void Master::send(const FrameOrder& order) {
+  std::vector<Bytes> messages = encode_for_ranks(order, balancer_.estimates_for(order));
   for (int rank = 0; rank < network_.size(); ++rank) {
-    if (is_lost(rank)) continue;
-    order.tiles = balancer_.estimates_for(order, rank);
-    network_.send(rank, Tag::kFrameOrder, encode(order));
+    if (!is_lost(rank))
+      network_.send(rank, Tag::kFrameOrder, std::move(messages[static_cast<std::size_t>(rank)]));
   }
 }
 

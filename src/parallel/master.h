@@ -107,7 +107,7 @@ class Master {
   void order_next();
   FrameOrder make_order(const FrameRequest& request);
   Carry carry_into(const FrameRequest& request) const;
-  void send(FrameOrder order);
+  void send(const FrameOrder& order);
   void handle_overdue(int from, const PixelMessage& pixels);
   double after_sampling_s(const RankReport& report) const;
   bool is_due(const PendingFrame& frame) const;

@@ -1,4 +1,4 @@
-// Rank 0's count of the bundles of a round on the work clock: nobody goes on before all that is sent to it is
+// Rank 0's count of the bundles of a round on the work clock. Nobody goes on before all that is sent to it is
 // there, and nobody sends a message only to say that there is none.
 #pragma once
 

@@ -46,6 +46,10 @@ CLI::App& add_paper(CLI::App& app, pprt::PaperOptions& options) {
       "Numbers of ranks for figures 5 to 7 (default: 32,62; quick: 4,6)")
       ->delimiter(',')
       ->check(CLI::Range(1, 512));
+  add(command, "--most-ranks", "N", options.most_ranks,
+      "Ranks of the largest picture, where their number varies; 1024 take 14 GB")
+      ->capture_default_str()
+      ->check(CLI::Range(64, 1024));
   add(command, "--frames", "N", options.frames,
       "Render the first N frames of each sequence (default: 40; quick: 6)")
       ->check(CLI::Range(5, 40));

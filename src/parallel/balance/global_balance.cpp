@@ -13,8 +13,16 @@ namespace pprt {
 namespace {
 
 // In `combined` the image is repartitioned when the ranks' mean weights deviate by more than this share of
-// their mean. Found by measurement (docs/decisions/0009-balancing.md).
-constexpr double kImbalanceTrigger = 0.25;
+// their mean: more where regions have few triangles, whose mean weights are uncertain. Found by measurement
+// (docs/decisions/0009-balancing.md).
+double imbalance_trigger(std::span<const std::vector<TileReport>> of_rank) {
+  double triangles = 0;
+  for (const std::vector<TileReport>& tiles : of_rank) {
+    for (const TileReport& t : tiles) triangles += t.triangles;
+  }
+  const double of_region = triangles / static_cast<double>(of_rank.size());
+  return 0.1 + 4 / std::sqrt(std::max(of_region, 1.0));
+}
 
 }  // namespace
 
@@ -81,7 +89,7 @@ void GlobalBalancer::consider(FrameReports frame) {
   // A partition is in force two frames after the one that it was made from. The frame between does not show
   // yet what it brings; where samples would be handed over once more, it is not answered.
   const bool is_answered = latest_.accumulates && latest_.generation != generation_;
-  if (!always && (is_answered || imbalance(latest_.tiles) <= kImbalanceTrigger)) return;
+  if (!always && (is_answered || imbalance(latest_.tiles) <= imbalance_trigger(latest_.tiles))) return;
   make_partition(latest_.speeds);
 }
 
@@ -133,10 +141,10 @@ bool GlobalBalancer::can_afford_to_hand_over() const {
   return most * static_cast<double>(price(Work::kReceivedSample)) <= 0.05 * units_per_frame_;
 }
 
-std::vector<TileEstimate> GlobalBalancer::estimates_for(const FrameOrder& order, int rank) const {
-  std::vector<TileEstimate> estimates;
+std::vector<std::vector<TileEstimate>> GlobalBalancer::estimates_for(const FrameOrder& order) const {
+  std::vector<std::vector<TileEstimate>> estimates(static_cast<std::size_t>(ranks_));
   for (std::size_t tile = 0; tile < order.owners.size(); ++tile) {
-    if (order.owners[tile] == rank) estimates.push_back(found_[tile]);
+    estimates[static_cast<std::size_t>(order.owners[tile])].push_back(found_[tile]);
   }
   return estimates;
 }

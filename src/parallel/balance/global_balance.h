@@ -59,8 +59,8 @@ class GlobalBalancer {
   // was made from the samples of many frames, where the picture begins anew: other tiles are costly then.
   void add_partition(FrameOrder& order);
 
-  // What the tiles that the order's new partition gives to a rank were found to be, ascending by tile.
-  std::vector<TileEstimate> estimates_for(const FrameOrder& order, int rank) const;
+  // Per rank: what the tiles that the order's new partition gives to it were found to be, ascending by tile.
+  std::vector<std::vector<TileEstimate>> estimates_for(const FrameOrder& order) const;
 
  private:
   void make_partition(const std::vector<double>& speeds);

@@ -117,7 +117,7 @@ std::vector<Candidate> candidates_of(const Partition& partition, const std::vect
 double relative_noise(const RegionQuality& refined, double elapsed) {
   std::int64_t triangles = 0;
   for (const int tile : refined.region.tiles()) triangles += refined.tile(tile).count;
-  return std::sqrt(elapsed / static_cast<double>(std::max(triangles, std::int64_t{1})));
+  return std::sqrt((0.1 + 0.9 * elapsed) / static_cast<double>(std::max(triangles, std::int64_t{1})));
 }
 
 bool should_give(const LocalBalanceSettings& settings, double own_quality, double own_future_cost,

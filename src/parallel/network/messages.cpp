@@ -277,15 +277,38 @@ ClockPong decode_clock_pong(std::span<const std::byte> bytes) {
   return pong;
 }
 
-Bytes encode(const FrameOrder& order) {
-  WireWriter out;
+namespace {
+
+// All but the tiles.
+void put_common(WireWriter& out, const FrameOrder& order) {
   out.put(order.end), out.put(order.index), out.put(order.number), out.put(order.cut), out.put(order.carry);
   out.put(order.camera), out.put(order.evidence), out.put(order.deadline_s), out.put(order.reserve_s),
       out.put(order.generation);
   put_owners(out, order);
-  put_as<WireEstimate>(out, order.tiles);
   out.put_all(std::span<const std::int32_t>(order.lost));
+}
+
+}  // namespace
+
+Bytes encode(const FrameOrder& order) {
+  WireWriter out;
+  put_common(out, order);
+  put_as<WireEstimate>(out, order.tiles);
   return out.take();
+}
+
+std::vector<Bytes> encode_for_ranks(const FrameOrder& order,
+                                    std::span<const std::vector<TileEstimate>> tiles) {
+  WireWriter common;
+  put_common(common, order);
+  std::vector<Bytes> messages(tiles.size(), common.take());
+  for (std::size_t rank = 0; rank < tiles.size(); ++rank) {
+    WireWriter of_rank;
+    put_as<WireEstimate>(of_rank, tiles[rank]);
+    const Bytes end = of_rank.take();
+    messages[rank].insert(messages[rank].end(), end.begin(), end.end());
+  }
+  return messages;
 }
 
 FrameOrder decode_frame_order(std::span<const std::byte> bytes) {
@@ -296,8 +319,8 @@ FrameOrder decode_frame_order(std::span<const std::byte> bytes) {
   in.get(order.camera), in.get(order.evidence), in.get(order.deadline_s), in.get(order.reserve_s),
       in.get(order.generation);
   get_owners(in, order);
-  get_as<WireEstimate>(in, order.tiles);
   in.get_all(order.lost);
+  get_as<WireEstimate>(in, order.tiles);
   in.expect_end();
   return order;
 }

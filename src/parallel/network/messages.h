@@ -145,6 +145,11 @@ std::size_t news_bytes(const TileNews& tiles);
 Bytes encode(const ClockPing& ping);
 Bytes encode(const ClockPong& pong);
 Bytes encode(const FrameOrder& order);
+
+// The order for each rank, which differ in `tiles` alone. A partition of many ranks is encoded once.
+std::vector<Bytes> encode_for_ranks(const FrameOrder& order,
+                                    std::span<const std::vector<TileEstimate>> tiles);
+
 Bytes encode(const Bundle& bundle);
 Bytes encode(const PixelMessage& pixels);
 Bytes encode(const RoundSent& sent);

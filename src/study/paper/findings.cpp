@@ -180,7 +180,7 @@ Finding overhead(const Runs& runs) {
   std::vector<Check> checks;
   double least = kNever, most = -kNever;
   for (const int ranks : runs.distinct(kScaling, &PaperRun::ranks)) {
-    if (ranks == 1) continue;
+    if (ranks == 1 || runs.find(kScaling, ranks, kNone).frames.empty()) continue;
     const auto samples = [&](BalanceMode mode) {
       return mean(runs.find(kScaling, ranks, mode), kStill, &F::samples);
     };
@@ -246,6 +246,8 @@ Findings casting(const Runs& runs) {
     return mean(run(mode, false), kFromFifth, relative_deviation);
   };
   const auto distance = [&](BalanceMode mode) { return mean(run(mode, false), kFromFifth, &F::distance); };
+  const MeasuredRun& alone =
+      runs.find(kGrowth, [](const PaperRun& r) { return r.cast == CastChoice::kPaper; });
   return {
       {"6.4.2, figures 7b 7c",
        "With casting too, combined balances better than local, and local better than none",
@@ -263,6 +265,7 @@ Findings casting(const Runs& runs) {
        "frames 5 to the last",
        {{"distance to serial", mean(kept, kFromFifth, &F::distance), kAtMost, distance(kCombined) + 0.03,
          "dropped + 0.03"},
+        {"one rank's, which hands nothing over", mean(alone, kFromFifth, &F::distance)},
         {"repartitions", static_cast<double>(repartitions(kept))}}}};
 }
 

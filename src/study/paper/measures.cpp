@@ -93,6 +93,8 @@ std::vector<Speedup> speedups(const Runs& runs) {
   };
   for (const int side : runs.distinct(kScaling, &PaperRun::side)) {
     for (const int ranks : runs.distinct(kScaling, &PaperRun::ranks)) {
+      const auto is_this = [=](const PaperRun& run) { return run.side == side && run.ranks == ranks; };
+      if (runs.all(kScaling, is_this).empty()) continue;
       const auto on_ranks = [&](int count) {
         return refinement(runs.find(kScaling, [=](const PaperRun& run) {
           return run.side == side && run.ranks == count && run.balance == BalanceMode::kCombined;

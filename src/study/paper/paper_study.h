@@ -25,6 +25,7 @@ struct PaperOptions {
   std::string directory;
   bool quick = false;      // small pictures of a small tree, few ranks and frames
   std::vector<int> ranks;  // for figures 5 to 7; empty: 32 and 62, or 4 and 6 if quick
+  int most_ranks = 256;    // where their number varies, on the largest picture; up to 1024
   int frames = 0;          // of each sequence; 0: all 40, or 6 if quick
   WeightRule weights = WeightRule::kPaper;
   MachineKind machine = MachineKind::kCluster;

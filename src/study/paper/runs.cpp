@@ -19,8 +19,9 @@
 namespace pprt {
 namespace {
 
-constexpr double kNearBorder = 3;  // pixels: within this a sample counts as near a border of regions
-constexpr int kStillFrames = 10;   // the camera rests this long at the start of the simple sequence
+constexpr double kNearBorder = 3;    // pixels: within this a sample counts as near a border of regions
+constexpr int kManyRanksFrames = 6;  // enough to settle
+constexpr int kStillFrames = 10;     // the camera rests this long at the start of the simple sequence
 
 // What all runs have in common.
 struct PaperSetup {
@@ -175,13 +176,30 @@ struct RunList {
       add_alone(2 * side, ranks);
       add_cast(kCosts, ranks, CastChoice::kPaper);
     }
+    add_many_ranks();
     for (const BalanceMode mode : {kNone, kCombined}) calibrate(add_still(kPattern, kPatternRanks, mode));
-    for (const CastChoice cast : {CastChoice::kOff, CastChoice::kPaper}) add_cast(kGrowth, 1, cast);
+    add_cast(kGrowth, 1, CastChoice::kOff);
+    PaperRun& alone = add_cast(kGrowth, 1, CastChoice::kPaper);
+    alone.frames = options.frames, alone.compare_serial = true;
   }
 
-  void add_cast(std::string_view experiment, int ranks, CastChoice cast) {
+  // A picture large enough that regions stay as large as the paper's.
+  void add_many_ranks() {
+    if (options.quick) return;
+    const int side = 4 * picture_side(options);
+    for (const int ranks : {1, 64, 128, 256, 512, 1024}) {
+      if (ranks > options.most_ranks) break;
+      PaperRun& run = add_still(kScaling, ranks);
+      run.side = side, run.frames = kManyRanksFrames, run.compare_serial = false;
+      add_alone(side, ranks);
+      runs.back().frames = kManyRanksFrames;
+    }
+  }
+
+  PaperRun& add_cast(std::string_view experiment, int ranks, CastChoice cast) {
     PaperRun& run = add_still(experiment, ranks);
     run.sequence = kCasting, run.cast = cast, run.compare_serial = false;
+    return run;
   }
 
   // One rank in the time that `ranks` have together.

@@ -47,7 +47,7 @@ class Stage {
       if (partition_.owner[static_cast<std::size_t>(tile)] != rank) continue;
       // The middle rank's triangles weigh more: worth a new partition.
       message.tiles.push_back(
-          {.tile = tile, .triangles = 4, .total_weight = rank == 1 ? 40.0 : 4.0, .cost = 100});
+          {.tile = tile, .triangles = 400, .total_weight = rank == 1 ? 4000.0 : 400.0, .cost = 100});
       message.colors.insert(message.colors.end(), partition_.grid.pixels(tile).area(),
                             Color(value(rank, frame)));
     }

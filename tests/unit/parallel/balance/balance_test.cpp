@@ -241,8 +241,8 @@ TEST_CASE(
     FrameReports frame;
     frame.generation = generation;
     frame.accumulates = accumulates;
-    frame.tiles = {{report(0, 100, 1, 4), report(1, 100, 1, 4)},
-                   {report(2, 100, 1, 1), report(3, 100, 1, 1)}};
+    frame.tiles = {{report(0, 100, 1000, 4000), report(1, 100, 1000, 4000)},
+                   {report(2, 100, 1000, 1000), report(3, 100, 1000, 1000)}};
     frame.speeds = {1, 1};
     balancer.consider(frame);
     FrameOrder order;

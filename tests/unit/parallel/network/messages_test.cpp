@@ -152,6 +152,18 @@ TEST_CASE("messages: owners travel as rectangles, of any partition") {
   CHECK_THROWS_AS(encode(order), ProtocolError);
 }
 
+TEST_CASE("messages: the orders for ranks are those that each would get alone") {
+  FrameOrder order = some_order();
+  order.lost = {3, 4};
+  const std::vector<std::vector<TileEstimate>> tiles = {order.tiles, {}, {{7, 8}}};
+  const std::vector<Bytes> messages = encode_for_ranks(order, tiles);
+  REQUIRE(messages.size() == tiles.size());
+  for (std::size_t rank = 0; rank < tiles.size(); ++rank) {
+    order.tiles = tiles[rank];
+    CHECK(messages[rank] == encode(order));
+  }
+}
+
 TEST_CASE("messages: a bundle holds progress and news of tiles only where there are any") {
   Bundle bundle = some_bundle();
   bundle.samples.clear();

@@ -48,16 +48,33 @@ TEST_CASE("paper study: a machine's network can be set apart from its processors
 TEST_CASE("paper study: each experiment of the paper has its runs") {
   const PaperOptions options = settled({});
   const std::vector<PaperRun> runs = paper_runs(options, even(options.ranks));
-  CHECK(count(runs, kSimple) == 8);    // four modes, two numbers of ranks
-  CHECK(count(runs, kCasting) == 4);   // three modes, and samples kept
-  CHECK(count(runs, kScaling) == 28);  // seven numbers of ranks: three modes, and a larger picture
-  CHECK(count(runs, kShortFrame) == 14);
+  CHECK(count(runs, kSimple) == 8);   // four modes, two numbers of ranks
+  CHECK(count(runs, kCasting) == 4);  // three modes, and samples kept
+  // Seven numbers of ranks: three modes, and a larger picture; four on a still larger one.
+  CHECK(count(runs, kScaling) == 28 + 4);
+  CHECK(count(runs, kShortFrame) == 14 + 4);
   CHECK(count(runs, kCosts) == 7);
   for (const PaperRun& run : runs) {
     if (run.experiment == kSimple) CHECK((run.cast == CastChoice::kOff && run.frames == 40));
     if (run.experiment == kCasting) CHECK((run.cast == CastChoice::kPaper && run.ranks == 62));
     if (run.experiment == kScaling) CHECK(run.share == 1);
   }
+}
+
+TEST_CASE("paper study: as many ranks as are asked for have regions of one size") {
+  PaperOptions options = settled({});
+  const auto greatest = [&] {
+    int ranks = 0;
+    for (const PaperRun& run : paper_runs(options, even(options.ranks))) {
+      if (run.experiment == kScaling) ranks = std::max(ranks, run.ranks);
+    }
+    return ranks;
+  };
+  CHECK(greatest() == 256);
+  options.most_ranks = 1024;
+  CHECK(greatest() == 1024);
+  options.most_ranks = 64;
+  CHECK(greatest() == 64);
 }
 
 TEST_CASE("paper study: a quick study measures every frame of every run") {
