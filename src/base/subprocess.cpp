@@ -1,6 +1,7 @@
 #include "base/subprocess.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -8,9 +9,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <system_error>
 #include <thread>
@@ -206,6 +209,17 @@ std::size_t Subprocess::read(std::span<char> buffer) const {
     if (errno != EINTR) throw_errno("read");
   }
   return static_cast<std::size_t>(count);
+}
+
+bool Subprocess::has_output_within(double seconds) const {
+  const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  for (;;) {
+    const std::chrono::duration<double, std::milli> left = until - std::chrono::steady_clock::now();
+    pollfd output{output_, POLLIN, 0};
+    const int ready = poll(&output, 1, static_cast<int>(std::max(0.0, std::ceil(left.count()))));
+    if (ready >= 0) return ready > 0;
+    if (errno != EINTR) throw_errno("poll");
+  }
 }
 
 ExitStatus Subprocess::end_within(double seconds) {

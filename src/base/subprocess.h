@@ -60,6 +60,9 @@ class Subprocess {
   // returns their number; 0: the program has closed both. Throws std::system_error.
   std::size_t read(std::span<char> buffer) const;
 
+  // Whether read() would return within so many seconds.
+  bool has_output_within(double seconds) const;
+
   // Asks the program to end, by SIGTERM, and kills it when it has not ended after so many seconds.
   ExitStatus end_within(double seconds);
 

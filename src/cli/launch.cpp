@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <stdexcept>
@@ -25,6 +26,14 @@ volatile std::sig_atomic_t forced = 0;  // a second signal came
 // Tells the ranks where the pipe to mpirun, which is their standard error, ends: at a terminal or elsewhere.
 constexpr const char* kLauncherVariable = "PPRT_LAUNCHED";
 constexpr std::string_view kFromTerminal = "from-terminal", kFromElsewhere = "from-elsewhere";
+
+std::string program_path() {
+  return std::filesystem::read_symlink("/proc/self/exe");
+}
+
+using SteadyTime = std::chrono::steady_clock::time_point;
+
+constexpr double kEndPatience_s = 2;  // that mpirun has to end when it is asked to
 
 // Stands before quoted words, each of which begins with '='.
 constexpr std::string_view kQuotedWords = "=words";
@@ -59,11 +68,25 @@ void show(std::string_view text) {
   }
 }
 
+// With --enable-recovery mpirun says nothing of a host that cannot start its ranks, and the others wait for
+// them. Ends it then.
+void await_begin(Subprocess& mpirun, const Launch& launch, SteadyTime began) {
+  const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - began;
+  if (mpirun.has_output_within(launch.start_patience_s - waited.count())) return;
+  mpirun.end_within(kEndPatience_s);
+  throw std::runtime_error(
+      fmt::format("the ranks have not found each other within {:g} s; is the program on every host at '{}'?",
+                  launch.start_patience_s, program_path()));
+}
+
 // Prints what mpirun and the ranks say until they end.
-MpirunMessages relay(const Subprocess& mpirun, const std::function<void(std::string_view)>& overhear) {
+MpirunMessages relay(Subprocess& mpirun, const Launch& launch,
+                     const std::function<void(std::string_view)>& overhear) {
   MpirunMessages messages;
   std::array<char, 4096> piece{};
+  const SteadyTime began = std::chrono::steady_clock::now();
   while (!messages.end_code() && !messages.has_lost_host()) {
+    if (launch.goes_on && !messages.has_begun()) await_begin(mpirun, launch, began);
     const std::size_t count = mpirun.read(piece);
     if (count == 0) break;
     const std::string said = messages.take({piece.data(), count});
@@ -77,9 +100,8 @@ MpirunMessages relay(const Subprocess& mpirun, const std::function<void(std::str
 // Waits for mpirun's end, but not long where it may wait itself for a host that is out of reach. The ranks
 // that it can reach end with it in any case. Returns its exit code, or what a rank has said instead.
 int mpirun_code(Subprocess& mpirun, const MpirunMessages& messages) {
-  constexpr double kPatience_s = 2;
   if (!messages.end_code() && !messages.has_lost_host()) return mpirun.wait().code;
-  const int code = mpirun.end_within(kPatience_s).code;
+  const int code = mpirun.end_within(kEndPatience_s).code;
   return messages.end_code().value_or(code);
 }
 
@@ -102,7 +124,7 @@ std::vector<std::string> mpirun_command(const Launch& launch, std::span<const st
   if (geteuid() == 0) command.emplace_back("--allow-run-as-root");
   command.emplace_back("-x");
   command.push_back(fmt::format("{}={}", kLauncherVariable, on_terminal() ? kFromTerminal : kFromElsewhere));
-  command.push_back(std::filesystem::read_symlink("/proc/self/exe"));
+  command.push_back(program_path());
   command.emplace_back(kQuotedWords);
   for (const std::string& word : words) command.push_back("=" + word);
   return command;
@@ -121,7 +143,7 @@ int run_under_mpirun(const Launch& launch, std::span<const std::string> words,
   Subprocess mpirun(mpirun_command(launch, words), kMpirunSettings);
   mpirun_pid = mpirun.id();
   pass_signals_on();
-  const MpirunMessages messages = relay(mpirun, overhear);
+  const MpirunMessages messages = relay(mpirun, launch, overhear);
   const int code = mpirun_code(mpirun, messages);
   // A run that was asked to stop may still fail. The code of an mpirun that was ended says nothing.
   const bool failed = code >= kExitFailure && code <= kExitInput;

@@ -15,6 +15,7 @@ struct Launch {
   int processes = 1;
   std::filesystem::path hostfile = {};  // empty: this host
   bool goes_on = false;                 // the run may go on without a process that has ended
+  double start_patience_s = 60;         // with goes_on: how long the ranks may take to find each other
 };
 
 // Returns the mpirun command that runs this program with these words.
@@ -27,7 +28,8 @@ std::vector<std::string> mpirun_command(const Launch& launch, std::span<const st
 // Returns the words behind the program's name as the user gave them, quoted by mpirun_command() or not.
 std::vector<std::string> user_words(int argc, const char* const* argv);
 
-// Runs this program with these words under mpirun and returns its exit code.
+// Runs this program with these words under mpirun and returns its exit code. Throws std::runtime_error where
+// the run cannot start or has lost a rank.
 //
 // The first SIGINT, SIGTERM or SIGHUP asks rank 0 to end after its frame; a second SIGINT or SIGTERM ends
 // mpirun. Each makes the code 128 + signal, unless the run failed. SIGUSR1 is passed on. `overhear` gets what

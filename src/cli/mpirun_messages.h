@@ -25,6 +25,9 @@ class MpirunMessages {
   // Whether loss() is that of a host, for which mpirun may wait in vain.
   bool has_lost_host() const { return has_lost_host_; }
 
+  // Whether a rank has printed begin_line().
+  bool has_begun() const { return has_begun_; }
+
   // The run's exit code, once a rank has printed end_line().
   std::optional<int> end_code() const { return end_code_; }
 

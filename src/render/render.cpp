@@ -151,7 +151,6 @@ int run_frames(ProcessRanks& ranks, const PreparedRun& run, const SessionEvents&
 
   // Render with all ranks.
   broadcast.send(run.job);
-  tell_launcher_of_begin();
   watch_signals();
   const StatusPrinter printer([&recorder] { recorder.status(); }, [&progress] { progress.stopping(); });
   const FrameSink sink = [&](FinishedFrame&& frame) {
@@ -221,6 +220,7 @@ void meet_others(MpiCommunicator& processes) try {
 int run_mpi_process(const RenderOptions& options, ProgressReporter& progress) {
   MpiCommunicator processes;
   meet_others(processes);
+  if (processes.rank() == 0) tell_launcher_of_begin();
   const int share = std::max(1, processes.cores_on_host() / processes.ranks_on_host());
   ProcessRanks ranks(processes, options.threads.value_or(share));
   set_up_log(options.log, ranks.ranks().first);

@@ -2,6 +2,12 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "cli/mpirun_messages.h"
 
 namespace pprt {
 namespace {
@@ -18,7 +24,43 @@ Words words_of_rank(const Words& command) {
   return user_words(static_cast<int>(argv.size()), argv.data());
 }
 
+// Stands in for mpirun while it lives: a shell script.
+class StandIn {
+ public:
+  explicit StandIn(const std::string& script) {
+    std::filesystem::create_directories(directory_);
+    const std::filesystem::path program = directory_ / "mpirun";
+    std::ofstream(program) << "#!/bin/sh\n" << script << "\n";
+    std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+    setenv("PATH", (directory_.string() + ":" + path_).c_str(), 1);
+  }
+  StandIn(const StandIn&) = delete;
+  StandIn& operator=(const StandIn&) = delete;
+  ~StandIn() {
+    setenv("PATH", path_.c_str(), 1);
+    std::filesystem::remove_all(directory_);
+  }
+
+ private:
+  std::string path_ = std::getenv("PATH");
+  std::filesystem::path directory_ =
+      std::filesystem::temp_directory_path() / ("pprt-launch-test-" + std::to_string(getpid()));
+};
+
 }  // namespace
+
+TEST_CASE("a start that mpirun says nothing of is given up where a run may go on") {
+  const auto run = [](const std::string& script, bool goes_on) {
+    const StandIn mpirun(script);
+    return run_under_mpirun({.processes = 2, .goes_on = goes_on, .start_patience_s = 0.3}, {},
+                            [](std::string_view) {});
+  };
+  const std::string begins = "printf '" + begin_line() + "' >&2; sleep 1; exit 0";
+  CHECK_THROWS_WITH(run("exec sleep 20", true), Catch::Contains("have not found each other within 0.3 s") &&
+                                                    Catch::Contains("every host"));
+  CHECK(run(begins, true) == 0);
+  CHECK(run("sleep 1; exit 0", false) == 0);  // mpirun itself tells what is wrong
+}
 
 TEST_CASE("no word of the user's stands in mpirun's command line as it was given") {
   const Words hostile = {":", "/usr/bin/id", "--mca", "plm_rsh_agent", "-x", "=words", "", "-np", "2", "a b"};
