@@ -28,15 +28,14 @@ std::vector<std::string> mpirun_command(const Launch& launch, std::span<const st
 // Returns the words behind the program's name as the user gave them, quoted by mpirun_command() or not.
 std::vector<std::string> user_words(int argc, const char* const* argv);
 
-// Runs this program with these words under mpirun and returns its exit code. Throws std::runtime_error where
-// the run cannot start or has lost a rank.
+// Runs this program with these words under mpirun and returns its exit code.
 //
 // The first SIGINT, SIGTERM or SIGHUP asks rank 0 to end after its frame; a second SIGINT or SIGTERM ends
 // mpirun. Each makes the code 128 + signal, unless the run failed. SIGUSR1 is passed on. `overhear` gets what
 // the ranks print on standard error, which is printed too.
 //
-// Throws std::runtime_error when mpirun cannot be started, or with the rank that a signal has ended or the
-// host that does not answer.
+// Throws std::runtime_error when mpirun cannot be started, when the ranks do not find each other in time
+// (Launch), or with the rank that a signal has ended or the host that does not answer.
 int run_under_mpirun(const Launch& launch, std::span<const std::string> words,
                      const std::function<void(std::string_view)>& overhear);
 

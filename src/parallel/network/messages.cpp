@@ -1,7 +1,6 @@
 #include "parallel/network/messages.h"
 
-#include <algorithm>
-
+#include "parallel/network/owner_rects.h"
 #include "parallel/network/wire.h"
 
 namespace pprt {
@@ -21,10 +20,6 @@ struct WireSample {
   std::uint8_t unused;
 };
 static_assert(sizeof(WireSample) == kSampleBytes);
-
-// Of an image of 2^14 x 2^14 pixels: tiles have 32 pixels a side, or are some hundred a rank, and there are
-// at most 4096 ranks. A message of a few bytes must not take more memory than this many.
-constexpr std::size_t kMostTiles = std::size_t{1} << 22;
 
 constexpr std::uint8_t kAtInfinity = 1, kEyeDependent = 2;
 
@@ -161,77 +156,18 @@ TileNews get_news(WireReader& in) {
   return tiles;
 }
 
-// Tiles of one owner, of which the first is the first one, row by row, that no rectangle before has. Regions
-// of a new partition are rectangles.
-struct OwnerRect {
-  std::int32_t owner;
-  std::uint16_t columns, rows;
-};
-
-std::vector<OwnerRect> owner_rects(std::span<const std::int32_t> owners, std::size_t columns) {
-  std::vector<OwnerRect> rects;
-  const std::size_t rows = columns > 0 ? owners.size() / columns : 0;
-  std::vector<std::uint8_t> covered(owners.size(), 0);
-  for (std::size_t first = 0; first < owners.size(); ++first) {
-    if (covered[first] != 0) continue;
-    const std::size_t x0 = first % columns, y0 = first / columns;
-    const auto fits = [&](std::size_t x, std::size_t y) {
-      const std::size_t tile = y * columns + x;
-      return covered[tile] == 0 && owners[tile] == owners[first];
-    };
-    std::size_t x1 = x0 + 1, y1 = y0 + 1;
-    while (x1 < columns && fits(x1, y0)) ++x1;
-    const auto row_fits = [&](std::size_t y) {
-      for (std::size_t x = x0; x < x1; ++x) {
-        if (!fits(x, y)) return false;
-      }
-      return true;
-    };
-    while (y1 < rows && row_fits(y1)) ++y1;
-    for (std::size_t y = y0; y < y1; ++y)
-      std::fill_n(covered.begin() + static_cast<std::ptrdiff_t>(y * columns + x0), x1 - x0, std::uint8_t{1});
-    rects.push_back(
-        {owners[first], static_cast<std::uint16_t>(x1 - x0), static_cast<std::uint16_t>(y1 - y0)});
-  }
-  return rects;
-}
-
 void put_owners(WireWriter& out, const FrameOrder& order) {
-  const auto columns = static_cast<std::size_t>(order.columns);
-  if (columns > 0 ? order.owners.size() % columns != 0 : !order.owners.empty())
-    throw ProtocolError("the owners of tiles do not make whole rows");
+  const std::vector<OwnerRect> rects = owner_rects(order.owners, order.columns);
   out.put(order.columns);
-  out.put(static_cast<std::int32_t>(columns > 0 ? order.owners.size() / columns : 0));
-  out.put_all(std::span<const OwnerRect>(owner_rects(order.owners, columns)));
+  out.put(order.columns > 0 ? static_cast<std::int32_t>(order.owners.size()) / order.columns : 0);
+  out.put_all(std::span<const OwnerRect>(rects));
 }
 
 void get_owners(WireReader& in, FrameOrder& order) {
   std::int32_t rows = 0;
   std::vector<OwnerRect> rects;
   in.get(order.columns), in.get(rows), in.get_all(rects);
-  if (order.columns < 0 || rows < 0 ||
-      static_cast<std::uint64_t>(order.columns) * static_cast<std::uint64_t>(rows) > kMostTiles)
-    throw ProtocolError("a message announces tiles that cannot be");
-  const auto columns = static_cast<std::size_t>(order.columns);
-  constexpr std::int32_t kNobody = -1;
-  order.owners.assign(columns * static_cast<std::size_t>(rows), kNobody);
-  const auto take = [&](std::size_t tile, std::int32_t owner) {
-    if (order.owners[tile] != kNobody || owner < 0) throw ProtocolError("a message gives a tile twice");
-    order.owners[tile] = owner;
-  };
-  std::size_t first = 0;
-  for (const OwnerRect& rect : rects) {
-    while (first < order.owners.size() && order.owners[first] != kNobody) ++first;
-    const std::size_t x0 = columns > 0 ? first % columns : 0, y0 = columns > 0 ? first / columns : 0;
-    if (rect.columns == 0 || x0 + rect.columns > columns || y0 + rect.rows > static_cast<std::size_t>(rows) ||
-        rect.rows == 0)
-      throw ProtocolError("a message gives tiles outside the image");
-    for (std::size_t y = y0; y < y0 + rect.rows; ++y) {
-      for (std::size_t x = x0; x < x0 + rect.columns; ++x) take(y * columns + x, rect.owner);
-    }
-  }
-  if (std::find(order.owners.begin(), order.owners.end(), kNobody) != order.owners.end())
-    throw ProtocolError("a message gives some tiles to nobody");
+  order.owners = owners_by(rects, order.columns, rows);
 }
 
 // What a bundle holds besides what all hold.
@@ -240,8 +176,7 @@ constexpr std::uint8_t kDone = 1, kHasProgress = 2, kHasNews = 4, kAllFlags = 7;
 }  // namespace
 
 std::size_t partition_bytes(const FrameOrder& order) {
-  if (order.owners.empty()) return 0;
-  return owner_rects(order.owners, static_cast<std::size_t>(order.columns)).size() * sizeof(OwnerRect) +
+  return owner_rects(order.owners, order.columns).size() * sizeof(OwnerRect) +
          order.tiles.size() * sizeof(WireEstimate);
 }
 
