@@ -1,11 +1,28 @@
 #include "parallel/worker.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "parallel/clock/make_clocks.h"
 
 namespace pprt {
+namespace {
+
+// `transfers`: by this rank, now; `gains`: tiles that it has taken.
+TileNews news_for(int rank, std::span<const TileTransfer> transfers, const std::vector<OwnerChange>& gains) {
+  TileNews news{.changes = gains};
+  for (const TileTransfer& transfer : transfers) {
+    if (transfer.owner == rank) {
+      news.given.push_back(transfer);
+    } else {
+      news.changes.push_back(transfer.change());
+    }
+  }
+  return news;
+}
+
+}  // namespace
 
 Worker::Worker(Communicator& network, Inbox& inbox, const SessionSettings& settings,
                const Partition& partition, Probe probe, std::unique_ptr<FrameClock> clock)
@@ -127,18 +144,10 @@ void Worker::send_bundles(bool concerns_all) {
     const bool concerns = tells_all || !samples.empty() ||
                           (is_neighbour && (is_progress_due || !transfers.empty())) ||
                           bundles_.handshake().has_pending_reply(rank);
-    TileNews tiles{.changes = gains};
-    for (const TileTransfer& transfer : transfers) {
-      if (transfer.owner == rank) {
-        tiles.given.push_back(transfer);
-      } else {
-        tiles.changes.push_back(transfer.change());
-      }
-    }
     bundles_.send(rank, concerns,
                   {.done = goal_.is_done(),
                    .progress = progress,
-                   .tiles = std::move(tiles),
+                   .tiles = news_for(rank, transfers, gains),
                    .samples = std::move(samples)});
   }
 }
