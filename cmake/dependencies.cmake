@@ -18,6 +18,7 @@ find_package(MPI REQUIRED COMPONENTS C)
 # CGAL reports its own build type advice; ours is set already.
 set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
 find_package(CGAL REQUIRED)
+find_package(Boost REQUIRED)
 
 if(BUILD_TESTING)
   find_package(Catch2 REQUIRED)

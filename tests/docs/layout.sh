@@ -10,7 +10,7 @@ complain() { echo "$1"; failures=$((failures + 1)); }
 declare -A allowed=(
   [base]="base" [scene]="base scene" [spd]="base scene spd" [parser]="base scene parser" [trace]="base scene trace"
   [image]="base image" [pipeline]="base pipeline" [layers]="base image pipeline layers"
-  [parallel]="base image pipeline parallel" [cli]="base scene spd parser cli"
+  [parallel]="base image pipeline parallel" [live]="base scene live" [cli]="base scene spd parser cli"
   [render]="base scene spd parser trace image pipeline layers parallel cli render"
   [convert]="base scene spd parser image cli convert" [compare]="base image cli compare"
   [study]="base scene spd parser trace image pipeline layers parallel cli convert study")
@@ -21,8 +21,8 @@ declare -A closed=([pipeline/sampling]="pipeline/(reconstruction|preparation|lat
   [pipeline/reconstruction]="pipeline/(preparation|lattice)/" [pipeline/preparation]="pipeline/(reconstruction|lattice)/"
   [pipeline/lattice]="pipeline/preparation/")
 declare -A home=(
-  [embree3]=trace [embree4]=trace [CGAL]=pipeline [mpi.h]=parallel [tao]=parser [assimp]=convert [OpenEXR]=image [png.h]=image
-  [CLI]="cli render convert compare study" [nlohmann]="cli render compare study" [spdlog]="cli render")
+  [embree3]=trace [embree4]=trace [CGAL]=pipeline [mpi.h]=parallel [tao]=parser [assimp]=convert [OpenEXR]=image [png.h]=image [boost]=live
+  [CLI]="cli render convert compare study" [nlohmann]="cli live render compare study" [spdlog]="cli render")
 
 seen=0
 while IFS=: read -r file include; do

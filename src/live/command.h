@@ -1,0 +1,62 @@
+// What a client may ask for. On the wire: one JSON object a message, "do" says which.
+//
+//   {"do":"take"}  {"do":"give"}  {"do":"pass","to":3}         the camera: one pilot at a time
+//   {"do":"look","number":17,"from":[x,y,z],"at":[x,y,z],"up":[x,y,z],"angle":45}
+//   {"do":"play"}  {"do":"pause"}  {"do":"step","by":-1}  {"do":"seek","frame":12}      the script
+//   {"do":"rate","fps":24}  {"do":"size","width":512,"height":384}
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string_view>
+#include <variant>
+
+#include "scene/scene_description.h"
+
+namespace pprt {
+
+struct TakeCamera {};
+struct GiveCamera {};
+struct PassCamera {
+  int to = 0;  // client
+};
+// A camera from the pilot's page. `number` counts the pilot's cameras: frames tell which one they show.
+struct LookFrom {
+  std::uint32_t number = 0;
+  View view = {};  // from, at, up, angle_degrees
+};
+struct PlayScript {
+  bool on = true;
+};
+struct StepScript {
+  int by = 1;  // frames
+};
+struct SeekScript {
+  int frame = 1;
+};
+struct SetRate {
+  double frames_per_second = 4;
+};
+struct SetSize {
+  int width = 1, height = 1;
+};
+
+using LiveCommand = std::variant<TakeCamera, GiveCamera, PassCamera, LookFrom, PlayScript, StepScript,
+                                 SeekScript, SetRate, SetSize>;
+
+// A message that is none, in words for the person at the page.
+class CommandError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// The slowest and fastest rate, and the longest side of a picture, that a page may ask for.
+inline constexpr double kSlowestRate = 1, kFastestRate = 120;
+inline constexpr int kLongestLiveSide = 4096;
+
+// Throws CommandError for what is not a command, or asks for what cannot be: numbers that are no numbers or
+// beyond 1e15, a camera that looks nowhere, whose up is its direction, or whose angle is not within 0.1 to
+// 170 degrees.
+LiveCommand parse_command(std::string_view text);
+
+}  // namespace pprt

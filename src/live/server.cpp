@@ -1,0 +1,350 @@
+#include "live/server.h"
+
+#include <array>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <chrono>
+#include <deque>
+#include <map>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "live/gate.h"
+
+namespace pprt {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = boost::beast::http;
+namespace websocket = boost::beast::websocket;
+using boost::asio::ip::tcp;
+using boost::beast::error_code;
+
+constexpr std::size_t kMostHeaderBytes = 8192;
+constexpr std::size_t kMostTexts = 256;
+constexpr int kMostInFlight = 2;
+
+std::chrono::nanoseconds nanoseconds(double seconds) {
+  return std::chrono::nanoseconds(static_cast<std::int64_t>(seconds * 1e9));
+}
+
+}  // namespace
+
+class LiveServer::Impl {
+ public:
+  Impl(LiveServerSettings settings, LiveServerEvents events);
+  ~Impl();
+
+  const LiveServerSettings& settings() const { return settings_; }
+  const std::string& token() const { return token_; }
+  std::uint16_t port() const { return port_; }
+  asio::io_context& context() { return context_; }
+
+  void show(std::shared_ptr<const LiveFrame> frame);
+  void tell_all(const std::string& text);
+  void tell(int client, std::string text);
+
+ private:
+  class Client;
+  class Visit;
+  void accept();
+  int join(const std::shared_ptr<Client>& client);
+  void leave(int client);
+  bool has_room() const { return visits_ + clients_.size() < settings_.most_clients; }
+
+  LiveServerSettings settings_;
+  LiveServerEvents events_;
+  std::string token_ = new_token();
+  std::size_t visits_ = 0;  // connections that have not become clients
+  asio::io_context context_{1};
+  tcp::acceptor acceptor_{context_};
+  std::uint16_t port_ = 0;
+  std::map<int, std::shared_ptr<Client>> clients_;
+  int last_client_ = 0;
+  std::shared_ptr<const LiveFrame> newest_;
+  std::thread thread_;
+};
+
+// One WebSocket.
+class LiveServer::Impl::Client : public std::enable_shared_from_this<Client> {
+ public:
+  Client(Impl& server, beast::tcp_stream&& stream) : server_(server), socket_(std::move(stream)) {}
+
+  void run(const http::request<http::empty_body>& request) {
+    websocket::stream_base::timeout timeout{};
+    timeout.handshake_timeout = nanoseconds(server_.settings_.patience_s);
+    timeout.idle_timeout = nanoseconds(server_.settings_.patience_s);
+    timeout.keep_alive_pings = true;
+    beast::get_lowest_layer(socket_).expires_never();
+    socket_.set_option(timeout);
+    socket_.read_message_max(server_.settings_.most_message_bytes);
+    socket_.async_accept(request, [self = shared_from_this()](error_code error) {
+      if (error) return;
+      self->number_ = self->server_.join(self);
+      self->read();
+    });
+  }
+
+  void show(std::shared_ptr<const LiveFrame> frame) {
+    next_frame_ = std::move(frame);
+    write();
+  }
+
+  void tell(std::string text) {
+    if (texts_.size() >= kMostTexts) return close();
+    texts_.push_back(std::move(text));
+    write();
+  }
+
+  void close() {
+    if (std::exchange(closed_, true)) return;
+    error_code ignored;
+    beast::get_lowest_layer(socket_).socket().close(ignored);
+    if (number_ > 0) server_.leave(number_);
+  }
+
+ private:
+  void read() {
+    socket_.async_read(buffer_, [self = shared_from_this()](error_code error, std::size_t) {
+      if (error || self->closed_) return self->close();
+      self->heard();
+    });
+  }
+
+  void heard() {
+    const std::string text = beast::buffers_to_string(buffer_.data());
+    buffer_.consume(buffer_.size());
+    if (!socket_.got_text() || is_too_fast()) return close();
+    if (text == "ack") {
+      if (in_flight_ > 0) --in_flight_;
+      write();
+    } else {
+      server_.events_.said(number_, text);
+    }
+    if (!closed_) read();
+  }
+
+  // Counts the messages of each second.
+  bool is_too_fast() {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - second_began_ > std::chrono::seconds(1)) second_began_ = now, heard_ = 0;
+    return ++heard_ > server_.settings_.most_messages_per_second;
+  }
+
+  // Texts go before frames: they are small, and say what a frame is seen with.
+  void write() {
+    if (writing_ || closed_ || number_ == 0) return;
+    if (!texts_.empty()) {
+      text_ = std::move(texts_.front());
+      texts_.pop_front();
+      socket_.text(true);
+      start_write({asio::buffer(text_), {}, {}});
+    } else if (next_frame_ && in_flight_ < kMostInFlight) {
+      frame_ = std::exchange(next_frame_, nullptr);
+      ++in_flight_;
+      socket_.binary(true);
+      constexpr std::string_view kLineBreak = "\n";
+      start_write({asio::buffer(frame_->header), asio::buffer(kLineBreak), asio::buffer(frame_->image)});
+    }
+  }
+
+  using Buffers = std::array<asio::const_buffer, 3>;  // one after the other
+
+  void start_write(const Buffers& message) {
+    writing_ = true;
+    socket_.async_write(message, [self = shared_from_this()](error_code error, std::size_t) {
+      self->writing_ = false;
+      if (error) return self->close();
+      self->write();
+    });
+  }
+
+  Impl& server_;
+  websocket::stream<beast::tcp_stream> socket_;
+  beast::flat_buffer buffer_;
+  int number_ = 0;  // 0: not joined yet
+  bool closed_ = false;
+  bool writing_ = false;
+  std::deque<std::string> texts_;
+  std::string text_;                             // being written
+  std::shared_ptr<const LiveFrame> next_frame_;  // not sent yet
+  std::shared_ptr<const LiveFrame> frame_;       // being written, or the last one
+  int in_flight_ = 0;                            // frames without an acknowledgement
+  std::chrono::steady_clock::time_point second_began_{};
+  int heard_ = 0;  // messages in that second
+};
+
+// One request: answered and closed, or made a client.
+class LiveServer::Impl::Visit : public std::enable_shared_from_this<Visit> {
+ public:
+  Visit(Impl& server, tcp::socket&& socket) : server_(server), stream_(std::move(socket)) {
+    ++server_.visits_;
+  }
+  Visit(const Visit&) = delete;
+  Visit& operator=(const Visit&) = delete;
+  ~Visit() { --server_.visits_; }
+
+  void run() {
+    parser_.header_limit(kMostHeaderBytes);
+    stream_.expires_after(nanoseconds(server_.settings_.patience_s));
+    http::async_read(stream_, buffer_, parser_, [self = shared_from_this()](error_code error, std::size_t) {
+      if (!error) self->answer();
+    });
+  }
+
+ private:
+  void answer() {
+    const http::request<http::empty_body>& request = parser_.get();
+    const auto text = [&](http::field field) {
+      const beast::string_view value = request[field];
+      return std::string_view(value.data(), value.size());
+    };
+    const beast::string_view method = request.method_string(), target = request.target();
+    const GateRequest asked{.method = {method.data(), method.size()},
+                            .target = {target.data(), target.size()},
+                            .host = text(http::field::host),
+                            .origin = text(http::field::origin),
+                            .upgrade = websocket::is_upgrade(request)};
+    switch (admit(asked, server_.token_, server_.settings_.address)) {
+      case GateAnswer::kPage:
+        return respond(http::status::ok, server_.settings_.page);
+      case GateAnswer::kConnect:
+        return std::make_shared<Client>(server_, std::move(stream_))->run(request);
+      case GateAnswer::kForbidden:
+        return respond(http::status::forbidden, "This address is not complete, or not from here.\n");
+      case GateAnswer::kNotFound:
+        return respond(http::status::not_found, "There is nothing here.\n");
+      case GateAnswer::kNotAllowed:
+        return respond(http::status::method_not_allowed, "Only GET is answered.\n");
+      case GateAnswer::kNotUpgraded:
+        return respond(http::status::upgrade_required, "This is the page's own connection.\n");
+    }
+  }
+
+  void respond(http::status status, std::string body) {
+    response_.result(status);
+    response_.version(11);
+    response_.keep_alive(false);
+    const bool is_page = status == http::status::ok;
+    response_.set(http::field::content_type,
+                  is_page ? "text/html; charset=utf-8" : "text/plain; charset=utf-8");
+    response_.set(http::field::cache_control, "no-store");
+    response_.set("Referrer-Policy", "no-referrer");
+    response_.set("X-Content-Type-Options", "nosniff");
+    response_.set("X-Frame-Options", "DENY");
+    response_.set("Content-Security-Policy",
+                  "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; "
+                  "img-src blob: data:; connect-src 'self'; frame-ancestors 'none'");
+    response_.body() = std::move(body);
+    response_.prepare_payload();
+    http::async_write(stream_, response_, [self = shared_from_this()](error_code, std::size_t) {
+      error_code ignored;
+      self->stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+    });
+  }
+
+  Impl& server_;
+  beast::tcp_stream stream_;
+  beast::flat_buffer buffer_{kMostHeaderBytes};
+  http::request_parser<http::empty_body> parser_;
+  http::response<http::string_body> response_;
+};
+
+LiveServer::Impl::Impl(LiveServerSettings settings, LiveServerEvents events)
+    : settings_(std::move(settings)), events_(std::move(events)) {
+  const tcp::endpoint endpoint(asio::ip::make_address(settings_.address), settings_.port);
+  acceptor_.open(endpoint.protocol());
+  acceptor_.set_option(asio::socket_base::reuse_address(true));
+  acceptor_.bind(endpoint);
+  acceptor_.listen();
+  port_ = acceptor_.local_endpoint().port();
+  accept();
+  thread_ = std::thread([this] { context_.run(); });
+}
+
+LiveServer::Impl::~Impl() {
+  context_.stop();
+  thread_.join();
+}
+
+void LiveServer::Impl::accept() {
+  acceptor_.async_accept([this](error_code error, tcp::socket socket) {
+    if (!error) {
+      error_code ignored;
+      socket.set_option(tcp::no_delay(true), ignored);
+      if (has_room()) std::make_shared<Visit>(*this, std::move(socket))->run();
+    }
+    accept();
+  });
+}
+
+int LiveServer::Impl::join(const std::shared_ptr<Client>& client) {
+  clients_.emplace(++last_client_, client);
+  const int number = last_client_;
+  asio::post(context_, [this, number] {
+    const auto found = clients_.find(number);
+    if (found == clients_.end()) return;
+    events_.joined(number);
+    if (newest_) found->second->show(newest_);
+  });
+  return number;
+}
+
+void LiveServer::Impl::leave(int client) {
+  asio::post(context_, [this, client] {
+    if (clients_.erase(client) > 0) events_.left(client);
+  });
+}
+
+void LiveServer::Impl::show(std::shared_ptr<const LiveFrame> frame) {
+  asio::post(context_, [this, frame = std::move(frame)] {
+    newest_ = frame;
+    for (const auto& [number, client] : clients_) client->show(frame);
+  });
+}
+
+void LiveServer::Impl::tell_all(const std::string& text) {
+  asio::post(context_, [this, text] {
+    for (const auto& [number, client] : clients_) client->tell(text);
+  });
+}
+
+void LiveServer::Impl::tell(int client, std::string text) {
+  asio::post(context_, [this, client, text = std::move(text)]() mutable {
+    if (const auto found = clients_.find(client); found != clients_.end())
+      found->second->tell(std::move(text));
+  });
+}
+
+LiveServer::LiveServer(LiveServerSettings settings, LiveServerEvents events)
+    : impl_(std::make_unique<Impl>(std::move(settings), std::move(events))) {}
+LiveServer::~LiveServer() = default;
+
+std::uint16_t LiveServer::port() const {
+  return impl_->port();
+}
+const std::string& LiveServer::token() const {
+  return impl_->token();
+}
+std::string LiveServer::url() const {
+  const std::string& address = impl_->settings().address;
+  const bool is_v6 = address.find(':') != std::string::npos;
+  return "http://" + (is_v6 ? "[" + address + "]" : address) + ":" + std::to_string(port()) + "/" + token() +
+         "/";
+}
+void LiveServer::show(std::shared_ptr<const LiveFrame> frame) {
+  impl_->show(std::move(frame));
+}
+void LiveServer::tell_all(std::string text) {
+  impl_->tell_all(text);
+}
+void LiveServer::tell(int client, std::string text) {
+  impl_->tell(client, std::move(text));
+}
+
+}  // namespace pprt

@@ -1,0 +1,67 @@
+// The live server: one page, and a WebSocket to everybody who looks at it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace pprt {
+
+struct LiveServerSettings {
+  std::string address = "127.0.0.1";
+  std::uint16_t port = 0;  // 0: any that is free
+  std::string page = {};   // HTML
+  std::size_t most_clients = 64;
+  std::size_t most_message_bytes = 4096;  // from a client
+  int most_messages_per_second = 300;     // from a client
+  double patience_s = 10;                 // for a request, and for a client that takes in nothing
+};
+
+// A picture for all clients: a text before it says what it shows.
+struct LiveFrame {
+  std::string header;  // JSON, without line breaks
+  std::string image;   // JPEG or PNG
+};
+
+// What clients do; called on the server's thread. Clients are numbered from 1 and never again.
+struct LiveServerEvents {
+  std::function<void(int client)> joined;
+  std::function<void(int client, std::string_view text)> said;
+  std::function<void(int client)> left;
+};
+
+// Runs on a thread of its own. Nothing that a client does, or leaves undone, blocks a caller:
+//   - a client gets the newest frame, and the next one only when it has acknowledged all but one of those
+//     that it got: what it misses in between is dropped, for it alone
+//   - texts are kept in order, at most 256 a client; a client that leaves more untaken is closed
+// A client acknowledges a frame by the text "ack", which said() does not pass on.
+class LiveServer {
+ public:
+  // Listens when it returns. Throws std::runtime_error where the address cannot be had.
+  LiveServer(LiveServerSettings settings, LiveServerEvents events);
+
+  // Closes all connections.
+  ~LiveServer();
+  LiveServer(const LiveServer&) = delete;
+  LiveServer& operator=(const LiveServer&) = delete;
+
+  std::uint16_t port() const;
+  const std::string& token() const;
+
+  // "http://127.0.0.1:4500/TOKEN/"
+  std::string url() const;
+
+  // Any thread.
+  void show(std::shared_ptr<const LiveFrame> frame);
+  void tell_all(std::string text);
+  void tell(int client, std::string text);
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace pprt

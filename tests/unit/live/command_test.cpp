@@ -1,0 +1,68 @@
+// What clients may ask for.
+#include "live/command.h"
+
+#include <catch2/catch.hpp>
+#include <string>
+
+namespace pprt {
+namespace {
+
+template <typename Command>
+Command parsed(std::string_view text) {
+  const LiveCommand command = parse_command(text);
+  REQUIRE(std::holds_alternative<Command>(command));
+  return std::get<Command>(command);
+}
+
+std::string look(const std::string& from, const std::string& at, const std::string& up,
+                 const std::string& angle) {
+  return R"({"do":"look","number":3,"from":)" + from + R"(,"at":)" + at + R"(,"up":)" + up + R"(,"angle":)" +
+         angle + "}";
+}
+
+TEST_CASE("live commands: each is read with its values") {
+  parsed<TakeCamera>(R"({"do":"take"})"), parsed<GiveCamera>(R"( { "do" : "give" } )");
+  CHECK(parsed<PassCamera>(R"({"do":"pass","to":3})").to == 3);
+  CHECK(parsed<PlayScript>(R"({"do":"play"})").on);
+  CHECK_FALSE(parsed<PlayScript>(R"({"do":"pause"})").on);
+  CHECK(parsed<StepScript>(R"({"do":"step","by":-1})").by == -1);
+  CHECK(parsed<SeekScript>(R"({"do":"seek","frame":12})").frame == 12);
+  CHECK(parsed<SetRate>(R"({"do":"rate","fps":23.976})").frames_per_second == 23.976);
+  const auto size = parsed<SetSize>(R"({"do":"size","width":512,"height":384})");
+  CHECK((size.width == 512 && size.height == 384));
+  const auto seen = parsed<LookFrom>(look("[1,2,3.5]", "[0,0,0]", "[0,1e-3,0]", "45"));
+  CHECK((seen.number == 3 && seen.view.from == Vec3d(1, 2, 3.5) && seen.view.at == Vec3d(0, 0, 0)));
+  CHECK((seen.view.up == Vec3d(0, 1e-3, 0) && seen.view.angle_degrees == 45));
+}
+
+TEST_CASE("live commands: what is none is refused in words") {
+  const auto refused = [](const std::string& text) -> std::string {
+    try {
+      parse_command(text);
+      return "";
+    } catch (const CommandError& e) {
+      return e.what();
+    }
+  };
+  for (const char* text : {"", "ack", "[]", "3", "null", "{", "{\"do\":\"take\"}x", "\"do\"", "\xff\xfe"})
+    CHECK(refused(text) == "a message is no JSON object");
+  CHECK(refused("{}") == "'do' is missing");
+  CHECK(refused(R"({"do":"fly"})") == "there is no such command");
+  CHECK(refused(R"({"do":7})") == "there is no such command");
+  CHECK(refused(R"({"do":"pass"})") == "'to' is missing");
+  CHECK(refused(R"({"do":"pass","to":1.5})") == "'to' is not a whole number");
+  CHECK(refused(R"({"do":"pass","to":"1"})").starts_with("'to' is not a number from 1 to"));
+  CHECK(refused(R"({"do":"rate","fps":121})") == "'fps' is not a number from 1 to 120");
+  CHECK(refused(R"({"do":"rate","fps":1e999})") == "a message is no JSON object");
+  CHECK(refused(R"({"do":"size","width":0,"height":9})") == "'width' is not a number from 1 to 4096");
+  CHECK(refused(look("[1,2]", "[0,0,0]", "[0,1,0]", "45")) == "'from' has not three numbers");
+  CHECK(refused(look("[1,2,1e16]", "[0,0,0]", "[0,1,0]", "45")).starts_with("'from' is not a number"));
+  CHECK(refused(look("[1,2,null]", "[0,0,0]", "[0,1,0]", "45")).starts_with("'from' is not a number"));
+  CHECK(refused(look("[1,2,3]", "[1,2,3]", "[0,1,0]", "45")) == "the camera looks nowhere");
+  CHECK(refused(look("[0,0,0]", "[0,5,0]", "[0,1,0]", "45")) == "the camera looks along its up");
+  CHECK(refused(look("[0,0,1]", "[0,5,0]", "[0,0,0]", "45")) == "the camera looks along its up");
+  CHECK(refused(look("[0,0,1]", "[0,5,0]", "[0,1,0]", "0")) == "'angle' is not a number from 0.1 to 170");
+}
+
+}  // namespace
+}  // namespace pprt

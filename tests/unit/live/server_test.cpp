@@ -1,0 +1,234 @@
+// The live server over loopback.
+#include "live/server.h"
+
+#include <atomic>
+#include <boost/asio/connect.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/read.hpp>
+#include <boost/asio/write.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/websocket.hpp>
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace pprt {
+namespace {
+
+namespace asio = boost::asio;
+namespace websocket = boost::beast::websocket;
+using boost::asio::ip::tcp;
+using boost::beast::error_code;
+using namespace std::chrono_literals;
+
+// Waits up to 5 s.
+bool comes_true(const std::function<bool()>& condition) {
+  for (int i = 0; i < 1000; ++i) {
+    if (condition()) return true;
+    std::this_thread::sleep_for(5ms);
+  }
+  return false;
+}
+
+// A server, and what its clients did.
+class Stage {
+ public:
+  explicit Stage(LiveServerSettings settings = {})
+      : server_(with_page(std::move(settings)),
+                {.joined = [this](int) { ++joined; },
+                 .said =
+                     [this](int client, std::string_view text) {
+                       const std::lock_guard lock(mutex_);
+                       said_.push_back(std::to_string(client) + " " + std::string(text));
+                     },
+                 .left = [this](int) { ++left; }}) {}
+
+  LiveServer& server() { return server_; }
+  std::vector<std::string> said() {
+    const std::lock_guard lock(mutex_);
+    return said_;
+  }
+
+  tcp::socket connection() {
+    tcp::socket socket(context_);
+    socket.connect({asio::ip::make_address("127.0.0.1"), server_.port()});
+    return socket;
+  }
+
+  // What comes back for these bytes, until the server closes.
+  std::string reply(const std::string& request) {
+    tcp::socket socket = connection();
+    asio::write(socket, asio::buffer(request));
+    std::string all;
+    error_code ignored;
+    asio::read(socket, asio::dynamic_buffer(all), ignored);
+    return all;
+  }
+
+  std::string get(const std::string& target, const std::string& more = "") {
+    return reply("GET " + target + " HTTP/1.1\r\nHost: 127.0.0.1:1\r\n" + more + "\r\n");
+  }
+
+  std::atomic<int> joined = 0, left = 0;
+
+ private:
+  static LiveServerSettings with_page(LiveServerSettings settings) {
+    settings.page = "<!doctype html><title>live</title>";
+    return settings;
+  }
+
+  std::mutex mutex_;
+  std::vector<std::string> said_;
+  asio::io_context context_;
+  LiveServer server_;
+};
+
+class Client {
+ public:
+  explicit Client(Stage& stage, const std::string& origin = "http://127.0.0.1:1")
+      : socket_(stage.connection()) {
+    socket_.set_option(websocket::stream_base::decorator([origin](websocket::request_type& request) {
+      if (!origin.empty()) request.set(boost::beast::http::field::origin, origin);
+    }));
+    socket_.handshake("127.0.0.1:1", "/" + stage.server().token() + "/socket", error);
+  }
+
+  void say(const std::string& text) { socket_.write(asio::buffer(text), error); }
+
+  // The next message; empty: the connection is closed.
+  std::string hear() {
+    boost::beast::flat_buffer buffer;
+    socket_.read(buffer, error);
+    return error ? std::string() : boost::beast::buffers_to_string(buffer.data());
+  }
+
+  error_code error;
+
+ private:
+  websocket::stream<tcp::socket> socket_;
+};
+
+std::shared_ptr<const LiveFrame> frame(int number, std::size_t bytes = 10) {
+  return std::make_shared<const LiveFrame>(
+      LiveFrame{"{\"frame\":" + std::to_string(number) + "}", std::string(bytes, 'x')});
+}
+
+bool has_status(const std::string& reply, int status) {
+  return reply.starts_with("HTTP/1.1 " + std::to_string(status) + " ");
+}
+
+TEST_CASE("live server: the page comes for its token, and nothing without") {
+  Stage stage;
+  const std::string page = stage.get("/" + stage.server().token() + "/");
+  CHECK(has_status(page, 200));
+  CHECK(page.ends_with("<!doctype html><title>live</title>"));
+  CHECK(page.find("Content-Security-Policy: default-src 'none'") != std::string::npos);
+  CHECK(has_status(stage.get("/"), 403));
+  CHECK(has_status(stage.get("/" + stage.server().token() + "/x"), 404));
+  CHECK(stage.server().url() ==
+        "http://127.0.0.1:" + std::to_string(stage.server().port()) + "/" + stage.server().token() + "/");
+}
+
+TEST_CASE("live server: a socket needs the token's address and this server's origin") {
+  Stage stage;
+  CHECK_FALSE(Client(stage).error);
+  CHECK_FALSE(Client(stage, "").error);  // no browser
+  CHECK(Client(stage, "http://evil.example").error);
+}
+
+TEST_CASE("live server: texts go to all or to one, and what clients say is passed on in order") {
+  Stage stage;
+  Client first(stage);
+  REQUIRE(comes_true([&] { return stage.joined == 1; }));
+  Client second(stage);
+  REQUIRE(comes_true([&] { return stage.joined == 2; }));
+  stage.server().tell_all("hello");
+  stage.server().tell(2, "you");
+  stage.server().tell(7, "nobody");
+  CHECK(first.hear() == "hello");
+  CHECK(second.hear() == "hello");
+  CHECK(second.hear() == "you");
+  second.say("one"), second.say("two");
+  REQUIRE(comes_true([&] { return stage.said().size() == 2; }));
+  CHECK(stage.said() == std::vector<std::string>{"2 one", "2 two"});
+}
+
+TEST_CASE("live server: a client that acknowledges gets frames, a stalled one the newest later") {
+  Stage stage;
+  stage.server().show(frame(1));
+  Client client(stage);
+  CHECK(client.hear() == "{\"frame\":1}\nxxxxxxxxxx");  // who comes late sees at once
+  stage.server().show(frame(2));
+  CHECK(client.hear().starts_with("{\"frame\":2}"));
+  for (int i = 3; i < 50; ++i) stage.server().show(frame(i));
+  stage.server().tell(1, "still here");
+  CHECK(client.hear() == "still here");  // two frames wait for an answer
+  client.say("ack");
+  CHECK(client.hear().starts_with("{\"frame\":49}"));
+  CHECK(stage.said().empty());
+}
+
+TEST_CASE("live server: a client that takes in nothing is no burden, and the others see every frame") {
+  Stage stage;
+  Client stalled(stage), awake(stage);
+  REQUIRE(comes_true([&] { return stage.joined == 2; }));
+  constexpr std::size_t kLarge = 4'000'000;  // more than the system keeps for a connection
+  for (int i = 1; i <= 20; ++i) {
+    stage.server().show(frame(i, kLarge));
+    CHECK(awake.hear().starts_with("{\"frame\":" + std::to_string(i) + "}"));
+    awake.say("ack");
+  }
+}
+
+TEST_CASE("live server: what is too long, too much or no text ends a client, and only it") {
+  Stage stage({.most_message_bytes = 100, .most_messages_per_second = 20});
+  Client other(stage);
+  REQUIRE(comes_true([&] { return stage.joined == 1; }));
+  Client too_long(stage), too_many(stage);
+  REQUIRE(comes_true([&] { return stage.joined == 3; }));
+  too_long.say(std::string(101, 'x'));
+  CHECK(too_long.hear().empty());
+  for (int i = 0; i < 30; ++i) too_many.say("x");
+  CHECK(too_many.hear().empty());
+  CHECK(comes_true([&] { return stage.left == 2; }));
+  CHECK(stage.said().size() <= 20);
+  stage.server().tell_all("still");
+  CHECK(other.hear() == "still");
+}
+
+TEST_CASE("live server: malformed, oversized and slow requests are closed, and others answered meanwhile") {
+  Stage stage({.patience_s = 0.3});
+  tcp::socket slow = stage.connection();
+  asio::write(slow, asio::buffer(std::string("GET / HT")));
+  CHECK(stage.reply("\r\n\r\n\r\n\x01\x02\x03\r\n\r\n").empty());
+  CHECK(stage.get("/", "X: " + std::string(20000, 'x') + "\r\n").empty());
+  CHECK(has_status(stage.get("/" + stage.server().token() + "/"), 200));
+  std::string rest;
+  error_code error;
+  asio::read(slow, asio::dynamic_buffer(rest), error);  // returns: the server has closed
+  CHECK(rest.empty());
+}
+
+TEST_CASE("live server: more connections than allowed are closed") {
+  Stage stage({.most_clients = 2, .patience_s = 1});
+  Client first(stage), second(stage);
+  REQUIRE(comes_true([&] { return stage.joined == 2; }));
+  CHECK(Client(stage).error);
+  { const Client gone = std::move(second); }
+  REQUIRE(comes_true([&] { return stage.left == 1; }));
+  CHECK_FALSE(Client(stage).error);
+}
+
+TEST_CASE("live server: an address that is taken is an error") {
+  Stage stage;
+  LiveServerSettings settings;
+  settings.port = stage.server().port();
+  CHECK_THROWS_AS(LiveServer(settings, {}), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace pprt
