@@ -34,8 +34,11 @@ std::vector<std::string> user_words(int argc, const char* const* argv);
 // mpirun. Each makes the code 128 + signal, unless the run failed. SIGUSR1 is passed on. `overhear` gets what
 // the ranks print on standard error, which is printed too.
 //
-// Throws std::runtime_error when mpirun cannot be started, when the ranks do not find each other in time
-// (Launch), or with the rank that a signal has ended or the host that does not answer.
+// Throws std::runtime_error
+//   - when mpirun cannot be started
+//   - when the ranks do not find each other in time (Launch)
+//   - when a signal has ended a rank; its message names the rank
+//   - when a host does not answer; its message names the host.
 int run_under_mpirun(const Launch& launch, std::span<const std::string> words,
                      const std::function<void(std::string_view)>& overhear);
 

@@ -54,9 +54,10 @@ class CommandError : public std::runtime_error {
 inline constexpr double kSlowestRate = 1, kFastestRate = 120;
 inline constexpr int kLongestLiveSide = 4096;
 
-// Throws CommandError for what is not a command, or asks for what cannot be: numbers that are no numbers or
-// beyond 1e15, a camera that looks nowhere, whose up is its direction, or whose angle is not within 0.1 to
-// 170 degrees.
+// Throws CommandError for what is not a command. It does so, too, for
+//   - numbers that are none, or are beyond 1e15
+//   - a camera that looks nowhere, or along its up
+//   - an angle outside 0.1 to 170 degrees.
 LiveCommand parse_command(std::string_view text);
 
 }  // namespace pprt

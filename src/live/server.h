@@ -33,11 +33,12 @@ struct LiveServerEvents {
   std::function<void(int client)> left;
 };
 
-// Runs on a thread of its own. Nothing that a client does, or leaves undone, blocks a caller:
-//   - a client gets the newest frame, and the next one only when it has acknowledged all but one of those
-//     that it got: what it misses in between is dropped, for it alone
-//   - texts are kept in order, at most 256 a client; a client that leaves more untaken is closed
-// A client acknowledges a frame by the text "ack", which said() does not pass on.
+// Runs on a thread of its own. No client can block a caller.
+//
+// A client gets the newest frame. It acknowledges each by the text "ack", which said() does not pass on. Two
+// frames at most wait for that. Until then newer ones are dropped, for this client alone.
+//
+// Texts keep their order. A client that leaves more than 256 of them untaken is closed.
 class LiveServer {
  public:
   // Listens when it returns. Throws std::runtime_error where the address cannot be had.

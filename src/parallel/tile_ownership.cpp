@@ -112,30 +112,34 @@ void TileOwnership::apply(const TileNews& news) {
   const StageTimer::Balancing timed(timer_);
   std::vector<OwnerChange> changes = changes_of(news.given);
   changes.insert(changes.end(), news.changes.begin(), news.changes.end());
-  make_true(changes);
-  const Partition& partition = sampler_.samples().partition();
+  const std::vector<OwnerChange> made = make_true(changes);
+  // Bundles of frames before are looked at more than once: only the first time gains a tile.
   for (const TileTransfer& transfer : news.given) {
-    const auto tile = static_cast<std::size_t>(transfer.tile);
-    if (partition.owner[tile] != rank_ || partition.version[tile] != transfer.version) continue;
+    const bool is_gained =
+        transfer.owner == rank_ && std::any_of(made.begin(), made.end(), [&](const OwnerChange& change) {
+          return change.tile == transfer.tile && change.version == transfer.version;
+        });
+    if (!is_gained) continue;
     costs_.accept(transfer);
     gained_.push_back(transfer.tile);
   }
 }
 
-void TileOwnership::make_true(std::span<const OwnerChange> changes) {
+std::vector<OwnerChange> TileOwnership::make_true(std::span<const OwnerChange> changes) {
   Partition next = sampler_.samples().partition();
-  bool changed = false;
+  std::vector<OwnerChange> made;
   for (const OwnerChange& change : changes) {
     const auto tile = static_cast<std::size_t>(change.tile);
     if (tile >= next.owner.size() || change.owner < 0 || change.owner >= next.ranks) {
       throw ProtocolError("a tile was given that is none, or to nobody");
     }
     if (change.version <= next.version[tile]) continue;
-    changed = true;
+    made.push_back(change);
     next.owner[tile] = change.owner;
     next.version[tile] = change.version;
   }
-  if (changed) sampler_.transfer(next);
+  if (!made.empty()) sampler_.transfer(next);
+  return made;
 }
 
 void TileOwnership::forward_lost_tiles(std::span<const TileTransfer> given) {
@@ -167,7 +171,7 @@ void TileOwnership::repartition(const FrameOrder& order, bool keep_samples) {
     const auto t = static_cast<int>(tile);
     if (!sampler_.region().owns_tile(t)) costs_.expect(t, found);
   }
-  partition_bytes_ += pprt::partition_bytes(order);
+  partition_bytes_ += order.partition_bytes;
   gained_.clear();
   sampler_.repartition(next);
 }

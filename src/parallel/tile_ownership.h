@@ -82,7 +82,8 @@ class TileOwnership {
 
  private:
   bool may_give(bool fresh_mesh) const;
-  void make_true(std::span<const OwnerChange> changes);
+  // Returns the changes that were newer than what was known.
+  std::vector<OwnerChange> make_true(std::span<const OwnerChange> changes);
 
   const SessionSettings& settings_;
   int rank_;

@@ -34,7 +34,8 @@ class Balancer {
     return elapsed <= (costs_.likeness() == FrameLikeness::kUnknown ? 0.75 : 0.5);
   }
 
-  // Whether this rank has more to pay than its neighbours, by and large.
+  // Whether this rank has more to pay than its neighbours, by and large. Here and below `elapsed` is as in
+  // progress().
   bool wants_to_give(const RegionQuality& refined, const std::vector<int>& neighbours, double elapsed,
                      bool is_giving) const;
 

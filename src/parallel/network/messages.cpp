@@ -168,17 +168,13 @@ void get_owners(WireReader& in, FrameOrder& order) {
   std::vector<OwnerRect> rects;
   in.get(order.columns), in.get(rows), in.get_all(rects);
   order.owners = owners_by(rects, order.columns, rows);
+  order.partition_bytes = rects.size() * sizeof(OwnerRect);
 }
 
 // What a bundle holds besides what all hold.
 constexpr std::uint8_t kDone = 1, kHasProgress = 2, kHasNews = 4, kAllFlags = 7;
 
 }  // namespace
-
-std::size_t partition_bytes(const FrameOrder& order) {
-  return owner_rects(order.owners, order.columns).size() * sizeof(OwnerRect) +
-         order.tiles.size() * sizeof(WireEstimate);
-}
 
 std::size_t news_bytes(const TileNews& tiles) {
   return tiles.given.size() * sizeof(WireTransfer) + tiles.changes.size() * sizeof(WireChange);
@@ -256,6 +252,7 @@ FrameOrder decode_frame_order(std::span<const std::byte> bytes) {
   get_owners(in, order);
   in.get_all(order.lost);
   get_as<WireEstimate>(in, order.tiles);
+  order.partition_bytes += order.tiles.size() * sizeof(WireEstimate);
   in.expect_end();
   return order;
 }

@@ -41,6 +41,7 @@ struct FrameOrder {
   std::int32_t columns = 0;          // tiles a row of it
   std::vector<TileEstimate> tiles;   // and what those of the receiver were found to be, ascending by tile
   std::vector<std::int32_t> lost;    // ranks that have been given up, ascending: none has a tile any more
+  std::size_t partition_bytes = 0;   // when decoded: what owners and tiles took
   double reserve_s = 0;  // wall clock: for what follows sampling, besides the rank's own reconstruction
 };
 
@@ -135,9 +136,6 @@ struct PixelMessage {
 // What a sample takes in a message, and a tile's report.
 inline constexpr std::size_t kSampleBytes = 64;
 inline constexpr std::size_t kTileReportBytes = 20;
-
-// Bytes of the new partition in an order, and of the estimates that come with it.
-std::size_t partition_bytes(const FrameOrder& order);
 
 // Bytes of what a bundle says of tiles.
 std::size_t news_bytes(const TileNews& tiles);

@@ -9,8 +9,8 @@
 namespace pprt {
 namespace {
 
-// Of an image of 2^14 x 2^14 pixels: tiles have 32 pixels a side, or are some hundred a rank, and there are
-// at most 4096 ranks. A message of a few bytes must not take more memory than this many.
+// No image has more: it has 2^14 x 2^14 pixels at most. Tiles have 32 pixels a side, or are some hundred for
+// each of at most 4096 ranks. A few bytes must not announce more memory than that.
 constexpr std::uint64_t kMostTiles = std::uint64_t{1} << 22;
 
 constexpr std::int32_t kNobody = -1;

@@ -139,9 +139,9 @@ TEST_CASE("messages: owners travel as rectangles, of any partition") {
     if (tile % 40 < 15) order.owners[tile] = tile / 40 < 20 ? 0 : 2;
   }
   CHECK(encode(order).size() == one + 2 * kRect);
-  CHECK(partition_bytes(order) == 3 * kRect);
+  CHECK(decode_frame_order(encode(order)).partition_bytes == 3 * kRect);
   order.tiles.resize(5);
-  CHECK(partition_bytes(order) == 3 * kRect + 5 * 2 * sizeof(float));
+  CHECK(decode_frame_order(encode(order)).partition_bytes == 3 * kRect + 5 * 2 * sizeof(float));
   order.owners[7 * 40 + 3] = 9;  // a hole: left and right of it, above and below
   CHECK(decode_frame_order(encode(order)).owners == order.owners);
   for (std::size_t tile = 0; tile < order.owners.size(); ++tile) {
