@@ -162,6 +162,39 @@ TEST_CASE("worker: samples that come with a tile that has another owner by now r
   CHECK(contain(scene.sent_to(2), kMarked));
 }
 
+TEST_CASE("worker: all ranks are told once of a tile that this one has taken, and of none that it has lost") {
+  const int taken = 2 * 12 + 3, lost = 3 * 12 + 3;  // rank 0's, beside rank 1's
+  const auto times_told = [](const std::vector<Bundle>& bundles, int tile) {
+    int times = 0;
+    for (const Bundle& bundle : bundles) {
+      for (const OwnerChange& change : bundle.tiles.changes)
+        times += change.tile == tile && change.owner == 1 && change.version == 1;
+    }
+    return times;
+  };
+  // In the frame itself, or late: then bundles of that frame are looked at twice in the next one.
+  for (const bool late : {false, true}) {
+    Scene scene;
+    const Bundle gives{.round = 5,
+                       .tiles = {.given = {{.tile = taken, .owner = 1, .version = 1},
+                                           {.tile = lost, .owner = 1, .version = 1}},
+                                 .changes = {{.tile = lost, .owner = 0, .version = 2}}}};
+    if (late) {
+      scene.render(Carry::kNothing);
+      scene.send(0, gives);
+    } else {
+      scene.send_while_tracing(0, gives);
+    }
+    for (const int rank : {0, 2}) scene.sent_to(rank);
+    scene.render(Carry::kNothing);
+    for (const int rank : {0, 2}) {
+      const std::vector<Bundle> bundles = scene.sent_to(rank);
+      CHECK(times_told(bundles, taken) == 1);
+      CHECK(times_told(bundles, lost) == 0);
+    }
+  }
+}
+
 TEST_CASE("worker: a cast sample that comes late reaches the owner of its tile, even the rank that sent it") {
   for (const int taker : {0, 2}) {
     Scene scene;

@@ -27,6 +27,29 @@ TileReport report(int tile, double cost, int triangles, double total_weight) {
   return {.tile = tile, .triangles = triangles, .total_weight = total_weight, .cost = cost};
 }
 
+// What two ranks report, two tiles each. The mean weight of rank 0's triangles is `first`, that of rank
+// 1's 1.
+FrameReports reports_of_two(int triangles, double first) {
+  const auto of_rank = [&](int tile, double mean) {
+    return std::vector{report(tile, 100, triangles, mean * triangles),
+                       report(tile + 1, 100, triangles, mean * triangles)};
+  };
+  return {.tiles = {of_rank(0, first), of_rank(2, 1)}, .speeds = {1, 1}};
+}
+
+GlobalBalancer balancer_of_two(const SessionSettings& settings) {
+  return GlobalBalancer(settings, TileGrid(40, 10, 10), 2, 0);
+}
+
+// Whether the order after this frame has a new partition.
+bool repartitions(GlobalBalancer& balancer, const FrameReports& frame, Carry next = Carry::kNothing) {
+  balancer.consider(frame);
+  FrameOrder order;
+  order.carry = next;
+  balancer.add_partition(order);
+  return !order.owners.empty();
+}
+
 SessionSettings without_carrying(BalanceMode mode) {
   SessionSettings settings;
   settings.width = 128, settings.height = 96;
@@ -168,28 +191,21 @@ TEST_CASE("local balancing: a rank's future cost is a time, by its pace") {
 }
 
 TEST_CASE("global balancing: on a lattice, a partition from accumulated samples serves no new picture") {
-  const auto repartitions = [](SamplerChoice sampler, bool accumulated, Carry next) {
+  const auto is_made = [](SamplerChoice sampler, bool accumulated, Carry next) {
     SessionSettings settings;
     settings.balance = BalanceMode::kGlobal;
     settings.sampler = sampler;
-    GlobalBalancer balancer(settings, TileGrid(40, 10, 10), 2, 0);
-    FrameReports frame;
+    GlobalBalancer balancer = balancer_of_two(settings);
+    FrameReports frame = reports_of_two(1, 4);
     frame.accumulates = accumulated;
-    frame.tiles = {{report(0, 100, 1, 4), report(1, 100, 1, 1)},
-                   {report(2, 100, 1, 1), report(3, 100, 1, 1)}};
-    frame.speeds = {1, 1};
-    balancer.consider(frame);
-    FrameOrder order;
-    order.carry = next;
-    balancer.add_partition(order);
-    return !order.owners.empty();
+    return repartitions(balancer, frame, next);
   };
   for (const Carry next : {Carry::kNothing, Carry::kCastWherePaying}) {
-    CHECK(repartitions(SamplerChoice::kAuto, false, next));
-    CHECK_FALSE(repartitions(SamplerChoice::kAuto, true, next));
-    CHECK(repartitions(SamplerChoice::kDelaunay, true, next));
+    CHECK(is_made(SamplerChoice::kAuto, false, next));
+    CHECK_FALSE(is_made(SamplerChoice::kAuto, true, next));
+    CHECK(is_made(SamplerChoice::kDelaunay, true, next));
   }
-  CHECK(repartitions(SamplerChoice::kAuto, true, Carry::kAccumulate));
+  CHECK(is_made(SamplerChoice::kAuto, true, Carry::kAccumulate));
 }
 
 TEST_CASE("balancing: every mode evens the refinement out") {
@@ -232,27 +248,32 @@ TEST_CASE(
   CHECK(repartitioned == std::vector<bool>{false, true, true, false, true, true, true, false});
 }
 
+TEST_CASE("combined balancing: what regions of few triangles show may be chance") {
+  SessionSettings settings;
+  settings.balance = BalanceMode::kCombined;
+  const auto is_made = [&](int triangles) {
+    GlobalBalancer balancer = balancer_of_two(settings);
+    return repartitions(balancer, reports_of_two(triangles, 2));  // deviates by a third of the mean
+  };
+  CHECK(is_made(500));
+  CHECK_FALSE(is_made(50));
+}
+
 TEST_CASE(
     "combined balancing: samples are not handed over again before the last partition's effect is known") {
   SessionSettings settings;
   settings.balance = BalanceMode::kCombined;
-  GlobalBalancer balancer(settings, TileGrid(40, 10, 10), 2, 0);
-  const auto repartitions = [&](std::uint32_t generation, bool accumulates) {
-    FrameReports frame;
+  GlobalBalancer balancer = balancer_of_two(settings);
+  const auto is_made = [&](std::uint32_t generation, bool accumulates) {
+    FrameReports frame = reports_of_two(1000, 4);
     frame.generation = generation;
     frame.accumulates = accumulates;
-    frame.tiles = {{report(0, 100, 1000, 4000), report(1, 100, 1000, 4000)},
-                   {report(2, 100, 1000, 1000), report(3, 100, 1000, 1000)}};
-    frame.speeds = {1, 1};
-    balancer.consider(frame);
-    FrameOrder order;
-    balancer.add_partition(order);
-    return !order.owners.empty();
+    return repartitions(balancer, frame);
   };
-  CHECK(repartitions(0, true));
-  CHECK_FALSE(repartitions(0, true));  // ordered before that partition was in force
-  CHECK(repartitions(1, true));
-  CHECK(repartitions(1, false));  // nothing is handed over
+  CHECK(is_made(0, true));
+  CHECK_FALSE(is_made(0, true));  // ordered before that partition was in force
+  CHECK(is_made(1, true));
+  CHECK(is_made(1, false));  // nothing is handed over
 }
 
 }  // namespace pprt

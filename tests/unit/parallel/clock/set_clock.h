@@ -22,10 +22,10 @@ class SetClock final : public FrameClock {
 
   void begin_packet(std::uint64_t) override { left_ = samples_per_packet_, ++packets_; }
   bool packet_over() override { return left_-- == 0; }
-  bool sampling_over() override { return packets_ >= 6; }
+  bool sampling_over() override { return packets_ >= kPackets; }
   void end_sampling(double) override {}
   double pace() const override { return 1; }
-  double sampling_share() const override { return 0.25; }
+  double sampling_share() const override { return packets_ < kPackets ? 0.25 : 1; }
   std::optional<double> expected_growth(std::size_t, std::size_t) const override { return std::nullopt; }
 
   void spend(Work, std::uint64_t) override {}
@@ -40,6 +40,8 @@ class SetClock final : public FrameClock {
   int readings() const { return readings_; }
 
  private:
+  static constexpr int kPackets = 6;
+
   int samples_per_packet_;
   double period_s_;
   const double& now_s_;
