@@ -9,7 +9,6 @@
 #include <chrono>
 #include <deque>
 #include <map>
-#include <optional>
 #include <thread>
 #include <utility>
 
