@@ -45,6 +45,10 @@ std::string encode_exr(const Image& image, const Metadata& metadata = {},
 std::string encode_png(const Image& image, const Metadata& metadata = {},
                        PictureKind kind = PictureKind::kRendered);
 
+// Returns the bytes of a JPEG for a screen, with colours at full resolution. `quality`: 1 to 100. Throws as
+// encode_png().
+std::string encode_jpeg(const Image& image, int quality);
+
 // Return the picture in a file's bytes. Throw std::runtime_error with the reason. EXR: channels R, G, B of
 // any pixel type, or Y alone; of several parts the first. PNG: any colour type and depth; transparency is
 // composited over black.

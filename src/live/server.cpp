@@ -25,7 +25,7 @@ using boost::asio::ip::tcp;
 using boost::beast::error_code;
 
 constexpr std::size_t kMostHeaderBytes = 8192;
-constexpr std::size_t kMostTexts = 256;
+constexpr std::size_t kMostSayings = 256;
 constexpr int kMostInFlight = 2;
 
 std::chrono::nanoseconds nanoseconds(double seconds) {
@@ -36,7 +36,7 @@ std::chrono::nanoseconds nanoseconds(double seconds) {
 
 class LiveServer::Impl {
  public:
-  Impl(LiveServerSettings settings, LiveServerEvents events);
+  explicit Impl(LiveServerSettings settings);
   ~Impl();
 
   const LiveServerSettings& settings() const { return settings_; }
@@ -44,9 +44,11 @@ class LiveServer::Impl {
   std::uint16_t port() const { return port_; }
   asio::io_context& context() { return context_; }
 
+  void start(LiveServerEvents events);
   void show(std::shared_ptr<const LiveFrame> frame);
   void tell_all(const std::string& text);
   void tell(int client, std::string text);
+  void send_file(int client, LiveFrame file);
 
  private:
   class Client;
@@ -94,11 +96,8 @@ class LiveServer::Impl::Client : public std::enable_shared_from_this<Client> {
     write();
   }
 
-  void tell(std::string text) {
-    if (texts_.size() >= kMostTexts) return close();
-    texts_.push_back(std::move(text));
-    write();
-  }
+  void tell(std::string text) { say({.header = std::move(text), .image = {}}, false); }
+  void send_file(LiveFrame file) { say(std::move(file), true); }
 
   void close() {
     if (std::exchange(closed_, true)) return;
@@ -135,21 +134,38 @@ class LiveServer::Impl::Client : public std::enable_shared_from_this<Client> {
     return ++heard_ > server_.settings_.most_messages_per_second;
   }
 
+  // What must arrive.
+  struct Saying {
+    LiveFrame content;
+    bool is_file = false;  // else a text: its header
+  };
+
+  void say(LiveFrame content, bool is_file) {
+    if (sayings_.size() >= kMostSayings) return close();
+    sayings_.push_back({std::move(content), is_file});
+    write();
+  }
+
   // Texts go before frames: they are small, and say what a frame is seen with.
   void write() {
     if (writing_ || closed_ || number_ == 0) return;
-    if (!texts_.empty()) {
-      text_ = std::move(texts_.front());
-      texts_.pop_front();
+    if (!sayings_.empty()) {
+      saying_ = std::move(sayings_.front());
+      sayings_.pop_front();
+      if (saying_.is_file) return write_binary(saying_.content);
       socket_.text(true);
-      start_write({asio::buffer(text_), {}, {}});
+      start_write({asio::buffer(saying_.content.header), {}, {}});
     } else if (next_frame_ && in_flight_ < kMostInFlight) {
       frame_ = std::exchange(next_frame_, nullptr);
       ++in_flight_;
-      socket_.binary(true);
-      constexpr std::string_view kLineBreak = "\n";
-      start_write({asio::buffer(frame_->header), asio::buffer(kLineBreak), asio::buffer(frame_->image)});
+      write_binary(*frame_);
     }
+  }
+
+  void write_binary(const LiveFrame& frame) {
+    constexpr std::string_view kLineBreak = "\n";
+    socket_.binary(true);
+    start_write({asio::buffer(frame.header), asio::buffer(kLineBreak), asio::buffer(frame.image)});
   }
 
   using Buffers = std::array<asio::const_buffer, 3>;  // one after the other
@@ -169,8 +185,8 @@ class LiveServer::Impl::Client : public std::enable_shared_from_this<Client> {
   int number_ = 0;  // 0: not joined yet
   bool closed_ = false;
   bool writing_ = false;
-  std::deque<std::string> texts_;
-  std::string text_;                             // being written
+  std::deque<Saying> sayings_;                   // not sent yet
+  Saying saying_;                                // being written, or the last one
   std::shared_ptr<const LiveFrame> next_frame_;  // not sent yet
   std::shared_ptr<const LiveFrame> frame_;       // being written, or the last one
   int in_flight_ = 0;                            // frames without an acknowledgement
@@ -254,21 +270,24 @@ class LiveServer::Impl::Visit : public std::enable_shared_from_this<Visit> {
   http::response<http::string_body> response_;
 };
 
-LiveServer::Impl::Impl(LiveServerSettings settings, LiveServerEvents events)
-    : settings_(std::move(settings)), events_(std::move(events)) {
+LiveServer::Impl::Impl(LiveServerSettings settings) : settings_(std::move(settings)) {
   const tcp::endpoint endpoint(asio::ip::make_address(settings_.address), settings_.port);
   acceptor_.open(endpoint.protocol());
   acceptor_.set_option(asio::socket_base::reuse_address(true));
   acceptor_.bind(endpoint);
   acceptor_.listen();
   port_ = acceptor_.local_endpoint().port();
+}
+
+void LiveServer::Impl::start(LiveServerEvents events) {
+  events_ = std::move(events);
   accept();
   thread_ = std::thread([this] { context_.run(); });
 }
 
 LiveServer::Impl::~Impl() {
   context_.stop();
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
 }
 
 void LiveServer::Impl::accept() {
@@ -320,10 +339,19 @@ void LiveServer::Impl::tell(int client, std::string text) {
   });
 }
 
-LiveServer::LiveServer(LiveServerSettings settings, LiveServerEvents events)
-    : impl_(std::make_unique<Impl>(std::move(settings), std::move(events))) {}
+void LiveServer::Impl::send_file(int client, LiveFrame file) {
+  asio::post(context_, [this, client, file = std::move(file)]() mutable {
+    if (const auto found = clients_.find(client); found != clients_.end())
+      found->second->send_file(std::move(file));
+  });
+}
+
+LiveServer::LiveServer(LiveServerSettings settings) : impl_(std::make_unique<Impl>(std::move(settings))) {}
 LiveServer::~LiveServer() = default;
 
+void LiveServer::start(LiveServerEvents events) {
+  impl_->start(std::move(events));
+}
 std::uint16_t LiveServer::port() const {
   return impl_->port();
 }
@@ -344,6 +372,9 @@ void LiveServer::tell_all(std::string text) {
 }
 void LiveServer::tell(int client, std::string text) {
   impl_->tell(client, std::move(text));
+}
+void LiveServer::send_file(int client, LiveFrame file) {
+  impl_->send_file(client, std::move(file));
 }
 
 }  // namespace pprt

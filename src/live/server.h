@@ -33,16 +33,18 @@ struct LiveServerEvents {
   std::function<void(int client)> left;
 };
 
-// Runs on a thread of its own. No client can block a caller.
+// Runs on a thread of its own. No client can block a caller, nor any other client.
 //
 // A client gets the newest frame. It acknowledges each by the text "ack", which said() does not pass on. Two
 // frames at most wait for that. Until then newer ones are dropped, for this client alone.
 //
-// Texts keep their order. A client that leaves more than 256 of them untaken is closed.
+// Texts and files keep their order. A client that leaves more than 256 of them untaken is closed.
 class LiveServer {
  public:
-  // Listens when it returns. Throws std::runtime_error where the address cannot be had.
-  LiveServer(LiveServerSettings settings, LiveServerEvents events);
+  // Listens when it returns, and answers from start() on. Throws std::runtime_error where the address cannot
+  // be had.
+  explicit LiveServer(LiveServerSettings settings);
+  void start(LiveServerEvents events);
 
   // Closes all connections.
   ~LiveServer();
@@ -59,6 +61,7 @@ class LiveServer {
   void show(std::shared_ptr<const LiveFrame> frame);
   void tell_all(std::string text);
   void tell(int client, std::string text);
+  void send_file(int client, LiveFrame file);  // of any kind; it is not acknowledged
 
  private:
   class Impl;

@@ -27,6 +27,14 @@ void Master::begin_sequence(double start_s) {
 // --- Orders
 
 void Master::frame_begun() {
+  if (!settings_.late_orders) make_order_due();
+}
+
+void Master::frame_done() {
+  if (settings_.late_orders) make_order_due();
+}
+
+void Master::make_order_due() {
   order_is_due_ = true;
   order_if_due();
 }
@@ -77,6 +85,7 @@ FrameOrder Master::make_order(const FrameRequest& request) {
   order.cut = request.cut;
   order.carry = carry_into(request);
   order.camera = request.camera;
+  order.report_samples = settings_.report_samples || request.report_samples;
   if (order.carry == Carry::kNothing) evidence_ = {}, evidence_since_ = order.index;
   order.evidence = evidence_;
   order.deadline_s = clock_->deadline_s(order.index, request.left_out);

@@ -30,10 +30,11 @@ struct FrameRequest {
   bool carries_nothing = false;  // it does not follow the request before, cut or not
   int left_out = 0;              // frames of the script before it that were not asked for; on the work clock
                                  // their time counts
+  bool report_samples = false;   // they come with the pixels, as where the settings ask for them
 };
 
-// Answers with the next frame's camera, asked for one frame ahead; empty: the sequence is over. A script
-// answers now, a live view may.
+// Answers at once with the next frame's camera; empty: the sequence is over. SessionSettings::late_orders
+// says when it is asked.
 using CameraSource = std::function<std::optional<FrameRequest>(int index)>;
 
 // Wall clock with a rate: seconds that a frame waits for the last ranks' pixels once rank 0 sees that its
@@ -46,7 +47,7 @@ struct FinishedFrame {
   Image image;
   std::vector<RankReport> ranks;         // empty reports of those that were late
   std::vector<std::int32_t> owners;      // per tile: the rank whose pixels are shown
-  std::vector<Sample> samples;           // of all ranks, each once; empty unless the settings ask for them
+  std::vector<Sample> samples;           // of all ranks, each once; empty unless they are asked for
   std::vector<std::int32_t> late_ranks;  // whose pixels had not come: ascending
   int stale_tiles = 0;                   // tiles that show an earlier frame, for nobody has sent them
   int overdue_pixels = 0;       // messages of earlier frames that came after those had been delivered
@@ -71,8 +72,9 @@ class Master {
   // Sends every rank the order for the first frame; `start_s` is the sequence's start by monotonic_seconds().
   void begin_sequence(double start_s);
 
-  // Rank 0 has begun a frame: time for the order of the one after.
+  // Rank 0 has begun a frame, or done its own part of it. Either is the time for the order of the one after.
   void frame_begun();
+  void frame_done();
 
   // Takes in a rank's pixels, or a part of them, also those of a frame that did not wait for them. Throws
   // ProtocolError for pixels of a frame that was not ordered, and for those that come twice.
@@ -102,6 +104,7 @@ class Master {
     std::optional<double> overdue_since_s = {};  // seen by rank 0, which may have been away at the deadline
   };
 
+  void make_order_due();
   void order_if_due();
   bool awaits_reports() const;
   void order_next();

@@ -152,6 +152,7 @@ void run_as_master(Communicator& network, const SessionSettings& settings, const
     }
     master.frame_begun();
     worker.render(*order);
+    master.frame_done();
   }
   while (!master.idle()) {
     inbox.pump_or_rest();

@@ -61,7 +61,10 @@ struct SessionSettings {
   std::uint64_t seed = 1;
   bool is_still = false;        // there is one frame
   bool report_samples = false;  // every sample of a frame comes to the master with the pixels
-  Machine machine;              // of the work clock
+  // A frame's camera is asked for when rank 0 has done its part of the frame before, not a frame ahead. Then
+  // the picture follows the camera at once, and ranks may have to wait for rank 0.
+  bool late_orders = false;
+  Machine machine;  // of the work clock
 
   friend bool operator==(const SessionSettings&, const SessionSettings&) = default;
 };

@@ -200,7 +200,7 @@ void Worker::send_pixels(const FrameOrder& order, double sampling_ended_s) {
     for (const std::int32_t tile : ownership_.given()) append(message.given, tile, tile);
   }
   message.is_last = true;
-  if (settings_.report_samples) {
+  if (order.report_samples) {
     for (const Sample& s : sampler_.samples().samples()) {
       if (!sampler_.owns(s)) continue;
       Sample& reported = message.samples.emplace_back(s);

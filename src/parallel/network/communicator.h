@@ -66,8 +66,8 @@ class Communicator {
   // does not wait for it.
   virtual void give_up(int rank) = 0;
 
-  // The last call: returns when nothing that was sent here can be lost any more. What still arrives is
-  // dropped. Where a rank was given up, only rank 0 returns: its end ends the others.
+  // The last call of a run: returns when nothing that was sent in it can arrive any more. What still arrives
+  // is dropped. Where a rank was given up, only rank 0 returns: its end ends the others.
   virtual void finish() = 0;
 };
 

@@ -42,6 +42,7 @@ struct FrameOrder {
   std::vector<TileEstimate> tiles;   // and what those of the receiver were found to be, ascending by tile
   std::vector<std::int32_t> lost;    // ranks that have been given up, ascending: none has a tile any more
   std::size_t partition_bytes = 0;   // when decoded: what owners and tiles took
+  bool report_samples = false;       // every sample of the frame comes with the pixels
   double reserve_s = 0;  // wall clock: for what follows sampling, besides the rank's own reconstruction
 };
 

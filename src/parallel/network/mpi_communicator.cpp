@@ -207,6 +207,7 @@ class MpiCommunicator::Impl {
       check(MPI_Test(&arrival->request, &whole, MPI_STATUS_IGNORE), "MPI_Test");
       if (!whole) continue;
       Message message = std::move(arrival->message);
+      ++received[static_cast<std::size_t>(from)];
       arrivals.erase(arrival);
       return message;
     }
@@ -227,6 +228,7 @@ class MpiCommunicator::Impl {
   std::vector<Lane> lanes;  // by receiver
   std::deque<Message> to_self;
   std::list<Arrival> arrivals;
+  std::vector<std::uint64_t> sent, received;  // messages to and from each rank
   bool all_finished = true;
 };
 
@@ -236,7 +238,10 @@ MpiCommunicator::MpiCommunicator() : impl_(std::make_unique<Impl>()) {
   MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
   check(MPI_Comm_rank(MPI_COMM_WORLD, &impl_->rank), "MPI_Comm_rank");
   check(MPI_Comm_size(MPI_COMM_WORLD, &impl_->size), "MPI_Comm_size");
-  impl_->lanes.resize(static_cast<std::size_t>(impl_->size));
+  const auto ranks = static_cast<std::size_t>(impl_->size);
+  impl_->lanes.resize(ranks);
+  impl_->sent.resize(ranks);
+  impl_->received.resize(ranks);
 }
 
 void MpiCommunicator::meet_others() {
@@ -297,6 +302,7 @@ void MpiCommunicator::send(int to, Tag tag, Bytes payload) {
     impl_->to_self.push_back({to, tag, std::move(payload)});
     return;
   }
+  ++impl_->sent.at(static_cast<std::size_t>(to));
   impl_->lanes.at(static_cast<std::size_t>(to)).send(to, tag, std::move(payload));
 }
 
@@ -355,13 +361,30 @@ void MpiCommunicator::finish() {
     drain_until([this] { return impl_->rank == 0; });
     return;
   }
+  // All tell each other how many messages they have sent, and take in the last of them.
+  const auto is_over = [](MPI_Request& request) {
+    int over = 0;
+    check(MPI_Test(&request, &over, MPI_STATUS_IGNORE), "MPI_Test");
+    return over != 0;
+  };
+  std::vector<std::uint64_t> due(impl_->sent.size());
+  MPI_Request told = MPI_REQUEST_NULL;
+  check(
+      MPI_Ialltoall(impl_->sent.data(), 1, MPI_UINT64_T, due.data(), 1, MPI_UINT64_T, MPI_COMM_WORLD, &told),
+      "MPI_Ialltoall");
+  impl_->all_finished =
+      drain_until([&] { return is_over(told); }) && drain_until([&] { return impl_->received == due; });
+  if (!impl_->all_finished) return;
+  // What comes after this belongs to a next run: nothing is received any more.
   MPI_Request all_here = MPI_REQUEST_NULL;
   check(MPI_Ibarrier(MPI_COMM_WORLD, &all_here), "MPI_Ibarrier");
-  impl_->all_finished = drain_until([&all_here] {
-    int over = 0;
-    check(MPI_Test(&all_here, &over, MPI_STATUS_IGNORE), "MPI_Test");
-    return over != 0;
-  });
+  while (!is_over(all_here)) {
+    if (impl_->rank == 0 && std::chrono::steady_clock::now() - began > kPatience) {
+      impl_->all_finished = false;
+      return;
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(100));
+  }
 }
 
 bool MpiCommunicator::all_finished() const {

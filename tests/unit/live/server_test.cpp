@@ -37,15 +37,15 @@ bool comes_true(const std::function<bool()>& condition) {
 // A server, and what its clients did.
 class Stage {
  public:
-  explicit Stage(LiveServerSettings settings = {})
-      : server_(with_page(std::move(settings)),
-                {.joined = [this](int) { ++joined; },
-                 .said =
-                     [this](int client, std::string_view text) {
-                       const std::lock_guard lock(mutex_);
-                       said_.push_back(std::to_string(client) + " " + std::string(text));
-                     },
-                 .left = [this](int) { ++left; }}) {}
+  explicit Stage(LiveServerSettings settings = {}) : server_(with_page(std::move(settings))) {
+    server_.start({.joined = [this](int) { ++joined; },
+                   .said =
+                       [this](int client, std::string_view text) {
+                         const std::lock_guard lock(mutex_);
+                         said_.push_back(std::to_string(client) + " " + std::string(text));
+                       },
+                   .left = [this](int) { ++left; }});
+  }
 
   LiveServer& server() { return server_; }
   std::vector<std::string> said() {
@@ -227,7 +227,7 @@ TEST_CASE("live server: an address that is taken is an error") {
   Stage stage;
   LiveServerSettings settings;
   settings.port = stage.server().port();
-  CHECK_THROWS_AS(LiveServer(settings, {}), std::runtime_error);
+  CHECK_THROWS_AS(LiveServer(settings), std::runtime_error);
 }
 
 }  // namespace

@@ -18,8 +18,9 @@ constexpr double kMoment = 0.001;  // less than the grace
 class Stage {
  public:
   explicit Stage(ClockKind clock = ClockKind::kWall, double frames_per_second = 1 / kPeriod,
-                 double ranks_per_core = 16, BalanceMode balance = BalanceMode::kLocal)
-      : settings_(settings_for(clock, frames_per_second, balance)),
+                 double ranks_per_core = 16, BalanceMode balance = BalanceMode::kLocal,
+                 bool late_orders = false)
+      : settings_(settings_for(clock, frames_per_second, balance, late_orders)),
         master_(
             communicator_, settings_, partition_, ranks_per_core, still_or_pan(settings_, 40, 1),
             [this](FinishedFrame&& frame) { delivered.push_back(std::move(frame)); },
@@ -31,6 +32,9 @@ class Stage {
 
   // Rank 0 begins a frame; the order for the one after goes out.
   void begin() { master_.frame_begun(); }
+
+  // Rank 0 has done its part of a frame.
+  void end() { master_.frame_done(); }
 
   void at(double seconds) {
     now_ = seconds;
@@ -103,7 +107,8 @@ class Stage {
   std::vector<FinishedFrame> delivered;
 
  private:
-  static SessionSettings settings_for(ClockKind clock, double frames_per_second, BalanceMode balance) {
+  static SessionSettings settings_for(ClockKind clock, double frames_per_second, BalanceMode balance,
+                                      bool late_orders) {
     SessionSettings settings;
     settings.width = 24, settings.height = 16;
     settings.clock = clock;
@@ -111,6 +116,7 @@ class Stage {
     settings.budget_units = 1'000'000;
     settings.balance = balance;
     settings.cast = CastChoice::kOff;
+    settings.late_orders = late_orders;
     return settings;
   }
 
@@ -123,6 +129,16 @@ class Stage {
 };
 
 }  // namespace
+
+TEST_CASE("master: an order goes out a frame ahead, a late one when rank 0 has done its part") {
+  const bool late = GENERATE(false, true);
+  Stage stage(ClockKind::kWall, 1 / kPeriod, 16, BalanceMode::kLocal, late);
+  CHECK(stage.orders().size() == 1);
+  stage.begin();
+  CHECK(stage.orders().size() == (late ? 0 : 1));
+  stage.end();
+  CHECK(stage.orders().size() == (late ? 1 : 0));
+}
 
 TEST_CASE("master: a whole frame is delivered at once") {
   Stage stage;

@@ -41,6 +41,7 @@ class Session {
     order.camera.width = order.camera.height = kSize;
     order.deadline_s = (index_ + 1) * kPeriod;
     order.evidence = evidence_against_casting();
+    order.report_samples = true;
     worker_->render(order);
     inbox_.pump();
     return samples_;
@@ -51,7 +52,6 @@ class Session {
     SessionSettings settings;
     settings.width = settings.height = kSize;
     settings.frames_per_second = 1 / kPeriod;
-    settings.report_samples = true;
     return settings;
   }
   static Partition partition() {

@@ -74,6 +74,7 @@ SessionSettings some_settings() {
   settings.stop = {1.5, 678, 0.01};
   settings.cast = CastChoice::kVerified, settings.seed = 99;
   settings.balance = BalanceMode::kLocal, settings.keep_samples = false, settings.report_samples = true;
+  settings.late_orders = true;
   settings.pixel_rule = PixelRule::kMean, settings.learned_weights = false;
   settings.machine = {3e8, 1e-3, 4e7};
   return settings;
