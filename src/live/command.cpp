@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 namespace pprt {
@@ -60,6 +61,21 @@ LookFrom look_from(const Json& object) {
   return look;
 }
 
+template <class Value>
+Value word_in(const Json& object, const char* name) {
+  const Json& value = member(object, name);
+  const std::optional<Value> found =
+      value.is_string() ? find_word<Value>(value.get_ref<const std::string&>()) : std::nullopt;
+  if (!found) throw CommandError(fmt::format("'{}' has no such value", name));
+  return *found;
+}
+
+bool flag_in(const Json& object, const char* name) {
+  const Json& value = member(object, name);
+  if (!value.is_boolean()) throw CommandError(fmt::format("'{}' is neither true nor false", name));
+  return value.get<bool>();
+}
+
 Json object_of(std::string_view text) {
   Json object = Json::parse(text, nullptr, false);
   if (!object.is_object()) throw CommandError("a message is no JSON object");
@@ -86,6 +102,12 @@ LiveCommand parse_command(std::string_view text) {
     return SetSize{whole_in(object, "width", 1, kLongestLiveSide),
                    whole_in(object, "height", 1, kLongestLiveSide)};
   }
+  if (word == "overlay") return ShowOverlay{word_in<Overlay>(object, "name")};
+  if (word == "key") return SetKey{whole_in(object, "frame", 1, kLastKeyFrame)};
+  if (word == "drop") return DropKey{whole_in(object, "frame", 1, kLastKeyFrame)};
+  if (word == "undo") return UndoKeys{};
+  if (word == "film") return PlayFilm{flag_in(object, "on")};
+  if (word == "photo") return TakePhoto{word_in<PhotoFormat>(object, "format")};
   throw CommandError("there is no such command");
 }
 

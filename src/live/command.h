@@ -3,14 +3,19 @@
 //   {"do":"take"}  {"do":"give"}  {"do":"pass","to":3}         the camera: one pilot at a time
 //   {"do":"look","number":17,"from":[x,y,z],"at":[x,y,z],"up":[x,y,z],"angle":45}
 //   {"do":"play"}  {"do":"pause"}  {"do":"step","by":-1}  {"do":"seek","frame":12}      the script
-//   {"do":"rate","fps":24}  {"do":"size","width":512,"height":384}
+//   {"do":"rate","fps":24}  {"do":"size","width":512,"height":384}  {"do":"overlay","name":"samples"}
+//   {"do":"key","frame":49}  {"do":"drop","frame":49}  {"do":"undo"}     keys of the recorded film
+//   {"do":"film","on":true}          play the recorded film in the script's place
+//   {"do":"photo","format":"png"}    a picture at full quality, or "exr"
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <stdexcept>
 #include <string_view>
 #include <variant>
 
+#include "base/words.h"
 #include "scene/scene_description.h"
 
 namespace pprt {
@@ -41,8 +46,45 @@ struct SetSize {
   int width = 1, height = 1;
 };
 
-using LiveCommand = std::variant<TakeCamera, GiveCamera, PassCamera, LookFrom, PlayScript, StepScript,
-                                 SeekScript, SetRate, SetSize>;
+// What is drawn over the picture.
+enum class Overlay : std::uint8_t { kNone, kSamples, kTriangulation, kRegions, kAge };
+template <>
+inline constexpr std::array<Word<Overlay>, 5> kWords<Overlay>{{
+    {Overlay::kNone, "none", ""},
+    {Overlay::kSamples, "samples", ""},
+    {Overlay::kTriangulation, "triangulation", ""},
+    {Overlay::kRegions, "regions", ""},
+    {Overlay::kAge, "age", ""},
+}};
+struct ShowOverlay {
+  Overlay overlay = Overlay::kNone;
+};
+
+// A key of the film that the pilot records: the camera as it is.
+struct SetKey {
+  int frame = 1;
+};
+struct DropKey {
+  int frame = 1;
+};
+struct UndoKeys {};
+struct PlayFilm {
+  bool on = true;
+};
+
+enum class PhotoFormat : std::uint8_t { kPng, kExr };
+template <>
+inline constexpr std::array<Word<PhotoFormat>, 2> kWords<PhotoFormat>{{
+    {PhotoFormat::kPng, "png", ""},
+    {PhotoFormat::kExr, "exr", ""},
+}};
+struct TakePhoto {
+  PhotoFormat format = PhotoFormat::kPng;
+};
+
+using LiveCommand =
+    std::variant<TakeCamera, GiveCamera, PassCamera, LookFrom, PlayScript, StepScript, SeekScript, SetRate,
+                 SetSize, ShowOverlay, SetKey, DropKey, UndoKeys, PlayFilm, TakePhoto>;
 
 // A message that is none, in words for the person at the page.
 class CommandError : public std::runtime_error {
@@ -53,6 +95,9 @@ class CommandError : public std::runtime_error {
 // The slowest and fastest rate, and the longest side of a picture, that a page may ask for.
 inline constexpr double kSlowestRate = 1, kFastestRate = 120;
 inline constexpr int kLongestLiveSide = 4096;
+
+// The last frame that a key may stand at.
+inline constexpr int kLastKeyFrame = 1'000'000;
 
 // Throws CommandError for what is not a command. It does so, too, for
 //   - numbers that are none, or are beyond 1e15

@@ -28,9 +28,18 @@ std::string_view name_of(std::string_view host) {
   return host.substr(0, host.find(':'));
 }
 
+bool is_numeric(std::string_view name) {
+  const bool is_v6 = name.find(':') != std::string_view::npos;
+  return !name.empty() &&
+         name.find_first_not_of(is_v6 ? "0123456789abcdefABCDEF:." : "0123456789.") == std::string_view::npos;
+}
+
+// No foreign page can have an origin of digits, unless it comes from there.
 bool is_own_name(std::string_view host, std::string_view address) {
   const std::string_view name = name_of(host);
-  return name == "localhost" || name == "127.0.0.1" || name == "::1" || (!name.empty() && name == address);
+  if (name == "localhost" || name == "127.0.0.1" || name == "::1") return true;
+  const bool listens_everywhere = address == "0.0.0.0" || address == "::";
+  return listens_everywhere ? is_numeric(name) : !name.empty() && name == address;
 }
 
 // A page of this server has its origin, and nothing else does. What is no browser sends none.

@@ -29,8 +29,8 @@ enum class GateAnswer : std::uint8_t {
 std::string new_token();
 
 // The page is at /TOKEN/, its socket at /TOKEN/socket. `address`: where the server listens. Browsers reach it
-// by that name, or by one of this host's own names, at any port (ssh -L may change it). Other names are
-// refused: a foreign page may let its own name lead here.
+// by that name or as localhost, at any port (ssh -L may change it). Where it listens on all addresses, any
+// address in digits will do. Other names are refused: a foreign page may let its own name lead here.
 GateAnswer admit(const GateRequest& request, std::string_view token, std::string_view address);
 
 }  // namespace pprt

@@ -3,6 +3,7 @@
 #include <array>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
@@ -12,6 +13,7 @@
 #include <thread>
 #include <utility>
 
+#include "live/address.h"
 #include "live/gate.h"
 
 namespace pprt {
@@ -68,6 +70,8 @@ class LiveServer::Impl {
   std::map<int, std::shared_ptr<Client>> clients_;
   int last_client_ = 0;
   std::shared_ptr<const LiveFrame> newest_;
+  bool is_ending_ = false;
+  asio::steady_timer last_moment_{context_};
   std::thread thread_;
 };
 
@@ -98,6 +102,13 @@ class LiveServer::Impl::Client : public std::enable_shared_from_this<Client> {
 
   void tell(std::string text) { say({.header = std::move(text), .image = {}}, false); }
   void send_file(LiveFrame file) { say(std::move(file), true); }
+
+  // Closes once all texts and files have been sent.
+  void end() {
+    ends_ = true;
+    next_frame_.reset();
+    write();
+  }
 
   void close() {
     if (std::exchange(closed_, true)) return;
@@ -155,6 +166,10 @@ class LiveServer::Impl::Client : public std::enable_shared_from_this<Client> {
       if (saying_.is_file) return write_binary(saying_.content);
       socket_.text(true);
       start_write({asio::buffer(saying_.content.header), {}, {}});
+    } else if (ends_) {
+      socket_.async_close(websocket::close_code::going_away,
+                          [self = shared_from_this()](error_code) { self->close(); });
+      ends_ = false;
     } else if (next_frame_ && in_flight_ < kMostInFlight) {
       frame_ = std::exchange(next_frame_, nullptr);
       ++in_flight_;
@@ -184,6 +199,7 @@ class LiveServer::Impl::Client : public std::enable_shared_from_this<Client> {
   beast::flat_buffer buffer_;
   int number_ = 0;  // 0: not joined yet
   bool closed_ = false;
+  bool ends_ = false;
   bool writing_ = false;
   std::deque<Saying> sayings_;                   // not sent yet
   Saying saying_;                                // being written, or the last one
@@ -286,8 +302,17 @@ void LiveServer::Impl::start(LiveServerEvents events) {
 }
 
 LiveServer::Impl::~Impl() {
-  context_.stop();
-  if (thread_.joinable()) thread_.join();
+  if (!thread_.joinable()) return;
+  asio::post(context_, [this] {
+    is_ending_ = true;
+    error_code ignored;
+    acceptor_.close(ignored);
+    for (const auto& [number, client] : std::map(clients_)) client->end();
+    last_moment_.expires_after(std::chrono::milliseconds(500));
+    last_moment_.async_wait([this](error_code) { context_.stop(); });
+    if (clients_.empty()) last_moment_.cancel();
+  });
+  thread_.join();
 }
 
 void LiveServer::Impl::accept() {
@@ -297,7 +322,7 @@ void LiveServer::Impl::accept() {
       socket.set_option(tcp::no_delay(true), ignored);
       if (has_room()) std::make_shared<Visit>(*this, std::move(socket))->run();
     }
-    accept();
+    if (acceptor_.is_open()) accept();
   });
 }
 
@@ -316,6 +341,7 @@ int LiveServer::Impl::join(const std::shared_ptr<Client>& client) {
 void LiveServer::Impl::leave(int client) {
   asio::post(context_, [this, client] {
     if (clients_.erase(client) > 0) events_.left(client);
+    if (is_ending_ && clients_.empty()) last_moment_.cancel();
   });
 }
 
@@ -359,10 +385,7 @@ const std::string& LiveServer::token() const {
   return impl_->token();
 }
 std::string LiveServer::url() const {
-  const std::string& address = impl_->settings().address;
-  const bool is_v6 = address.find(':') != std::string::npos;
-  return "http://" + (is_v6 ? "[" + address + "]" : address) + ":" + std::to_string(port()) + "/" + token() +
-         "/";
+  return http_address({impl_->settings().address, port()}) + token() + "/";
 }
 void LiveServer::show(std::shared_ptr<const LiveFrame> frame) {
   impl_->show(std::move(frame));

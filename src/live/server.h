@@ -46,7 +46,7 @@ class LiveServer {
   explicit LiveServer(LiveServerSettings settings);
   void start(LiveServerEvents events);
 
-  // Closes all connections.
+  // Closes all connections, after what is still to be said: half a second at most.
   ~LiveServer();
   LiveServer(const LiveServer&) = delete;
   LiveServer& operator=(const LiveServer&) = delete;

@@ -21,6 +21,7 @@
 #include "parallel/session.h"
 #include "render/frame_recorder.h"
 #include "render/frame_requests.h"
+#include "render/live_run.h"
 #include "render/memory_check.h"
 #include "render/output_check.h"
 #include "render/preflight.h"
@@ -48,7 +49,7 @@ void print_rays(const RunTotals& totals) {
                   rays.primary, rays.shadow, rays.reflection, rays.refraction, rays.visibility));
 }
 
-// The first process's one message to the others before a run, for which they wait: the job, or that there is
+// The first process's message to the others before a run, for which they wait: the job, or that there is
 // none.
 class JobBroadcast {
  public:
@@ -63,6 +64,9 @@ class JobBroadcast {
     if (processes_ != nullptr) processes_->broadcast(bytes);
     run_begun_ = job.go;
   }
+
+  // The others await a job that does not come.
+  void end() { run_begun_ = false, dismiss(); }
 
   // Lets the others leave, unless they have their job.
   void dismiss() {
@@ -138,6 +142,51 @@ void warn_of_few_cores(const LocalRanks& ranks) {
       ranks.on_host, ranks.cores, installed));
 }
 
+// All other ranks have finished: a file that cannot be written now concerns this rank alone.
+int finish_files(FrameRecorder& recorder, ProgressReporter& progress) try {
+  recorder.finish(stop_requested().has_value());
+  return stop_requested() ? 128 + *stop_requested() : kExitDone;
+} catch (const std::exception& e) {
+  print_message(fmt::format("pprt-render: error: {}\n", message_of(e)));
+  progress.fail(message_of(e));
+  return kExitFailure;
+}
+
+// A live view without files has no end of its own: a signal is the usual one.
+int run_live_view(ProcessRanks& ranks, const PreparedRun& run, const SessionEvents& events,
+                  ProgressReporter& progress, JobBroadcast& broadcast) {
+  const int size = ranks.ranks().size;
+  std::optional<FrameRecorder> recorder;
+  if (!run.plan.output.pictures.empty()) {
+    const RunIdentity identity{run.plan, size, content_hash(run.job.scene_nff)};
+    recorder.emplace(run.plan, run.scene, run_key(identity), run_record(identity, run.scene.effects()),
+                     progress);
+  }
+  watch_signals();
+  const StatusPrinter printer(
+      [&] {
+        if (recorder) recorder->status();
+      },
+      [] {});
+  RenderJob job = run.job;
+  job.again = true;
+  run_live(run.plan, run.scene, size, recorder ? &*recorder : nullptr,
+           [&](const SessionSettings& settings, const CameraSource& source, const FrameSink& sink) {
+             job.settings = settings;
+             broadcast.send(job);
+             job.scene_nff.clear();
+             run_ranks(ranks, run.scene, [&](Communicator& network, const Probe& probe) {
+               if (network.rank() == 0) {
+                 run_as_master(network, settings, probe, source, sink, events);
+               } else {
+                 run_as_worker(network, settings, probe);
+               }
+             });
+           });
+  broadcast.end();
+  return recorder ? finish_files(*recorder, progress) : kExitDone;
+}
+
 int run_frames(ProcessRanks& ranks, const PreparedRun& run, const SessionEvents& events,
                ProgressReporter& progress, JobBroadcast& broadcast) {
   // Open the outputs, which may fail, while the other processes wait.
@@ -165,16 +214,9 @@ int run_frames(ProcessRanks& ranks, const PreparedRun& run, const SessionEvents&
     }
   });
 
-  // All other ranks have finished: a file that cannot be written now concerns this rank alone.
-  try {
-    recorder.finish(stop_requested().has_value());
-  } catch (const std::exception& e) {
-    print_message(fmt::format("pprt-render: error: {}\n", message_of(e)));
-    progress.fail(message_of(e));
-    return kExitFailure;
-  }
-  if (run.plan.report.census) print_rays(recorder.totals());
-  return stop_requested() ? 128 + *stop_requested() : kExitDone;
+  const int code = finish_files(recorder, progress);
+  if (code != kExitFailure && run.plan.report.census) print_rays(recorder.totals());
+  return code;
 }
 
 int run_first_process(ProcessRanks& ranks, const RenderOptions& options, ProgressReporter& progress,
@@ -188,7 +230,8 @@ int run_first_process(ProcessRanks& ranks, const RenderOptions& options, Progres
     check_files(run.plan);
     std::cerr << preflight(run.plan, run.scene);
     warn_of_few_cores(ranks.ranks());
-    return run_frames(ranks, run, events_of(options, ranks), progress, broadcast);
+    const auto run_all = run.plan.live ? run_live_view : run_frames;
+    return run_all(ranks, run, events_of(options, ranks), progress, broadcast);
   } catch (...) {
     broadcast.dismiss();
     throw;
@@ -197,13 +240,19 @@ int run_first_process(ProcessRanks& ranks, const RenderOptions& options, Progres
 
 int run_further_process(MpiCommunicator& processes, ProcessRanks& ranks) {
   ignore_signals();
-  Bytes bytes;
-  processes.broadcast(bytes);
-  const RenderJob job = decode_job(bytes);
-  if (!job.go) return kExitDone;
-  const CompiledScene scene = compile_scene(job);
-  run_ranks(ranks, scene,
-            [&](Communicator& network, const Probe& probe) { run_as_worker(network, job.settings, probe); });
+  std::optional<CompiledScene> scene;
+  RenderJob job;
+  job.again = true;
+  while (job.again) {
+    Bytes bytes;
+    processes.broadcast(bytes);
+    job = decode_job(bytes);
+    if (!job.go) break;
+    if (!scene) scene.emplace(compile_scene(job));
+    run_ranks(ranks, *scene, [&](Communicator& network, const Probe& probe) {
+      run_as_worker(network, job.settings, probe);
+    });
+  }
   return kExitDone;
 }
 

@@ -33,7 +33,7 @@ CompiledScene compile_scene(const RenderJob& job) {
 
 Bytes encode(const RenderJob& job) {
   WireWriter out;
-  out.put(job.go), out.put_all<std::byte>(encode(job.settings));
+  out.put(job.go), out.put(job.again), out.put_all<std::byte>(encode(job.settings));
   out.put(job.compile.max_depth), out.put(job.compile.cull);
   out.put(job.compile.effects.has_value()), out.put(job.compile.effects.value_or(EffectSet()).bits());
   out.put(job.scene_name), out.put(job.scene_nff);
@@ -46,7 +46,7 @@ RenderJob decode_job(const Bytes& bytes) {
   Bytes settings;
   bool restricted = false;
   unsigned effects = 0;
-  in.get(job.go), in.get_all(settings);
+  in.get(job.go), in.get(job.again), in.get_all(settings);
   job.settings = decode_settings(settings);
   in.get(job.compile.max_depth), in.get(job.compile.cull);
   in.get(restricted), in.get(effects);

@@ -13,11 +13,12 @@ namespace pprt {
 // All ranks, the master's too, compile the scene from the same text: what canonical NFF does not keep, such
 // as unused materials, exists for none of them.
 struct RenderJob {
-  bool go = false;  // false: there is nothing to render, or an error; the ranks leave
+  bool go = false;     // false: there is nothing to render, or an error; the ranks leave
+  bool again = false;  // another job follows when this one is done
   SessionSettings settings;
   CompileOptions compile;
   std::string scene_name;  // for messages
-  std::string scene_nff;   // canonical: see scene/nff_writer.h
+  std::string scene_nff;   // canonical: see scene/nff_writer.h; empty: that of the job before
 };
 
 // Returns the scene's text in canonical NFF.

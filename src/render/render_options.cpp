@@ -179,6 +179,13 @@ void add_image_options(CLI::App& app, RenderOptions& o) {
       ->group(group);
 }
 
+void add_live_options(CLI::App& app, RenderOptions& o) {
+  add_parsed(app, "--live", parse_live_address, o.live,
+             "Serve a page that shows the frames as they are made, and steers the camera")
+      .type_name("[ADDRESS:]PORT")
+      ->group("Live");
+}
+
 void add_effect_options(CLI::App& app, RenderOptions& o) {
   const std::string group = "Effects";
   app.add_option("--max-depth", o.max_depth, "Longest chain of rays; an eye ray has depth 1")
@@ -236,6 +243,7 @@ void add_render_options(CLI::App& app, RenderOptions& options) {
   add_stop_rules(app, options);
   add_method_options(app, options);
   add_image_options(app, options);
+  add_live_options(app, options);
   add_effect_options(app, options);
   add_report_options(app, options);
 }

@@ -11,6 +11,7 @@
 #include "cli/number_pair.h"
 #include "image/frame_pattern.h"
 #include "layers/layer.h"
+#include "live/address.h"
 #include "parallel/session_words.h"
 #include "render/progress.h"
 #include "trace/effects.h"
@@ -59,6 +60,8 @@ struct RenderOptions {
   bool cull = false;
   bool census = false;
   bool strict = false;
+
+  std::optional<LiveAddress> live;  // empty: nobody watches
 
   std::string stats;                      // the ledger's file; "-": standard output; empty: none
   std::optional<FramePattern> reference;  // pictures to measure errors against

@@ -12,6 +12,7 @@
 #include "cli/scene_source.h"
 #include "image/atomic_file.h"
 #include "image/frame_writer.h"
+#include "live/command.h"
 #include "parallel/session.h"
 #include "parser/anim_parser.h"
 #include "render/film.h"
@@ -119,8 +120,17 @@ std::vector<PlannedFrame> frames_to_render(const RenderOptions& options,
 }
 
 double frame_rate(const RenderOptions& options, const Sources& sources) {
+  constexpr double kOfALiveView = 24;
   if (options.fps) return *options.fps;
-  return sources.script ? sources.script->animation.fps : 0;
+  const double of_script = sources.script ? sources.script->animation.fps : 0;
+  return options.live && of_script == 0 ? kOfALiveView : of_script;
+}
+
+// Returns what a script in any directory calls the scene.
+std::optional<std::string> absolute_scene_name(const std::string& path) {
+  if (is_spd_name(path)) return path;
+  if (path == "-") return std::nullopt;
+  return std::filesystem::absolute(path).lexically_normal().string();
 }
 
 // Returns the film's rate: that of the frames, without one the script's, else the customary one.
@@ -198,7 +208,7 @@ SessionSettings session_settings(const RenderOptions& options, const View& view,
 OutputPlan output_plan(const RenderOptions& options, std::size_t frame_count, double rate_of_film) {
   OutputPlan output;
   output.pictures = options.outputs;
-  if (output.pictures.empty()) {
+  if (output.pictures.empty() && !options.live) {
     output.pictures.push_back(parse_frame_pattern(kDefaultOutput, FrameCount::kOne));
   }
   if (frame_count > 1) {
@@ -215,6 +225,17 @@ OutputPlan output_plan(const RenderOptions& options, std::size_t frame_count, do
 
 }  // namespace
 
+SessionSettings photo_settings(const SessionSettings& live) {
+  constexpr double kLongest_s = 60;
+  SessionSettings photo = live;
+  photo.frames_per_second = 0;
+  photo.budget_units = 0;
+  photo.stop = {.seconds = kLongest_s, .samples = 0, .flip = 0, .weight = still_weight(live.sampler)};
+  photo.is_still = true;
+  photo.late_orders = false;
+  return photo;
+}
+
 std::vector<FramePattern> files_of_a_frame(const OutputPlan& output) {
   std::vector<FramePattern> files = output.pictures;
   for (const FramePattern& picture : output.pictures) {
@@ -223,6 +244,24 @@ std::vector<FramePattern> files_of_a_frame(const OutputPlan& output) {
   }
   return files;
 }
+
+namespace {
+
+void require_live_usage(const RenderOptions& options) {
+  if (options.clock == ClockKind::kWork) throw UsageError("--live needs real time, not --clock work");
+  if (options.go_on) throw UsageError("--live needs all ranks: it cannot be used with --go-on");
+  if (options.fps && *options.fps < kSlowestRate) {
+    throw UsageError(
+        fmt::format("--fps {:g}: with --live a rate of at least {:g} is needed", *options.fps, kSlowestRate));
+  }
+  if (!options.outputs.empty()) return;
+  const bool writes = !options.layers.empty() || !options.stats.empty() || !options.film.empty() ||
+                      !options.contact_sheet.empty() || options.reference || options.compare_serial ||
+                      options.resume;
+  if (writes) throw UsageError("with --live, files beside the frames need the frames: name them by --output");
+}
+
+}  // namespace
 
 void check_usage(const RenderOptions& options) {
   const std::filesystem::path& sheet = options.contact_sheet;
@@ -244,6 +283,7 @@ void check_usage(const RenderOptions& options) {
   }
   if (options.budget && options.clock != ClockKind::kWork)
     throw UsageError("--budget counts work: it needs --clock work");
+  if (options.live) require_live_usage(options);
   if (options.go_on && options.clock == ClockKind::kWork)
     throw UsageError("--go-on needs real time: with --clock work all ranks wait for each other");
 }
@@ -266,7 +306,10 @@ RenderPlan plan_of(const RenderOptions& options, Sources& sources) {
                  .compare_serial = options.compare_serial,
                  .census = options.census};
   plan.settings = session_settings(options, base, fps);
-  plan.settings.is_still = plan.frames.size() == 1;
+  plan.settings.is_still = plan.frames.size() == 1 && !options.live;
+  plan.settings.late_orders = options.live.has_value();
+  plan.live = options.live;
+  plan.scene_name = absolute_scene_name(sources.scene_path);
   plan.compile.max_depth = options.max_depth;
   plan.compile.cull = options.cull;
   plan.compile.effects = options.effects;

@@ -8,6 +8,7 @@
 
 #include "image/frame_pattern.h"
 #include "layers/layer.h"
+#include "live/address.h"
 #include "parallel/session_settings.h"
 #include "render/existing_files.h"
 #include "render/named_file.h"
@@ -27,7 +28,7 @@ struct PlannedFrame {
 
 // Files that the run writes.
 struct OutputPlan {
-  std::vector<FramePattern> pictures;  // of each frame; at least one
+  std::vector<FramePattern> pictures;  // of each frame; empty: nothing is written
   std::vector<Layer> layers;
   ExistingFiles existing = ExistingFiles::kRefuse;
   std::filesystem::path contact_sheet;  // empty: none
@@ -45,6 +46,7 @@ struct ReportPlan {
 
 struct RenderPlan {
   SceneDescription scene;
+  std::optional<std::string> scene_name;    // as a script in any directory names it; empty: none can
   std::string script_name;                  // empty: none
   std::vector<PlannedFrame> script_frames;  // all, rendered or not
   std::vector<PlannedFrame> frames;         // those to render
@@ -53,6 +55,7 @@ struct RenderPlan {
   OutputPlan output;
   ReportPlan report;
   SessionSettings settings;
+  std::optional<LiveAddress> live;
   CompileOptions compile;
   std::string warnings;  // about scene and script, for people
 };
@@ -63,6 +66,9 @@ inline constexpr double kStillWeight = 0.005;
 
 // The same for the lattice: the mean worth of what is still to be sampled (docs/decisions/0021-lattice.md).
 inline constexpr double kLatticeStillWeight = 2.8e-5;
+
+// Returns the settings of a picture at full quality, taken while frames are made with `live`.
+SessionSettings photo_settings(const SessionSettings& live);
 
 // Returns every file of a frame: its pictures and, beside those that cannot hold layers, the layers' own.
 std::vector<FramePattern> files_of_a_frame(const OutputPlan& output);

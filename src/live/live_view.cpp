@@ -1,0 +1,144 @@
+#include "live/live_view.h"
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "image/image_io.h"
+#include "live/page.h"
+#include "live/picture_stream.h"
+#include "live/server.h"
+
+namespace pprt {
+namespace {
+
+using Json = nlohmann::json;
+
+double seconds_now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+class LiveView::Impl {
+ public:
+  Impl(const LiveAddress& address, LiveShow show)
+      : server_({.address = address.address, .port = address.port, .page = std::string(live_page())}),
+        steering_(std::move(show),
+                  {.tell = [this](int client, std::string text) { server_.tell(client, std::move(text)); },
+                   .tell_all = [this](std::string text) { server_.tell_all(std::move(text)); }}) {
+    server_.start({.joined = [this](int client) { steering_.joined(client); },
+                   .said = [this](int client, std::string_view text) { steering_.said(client, text); },
+                   .left = [this](int client) { steering_.left(client); }});
+    thread_ = std::thread([this] { run(); });
+  }
+
+  ~Impl() {
+    end("The program has ended.");
+    {
+      const std::lock_guard lock(mutex_);
+      is_over_ = true;
+    }
+    work_.notify_one();
+    thread_.join();
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  const LiveServer& server() const { return server_; }
+  Steering& steering() { return steering_; }
+
+  void show(LivePicture picture) {
+    const bool is_watched = steering_.is_watched();
+    {
+      const std::lock_guard lock(mutex_);
+      constexpr std::size_t kMostFigures = 240;
+      if (!is_watched || figures_.size() == kMostFigures) figures_.clear();
+      figures_.push_back(picture.figures);
+      if (is_watched) next_ = std::move(picture);
+    }
+    work_.notify_one();
+  }
+
+  void show_photo(const LiveRun& run, const Image& image) {
+    const bool is_exr = run.photo == PhotoFormat::kExr;
+    const Json header = {{"photo", is_exr ? "exr" : "png"}, {"view", json_of(run.view)}};
+    server_.send_file(run.photo_for,
+                      {.header = header.dump(), .image = is_exr ? encode_exr(image) : encode_png(image)});
+  }
+
+  void end(const std::string& why) {
+    if (std::exchange(has_told_end_, true)) return;
+    server_.tell_all(Json{{"end", why}}.dump());
+  }
+
+ private:
+  void run() {
+    while (true) {
+      LivePicture picture;
+      std::vector<FrameFigures> figures;
+      {
+        std::unique_lock lock(mutex_);
+        work_.wait(lock, [this] { return is_over_ || next_; });
+        if (is_over_) return;
+        picture = std::move(*std::exchange(next_, std::nullopt));
+        figures = std::exchange(figures_, {});
+      }
+      server_.show(std::make_shared<const LiveFrame>(frame_of(picture, std::move(figures))));
+    }
+  }
+
+  LiveFrame frame_of(const LivePicture& picture, std::vector<FrameFigures> figures) {
+    FrameHeader header{
+        .shot = picture.shot, .rests = picture.rests, .flip = {}, .type = {}, .frames = std::move(figures)};
+    header.flip = estimate_.add(picture.image, picture.figures.samples, picture.rests);
+    EncodedPicture encoded =
+        picture.overlaid ? stream_.encode(picture.overlaid(picture.image), picture.rests, seconds_now())
+                         : stream_.encode(picture.image, picture.rests, seconds_now());
+    header.type = encoded.type;
+    return {.header = to_text(header), .image = std::move(encoded.bytes)};
+  }
+
+  LiveServer server_;
+  Steering steering_;
+  bool has_told_end_ = false;
+  PictureStream stream_;   // of the thread
+  RestEstimate estimate_;  // of the thread
+
+  std::mutex mutex_;  // guards what follows
+  std::condition_variable work_;
+  std::optional<LivePicture> next_;
+  std::vector<FrameFigures> figures_;  // of frames since the last that was taken
+  bool is_over_ = false;
+
+  std::thread thread_;  // last: it uses the others
+};
+
+LiveView::LiveView(const LiveAddress& address, LiveShow show)
+    : impl_(std::make_unique<Impl>(address, std::move(show))) {}
+LiveView::~LiveView() = default;
+
+std::string LiveView::url() const {
+  return impl_->server().url();
+}
+std::uint16_t LiveView::port() const {
+  return impl_->server().port();
+}
+Steering& LiveView::steering() {
+  return impl_->steering();
+}
+void LiveView::show(LivePicture picture) {
+  impl_->show(std::move(picture));
+}
+void LiveView::show_photo(const LiveRun& run, const Image& image) {
+  impl_->show_photo(run, image);
+}
+void LiveView::end(const std::string& why) {
+  impl_->end(why);
+}
+
+}  // namespace pprt

@@ -1,0 +1,58 @@
+// What a program that renders frames has to do with the people who watch them: it asks for the next camera,
+// and shows the frame.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "image/image.h"
+#include "live/address.h"
+#include "live/frame_header.h"
+#include "live/steering.h"
+
+namespace pprt {
+
+// A frame to be shown.
+struct LivePicture {
+  Image image;
+  LiveShot shot = {};
+  FrameFigures figures = {};
+  bool rests = false;                                 // the camera stands still, and samples accumulate
+  std::function<Image(const Image& image)> overlaid;  // draws the shot's overlay; null: there is none
+};
+
+// Encodes and serves in threads of its own, at the lowest priority: no call waits for a client or for an
+// encoder. Where pictures come faster than they are encoded, the newest wins.
+class LiveView {
+ public:
+  // Throws std::runtime_error where the address cannot be had.
+  LiveView(const LiveAddress& address, LiveShow show);
+
+  // Tells all clients that the program has ended, unless end() has told why.
+  ~LiveView();
+  LiveView(const LiveView&) = delete;
+  LiveView& operator=(const LiveView&) = delete;
+
+  // The page's address, with the token that it needs.
+  std::string url() const;
+  std::uint16_t port() const;
+
+  // Tells all clients why nothing more comes.
+  void end(const std::string& why);
+
+  Steering& steering();
+
+  void show(LivePicture picture);
+
+  // A picture at full quality, for one client.
+  void show_photo(const LiveRun& run, const Image& image);
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace pprt

@@ -1,0 +1,12 @@
+# Makes one C++ source of the page: cmake -D OUT=FILE -P embed.cmake. The program serves no other file.
+set(here ${CMAKE_CURRENT_LIST_DIR})
+file(READ ${here}/page.html page)
+file(READ ${here}/page.css style)
+set(script "\"use strict\";\n")
+foreach(part camera connection gauge pilot main)
+  file(READ ${here}/${part}.js text)
+  string(APPEND script "\n${text}")
+endforeach()
+string(REPLACE "/*STYLE*/" "${style}" page "${page}")
+string(REPLACE "/*SCRIPT*/" "${script}" page "${page}")
+file(WRITE ${OUT} "#include \"live/page.h\"\n\nnamespace pprt {\n\nstd::string_view live_page() {\n  return R\"page(${page})page\";\n}\n\n}  // namespace pprt\n")

@@ -1,0 +1,265 @@
+// The page: what it knows, what it shows, and what each button does.
+
+const element = (id) => document.getElementById(id);
+const canvas = element("picture");
+const gauge = new Gauge(element("gauge"), element("gauge-text"));
+const lag = new Lag();
+
+let hello = null;       // what the program has told at the beginning
+let state = null;       // what it told last
+let look = 0;           // number of the last camera that was sent
+let shown = null;       // header of the frame on the screen
+let keyFrame = true;    // the field of the next key's frame follows the keys
+let wantsCamera = false;  // had it when the connection was lost
+
+const pilot = new Pilot(canvas, (camera) => {
+  lag.send(++look, performance.now());
+  connection.send({do: "look", number: look, ...camera});
+});
+
+// --- What comes
+
+let drawing = Promise.resolve();
+
+const connection = new Connection({
+  frame: (header, bytes) => {
+    // Pictures are decoded one after the other, so that none overtakes another.
+    drawing = drawing.then(() => draw(header, bytes)).catch((error) => console.error(error));
+  },
+  photo: (header, bytes) => {
+    download(new Blob([bytes]), `photo.${header.photo}`);
+    say(`The photo is saved as photo.${header.photo}.`);
+  },
+  text: (message) => {
+    if (message.hello) welcome(message.hello);
+    if (message.state) update(message.state);
+    if (message.error) say(message.error);
+    if (message.end) warn(message.end);
+  },
+  lost: (seconds) => {
+    wantsCamera = wantsCamera || pilot.isPilot;
+    pilot.isPilot = false;
+    warn(`The connection is lost. The page tries again in ${seconds} s. If pprt-render has ended, ` +
+      "start it again and open the address that it prints.");
+  },
+  found: () => warn(""),
+});
+
+async function draw(header, bytes) {
+  if (header.type) {
+    const picture = await createImageBitmap(new Blob([bytes], {type: header.type}));
+    if (canvas.width !== picture.width || canvas.height !== picture.height) {
+      canvas.width = picture.width;
+      canvas.height = picture.height;
+      fit();
+    }
+    canvas.getContext("2d", {alpha: false}).drawImage(picture, 0, 0);
+    picture.close();
+  }
+  connection.acknowledge();
+  shown = header;
+  if (!pilot.isPilot || header.look === look) pilot.camera = header.view;
+  if (pilot.isPilot) lag.show(header.look, performance.now());
+  tell(header);
+}
+
+function tell(header) {
+  const rate = state ? state.rate : 24;
+  gauge.add(header.frames, rate);
+  const last = header.frames[header.frames.length - 1];
+  element("samples").textContent = last.samples.toLocaleString("en");
+  element("flip").textContent = header.flip === null ? "–" : header.flip.toFixed(4);
+  element("late").textContent = last.late.length > 0 ? last.late.join(", ") : "none";
+  const median = lag.median();
+  element("lag").textContent =
+    median === null ? "–" : `${median.toFixed(0)} ms, ${(median * rate / 1000).toFixed(1)} frames`;
+  const frames = state ? state.frames : 0;
+  const inPlay = header.position > 0 && frames > 0;
+  element("position").textContent = inPlay ? `${header.position} of ${frames}` : "by hand";
+  if (inPlay && document.activeElement !== element("scrub")) element("scrub").value = header.position;
+  document.body.dataset.camera = header.camera;
+  document.body.dataset.frame = last.number;
+}
+
+function welcome(message) {
+  hello = message;
+  pilot.home = hello.home;
+  look = 0;
+  lag.forget();
+  element("title").textContent = hello.title;
+  document.title = `${hello.title} – pprt live`;
+  fill(element("overlay"), hello.overlays.map((name) => [name, name]));
+}
+
+function update(message) {
+  state = message;
+  const isPilot = state.pilot === hello.you;
+  if (isPilot && !pilot.isPilot) look = 0, lag.forget();
+  pilot.isPilot = isPilot;
+  if (wantsCamera && state.pilot === 0) connection.send({do: "take"});
+  wantsCamera = false;
+
+  canvas.classList.toggle("steered", isPilot);
+  const others = state.viewers.filter((viewer) => viewer !== hello.you);
+  element("viewers").textContent = others.length === 0 ? "you alone are watching" :
+    `you are viewer ${hello.you} of ${state.viewers.length}` +
+      (state.pilot > 0 && !isPilot ? `; viewer ${state.pilot} has the camera` : "");
+  const take = element("take");
+  take.firstChild.textContent = isPilot ? "Give it back " : "Take the camera ";
+  take.classList.toggle("chosen", isPilot);
+  take.disabled = state.pilot > 0 && !isPilot;
+  element("pass-label").hidden = !isPilot || others.length === 0;
+  fill(element("pass"), [["", "…"], ...others.map((viewer) => [viewer, `viewer ${viewer}`])]);
+
+  for (const id of ["settings", "film", "transport"]) element(id).disabled = !isPilot;
+  element("rate").value = Math.round(100 * Math.log(state.rate) / Math.log(hello.rates[1]));
+  element("rate-text").textContent = `${state.rate} frames/s`;
+  fillSizes();
+  element("overlay").value = state.overlay;
+  element("photo").disabled = state.photo;
+  if (state.photo) say("The photo is being taken: the frames wait.");
+
+  element("play").textContent = state.plays ? "⏸" : "▶";
+  element("play").setAttribute("aria-label", state.plays ? "Pause" : "Play");
+  for (const id of ["play", "back", "forth", "scrub"]) element(id).disabled = state.frames === 0;
+  element("scrub").max = Math.max(1, state.frames);
+  element("undo").disabled = !state.undo;
+  element("save").disabled = state.keys.length === 0;
+  element("plays-film").checked = state.film;
+  element("plays-film").disabled = state.keys.length === 0;
+  showKeys();
+}
+
+function fill(select, entries) {
+  const now = select.value;
+  const wanted = JSON.stringify(entries);
+  if (select.dataset.entries === wanted) return;
+  select.dataset.entries = wanted;
+  select.replaceChildren(...entries.map(([value, text]) => new Option(text, value)));
+  if (entries.some(([value]) => String(value) === now)) select.value = now;
+}
+
+// Sizes of the picture's own shape, by height.
+function fillSizes() {
+  const [width, height] = state.size;
+  const own = hello.own_size || (hello.own_size = state.size);
+  const sizes = new Map();
+  for (const factor of [0.25, 0.5, 0.75, 1, 1.5, 2]) {
+    const size = own.map((side) => Math.max(1, Math.round(side * factor)));
+    if (Math.max(...size) <= hello.longest_side) sizes.set(size.join("x"), size);
+  }
+  sizes.set(`${width}x${height}`, state.size);
+  const entries = [...sizes.values()].sort((a, b) => a[0] - b[0]);
+  fill(element("size"), entries.map(([w, h]) => [`${w}x${h}`, `${w} × ${h}`]));
+  element("size").value = `${width}x${height}`;
+  element("size").disabled = hello.fixed_size;
+}
+
+function showKeys() {
+  element("keys").replaceChildren(...state.keys.map((frame) => {
+    const item = document.createElement("li");
+    const button = document.createElement("button");
+    button.textContent = `${frame} ✕`;
+    button.setAttribute("aria-label", `Drop the key at frame ${frame}`);
+    button.onclick = () => connection.send({do: "drop", frame});
+    item.append(button);
+    return item;
+  }));
+  const span = Math.max(1, state.frames - 1);
+  element("marks").replaceChildren(...(state.film ? state.keys : []).map((frame) => {
+    const mark = document.createElement("i");
+    mark.style.left = `${100 * (frame - 1) / span}%`;
+    return mark;
+  }));
+  const last = state.keys[state.keys.length - 1];
+  if (keyFrame) element("key-frame").value = last ? last + Math.round(2 * state.rate) : 1;
+}
+
+// --- What is shown beside the picture
+
+let noteTimer = 0;
+function say(text) {
+  const span = document.createElement("span");
+  span.textContent = text;
+  element("note").replaceChildren(span);
+  clearTimeout(noteTimer);
+  noteTimer = setTimeout(() => element("note").replaceChildren(), 5000);
+}
+
+function warn(text) {
+  element("banner").textContent = text;
+  element("banner").hidden = text === "";
+}
+
+// As large as the stage allows, with square pixels.
+function fit() {
+  const stage = element("stage");
+  const narrow = matchMedia("(max-width: 46em)").matches;
+  const high = narrow ? innerHeight * 0.6 : stage.clientHeight - 16;
+  const factor = Math.min((stage.clientWidth - 16) / canvas.width, high / canvas.height);
+  canvas.style.width = `${Math.max(1, Math.floor(canvas.width * factor))}px`;
+  canvas.style.height = `${Math.max(1, Math.floor(canvas.height * factor))}px`;
+}
+new ResizeObserver(fit).observe(element("stage"));
+
+function download(blob, name) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(blob);
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}
+
+// --- What is done
+
+const actions = {
+  take: () => connection.send({do: pilot.isPilot ? "give" : "take"}),
+  play: () => connection.send({do: state.plays ? "pause" : "play"}),
+  back: () => connection.send({do: "step", by: -1}),
+  forth: () => connection.send({do: "step", by: 1}),
+  key: () => {
+    keyFrame = true;
+    connection.send({do: "key", frame: Number(element("key-frame").value)});
+  },
+  undo: () => connection.send({do: "undo"}),
+  save: () => download(new Blob([state.script], {type: "text/plain"}), "film.anim"),
+  photo: () => connection.send({do: "photo", format: element("format").value}),
+  theme: () => {
+    const dark = document.documentElement.dataset.theme ?
+      document.documentElement.dataset.theme === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
+    document.documentElement.dataset.theme = dark ? "light" : "dark";
+    if (state) gauge.draw(1000 / state.rate);
+  },
+  "help-button": () => element("help").showModal(),
+};
+for (const [id, act] of Object.entries(actions)) element(id).addEventListener("click", act);
+
+const settings = {
+  rate: (value) => ({do: "rate", fps: Math.max(1, Math.round(hello.rates[1] ** (value / 100)))}),
+  size: (value) => ({do: "size", width: Number(value.split("x")[0]), height: Number(value.split("x")[1])}),
+  overlay: (value) => ({do: "overlay", name: value}),
+  pass: (value) => ({do: "pass", to: Number(value)}),
+};
+for (const [id, command] of Object.entries(settings)) {
+  element(id).addEventListener("change", (event) => connection.send(command(event.target.value)));
+}
+element("scrub").addEventListener("input", (event) => connection.send({do: "seek", frame: Number(event.target.value)}));
+element("plays-film").addEventListener("change", (event) => connection.send({do: "film", on: event.target.checked}));
+element("key-frame").addEventListener("input", () => { keyFrame = false; });
+
+const shortcuts = {t: "take", " ": "play", b: "back", n: "forth", k: "key", u: "undo", s: "save", p: "photo", "?": "help-button"};
+document.addEventListener("keydown", (event) => {
+  const inField = /^(INPUT|SELECT|TEXTAREA)$/.test(event.target.tagName);
+  const pressesButton = event.target.tagName === "BUTTON" && (event.key === " " || event.key === "Enter");
+  if (inField || pressesButton || event.ctrlKey || event.metaKey || element("help").open) return;
+  if (pilot.key(event)) return event.preventDefault();
+  const overlay = element("overlay");
+  if (event.key === "o" && pilot.isPilot) {
+    overlay.selectedIndex = (overlay.selectedIndex + 1) % overlay.length;
+    return overlay.dispatchEvent(new Event("change"));
+  }
+  const button = element(shortcuts[event.key]);
+  if (!button || button.matches(":disabled")) return;
+  event.preventDefault();
+  button.click();
+});

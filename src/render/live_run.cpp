@@ -1,0 +1,194 @@
+#include "render/live_run.h"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <array>
+#include <deque>
+#include <set>
+#include <utility>
+
+#include "cli/exit.h"
+#include "cli/stop_signals.h"
+#include "layers/overlay.h"
+#include "live/live_view.h"
+#include "parallel/session.h"
+
+namespace pprt {
+namespace {
+
+LiveShow show_of(const RenderPlan& plan, const CompiledScene& scene) {
+  LiveShow show{.title = plan.scene.name,
+                .scene_name = plan.scene_name,
+                .home = plan.frames.front().view,
+                .script = {},
+                .frames_per_second = plan.settings.frames_per_second,
+                .fixed_size = !plan.output.pictures.empty(),
+                .require_camera = [&scene](const View& view) { scene.camera(view); }};
+  if (plan.script_name.empty()) return show;
+  for (const PlannedFrame& frame : plan.frames) show.script.push_back({frame.number, frame.view, frame.cut});
+  return show;
+}
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "HOST";
+}
+
+std::string where_to_look(const LiveView& view, const LiveAddress& address) {
+  const bool is_local = address.address == "127.0.0.1" || address.address == "::1";
+  std::string text = fmt::format("pprt-render: live at {}\n", view.url());
+  if (is_local) {
+    text += fmt::format("pprt-render: from another host first: ssh -L {0}:{1}:{0} {2}\n", view.port(),
+                        address.address == "::1" ? "[::1]" : "localhost", host_name());
+  }
+  return text + "pprt-render: Ctrl-C ends it\n";
+}
+
+std::optional<Layer> layer_of(Overlay overlay) {
+  switch (overlay) {
+    case Overlay::kSamples:
+      return Layer::kSamples;
+    case Overlay::kTriangulation:
+      return Layer::kTriangulation;
+    case Overlay::kRegions:
+      return Layer::kRegions;
+    case Overlay::kAge:
+      return Layer::kAge;
+    case Overlay::kNone:
+      break;
+  }
+  return std::nullopt;
+}
+
+// Any number of sequences, one after the other.
+class LiveRunner {
+ public:
+  LiveRunner(const RenderPlan& plan, const CompiledScene& scene, int ranks, FrameRecorder* recorder,
+             const RunSequence& run_sequence)
+      : plan_(plan),
+        scene_(scene),
+        ranks_(ranks),
+        recorder_(recorder),
+        run_sequence_(run_sequence),
+        view_(*plan.live, show_of(plan, scene)) {
+    if (recorder == nullptr) return;
+    for (const PlannedFrame& frame : plan.frames)
+      if (!recorder->finished_before(frame.number)) missing_.insert(frame.number);
+  }
+
+  void run() {
+    print_message(where_to_look(view_, *plan_.live));
+    while (!is_over()) {
+      const LiveRun wanted = view_.steering().next_run();
+      if (wanted.photo) {
+        take_photo(wanted);
+      } else {
+        render_frames(wanted);
+      }
+    }
+    view_.end(recorder_ != nullptr && missing_.empty() ? "All frames are rendered: pprt-render has ended."
+                                                       : "pprt-render has ended.");
+  }
+
+ private:
+  bool is_over() {
+    if (stop_requested()) return true;
+    if (recorder_ == nullptr) return false;
+    return recorder_->failed() || (missing_.empty() && view_.steering().is_played_out());
+  }
+
+  void take_photo(const LiveRun& wanted) {
+    SessionSettings settings = photo_settings(plan_.settings);
+    settings.width = wanted.width;
+    settings.height = wanted.height;
+    View view = wanted.view;
+    view.width = wanted.width;
+    view.height = wanted.height;
+    const auto source = [&](int index) -> std::optional<FrameRequest> {
+      if (index > 0) return std::nullopt;
+      return FrameRequest{.number = ++number_, .camera = scene_.camera(view)};
+    };
+    run_sequence_(settings, source, [&](FinishedFrame&& frame) { view_.show_photo(wanted, frame.image); });
+  }
+
+  void render_frames(const LiveRun& wanted) {
+    SessionSettings settings = plan_.settings;
+    settings.width = wanted.width;
+    settings.height = wanted.height;
+    settings.frames_per_second = wanted.frames_per_second;
+    const TileGrid grid = tile_grid(settings, ranks_);
+    std::deque<LiveShot> shots;  // of frames that are not delivered
+    const auto source = [&](int) -> std::optional<FrameRequest> {
+      if (is_over()) return std::nullopt;
+      const std::optional<LiveShot> shot = view_.steering().next_shot();
+      if (!shot) return std::nullopt;
+      shots.push_back(*shot);
+      const std::optional<Layer> layer = layer_of(shot->overlay);
+      return FrameRequest{.number = ++number_,
+                          .camera = scene_.camera(shot->view),
+                          .cut = shot->cut,
+                          .report_samples = layer && needs_samples(*layer)};
+    };
+    run_sequence_(settings, source, [&](FinishedFrame&& frame) {
+      const LiveShot shot = shots.front();
+      shots.pop_front();
+      deliver(std::move(frame), shot, grid);
+    });
+  }
+
+  void deliver(FinishedFrame&& frame, const LiveShot& shot, const TileGrid& grid) {
+    const bool is_recorded = missing_.erase(shot.script_frame) > 0;
+    std::uint64_t samples = 0;
+    for (const RankReport& rank : frame.ranks) samples += rank.samples_in_region;
+    LivePicture picture{.image = is_recorded ? frame.image : std::move(frame.image),
+                        .shot = shot,
+                        .figures = {.number = frame.order.number,
+                                    .slack_ms = -frame.late_ms,
+                                    .samples = samples,
+                                    .late_ranks = frame.late_ranks},
+                        .rests = frame.order.carry == Carry::kAccumulate,
+                        .overlaid = overlay_of(frame, shot, grid)};
+    if (is_recorded) record(std::move(frame), shot.script_frame);
+    view_.show(std::move(picture));
+  }
+
+  static std::function<Image(const Image&)> overlay_of(const FinishedFrame& frame, const LiveShot& shot,
+                                                       const TileGrid& grid) {
+    const std::optional<Layer> layer = layer_of(shot.overlay);
+    if (!layer || (needs_samples(*layer) && frame.samples.empty())) return nullptr;
+    return [layer = *layer, sources = LayerSources{.frame_number = frame.order.number,
+                                                   .grid = grid,
+                                                   .owners = frame.owners,
+                                                   .samples = frame.samples,
+                                                   .first_hit = {}}](const Image& image) {
+      return overlaid(image, layer, sources);
+    };
+  }
+
+  // Files count as the script does.
+  void record(FinishedFrame&& frame, int script_frame) {
+    const int later = frame.order.number - script_frame;
+    frame.order.number = script_frame;
+    for (Sample& sample : frame.samples) sample.frame -= later;
+    recorder_->record(std::move(frame));
+  }
+
+  const RenderPlan& plan_;
+  const CompiledScene& scene_;
+  int ranks_;
+  FrameRecorder* recorder_;
+  const RunSequence& run_sequence_;
+  LiveView view_;
+  std::set<int> missing_;  // frames of the script that are to be recorded
+  int number_ = 0;         // of the frame ordered last
+};
+
+}  // namespace
+
+void run_live(const RenderPlan& plan, const CompiledScene& scene, int ranks, FrameRecorder* recorder,
+              const RunSequence& run_sequence) {
+  LiveRunner(plan, scene, ranks, recorder, run_sequence).run();
+}
+
+}  // namespace pprt
