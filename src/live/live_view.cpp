@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/thread_priority.h"
 #include "image/image_io.h"
 #include "live/page.h"
 #include "live/picture_stream.h"
@@ -34,7 +35,10 @@ class LiveView::Impl {
     server_.start({.joined = [this](int client) { steering_.joined(client); },
                    .said = [this](int client, std::string_view text) { steering_.said(client, text); },
                    .left = [this](int client) { steering_.left(client); }});
-    thread_ = std::thread([this] { run(); });
+    thread_ = std::thread([this] {
+      ask_for_short_waits();
+      run();
+    });
   }
 
   ~Impl() {
@@ -93,21 +97,25 @@ class LiveView::Impl {
   }
 
   LiveFrame frame_of(const LivePicture& picture, std::vector<FrameFigures> figures) {
-    FrameHeader header{
-        .shot = picture.shot, .rests = picture.rests, .flip = {}, .type = {}, .frames = std::move(figures)};
-    header.flip = estimate_.add(picture.image, picture.figures.samples, picture.rests);
+    const double now_s = seconds_now();
+    const bool is_at_rest = rest_.is_at_rest(picture.rests, now_s);
+    const auto encode = [&](const Image& image) { return stream_.encode(image, is_at_rest, now_s); };
     EncodedPicture encoded =
-        picture.overlaid ? stream_.encode(picture.overlaid(picture.image), picture.rests, seconds_now())
-                         : stream_.encode(picture.image, picture.rests, seconds_now());
-    header.type = encoded.type;
+        picture.overlaid ? encode(picture.overlaid(picture.image)) : encode(picture.image);
+    const FrameHeader header{.shot = picture.shot,
+                             .rests = is_at_rest,
+                             .flip = estimate_.add(picture.image, picture.figures.samples, is_at_rest),
+                             .type = encoded.type,
+                             .frames = std::move(figures)};
     return {.header = to_text(header), .image = std::move(encoded.bytes)};
   }
 
   LiveServer server_;
   Steering steering_;
   bool has_told_end_ = false;
-  PictureStream stream_;   // of the thread
-  RestEstimate estimate_;  // of the thread
+  RestWatch rest_;  // these three: of the thread
+  PictureStream stream_;
+  RestEstimate estimate_;
 
   std::mutex mutex_;  // guards what follows
   std::condition_variable work_;

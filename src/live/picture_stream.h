@@ -11,31 +11,38 @@
 
 namespace pprt {
 
+// Tells a camera that has come to rest from one that pauses: it has not moved for half a second.
+class RestWatch {
+ public:
+  // `rests`: it shows the same as before. `now_s`: any clock.
+  bool is_at_rest(bool rests, double now_s);
+
+ private:
+  std::optional<double> since_s_;
+};
+
 // A picture's bytes, or none.
 struct EncodedPicture {
   std::string_view type;  // "image/jpeg", "image/png"; empty: the picture before is as good
   std::string bytes;
 };
 
-// While the camera moves pictures are JPEGs. Once it has rested for half a second they are PNGs, at most four
-// a second.
+// While the camera moves pictures are JPEGs. At rest they are PNGs, at most four a second.
 class PictureStream {
  public:
-  // `now_s`: any clock.
-  EncodedPicture encode(const Image& image, bool rests, double now_s);
+  EncodedPicture encode(const Image& image, bool is_at_rest, double now_s);
 
  private:
-  std::optional<double> rests_since_s_;
-  double last_png_s_ = 0;
+  std::optional<double> last_png_s_;  // since it came to rest
 };
 
 // Estimates the mean FLIP of a picture to the finished one. Each time that the samples have doubled while the
-// camera rests, the change since then tells (docs/decisions/0023-estimated-flip.md). In between it is
-// foretold.
+// camera is at rest, the change since then tells (docs/decisions/0023-estimated-flip.md). In between it is
+// foretold. A look takes some 60 ms for 512x512 pixels.
 class RestEstimate {
  public:
   // Returns the estimate for this picture; empty where nothing is known yet.
-  std::optional<double> add(const Image& image, std::uint64_t samples, bool rests);
+  std::optional<double> add(const Image& image, std::uint64_t samples, bool is_at_rest);
 
  private:
   std::optional<FlipReference> before_;  // at the last look

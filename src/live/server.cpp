@@ -13,6 +13,7 @@
 #include <thread>
 #include <utility>
 
+#include "base/thread_priority.h"
 #include "live/address.h"
 #include "live/gate.h"
 
@@ -298,7 +299,10 @@ LiveServer::Impl::Impl(LiveServerSettings settings) : settings_(std::move(settin
 void LiveServer::Impl::start(LiveServerEvents events) {
   events_ = std::move(events);
   accept();
-  thread_ = std::thread([this] { context_.run(); });
+  thread_ = std::thread([this] {
+    ask_for_short_waits();
+    context_.run();
+  });
 }
 
 LiveServer::Impl::~Impl() {
