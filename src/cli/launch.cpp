@@ -147,7 +147,8 @@ int run_under_mpirun(const Launch& launch, std::span<const std::string> words,
   const int code = mpirun_code(mpirun, messages);
   // A run that was asked to stop may still fail. The code of an mpirun that was ended says nothing.
   const bool failed = code >= kExitFailure && code <= kExitInput;
-  if (stopped_by != 0 && (forced != 0 || !failed)) return 128 + stopped_by;
+  const bool ended_well = launch.ends_by_signal && code == kExitDone && forced == 0;
+  if (stopped_by != 0 && (forced != 0 || !failed) && !ended_well) return 128 + stopped_by;
   // A run that goes on without what it has lost says itself how it ended.
   const bool is_lost = messages.loss() && !messages.end_code();
   if (is_lost || code > kExitInput) {

@@ -15,6 +15,7 @@ struct Launch {
   int processes = 1;
   std::filesystem::path hostfile = {};  // empty: this host
   bool goes_on = false;                 // the run may go on without a process that has ended
+  bool ends_by_signal = false;          // that is its usual end: then the run's own exit code counts
   double start_patience_s = 60;         // with goes_on: how long the ranks may take to find each other
 };
 

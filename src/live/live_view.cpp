@@ -102,11 +102,12 @@ class LiveView::Impl {
     const auto encode = [&](const Image& image) { return stream_.encode(image, is_at_rest, now_s); };
     EncodedPicture encoded =
         picture.overlaid ? encode(picture.overlaid(picture.image)) : encode(picture.image);
-    const FrameHeader header{.shot = picture.shot,
-                             .rests = is_at_rest,
-                             .flip = estimate_.add(picture.image, picture.figures.samples, is_at_rest),
-                             .type = encoded.type,
-                             .frames = std::move(figures)};
+    const FrameHeader header{
+        .shot = picture.shot,
+        .rests = is_at_rest,
+        .flip = estimate_.add(picture.image, picture.figures.samples, picture.rests, is_at_rest),
+        .type = encoded.type,
+        .frames = std::move(figures)};
     return {.header = to_text(header), .image = std::move(encoded.bytes)};
   }
 

@@ -28,21 +28,25 @@ EncodedPicture PictureStream::encode(const Image& image, bool is_at_rest, double
   return {"image/png", encode_png(image)};
 }
 
-std::optional<double> RestEstimate::add(const Image& image, std::uint64_t samples, bool is_at_rest) {
+// The change since a picture of far fewer samples is nearly that picture's error: it is taken for the change
+// since a picture of half the samples, by the same power law.
+std::optional<double> RestEstimate::add(const Image& image, std::uint64_t samples, bool rests,
+                                        bool is_at_rest) {
   constexpr double kErrorOfChange = 0.9, kSlope = 0.65;  // decision 0023
-  if (!is_at_rest) {
-    before_.reset();
-    flip_.reset();
-    return std::nullopt;
-  }
-  const bool begins = !before_;
-  if (begins || samples >= 2 * samples_) {
-    if (!begins) flip_ = kErrorOfChange * before_->mean(image);
-    before_.emplace(image);
+  const auto fallen = [](double from, double to) { return std::pow(to / from, -kSlope); };
+  const auto now = static_cast<double>(samples);
+  if (!rests) *this = {};
+  if (samples_ == 0) {
+    before_ = image;
+    samples_ = samples;
+  } else if (is_at_rest && samples >= 2 * samples_) {
+    const double change = FlipReference(before_).mean(image);
+    flip_ = kErrorOfChange * change * fallen(2 * static_cast<double>(samples_), now);
+    before_ = image;
     samples_ = samples;
   }
   if (!flip_) return std::nullopt;
-  return *flip_ * std::pow(static_cast<double>(samples) / static_cast<double>(samples_), -kSlope);
+  return *flip_ * fallen(static_cast<double>(samples_), now);
 }
 
 }  // namespace pprt

@@ -38,16 +38,17 @@ class PictureStream {
 
 // Estimates the mean FLIP of a picture to the finished one. Each time that the samples have doubled while the
 // camera is at rest, the change since then tells (docs/decisions/0023-estimated-flip.md). In between it is
-// foretold. A look takes some 60 ms for 512x512 pixels.
+// foretold. A look takes some 60 ms for 512x512 pixels, so a camera that pauses is not looked at.
 class RestEstimate {
  public:
-  // Returns the estimate for this picture; empty where nothing is known yet.
-  std::optional<double> add(const Image& image, std::uint64_t samples, bool is_at_rest);
+  // Returns the estimate for this picture; empty where nothing is known yet. `rests`: it shows the same as
+  // the one before.
+  std::optional<double> add(const Image& image, std::uint64_t samples, bool rests, bool is_at_rest);
 
  private:
-  std::optional<FlipReference> before_;  // at the last look
-  std::uint64_t samples_ = 0;            // then
-  std::optional<double> flip_;           // found then
+  Image before_;                // at the last look, or the first since the camera moved
+  std::uint64_t samples_ = 0;   // then; 0: there is none
+  std::optional<double> flip_;  // found then
 };
 
 }  // namespace pprt

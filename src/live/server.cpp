@@ -97,7 +97,8 @@ class LiveServer::Impl::Client : public std::enable_shared_from_this<Client> {
   }
 
   void show(std::shared_ptr<const LiveFrame> frame) {
-    next_frame_ = std::move(frame);
+    // A picture that has not been sent yet tells more than none.
+    if (!frame->image.empty() || !next_frame_) next_frame_ = std::move(frame);
     write();
   }
 
@@ -351,7 +352,7 @@ void LiveServer::Impl::leave(int client) {
 
 void LiveServer::Impl::show(std::shared_ptr<const LiveFrame> frame) {
   asio::post(context_, [this, frame = std::move(frame)] {
-    newest_ = frame;
+    if (!frame->image.empty() || !newest_) newest_ = frame;
     for (const auto& [number, client] : clients_) client->show(frame);
   });
 }

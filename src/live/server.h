@@ -23,7 +23,7 @@ struct LiveServerSettings {
 // A picture for all clients: a text before it says what it shows.
 struct LiveFrame {
   std::string header;  // JSON, without line breaks
-  std::string image;   // JPEG or PNG
+  std::string image;   // JPEG or PNG; empty: the one before is as good
 };
 
 // What clients do; called on the server's thread. Clients are numbered from 1 and never again.

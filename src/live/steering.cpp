@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <nlohmann/json.hpp>
 #include <utility>
 #include <variant>
@@ -54,6 +55,7 @@ Steering::Steering(LiveShow show, LiveVoice voice)
 void Steering::joined(int client) {
   const std::lock_guard lock(mutex_);
   clients_.insert(client);
+  wish_.notify_all();
   Json hello = {{"you", client},
                 {"title", show_.title},
                 {"script", !show_.script.empty()},
@@ -81,6 +83,8 @@ void Steering::said(int client, std::string_view text) {
     const bool is_taking = std::holds_alternative<TakeCamera>(command);
     if (!is_taking && pilot_ != client) throw CommandError("take the camera first");
     std::visit([&](const auto& what) { obey(client, what); }, command);
+    is_finished_ = false;
+    wish_.notify_all();
     // Cameras come many times a second, and frames tell of them.
     if (!std::holds_alternative<LookFrom>(command)) voice_.tell_all(state());
   } catch (const CommandError& e) {
@@ -94,7 +98,8 @@ bool Steering::is_watched() const {
 }
 
 void Steering::obey(int client, const TakeCamera&) {
-  if (pilot_ != 0 && pilot_ != client) throw CommandError(fmt::format("viewer {} has the camera", pilot_));
+  if (pilot_ != 0 && pilot_ != client)
+    throw CommandError(fmt::format("viewer number {} has the camera", pilot_));
   pilot_ = client;
   plays_ = false;
   look_ = 0;
@@ -103,12 +108,13 @@ void Steering::obey(int client, const TakeCamera&) {
 // What there is to play goes on where it was left.
 void Steering::obey(int, const GiveCamera&) {
   pilot_ = 0;
-  plays_ = frames() > 0;
+  plays_ = position_ < frames();
   if (plays_ && is_by_hand_) jumps_ = true;
 }
 
 void Steering::obey(int, const PassCamera& command) {
-  if (!clients_.contains(command.to)) throw CommandError(fmt::format("there is no viewer {}", command.to));
+  if (!clients_.contains(command.to))
+    throw CommandError(fmt::format("there is no viewer number {}", command.to));
   pilot_ = command.to;
   look_ = 0;
 }
@@ -238,6 +244,20 @@ Animation Steering::film() const {
 
 // --- Frames
 
+bool Steering::wants_frames() const {
+  return run_.photo || (!is_finished_ && (show_.plays_unwatched || !clients_.empty()));
+}
+
+bool Steering::wait_for_wish(double at_most_s) {
+  std::unique_lock lock(mutex_);
+  return wish_.wait_for(lock, std::chrono::duration<double>(at_most_s), [this] { return wants_frames(); });
+}
+
+void Steering::rest() {
+  const std::lock_guard lock(mutex_);
+  is_finished_ = true;
+}
+
 LiveRun Steering::next_run() {
   const std::lock_guard lock(mutex_);
   const bool was_photo = run_now_.photo.has_value();
@@ -251,7 +271,8 @@ LiveRun Steering::next_run() {
 
 std::optional<LiveShot> Steering::next_shot() {
   const std::lock_guard lock(mutex_);
-  if (!(run_ == run_now_)) return std::nullopt;
+  if (!(run_ == run_now_) || !wants_frames()) return std::nullopt;
+  if (position_ >= frames()) plays_ = false;  // the film may have become shorter
   ScriptFrame frame;
   frame.number = 0;
   if (plays_) {

@@ -5,6 +5,7 @@
 // others watch.
 #pragma once
 
+#include <condition_variable>
 #include <cstdint>
 #include <functional>
 #include <mutex>
@@ -35,6 +36,7 @@ struct LiveShow {
   std::vector<ScriptFrame> script = {};   // empty: there is none
   double frames_per_second = 24;          // between kSlowestRate and kFastestRate
   bool fixed_size = false;                // pictures keep their size
+  bool plays_unwatched = false;           // else it waits for somebody to watch
   std::function<void(const View&)> require_camera = [](const View&) {};  // throws for a view that makes none
 };
 
@@ -88,11 +90,18 @@ class Steering {
 
   // --- Frames
 
+  // Waits until a frame is wanted, at most so many seconds. None is while a picture is finished, or while
+  // nobody watches, unless the show plays all the same.
+  bool wait_for_wish(double at_most_s);
+
   // What the next run of frames is like. A photo is over when this is asked again.
   LiveRun next_run();
 
   // The next frame's camera; empty: another run is wanted.
   std::optional<LiveShot> next_shot();
+
+  // The picture is finished: frames are wanted again once somebody does something.
+  void rest();
 
   // Whether the script has been played to its end and nobody has the camera.
   bool is_played_out() const;
@@ -121,22 +130,25 @@ class Steering {
   ScriptFrame frame_at(int position) const;
   Animation film() const;
   std::string state() const;
+  bool wants_frames() const;
 
   const LiveShow show_;
   const LiveVoice voice_;
 
-  mutable std::mutex mutex_;  // guards what follows
+  std::condition_variable wish_;  // frames may be wanted
+  mutable std::mutex mutex_;      // guards what follows
   std::set<int> clients_;
   int pilot_ = 0;
   LiveRun run_;         // as wanted
   LiveRun run_now_;     // as it is
   bool plays_ = false;  // the script or the film
   bool plays_film_ = false;
-  int position_ = 0;         // in what plays: shown last, from 1; 0: nothing yet
-  bool is_by_hand_ = false;  // the view is the pilot's
-  bool jumps_ = true;        // the next shot does not follow the one before
-  View view_;                // wanted next, unless something plays
-  View shown_;               // last
+  int position_ = 0;          // in what plays: shown last, from 1; 0: nothing yet
+  bool is_by_hand_ = false;   // the view is the pilot's
+  bool is_finished_ = false;  // the picture, at rest
+  bool jumps_ = true;         // the next shot does not follow the one before
+  View view_;                 // wanted next, unless something plays
+  View shown_;                // last
   std::uint32_t camera_ = 0, look_ = 0;
   Overlay overlay_ = Overlay::kNone;
   std::vector<CameraKey> keys_;                      // of the film, ascending by frame

@@ -3,7 +3,9 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <deque>
 #include <set>
 #include <utility>
@@ -24,6 +26,7 @@ LiveShow show_of(const RenderPlan& plan, const CompiledScene& scene) {
                 .script = {},
                 .frames_per_second = plan.settings.frames_per_second,
                 .fixed_size = !plan.output.pictures.empty(),
+                .plays_unwatched = !plan.output.pictures.empty(),
                 .require_camera = [&scene](const View& view) { scene.camera(view); }};
   if (plan.script_name.empty()) return show;
   for (const PlannedFrame& frame : plan.frames) show.script.push_back({frame.number, frame.view, frame.cut});
@@ -61,6 +64,27 @@ std::optional<Layer> layer_of(Overlay overlay) {
   return std::nullopt;
 }
 
+// Tells when a picture at rest looks finished: for a second nothing has been worth a sample, by the rule of a
+// still.
+class StillWatch {
+ public:
+  StillWatch(double still_weight, double frames_per_second)
+      : still_weight_(still_weight), frames_(static_cast<int>(std::ceil(frames_per_second))) {}
+
+  bool is_finished(const FinishedFrame& frame) {
+    const auto looks_finished = [this](const RankReport& rank) { return rank.refinement <= still_weight_; };
+    const bool still = frame.order.carry == Carry::kAccumulate && frame.late_ranks.empty() &&
+                       std::all_of(frame.ranks.begin(), frame.ranks.end(), looks_finished);
+    in_a_row_ = still ? in_a_row_ + 1 : 0;
+    return in_a_row_ > frames_;
+  }
+
+ private:
+  double still_weight_;
+  int frames_;  // of a second
+  int in_a_row_ = 0;
+};
+
 // Any number of sequences, one after the other.
 class LiveRunner {
  public:
@@ -80,6 +104,8 @@ class LiveRunner {
   void run() {
     print_message(where_to_look(view_, *plan_.live));
     while (!is_over()) {
+      constexpr double kLongestWait_s = 0.1;  // for a signal
+      if (!view_.steering().wait_for_wish(kLongestWait_s)) continue;
       const LiveRun wanted = view_.steering().next_run();
       if (wanted.photo) {
         take_photo(wanted);
@@ -119,6 +145,7 @@ class LiveRunner {
     settings.frames_per_second = wanted.frames_per_second;
     const TileGrid grid = tile_grid(settings, ranks_);
     std::deque<LiveShot> shots;  // of frames that are not delivered
+    StillWatch finish(photo_settings(settings).stop.weight, settings.frames_per_second);
     const auto source = [&](int) -> std::optional<FrameRequest> {
       if (is_over()) return std::nullopt;
       const std::optional<LiveShot> shot = view_.steering().next_shot();
@@ -133,6 +160,7 @@ class LiveRunner {
     run_sequence_(settings, source, [&](FinishedFrame&& frame) {
       const LiveShot shot = shots.front();
       shots.pop_front();
+      if (finish.is_finished(frame)) view_.steering().rest();
       deliver(std::move(frame), shot, grid);
     });
   }

@@ -305,8 +305,11 @@ int run(const RenderOptions& options, ProgressReporter& progress, std::span<cons
   if (started_by_mpi_launcher()) return run_mpi_process(options, progress);
   if (options.processes > 1) {
     if (options.hostfile.empty()) make_room_for(options.processes);
-    return run_under_mpirun({options.processes, options.hostfile, options.go_on}, words,
-                            [&](std::string_view said) { progress.overhear(said); });
+    const Launch launch{.processes = options.processes,
+                        .hostfile = options.hostfile,
+                        .goes_on = options.go_on,
+                        .ends_by_signal = options.live && options.outputs.empty()};
+    return run_under_mpirun(launch, words, [&](std::string_view said) { progress.overhear(said); });
   }
   set_up_log(options.log, 0);
   ProcessRanks ranks(options.threads.value_or(usable_cores()));

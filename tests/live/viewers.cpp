@@ -1,7 +1,7 @@
 // Viewers of a live picture without a screen: viewers URL SECONDS VIEWERS [STALLED] [steer].
 //
-// Each acknowledges the frames that it gets. STALLED of them take in nothing after their first frame. With "steer" the
-// first viewer takes the camera and moves it at odd moments. Prints one JSON object:
+// Each acknowledges the frames that it gets. STALLED of them take in nothing after their first frame. With
+// "steer" the first viewer takes the camera and moves it at odd moments. Prints one JSON object:
 //   frames       frames that were made while watching, by their numbers
 //   on_time      of these
 //   pictures     frames with a picture that came to the first viewer
@@ -34,7 +34,8 @@ using Json = nlohmann::json;
 using asio::ip::tcp;
 
 double now_ms() {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
+      .count();
 }
 
 struct Address {
@@ -43,7 +44,8 @@ struct Address {
 
 Address parse(const std::string& url) {
   std::smatch m;
-  if (!std::regex_match(url, m, std::regex("http://([^:/]+):(\\d+)(/.*/)"))) throw std::runtime_error("no URL: " + url);
+  if (!std::regex_match(url, m, std::regex("http://([^:/]+):(\\d+)(/.*/)")))
+    throw std::runtime_error("no URL: " + url);
   return {m[1], m[2], m[3]};
 }
 
@@ -176,8 +178,13 @@ int main(int argc, char** argv) try {
   }
   const Figures figures = Watcher(address, steers).watch(end_ms);
   for (std::thread& other : others) other.join();
-  std::cout << Json{{"frames", figures.frames}, {"on_time", figures.on_time}, {"pictures", figures.pictures},
-                    {"period", figures.period_ms}, {"lags", figures.lags_ms}}.dump() << "\n";
+  std::cout << Json{{"frames", figures.frames},
+                    {"on_time", figures.on_time},
+                    {"pictures", figures.pictures},
+                    {"period", figures.period_ms},
+                    {"lags", figures.lags_ms}}
+                   .dump()
+            << "\n";
   return 0;
 } catch (const std::exception& e) {
   std::cerr << "viewers: " << e.what() << "\n";

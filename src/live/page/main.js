@@ -67,12 +67,14 @@ function tell(header) {
   const rate = state ? state.rate : 24;
   gauge.add(header.frames, rate);
   const last = header.frames[header.frames.length - 1];
-  element("samples").textContent = last.samples.toLocaleString("en");
+  // What late ranks have sampled is not known.
+  const whole = header.frames.filter((frame) => frame.late.length === 0).pop();
+  if (whole) element("samples").textContent = whole.samples.toLocaleString("en");
   element("flip").textContent = header.flip === null ? "–" : header.flip.toFixed(4);
   element("late").textContent = last.late.length > 0 ? last.late.join(", ") : "none";
   const median = lag.median();
   element("lag").textContent =
-    median === null ? "–" : `${median.toFixed(0)} ms, ${(median * rate / 1000).toFixed(1)} frames`;
+    median === null ? "–" : `${median.toFixed(0)} ms, ${(median * rate / 1000).toFixed(1)} periods`;
   const frames = state ? state.frames : 0;
   const inPlay = header.position > 0 && frames > 0;
   element("position").textContent = inPlay ? `${header.position} of ${frames}` : "by hand";
@@ -101,15 +103,16 @@ function update(message) {
 
   canvas.classList.toggle("steered", isPilot);
   const others = state.viewers.filter((viewer) => viewer !== hello.you);
+  const number = state.viewers.length;
   element("viewers").textContent = others.length === 0 ? "you alone are watching" :
-    `you are viewer ${hello.you} of ${state.viewers.length}` +
-      (state.pilot > 0 && !isPilot ? `; viewer ${state.pilot} has the camera` : "");
+    `${number} viewers, you are number ${hello.you}` +
+      (state.pilot > 0 && !isPilot ? `; number ${state.pilot} has the camera` : "");
   const take = element("take");
   take.firstChild.textContent = isPilot ? "Give it back " : "Take the camera ";
   take.classList.toggle("chosen", isPilot);
   take.disabled = state.pilot > 0 && !isPilot;
   element("pass-label").hidden = !isPilot || others.length === 0;
-  fill(element("pass"), [["", "…"], ...others.map((viewer) => [viewer, `viewer ${viewer}`])]);
+  fill(element("pass"), [["", "…"], ...others.map((viewer) => [viewer, `number ${viewer}`])]);
 
   for (const id of ["settings", "film", "transport"]) element(id).disabled = !isPilot;
   element("rate").value = Math.round(100 * Math.log(state.rate) / Math.log(hello.rates[1]));
@@ -119,7 +122,7 @@ function update(message) {
   element("photo").disabled = state.photo;
   if (state.photo) say("The photo is being taken: the frames wait.");
 
-  element("play").textContent = state.plays ? "⏸" : "▶";
+  element("play-shape").setAttribute("d", state.plays ? "M3 2h4v12H3zM9 2h4v12H9z" : "M4 2l9 6-9 6z");
   element("play").setAttribute("aria-label", state.plays ? "Pause" : "Play");
   for (const id of ["play", "back", "forth", "scrub"]) element(id).disabled = state.frames === 0;
   element("scrub").max = Math.max(1, state.frames);

@@ -324,9 +324,15 @@ void MpiCommunicator::rest(double at_most_s, std::size_t) {
   std::this_thread::sleep_for(std::chrono::duration<double>(std::min(at_most_s, kLongest)));
 }
 
+// The others may have to wait long for rank 0, and sleep meanwhile.
 void MpiCommunicator::broadcast(Bytes& data) {
   std::uint64_t size = data.size();
-  check(MPI_Bcast(&size, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD), "MPI_Bcast");
+  MPI_Request told = MPI_REQUEST_NULL;
+  check(MPI_Ibcast(&size, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD, &told), "MPI_Ibcast");
+  for (int over = 0; over == 0;) {
+    check(MPI_Test(&told, &over, MPI_STATUS_IGNORE), "MPI_Test");
+    if (over == 0) std::this_thread::sleep_for(std::chrono::microseconds(500));
+  }
   data.resize(size);
   constexpr std::size_t kPiece = std::size_t{1} << 30;
   for (std::size_t done = 0; done < data.size(); done += kPiece) {

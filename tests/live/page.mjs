@@ -1,0 +1,303 @@
+// The live page in a real browser: node page.mjs CASE. `pprt-render` is on the PATH.
+import assert from "node:assert/strict";
+import {execFileSync, spawn} from "node:child_process";
+import {existsSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync} from "node:fs";
+import {tmpdir} from "node:os";
+import {join} from "node:path";
+
+import {Chromium, sleep, until} from "./chromium.mjs";
+
+const directory = mkdtempSync(join(tmpdir(), "pprt-live-"));
+
+// pprt-render with a live view on a free port.
+class Program {
+  static async start(...words) {
+    const program = new Program();
+    program.text = "";
+    program.child = spawn("pprt-render", ["--live", "0", ...words], {stdio: ["ignore", "ignore", "pipe"], cwd: directory});
+    program.child.stderr.on("data", (data) => { program.text += data; });
+    program.ended = new Promise((resolve) => program.child.on("exit", resolve));
+    program.url = await until("the address", () => program.text.match(/http:\S+/)?.[0]);
+    return program;
+  }
+
+  async end() {
+    this.child.kill("SIGINT");
+    return this.ended;
+  }
+}
+
+const scene = ["spd:tree:5", "--size", "160x120", "--fps", "12"];
+
+// What the canvas shows, as a text that differs when it does.
+const shown = (page) => page.evaluate("canvas.toDataURL()");
+const camera = async (page) => Number(await page.evaluate("document.body.dataset.camera"));
+const frame = async (page) => Number(await page.evaluate("document.body.dataset.frame"));
+const stateIs = (page, condition) => page.until(`state && (${condition})`);
+const middle = (page) => page.evaluate(
+  "(() => { const r = canvas.getBoundingClientRect(); return [r.x + r.width / 2, r.y + r.height / 2]; })()");
+
+async function open(browser, program, settings) {
+  const page = await browser.open(program.url, {downloads: directory, ...settings});
+  await page.until("document.body.dataset.frame && state");
+  return page;
+}
+
+async function take(page) {
+  await page.click("take");
+  await page.until("pilot.isPilot && pilot.camera !== null");
+}
+
+async function drag(page, right, down, more) {
+  const [x, y] = await middle(page);
+  await page.drag([x, y], [x + right, y + down], 8, more);
+}
+
+function noError(page) {
+  assert.deepEqual(page.errors, []);
+}
+
+const cases = {
+  "a script plays, and the token is needed": async (browser) => {
+    writeFileSync(join(directory, "turn.anim"), `animation { scene "spd:tree:5" frames 40 fps 12 resolution <160, 120>
+      camera { key 1 { from <4.6, 0.4, 2> at <0, 0, 1.5> up <0, 0, 1> angle 45 } key 40 { from <-4.6, 1, 2> } } }`);
+    const program = await Program.start("turn.anim");
+    const {origin} = new URL(program.url);
+    assert.equal((await fetch(program.url)).status, 200);
+    assert.equal((await fetch(`${origin}/`)).status, 403);
+    assert.equal((await fetch(program.url.replace(/.\/$/, "x/"))).status, 403);
+    const page = await open(browser, program);
+    const first = await shown(page), before = await frame(page);
+    await page.until(`Number(document.body.dataset.frame) > ${before + 4}`);
+    assert.notEqual(await shown(page), first);
+    await stateIs(page, "!state.plays");
+    await page.until("element('position').textContent === '40 of 40'");
+    noError(page);
+    assert.equal(await program.end(), 0);
+    await page.until("element('banner').textContent.includes('has ended')");
+  },
+
+  "a drag turns the camera of who has taken it": async (browser) => {
+    const program = await Program.start(...scene);
+    const page = await open(browser, program);
+    await page.until("shown.rests");
+    const still = await shown(page), number = await camera(page);
+    await drag(page, 60, 20);
+    await sleep(300);
+    assert.equal(await camera(page), number, "nobody steers who has not taken the camera");
+    await take(page);
+    await drag(page, 60, 20);
+    await page.until(`Number(document.body.dataset.camera) > ${number} && shown.look === look`);
+    assert.notEqual(await shown(page), still);
+    const [from, at] = await page.evaluate("[shown.view.from, pilot.home.from]");
+    assert.notDeepEqual(from, at);
+    assert.ok(await page.evaluate("lag.median() > 0"));
+    noError(page);
+    await program.end();
+  },
+
+  "mouse, touch and keys move the camera as they should": async (browser) => {
+    const program = await Program.start(...scene);
+    const page = await open(browser, program);
+    await take(page);
+    const home = await page.evaluate("pilot.home");
+    const distance = "length(subtract(pilot.camera.from, pilot.camera.at))";
+    const at = () => page.evaluate(`[${distance}, pilot.camera]`);
+    const [far] = await page.evaluate("[length(subtract(pilot.home.from, pilot.home.at))]");
+    const near = (a, b) => assert.ok(Math.abs(a - b) < 1e-6 * Math.abs(b), `${a} is not ${b}`);
+
+    await drag(page, 50, 10);
+    let [d, now] = await at();
+    near(d, far);
+    assert.deepEqual(now.at, home.at);
+    assert.notDeepEqual(now.from, home.from);
+
+    await drag(page, 50, 10, {modifiers: 8});  // Shift
+    [d, now] = await at();
+    near(d, far);
+    assert.notDeepEqual(now.at, home.at);
+
+    const [x, y] = await middle(page);
+    await page.mouse("mouseWheel", x, y, {deltaX: 0, deltaY: 120, buttons: 0});
+    await page.until(`${distance} > ${far} * 1.01`);
+    await page.mouse("mouseWheel", x, y, {deltaX: 0, deltaY: 120, buttons: 0, modifiers: 1});  // Alt
+    await page.until(`pilot.camera.angle > ${home.angle}`);
+    await drag(page, 60, 0, {modifiers: 1});
+    assert.notDeepEqual((await at())[1].up, home.up);
+
+    // Back to the first view by keys alone; then each key.
+    await page.press("h");
+    await page.until("JSON.stringify(pilot.camera) === JSON.stringify(pilot.home)");
+    const changes = {ArrowLeft: "from", "+": "from", "[": "angle", ",": "up"};
+    for (const [key, part] of Object.entries(changes)) {
+      await page.press("h");
+      await page.press(key);
+      assert.notDeepEqual((await at())[1][part], home[part], key);
+    }
+    await page.press("h");
+    await page.press("ArrowLeft", {modifiers: 8});
+    assert.notDeepEqual((await at())[1].at, home.at);
+
+    // Two fingers spread: nearer.
+    await page.press("h");
+    const touch = (type, points) => page.call("Input.dispatchTouchEvent",
+      {type, touchPoints: points.map(([dx, id]) => ({x: x + dx, y, id}))});
+    await touch("touchStart", [[-20, 1], [20, 2]]);
+    for (const spread of [30, 40, 50]) await touch("touchMove", [[-spread, 1], [spread, 2]]);
+    await touch("touchEnd", []);
+    assert.ok((await at())[0] < far * 0.9);
+    noError(page);
+    await program.end();
+  },
+
+  "keys that are recorded give a script of the same film": async (browser) => {
+    const program = await Program.start(...scene);
+    const page = await open(browser, program);
+    await take(page);
+    await page.click("key");
+    await stateIs(page, "state.keys.length === 1");
+    await drag(page, 70, 15);
+    await page.until("shown.look === look");
+    await page.evaluate("element('key-frame').value = 7, keyFrame = false");
+    await page.click("key");
+    await stateIs(page, "state.keys.length === 2");
+    await page.click("key");
+    await page.click("undo");
+    await stateIs(page, "state.keys.length === 2");
+    await page.click("save");
+    const script = join(directory, "film.anim");
+    await until("the script", () => existsSync(script));
+
+    // The cameras that the page shows as it plays the film.
+    await page.click("plays-film");
+    await stateIs(page, "state.film && state.frames === 7");
+    const views = [];
+    for (let n = 1; n <= 7; ++n) {
+      await page.evaluate(`connection.send({do: "seek", frame: ${n}})`);
+      views.push(await page.until(`shown.position === ${n} ? shown.view : null`));
+    }
+    noError(page);
+    await program.end();
+
+    const vector = (v) => `<${v.join(", ")}>`;
+    writeFileSync(join(directory, "views.anim"), `animation { scene "spd:tree:5" frames 7 fps 12 resolution <160, 120>
+      camera { ${views.map((v, i) => `key ${i + 1} { from ${vector(v.from)} at ${vector(v.at)} up ${vector(v.up)} angle ${v.angle} }`).join("\n")} } }`);
+    for (const name of ["film", "views"]) {
+      execFileSync("pprt-render", [`${name}.anim`, "--clock", "work", "-o", `${name}_%d.png`], {cwd: directory, stdio: "ignore"});
+    }
+    for (let n = 1; n <= 7; ++n) {
+      const pictures = ["film", "views"].map((name) => readFileSync(join(directory, `${name}_${n}.png`)));
+      assert.ok(pictures[0].equals(pictures[1]), `frame ${n}`);
+    }
+    assert.ok(!readFileSync(join(directory, "film_1.png")).equals(readFileSync(join(directory, "film_7.png"))));
+  },
+
+  "a reload and a lost connection are no loss": async (browser) => {
+    const program = await Program.start(...scene);
+    const page = await open(browser, program);
+    await page.go(program.url);
+    await page.until("document.body.dataset.frame && state && state.viewers.length === 1");
+    await take(page);
+    await page.evaluate("connection.socket.close(), 1");
+    await page.until("!element('banner').hidden && element('banner').textContent.includes('tries again')");
+    await page.until("element('banner').hidden && pilot.isPilot");
+    const number = await camera(page);
+    await drag(page, 40, 0);
+    await page.until(`Number(document.body.dataset.camera) > ${number}`);
+    noError(page);
+    await program.end();
+  },
+
+  "the camera passes from viewer to viewer": async (browser) => {
+    const program = await Program.start(...scene);
+    const one = await open(browser, program), two = await open(browser, program);
+    await take(one);
+    await stateIs(two, "state.pilot > 0");
+    assert.ok(await two.evaluate("element('take').disabled && element('film').disabled"));
+    await two.evaluate('connection.send({do: "rate", fps: 30})');
+    await two.until("element('note').textContent.includes('take the camera first')");
+    const other = await two.evaluate("hello.you");
+    await one.evaluate(`element("pass").value = ${other}, element("pass").dispatchEvent(new Event("change"))`);
+    await two.until("pilot.isPilot");
+    await one.until("!pilot.isPilot");
+    noError(one), noError(two);
+    await program.end();
+  },
+
+  "rate, size, overlay and photo": async (browser) => {
+    const program = await Program.start(...scene);
+    const page = await open(browser, program);
+    await take(page);
+    const choose = (id, value) => page.evaluate(`element("${id}").value = ${JSON.stringify(value)}, element("${id}").dispatchEvent(new Event("change"))`);
+    await choose("rate", 80);
+    await stateIs(page, "state.rate > 30");
+    await choose("size", "80x60");
+    await page.until("canvas.width === 80 && canvas.height === 60");
+    await choose("size", "160x120");
+    await page.until("canvas.width === 160");
+    await page.until("shown.rests && shown.flip !== null");
+    const plain = await shown(page);
+    const seen = new Set([plain]);
+    for (const name of ["samples", "triangulation", "regions", "age"]) {
+      await choose("overlay", name);
+      await page.until(`shown.rests && canvas.toDataURL() !== ${JSON.stringify([...seen].pop())}`);
+      seen.add(await shown(page));
+    }
+    assert.equal(seen.size, 5);
+    await choose("overlay", "none");
+    for (const [format, magic] of [["png", [0x89, 0x50, 0x4e, 0x47]], ["exr", [0x76, 0x2f, 0x31, 0x01]]]) {
+      await choose("format", format);
+      await page.click("photo");
+      const file = join(directory, `photo.${format}`);
+      await until(format, () => existsSync(file) && readFileSync(file).length > 1000);
+      assert.deepEqual([...readFileSync(file).subarray(0, 4)], magic);
+      await stateIs(page, "!state.photo");
+    }
+    noError(page);
+    await program.end();
+  },
+
+  "a telephone's width, and a list of the keys": async (browser) => {
+    const program = await Program.start(...scene);
+    const page = await open(browser, program, {width: 360, height: 740, dark: true});
+    assert.ok(await page.evaluate("document.documentElement.scrollWidth <= innerWidth"));
+    const dark = await page.evaluate("getComputedStyle(document.body).backgroundColor");
+    await page.click("theme");
+    assert.notEqual(await page.evaluate("getComputedStyle(document.body).backgroundColor"), dark);
+    await page.press("?");
+    assert.ok(await page.evaluate("element('help').open"));
+    const unnamed = await page.evaluate(`[...document.querySelectorAll("button, input, select, canvas")].filter((e) =>
+      !(e.textContent.trim() || e.getAttribute("aria-label") || e.closest("label") || e.getAttribute("aria-hidden"))).map((e) => e.id)`);
+    assert.deepEqual(unnamed, []);
+    noError(page);
+    await program.end();
+  },
+
+  "files are written beside the live view": async (browser) => {
+    writeFileSync(join(directory, "short.anim"), `animation { scene "spd:tree:5" frames 8 fps 12 resolution <160, 120>
+      camera { key 1 { from <4.6, 0.4, 2> at <0, 0, 1.5> up <0, 0, 1> angle 45 } key 8 { from <4.6, 1, 2> } } }`);
+    const program = await Program.start("short.anim", "-o", "written_%d.png");
+    assert.equal(await program.ended, 0);
+    assert.equal(readdirSync(directory).filter((name) => /^written_\d+\.png$/.test(name)).length, 8);
+    assert.match(program.text, /done: 8 of 8 frames/);
+  },
+};
+
+if (process.argv[2] === "list") {
+  console.log(Object.keys(cases).join("\n"));
+  process.exit(0);
+}
+const run = cases[process.argv[2]];
+assert.ok(run, `there is no case ${process.argv[2]}`);
+const browser = await Chromium.launch();
+try {
+  await run(browser);
+  console.log(`passed: ${process.argv[2]}`);
+} catch (error) {
+  console.error(error);
+  process.exitCode = 1;
+} finally {
+  await browser.close();
+  rmSync(directory, {recursive: true, force: true});
+}
+process.exit();

@@ -1,0 +1,293 @@
+// Who has the camera, and what the next frame shows.
+#include "live/steering.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace pprt {
+namespace {
+
+using Json = nlohmann::json;
+
+View view_from(double x) {
+  View view;
+  view.from = {x, 0, 0};
+  view.at = {0, 0, 9};
+  view.up = {0, 1, 0};
+  view.width = 64, view.height = 48;
+  return view;
+}
+
+// A steering, and what it has told.
+class Stage {
+ public:
+  explicit Stage(int script_frames = 0, bool plays_unwatched = true)
+      : steering(
+            show(script_frames, plays_unwatched),
+            {.tell = [this](int client, std::string text) { told.emplace_back(client, Json::parse(text)); },
+             .tell_all = [this](std::string text) { state = Json::parse(text)["state"]; }}) {
+    steering.next_run();
+  }
+
+  void say(int client, const std::string& text) { steering.said(client, text); }
+  void look(int client, int number, double x) {
+    say(client, R"({"do":"look","number":)" + std::to_string(number) + R"(,"from":[)" + std::to_string(x) +
+                    R"(,0,0],"at":[0,0,9],"up":[0,1,0],"angle":40})");
+  }
+  LiveShot shot() {
+    const std::optional<LiveShot> next = steering.next_shot();
+    REQUIRE(next);
+    return *next;
+  }
+  // The last error that a client was told, or "".
+  std::string error() const {
+    return told.empty() || !told.back().second.contains("error")
+               ? ""
+               : told.back().second["error"].get<std::string>();
+  }
+
+  std::vector<std::pair<int, Json>> told;
+  Json state;
+  Steering steering;
+
+ private:
+  static LiveShow show(int script_frames, bool plays_unwatched) {
+    LiveShow show{.title = "a scene", .scene_name = "spd:tree", .home = view_from(-1)};
+    show.plays_unwatched = plays_unwatched;
+    for (int n = 1; n <= script_frames; ++n)
+      show.script.push_back({.number = 10 + n, .view = view_from(n), .cut = n == 3});
+    show.require_camera = [](const View& view) {
+      if (view.from.x > 1e6) throw std::runtime_error("too far away");
+    };
+    return show;
+  }
+};
+
+TEST_CASE("steering: a script plays to its end and stays there") {
+  Stage stage(3);
+  for (int n = 1; n <= 3; ++n) {
+    CHECK_FALSE(stage.steering.is_played_out());
+    const LiveShot shot = stage.shot();
+    CHECK(shot.view.from.x == n);
+    CHECK(shot.script_frame == 10 + n);
+    CHECK(shot.position == n);
+    CHECK(shot.cut == (n != 2));  // the first follows nothing, the third is a cut of the script
+    CHECK(shot.camera == static_cast<std::uint32_t>(n));
+  }
+  CHECK(stage.steering.is_played_out());
+  CHECK_FALSE(stage.state["plays"].get<bool>());
+  const LiveShot rest = stage.shot();
+  CHECK((rest.view.from.x == 3 && rest.script_frame == 13 && rest.camera == 3 && !rest.cut));
+}
+
+TEST_CASE("steering: a client is told who it is, and all who has the camera") {
+  Stage stage(2);
+  stage.steering.joined(4);
+  REQUIRE(stage.told.size() == 1);
+  const Json hello = stage.told[0].second["hello"];
+  CHECK((hello["you"] == 4 && hello["title"] == "a scene" && hello["script"] == true));
+  CHECK(hello["home"]["from"] == Json({-1.0, 0.0, 0.0}));
+  stage.steering.joined(5);
+  stage.say(4, R"({"do":"take"})");
+  CHECK((stage.state["pilot"] == 4 && stage.state["viewers"] == Json({4, 5})));
+  stage.steering.left(4);
+  CHECK((stage.state["pilot"] == 0 && stage.state["viewers"] == Json::array({5})));
+}
+
+TEST_CASE("steering: only the pilot steers, and there is one") {
+  Stage stage(2);
+  stage.steering.joined(1), stage.steering.joined(2);
+  for (const char* text :
+       {R"({"do":"give"})", R"({"do":"play"})", R"({"do":"rate","fps":2})", R"({"do":"key","frame":1})",
+        R"({"do":"photo","format":"png"})", R"({"do":"pass","to":1})"}) {
+    stage.say(1, text);
+    CHECK(stage.error() == "take the camera first");
+  }
+  stage.look(1, 1, 7);
+  CHECK(stage.shot().view.from.x == 1);
+  stage.say(1, R"({"do":"take"})");
+  stage.say(2, R"({"do":"take"})");
+  CHECK(stage.error() == "viewer number 1 has the camera");
+  stage.say(1, R"({"do":"pass","to":9})");
+  CHECK(stage.error() == "there is no viewer number 9");
+  stage.say(1, R"({"do":"pass","to":2})");
+  CHECK(stage.state["pilot"] == 2);
+  stage.look(2, 1, 8);
+  CHECK(stage.shot().view.from.x == 8);
+}
+
+TEST_CASE("steering: the camera by hand, and back to the script where it was left") {
+  Stage stage(3);
+  stage.steering.joined(1);
+  CHECK(stage.shot().position == 1);
+  stage.say(1, R"({"do":"take"})");
+  CHECK(stage.shot().view.from.x == 1);  // it stands where it was
+  stage.look(1, 17, 5.5);
+  const LiveShot by_hand = stage.shot();
+  CHECK((by_hand.view.from.x == 5.5 && by_hand.view.angle_degrees == 40 && by_hand.view.width == 64));
+  CHECK((by_hand.look == 17 && by_hand.pilot == 1 && by_hand.script_frame == 0 && by_hand.position == 0));
+  CHECK((by_hand.camera == 2 && !by_hand.cut));
+  CHECK(stage.shot().camera == 2);
+  stage.say(1, R"({"do":"give"})");
+  const LiveShot back = stage.shot();
+  CHECK((back.position == 2 && back.cut && back.pilot == 0));
+}
+
+TEST_CASE("steering: given back at the end of the script, the picture rests") {
+  Stage stage(1);
+  stage.steering.joined(1);
+  CHECK(stage.shot().position == 1);
+  stage.say(1, R"({"do":"take"})");
+  stage.look(1, 1, 5.5), stage.shot();
+  stage.say(1, R"({"do":"give"})");
+  CHECK(stage.shot().view.from.x == 5.5);
+  CHECK(stage.steering.is_played_out());
+}
+
+TEST_CASE("steering: a film that becomes shorter while it plays ends") {
+  Stage stage;
+  stage.steering.joined(1);
+  stage.say(1, R"({"do":"take"})");
+  stage.shot();
+  stage.say(1, R"({"do":"key","frame":1})");
+  stage.say(1, R"({"do":"key","frame":9})");
+  stage.say(1, R"({"do":"film","on":true})");
+  stage.say(1, R"({"do":"play"})");
+  for (int n = 1; n <= 5; ++n) CHECK(stage.shot().position == n);
+  stage.say(1, R"({"do":"drop","frame":9})");
+  CHECK(stage.state["frames"] == 1);
+  stage.shot();
+  CHECK(stage.steering.is_played_out() == false);  // there is a pilot
+  CHECK(stage.state["plays"] == true);             // told before the frame
+  stage.say(1, R"({"do":"give"})");
+  CHECK(stage.state["plays"] == false);
+}
+
+TEST_CASE("steering: a camera that cannot be rendered is refused") {
+  Stage stage;
+  stage.steering.joined(1);
+  stage.say(1, R"({"do":"take"})");
+  stage.look(1, 1, 1e7);
+  CHECK(stage.error() == "too far away");
+  CHECK(stage.shot().view.from.x == -1);
+}
+
+TEST_CASE("steering: play, pause, step and seek") {
+  Stage stage(4);
+  stage.steering.joined(1);
+  stage.say(1, R"({"do":"take"})");
+  stage.say(1, R"({"do":"seek","frame":3})");
+  CHECK(stage.shot().position == 3);
+  CHECK(stage.shot().position == 3);
+  stage.say(1, R"({"do":"step","by":-1})");
+  const LiveShot before = stage.shot();
+  CHECK((before.position == 2 && before.cut));
+  stage.say(1, R"({"do":"step","by":1})");
+  CHECK_FALSE(stage.shot().cut);
+  stage.say(1, R"({"do":"step","by":2147483647})");
+  CHECK(stage.shot().position == 4);
+  stage.say(1, R"({"do":"step","by":-2147483647})");
+  CHECK(stage.shot().position == 1);
+  stage.say(1, R"({"do":"seek","frame":4})");
+  stage.say(1, R"({"do":"play"})");  // at the end it begins again
+  CHECK(stage.shot().position == 1);
+  stage.say(1, R"({"do":"pause"})");
+  CHECK(stage.shot().position == 1);
+  Stage still;
+  still.steering.joined(1);
+  still.say(1, R"({"do":"take"})");
+  for (const char* text : {R"({"do":"play"})", R"({"do":"step","by":1})", R"({"do":"seek","frame":1})"}) {
+    still.say(1, text);
+    CHECK(still.error() == "there is no script to play");
+  }
+}
+
+TEST_CASE("steering: another rate, size or a photo ends the run and begins another") {
+  Stage stage;
+  stage.steering.joined(1);
+  stage.say(1, R"({"do":"take"})");
+  stage.shot();
+  stage.say(1, R"({"do":"rate","fps":50})");
+  CHECK_FALSE(stage.steering.next_shot());
+  CHECK(stage.steering.next_run().frames_per_second == 50);
+  CHECK(stage.shot().cut);
+  stage.say(1, R"({"do":"size","width":32,"height":24})");
+  CHECK_FALSE(stage.steering.next_shot());
+  CHECK(stage.steering.next_run().width == 32);
+  CHECK(stage.shot().view.height == 24);
+
+  stage.look(1, 1, 3);
+  stage.shot();
+  stage.say(1, R"({"do":"photo","format":"exr"})");
+  CHECK_FALSE(stage.steering.next_shot());
+  const LiveRun photo = stage.steering.next_run();
+  CHECK((photo.photo == PhotoFormat::kExr && photo.photo_for == 1 && photo.view.from.x == 3));
+  CHECK(stage.state["photo"] == true);
+  CHECK_FALSE(stage.steering.next_run().photo);
+  CHECK(stage.state["photo"] == false);
+  CHECK(stage.shot().view.from.x == 3);
+}
+
+TEST_CASE("steering: keys make a film, which plays and is saved") {
+  Stage stage;
+  stage.steering.joined(1);
+  stage.say(1, R"({"do":"take"})");
+  stage.say(1, R"({"do":"film","on":true})");
+  CHECK(stage.error() == "the film has no key yet");
+  stage.look(1, 1, 1), stage.shot();
+  stage.say(1, R"({"do":"key","frame":1})");
+  stage.look(1, 2, 3), stage.shot();
+  stage.say(1, R"({"do":"key","frame":9})");
+  stage.look(1, 3, 2), stage.shot();
+  stage.say(1, R"({"do":"key","frame":5})");
+  CHECK(stage.state["keys"] == Json({1, 5, 9}));
+  const auto script = stage.state["script"].get<std::string>();
+  CHECK(script.find("scene \"spd:tree\"") != std::string::npos);
+  CHECK(script.find("frames 9 fps 24 resolution <64, 48>") != std::string::npos);
+  CHECK(script.find("key 5 { from <2, 0, 0> at <0, 0, 9> up <0, 1, 0> angle 40 }") != std::string::npos);
+
+  stage.say(1, R"({"do":"film","on":true})");
+  stage.say(1, R"({"do":"play"})");
+  CHECK(stage.state["frames"] == 9);
+  for (int n = 1; n <= 9; ++n) {
+    const LiveShot shot = stage.shot();
+    CHECK((shot.position == n && shot.script_frame == 0));
+    if (n == 1 || n == 5 || n == 9) CHECK(shot.view.from.x == 1 + (n - 1) / 4);
+  }
+
+  stage.say(1, R"({"do":"undo"})");
+  CHECK(stage.state["keys"] == Json({1, 9}));
+  stage.say(1, R"({"do":"drop","frame":5})");
+  CHECK(stage.error() == "there is no key at frame 5");
+  stage.say(1, R"({"do":"drop","frame":9})");
+  CHECK(stage.state["keys"] == Json::array({1}));
+  stage.say(1, R"({"do":"undo"})");
+  stage.say(1, R"({"do":"undo"})");
+  stage.say(1, R"({"do":"undo"})");
+  CHECK(stage.state["keys"].empty());
+  CHECK(stage.state["script"] == "");
+  CHECK(stage.state["film"] == false);
+  stage.say(1, R"({"do":"undo"})");
+  CHECK(stage.error() == "there is nothing to undo");
+  CHECK(stage.shot().view.from.x == 3);  // what was seen stays
+}
+
+TEST_CASE("steering: frames are wanted while somebody watches and the picture is not finished") {
+  Stage stage(0, false);
+  CHECK_FALSE(stage.steering.wait_for_wish(0));
+  CHECK_FALSE(stage.steering.next_shot());
+  stage.steering.joined(1);
+  CHECK(stage.steering.wait_for_wish(0));
+  stage.shot();
+  stage.steering.rest();
+  CHECK_FALSE(stage.steering.next_shot());
+  stage.say(1, R"({"do":"take"})");
+  CHECK(stage.steering.wait_for_wish(0));
+  stage.shot();
+  stage.steering.left(1);
+  CHECK_FALSE(stage.steering.wait_for_wish(0));
+}
+
+}  // namespace
+}  // namespace pprt
