@@ -21,6 +21,15 @@ for size in 1e9x1 0x5 16x 99999x2; do
   run pprt-render ball.nff -s $size
   expect_usage "--size $size: want WIDTHxHEIGHT in pixels, each from 1 to 16384, such as 256x256"
 done
+for address in x 65536 example.org:80 ::1:80; do
+  run pprt-render ball.nff --live $address
+  expect_usage "--live $address: want PORT or ADDRESS:PORT, as in 8080, 0.0.0.0:8080 or [::1]:8080"
+done
+run pprt-render ball.nff --live 0 --clock work; expect_usage "--live needs real time, not --clock work"
+run pprt-render ball.nff --live 0 --go-on; expect_usage "--live needs all ranks: it cannot be used with --go-on"
+run pprt-render ball.nff --live 0 --fps 0; expect_usage "--fps 0: with --live a rate of at least 1 is needed"
+run pprt-render ball.nff --live 0 --stats x
+expect_usage "with --live, files beside the frames need the frames: name them by --output"
 run pprt-render ball.anim --frames 0-3; expect_usage "--frames 0-3: want FIRST-LAST, counted from 1, such as 1-40"
 run pprt-render ball.anim --frames 3-13; expect_usage "--frames 3-13: the last frame is 12"
 run pprt-render ball.nff -o x.tif; expect_usage "output 'x.tif': the name must end in .exr or .png"

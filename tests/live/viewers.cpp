@@ -1,14 +1,12 @@
 // Viewers of a live picture without a screen: viewers URL SECONDS VIEWERS [STALLED] [steer].
 //
-// Each acknowledges the frames that it gets. STALLED of them take in nothing after their first frame. With
-// "steer" the first viewer takes the camera and moves it at odd moments. Prints one JSON object:
-//   frames       frames that were made while watching, by their numbers
-//   on_time      of these
-//   pictures     frames with a picture that came to the first viewer
-//   lags         milliseconds from each camera sent until a picture shows it, or a later one
-//   period       milliseconds
-//   closed       viewers that the server has closed
-#include <atomic>
+// Each acknowledges the frames that it gets. STALLED of them take in nothing after they have connected. With
+// "steer" the first viewer takes the camera and moves it at odd moments. Prints on one line, of what the
+// first viewer saw:
+//   frames made while it watched, how many of them were on time, pictures that came; and with "steer"
+//   the median, the 90th percentile and the longest of the times from a camera that it sent until a picture
+//   showed that camera or a later one, in periods of the frame rate.
+#include <algorithm>
 #include <boost/asio/connect.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/core.hpp>
@@ -65,6 +63,14 @@ struct Figures {
   double period_ms = 0;
   std::vector<double> lags_ms;
 };
+
+// By nearest rank; 0 without values.
+double percentile(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
+  return values[std::max<std::size_t>(rank, 1) - 1];
+}
 
 // Takes in what comes, and steers, until `end_ms`.
 class Watcher {
@@ -178,13 +184,12 @@ int main(int argc, char** argv) try {
   }
   const Figures figures = Watcher(address, steers).watch(end_ms);
   for (std::thread& other : others) other.join();
-  std::cout << Json{{"frames", figures.frames},
-                    {"on_time", figures.on_time},
-                    {"pictures", figures.pictures},
-                    {"period", figures.period_ms},
-                    {"lags", figures.lags_ms}}
-                   .dump()
-            << "\n";
+  std::cout << figures.frames << " " << figures.on_time << " " << figures.pictures;
+  if (steers) {
+    for (const double share : {0.5, 0.9, 1.0})
+      std::cout << " " << percentile(figures.lags_ms, share) / figures.period_ms;
+  }
+  std::cout << "\n";
   return 0;
 } catch (const std::exception& e) {
   std::cerr << "viewers: " << e.what() << "\n";

@@ -35,8 +35,8 @@ class Gauge {
     context.fillRect(0, middle, canvas.width, pixels);
     const late = frames.filter((frame) => frame.slack_ms < 0).length;
     const least = Math.min(...frames.map((frame) => frame.slack_ms));
-    this.text.textContent = `${frames.length - late} of ${frames.length} frames on time, ` +
-      (least < 0 ? `the latest ${(-least).toFixed(1)} ms late` : `${least.toFixed(1)} ms or more early`);
+    this.text.textContent = `${frames.length - late} of ${frames.length} on time, ` +
+      (least < 0 ? `the latest by ${(-least).toFixed(1)} ms` : `by ${least.toFixed(1)} ms at least`);
   }
 }
 
