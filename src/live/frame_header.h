@@ -14,10 +14,10 @@ namespace pprt {
 
 // How a frame came about, whether or not its picture was sent.
 struct FrameFigures {
-  int number = 0;               // of the frame, from 1
-  double slack_ms = 0;          // before its deadline; negative: after it
-  std::uint64_t samples = 0;    // in the image
-  std::vector<int> late_ranks;  // whose pixels had not come
+  int number = 0;                    // of the frame, from 1
+  double slack_ms = 0;               // before its deadline; negative: after it
+  std::uint64_t samples = 0;         // in the image
+  std::vector<int> late_ranks = {};  // whose pixels had not come
 };
 
 struct FrameHeader {

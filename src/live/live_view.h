@@ -20,8 +20,8 @@ struct LivePicture {
   Image image;
   LiveShot shot = {};
   FrameFigures figures = {};
-  bool rests = false;                                 // the camera stands still, and samples accumulate
-  std::function<Image(const Image& image)> overlaid;  // draws the shot's overlay; null: there is none
+  bool rests = false;                                      // the camera stands still, and samples accumulate
+  std::function<Image(const Image& image)> overlaid = {};  // draws the shot's overlay; null: there is none
 };
 
 // Encodes and serves in threads of its own, at the lowest priority: no call waits for a client or for an

@@ -30,13 +30,13 @@ struct ScriptFrame {
 
 // What there is to show.
 struct LiveShow {
-  std::string title;                      // of the scene, for people
-  std::optional<std::string> scene_name;  // as a script names the scene; empty: no script can
-  View home = {};                         // what is shown first; its size is that of the pictures
-  std::vector<ScriptFrame> script = {};   // empty: there is none
-  double frames_per_second = 24;          // between kSlowestRate and kFastestRate
-  bool fixed_size = false;                // pictures keep their size
-  bool plays_unwatched = false;           // else it waits for somebody to watch
+  std::string title;                           // of the scene, for people
+  std::optional<std::string> scene_name = {};  // as a script names the scene; empty: no script can
+  View home = {};                              // what is shown first; its size is that of the pictures
+  std::vector<ScriptFrame> script = {};        // empty: there is none
+  double frames_per_second = 24;               // between kSlowestRate and kFastestRate
+  bool fixed_size = false;                     // pictures keep their size
+  bool plays_unwatched = false;                // else it waits for somebody to watch
   std::function<void(const View&)> require_camera = [](const View&) {};  // throws for a view that makes none
 };
 
