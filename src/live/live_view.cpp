@@ -28,10 +28,10 @@ double seconds_now() {
 class LiveView::Impl {
  public:
   Impl(const LiveAddress& address, LiveShow show)
-      : server_({.address = address.address, .port = address.port, .page = std::string(live_page())}),
-        steering_(std::move(show),
+      : steering_(std::move(show),
                   {.tell = [this](int client, std::string text) { server_.tell(client, std::move(text)); },
-                   .tell_all = [this](std::string text) { server_.tell_all(std::move(text)); }}) {
+                   .tell_all = [this](std::string text) { server_.tell_all(std::move(text)); }}),
+        server_({.address = address.address, .port = address.port, .page = std::string(live_page())}) {
     server_.start({.joined = [this](int client) { steering_.joined(client); },
                    .said = [this](int client, std::string_view text) { steering_.said(client, text); },
                    .left = [this](int client) { steering_.left(client); }});
@@ -111,8 +111,8 @@ class LiveView::Impl {
     return {.header = to_text(header), .image = std::move(encoded.bytes)};
   }
 
-  LiveServer server_;
   Steering steering_;
+  LiveServer server_;  // after what its clients speak to
   bool has_told_end_ = false;
   RestWatch rest_;  // these three: of the thread
   PictureStream stream_;
