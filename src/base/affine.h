@@ -1,0 +1,40 @@
+// Affine maps of space: how an object stands in the space around it.
+#pragma once
+
+#include "base/vector.h"
+
+namespace pprt {
+
+// Maps (1, 0, 0) to x, and so on: the columns of a matrix that is applied to column vectors.
+struct Affine {
+  Vec3d x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+  Vec3d origin{0, 0, 0};
+
+  Vec3d vector(const Vec3d& v) const { return x * v.x + y * v.y + z * v.z; }
+  Vec3d point(const Vec3d& p) const { return vector(p) + origin; }
+
+  // Maps the normal of a surface, by the cofactors: the inverse transpose times the determinant. Its length
+  // is not kept. It points to the side to which the map turns the surface's front, also where the map
+  // mirrors.
+  Vec3d normal(const Vec3d& n) const { return y.cross(z) * n.x + z.cross(x) * n.y + x.cross(y) * n.z; }
+
+  // Negative where the map mirrors, 0 where it flattens.
+  double determinant() const { return x.dot(y.cross(z)); }
+
+  friend bool operator==(const Affine&, const Affine&) = default;
+};
+
+// First inner, then outer.
+inline Affine operator*(const Affine& outer, const Affine& inner) {
+  return {outer.vector(inner.x), outer.vector(inner.y), outer.vector(inner.z), outer.point(inner.origin)};
+}
+
+inline Affine translation(const Vec3d& by) {
+  return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, by};
+}
+
+inline Affine scaling(const Vec3d& by) {
+  return {{by.x, 0, 0}, {0, by.y, 0}, {0, 0, by.z}, {0, 0, 0}};
+}
+
+}  // namespace pprt

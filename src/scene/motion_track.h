@@ -1,0 +1,65 @@
+// Movement of an object by keys, as AFF has it: translation, rotation and scale, each with keys of its own.
+//
+// Splines are those of Kochanek and Bartels (SIGGRAPH 1984). Rotations are quaternions on Shoemake's squad
+// (SIGGRAPH 1985, course notes 1987), whose tangents are chosen by the same rules.
+#pragma once
+
+#include <vector>
+
+#include "base/affine.h"
+#include "base/vector.h"
+
+namespace pprt {
+
+// How a spline passes a key; Kochanek and Bartels.
+struct KeyShape {
+  double tension = 0, continuity = 0, bias = 0;
+};
+
+struct VectorKey {
+  double time = 0;  // seconds
+  Vec3d value{0, 0, 0};
+  KeyShape shape = {};
+};
+
+// An orientation: a turn about an axis of any length, counter-clockwise seen from its tip. A zero axis: no
+// turn. Full turns count for nothing; between two keys the short way is taken.
+struct RotationKey {
+  double time = 0;
+  Vec3d axis{0, 0, 1};
+  double degrees = 0;
+  KeyShape shape = {};
+};
+
+// From this key on.
+struct VisibilityKey {
+  double time = 0;
+  bool visible = true;
+};
+
+// Of the first three lists the first and the last key only shape the curve: it stands at the second before
+// that key's time, and at the last but one after that. They have no keys, or at least four.
+//
+// Keys at equal times make a jump; the later key holds from that time on. Keys at decreasing times are passed
+// over: at each time the first segment counts that ends later.
+struct MotionTrack {
+  std::vector<VectorKey> translation, scale;
+  std::vector<RotationKey> rotation;
+  std::vector<VisibilityKey> visibility;  // visible before the first
+};
+
+inline constexpr std::size_t kLeastCurveKeys = 4;
+
+// A track at one time.
+struct Placement {
+  Affine to_parent;  // scale, then rotation, then translation
+  bool visible = true;
+};
+
+// Always finite for finite keys.
+Placement placement_at(const MotionTrack& track, double time);
+
+// Returns a turn about an axis of any length; zero: none.
+Affine rotation(const Vec3d& axis, double degrees);
+
+}  // namespace pprt
