@@ -21,6 +21,13 @@ std::uint32_t bits_of(const sockaddr* address) {
   return in.sin_addr.s_addr;
 }
 
+std::string text_of(std::uint32_t bits) {
+  const in_addr address{bits};
+  std::array<char, INET_ADDRSTRLEN> text{};
+  inet_ntop(AF_INET, &address, text.data(), text.size());
+  return text.data();
+}
+
 }  // namespace
 
 std::vector<HostNetwork> host_networks() {
@@ -32,10 +39,10 @@ std::vector<HostNetwork> host_networks() {
     if (i->ifa_addr == nullptr || i->ifa_netmask == nullptr || i->ifa_addr->sa_family != AF_INET) continue;
     if ((i->ifa_flags & IFF_UP) == 0 || (i->ifa_flags & IFF_LOOPBACK) != 0) continue;
     const std::uint32_t mask = bits_of(i->ifa_netmask);
-    const in_addr network{bits_of(i->ifa_addr) & mask};
-    std::array<char, INET_ADDRSTRLEN> text{};
-    if (inet_ntop(AF_INET, &network, text.data(), text.size()) == nullptr) continue;
-    networks.push_back({fmt::format("{}/{}", text.data(), std::popcount(mask)), i->ifa_name});
+    const std::string network = text_of(bits_of(i->ifa_addr) & mask);
+    networks.push_back({.address = fmt::format("{}/{}", network, std::popcount(mask)),
+                        .interface = i->ifa_name,
+                        .host = text_of(bits_of(i->ifa_addr))});
   }
   return networks;
 }

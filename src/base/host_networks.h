@@ -9,6 +9,7 @@ namespace pprt {
 struct HostNetwork {
   std::string address;    // "10.84.0.0/24"
   std::string interface;  // "eth0"
+  std::string host;       // this host's address there: "10.84.0.7"
 };
 
 // IPv4 networks of interfaces that are up, without the host's own (127.0.0.0/8). Empty if the system does not

@@ -25,6 +25,7 @@ LiveAddress parse_live_address(std::string_view text) {
     boost::system::error_code error;
     const auto known = boost::asio::ip::make_address(parsed.address, error);
     if (error || known.is_v6() != in_brackets) refuse();
+    parsed.address = known.to_string();
   }
   const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), parsed.port);
   if (error != std::errc() || end != port.data() + port.size()) refuse();

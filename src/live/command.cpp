@@ -8,6 +8,8 @@
 #include <optional>
 #include <string>
 
+#include "scene/animation.h"
+
 namespace pprt {
 namespace {
 
@@ -53,11 +55,8 @@ LookFrom look_from(const Json& object) {
   look.view.at = point_in(object, "at");
   look.view.up = point_in(object, "up");
   look.view.angle_degrees = number_in(object, "angle", 0.1, 170);
-  constexpr double kLeastSine = 1e-6;  // of the angle between direction and up
-  const Vec3d direction = look.view.at - look.view.from;
-  if (!(direction.length() > 0)) throw CommandError("the camera looks nowhere");
-  if (!(direction.cross(look.view.up).length() > kLeastSine * direction.length() * look.view.up.length()))
-    throw CommandError("the camera looks along its up");
+  const std::string_view defect = camera_defect(look.view.from, look.view.at, look.view.up);
+  if (!defect.empty()) throw CommandError(std::string(defect));
   return look;
 }
 
@@ -106,6 +105,7 @@ LiveCommand parse_command(std::string_view text) {
   if (word == "key") return SetKey{whole_in(object, "frame", 1, kLastKeyFrame)};
   if (word == "drop") return DropKey{whole_in(object, "frame", 1, kLastKeyFrame)};
   if (word == "undo") return UndoKeys{};
+  if (word == "script") return SendScript{};
   if (word == "film") return PlayFilm{flag_in(object, "on")};
   if (word == "photo") return TakePhoto{word_in<PhotoFormat>(object, "format")};
   throw CommandError("there is no such command");

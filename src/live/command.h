@@ -4,7 +4,7 @@
 //   {"do":"look","number":17,"from":[x,y,z],"at":[x,y,z],"up":[x,y,z],"angle":45}
 //   {"do":"play"}  {"do":"pause"}  {"do":"step","by":-1}  {"do":"seek","frame":12}      the script
 //   {"do":"rate","fps":24}  {"do":"size","width":512,"height":384}  {"do":"overlay","name":"samples"}
-//   {"do":"key","frame":49}  {"do":"drop","frame":49}  {"do":"undo"}     keys of the recorded film
+//   {"do":"key","frame":49}  {"do":"drop","frame":49}  {"do":"undo"}  {"do":"script"}    the recorded film
 //   {"do":"film","on":true}          play the recorded film in the script's place
 //   {"do":"photo","format":"png"}    a picture at full quality, or "exr"
 #pragma once
@@ -68,6 +68,8 @@ struct DropKey {
   int frame = 1;
 };
 struct UndoKeys {};
+// The film as a script; anybody may ask for it.
+struct SendScript {};
 struct PlayFilm {
   bool on = true;
 };
@@ -84,7 +86,7 @@ struct TakePhoto {
 
 using LiveCommand =
     std::variant<TakeCamera, GiveCamera, PassCamera, LookFrom, PlayScript, StepScript, SeekScript, SetRate,
-                 SetSize, ShowOverlay, SetKey, DropKey, UndoKeys, PlayFilm, TakePhoto>;
+                 SetSize, ShowOverlay, SetKey, DropKey, UndoKeys, PlayFilm, TakePhoto, SendScript>;
 
 // A message that is none, in words for the person at the page.
 class CommandError : public std::runtime_error {

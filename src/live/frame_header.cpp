@@ -29,7 +29,7 @@ std::string to_text(const FrameHeader& header) {
                {"size", {shot.view.width, shot.view.height}},
                {"script_frame", shot.script_frame},
                {"position", shot.position},
-               {"rests", header.rests},
+               {"at_rest", header.is_at_rest},
                {"flip", header.flip ? Json(*header.flip) : Json()},
                {"type", header.type}};
   for (const FrameFigures& f : header.frames)

@@ -22,7 +22,7 @@ struct FrameFigures {
 
 struct FrameHeader {
   LiveShot shot = {};
-  bool rests = false;                // the camera stands still, and samples accumulate
+  bool is_at_rest = false;           // by RestWatch
   std::optional<double> flip;        // estimated mean FLIP to the finished picture
   std::string_view type;             // of the picture, as MIME names it; empty: there is none
   std::vector<FrameFigures> frames;  // since the header before; the last one is the picture's

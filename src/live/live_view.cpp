@@ -34,7 +34,8 @@ class LiveView::Impl {
         server_({.address = address.address, .port = address.port, .page = std::string(live_page())}) {
     server_.start({.joined = [this](int client) { steering_.joined(client); },
                    .said = [this](int client, std::string_view text) { steering_.said(client, text); },
-                   .left = [this](int client) { steering_.left(client); }});
+                   .left = [this](int client) { steering_.left(client); },
+                   .failed = [this](std::string_view why) { complain(why); }});
     thread_ = std::thread([this] {
       ask_for_short_waits();
       run();
@@ -63,6 +64,7 @@ class LiveView::Impl {
       constexpr std::size_t kMostFigures = 240;
       if (!is_watched || figures_.size() == kMostFigures) figures_.clear();
       figures_.push_back(picture.figures);
+      rests_ = rests_ && picture.rests;
       if (is_watched) next_ = std::move(picture);
     }
     work_.notify_one();
@@ -90,31 +92,53 @@ class LiveView::Impl {
         work_.wait(lock, [this] { return is_over_ || next_; });
         if (is_over_) return;
         picture = std::move(*std::exchange(next_, std::nullopt));
+        picture.rests = std::exchange(rests_, true);
         figures = std::exchange(figures_, {});
       }
-      server_.show(std::make_shared<const LiveFrame>(frame_of(picture, std::move(figures))));
+      try {
+        server_.show(std::make_shared<const LiveFrame>(frame_of(picture, std::move(figures))));
+      } catch (const std::exception& e) {
+        complain(e.what());
+      }
     }
   }
 
   LiveFrame frame_of(const LivePicture& picture, std::vector<FrameFigures> figures) {
     const double now_s = seconds_now();
     const bool is_at_rest = rest_.is_at_rest(picture.rests, now_s);
-    const auto encode = [&](const Image& image) { return stream_.encode(image, is_at_rest, now_s); };
-    EncodedPicture encoded =
-        picture.overlaid ? encode(picture.overlaid(picture.image)) : encode(picture.image);
+    const Shown shown{picture.shot.camera, picture.image.width, picture.image.height, picture.shot.overlay};
+    const PictureCoding coding = stream_.next(is_at_rest, !(shown == sent_), now_s);
+    const bool is_drawn_over = picture.overlaid && coding != PictureCoding::kNone;
+    EncodedPicture bytes = encoded(is_drawn_over ? picture.overlaid(picture.image) : picture.image, coding);
+    if (coding != PictureCoding::kNone) sent_ = shown;
     const FrameHeader header{
         .shot = picture.shot,
-        .rests = is_at_rest,
+        .is_at_rest = is_at_rest,
         .flip = estimate_.add(picture.image, picture.figures.samples, picture.rests, is_at_rest),
-        .type = encoded.type,
+        .type = bytes.type,
         .frames = std::move(figures)};
-    return {.header = to_text(header), .image = std::move(encoded.bytes)};
+    return {.header = to_text(header), .image = std::move(bytes.bytes)};
   }
+
+  // Something was dropped: people at the page should know, and the program goes on.
+  void complain(std::string_view why) {
+    server_.tell_all(Json{{"error", why}}.dump(-1, ' ', false, Json::error_handler_t::replace));
+  }
+
+  // What a picture shows, as far as people would miss it.
+  struct Shown {
+    std::uint32_t camera = 0;
+    int width = 0, height = 0;
+    Overlay overlay = Overlay::kNone;
+
+    friend bool operator==(const Shown&, const Shown&) = default;
+  };
 
   Steering steering_;
   LiveServer server_;  // after what its clients speak to
   bool has_told_end_ = false;
-  RestWatch rest_;  // these three: of the thread
+  Shown sent_;
+  RestWatch rest_;  // these four: of the thread
   PictureStream stream_;
   RestEstimate estimate_;
 
@@ -122,6 +146,7 @@ class LiveView::Impl {
   std::condition_variable work_;
   std::optional<LivePicture> next_;
   std::vector<FrameFigures> figures_;  // of frames since the last that was taken
+  bool rests_ = true;                  // in all of these the camera stood still
   bool is_over_ = false;
 
   std::thread thread_;  // last: it uses the others
@@ -133,6 +158,9 @@ LiveView::~LiveView() = default;
 
 std::string LiveView::url() const {
   return impl_->server().url();
+}
+std::string LiveView::url_at(const std::string& address) const {
+  return http_address({address, port()}) + impl_->server().token() + "/";
 }
 std::uint16_t LiveView::port() const {
   return impl_->server().port();

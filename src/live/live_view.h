@@ -20,12 +20,12 @@ struct LivePicture {
   Image image;
   LiveShot shot = {};
   FrameFigures figures = {};
-  bool rests = false;                                      // the camera stands still, and samples accumulate
+  bool rests = false;  // it shows the same as the frame before, whose samples it keeps
   std::function<Image(const Image& image)> overlaid = {};  // draws the shot's overlay; null: there is none
 };
 
-// Encodes and serves in threads of its own, at the lowest priority: no call waits for a client or for an
-// encoder. Where pictures come faster than they are encoded, the newest wins.
+// Encodes and serves in threads of its own: no call waits for a client or for an encoder. Where pictures come
+// faster than they are encoded, the newest wins. What cannot be encoded is dropped, and viewers are told.
 class LiveView {
  public:
   // Throws std::runtime_error where the address cannot be had.
@@ -38,6 +38,9 @@ class LiveView {
 
   // The page's address, with the token that it needs.
   std::string url() const;
+
+  // The same for another of this host's addresses.
+  std::string url_at(const std::string& address) const;
   std::uint16_t port() const;
 
   // Tells all clients why nothing more comes.

@@ -16,16 +16,28 @@ bool RestWatch::is_at_rest(bool rests, double now_s) {
   return now_s - *since_s_ >= kUntilRest_s;
 }
 
-EncodedPicture PictureStream::encode(const Image& image, bool is_at_rest, double now_s) {
+PictureCoding PictureStream::next(bool is_at_rest, bool is_new, double now_s) {
   constexpr double kBetween_s = 0.25;
-  constexpr int kQuality = 88;
   if (!is_at_rest) {
     last_png_s_.reset();
-    return {"image/jpeg", encode_jpeg(image, kQuality)};
+    return PictureCoding::kJpeg;
   }
-  if (last_png_s_ && now_s - *last_png_s_ < kBetween_s) return {{}, {}};
+  if (!is_new && last_png_s_ && now_s - *last_png_s_ < kBetween_s) return PictureCoding::kNone;
   last_png_s_ = now_s;
-  return {"image/png", encode_png(image)};
+  return PictureCoding::kPng;
+}
+
+EncodedPicture encoded(const Image& image, PictureCoding coding) {
+  constexpr int kQuality = 88;
+  switch (coding) {
+    case PictureCoding::kJpeg:
+      return {"image/jpeg", encode_jpeg(image, kQuality)};
+    case PictureCoding::kPng:
+      return {"image/png", encode_png(image)};
+    case PictureCoding::kNone:
+      break;
+  }
+  return {};
 }
 
 // The change since a picture of far fewer samples is nearly that picture's error: it is taken for the change
@@ -35,7 +47,7 @@ std::optional<double> RestEstimate::add(const Image& image, std::uint64_t sample
   constexpr double kErrorOfChange = 0.9, kSlope = 0.65;  // decision 0023
   const auto fallen = [](double from, double to) { return std::pow(to / from, -kSlope); };
   const auto now = static_cast<double>(samples);
-  if (!rests) *this = {};
+  if (!rests || image.width != before_.width || image.height != before_.height) *this = {};
   if (samples_ == 0) {
     before_ = image;
     samples_ = samples;

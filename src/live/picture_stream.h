@@ -21,20 +21,25 @@ class RestWatch {
   std::optional<double> since_s_;
 };
 
-// A picture's bytes, or none.
-struct EncodedPicture {
-  std::string_view type;  // "image/jpeg", "image/png"; empty: the picture before is as good
-  std::string bytes;
-};
+enum class PictureCoding : std::uint8_t { kNone, kJpeg, kPng };
 
-// While the camera moves pictures are JPEGs. At rest they are PNGs, at most four a second.
+// While the camera moves pictures are JPEGs. At rest they are PNGs, at most four a second: in between the one
+// before is as good.
 class PictureStream {
  public:
-  EncodedPicture encode(const Image& image, bool is_at_rest, double now_s);
+  // How the next picture is sent. `is_new`: it shows something else than the last one that was sent.
+  PictureCoding next(bool is_at_rest, bool is_new, double now_s);
 
  private:
   std::optional<double> last_png_s_;  // since it came to rest
 };
+
+// A picture's bytes and their type as MIME names it; both empty for kNone.
+struct EncodedPicture {
+  std::string_view type;
+  std::string bytes;
+};
+EncodedPicture encoded(const Image& image, PictureCoding coding);
 
 // Estimates the mean FLIP of a picture to the finished one. Each time that the samples have doubled while the
 // camera is at rest, the change since then tells (docs/decisions/0023-estimated-flip.md). In between it is

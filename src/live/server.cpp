@@ -16,6 +16,7 @@
 #include "base/thread_priority.h"
 #include "live/address.h"
 #include "live/gate.h"
+#include "live/http_request.h"
 
 namespace pprt {
 namespace {
@@ -56,6 +57,7 @@ class LiveServer::Impl {
  private:
   class Client;
   class Visit;
+  void run();
   void accept();
   int join(const std::shared_ptr<Client>& client);
   void leave(int client);
@@ -112,6 +114,8 @@ class LiveServer::Impl::Client : public std::enable_shared_from_this<Client> {
     write();
   }
 
+  bool is_closed() const { return closed_; }
+
   void close() {
     if (std::exchange(closed_, true)) return;
     error_code ignored;
@@ -130,11 +134,13 @@ class LiveServer::Impl::Client : public std::enable_shared_from_this<Client> {
   void heard() {
     const std::string text = beast::buffers_to_string(buffer_.data());
     buffer_.consume(buffer_.size());
-    if (!socket_.got_text() || is_too_fast()) return close();
-    if (text == "ack") {
-      if (in_flight_ > 0) --in_flight_;
+    if (!socket_.got_text()) return close();
+    if (text == "ack" && in_flight_ > 0) {
+      --in_flight_;
       write();
-    } else {
+    } else if (is_too_fast()) {
+      return close();
+    } else if (text != "ack") {
       server_.events_.said(number_, text);
     }
     if (!closed_) read();
@@ -233,17 +239,7 @@ class LiveServer::Impl::Visit : public std::enable_shared_from_this<Visit> {
  private:
   void answer() {
     const http::request<http::empty_body>& request = parser_.get();
-    const auto text = [&](http::field field) {
-      const beast::string_view value = request[field];
-      return std::string_view(value.data(), value.size());
-    };
-    const beast::string_view method = request.method_string(), target = request.target();
-    const GateRequest asked{.method = {method.data(), method.size()},
-                            .target = {target.data(), target.size()},
-                            .host = text(http::field::host),
-                            .origin = text(http::field::origin),
-                            .upgrade = websocket::is_upgrade(request)};
-    switch (admit(asked, server_.token_, server_.settings_.address)) {
+    switch (admit(gate_request(request), server_.token_, server_.settings_.address)) {
       case GateAnswer::kPage:
         return respond(http::status::ok, server_.settings_.page);
       case GateAnswer::kConnect:
@@ -302,8 +298,20 @@ void LiveServer::Impl::start(LiveServerEvents events) {
   accept();
   thread_ = std::thread([this] {
     ask_for_short_waits();
-    context_.run();
+    run();
   });
+}
+
+// What one client's message or one frame makes fail must not end the program.
+void LiveServer::Impl::run() {
+  while (true) {
+    try {
+      context_.run();
+      return;
+    } catch (const std::exception& e) {
+      if (events_.failed) events_.failed(e.what());
+    }
+  }
 }
 
 LiveServer::Impl::~Impl() {
@@ -331,14 +339,14 @@ void LiveServer::Impl::accept() {
   });
 }
 
+// Nobody may have told it anything before it has joined.
 int LiveServer::Impl::join(const std::shared_ptr<Client>& client) {
-  clients_.emplace(++last_client_, client);
-  const int number = last_client_;
-  asio::post(context_, [this, number] {
-    const auto found = clients_.find(number);
-    if (found == clients_.end()) return;
+  const int number = ++last_client_;
+  asio::post(context_, [this, number, client] {
+    if (client->is_closed()) return;
+    clients_.emplace(number, client);
     events_.joined(number);
-    if (newest_) found->second->show(newest_);
+    if (newest_) client->show(newest_);
   });
   return number;
 }
@@ -390,7 +398,10 @@ const std::string& LiveServer::token() const {
   return impl_->token();
 }
 std::string LiveServer::url() const {
-  return http_address({impl_->settings().address, port()}) + token() + "/";
+  const std::string& address = impl_->settings().address;
+  // No browser goes to the address that stands for all.
+  const bool is_any = address == "0.0.0.0" || address == "::";
+  return http_address({is_any ? "127.0.0.1" : address, port()}) + token() + "/";
 }
 void LiveServer::show(std::shared_ptr<const LiveFrame> frame) {
   impl_->show(std::move(frame));

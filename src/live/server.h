@@ -16,7 +16,7 @@ struct LiveServerSettings {
   std::string page = {};   // HTML
   std::size_t most_clients = 64;
   std::size_t most_message_bytes = 4096;  // from a client
-  int most_messages_per_second = 300;     // from a client
+  int most_messages_per_second = 300;     // from a client, acknowledgements not counted
   double patience_s = 10;                 // for a request, and for a client that takes in nothing
 };
 
@@ -31,6 +31,7 @@ struct LiveServerEvents {
   std::function<void(int client)> joined;
   std::function<void(int client, std::string_view text)> said;
   std::function<void(int client)> left;
+  std::function<void(std::string_view why)> failed = {};  // something was dropped
 };
 
 // Runs on a thread of its own. No client can block a caller, nor any other client.

@@ -16,6 +16,11 @@ namespace {
 
 using Json = nlohmann::json;
 
+// Names of files may hold any bytes.
+std::string text_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 bool same_camera(const View& a, const View& b) {
   return a.from == b.from && a.at == b.at && a.up == b.up && a.angle_degrees == b.angle_degrees;
 }
@@ -28,14 +33,12 @@ void set_camera(View& view, const View& camera) {
   view.angle_degrees = camera.angle_degrees;
 }
 
-CameraKey key_of(const View& view, int frame) {
-  CameraKey key;
-  key.frame = frame;
-  key.from = view.from;
-  key.at = view.at;
-  key.up = view.up;
-  key.angle_degrees = view.angle_degrees;
-  return key;
+// What the show refuses is told to who asked for it.
+template <typename Require, typename... Values>
+void require(const Require& accepts, const Values&... values) try {
+  accepts(values...);
+} catch (const std::exception& e) {
+  throw CommandError(e.what());
 }
 
 }  // namespace
@@ -48,6 +51,7 @@ Steering::Steering(LiveShow show, LiveVoice voice)
            .frames_per_second = show_.frames_per_second},
       run_now_(run_),
       plays_(!show_.script.empty()),
+      seen_(show_.script.size()),
       view_(show_.home) {}
 
 // --- Clients
@@ -55,24 +59,26 @@ Steering::Steering(LiveShow show, LiveVoice voice)
 void Steering::joined(int client) {
   const std::lock_guard lock(mutex_);
   clients_.insert(client);
-  wish_.notify_all();
+  wished_.notify_all();
   Json hello = {{"you", client},
                 {"title", show_.title},
-                {"script", !show_.script.empty()},
                 {"home", json_of(show_.home)},
+                {"size", {show_.home.width, show_.home.height}},
                 {"rates", {kSlowestRate, kFastestRate}},
                 {"longest_side", kLongestLiveSide},
-                {"fixed_size", show_.fixed_size}};
+                {"fixed_size", show_.records}};
   for (const Word<Overlay>& overlay : kWords<Overlay>) hello["overlays"].push_back(overlay.word);
-  voice_.tell(client, Json{{"hello", std::move(hello)}}.dump());
+  voice_.tell(client, text_of({{"hello", std::move(hello)}}));
   voice_.tell_all(state());
 }
 
-// The picture stays as it is: who has lost the connection may come back.
 void Steering::left(int client) {
   const std::lock_guard lock(mutex_);
   clients_.erase(client);
-  if (pilot_ == client) pilot_ = 0;
+  if (pilot_ == client) {
+    pilot_ = 0;
+    if (show_.records) give_back();
+  }
   voice_.tell_all(state());
 }
 
@@ -80,21 +86,28 @@ void Steering::said(int client, std::string_view text) {
   const std::lock_guard lock(mutex_);
   try {
     const LiveCommand command = parse_command(text);
-    const bool is_taking = std::holds_alternative<TakeCamera>(command);
-    if (!is_taking && pilot_ != client) throw CommandError("take the camera first");
+    const bool is_for_all =
+        std::holds_alternative<TakeCamera>(command) || std::holds_alternative<SendScript>(command);
+    if (!is_for_all && pilot_ != client) throw CommandError("take the camera first");
     std::visit([&](const auto& what) { obey(client, what); }, command);
-    is_finished_ = false;
-    wish_.notify_all();
     // Cameras come many times a second, and frames tell of them.
     if (!std::holds_alternative<LookFrom>(command)) voice_.tell_all(state());
   } catch (const CommandError& e) {
-    voice_.tell(client, Json{{"error", e.what()}}.dump(-1, ' ', false, Json::error_handler_t::replace));
+    voice_.tell(client, text_of({{"error", e.what()}}));
   }
 }
 
 bool Steering::is_watched() const {
   const std::lock_guard lock(mutex_);
   return !clients_.empty();
+}
+
+// --- Commands
+
+// Something changes the picture.
+void Steering::wish() {
+  ++wish_;
+  wished_.notify_all();
 }
 
 void Steering::obey(int client, const TakeCamera&) {
@@ -105,11 +118,21 @@ void Steering::obey(int client, const TakeCamera&) {
   look_ = 0;
 }
 
-// What there is to play goes on where it was left.
 void Steering::obey(int, const GiveCamera&) {
   pilot_ = 0;
+  give_back();
+}
+
+// The script goes on where it was left, or with a frame that nobody has seen and that is to be recorded.
+void Steering::give_back() {
+  if (plays_film_) obey(pilot_, PlayFilm{false});
+  if (position_ >= frames()) {
+    if (const std::optional<int> unseen = first_unseen()) jump_to(*unseen - 1);
+  }
   plays_ = position_ < frames();
-  if (plays_ && is_by_hand_) jumps_ = true;
+  if (!plays_) return;
+  if (is_by_hand_) jumps_ = true;
+  wish();
 }
 
 void Steering::obey(int, const PassCamera& command) {
@@ -122,15 +145,12 @@ void Steering::obey(int, const PassCamera& command) {
 void Steering::obey(int, const LookFrom& command) {
   View view = view_;
   set_camera(view, command.view);
-  try {
-    show_.require_camera(view);
-  } catch (const std::exception& e) {
-    throw CommandError(e.what());
-  }
+  require(show_.require_camera, view);
   view_ = view;
   plays_ = false;
   is_by_hand_ = true;
   look_ = command.number;
+  wish();
 }
 
 void Steering::obey(int, const PlayScript& command) {
@@ -138,91 +158,110 @@ void Steering::obey(int, const PlayScript& command) {
   plays_ = command.on;
   if (!plays_) return;
   if (is_by_hand_) jumps_ = true;
-  if (position_ >= frames()) position_ = 0;
+  if (position_ >= frames()) jump_to(0);
+  wish();
 }
 
 void Steering::obey(int, const StepScript& command) {
   const std::int64_t to = std::int64_t{position_} + command.by;
-  go_to(static_cast<int>(std::clamp<std::int64_t>(to, 1, std::max(1, frames()))));
+  show_position(static_cast<int>(std::clamp<std::int64_t>(to, 1, std::max(1, frames()))));
 }
 
 void Steering::obey(int, const SeekScript& command) {
-  go_to(std::clamp(command.frame, 1, std::max(1, frames())));
+  show_position(std::clamp(command.frame, 1, std::max(1, frames())));
 }
 
 void Steering::obey(int, const SetRate& command) {
   run_.frames_per_second = command.frames_per_second;
+  wish();
 }
 
 void Steering::obey(int, const SetSize& command) {
-  if (show_.fixed_size) throw CommandError("files are written: the size stays");
+  if (show_.records) throw CommandError("files are written: the size stays");
+  require(show_.require_size, command.width, command.height);
   run_.width = command.width;
   run_.height = command.height;
+  wish();
 }
 
 void Steering::obey(int, const ShowOverlay& command) {
   overlay_ = command.overlay;
+  wish();
 }
 
 void Steering::obey(int, const SetKey& command) {
-  std::vector<CameraKey> before = keys_;
-  const auto is_there = [&](const CameraKey& key) { return key.frame == command.frame; };
-  std::erase_if(keys_, is_there);
-  const auto next = std::find_if(keys_.begin(), keys_.end(),
-                                 [&](const CameraKey& key) { return key.frame > command.frame; });
-  keys_.insert(next, key_of(view_, command.frame));
-  keys_changed(std::move(before));
+  if (!keys_.set(command.frame, view_)) {
+    throw CommandError(fmt::format("a film has at most {} keys", FilmKeys::kMost));
+  }
+  keys_changed();
 }
 
 void Steering::obey(int, const DropKey& command) {
-  std::vector<CameraKey> before = keys_;
-  if (std::erase_if(keys_, [&](const CameraKey& key) { return key.frame == command.frame; }) == 0)
+  if (!keys_.drop(command.frame))
     throw CommandError(fmt::format("there is no key at frame {}", command.frame));
-  keys_changed(std::move(before));
+  keys_changed();
 }
 
 void Steering::obey(int, const UndoKeys&) {
-  if (keys_before_.empty()) throw CommandError("there is nothing to undo");
-  std::vector<CameraKey> before = std::move(keys_before_.back());
-  keys_before_.pop_back();
-  keys_changed(std::exchange(keys_, std::move(before)));
-  keys_before_.pop_back();  // undoing is not undone
+  if (!keys_.undo()) throw CommandError("there is nothing to undo");
+  keys_changed();
 }
 
+// The script is left where it is until it takes its place again.
 void Steering::obey(int, const PlayFilm& command) {
-  if (command.on && keys_.empty()) throw CommandError("the film has no key yet");
+  if (command.on && keys_.keys().empty()) throw CommandError("the film has no key yet");
+  if (command.on == plays_film_) return;
+  if (command.on) script_position_ = position_;
   plays_film_ = command.on;
   plays_ = false;
-  position_ = 0;
+  jump_to(command.on ? 0 : script_position_);
 }
 
 void Steering::obey(int client, const TakePhoto& command) {
   run_.photo = command.format;
   run_.photo_for = client;
+  wish();
 }
 
-void Steering::go_to(int position) {
+void Steering::obey(int client, const SendScript&) {
+  if (keys_.keys().empty()) throw CommandError("the film has no key yet");
+  voice_.tell(client, text_of({{"script", anim_script(film())}}));
+}
+
+// What plays goes on after this position.
+void Steering::jump_to(int position) {
+  position_ = position;
+  jumps_ = true;
+}
+
+void Steering::show_position(int position) {
   if (frames() == 0) throw CommandError("there is no script to play");
   plays_ = false;
   is_by_hand_ = false;
   jumps_ = jumps_ || position != position_ + 1;
   position_ = position;
   set_camera(view_, frame_at(position_).view);
+  wish();
 }
 
-// Keeps what was before for undo.
-void Steering::keys_changed(std::vector<CameraKey> before) {
-  constexpr std::size_t kMostKept = 200;
-  if (keys_before_.size() == kMostKept) keys_before_.erase(keys_before_.begin());
-  keys_before_.push_back(std::move(before));
-  if (keys_.empty() && plays_film_) plays_film_ = plays_ = false, position_ = 0;
+void Steering::keys_changed() {
+  if (!plays_film_) return;
+  if (keys_.keys().empty()) return obey(pilot_, PlayFilm{false});
+  position_ = std::min(position_, frames());
+  plays_ = plays_ && position_ < frames();
 }
 
 // --- What plays
 
 int Steering::frames() const {
-  if (plays_film_) return static_cast<int>(keys_.back().frame);
-  return static_cast<int>(show_.script.size());
+  return plays_film_ ? keys_.frames() : static_cast<int>(show_.script.size());
+}
+
+// The first position that is still to be recorded.
+std::optional<int> Steering::first_unseen() const {
+  const auto unseen = std::find(seen_.begin(), seen_.end(), false);
+  if (!show_.records || unseen == seen_.end()) return std::nullopt;
+  return static_cast<int>(unseen - seen_.begin()) + 1;
 }
 
 ScriptFrame Steering::frame_at(int position) const {
@@ -230,32 +269,33 @@ ScriptFrame Steering::frame_at(int position) const {
   return {.number = 0, .view = view_at(film(), position, show_.home), .cut = false};
 }
 
-// Its first key stands at its first frame: before it the camera stands still.
+// Before its first key the camera stands still.
 Animation Steering::film() const {
   Animation film;
   film.scene = show_.scene_name;
-  film.frames = keys_.empty() ? 1 : static_cast<int>(keys_.back().frame);
+  film.frames = std::max(1, keys_.frames());
   film.fps = run_.frames_per_second;
   film.width = run_.width;
   film.height = run_.height;
-  film.keys = keys_;
+  film.keys = keys_.keys();
   return film;
 }
 
 // --- Frames
 
 bool Steering::wants_frames() const {
-  return run_.photo || (!is_finished_ && (show_.plays_unwatched || !clients_.empty()));
+  return wish_ != finished_wish_ && (show_.records || !clients_.empty());
 }
 
 bool Steering::wait_for_wish(double at_most_s) {
   std::unique_lock lock(mutex_);
-  return wish_.wait_for(lock, std::chrono::duration<double>(at_most_s), [this] { return wants_frames(); });
+  return wished_.wait_for(lock, std::chrono::duration<double>(at_most_s), [this] { return wants_frames(); });
 }
 
-void Steering::rest() {
+// A script whose camera stands still goes on.
+void Steering::rest(std::uint64_t wish) {
   const std::lock_guard lock(mutex_);
-  is_finished_ = true;
+  if (!plays_) finished_wish_ = wish;
 }
 
 LiveRun Steering::next_run() {
@@ -272,56 +312,62 @@ LiveRun Steering::next_run() {
 std::optional<LiveShot> Steering::next_shot() {
   const std::lock_guard lock(mutex_);
   if (!(run_ == run_now_) || !wants_frames()) return std::nullopt;
-  if (position_ >= frames()) plays_ = false;  // the film may have become shorter
-  ScriptFrame frame;
-  frame.number = 0;
+  LiveShot shot;
+  bool cut = false;
   if (plays_) {
     is_by_hand_ = false;
-    frame = frame_at(++position_);
-  } else if (!is_by_hand_ && position_ > 0) {
-    frame.number = plays_film_ || position_ > frames() ? 0 : frame_at(position_).number;
+    const ScriptFrame frame = frame_at(++position_);
+    set_camera(view_, frame.view);
+    cut = frame.cut;
   }
-  LiveShot shot;
-  shot.view = plays_ ? frame.view : view_;
+  if (!is_by_hand_ && !plays_film_ && position_ > 0) {
+    shot.script_frame = frame_at(position_).number;
+    seen_[static_cast<std::size_t>(position_ - 1)] = true;
+  }
+  shot.view = view_;
   shot.view.width = run_now_.width;
   shot.view.height = run_now_.height;
-  shot.script_frame = frame.number;
   shot.position = is_by_hand_ ? 0 : position_;
-  shot.cut = std::exchange(jumps_, false) || (plays_ && frame.cut);
+  shot.cut = std::exchange(jumps_, false) || cut;
   if (camera_ == 0 || !same_camera(shot.view, shown_)) ++camera_;
-  view_ = shown_ = shot.view;
+  shown_ = shot.view;
   shot.camera = camera_;
   shot.look = look_;
   shot.pilot = pilot_;
   shot.overlay = overlay_;
+  shot.wish = wish_;
   if (plays_ && position_ >= frames()) {
-    plays_ = false;
-    voice_.tell_all(state());
+    const std::optional<int> unseen = plays_film_ ? std::nullopt : first_unseen();
+    if (unseen) {
+      jump_to(*unseen - 1);
+    } else {
+      plays_ = false;
+      voice_.tell_all(state());
+    }
   }
   return shot;
 }
 
 bool Steering::is_played_out() const {
   const std::lock_guard lock(mutex_);
-  return pilot_ == 0 && !plays_ && position_ >= frames();
+  return pilot_ == 0 && !plays_;
 }
 
 std::string Steering::state() const {
   Json keys = Json::array();
-  for (const CameraKey& key : keys_) keys.push_back(static_cast<int>(key.frame));
-  Json state = {{"pilot", pilot_},
-                {"viewers", clients_},
-                {"plays", plays_},
-                {"frames", frames()},
-                {"film", plays_film_},
-                {"rate", run_.frames_per_second},
-                {"size", {run_.width, run_.height}},
-                {"overlay", word_for(overlay_)},
-                {"keys", std::move(keys)},
-                {"undo", !keys_before_.empty()},
-                {"script", keys_.empty() ? std::string() : anim_script(film())},
-                {"photo", run_.photo.has_value()}};
-  return Json{{"state", std::move(state)}}.dump(-1, ' ', false, Json::error_handler_t::replace);
+  for (const CameraKey& key : keys_.keys()) keys.push_back(static_cast<int>(key.frame));
+  return text_of({{"state",
+                   {{"pilot", pilot_},
+                    {"viewers", clients_},
+                    {"plays", plays_},
+                    {"frames", frames()},
+                    {"film", plays_film_},
+                    {"rate", run_.frames_per_second},
+                    {"size", {run_.width, run_.height}},
+                    {"overlay", word_for(overlay_)},
+                    {"keys", std::move(keys)},
+                    {"undo", keys_.can_undo()},
+                    {"photo", run_.photo.has_value()}}}});
 }
 
 }  // namespace pprt

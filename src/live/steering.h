@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "live/command.h"
+#include "live/film_keys.h"
 #include "scene/animation.h"
 #include "scene/scene_description.h"
 
@@ -35,9 +36,11 @@ struct LiveShow {
   View home = {};                              // what is shown first; its size is that of the pictures
   std::vector<ScriptFrame> script = {};        // empty: there is none
   double frames_per_second = 24;               // between kSlowestRate and kFastestRate
-  bool fixed_size = false;                     // pictures keep their size
-  bool plays_unwatched = false;                // else it waits for somebody to watch
-  std::function<void(const View&)> require_camera = [](const View&) {};  // throws for a view that makes none
+  // Every frame of the script is to be shown once, whether or not anybody watches; pictures keep their size.
+  bool records = false;
+  // Throw std::exception for a view, or a size, that cannot be rendered.
+  std::function<void(const View&)> require_camera = [](const View&) {};
+  std::function<void(int width, int height)> require_size = [](int, int) {};
 };
 
 // A frame to be rendered.
@@ -50,6 +53,7 @@ struct LiveShot {
   std::uint32_t look = 0;    // the number of the pilot's last LookFrom
   int pilot = 0;             // client; 0: nobody
   Overlay overlay = Overlay::kNone;
+  std::uint64_t wish = 0;  // counts what changed the picture, for rest()
 };
 
 // Settings that hold for a run of frames; others need a new one.
@@ -81,6 +85,9 @@ class Steering {
 
   // Tells a new client who it is and what there is.
   void joined(int client);
+
+  // The camera of a pilot who has left stands still, for he may come back. Where frames are recorded it goes
+  // back to the script.
   void left(int client);
 
   // Does what a client asks for. What is no command, or not allowed, is answered by {"error":TEXT}.
@@ -91,24 +98,22 @@ class Steering {
   // --- Frames
 
   // Waits until a frame is wanted, at most so many seconds. None is while a picture is finished, or while
-  // nobody watches, unless the show plays all the same.
+  // nobody watches, unless frames are recorded.
   bool wait_for_wish(double at_most_s);
 
   // What the next run of frames is like. A photo is over when this is asked again.
   LiveRun next_run();
 
-  // The next frame's camera; empty: another run is wanted.
+  // The next frame's camera; empty: another run is wanted, or none.
   std::optional<LiveShot> next_shot();
 
-  // The picture is finished: frames are wanted again once somebody does something.
-  void rest();
+  // The picture of a shot with this `wish` is finished. Frames are wanted again once something changes it.
+  void rest(std::uint64_t wish);
 
-  // Whether the script has been played to its end and nobody has the camera.
+  // Whether nothing plays and nobody has the camera.
   bool is_played_out() const;
 
  private:
-  struct Answer;
-  void require_pilot(int client) const;
   void obey(int client, const TakeCamera&);
   void obey(int client, const GiveCamera&);
   void obey(int client, const PassCamera& command);
@@ -124,8 +129,13 @@ class Steering {
   void obey(int client, const UndoKeys&);
   void obey(int client, const PlayFilm& command);
   void obey(int client, const TakePhoto& command);
-  void go_to(int position);
-  void keys_changed(std::vector<CameraKey> before);
+  void obey(int client, const SendScript&);
+  void wish();
+  void give_back();
+  void jump_to(int position);
+  void show_position(int position);
+  void keys_changed();
+  std::optional<int> first_unseen() const;
   int frames() const;
   ScriptFrame frame_at(int position) const;
   Animation film() const;
@@ -135,24 +145,26 @@ class Steering {
   const LiveShow show_;
   const LiveVoice voice_;
 
-  std::condition_variable wish_;  // frames may be wanted
-  mutable std::mutex mutex_;      // guards what follows
+  std::condition_variable wished_;  // frames may be wanted
+  mutable std::mutex mutex_;        // guards what follows
   std::set<int> clients_;
   int pilot_ = 0;
-  LiveRun run_;         // as wanted
-  LiveRun run_now_;     // as it is
-  bool plays_ = false;  // the script or the film
-  bool plays_film_ = false;
-  int position_ = 0;          // in what plays: shown last, from 1; 0: nothing yet
-  bool is_by_hand_ = false;   // the view is the pilot's
-  bool is_finished_ = false;  // the picture, at rest
-  bool jumps_ = true;         // the next shot does not follow the one before
-  View view_;                 // wanted next, unless something plays
-  View shown_;                // last
+  LiveRun run_;                      // as wanted
+  LiveRun run_now_;                  // as it is
+  std::uint64_t wish_ = 1;           // counts what changed the picture
+  std::uint64_t finished_wish_ = 0;  // whose picture is finished
+  bool plays_ = false;               // the script or the film
+  bool plays_film_ = false;          // the film takes the script's place
+  int position_ = 0;                 // in what plays: shown last, from 1; 0: nothing yet
+  int script_position_ = 0;          // while the film takes its place
+  std::vector<bool> seen_;           // frames of the script
+  bool is_by_hand_ = false;          // the view is the pilot's
+  bool jumps_ = true;                // the next shot does not follow the one before
+  View view_;                        // wanted next, unless something plays
+  View shown_;                       // last
   std::uint32_t camera_ = 0, look_ = 0;
   Overlay overlay_ = Overlay::kNone;
-  std::vector<CameraKey> keys_;                      // of the film, ascending by frame
-  std::vector<std::vector<CameraKey>> keys_before_;  // to undo
+  FilmKeys keys_;
 };
 
 }  // namespace pprt

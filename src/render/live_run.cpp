@@ -10,11 +10,14 @@
 #include <set>
 #include <utility>
 
+#include "base/diagnostics.h"
+#include "base/host_networks.h"
 #include "cli/exit.h"
 #include "cli/stop_signals.h"
 #include "layers/overlay.h"
 #include "live/live_view.h"
 #include "parallel/session.h"
+#include "render/memory_check.h"
 
 namespace pprt {
 namespace {
@@ -25,9 +28,9 @@ LiveShow show_of(const RenderPlan& plan, const CompiledScene& scene) {
                 .home = plan.frames.front().view,
                 .script = {},
                 .frames_per_second = plan.settings.frames_per_second,
-                .fixed_size = !plan.output.pictures.empty(),
-                .plays_unwatched = !plan.output.pictures.empty(),
-                .require_camera = [&scene](const View& view) { scene.camera(view); }};
+                .records = !plan.output.pictures.empty(),
+                .require_camera = [&scene](const View& view) { scene.camera(view); },
+                .require_size = [](int width, int height) { require_memory(width, height, true); }};
   if (plan.script_name.empty()) return show;
   for (const PlannedFrame& frame : plan.frames) show.script.push_back({frame.number, frame.view, frame.cut});
   return show;
@@ -39,11 +42,14 @@ std::string host_name() {
 }
 
 std::string where_to_look(const LiveView& view, const LiveAddress& address) {
-  const bool is_local = address.address == "127.0.0.1" || address.address == "::1";
+  const std::string& at = address.address;
   std::string text = fmt::format("pprt-render: live at {}\n", view.url());
-  if (is_local) {
+  if (at == "0.0.0.0" || at == "::") {
+    for (const HostNetwork& network : host_networks())
+      text += fmt::format("pprt-render: from {}: {}\n", network.interface, view.url_at(network.host));
+  } else if (at == "127.0.0.1" || at == "::1") {
     text += fmt::format("pprt-render: from another host first: ssh -L {0}:{1}:{0} {2}\n", view.port(),
-                        address.address == "::1" ? "[::1]" : "localhost", host_name());
+                        at == "::1" ? "[::1]" : "localhost", host_name());
   }
   return text + "pprt-render: Ctrl-C ends it\n";
 }
@@ -153,16 +159,23 @@ class LiveRunner {
       shots.push_back(*shot);
       const std::optional<Layer> layer = layer_of(shot->overlay);
       return FrameRequest{.number = ++number_,
-                          .camera = scene_.camera(shot->view),
+                          .camera = camera_of(shot->view),
                           .cut = shot->cut,
                           .report_samples = layer && needs_samples(*layer)};
     };
     run_sequence_(settings, source, [&](FinishedFrame&& frame) {
       const LiveShot shot = shots.front();
       shots.pop_front();
-      if (finish.is_finished(frame)) view_.steering().rest();
+      if (finish.is_finished(frame)) view_.steering().rest(shot.wish);
       deliver(std::move(frame), shot, grid);
     });
+  }
+
+  // A film goes through cameras that nobody has seen. One that is none is left out.
+  Camera camera_of(const View& view) try {
+    return last_camera_ = scene_.camera(view);
+  } catch (const InputError&) {
+    return last_camera_;
   }
 
   void deliver(FinishedFrame&& frame, const LiveShot& shot, const TileGrid& grid) {
@@ -210,6 +223,7 @@ class LiveRunner {
   LiveView view_;
   std::set<int> missing_;  // frames of the script that are to be recorded
   int number_ = 0;         // of the frame ordered last
+  Camera last_camera_;
 };
 
 }  // namespace

@@ -3,16 +3,14 @@
 
 #include <cstdint>
 
-#include "render/render_plan.h"
-
 namespace pprt {
 
 // Returns the least memory, in bytes, that the pictures of a run take: those that ranks reconstruct, those
 // that rank 0 puts together, and the files. Samples and the scene come on top. Measured at 16384x16384 pixels
 // (docs/performance.md).
-std::uint64_t memory_of_pictures(const RenderPlan& plan);
+std::uint64_t memory_of_pictures(int width, int height, bool has_rate);
 
 // Throws std::runtime_error with both figures when that is more than available_memory().
-void require_memory(const RenderPlan& plan);
+void require_memory(int width, int height, bool has_rate);
 
 }  // namespace pprt

@@ -68,6 +68,12 @@ class JobBroadcast {
   // The others await a job that does not come.
   void end() { run_begun_ = false, dismiss(); }
 
+  // Throws std::runtime_error where some did not come to the end of their last job.
+  void require_others() const {
+    if (processes_ != nullptr && !processes_->all_finished())
+      throw std::runtime_error("a rank did not come to the end of its frames");
+  }
+
   // Lets the others leave, unless they have their job.
   void dismiss() {
     if (!run_begun_) send(RenderJob());
@@ -97,7 +103,8 @@ PreparedRun prepare(const RenderOptions& options) {
   CompiledScene scene = compile_scene(job);
   log_info(fmt::format("compiled for effects: {}", to_string(scene.effects())));
   require_eyes_in_reach(plan, scene);
-  if (plan.renders) require_memory(plan);
+  const SessionSettings& s = plan.settings;
+  if (plan.renders) require_memory(s.width, s.height, s.frames_per_second > 0);
   if (plan.report.census) print_output(scene.census());
   return {std::move(plan), std::move(job), std::move(scene)};
 }
@@ -133,6 +140,22 @@ void run_ranks(ProcessRanks& ranks, const CompiledScene& scene,
   });
 }
 
+// Renders one sequence with all ranks; its frames come to the sink.
+void run_sequence(ProcessRanks& ranks, const CompiledScene& scene, const SessionSettings& settings,
+                  const CameraSource& source, const FrameSink& sink, const SessionEvents& events) {
+  const FrameSink logged = [&sink](FinishedFrame&& frame) {
+    log_frame(frame);
+    sink(std::move(frame));
+  };
+  run_ranks(ranks, scene, [&](Communicator& network, const Probe& probe) {
+    if (network.rank() == 0) {
+      run_as_master(network, settings, probe, source, logged, events);
+    } else {
+      run_as_worker(network, settings, probe);
+    }
+  });
+}
+
 void warn_of_few_cores(const LocalRanks& ranks) {
   const int installed = installed_cores();
   if (ranks.cores >= std::min(ranks.on_host, installed)) return;
@@ -163,11 +186,10 @@ int run_live_view(ProcessRanks& ranks, const PreparedRun& run, const SessionEven
                      progress);
   }
   watch_signals();
-  const StatusPrinter printer(
-      [&] {
-        if (recorder) recorder->status();
-      },
-      [] {});
+  const auto status = [&recorder] {
+    if (recorder) recorder->status();
+  };
+  const StatusPrinter printer(status, [&progress] { progress.stopping(); });
   RenderJob job = run.job;
   job.again = true;
   run_live(run.plan, run.scene, size, recorder ? &*recorder : nullptr,
@@ -175,13 +197,8 @@ int run_live_view(ProcessRanks& ranks, const PreparedRun& run, const SessionEven
              job.settings = settings;
              broadcast.send(job);
              job.scene_nff.clear();
-             run_ranks(ranks, run.scene, [&](Communicator& network, const Probe& probe) {
-               if (network.rank() == 0) {
-                 run_as_master(network, settings, probe, source, sink, events);
-               } else {
-                 run_as_worker(network, settings, probe);
-               }
-             });
+             run_sequence(ranks, run.scene, settings, source, sink, events);
+             broadcast.require_others();
            });
   broadcast.end();
   return recorder ? finish_files(*recorder, progress) : kExitDone;
@@ -203,16 +220,9 @@ int run_frames(ProcessRanks& ranks, const PreparedRun& run, const SessionEvents&
   watch_signals();
   const StatusPrinter printer([&recorder] { recorder.status(); }, [&progress] { progress.stopping(); });
   const FrameSink sink = [&](FinishedFrame&& frame) {
-    log_frame(frame);
     if (!recorder.finished_before(frame.order.number)) recorder.record(std::move(frame));
   };
-  run_ranks(ranks, run.scene, [&](Communicator& network, const Probe& probe) {
-    if (network.rank() == 0) {
-      run_as_master(network, run.plan.settings, probe, source, sink, events);
-    } else {
-      run_as_worker(network, run.plan.settings, probe);
-    }
-  });
+  run_sequence(ranks, run.scene, run.plan.settings, source, sink, events);
 
   const int code = finish_files(recorder, progress);
   if (code != kExitFailure && run.plan.report.census) print_rays(recorder.totals());

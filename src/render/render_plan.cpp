@@ -250,10 +250,6 @@ namespace {
 void require_live_usage(const RenderOptions& options) {
   if (options.clock == ClockKind::kWork) throw UsageError("--live needs real time, not --clock work");
   if (options.go_on) throw UsageError("--live needs all ranks: it cannot be used with --go-on");
-  if (options.fps && *options.fps < kSlowestRate) {
-    throw UsageError(
-        fmt::format("--fps {:g}: with --live a rate of at least {:g} is needed", *options.fps, kSlowestRate));
-  }
   if (!options.outputs.empty()) return;
   const bool writes = !options.layers.empty() || !options.stats.empty() || !options.film.empty() ||
                       !options.contact_sheet.empty() || options.reference || options.compare_serial ||
@@ -290,10 +286,22 @@ void check_usage(const RenderOptions& options) {
 
 namespace {
 
+void require_live_plan(const RenderOptions& options, const Sources& sources, double fps) {
+  if (!(fps >= kSlowestRate && fps <= kFastestRate)) {
+    throw UsageError(fmt::format("--live needs a rate from {:g} to {:g} frames/s, not {:g}; --fps sets it",
+                                 kSlowestRate, kFastestRate, fps));
+  }
+  if (options.time || options.samples || options.quality)
+    throw UsageError("--live has a rate: it takes no --time, --samples or --quality");
+  if (!options.outputs.empty() && !sources.script)
+    throw UsageError("with --live, --output writes the frames of a script, and there is none");
+}
+
 RenderPlan plan_of(const RenderOptions& options, Sources& sources) {
   const View base = base_view(options, sources);
   require_sound_cameras(sources, base);
   const double fps = frame_rate(options, sources);
+  if (options.live) require_live_plan(options, sources, fps);
 
   RenderPlan plan;
   plan.script_frames = script_frames(sources, base);

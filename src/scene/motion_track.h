@@ -37,8 +37,8 @@ struct VisibilityKey {
   bool visible = true;
 };
 
-// Of the first three lists the first and the last key only shape the curve: it stands at the second before
-// that key's time, and at the last but one after that. They have no keys, or at least four.
+// The first three lists have no keys, or at least four. Their curves run from the second key to the last but
+// one, and stand still before and after. The first and the last key only shape them.
 //
 // Keys at equal times make a jump; the later key holds from that time on. Keys at decreasing times are passed
 // over: at each time the first segment counts that ends later.

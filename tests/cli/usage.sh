@@ -27,7 +27,14 @@ for address in x 65536 example.org:80 ::1:80; do
 done
 run pprt-render ball.nff --live 0 --clock work; expect_usage "--live needs real time, not --clock work"
 run pprt-render ball.nff --live 0 --go-on; expect_usage "--live needs all ranks: it cannot be used with --go-on"
-run pprt-render ball.nff --live 0 --fps 0; expect_usage "--fps 0: with --live a rate of at least 1 is needed"
+for fps in 0 0.5 500; do
+  run pprt-render ball.nff --live 0 --fps $fps
+  expect_usage "--live needs a rate from 1 to 120 frames/s, not $fps; --fps sets it"
+done
+run pprt-render ball.nff --live 0 --quality 0.01
+expect_usage "--live has a rate: it takes no --time, --samples or --quality"
+run pprt-render ball.nff --live 0 -o x.png
+expect_usage "with --live, --output writes the frames of a script, and there is none"
 run pprt-render ball.nff --live 0 --stats x
 expect_usage "with --live, files beside the frames need the frames: name them by --output"
 run pprt-render ball.anim --frames 0-3; expect_usage "--frames 0-3: want FIRST-LAST, counted from 1, such as 1-40"

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "live/gate.h"
+#include "live/http_request.h"
 #include "live/steering.h"
 
 namespace {
@@ -24,16 +24,7 @@ void at_the_gate(std::string_view bytes) {
   parser.put(boost::asio::buffer(bytes.data(), bytes.size()), error);
   if (!parser.is_header_done()) return;
   const auto& request = parser.get();
-  const auto text = [&](http::field field) {
-    const boost::beast::string_view value = request[field];
-    return std::string_view(value.data(), value.size());
-  };
-  const boost::beast::string_view method = request.method_string(), target = request.target();
-  const pprt::GateRequest asked{.method = {method.data(), method.size()},
-                                .target = {target.data(), target.size()},
-                                .host = text(http::field::host),
-                                .origin = text(http::field::origin),
-                                .upgrade = boost::beast::websocket::is_upgrade(request)};
+  const pprt::GateRequest asked = pprt::gate_request(request);
   const pprt::GateAnswer answer = admit(asked, kToken, "127.0.0.1");
   const bool is_let_in = answer == pprt::GateAnswer::kPage || answer == pprt::GateAnswer::kConnect;
   if (is_let_in && asked.target.find(kToken) == std::string_view::npos) std::abort();

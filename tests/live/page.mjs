@@ -9,6 +9,8 @@ import {Chromium, sleep, until} from "./chromium.mjs";
 
 const directory = mkdtempSync(join(tmpdir(), "pprt-live-"));
 
+const programs = [];  // all that were started
+
 // pprt-render with a live view on a free port.
 class Program {
   static async start(...words) {
@@ -17,6 +19,7 @@ class Program {
     program.child = spawn("pprt-render", ["--live", "0", ...words], {stdio: ["ignore", "ignore", "pipe"], cwd: directory});
     program.child.stderr.on("data", (data) => { program.text += data; });
     program.ended = new Promise((resolve) => program.child.on("exit", resolve));
+    programs.push(program);
     program.url = await until("the address", () => program.text.match(/http:\S+/)?.[0]);
     return program;
   }
@@ -80,7 +83,7 @@ const cases = {
   "a drag turns the camera of who has taken it": async (browser) => {
     const program = await Program.start(...scene);
     const page = await open(browser, program);
-    await page.until("shown.rests");
+    await page.until("shown.at_rest");
     const still = await shown(page), number = await camera(page);
     await drag(page, 60, 20);
     await sleep(300);
@@ -235,12 +238,12 @@ const cases = {
     await page.until("canvas.width === 80 && canvas.height === 60");
     await choose("size", "160x120");
     await page.until("canvas.width === 160");
-    await page.until("shown.rests && shown.flip !== null");
+    await page.until("shown.at_rest && shown.flip !== null");
     const plain = await shown(page);
     const seen = new Set([plain]);
     for (const name of ["samples", "triangulation", "regions", "age"]) {
       await choose("overlay", name);
-      await page.until(`shown.rests && canvas.toDataURL() !== ${JSON.stringify([...seen].pop())}`);
+      await page.until(`shown.at_rest && canvas.toDataURL() !== ${JSON.stringify([...seen].pop())}`);
       seen.add(await shown(page));
     }
     assert.equal(seen.size, 5);
@@ -273,6 +276,42 @@ const cases = {
     await program.end();
   },
 
+  "two processes serve one sequence after the other, and sleep in between": async (browser) => {
+    const program = await Program.start(...scene, "-np", "2");
+    const page = await open(browser, program);
+    await take(page);
+    for (const fps of [30, 5, 60]) {
+      await page.evaluate(`connection.send({do: "rate", fps: ${fps}})`);
+      await stateIs(page, `state.rate === ${fps}`);
+      const before = await frame(page);
+      await drag(page, 20, 5);
+      await page.until(`Number(document.body.dataset.frame) > ${before + 3} && shown.look === look`);
+    }
+    // Finished, no frame is made until the camera moves.
+    const still = await until("a rest", async () => {
+      const number = await frame(page);
+      await sleep(700);
+      return await frame(page) === number && number;
+    });
+    await page.press("ArrowLeft");
+    await page.until(`Number(document.body.dataset.frame) > ${still}`);
+    noError(page);
+    assert.equal(await program.end(), 0);
+  },
+
+  "a lost connection that the program has not noticed gives the camera back": async (browser) => {
+    const program = await Program.start(...scene);
+    const page = await open(browser, program);
+    await take(page);
+    // A second connection, while the first one is still there.
+    await page.evaluate("old = connection.socket, old.onclose(), old.onclose = null, 1");
+    await page.until("hello.you === 2 && state.pilot === 1");
+    await page.evaluate("old.close(), 1");
+    await page.until("pilot.isPilot && state.pilot === 2");
+    noError(page);
+    await program.end();
+  },
+
   "files are written beside the live view": async (browser) => {
     writeFileSync(join(directory, "short.anim"), `animation { scene "spd:tree:5" frames 8 fps 12 resolution <160, 120>
       camera { key 1 { from <4.6, 0.4, 2> at <0, 0, 1.5> up <0, 0, 1> angle 45 } key 8 { from <4.6, 1, 2> } } }`);
@@ -280,6 +319,14 @@ const cases = {
     assert.equal(await program.ended, 0);
     assert.equal(readdirSync(directory).filter((name) => /^written_\d+\.png$/.test(name)).length, 8);
     assert.match(program.text, /done: 8 of 8 frames/);
+
+    // A pilot who comes, seeks and leaves takes no frame away.
+    const steered = await Program.start("short.anim", "-o", "steered_%d.png");
+    const page = await open(browser, steered);
+    await page.evaluate('connection.send({do: "take"}), connection.send({do: "seek", frame: 8})');
+    await page.evaluate("connection.ended = true, connection.socket.close(), 1");
+    assert.equal(await steered.ended, 0);
+    assert.equal(readdirSync(directory).filter((name) => /^steered_\d+\.png$/.test(name)).length, 8);
   },
 };
 
@@ -298,6 +345,7 @@ try {
   process.exitCode = 1;
 } finally {
   await browser.close();
+  for (const program of programs) program.child.kill("SIGKILL");
   rmSync(directory, {recursive: true, force: true});
 }
 process.exit();

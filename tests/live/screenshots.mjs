@@ -28,7 +28,7 @@ try {
   await page.screenshot(join(directory, "live.png"));
   await page.evaluate('connection.send({do: "overlay", name: "regions"})');
   await page.drag(middle, [middle[0] + 20, middle[1] + 6], 30);
-  await page.until("shown.rests");
+  await page.until("shown.at_rest");
   const phone = await browser.open(url, {width: 390, height: 780, dark: true});
   await phone.until("document.body.dataset.frame && state");
   await sleep(1500);

@@ -10,11 +10,17 @@ let state = null;       // what it told last
 let look = 0;           // number of the last camera that was sent
 let shown = null;       // header of the frame on the screen
 let keyFrame = true;    // the field of the next key's frame follows the keys
-let wantsCamera = false;  // had it when the connection was lost
+let lostNumber = 0;     // the number that this viewer had when it lost the connection, with the camera
 
+// One camera for each time that the screen is drawn, whatever the pointers do.
+let waiting = null;
 const pilot = new Pilot(canvas, (camera) => {
-  lag.send(++look, performance.now());
-  connection.send({do: "look", number: look, ...camera});
+  if (!waiting) requestAnimationFrame(() => {
+    lag.send(++look, performance.now());
+    connection.send({do: "look", number: look, ...waiting});
+    waiting = null;
+  });
+  waiting = camera;
 });
 
 // --- What comes
@@ -24,7 +30,8 @@ let drawing = Promise.resolve();
 const connection = new Connection({
   frame: (header, bytes) => {
     // Pictures are decoded one after the other, so that none overtakes another.
-    drawing = drawing.then(() => draw(header, bytes)).catch((error) => console.error(error));
+    drawing = drawing.then(() => draw(header, bytes)).catch((error) => console.error(error))
+      .finally(() => connection.acknowledge());
   },
   photo: (header, bytes) => {
     download(new Blob([bytes]), `photo.${header.photo}`);
@@ -33,11 +40,12 @@ const connection = new Connection({
   text: (message) => {
     if (message.hello) welcome(message.hello);
     if (message.state) update(message.state);
+    if (message.script) download(new Blob([message.script], {type: "text/plain"}), "film.anim");
     if (message.error) say(message.error);
     if (message.end) warn(message.end);
   },
   lost: (seconds) => {
-    wantsCamera = wantsCamera || pilot.isPilot;
+    if (pilot.isPilot) lostNumber = hello.you;
     pilot.isPilot = false;
     warn(`The connection is lost. The page tries again in ${seconds} s. If pprt-render has ended, ` +
       "start it again and open the address that it prints.");
@@ -56,10 +64,10 @@ async function draw(header, bytes) {
     canvas.getContext("2d", {alpha: false}).drawImage(picture, 0, 0);
     picture.close();
   }
-  connection.acknowledge();
   shown = header;
-  if (!pilot.isPilot || header.look === look) pilot.camera = header.view;
-  if (pilot.isPilot) lag.show(header.look, performance.now());
+  const isOwn = header.pilot === hello.you;
+  if (!pilot.isPilot || (isOwn && header.look === look && !waiting)) pilot.camera = header.view;
+  if (pilot.isPilot && isOwn) lag.show(header.look, performance.now());
   tell(header);
 }
 
@@ -98,8 +106,9 @@ function update(message) {
   const isPilot = state.pilot === hello.you;
   if (isPilot && !pilot.isPilot) look = 0, lag.forget();
   pilot.isPilot = isPilot;
-  if (wantsCamera && state.pilot === 0) connection.send({do: "take"});
-  wantsCamera = false;
+  // The program may take some seconds to notice that a connection is lost.
+  if (lostNumber && state.pilot === 0) connection.send({do: "take"});
+  if (state.pilot !== lostNumber) lostNumber = 0;
 
   canvas.classList.toggle("steered", isPilot);
   const others = state.viewers.filter((viewer) => viewer !== hello.you);
@@ -142,10 +151,10 @@ function fill(select, entries) {
   if (entries.some(([value]) => String(value) === now)) select.value = now;
 }
 
-// Sizes of the picture's own shape, by height.
+// Sizes of the first picture's shape.
 function fillSizes() {
   const [width, height] = state.size;
-  const own = hello.own_size || (hello.own_size = state.size);
+  const own = hello.size;
   const sizes = new Map();
   for (const factor of [0.25, 0.5, 0.75, 1, 1.5, 2]) {
     const size = own.map((side) => Math.max(1, Math.round(side * factor)));
@@ -225,7 +234,7 @@ const actions = {
     connection.send({do: "key", frame: Number(element("key-frame").value)});
   },
   undo: () => connection.send({do: "undo"}),
-  save: () => download(new Blob([state.script], {type: "text/plain"}), "film.anim"),
+  save: () => connection.send({do: "script"}),
   photo: () => connection.send({do: "photo", format: element("format").value}),
   theme: () => {
     const dark = document.documentElement.dataset.theme ?
@@ -246,6 +255,7 @@ const settings = {
 for (const [id, command] of Object.entries(settings)) {
   element(id).addEventListener("change", (event) => connection.send(command(event.target.value)));
 }
+element("pass").addEventListener("change", () => { element("pass").value = ""; });
 element("scrub").addEventListener("input", (event) => connection.send({do: "seek", frame: Number(event.target.value)}));
 element("plays-film").addEventListener("change", (event) => connection.send({do: "film", on: event.target.checked}));
 element("key-frame").addEventListener("input", () => { keyFrame = false; });

@@ -14,6 +14,7 @@ TEST_CASE("live address: a port, with or without an address before it") {
   CHECK(http_address(parse_live_address("localhost:81")) == "http://127.0.0.1:81/");
   CHECK(http_address(parse_live_address("0.0.0.0:65535")) == "http://0.0.0.0:65535/");
   CHECK(http_address(parse_live_address("[::1]:8080")) == "http://[::1]:8080/");
+  CHECK(http_address(parse_live_address("[2001:DB8:0::5]:80")) == "http://[2001:db8::5]:80/");
 }
 
 TEST_CASE("live address: anything else is refused with an example") {

@@ -103,6 +103,16 @@ TEST_CASE("live view: a photo goes to who asked for it, and the end is told") {
   CHECK(viewer.hear().is_null());
 }
 
+TEST_CASE("live view: what cannot be encoded is told, and the next picture comes") {
+  LiveView view({}, show());
+  Viewer viewer(view);
+  viewer.hear_of("state");
+  view.show({.image = Image(), .shot = {}, .figures = {.number = 1}});
+  CHECK(viewer.hear_of("error")["error"] != "");
+  view.show(picture_of({}, 2));
+  CHECK(viewer.hear_of("camera")["type"] == "image/jpeg");
+}
+
 TEST_CASE("live view: an overlay is drawn before the picture is sent") {
   LiveView view({}, show());
   Viewer viewer(view);

@@ -23,18 +23,26 @@ TEST_CASE("rest watch: a camera is at rest when it has not moved for half a seco
   CHECK_FALSE(watch.is_at_rest(true, 10.7));
 }
 
-TEST_CASE("picture stream: JPEG while the camera moves, at rest PNG four times a second") {
+TEST_CASE(
+    "picture stream: JPEG while the camera moves, at rest PNG four times a second, or for something new") {
   PictureStream stream;
-  const Image image = picture(3);
-  CHECK(stream.encode(image, false, 0).type == "image/jpeg");
-  CHECK(stream.encode(image, false, 0).bytes.starts_with("\xff\xd8"));
-  const EncodedPicture png = stream.encode(image, true, 1);
-  CHECK(png.type == "image/png");
-  CHECK(png.bytes.substr(1, 3) == "PNG");
-  CHECK(stream.encode(image, true, 1.2).type.empty());
-  CHECK(stream.encode(image, true, 1.3).type == "image/png");
-  CHECK(stream.encode(image, false, 1.31).type == "image/jpeg");
-  CHECK(stream.encode(image, true, 1.32).type == "image/png");
+  CHECK(stream.next(false, true, 0) == PictureCoding::kJpeg);
+  CHECK(stream.next(false, false, 0) == PictureCoding::kJpeg);
+  CHECK(stream.next(true, false, 1) == PictureCoding::kPng);
+  CHECK(stream.next(true, false, 1.2) == PictureCoding::kNone);
+  CHECK(stream.next(true, true, 1.2) == PictureCoding::kPng);
+  CHECK(stream.next(true, false, 1.3) == PictureCoding::kNone);
+  CHECK(stream.next(true, false, 1.5) == PictureCoding::kPng);
+  CHECK(stream.next(false, false, 1.51) == PictureCoding::kJpeg);
+  CHECK(stream.next(true, false, 1.52) == PictureCoding::kPng);
+}
+
+TEST_CASE("picture stream: what is encoded is what it says") {
+  const EncodedPicture jpeg = encoded(picture(3), PictureCoding::kJpeg),
+                       png = encoded(picture(3), PictureCoding::kPng);
+  CHECK((jpeg.type == "image/jpeg" && jpeg.bytes.starts_with("\xff\xd8")));
+  CHECK((png.type == "image/png" && png.bytes.substr(1, 3) == "PNG"));
+  CHECK(encoded(picture(3), PictureCoding::kNone).type.empty());
 }
 
 TEST_CASE("rest estimate: nothing is known of a moving camera, nor before the samples have doubled") {
@@ -59,6 +67,13 @@ TEST_CASE("rest estimate: it is the change while the samples doubled, and falls 
   const auto same = estimate.add(picture(2), 400, true, true);
   REQUIRE(same);
   CHECK(*same == 0);
+}
+
+TEST_CASE("rest estimate: a picture of another size is another picture") {
+  RestEstimate estimate;
+  estimate.add(picture(4), 100, true, true);
+  CHECK_FALSE(estimate.add(Image(32, 32), 300, true, true));
+  CHECK(estimate.add(Image(32, 32), 900, true, true));
 }
 
 }  // namespace

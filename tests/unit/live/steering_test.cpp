@@ -22,9 +22,9 @@ View view_from(double x) {
 // A steering, and what it has told.
 class Stage {
  public:
-  explicit Stage(int script_frames = 0, bool plays_unwatched = true)
+  explicit Stage(int script_frames = 0, bool records = false)
       : steering(
-            show(script_frames, plays_unwatched),
+            show(script_frames, records),
             {.tell = [this](int client, std::string text) { told.emplace_back(client, Json::parse(text)); },
              .tell_all = [this](std::string text) { state = Json::parse(text)["state"]; }}) {
     steering.next_run();
@@ -52,11 +52,14 @@ class Stage {
   Steering steering;
 
  private:
-  static LiveShow show(int script_frames, bool plays_unwatched) {
+  static LiveShow show(int script_frames, bool records) {
     LiveShow show{.title = "a scene", .scene_name = "spd:tree", .home = view_from(-1)};
-    show.plays_unwatched = plays_unwatched;
+    show.records = records;
     for (int n = 1; n <= script_frames; ++n)
       show.script.push_back({.number = 10 + n, .view = view_from(n), .cut = n == 3});
+    show.require_size = [](int width, int) {
+      if (width > 2000) throw std::runtime_error("too large");
+    };
     show.require_camera = [](const View& view) {
       if (view.from.x > 1e6) throw std::runtime_error("too far away");
     };
@@ -65,7 +68,7 @@ class Stage {
 };
 
 TEST_CASE("steering: a script plays to its end and stays there") {
-  Stage stage(3);
+  Stage stage(3, true);
   for (int n = 1; n <= 3; ++n) {
     CHECK_FALSE(stage.steering.is_played_out());
     const LiveShot shot = stage.shot();
@@ -86,7 +89,7 @@ TEST_CASE("steering: a client is told who it is, and all who has the camera") {
   stage.steering.joined(4);
   REQUIRE(stage.told.size() == 1);
   const Json hello = stage.told[0].second["hello"];
-  CHECK((hello["you"] == 4 && hello["title"] == "a scene" && hello["script"] == true));
+  CHECK((hello["you"] == 4 && hello["title"] == "a scene"));
   CHECK(hello["home"]["from"] == Json({-1.0, 0.0, 0.0}));
   stage.steering.joined(5);
   stage.say(4, R"({"do":"take"})");
@@ -158,9 +161,7 @@ TEST_CASE("steering: a film that becomes shorter while it plays ends") {
   stage.say(1, R"({"do":"drop","frame":9})");
   CHECK(stage.state["frames"] == 1);
   stage.shot();
-  CHECK(stage.steering.is_played_out() == false);  // there is a pilot
-  CHECK(stage.state["plays"] == true);             // told before the frame
-  stage.say(1, R"({"do":"give"})");
+  CHECK_FALSE(stage.steering.is_played_out());  // there is a pilot
   CHECK(stage.state["plays"] == false);
 }
 
@@ -242,7 +243,8 @@ TEST_CASE("steering: keys make a film, which plays and is saved") {
   stage.look(1, 3, 2), stage.shot();
   stage.say(1, R"({"do":"key","frame":5})");
   CHECK(stage.state["keys"] == Json({1, 5, 9}));
-  const auto script = stage.state["script"].get<std::string>();
+  stage.say(2, R"({"do":"script"})");  // anybody may have it
+  const auto script = stage.told.back().second["script"].get<std::string>();
   CHECK(script.find("scene \"spd:tree\"") != std::string::npos);
   CHECK(script.find("frames 9 fps 24 resolution <64, 48>") != std::string::npos);
   CHECK(script.find("key 5 { from <2, 0, 0> at <0, 0, 9> up <0, 1, 0> angle 40 }") != std::string::npos);
@@ -266,23 +268,87 @@ TEST_CASE("steering: keys make a film, which plays and is saved") {
   stage.say(1, R"({"do":"undo"})");
   stage.say(1, R"({"do":"undo"})");
   CHECK(stage.state["keys"].empty());
-  CHECK(stage.state["script"] == "");
+  stage.say(1, R"({"do":"script"})");
+  CHECK(stage.error() == "the film has no key yet");
   CHECK(stage.state["film"] == false);
   stage.say(1, R"({"do":"undo"})");
   CHECK(stage.error() == "there is nothing to undo");
   CHECK(stage.shot().view.from.x == 3);  // what was seen stays
 }
 
+TEST_CASE("steering: a picture is finished until something changes it, but not while a script plays") {
+  Stage stage(3);
+  stage.steering.joined(1);
+  const LiveShot first = stage.shot();
+  stage.steering.rest(first.wish);
+  CHECK(stage.shot().position == 2);
+  stage.say(1, R"({"do":"take"})");
+  const LiveShot still = stage.shot();
+  stage.steering.rest(still.wish);
+  CHECK_FALSE(stage.steering.next_shot());
+  stage.say(1, R"({"do":"key","frame":1})");
+  CHECK_FALSE(stage.steering.wait_for_wish(0));
+  stage.look(1, 1, 8);
+  stage.steering.rest(still.wish);  // of a frame ordered before
+  CHECK(stage.steering.wait_for_wish(0));
+  CHECK(stage.shot().view.from.x == 8);
+}
+
+TEST_CASE("steering: where frames are recorded, each is shown, whatever a pilot did and left") {
+  Stage stage(4, true);
+  stage.steering.joined(1);
+  CHECK(stage.shot().position == 1);
+  stage.say(1, R"({"do":"take"})");
+  stage.say(1, R"({"do":"seek","frame":4})");
+  CHECK(stage.shot().position == 4);
+  stage.look(1, 1, 9);
+  stage.shot();
+  stage.steering.left(1);
+  const LiveShot next = stage.shot();
+  CHECK((next.position == 2 && next.cut));
+  CHECK(stage.shot().position == 3);
+  CHECK(stage.shot().position == 4);
+  CHECK(stage.steering.is_played_out());
+}
+
+TEST_CASE("steering: given back, the script plays on, not the film") {
+  Stage stage(5);
+  stage.steering.joined(1);
+  stage.shot(), stage.shot();
+  stage.say(1, R"({"do":"take"})");
+  stage.look(1, 1, 9), stage.shot();
+  stage.say(1, R"({"do":"key","frame":3})");
+  stage.say(1, R"({"do":"film","on":true})");
+  stage.say(1, R"({"do":"play"})");
+  CHECK(stage.shot().position == 1);
+  stage.say(1, R"({"do":"give"})");
+  const LiveShot back = stage.shot();
+  CHECK((back.position == 3 && back.script_frame == 13 && back.cut));
+  CHECK(stage.state["film"] == false);
+}
+
+TEST_CASE("steering: a size that memory cannot hold is refused") {
+  Stage stage;
+  stage.steering.joined(1);
+  stage.say(1, R"({"do":"take"})");
+  stage.say(1, R"({"do":"size","width":4000,"height":4000})");
+  CHECK(stage.error() == "too large");
+  CHECK(stage.steering.next_shot());
+}
+
+TEST_CASE("steering: a name that is no UTF-8 can be told") {
+  std::string told;
+  Steering steering({.title = "caf\xe9"}, {.tell = [&](int, std::string text) { told = std::move(text); },
+                                           .tell_all = [](const std::string&) {}});
+  CHECK_NOTHROW(steering.joined(1));
+  CHECK(Json::accept(told));
+}
+
 TEST_CASE("steering: frames are wanted while somebody watches and the picture is not finished") {
-  Stage stage(0, false);
+  Stage stage;
   CHECK_FALSE(stage.steering.wait_for_wish(0));
   CHECK_FALSE(stage.steering.next_shot());
   stage.steering.joined(1);
-  CHECK(stage.steering.wait_for_wish(0));
-  stage.shot();
-  stage.steering.rest();
-  CHECK_FALSE(stage.steering.next_shot());
-  stage.say(1, R"({"do":"take"})");
   CHECK(stage.steering.wait_for_wish(0));
   stage.shot();
   stage.steering.left(1);

@@ -1,0 +1,60 @@
+// Keys of a recorded film, and undo.
+#include "live/film_keys.h"
+
+#include <catch2/catch.hpp>
+
+namespace pprt {
+namespace {
+
+View view_from(double x) {
+  View view;
+  view.from = {x, 0, 0};
+  return view;
+}
+
+std::vector<double> frames_of(const FilmKeys& film) {
+  std::vector<double> frames;
+  for (const CameraKey& key : film.keys()) frames.push_back(key.frame);
+  return frames;
+}
+
+TEST_CASE("film keys: they stay in order, and a frame has one") {
+  FilmKeys film;
+  CHECK(film.frames() == 0);
+  for (const int frame : {9, 1, 5, 9}) CHECK(film.set(frame, view_from(frame)));
+  CHECK(frames_of(film) == std::vector<double>{1, 5, 9});
+  CHECK(film.frames() == 9);
+  CHECK(film.set(5, view_from(50)));
+  CHECK(film.keys()[1].from.x == 50);
+  CHECK_FALSE(film.drop(6));
+  CHECK(film.drop(1));
+  CHECK(frames_of(film) == std::vector<double>{5, 9});
+}
+
+TEST_CASE("film keys: each change can be undone, the last first") {
+  FilmKeys film;
+  CHECK_FALSE(film.undo());
+  film.set(1, view_from(1));
+  film.set(1, view_from(2));
+  film.drop(1);
+  CHECK(film.undo());
+  CHECK(film.keys()[0].from.x == 2);
+  CHECK(film.undo());
+  CHECK(film.keys()[0].from.x == 1);
+  CHECK(film.undo());
+  CHECK(film.keys().empty());
+  CHECK_FALSE(film.can_undo());
+}
+
+TEST_CASE("film keys: there are so many and no more, in the list and to undo") {
+  FilmKeys film;
+  for (int n = 1; n <= static_cast<int>(FilmKeys::kMost); ++n) REQUIRE(film.set(n, view_from(n)));
+  CHECK_FALSE(film.set(5000, view_from(0)));
+  CHECK(film.set(7, view_from(0)));
+  int undone = 0;
+  while (film.undo()) ++undone;
+  CHECK(undone == 100);
+}
+
+}  // namespace
+}  // namespace pprt
