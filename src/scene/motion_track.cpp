@@ -3,9 +3,9 @@
 #include <Imath/ImathQuat.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 namespace pprt {
 namespace {

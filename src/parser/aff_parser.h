@@ -1,0 +1,39 @@
+// Reads AFF, the Animated File Format of BART (Lext, Assarsson and Moller 2000), through all its includes.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "scene/moving_scene.h"
+
+namespace pprt {
+
+// How a scene is read. The limits keep hostile or broken files from exhausting memory.
+struct AffOptions {
+  bool strict = false;          // every deviation is an error, also one that causes no warning
+  bool files_anywhere = false;  // included files may lie outside the folder of the scene
+
+  int max_depth = 64;                            // of includes, and of transforms
+  std::size_t max_reads = 100'000;               // of files
+  std::size_t max_bytes = std::size_t{1} << 30;  // read in all
+  std::size_t max_rows = 20'000'000;             // of one list
+  std::size_t max_triangles = 50'000'000;        // in all
+  std::size_t max_errors = 1'000;                // reading stops here
+};
+
+// A scene and the warnings of its reading.
+struct ParsedMovingScene {
+  MovingScene scene;
+  std::string warnings;  // formatted with their places, each line ended; empty when there are none
+};
+
+// Reads a scene from memory, which can include no file. `file_name` is for messages. Throws as read_aff().
+ParsedMovingScene parse_aff(std::string_view text, std::string_view file_name,
+                            const AffOptions& options = {});
+
+// Reads a scene from a file. An included file lies beside the one that includes it, or beside the scene.
+// Throws InputError with every problem of every file, each with file:line:column.
+ParsedMovingScene read_aff(const std::string& path, const AffOptions& options = {});
+
+}  // namespace pprt

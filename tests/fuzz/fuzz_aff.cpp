@@ -1,0 +1,60 @@
+// libFuzzer entry. Any bytes must be an InputError, or a scene whose indices are in range and that is finite
+// at every time.
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "base/diagnostics.h"
+#include "parser/aff_parser.h"
+
+namespace {
+
+void require(bool holds) {
+  if (!holds) std::abort();
+}
+
+void check(const pprt::MovingScene& scene) {
+  for (std::size_t i = 1; i < scene.nodes.size(); ++i) require(scene.nodes[i].parent < i);
+  const auto check_place = [&](const pprt::ObjectPlace& place) {
+    require(place.material < scene.materials.size() && place.node < scene.nodes.size());
+  };
+  for (const pprt::Mesh& mesh : scene.meshes) {
+    check_place(mesh.place);
+    require(!mesh.texture || *mesh.texture < scene.textures.size());
+    for (const pprt::MeshTriangle& t : mesh.triangles) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        require(t.position[i] < mesh.positions.size());
+        require(mesh.normals.empty() || t.normal[i] < mesh.normals.size());
+        require(mesh.texture_points.empty() || t.texture_point[i] < mesh.texture_points.size());
+      }
+    }
+  }
+  for (const double time : {-1e100, 0.0, 0.5, 1.0, 2.5, 1e100}) {
+    pprt::placements_at(scene, time);
+    for (const auto& [name, track] : scene.tracks) {
+      const pprt::Affine map = pprt::placement_at(track, time).to_parent;
+      require(!std::isnan(map.origin.x + map.origin.y + map.origin.z));
+    }
+    for (const pprt::MovingTriangle& triangle : scene.moving_triangles) {
+      check_place(triangle.place);
+      pprt::shape_at(triangle, time);
+    }
+    pprt::view_at(scene, time);
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
+  try {
+    pprt::AffOptions options;
+    options.strict = (data[0] & 1) != 0;
+    check(pprt::parse_aff(text, "fuzz.aff", options).scene);
+  } catch (const pprt::InputError&) {
+  }
+  return 0;
+}
