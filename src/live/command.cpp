@@ -26,7 +26,7 @@ const Json& member(const Json& object, const char* name) {
 double number(const Json& value, const char* name, double least, double most) {
   const double v = value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
   if (!(v >= least && v <= most))
-    throw CommandError(fmt::format("'{}' is not a number from {:g} to {:g}", name, least, most));
+    throw CommandError(fmt::format("'{}' is not a number from {:.10g} to {:.10g}", name, least, most));
   return v;
 }
 

@@ -107,7 +107,8 @@ class LiveView::Impl {
     const double now_s = seconds_now();
     const bool is_at_rest = rest_.is_at_rest(picture.rests, now_s);
     const Shown shown{picture.shot.camera, picture.image.width, picture.image.height, picture.shot.overlay};
-    const PictureCoding coding = stream_.next(is_at_rest, !(shown == sent_), now_s);
+    const PictureCoding coding =
+        picture.is_partial ? PictureCoding::kNone : stream_.next(is_at_rest, !(shown == sent_), now_s);
     const bool is_drawn_over = picture.overlaid && coding != PictureCoding::kNone;
     EncodedPicture bytes = encoded(is_drawn_over ? picture.overlaid(picture.image) : picture.image, coding);
     if (coding != PictureCoding::kNone) sent_ = shown;

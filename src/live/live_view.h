@@ -20,8 +20,10 @@ struct LivePicture {
   Image image;
   LiveShot shot = {};
   FrameFigures figures = {};
-  bool rests = false;  // it shows the same as the frame before, whose samples it keeps
-  std::function<Image(const Image& image)> overlaid = {};  // draws the shot's overlay; null: there is none
+  bool rests = false;       // it shows the same as the frame before, whose samples it keeps
+  bool is_partial = false;  // its overlay lacks what late ranks have not sent: the picture before is kept
+  // Draws the shot's overlay; null: there is none.
+  std::function<Image(const Image& image)> overlaid = {};
 };
 
 // Encodes and serves in threads of its own: no call waits for a client or for an encoder. Where pictures come

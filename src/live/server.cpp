@@ -57,6 +57,7 @@ class LiveServer::Impl {
  private:
   class Client;
   class Visit;
+  void listen_at(const tcp::endpoint& endpoint);
   void run();
   void accept();
   int join(const std::shared_ptr<Client>& client);
@@ -286,6 +287,15 @@ class LiveServer::Impl::Visit : public std::enable_shared_from_this<Visit> {
 
 LiveServer::Impl::Impl(LiveServerSettings settings) : settings_(std::move(settings)) {
   const tcp::endpoint endpoint(asio::ip::make_address(settings_.address), settings_.port);
+  try {
+    listen_at(endpoint);
+  } catch (const boost::system::system_error& e) {
+    throw std::runtime_error("--live " + settings_.address + ":" + std::to_string(settings_.port) + ": " +
+                             e.code().message() + "; port 0 is any that is free");
+  }
+}
+
+void LiveServer::Impl::listen_at(const tcp::endpoint& endpoint) {
   acceptor_.open(endpoint.protocol());
   acceptor_.set_option(asio::socket_base::reuse_address(true));
   acceptor_.bind(endpoint);

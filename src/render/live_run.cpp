@@ -48,8 +48,8 @@ std::string where_to_look(const LiveView& view, const LiveAddress& address) {
     for (const HostNetwork& network : host_networks())
       text += fmt::format("pprt-render: from {}: {}\n", network.interface, view.url_at(network.host));
   } else if (at == "127.0.0.1" || at == "::1") {
-    text += fmt::format("pprt-render: from another host first: ssh -L {0}:{1}:{0} {2}\n", view.port(),
-                        at == "::1" ? "[::1]" : "localhost", host_name());
+    text += fmt::format("pprt-render: to open it on another host, run there first: ssh -L {0}:{1}:{0} {2}\n",
+                        view.port(), at == "::1" ? "[::1]" : "localhost", host_name());
   }
   return text + "pprt-render: Ctrl-C ends it\n";
 }
@@ -70,18 +70,26 @@ std::optional<Layer> layer_of(Overlay overlay) {
   return std::nullopt;
 }
 
-// Tells when a picture at rest looks finished: for a second nothing has been worth a sample, by the rule of a
-// still.
+// Tells when a picture at rest is finished: over as many whole frames as a second has, nothing has been worth
+// a sample by the rule of a still, or the frames had no time left for samples. Large pictures take all of it
+// to be reconstructed.
 class StillWatch {
  public:
   StillWatch(double still_weight, double frames_per_second)
       : still_weight_(still_weight), frames_(static_cast<int>(std::ceil(frames_per_second))) {}
 
   bool is_finished(const FinishedFrame& frame) {
-    const auto looks_finished = [this](const RankReport& rank) { return rank.refinement <= still_weight_; };
-    const bool still = frame.order.carry == Carry::kAccumulate && frame.late_ranks.empty() &&
-                       std::all_of(frame.ranks.begin(), frame.ranks.end(), looks_finished);
-    in_a_row_ = still ? in_a_row_ + 1 : 0;
+    if (frame.order.carry != Carry::kAccumulate) in_a_row_ = 0;
+    if (frame.order.carry != Carry::kAccumulate || !frame.late_ranks.empty()) return false;
+    std::uint64_t samples = 0, fresh = 0;
+    bool looks_finished = true;
+    for (const RankReport& rank : frame.ranks) {
+      samples += rank.samples_in_region;
+      fresh += rank.samples_new;
+      looks_finished = looks_finished && rank.refinement <= still_weight_;
+    }
+    constexpr std::uint64_t kLeastGain = 200;  // one sample in so many
+    in_a_row_ = looks_finished || fresh * kLeastGain < samples ? in_a_row_ + 1 : 0;
     return in_a_row_ > frames_;
   }
 
@@ -157,11 +165,10 @@ class LiveRunner {
       const std::optional<LiveShot> shot = view_.steering().next_shot();
       if (!shot) return std::nullopt;
       shots.push_back(*shot);
-      const std::optional<Layer> layer = layer_of(shot->overlay);
       return FrameRequest{.number = ++number_,
                           .camera = camera_of(shot->view),
                           .cut = shot->cut,
-                          .report_samples = layer && needs_samples(*layer)};
+                          .report_samples = shows_samples(*shot)};
     };
     run_sequence_(settings, source, [&](FinishedFrame&& frame) {
       const LiveShot shot = shots.front();
@@ -189,9 +196,16 @@ class LiveRunner {
                                     .samples = samples,
                                     .late_ranks = frame.late_ranks},
                         .rests = frame.order.carry == Carry::kAccumulate,
+                        .is_partial = !frame.late_ranks.empty() && shows_samples(shot),
                         .overlaid = overlay_of(frame, shot, grid)};
     if (is_recorded) record(std::move(frame), shot.script_frame);
     view_.show(std::move(picture));
+  }
+
+  // Late ranks' samples are missing.
+  static bool shows_samples(const LiveShot& shot) {
+    const std::optional<Layer> layer = layer_of(shot.overlay);
+    return layer && needs_samples(*layer);
   }
 
   static std::function<Image(const Image&)> overlay_of(const FinishedFrame& frame, const LiveShot& shot,

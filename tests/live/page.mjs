@@ -174,6 +174,7 @@ const cases = {
     // The cameras that the page shows as it plays the film.
     await page.click("plays-film");
     await stateIs(page, "state.film && state.frames === 7");
+    await stateIs(page, "!state.plays");
     const views = [];
     for (let n = 1; n <= 7; ++n) {
       await page.evaluate(`connection.send({do: "seek", frame: ${n}})`);
@@ -251,7 +252,7 @@ const cases = {
     for (const [format, magic] of [["png", [0x89, 0x50, 0x4e, 0x47]], ["exr", [0x76, 0x2f, 0x31, 0x01]]]) {
       await choose("format", format);
       await page.click("photo");
-      const file = join(directory, `photo.${format}`);
+      const file = join(directory, `photo-${format === "png" ? 1 : 2}.${format}`);
       await until(format, () => existsSync(file) && readFileSync(file).length > 1000);
       assert.deepEqual([...readFileSync(file).subarray(0, 4)], magic);
       await stateIs(page, "!state.photo");

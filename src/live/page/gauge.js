@@ -9,6 +9,10 @@ class Gauge {
     this.frames = [];
   }
 
+  forget() {
+    this.frames = [];
+  }
+
   // `rate`: frames/s
   add(frames, rate) {
     this.frames = this.frames.concat(frames).slice(-Gauge.kFrames);
@@ -61,6 +65,7 @@ class Lag {
 
   forget() {
     this.sent = [];
+    this.seen = [];
   }
 
   median() {

@@ -9,6 +9,7 @@ let hello = null;       // what the program has told at the beginning
 let state = null;       // what it told last
 let look = 0;           // number of the last camera that was sent
 let shown = null;       // header of the frame on the screen
+let photos = 0;         // taken
 let keyFrame = true;    // the field of the next key's frame follows the keys
 let lostNumber = 0;     // the number that this viewer had when it lost the connection, with the camera
 
@@ -34,15 +35,19 @@ const connection = new Connection({
       .finally(() => connection.acknowledge());
   },
   photo: (header, bytes) => {
-    download(new Blob([bytes]), `photo.${header.photo}`);
-    say(`The photo is saved as photo.${header.photo}.`);
+    const name = `photo-${++photos}.${header.photo}`;
+    download(new Blob([bytes]), name);
+    say(`The photo is saved as ${name}.`);
   },
   text: (message) => {
     if (message.hello) welcome(message.hello);
     if (message.state) update(message.state);
-    if (message.script) download(new Blob([message.script], {type: "text/plain"}), "film.anim");
+    if (message.script) {
+      download(new Blob([message.script], {type: "text/plain"}), "film.anim");
+      say("The script is saved as film.anim.");
+    }
     if (message.error) say(message.error);
-    if (message.end) warn(message.end);
+    if (message.end) end(message.end);
   },
   lost: (seconds) => {
     if (pilot.isPilot) lostNumber = hello.you;
@@ -82,10 +87,10 @@ function tell(header) {
   element("late").textContent = last.late.length > 0 ? last.late.join(", ") : "none";
   const median = lag.median();
   element("lag").textContent =
-    median === null ? "–" : `${median.toFixed(0)} ms, ${(median * rate / 1000).toFixed(1)} periods`;
+    median === null ? "–" : `${median.toFixed(0)} ms (${(median * rate / 1000).toFixed(1)})`;
   const frames = state ? state.frames : 0;
   const inPlay = header.position > 0 && frames > 0;
-  element("position").textContent = inPlay ? `${header.position} of ${frames}` : "by hand";
+  element("position").textContent = inPlay ? `${header.position} of ${frames}` : header.camera > 1 ? "by hand" : "first view";
   if (inPlay && document.activeElement !== element("scrub")) element("scrub").value = header.position;
   document.body.dataset.camera = header.camera;
   document.body.dataset.frame = last.number;
@@ -102,7 +107,12 @@ function welcome(message) {
 }
 
 function update(message) {
+  const before = state;
   state = message;
+  if (before && (before.rate !== state.rate || String(before.size) !== String(state.size))) {
+    lag.forget();
+    gauge.forget();
+  }
   const isPilot = state.pilot === hello.you;
   if (isPilot && !pilot.isPilot) look = 0, lag.forget();
   pilot.isPilot = isPilot;
@@ -125,15 +135,17 @@ function update(message) {
 
   for (const id of ["settings", "film", "transport"]) element(id).disabled = !isPilot;
   element("rate").value = Math.round(100 * Math.log(state.rate) / Math.log(hello.rates[1]));
-  element("rate-text").textContent = `${state.rate} frames/s`;
+  element("rate-text").textContent = `${state.rate} ${state.rate === 1 ? "frame" : "frames"}/s`;
   fillSizes();
   element("overlay").value = state.overlay;
   element("photo").disabled = state.photo;
   if (state.photo) say("The photo is being taken: the frames wait.");
+  if (before && before.photo && !state.photo && !isPilot) say("The photo is taken.");
 
   element("play-shape").setAttribute("d", state.plays ? "M3 2h4v12H3zM9 2h4v12H9z" : "M4 2l9 6-9 6z");
   element("play").setAttribute("aria-label", state.plays ? "Pause" : "Play");
-  for (const id of ["play", "back", "forth", "scrub"]) element(id).disabled = state.frames === 0;
+  for (const id of ["back", "forth", "scrub"]) element(id).disabled = state.frames === 0;
+  element("play").disabled = state.frames === 0 && state.keys.length === 0;
   element("scrub").max = Math.max(1, state.frames);
   element("undo").disabled = !state.undo;
   element("save").disabled = state.keys.length === 0;
@@ -170,11 +182,19 @@ function fillSizes() {
 function showKeys() {
   element("keys").replaceChildren(...state.keys.map((frame) => {
     const item = document.createElement("li");
-    const button = document.createElement("button");
-    button.textContent = `${frame} ✕`;
-    button.setAttribute("aria-label", `Drop the key at frame ${frame}`);
-    button.onclick = () => connection.send({do: "drop", frame});
-    item.append(button);
+    const add = (text, what, act) => {
+      const button = document.createElement("button");
+      button.textContent = text;
+      button.title = what;
+      button.setAttribute("aria-label", what);
+      button.onclick = act;
+      item.append(button);
+    };
+    add(frame, `Show the key at frame ${frame}`, () => {
+      connection.send({do: "film", on: true});
+      connection.send({do: "seek", frame});
+    });
+    add("✕", `Drop the key at frame ${frame}`, () => connection.send({do: "drop", frame}));
     return item;
   }));
   const span = Math.max(1, state.frames - 1);
@@ -196,6 +216,21 @@ function say(text) {
   element("note").replaceChildren(span);
   clearTimeout(noteTimer);
   noteTimer = setTimeout(() => element("note").replaceChildren(), 5000);
+}
+
+function sayWhoHasIt() {
+  say(state && state.pilot > 0 ? `Viewer number ${state.pilot} has the camera.` : "Take the camera first: t");
+}
+canvas.addEventListener("pointerdown", () => { if (!pilot.isPilot) sayWhoHasIt(); });
+
+// Nothing more can be asked for.
+function end(text) {
+  warn(text);
+  pilot.isPilot = false;
+  element("note").replaceChildren();
+  element("viewers").textContent = "";
+  for (const id of ["take", "settings", "film", "transport"]) element(id).disabled = true;
+  element("pass-label").hidden = true;
 }
 
 function warn(text) {
@@ -226,7 +261,11 @@ function download(blob, name) {
 
 const actions = {
   take: () => connection.send({do: pilot.isPilot ? "give" : "take"}),
-  play: () => connection.send({do: state.plays ? "pause" : "play"}),
+  // Without a script the film plays.
+  play: () => {
+    if (state.frames === 0) connection.send({do: "film", on: true});
+    connection.send({do: state.plays ? "pause" : "play"});
+  },
   back: () => connection.send({do: "step", by: -1}),
   forth: () => connection.send({do: "step", by: 1}),
   key: () => {
@@ -257,7 +296,10 @@ for (const [id, command] of Object.entries(settings)) {
 }
 element("pass").addEventListener("change", () => { element("pass").value = ""; });
 element("scrub").addEventListener("input", (event) => connection.send({do: "seek", frame: Number(event.target.value)}));
-element("plays-film").addEventListener("change", (event) => connection.send({do: "film", on: event.target.checked}));
+element("plays-film").addEventListener("change", (event) => {
+  connection.send({do: "film", on: event.target.checked});
+  if (event.target.checked) connection.send({do: "play"});
+});
 element("key-frame").addEventListener("input", () => { keyFrame = false; });
 
 const shortcuts = {t: "take", " ": "play", b: "back", n: "forth", k: "key", u: "undo", s: "save", p: "photo", "?": "help-button"};
@@ -272,6 +314,8 @@ document.addEventListener("keydown", (event) => {
     return overlay.dispatchEvent(new Event("change"));
   }
   const button = element(shortcuts[event.key]);
+  const needsCamera = button ? !["take", "help-button"].includes(button.id) : /^Arrow|^[-+=,.\[\]ho]$/.test(event.key);
+  if (needsCamera && !pilot.isPilot) return sayWhoHasIt();
   if (!button || button.matches(":disabled")) return;
   event.preventDefault();
   button.click();
