@@ -133,6 +133,16 @@ TEST_CASE("live server: the page comes for its token, and nothing without") {
         "http://127.0.0.1:" + std::to_string(stage.server().port()) + "/" + stage.server().token() + "/");
 }
 
+TEST_CASE("live server: the page may speak to its own server alone, and a host cannot add to that") {
+  Stage stage;
+  const std::string head = "GET /" + stage.server().token() + "/ HTTP/1.1\r\nHost: ";
+  CHECK(stage.reply(head + "localhost:8080\r\n\r\n").find("connect-src 'self' ws://localhost:8080; frame") !=
+        std::string::npos);
+  const std::string odd = stage.reply(head + "localhost:1; script-src *\r\n\r\n");
+  CHECK(odd.find("connect-src 'self'; frame-ancestors 'none'") != std::string::npos);
+  CHECK(odd.find("script-src *") == std::string::npos);
+}
+
 TEST_CASE("live server: a socket needs the token's address and this server's origin") {
   Stage stage;
   CHECK_FALSE(Client(stage).error);
