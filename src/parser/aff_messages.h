@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 
 #include "parser/aff_grammar.h"
 
@@ -10,32 +11,35 @@ namespace pprt::aff {
 
 // A text before another, at compile time.
 template <grammar::Text First, grammar::Text Second>
-inline constexpr auto joined = [] {
-  std::array<char, sizeof First.text + sizeof Second.text - 1> text{};
+inline constexpr auto joined_text = [] {
+  std::array<char, sizeof First.text + sizeof Second.text - 2> text{};
   std::copy_n(First.text, sizeof First.text - 1, text.begin());
-  std::copy_n(Second.text, sizeof Second.text, text.begin() + sizeof First.text - 1);
+  std::copy_n(Second.text, sizeof Second.text - 1, text.begin() + sizeof First.text - 1);
   return text;
 }();
+template <grammar::Text First, grammar::Text Second>
+inline constexpr std::string_view joined{joined_text<First, Second>.data(),
+                                         joined_text<First, Second>.size()};
 
-// What a rule expects that must match; nullptr for rules that may fail. The report appends the directive and
+// What a rule expects that must match; empty for rules that may fail. The report appends the directive and
 // what was found: "expected a number for the radius of 's', found 'abc'".
 template <typename Rule>
-inline constexpr const char* expected = nullptr;
+inline constexpr std::string_view expected = {};
 
 template <grammar::Text What>
-inline constexpr const char* expected<grammar::num<What>> = joined<"a number for ", What>.data();
+inline constexpr std::string_view expected<grammar::num<What>> = joined<"a number for ", What>;
 template <grammar::Text What>
-inline constexpr const char* expected<grammar::count<What>> = joined<"the number of ", What>.data();
+inline constexpr std::string_view expected<grammar::count<What>> = joined<"the number of ", What>;
 template <grammar::Text What>
-inline constexpr const char* expected<grammar::name<What>> = What.text;
+inline constexpr std::string_view expected<grammar::name<What>>{What.text, sizeof What.text - 1};
 template <grammar::Text What>
-inline constexpr const char* expected<grammar::word<What>> = joined<"the word ", What>.data();
+inline constexpr std::string_view expected<grammar::word<What>> = joined<"the word ", What>;
 template <>
-inline constexpr const char* expected<grammar::open_brace> = "'{'";
+inline constexpr std::string_view expected<grammar::open_brace> = "'{'";
 template <>
-inline constexpr const char* expected<grammar::track_end> = "transl, rot, scale, visibility or '}'";
+inline constexpr std::string_view expected<grammar::track_end> = "transl, rot, scale, visibility or '}'";
 template <>
-inline constexpr const char* expected<grammar::end_of_directives> = "a directive of AFF";
+inline constexpr std::string_view expected<grammar::end_of_directives> = "a directive of AFF";
 
 // What real files do that the format does not say. Strict reading reports each as an error. Lenient reading
 // gives one warning per kind, with its first place and its count.

@@ -52,10 +52,10 @@ template <typename Rule>
 template <typename Rule>
 struct control : pegtl::normal<Rule> {
   static void start(const Input& in, SceneBuilder& builder) {
-    if constexpr (expected<Rule> != nullptr) builder.try_at(in.current());
+    if constexpr (!expected<Rule>.empty()) builder.try_at(in.current());
   }
   static void failure(const Input& in, SceneBuilder& builder) {
-    if constexpr (expected<Rule> != nullptr) fail<Rule>(in, builder);
+    if constexpr (!expected<Rule>.empty()) fail<Rule>(in, builder);
   }
 };
 
