@@ -35,11 +35,9 @@ std::vector<std::string> user_words(int argc, const char* const* argv);
 // mpirun. Each makes the code 128 + signal, unless the run failed. SIGUSR1 is passed on. `overhear` gets what
 // the ranks print on standard error, which is printed too.
 //
-// Throws std::runtime_error
-//   - when mpirun cannot be started
-//   - when the ranks do not find each other in time (Launch)
-//   - when a signal has ended a rank; its message names the rank
-//   - when a host does not answer; its message names the host.
+// Throws std::runtime_error when mpirun cannot be started. Throws it when the ranks do not find each other in
+// time (Launch). Throws it, with the name of a rank or a host, when a signal has ended the one or the other
+// does not answer.
 int run_under_mpirun(const Launch& launch, std::span<const std::string> words,
                      const std::function<void(std::string_view)>& overhear);
 

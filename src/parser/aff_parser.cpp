@@ -15,6 +15,7 @@
 #include "parser/aff_actions.h"
 #include "parser/aff_grammar.h"
 #include "parser/aff_messages.h"
+#include "parser/parser_input.h"
 #include "parser/text_input.h"
 
 namespace pprt {
@@ -23,16 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 namespace pegtl = tao::pegtl;
-using Input = pegtl::memory_input<pegtl::tracking_mode::lazy, pegtl::eol::lf_crlf, const char*>;
-
-// Returns the next token after the gap; empty at the end of the text.
-std::string_view next_token(const char* begin_of_gap, const char* end) {
-  Input ahead(begin_of_gap, end, "");
-  pegtl::parse<grammar::gap>(ahead);
-  const char* const begin = ahead.current();
-  pegtl::parse<grammar::token>(ahead);
-  return {begin, static_cast<std::size_t>(ahead.current() - begin)};
-}
+using Input = ParserInput;
 
 // Reports what a rule expected and what was found.
 template <typename Rule>
@@ -44,7 +36,7 @@ template <typename Rule>
   } else if (!builder.directive().empty()) {
     message += fmt::format(" after '{}'", builder.directive());
   }
-  const std::string_view token = next_token(tried, in.end());
+  const std::string_view token = next_token<grammar::gap, grammar::token>(tried, in.end());
   if (token.empty()) throw ParseFailure{tried, message + ", found the end of the file"};
   throw ParseFailure{token.data(), message + ", found " + quoted(token)};
 }

@@ -14,6 +14,7 @@
 #include "parser/nff_actions.h"
 #include "parser/nff_grammar.h"
 #include "parser/nff_messages.h"
+#include "parser/parser_input.h"
 #include "parser/text_input.h"
 
 namespace pprt {
@@ -21,16 +22,7 @@ namespace nff {
 namespace {
 
 namespace pegtl = tao::pegtl;
-using Input = pegtl::memory_input<pegtl::tracking_mode::lazy, pegtl::eol::lf_crlf, const char*>;
-
-// Returns the next token after the gap; empty at the end of the text.
-std::string_view next_token(const char* begin_of_gap, const char* end) {
-  Input ahead(begin_of_gap, end, "");
-  pegtl::parse<grammar::gap>(ahead);
-  const char* const begin = ahead.current();
-  pegtl::parse<grammar::token>(ahead);
-  return {begin, static_cast<std::size_t>(ahead.current() - begin)};
-}
+using Input = ParserInput;
 
 // Returns why a token that looks like a number is none.
 const char* number_problem(std::string_view token) {
@@ -61,7 +53,7 @@ template <typename Rule>
   } else if (!builder.entity().empty()) {
     message += fmt::format(" after '{}'", builder.entity());
   }
-  const std::string_view token = next_token(tried, in.end());
+  const std::string_view token = next_token<grammar::gap, grammar::token>(tried, in.end());
   if (token.empty()) throw ParseFailure{tried, message + ", found the end of the file"};
 
   message += ", found " + quoted(token) + number_problem(token);
@@ -125,7 +117,7 @@ std::string_view without_end_mark(std::string_view text) {
 
 // Returns the one problem of a text without any entity.
 Diagnostics nothing_found(const Input& whole, SceneBuilder& builder) {
-  const std::string_view token = next_token(whole.begin(), whole.end());
+  const std::string_view token = next_token<grammar::gap, grammar::token>(whole.begin(), whole.end());
   Diagnostics diagnostics;
   if (token.empty()) {
     diagnostics.error({}, "the file holds only comments");

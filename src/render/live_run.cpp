@@ -70,9 +70,9 @@ std::optional<Layer> layer_of(Overlay overlay) {
   return std::nullopt;
 }
 
-// Tells when a picture at rest is finished: over as many whole frames as a second has, nothing has been worth
-// a sample by the rule of a still, or the frames had no time left for samples. Large pictures take all of it
-// to be reconstructed.
+// Tells when a picture at rest is finished. It is when nothing in it is worth a sample, by the rule of a
+// still. It is, too, when its frames have no time left for samples: reconstructing a large picture takes all
+// of it. Either must hold for as many whole frames as a second has.
 class StillWatch {
  public:
   StillWatch(double still_weight, double frames_per_second)

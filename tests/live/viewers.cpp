@@ -1,11 +1,11 @@
 // Viewers of a live picture without a screen: viewers URL SECONDS VIEWERS [STALLED] [steer].
 //
 // Each acknowledges the frames that it gets. STALLED of them take in nothing after they have connected. With
-// "steer" the first viewer takes the camera and moves it at odd moments. Prints on one line, of what the
-// first viewer saw:
-//   frames made while it watched, how many of them were on time, pictures that came; and with "steer"
-//   the median, the 90th percentile and the longest of the times from a camera that it sent until a picture
-//   showed that camera or a later one, in periods of the frame rate.
+// "steer" the first viewer takes the camera and moves it at odd moments.
+//
+// Prints one line of what the first viewer saw. It begins with three counts: frames made, frames on time,
+// pictures that came. With "steer" three lags follow: the median, the 90th percentile and the longest. A lag
+// is the time from a camera until a picture shows it or a later one, in periods of the frame rate.
 #include <algorithm>
 #include <boost/asio/connect.hpp>
 #include <boost/asio/ip/tcp.hpp>
