@@ -14,6 +14,7 @@
 #include "parser/aff_grammar.h"
 #include "parser/aff_messages.h"
 #include "parser/aff_parser.h"
+#include "parser/parser_input.h"
 #include "parser/text_input.h"
 
 namespace pprt::aff {
@@ -169,19 +170,6 @@ struct action : grammar::pegtl::nothing<Rule> {};
 template <>
 struct action<grammar::number> : grammar::pegtl::nothing<grammar::number> {
   static void value(double value, SceneBuilder& builder) { builder.number(value); }
-};
-
-// Actions that pass on the matched text, and actions that only report the match.
-template <void (SceneBuilder::*Handle)(std::string_view)>
-struct with_text {
-  template <typename Input>
-  static void apply(const Input& in, SceneBuilder& builder) {
-    (builder.*Handle)({in.begin(), in.size()});
-  }
-};
-template <void (SceneBuilder::*Handle)()>
-struct without_text {
-  static void apply0(SceneBuilder& builder) { (builder.*Handle)(); }
 };
 
 template <>

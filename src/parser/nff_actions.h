@@ -12,6 +12,7 @@
 #include "parser/nff_grammar.h"
 #include "parser/nff_messages.h"
 #include "parser/nff_parser.h"
+#include "parser/parser_input.h"
 #include "parser/text_input.h"
 #include "scene/scene_description.h"
 
@@ -140,18 +141,6 @@ struct action<grammar::number> : grammar::pegtl::nothing<grammar::number> {
   static void value(double value, const char* place, SceneBuilder& builder) { builder.number(value, place); }
 };
 
-// Actions that pass on the matched text, and actions that only report the match.
-template <void (SceneBuilder::*Handle)(std::string_view)>
-struct with_text {
-  template <typename Input>
-  static void apply(const Input& in, SceneBuilder& builder) {
-    (builder.*Handle)({in.begin(), in.size()});
-  }
-};
-template <void (SceneBuilder::*Handle)()>
-struct without_text {
-  static void apply0(SceneBuilder& builder) { (builder.*Handle)(); }
-};
 template <Deviation Kind>
 struct deviating_comment {
   template <typename Input>

@@ -20,4 +20,21 @@ std::string_view next_token(const char* begin_of_gap, const char* end) {
   return {begin, static_cast<std::size_t>(ahead.current() - begin)};
 }
 
+// Actions that pass on the matched text, and actions that only report the match; `Handle` is the builder's
+// member.
+template <auto Handle>
+struct with_text {
+  template <typename Input, typename Builder>
+  static void apply(const Input& in, Builder& builder) {
+    (builder.*Handle)(std::string_view(in.begin(), in.size()));
+  }
+};
+template <auto Handle>
+struct without_text {
+  template <typename Builder>
+  static void apply0(Builder& builder) {
+    (builder.*Handle)();
+  }
+};
+
 }  // namespace pprt
