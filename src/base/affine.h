@@ -1,6 +1,8 @@
 // Affine maps of space: how an object stands in the space around it.
 #pragma once
 
+#include <cmath>
+
 #include "base/vector.h"
 
 namespace pprt {
@@ -23,6 +25,28 @@ struct Affine {
 
   friend bool operator==(const Affine&, const Affine&) = default;
 };
+
+// Returns the inverse of a map whose determinant is not 0.
+inline Affine inverse(const Affine& map) {
+  const Vec3d yz = map.y.cross(map.z), zx = map.z.cross(map.x), xy = map.x.cross(map.y);
+  const double per_volume = 1 / map.x.dot(yz);
+  Affine result{Vec3d(yz.x, zx.x, xy.x) * per_volume,
+                Vec3d(yz.y, zx.y, xy.y) * per_volume,
+                Vec3d(yz.z, zx.z, xy.z) * per_volume,
+                {0, 0, 0}};
+  result.origin = -result.vector(map.origin);
+  return result;
+}
+
+// Returns the axis-parallel box of a mapped box. An empty box stays empty.
+inline Box3d mapped(const Affine& map, const Box3d& box) {
+  if (box.isEmpty()) return box;
+  const Vec3d middle = map.point(box.min * 0.5 + box.max * 0.5), half = (box.max - box.min) * 0.5;
+  Vec3d reach;
+  for (int i = 0; i < 3; ++i)
+    reach[i] = std::abs(map.x[i]) * half.x + std::abs(map.y[i]) * half.y + std::abs(map.z[i]) * half.z;
+  return {middle - reach, middle + reach};
+}
 
 // First inner, then outer.
 inline Affine operator*(const Affine& outer, const Affine& inner) {

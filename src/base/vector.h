@@ -8,6 +8,7 @@
 namespace pprt {
 
 using Vec2d = Imath::V2d;
+using Vec2f = Imath::V2f;
 using Vec3d = Imath::V3d;
 using Vec3f = Imath::V3f;
 using Box3d = Imath::Box3d;

@@ -11,7 +11,10 @@
 #include "base/diagnostics.h"
 #include "base/nearest_word.h"
 #include "base/printable.h"
+#include "cli/texture_files.h"
+#include "parser/aff_parser.h"
 #include "parser/text_input.h"
+#include "scene/resting_nodes.h"
 #include "spd/spd.h"
 
 namespace pprt {
@@ -49,6 +52,21 @@ std::string meant_by(const std::string& name) {
     }
   }
   return {};
+}
+
+bool is_aff_name(const std::string& name) {
+  return std::filesystem::path(name).extension() == ".aff";
+}
+
+ParsedScene load_aff(const std::string& path, bool strict) {
+  ParsedScene parsed = read_aff(path, {.strict = strict});
+  try {
+    read_textures(parsed.scene, std::filesystem::path(path).parent_path());
+  } catch (const InputError& e) {
+    throw InputError(parsed.warnings + e.what());
+  }
+  parsed.scene = without_resting_nodes(std::move(parsed.scene));
+  return parsed;
 }
 
 // Returns a problem with the scene that a script names, reported at the statement that names it.
@@ -104,6 +122,7 @@ ParsedScene load_scene_of_script(const Animation& script, const std::string& scr
   try {
     if (is_spd_name(name)) return {make_spd_scene(name), {}};
     require_file(name);
+    if (is_aff_name(name)) return load_aff(name, options.strict);
     text = read_text(name, options.max_bytes);
   } catch (const InputError& e) {
     throw InputError(at_scene_statement(script, script_path, e.what()));
@@ -114,6 +133,7 @@ ParsedScene load_scene_of_script(const Animation& script, const std::string& scr
 ParsedScene load_scene(const std::string& name, const NffOptions& options) {
   if (is_spd_name(name)) return {make_spd_scene(name), {}};
   if (name != "-") require_file(name);
+  if (is_aff_name(name)) return load_aff(name, options.strict);
   return read_nff(name, options);
 }
 

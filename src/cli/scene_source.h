@@ -9,7 +9,8 @@
 
 namespace pprt {
 
-// Reads a scene: "spd:NAME[:SIZE]" is generated, "-" is NFF on standard input, anything else an NFF file.
+// Reads a scene: "spd:NAME[:SIZE]" is generated, "-" is NFF on standard input, FILE.aff is AFF with
+// its includes and textures, anything else an NFF file.
 // Throws InputError: no such database or file, too large, or rejected by the parser.
 ParsedScene load_scene(const std::string& name, const NffOptions& options = {});
 

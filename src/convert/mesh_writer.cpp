@@ -84,7 +84,13 @@ class MeshBuilder {
         for (const Vec3d& v : scene_.vertices(scene_.polygons[ref.index])) corners_.push_back({v, {0, 0, 0}});
         return facets();
       }
+      case PrimitiveKind::kTriangle: {
+        const std::array<PatchVertex, 3> corners = corners_of(scene_, scene_.triangles[ref.index]);
+        corners_.assign(corners.begin(), corners.end());
+        return facets();
+      }
       case PrimitiveKind::kPatch:
+      case PrimitiveKind::kMovingTriangle:
         break;
     }
     const std::span<const PatchVertex> vertices = scene_.vertices(scene_.patches[ref.index]);

@@ -1,6 +1,7 @@
 #include "convert/pov_writer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -127,7 +128,21 @@ class PovWriter {
         for (const PatchVertex& v : vertices) corners_.push_back(v.position);
         return facets(patch.material, vertices);
       }
+      case PrimitiveKind::kTriangle:
+        return triangle(scene_.triangles[ref.index]);
+      case PrimitiveKind::kMovingTriangle:
+        break;  // still_at() leaves none
     }
+  }
+
+  void triangle(const Triangle& t) {
+    const TriangleMesh& mesh = scene_.meshes[t.mesh];
+    const std::array<PatchVertex, 3> corners = corners_of(scene_, t);
+    corners_.clear();
+    for (const PatchVertex& v : corners) corners_.push_back(v.position);
+    facets(mesh.material, mesh.normals.empty() ? std::span<const PatchVertex>() : corners);
+    if (mesh.texture_points.empty() || triangulate(corners_).empty()) return;
+    // Written after the triangle's corners, inside its braces: see facets().
   }
 
   void sphere(const Sphere& s) {

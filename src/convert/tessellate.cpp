@@ -157,6 +157,9 @@ SceneDescription tessellated(const SceneDescription& scene, const Fineness& fine
   result.view = scene.view;
   result.lights = scene.lights;
   result.materials = scene.materials;
+  result.meshes = scene.meshes;
+  result.textures = scene.textures;
+  result.ambient = scene.ambient;
   const auto add_surface = [&](const auto& object) {
     const int n = divisions(object, fineness);
     if (n == 0) return;
@@ -183,6 +186,12 @@ SceneDescription tessellated(const SceneDescription& scene, const Fineness& fine
         add_patch(result, scene.vertices(p), p.material, p.location);
         break;
       }
+      case PrimitiveKind::kTriangle:
+        result.order.push_back({ref.kind, static_cast<std::uint32_t>(result.triangles.size())});
+        result.triangles.push_back(scene.triangles[ref.index]);
+        break;
+      case PrimitiveKind::kMovingTriangle:
+        break;  // still_at() leaves none
     }
   }
   return result;

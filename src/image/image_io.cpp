@@ -27,7 +27,9 @@ std::string encode(const std::filesystem::path& path, const Image& image, const 
 Image decode(std::string_view bytes) {
   if (bytes.starts_with(kExrMagic)) return decode_exr(bytes);
   if (bytes.starts_with(kPngMagic)) return decode_png(bytes);
-  throw std::runtime_error(bytes.empty() ? "the file is empty" : "it is neither an OpenEXR nor a PNG file");
+  if (bytes.starts_with("\xff\xd8")) return decode_jpeg(bytes);
+  if (bytes.starts_with("P6") || bytes.starts_with("P3")) return decode_ppm(bytes);
+  throw std::runtime_error(bytes.empty() ? "the file is empty" : "it is no OpenEXR, PNG, JPEG or PPM file");
 }
 
 }  // namespace

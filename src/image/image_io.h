@@ -61,8 +61,13 @@ Image decode_png(std::string_view bytes);
 void write_image(const std::filesystem::path& path, const Image& image, const Metadata& metadata = {},
                  const std::vector<Channel>& channels = {}, PictureKind kind = PictureKind::kRendered);
 
-// Reads an EXR or a PNG, told apart by its first bytes. Throws std::runtime_error "cannot read 'PATH':
-// REASON".
+// Returns the picture in a JPEG, or in a PPM of 8 bits a channel (P6 or P3; bytes behind the picture are
+// ignored). Throw as decode_png().
+Image decode_jpeg(std::string_view bytes);
+Image decode_ppm(std::string_view bytes);
+
+// Reads an EXR, a PNG, a JPEG or a PPM, told apart by its first bytes. Throws std::runtime_error "cannot read
+// 'PATH': REASON".
 Image read_image(const std::filesystem::path& path);
 
 // Whether the file may be a whole picture: it begins as an EXR, or it begins and ends as a PNG. Reads a few

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -24,6 +25,9 @@ class AnchorSearch {
   // The frame before is over: notes its samples' primitives, or forgets all.
   void note(std::span<const Sample> samples) { anchors_.note(samples); }
   void forget() { anchors_.clear(); }
+
+  // Carries the anchors into this frame, in which something moves; see Probe::carry.
+  void carry(const std::function<bool(RaySample&)>& carried) { anchors_.carry(carried); }
 
   // This frame is to seek anchors; `samples`: count carried into it.
   void allow(std::uint64_t samples) { most_ = kShare * static_cast<double>(samples); }

@@ -85,6 +85,7 @@ FrameOrder Master::make_order(const FrameRequest& request) {
   order.cut = request.cut;
   order.carry = carry_into(request);
   order.camera = request.camera;
+  order.time = request.time;
   order.report_samples = settings_.report_samples || request.report_samples;
   if (order.carry == Carry::kNothing) evidence_ = {}, evidence_since_ = order.index;
   order.evidence = evidence_;
@@ -98,7 +99,7 @@ FrameOrder Master::make_order(const FrameRequest& request) {
 Carry Master::carry_into(const FrameRequest& request) const {
   if (!before_ || request.cut || request.carries_nothing || settings_.cast == CastChoice::kOff)
     return Carry::kNothing;
-  if (request.camera == before_->camera) return Carry::kAccumulate;
+  if (request.camera == before_->camera && !request.moves) return Carry::kAccumulate;
   switch (settings_.cast) {
     case CastChoice::kPaper:
       return Carry::kCastPaper;

@@ -22,7 +22,7 @@
 
 namespace pprt {
 
-// The camera of one frame.
+// The camera of one frame, and the time of what moves.
 struct FrameRequest {
   int number = 1;  // as the script counts
   Camera camera;
@@ -31,6 +31,8 @@ struct FrameRequest {
   int left_out = 0;              // frames of the script before it that were not asked for; on the work clock
                                  // their time counts
   bool report_samples = false;   // they come with the pixels, as where the settings ask for them
+  double time = 0;               // of what moves in the scene, seconds
+  bool moves = false;            // something stands elsewhere than in the request before
 };
 
 // Answers at once with the next frame's camera; empty: the sequence is over. SessionSettings::late_orders

@@ -117,7 +117,9 @@ std::vector<Sample> Reprojection::try_out(const std::vector<Sample>& samples) {
 
 CastResult Reprojection::cast_into(const FrameOrder& order, const CastSettings& settings) {
   clock_.spend(Work::kCastSample, sampler_.in_region() / settings.one_of);
-  return sampler_.samples().cast(order.camera, order.number, settings);
+  CastSettings carrying = settings;
+  if (tracer_.moves()) carrying.carry = tracer_.probe().carry;
+  return sampler_.samples().cast(order.camera, order.number, carrying);
 }
 
 CastSummary Reprojection::summary_of(const CastResult& cast) const {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -22,7 +23,7 @@ class SampleTracer {
   SampleTracer(Probe probe, int rank, FrameClock& clock, CostEstimator& costs, std::function<void()> poll)
       : probe_(std::move(probe)), rank_(rank), clock_(clock), costs_(costs), poll_(std::move(poll)) {}
 
-  // Looks from the order's camera, and counts rays anew.
+  // Looks from the order's camera at the order's time, and counts rays anew.
   void begin_frame(const FrameOrder& order);
 
   // Numbers samples from 0 again: which of them casting draws must not depend on frames before.
@@ -36,6 +37,9 @@ class SampleTracer {
   // Whether nothing hides a hit point from the eye.
   bool is_visible(const Vec3f& hit, bool at_infinity);
 
+  // Whether something may stand elsewhere than in the frame before.
+  bool moves() const { return moves_; }
+
   const Probe& probe() const { return probe_; }
   RayCounts rays() const { return probe_.counts() - rays_before_; }  // in this frame
   std::uint64_t non_finite() const { return non_finite_; }           // colours in this frame
@@ -48,6 +52,8 @@ class SampleTracer {
   CostEstimator& costs_;
   std::function<void()> poll_;
   int frame_number_ = 0;
+  std::optional<double> time_;  // of what moves, in the frame before
+  bool moves_ = false;
   std::uint64_t next_id_ = 0;
   std::uint64_t non_finite_ = 0;
   RayCounts rays_before_;

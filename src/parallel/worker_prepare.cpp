@@ -13,8 +13,9 @@ void Worker::prepare(const FrameOrder& order) {
   const MissedFrames missed = ownership_.take_missed();
   const Carry carry = ownership_.carry_into(order);
   costs_.begin_frame(carry != Carry::kAccumulate || missed.triangulation, likeness_to_last(order, missed));
-  const bool eye_rests = last_camera_ && (order.camera.eye - last_camera_->eye).length() <= kAtRest;
-  if (last_camera_ != order.camera) sampler_.samples().camera_changed();
+  const bool eye_rests =
+      last_camera_ && !tracer_.moves() && (order.camera.eye - last_camera_->eye).length() <= kAtRest;
+  if (last_camera_ != order.camera || tracer_.moves()) sampler_.samples().camera_changed();
   last_camera_ = order.camera;
 
   if (carry != Carry::kAccumulate) {
@@ -32,7 +33,7 @@ void Worker::prepare(const FrameOrder& order) {
 
 FrameLikeness Worker::likeness_to_last(const FrameOrder& order, const MissedFrames& missed) const {
   if (order.cut || missed.cut || !last_camera_) return FrameLikeness::kUnknown;
-  return order.camera == *last_camera_ ? FrameLikeness::kSame : FrameLikeness::kSimilar;
+  return order.camera == *last_camera_ && !tracer_.moves() ? FrameLikeness::kSame : FrameLikeness::kSimilar;
 }
 
 // The others accumulate in a triangulation that they have begun without this rank: makes its part of it, from
@@ -52,6 +53,7 @@ void Worker::begin_anew(const FrameOrder& order, bool keeps_samples, bool eye_re
                              sampler_.samples().cast_use() == CastUse::kInserted;
   if (seeks_anchors) {
     anchors_.note(sampler_.samples().samples());
+    if (tracer_.moves()) anchors_.carry(tracer_.probe().carry);
   } else {
     anchors_.forget();
   }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "scene/animation.h"
+#include "scene/shading_rules.h"
 #include "scene/triangulate.h"
 
 namespace pprt::aff {
@@ -65,7 +66,8 @@ void SceneBuilder::finish() {
     const std::string times = found.count > 1 ? fmt::format(" ({} times, first here)", found.count) : "";
     found.file->diagnostics.warning(found.first, fmt::format("{}: {}{}", text.problem, text.reading, times));
   }
-  scene_.tracks = std::move(tracks_);
+  scene_.movement.tracks = std::move(tracks_);
+  if (!scene_.ambient) scene_.ambient = Rgb(1, 1, 1);
 }
 
 void SceneBuilder::begin(std::string_view keyword) {
@@ -73,6 +75,7 @@ void SceneBuilder::begin(std::string_view keyword) {
   numbers_.clear();
   rows_ = 0;
   mesh_ = {};
+  triangles_of_mesh_.clear();
   moving_ = {};
   track_ = {};
 }
@@ -121,70 +124,79 @@ void SceneBuilder::add_view() {
 }
 
 void SceneBuilder::add_light() {
-  MovingLight light;
-  light.light.position = vector_at(0);
-  if (numbers_.size() > 3) light.light.color = color_at(3);
-  light.light.location = locate(keyword_.data());
-  light.node = nodes_.back().node;
-  scene_.lights.push_back(std::move(light));
+  Light light;
+  light.position = vector_at(0);
+  if (numbers_.size() > 3) light.color = color_at(3);
+  light.location = location_in_scene();
+  scene_.lights.push_back(light);
+  scene_.light_nodes.push_back({.node = nodes_.back().node});
 }
 
 void SceneBuilder::add_named_light() {
   add_light();
-  scene_.lights.back().track = name_;
+  scene_.light_nodes.back().track = name_;
 }
 
 // --- Materials
 
+// Of the ambient light NFF's materials reflect a fixed share.
 void SceneBuilder::set_fill() {
   const Rgb color = color_at(0);
-  use({.ambient = {0, 0, 0},
-       .diffuse = color * numbers_[3],
-       .specular = Rgb(numbers_[4], numbers_[4], numbers_[4]),
-       .shine = numbers_[5],
-       .transmittance = numbers_[6],
-       .refractive_index = numbers_[7]});
+  Material m;
+  m.terms = {.ambient = color * kAmbientReflectance,
+             .diffuse = color * numbers_[3],
+             .specular = Rgb(numbers_[4], numbers_[4], numbers_[4])};
+  m.shine = numbers_[5], m.transmittance = numbers_[6], m.refractive_index = numbers_[7];
+  use(m);
 }
 
 void SceneBuilder::set_material() {
-  use({.ambient = color_at(0),
-       .diffuse = color_at(3),
-       .specular = color_at(6),
-       .shine = numbers_[9],
-       .transmittance = numbers_[10],
-       .refractive_index = numbers_[11]});
+  Material m;
+  m.terms = {.ambient = color_at(0), .diffuse = color_at(3), .specular = color_at(6)};
+  m.shine = numbers_[9], m.transmittance = numbers_[10], m.refractive_index = numbers_[11];
+  use(m);
 }
 
 // Opaque things often have the index 0, which means nothing.
-void SceneBuilder::use(const SurfaceMaterial& material) {
-  SurfaceMaterial m = material;
-  if (m.refractive_index <= 0) {
-    if (m.transmittance > 0) deviation(Deviation::kGlassIndex);
-    m.refractive_index = 1;
+void SceneBuilder::use(const Material& material) {
+  material_ = material;
+  const Rgb& specular = material.terms->specular;
+  material_.specular = std::max({specular.x, specular.y, specular.z});
+  if (material_.refractive_index <= 0) {
+    if (material_.transmittance > 0) deviation(Deviation::kGlassIndex);
+    material_.refractive_index = 1;
   }
-  const std::array<double, 12> key = {m.ambient.x,  m.ambient.y, m.ambient.z,     m.diffuse.x,
-                                      m.diffuse.y,  m.diffuse.z, m.specular.x,    m.specular.y,
-                                      m.specular.z, m.shine,     m.transmittance, m.refractive_index};
-  const auto [found, is_new] =
-      materials_.try_emplace(key, static_cast<MaterialIndex>(scene_.materials.size()));
-  if (is_new) scene_.materials.push_back(m);
-  material_ = found->second;
   has_material_ = true;
 }
 
-ObjectPlace SceneBuilder::place() {
+// Returns the current material, with the directive's texture if it has one.
+MaterialIndex SceneBuilder::material() {
   if (!has_material_) {
     deviation(Deviation::kNoMaterial);
-    use({});
+    Material white;
+    white.terms.emplace();
+    use(white);
   }
-  return {.material = material_, .node = nodes_.back().node, .location = locate(keyword_.data())};
+  Material m = material_;
+  if (!mesh_.texture_points.empty()) m.texture = texture();
+  return materials_.intern(scene_.materials, m);
+}
+
+// Of the directive at hand. A place is one in the scene's own file; included ones have none.
+SourceLocation SceneBuilder::location_in_scene() {
+  return depth() == 1 ? locate(keyword_.data()) : SourceLocation();
+}
+
+// The primitives that were added last stand in the innermost transform.
+void SceneBuilder::stand_in_node(std::size_t primitives) {
+  scene_.nodes.insert(scene_.nodes.end(), primitives, nodes_.back().node);
 }
 
 TextureIndex SceneBuilder::texture() {
   const auto found = textures_.find(name_);
   if (found != textures_.end()) return found->second;
   const auto index = static_cast<TextureIndex>(scene_.textures.size());
-  scene_.textures.emplace_back(name_);
+  scene_.textures.emplace_back().name = name_;
   textures_.emplace(name_, index);
   return index;
 }
@@ -198,17 +210,19 @@ void SceneBuilder::count_triangles(std::size_t more) {
 }
 
 void SceneBuilder::add_sphere() {
-  const ObjectPlace at = place();
+  const MaterialIndex of = material();
   if (numbers_[3] == 0) return deviation(Deviation::kNoExtent);
-  scene_.spheres.emplace_back(Sphere{vector_at(0), numbers_[3], at.material, at.location}, at.node);
+  pprt::add_sphere(scene_, {vector_at(0), numbers_[3], of, location_in_scene()});
+  stand_in_node(1);
 }
 
 void SceneBuilder::add_cone() {
-  const ObjectPlace at = place();
+  const MaterialIndex of = material();
   const double base = numbers_[3], apex = numbers_[7];
   if (vector_at(0) == vector_at(4) || (base == 0 && apex == 0) || base * apex < 0)
     return deviation(Deviation::kNoExtent);
-  scene_.cones.emplace_back(Cone{vector_at(0), base, vector_at(4), apex, at.material, at.location}, at.node);
+  pprt::add_cone(scene_, {vector_at(0), base, vector_at(4), apex, of, location_in_scene()});
+  stand_in_node(1);
 }
 
 void SceneBuilder::corner() {
@@ -224,44 +238,36 @@ void SceneBuilder::smooth_corner() {
 
 // Corners are used once each: every list has its index.
 void SceneBuilder::add_polygon() {
-  for (const auto& [a, b, c] : triangulate(mesh_.positions)) {
-    MeshTriangle& t = mesh_.triangles.emplace_back();
-    t.position = {a, b, c};
-    if (!mesh_.normals.empty()) t.normal = t.position;
+  for (const TriangleIndices& corners : triangulate(mesh_.positions)) {
+    TriangleCorners& t = triangles_of_mesh_.emplace_back();
+    t.position = corners;
+    if (!mesh_.normals.empty()) t.normal = corners;
   }
-  mesh_.place = place();
-  if (mesh_.triangles.empty()) return deviation(Deviation::kNoExtent);
-  count_triangles(mesh_.triangles.size());
-  scene_.meshes.push_back(std::move(mesh_));
+  if (triangles_of_mesh_.empty()) return deviation(Deviation::kNoExtent);
+  add_mesh();
 }
 
 void SceneBuilder::add_textured() {
-  Mesh mesh;
   for (std::size_t i = 0; i < 15; i += 5) {
-    mesh.positions.push_back(vector_at(i));
-    mesh.texture_points.emplace_back(numbers_[i + 3], numbers_[i + 4]);
+    mesh_.positions.push_back(vector_at(i));
+    mesh_.texture_points.emplace_back(numbers_[i + 3], numbers_[i + 4]);
   }
-  add_corners(std::move(mesh));
+  add_corners();
 }
 
 void SceneBuilder::add_smooth_textured() {
-  Mesh mesh;
   for (std::size_t i = 0; i < 24; i += 8) {
-    mesh.positions.push_back(vector_at(i));
-    mesh.normals.push_back(vector_at(i + 3));
-    mesh.texture_points.emplace_back(numbers_[i + 6], numbers_[i + 7]);
+    mesh_.positions.push_back(vector_at(i));
+    mesh_.normals.push_back(vector_at(i + 3));
+    mesh_.texture_points.emplace_back(numbers_[i + 6], numbers_[i + 7]);
   }
-  add_corners(std::move(mesh));
+  add_corners();
 }
 
 // A triangle with a texture.
-void SceneBuilder::add_corners(Mesh mesh) {
-  const MeshTriangle t{.position = {0, 1, 2}, .normal = {0, 1, 2}, .texture_point = {0, 1, 2}};
-  mesh.triangles.push_back(t);
-  mesh.texture = texture();
-  mesh.place = place();
-  count_triangles(1);
-  scene_.meshes.push_back(std::move(mesh));
+void SceneBuilder::add_corners() {
+  triangles_of_mesh_ = {{.position = {0, 1, 2}, .normal = {0, 1, 2}, .texture_point = {0, 1, 2}}};
+  add_mesh();
 }
 
 void SceneBuilder::moving_key() {
@@ -278,9 +284,11 @@ void SceneBuilder::moving_key() {
 void SceneBuilder::add_moving() {
   if (moving_.keys.empty()) return error(keyword_.data(), "'tpa' needs a key");
   check_times(moving_.keys);
-  moving_.place = place();
+  moving_.material = material();
+  moving_.location = location_in_scene();
   count_triangles(1);
-  scene_.moving_triangles.push_back(std::move(moving_));
+  add_moving_triangle(scene_, std::move(moving_));
+  stand_in_node(1);
 }
 
 void SceneBuilder::mesh_position() {
@@ -305,7 +313,7 @@ std::size_t SceneBuilder::indices_of_a_row() const {
 // Three vertices, then three normals, then three texture points, as far as there are such; files count
 // from 1.
 void SceneBuilder::triangle() {
-  MeshTriangle triangle;
+  TriangleCorners triangle;
   std::size_t next = 0;
   const auto take = [&](std::array<std::uint32_t, 3>& indices, std::size_t size, const char* what) {
     if (size == 0) return;
@@ -321,15 +329,17 @@ void SceneBuilder::triangle() {
   take(triangle.position, mesh_.positions.size(), "vertex");
   take(triangle.normal, mesh_.normals.size(), "normal");
   take(triangle.texture_point, mesh_.texture_points.size(), "texture coordinate");
-  mesh_.triangles.push_back(triangle);
+  triangles_of_mesh_.push_back(triangle);
   numbers_.clear();
 }
 
 void SceneBuilder::add_mesh() {
-  mesh_.place = place();
-  if (!mesh_.texture_points.empty()) mesh_.texture = texture();
-  count_triangles(mesh_.triangles.size());
-  if (!mesh_.triangles.empty()) scene_.meshes.push_back(std::move(mesh_));
+  mesh_.material = material();
+  mesh_.location = location_in_scene();
+  count_triangles(triangles_of_mesh_.size());
+  if (triangles_of_mesh_.empty()) return;
+  pprt::add_mesh(scene_, std::move(mesh_), triangles_of_mesh_);
+  stand_in_node(triangles_of_mesh_.size());
 }
 
 // --- Files, detail, transforms
@@ -356,8 +366,8 @@ void SceneBuilder::begin_node(const Affine& to_parent, std::string track) {
     throw ParseFailure{keyword_.data(),
                        fmt::format("more than {} transforms in each other", options_.max_depth), true};
   const SourceLocation at = locate(keyword_.data());
-  const auto node = static_cast<NodeIndex>(scene_.nodes.size());
-  scene_.nodes.push_back(
+  const auto node = static_cast<NodeIndex>(scene_.movement.nodes.size());
+  scene_.movement.nodes.push_back(
       {.parent = nodes_.back().node, .to_parent = to_parent, .track = std::move(track), .location = at});
   nodes_.push_back({node, at});
 }
@@ -418,10 +428,10 @@ void SceneBuilder::add_track() {
 }
 
 void SceneBuilder::set_times() {
-  if (scene_.times) deviation(Deviation::kTimesRepeated);
-  scene_.times = FrameTimes{.start = numbers_[0],
-                            .end = numbers_[1],
-                            .frames = whole(numbers_[2], "the number of frames", 1, kMostFrames)};
+  if (scene_.movement.times) deviation(Deviation::kTimesRepeated);
+  scene_.movement.times = FrameTimes{.start = numbers_[0],
+                                     .end = numbers_[1],
+                                     .frames = whole(numbers_[2], "the number of frames", 1, kMostFrames)};
 }
 
 }  // namespace pprt::aff

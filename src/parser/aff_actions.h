@@ -1,4 +1,4 @@
-// Actions of the AFF grammar: what each rule does once it has matched. The result is a MovingScene.
+// Actions of the AFF grammar: what each rule does once it has matched. The result is a SceneDescription.
 #pragma once
 
 #include <array>
@@ -100,7 +100,7 @@ class SceneBuilder {
   std::string_view directive() const { return keyword_; }
   SourceLocation locate(const char* place) { return open_.back().cursor.at(place); }
   void finish();  // adds the warnings
-  MovingScene& scene() { return scene_; }
+  SceneDescription& scene() { return scene_; }
 
  private:
   struct OpenFile {
@@ -130,19 +130,21 @@ class SceneBuilder {
     return {numbers_[first], numbers_[first + 1], numbers_[first + 2]};
   }
   int whole(double value, const char* what, int least, int most);
-  void use(const SurfaceMaterial& material);
-  ObjectPlace place();
+  void use(const Material& material);
+  MaterialIndex material();
+  void stand_in_node(std::size_t primitives);
+  SourceLocation location_in_scene();
   TextureIndex texture();
   void begin_node(const Affine& to_parent, std::string track);
-  void add_corners(Mesh mesh);
+  void add_corners();
   void count_triangles(std::size_t more);
   template <typename Key>
   void check_times(const std::vector<Key>& keys);
 
   const AffOptions& options_;
   ReadIncluded read_included_;
-  MovingScene scene_;
-  std::map<std::array<double, 12>, MaterialIndex> materials_;
+  SceneDescription scene_;
+  MaterialTable materials_;
   std::map<std::string, TextureIndex, std::less<>> textures_;
   std::vector<OpenFile> open_;
   std::vector<OpenNode> nodes_ = {{0, {}}};  // the world, and the transforms that are open
@@ -152,13 +154,14 @@ class SceneBuilder {
   std::size_t triangles_ = 0;
   int detail_ = 0;
   bool has_material_ = false;
-  MaterialIndex material_ = 0;
+  Material material_;
 
   // The current directive.
   std::string_view keyword_, name_;
   std::vector<double> numbers_;
   std::size_t rows_ = 0;
-  Mesh mesh_;
+  TriangleMesh mesh_;
+  std::vector<TriangleCorners> triangles_of_mesh_;
   MovingTriangle moving_;
   MotionTrack track_;
   const char* tried_ = nullptr;

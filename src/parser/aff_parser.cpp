@@ -74,7 +74,7 @@ class Reader {
     order_.push_back(files_[main_.string()].get());
   }
 
-  ParsedMovingScene read() {
+  ParsedScene read() {
     try {
       read_file(main_);
     } catch (const Stopped&) {
@@ -87,7 +87,7 @@ class Reader {
     if (std::any_of(files_.begin(), files_.end(),
                     [](const auto& f) { return f.second->diagnostics.has_errors(); }))
       throw InputError(report());
-    MovingScene& scene = builder_.scene();
+    SceneDescription& scene = builder_.scene();
     scene.name = printable(main_.string());
     return {std::move(scene), warnings()};
   }
@@ -199,13 +199,13 @@ class Reader {
 }  // namespace
 }  // namespace aff
 
-ParsedMovingScene parse_aff(std::string_view text, std::string_view file_name, const AffOptions& options) {
+ParsedScene parse_aff(std::string_view text, std::string_view file_name, const AffOptions& options) {
   aff::Reader reader{std::string(file_name), options};
   reader.give(text);
   return reader.read();
 }
 
-ParsedMovingScene read_aff(const std::string& path, const AffOptions& options) {
+ParsedScene read_aff(const std::string& path, const AffOptions& options) {
   return aff::Reader(path, options).read();
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "scene/moving_scene.h"
+#include "parser/parsed_scene.h"
 
 namespace pprt {
 
@@ -22,18 +22,11 @@ struct AffOptions {
   std::size_t max_errors = 1'000;                // reading stops here
 };
 
-// A scene and the warnings of its reading.
-struct ParsedMovingScene {
-  MovingScene scene;
-  std::string warnings;  // formatted with their places, each line ended; empty when there are none
-};
-
 // Reads a scene from memory, which can include no file. `file_name` is for messages. Throws as read_aff().
-ParsedMovingScene parse_aff(std::string_view text, std::string_view file_name,
-                            const AffOptions& options = {});
+ParsedScene parse_aff(std::string_view text, std::string_view file_name, const AffOptions& options = {});
 
 // Reads a scene from a file. An included file lies beside the one that includes it, or beside the scene.
 // Throws InputError with every problem of every file, each with file:line:column.
-ParsedMovingScene read_aff(const std::string& path, const AffOptions& options = {});
+ParsedScene read_aff(const std::string& path, const AffOptions& options = {});
 
 }  // namespace pprt

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "scene/scene_description.h"
+#include "parser/parsed_scene.h"
 
 namespace pprt {
 
@@ -20,12 +20,6 @@ struct NffOptions {
   std::size_t max_lights = 10'000;
   std::size_t max_materials = 1'000'000;  // distinct materials
   std::size_t max_errors = 1'000;         // reading stops here
-};
-
-// A scene and the warnings of its reading.
-struct ParsedScene {
-  SceneDescription scene;
-  std::string warnings;  // formatted with their places, each line ended; empty when there are none
 };
 
 // Reads a scene from memory. `file_name` is for messages and becomes the scene's name. Throws InputError with

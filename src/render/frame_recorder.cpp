@@ -106,13 +106,13 @@ void FrameRecorder::status() const {
 LayerMaker FrameRecorder::layers_of(FinishedFrame& frame) const {
   if (plan_.output.layers.empty()) return {};
   const int ranks = static_cast<int>(frame.ranks.size());
+  auto tracer = std::make_shared<Tracer>(scene_, frame.order.camera);
+  tracer->set_time(frame.order.time);
   LayerSources sources{.frame_number = frame.order.number,
                        .grid = tile_grid(plan_.settings, ranks),
                        .owners = std::move(frame.owners),
                        .samples = std::move(frame.samples),
-                       .first_hit = [tracer = Tracer(scene_, frame.order.camera)](double x, double y) {
-                         return tracer.first_hit(x, y);
-                       }};
+                       .first_hit = [tracer](double x, double y) { return tracer->first_hit(x, y); }};
   return layer_maker(plan_.output.layers, std::move(sources));
 }
 
@@ -128,11 +128,11 @@ std::vector<Measurement> FrameRecorder::measurements_of(const FinishedFrame& fra
                             .value = std::async(std::launch::async, measure)});
   }
   if (serial_ && !frame.samples.empty()) {  // none have come when all ranks are late
-    measurements.push_back(
-        {.key = "distance_to_serial",
-         .option = "--compare-serial",
-         .may_lag = true,
-         .value = serial_->distance(frame.order.number, frame.order.camera, frame.samples)});
+    measurements.push_back({.key = "distance_to_serial",
+                            .option = "--compare-serial",
+                            .may_lag = true,
+                            .value = serial_->distance(frame.order.number, frame.order.camera,
+                                                       frame.order.time, frame.samples)});
   }
   return measurements;
 }

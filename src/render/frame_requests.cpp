@@ -41,7 +41,9 @@ std::vector<FrameRequest> frame_requests(const RenderPlan& plan, const CompiledS
                         .camera = scene.camera(frame.view),
                         .cut = frame.cut,
                         .carries_nothing = frame.number != before + 1,
-                        .left_out = static_cast<int>(i - requests.size())});
+                        .left_out = static_cast<int>(i - requests.size()),
+                        .time = frame.time,
+                        .moves = i > 0 && scene.moves_between(plan.frames[i - 1].time, frame.time)});
     before = frame.number;
     if (!finished) wanted = requests.size();
   }

@@ -110,6 +110,7 @@ class LiveRunner {
         recorder_(recorder),
         run_sequence_(run_sequence),
         view_(*plan.live, show_of(plan, scene)) {
+    time_ = plan.script_frames.front().time;
     if (recorder == nullptr) return;
     for (const PlannedFrame& frame : plan.frames)
       if (!recorder->finished_before(frame.number)) missing_.insert(frame.number);
@@ -147,7 +148,7 @@ class LiveRunner {
     view.height = wanted.height;
     const auto source = [&](int index) -> std::optional<FrameRequest> {
       if (index > 0) return std::nullopt;
-      return FrameRequest{.number = ++number_, .camera = scene_.camera(view)};
+      return FrameRequest{.number = ++number_, .camera = scene_.camera(view), .time = time_};
     };
     run_sequence_(settings, source, [&](FinishedFrame&& frame) { view_.show_photo(wanted, frame.image); });
   }
@@ -165,10 +166,13 @@ class LiveRunner {
       const std::optional<LiveShot> shot = view_.steering().next_shot();
       if (!shot) return std::nullopt;
       shots.push_back(*shot);
+      const double before = std::exchange(time_, time_of(*shot));
       return FrameRequest{.number = ++number_,
                           .camera = camera_of(shot->view),
                           .cut = shot->cut,
-                          .report_samples = shows_samples(*shot)};
+                          .report_samples = shows_samples(*shot),
+                          .time = time_,
+                          .moves = scene_.moves_between(before, time_)};
     };
     run_sequence_(settings, source, [&](FinishedFrame&& frame) {
       const LiveShot shot = shots.front();
@@ -176,6 +180,13 @@ class LiveRunner {
       if (finish.is_finished(frame)) view_.steering().rest(shot.wish);
       deliver(std::move(frame), shot, grid);
     });
+  }
+
+  // What moves stands still while the script does.
+  double time_of(const LiveShot& shot) const {
+    const auto place = static_cast<std::size_t>(shot.script_frame - 1);
+    return shot.script_frame > 0 && place < plan_.script_frames.size() ? plan_.script_frames[place].time
+                                                                       : time_;
   }
 
   // A film goes through cameras that nobody has seen. One that is none is left out.
@@ -237,6 +248,7 @@ class LiveRunner {
   LiveView view_;
   std::set<int> missing_;  // frames of the script that are to be recorded
   int number_ = 0;         // of the frame ordered last
+  double time_ = 0;        // of what moves, in the frame ordered last, seconds
   Camera last_camera_;
 };
 

@@ -66,6 +66,7 @@ Seen look_at_frames(const RenderPlan& plan, const CompiledScene& scene) {
   for (const int side : {kCoarse, fine}) {
     for (const PlannedFrame& frame : plan.script_frames) {
       tracer.set_camera(scene.camera(frame.view));
+      tracer.set_time(frame.time);
       look(tracer, frame.view, side, background, seen);
       if (seen.varied) return seen;
     }
@@ -104,8 +105,10 @@ Whereabouts whereabouts(const RenderPlan& plan) {
   Whereabouts where;
   for (const PlannedFrame& frame : plan.script_frames) {
     const ViewFrame axes = view_frame(frame.view, plan.scene.name);
-    for (const PrimitiveRef ref : plan.scene.order) {
-      place(bounds(plan.scene, ref), frame.view, axes, where);
+    const std::vector<Placement> nodes = placements_at(plan.scene.movement, frame.time);
+    for (std::size_t i = 0; i < plan.scene.order.size(); ++i) {
+      const Affine& map = nodes[node_of(plan.scene, i)].to_parent;
+      place(mapped(map, bounds(plan.scene, plan.scene.order[i])), frame.view, axes, where);
       if (where.in_view) return where;
     }
   }
@@ -172,6 +175,7 @@ std::string warn_of_glass(const RenderPlan& plan, const CompiledScene& scene) {
   for (std::size_t i = 0; i < plan.script_frames.size(); i += step) {
     const View& view = plan.script_frames[i].view;
     tracer.set_camera(scene.camera(view));
+    tracer.set_time(plan.script_frames[i].time);
     look_for_glass(tracer, view, faces);
   }
   if (faces.inside_out == 0 || faces.inside_out < kLeastShareInsideOut * faces.met) return {};

@@ -8,7 +8,6 @@
 #include <iostream>
 #include <utility>
 
-#include "base/content_hash.h"
 #include "base/diagnostics.h"
 #include "base/host_cores.h"
 #include "cli/exit.h"
@@ -28,6 +27,7 @@
 #include "render/render_job.h"
 #include "render/render_plan.h"
 #include "render/run_record.h"
+#include "render/scene_bytes.h"
 #include "trace/tracer_probe.h"
 
 namespace pprt {
@@ -55,6 +55,8 @@ class JobBroadcast {
  public:
   // Null: there are no others.
   explicit JobBroadcast(MpiCommunicator* processes) : processes_(processes) {}
+
+  bool has_others() const { return processes_ != nullptr; }
 
   // Whether the others have their job. Then they cannot be dismissed any more.
   bool run_begun() const { return run_begun_; }
@@ -91,16 +93,16 @@ struct PreparedRun {
   CompiledScene scene;
 };
 
-PreparedRun prepare(const RenderOptions& options) {
+// `has_others`: other processes take part.
+PreparedRun prepare(const RenderOptions& options, bool has_others) {
   RenderPlan plan = plan_render(options);
   std::cerr << plan.warnings;
   log_info(fmt::format("read {} objects of {}", plan.scene.primitive_count(), plan.scene.name));
   RenderJob job{.go = true,
                 .settings = plan.settings,
                 .compile = plan.compile,
-                .scene_name = plan.scene.name,
-                .scene_nff = canonical_nff(plan.scene)};
-  CompiledScene scene = compile_scene(job);
+                .scene = has_others ? encode(plan.scene) : Bytes()};
+  CompiledScene scene = compile(plan.scene, plan.compile);
   log_info(fmt::format("compiled for effects: {}", to_string(scene.effects())));
   require_eyes_in_reach(plan, scene);
   const SessionSettings& s = plan.settings;
@@ -181,7 +183,7 @@ int run_live_view(ProcessRanks& ranks, const PreparedRun& run, const SessionEven
   const int size = ranks.ranks().size;
   std::optional<FrameRecorder> recorder;
   if (!run.plan.output.pictures.empty()) {
-    const RunIdentity identity{run.plan, size, content_hash(run.job.scene_nff)};
+    const RunIdentity identity{run.plan, size, hash_of(run.plan.scene)};
     recorder.emplace(run.plan, run.scene, run_key(identity), run_record(identity, run.scene.effects()),
                      progress);
   }
@@ -196,7 +198,7 @@ int run_live_view(ProcessRanks& ranks, const PreparedRun& run, const SessionEven
            [&](const SessionSettings& settings, const CameraSource& source, const FrameSink& sink) {
              job.settings = settings;
              broadcast.send(job);
-             job.scene_nff.clear();
+             job.scene.clear();
              run_sequence(ranks, run.scene, settings, source, sink, events);
              broadcast.require_others();
            });
@@ -208,7 +210,7 @@ int run_frames(ProcessRanks& ranks, const PreparedRun& run, const SessionEvents&
                ProgressReporter& progress, JobBroadcast& broadcast) {
   // Open the outputs, which may fail, while the other processes wait.
   const int size = ranks.ranks().size;
-  const RunIdentity identity{run.plan, size, content_hash(run.job.scene_nff)};
+  const RunIdentity identity{run.plan, size, hash_of(run.plan.scene)};
   FrameRecorder recorder(run.plan, run.scene, run_key(identity), run_record(identity, run.scene.effects()),
                          progress);
   const auto finished_before = [&](int frame) { return recorder.finished_before(frame); };
@@ -232,7 +234,7 @@ int run_frames(ProcessRanks& ranks, const PreparedRun& run, const SessionEvents&
 int run_first_process(ProcessRanks& ranks, const RenderOptions& options, ProgressReporter& progress,
                       JobBroadcast& broadcast) {
   try {
-    const PreparedRun run = prepare(options);
+    const PreparedRun run = prepare(options, broadcast.has_others());
     if (!run.plan.renders) {
       broadcast.dismiss();
       return kExitDone;

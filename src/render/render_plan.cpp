@@ -21,6 +21,8 @@
 namespace pprt {
 namespace {
 
+constexpr double kCustomaryRate = 25;  // frames/s
+
 struct Sources {
   ParsedScene scene;
   std::string scene_path;  // or another name of a scene
@@ -97,13 +99,30 @@ void require_sound_cameras(const Sources& sources, const View& base) {
   throw InputError(report);
 }
 
+// Returns the times of the frames. Those of a script are spread over the scene's own animation; without one
+// the first is at 0 and they follow each other at the script's rate.
+FrameTimes frame_times(const Sources& sources) {
+  const std::optional<FrameTimes>& own = sources.scene.scene.movement.times;
+  if (!sources.script) return own.value_or(FrameTimes());
+  const Animation& script = sources.script->animation;
+  const double fps = script.fps > 0 ? script.fps : kCustomaryRate;
+  FrameTimes times = own.value_or(FrameTimes{.start = 0, .end = (script.frames - 1) / fps, .frames = 1});
+  times.frames = script.frames;
+  return times;
+}
+
 std::vector<PlannedFrame> script_frames(const Sources& sources, const View& base) {
-  const int count = sources.script ? sources.script->animation.frames : 1;
+  const FrameTimes times = frame_times(sources);
   std::vector<PlannedFrame> frames;
-  for (int n = 1; n <= count; ++n) {
-    PlannedFrame& frame = frames.emplace_back(PlannedFrame{n, base, false});
+  for (int n = 1; n <= times.frames; ++n) {
+    PlannedFrame& frame = frames.emplace_back(
+        PlannedFrame{.number = n, .view = base, .time = time_of_frame(times, n - 1), .cut = false});
+    if (const std::optional<View> moved = view_at(sources.scene.scene, frame.time)) {
+      frame.view = *moved;
+      frame.view.width = base.width, frame.view.height = base.height;
+    }
     if (!sources.script) continue;
-    frame.view = view_at(sources.script->animation, n, base);
+    frame.view = view_at(sources.script->animation, n, frame.view);
     frame.cut = cut_before(sources.script->animation, n);
   }
   return frames;
@@ -133,11 +152,15 @@ std::optional<std::string> absolute_scene_name(const std::string& path) {
   return std::filesystem::absolute(path).lexically_normal().string();
 }
 
-// Returns the film's rate: that of the frames, without one the script's, else the customary one.
+// Returns the film's rate: that of the frames, without one the script's or that of the scene's own animation,
+// else the customary one.
 double film_rate(double fps, const Sources& sources) {
-  constexpr double kCustomary = 25;
   if (fps > 0) return fps;
-  return sources.script && sources.script->animation.fps > 0 ? sources.script->animation.fps : kCustomary;
+  if (sources.script)
+    return sources.script->animation.fps > 0 ? sources.script->animation.fps : kCustomaryRate;
+  const std::optional<FrameTimes>& own = sources.scene.scene.movement.times;
+  return own && own->frames > 1 && own->end > own->start ? (own->frames - 1) / (own->end - own->start)
+                                                         : kCustomaryRate;
 }
 
 // What only the triangulation knows asks for it.

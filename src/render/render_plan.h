@@ -19,10 +19,11 @@
 
 namespace pprt {
 
-// One frame of the script: its view, in scene space and of the image's size.
+// One frame of the script or of the scene's own animation: its view, in scene space and of the image's size.
 struct PlannedFrame {
   int number = 1;  // from 1
   View view;
+  double time = 0;   // of what moves in the scene, seconds
   bool cut = false;  // the camera jumps to it
 };
 

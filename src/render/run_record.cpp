@@ -59,6 +59,7 @@ std::string run_key(const RunIdentity& run) {
     const View& v = f.view;
     text += fmt::format("\n{} {} {} {} {} {} {} {} {} {} {} {}", f.number, f.cut, v.from.x, v.from.y,
                         v.from.z, v.at.x, v.at.y, v.at.z, v.up.x, v.up.y, v.up.z, v.angle_degrees);
+    if (f.time != 0) text += fmt::format(" {}", f.time);
   }
   return content_hash(text);
 }

@@ -28,14 +28,15 @@ SerialComparison::~SerialComparison() {
   thread_.join();
 }
 
-std::future<double> SerialComparison::distance(int frame, const Camera& camera, std::vector<Sample> samples) {
+std::future<double> SerialComparison::distance(int frame, const Camera& camera, double time,
+                                               std::vector<Sample> samples) {
   std::future<double> result;
   {
     std::unique_lock lock(mutex_);
     const std::size_t size = bytes_of(samples);
     room_.wait(lock, [&] { return bytes_ == 0 || bytes_ + size <= kMemoryBound; });
     bytes_ += size;
-    waiting_.push_back({frame, camera, std::move(samples), {}});
+    waiting_.push_back({frame, camera, time, std::move(samples), {}});
     result = waiting_.back().result.get_future();
   }
   work_.notify_one();
@@ -73,6 +74,7 @@ void SerialComparison::do_first(std::unique_lock<std::mutex>& lock) {
 
 double SerialComparison::measure(const Task& task) const {
   Tracer tracer(scene_, task.camera);
+  tracer.set_time(task.time);
   return bucket_distance(task.samples,
                          serial_samples(settings_, task.camera, task.samples.size(), probe_of(tracer)));
 }

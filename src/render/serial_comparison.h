@@ -33,7 +33,7 @@ class SerialComparison {
   ~SerialComparison();
 
   // Returns the distance, 0 to 1, of all samples of a frame to as many that a single rank would have placed.
-  std::future<double> distance(int frame, const Camera& camera, std::vector<Sample> samples);
+  std::future<double> distance(int frame, const Camera& camera, double time, std::vector<Sample> samples);
 
   // Does all that waits in the caller's thread, which has the usual priority. After the last frame the ranks
   // of other processes may still be spinning until this one ends.
@@ -43,6 +43,7 @@ class SerialComparison {
   struct Task {
     int frame;
     Camera camera;
+    double time;  // of what moves, seconds
     std::vector<Sample> samples;
     std::promise<double> result;
   };

@@ -1,5 +1,7 @@
 #include "scene/nff_writer.h"
 
+#include <algorithm>
+#include <array>
 #include <optional>
 #include <string_view>
 
@@ -60,7 +62,14 @@ void write_view(const View& view, NffOutput& out) {
   out.line("resolution", view.width, view.height);
 }
 
+// With a colour for each term, Kd is the largest component of the diffuse one.
 void write_material(const Material& m, NffOutput& out) {
+  if (m.terms) {
+    const Rgb& diffuse = m.terms->diffuse;
+    const double kd = std::max({diffuse.x, diffuse.y, diffuse.z});
+    return out.line("f", kd > 0 ? diffuse / kd : diffuse, kd, m.specular, m.shine, m.transmittance,
+                    m.refractive_index);
+  }
   out.line("f", m.color, m.diffuse, m.specular, m.shine, m.transmittance, m.refractive_index);
 }
 
@@ -68,6 +77,13 @@ template <typename Vertices>
 void write_vertices(std::string_view keyword, const Vertices& vertices, NffOutput& out) {
   out.line(keyword, vertices.size());
   for (const auto& vertex : vertices) out.vertex_line(vertex);
+}
+
+void write_triangle(const SceneDescription& scene, const Triangle& triangle, NffOutput& out) {
+  const std::array<PatchVertex, 3> corners = corners_of(scene, triangle);
+  if (!scene.meshes[triangle.mesh].normals.empty()) return write_vertices("pp", corners, out);
+  const std::array<Vec3d, 3> flat = {corners[0].position, corners[1].position, corners[2].position};
+  write_vertices("p", flat, out);
 }
 
 void write_primitive(const SceneDescription& scene, PrimitiveRef ref, NffOutput& out) {
@@ -84,6 +100,10 @@ void write_primitive(const SceneDescription& scene, PrimitiveRef ref, NffOutput&
       return write_vertices("p", scene.vertices(scene.polygons[ref.index]), out);
     case PrimitiveKind::kPatch:
       return write_vertices("pp", scene.vertices(scene.patches[ref.index]), out);
+    case PrimitiveKind::kTriangle:
+      return write_triangle(scene, scene.triangles[ref.index], out);
+    case PrimitiveKind::kMovingTriangle:
+      break;  // still_at() turns them into others
   }
 }
 

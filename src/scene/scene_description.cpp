@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "base/hash.h"
 
@@ -17,7 +18,12 @@ std::size_t hash(const Material& m) {
                            m.specular, m.shine,   m.transmittance, m.refractive_index};
   std::uint64_t h = 0;
   // -0 equals 0 and must have the same hash.
-  for (const double v : values) h = mixed(h, std::bit_cast<std::uint64_t>(v + 0.0));
+  const auto add = [&h](double v) { h = mixed(h, std::bit_cast<std::uint64_t>(v + 0.0)); };
+  for (const double v : values) add(v);
+  if (m.terms) {
+    for (const Rgb& c : {m.terms->ambient, m.terms->diffuse, m.terms->specular}) add(c.x), add(c.y), add(c.z);
+  }
+  if (m.texture) add(*m.texture);
   return static_cast<std::size_t>(h);
 }
 
@@ -32,9 +38,13 @@ auto of_primitive(const SceneDescription& scene, PrimitiveRef ref, const Read& r
     case PrimitiveKind::kPolygon:
       return read(scene.polygons[ref.index]);
     case PrimitiveKind::kPatch:
+      return read(scene.patches[ref.index]);
+    case PrimitiveKind::kTriangle:
+      return read(scene.meshes[scene.triangles[ref.index].mesh]);
+    case PrimitiveKind::kMovingTriangle:
       break;
   }
-  return read(scene.patches[ref.index]);
+  return read(scene.moving_triangles[ref.index]);
 }
 
 // Returns the half extent of a disc along each axis i: radius * sqrt(1 - n_i^2), with n the unit normal.
@@ -79,6 +89,21 @@ void add_patch(SceneDescription& scene, std::span<const PatchVertex> vertices, M
   scene.patch_vertices.insert(scene.patch_vertices.end(), vertices.begin(), vertices.end());
 }
 
+void add_mesh(SceneDescription& scene, TriangleMesh mesh, std::span<const TriangleCorners> triangles) {
+  const auto index = static_cast<std::uint32_t>(scene.meshes.size());
+  scene.meshes.push_back(std::move(mesh));
+  for (const TriangleCorners& corners : triangles) {
+    scene.order.push_back({PrimitiveKind::kTriangle, static_cast<std::uint32_t>(scene.triangles.size())});
+    scene.triangles.push_back({index, corners});
+  }
+}
+
+void add_moving_triangle(SceneDescription& scene, MovingTriangle triangle) {
+  scene.order.push_back(
+      {PrimitiveKind::kMovingTriangle, static_cast<std::uint32_t>(scene.moving_triangles.size())});
+  scene.moving_triangles.push_back(std::move(triangle));
+}
+
 MaterialIndex MaterialTable::intern(std::vector<Material>& materials, const Material& material) {
   if (2 * (used_ + 1) > slots_.size()) {
     // At most half full, also when the first call finds many materials.
@@ -100,12 +125,53 @@ MaterialIndex MaterialTable::intern(std::vector<Material>& materials, const Mate
   return slots_[slot];
 }
 
+std::array<PatchVertex, 3> corners_of(const SceneDescription& scene, const Triangle& triangle) {
+  const TriangleMesh& mesh = scene.meshes[triangle.mesh];
+  std::array<PatchVertex, 3> corners;
+  for (std::size_t i = 0; i < 3; ++i) {
+    corners[i].position = mesh.positions[triangle.corners.position[i]];
+    if (!mesh.normals.empty()) corners[i].normal = mesh.normals[triangle.corners.normal[i]];
+  }
+  return corners;
+}
+
 SourceLocation location_of(const SceneDescription& scene, PrimitiveRef ref) {
   return of_primitive(scene, ref, [](const auto& primitive) { return primitive.location; });
 }
 
 MaterialIndex material_of(const SceneDescription& scene, PrimitiveRef ref) {
   return of_primitive(scene, ref, [](const auto& primitive) { return primitive.material; });
+}
+
+// Without keys of one kind, what the view itself says stays.
+std::optional<View> view_at(const SceneDescription& scene, double time) {
+  std::optional<View> view = scene.view;
+  const auto camera = scene.movement.tracks.find(kCameraTrack);
+  if (!view || camera == scene.movement.tracks.end()) return view;
+  const Affine map = placement_at(camera->second, time).to_parent;
+  const Vec3d direction = camera->second.rotation.empty() ? view->at - view->from : -map.z.normalized();
+  if (!camera->second.rotation.empty()) view->up = map.y.normalized();
+  if (!camera->second.translation.empty()) view->from = map.origin;
+  view->at = view->from + direction;
+  return view;
+}
+
+MovingTriangle::Key shape_at(const MovingTriangle& triangle, double time) {
+  const auto& keys = triangle.keys;
+  const auto after =
+      std::find_if(keys.begin(), keys.end(), [time](const auto& key) { return time < key.time; });
+  MovingTriangle::Key shape = after == keys.end() ? keys.back() : *after;
+  if (after != keys.begin() && after != keys.end()) {
+    const MovingTriangle::Key& before = *(after - 1);
+    const double share = (time - before.time) / (after->time - before.time);
+    for (std::size_t i = 0; i < 3; ++i) {
+      shape.positions[i] = before.positions[i] * (1 - share) + after->positions[i] * share;
+      shape.normals[i] = before.normals[i] * (1 - share) + after->normals[i] * share;
+    }
+  }
+  shape.time = time;
+  for (Vec3d& normal : shape.normals) normal.normalize();
+  return shape;
 }
 
 Box3d bounds(const SceneDescription& scene, PrimitiveRef ref) {
@@ -128,6 +194,16 @@ Box3d bounds(const SceneDescription& scene, PrimitiveRef ref) {
       break;
     case PrimitiveKind::kPatch:
       for (const PatchVertex& v : scene.vertices(scene.patches[ref.index])) box.extendBy(v.position);
+      break;
+    case PrimitiveKind::kTriangle: {
+      const Triangle& t = scene.triangles[ref.index];
+      for (const std::uint32_t i : t.corners.position) box.extendBy(scene.meshes[t.mesh].positions[i]);
+      break;
+    }
+    case PrimitiveKind::kMovingTriangle:
+      for (const MovingTriangle::Key& key : scene.moving_triangles[ref.index].keys) {
+        for (const Vec3d& p : key.positions) box.extendBy(p);
+      }
       break;
   }
   return box;

@@ -2,6 +2,7 @@
 // rounded.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -11,11 +12,22 @@
 
 #include "base/source_location.h"
 #include "base/vector.h"
+#include "scene/movement.h"
+#include "scene/texture.h"
 
 namespace pprt {
 
 // Colour as a scene file gives it, nominally in [0, 1]. Doubles, so that it is written back as it was read.
 using Rgb = Imath::Color3<double>;
+
+// A colour for each term of a material (AFF "fm").
+struct TermColors {
+  Rgb ambient{0, 0, 0};   // times the scene's ambient light
+  Rgb diffuse{1, 1, 1};   // in place of colour times Kd
+  Rgb specular{0, 0, 0};  // in place of Ks
+
+  friend bool operator==(const TermColors&, const TermColors&) = default;
+};
 
 // NFF "f": local shading (Lambert, Phong) and the weights of reflected and refracted rays.
 struct Material {
@@ -25,6 +37,9 @@ struct Material {
   double shine = 0;             // Phong exponent; 0 or Ks = 0: no highlight
   double transmittance = 0;     // T: weight of the refracted ray; > 0 makes the surface two-sided
   double refractive_index = 1;  // meaningless (often 0) on opaque materials
+  // Not in NFF. With terms, colour and Kd mean nothing, and Ks is the largest component of the specular one.
+  std::optional<TermColors> terms = {};
+  std::optional<TextureIndex> texture = {};  // times the ambient and the diffuse term
 
   friend bool operator==(const Material&, const Material&) = default;
 };
@@ -93,7 +108,38 @@ struct Patch {
   SourceLocation location;
 };
 
-enum class PrimitiveKind : std::uint8_t { kSphere, kCone, kPolygon, kPatch };
+// Lists that the triangles of a mesh share. Front faces run counter-clockwise.
+struct TriangleMesh {
+  std::vector<Vec3d> positions;
+  std::vector<Vec3d> normals;  // empty: flat; as given, of any length
+  // Empty: no texture. (0, 0) is the picture's upper left corner, (1, 1) the lower right.
+  std::vector<Vec2d> texture_points;
+  MaterialIndex material = 0;
+  SourceLocation location = {};
+};
+
+// Indices into a mesh's lists, where it has them.
+struct TriangleCorners {
+  std::array<std::uint32_t, 3> position{}, normal{}, texture_point{};
+};
+
+struct Triangle {
+  std::uint32_t mesh = 0;  // into SceneDescription::meshes
+  TriangleCorners corners = {};
+};
+
+// AFF "tpa": a triangle whose corners move. Between keys positions and normals change evenly.
+struct MovingTriangle {
+  struct Key {
+    double time = 0;
+    std::array<Vec3d, 3> positions, normals;
+  };
+  std::vector<Key> keys;  // ascending, at least one
+  MaterialIndex material = 0;
+  SourceLocation location = {};
+};
+
+enum class PrimitiveKind : std::uint8_t { kSphere, kCone, kPolygon, kPatch, kTriangle, kMovingTriangle };
 
 // Refers to the index-th object of its kind.
 struct PrimitiveRef {
@@ -116,7 +162,17 @@ struct SceneDescription {
   std::vector<Patch> patches;
   std::vector<Vec3d> polygon_vertices;
   std::vector<PatchVertex> patch_vertices;
+  std::vector<TriangleMesh> meshes;
+  std::vector<Triangle> triangles;
+  std::vector<MovingTriangle> moving_triangles;
   std::vector<PrimitiveRef> order;  // every primitive once, in file order
+
+  // What NFF does not have.
+  std::optional<Rgb> ambient;  // the ambient light; lights then count as written, not by NFF's rules
+  std::vector<Texture> textures;
+  Movement movement;
+  std::vector<NodeIndex> nodes;        // in whose space each of `order` stands; empty: all in the world's
+  std::vector<LightNode> light_nodes;  // of each light; empty: all rest in the world
 
   // Each returns the vertices of a polygon or patch of this scene.
   std::span<const Vec3d> vertices(const Polygon& polygon) const {
@@ -135,9 +191,14 @@ void add_polygon(SceneDescription& scene, std::span<const Vec3d> vertices, Mater
                  SourceLocation location = {});
 void add_patch(SceneDescription& scene, std::span<const PatchVertex> vertices, MaterialIndex material,
                SourceLocation location = {});
+void add_mesh(SceneDescription& scene, TriangleMesh mesh, std::span<const TriangleCorners> triangles);
+void add_moving_triangle(SceneDescription& scene, MovingTriangle triangle);
 
 // Returns the material of a primitive; `ref` must be in range.
 MaterialIndex material_of(const SceneDescription& scene, PrimitiveRef ref);
+
+// Returns the corners of a triangle of a mesh; normals are zero where the mesh has none.
+std::array<PatchVertex, 3> corners_of(const SceneDescription& scene, const Triangle& triangle);
 
 // Returns where a primitive stands in its file; line 0 if it comes from none. `ref` must be in range.
 SourceLocation location_of(const SceneDescription& scene, PrimitiveRef ref);
@@ -153,11 +214,22 @@ class MaterialTable {
   std::size_t used_ = 0;
 };
 
-// Returns the axis-parallel bounding box of a primitive, exact for cones and spheres too. `ref` must be in
-// range.
+// Returns the view at a time: the track "camera" moves it. Empty where the scene has no view.
+std::optional<View> view_at(const SceneDescription& scene, double time);
+
+// Returns the triangle at a time; normals are of unit length where they are not zero.
+MovingTriangle::Key shape_at(const MovingTriangle& triangle, double time);
+
+// Returns the node in whose space a primitive stands; `place` is its place in the order.
+inline NodeIndex node_of(const SceneDescription& scene, std::size_t place) {
+  return scene.nodes.empty() ? 0 : scene.nodes[place];
+}
+
+// Returns the axis-parallel bounding box of a primitive in its node's space, exact for cones and spheres too;
+// of a moving triangle that of all times. `ref` must be in range.
 Box3d bounds(const SceneDescription& scene, PrimitiveRef ref);
 
-// Returns the bounding box of all primitives; empty when there are none.
+// Returns the bounding box of all primitives, each in its node's space; empty when there are none.
 Box3d bounds(const SceneDescription& scene);
 
 }  // namespace pprt

@@ -22,14 +22,16 @@ std::vector<FrameRequest> frames_of(const CompiledScene& scene, const Animation&
   std::vector<FrameRequest> frames;
   for (int number = 1; number <= count; ++number) {
     const View view = view_at(animation, 1 + (number - 1) * speed, base);
-    frames.push_back({number, square_camera(scene, view, size), cut_before(animation, number)});
+    frames.push_back(
+        {.number = number, .camera = square_camera(scene, view, size), .cut = cut_before(animation, number)});
   }
   return frames;
 }
 
 void render_series(const CompiledScene& scene, const std::vector<FrameRequest>& frames, int ranks,
                    const SessionSettings& settings, const FrameSink& sink) {
-  std::vector<Tracer> tracers(static_cast<std::size_t>(ranks), Tracer(scene, Camera()));
+  std::vector<Tracer> tracers;
+  for (int rank = 0; rank < ranks; ++rank) tracers.emplace_back(scene, Camera());
   const auto next = [&](int index) -> std::optional<FrameRequest> {
     const auto i = static_cast<std::size_t>(index);
     return i < frames.size() ? std::optional(frames[i]) : std::nullopt;

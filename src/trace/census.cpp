@@ -21,6 +21,8 @@ std::string primitives(const CompiledScene::Impl& scene) {
   add(held.cones, "cone or cylinder", "cones and cylinders");
   add(held.polygons, "polygon", "polygons");
   add(held.patches, "patch", "patches");
+  add(held.triangles, "triangle of a mesh", "triangles of meshes");
+  add(held.moving_triangles, "triangle that changes its shape", "triangles that change their shape");
   if (scene.figures.triangles > 0)
     text += fmt::format(" ({})", counted(scene.figures.triangles, "triangle", "triangles"));
   if (scene.figures.degenerate > 0)
@@ -47,7 +49,14 @@ std::string reason(Effect effect, const Inventory& held) {
     case Effect::kRefraction:
       return materials(held.transmitting, "with T > 0");
     case Effect::kSmoothNormals:
-      return held.patches == 0 ? "no patch" : counted(held.patches, "patch", "patches");
+      if (held.patches > 0) return counted(held.patches, "patch", "patches");
+      if (held.smooth_meshes > 0)
+        return counted(held.smooth_meshes, "mesh with normals", "meshes with normals");
+      return held.moving_triangles > 0
+                 ? counted(held.moving_triangles, "triangle with normals", "triangles with normals")
+                 : "no patch";
+    case Effect::kTextures:
+      return materials(held.textured, "with a texture");
   }
   return {};
 }
@@ -75,6 +84,12 @@ std::string census_text(const CompiledScene::Impl& scene) {
   }
   text += '\n';
   text += fmt::format("lights      {}\n", scene.inventory.lights);
+  if (scene.moves) {
+    const std::size_t n = scene.inventory.moving_nodes, t = scene.inventory.moving_triangles;
+    text += fmt::format(
+        "movement    {}{}\n", counted(n, "object that moves", "objects that move"),
+        t > 0 ? fmt::format(", {} that change their shape", counted(t, "triangle", "triangles")) : "");
+  }
   text += "effects\n";
   for (Effect effect : every_effect()) text += effect_line(effect, scene);
   text += fmt::format("kernel      {} (one of {}){}\n", to_string(scene.effects), EffectSet::all().bits() + 1,

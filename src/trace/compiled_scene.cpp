@@ -4,13 +4,14 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "base/diagnostics.h"
 #include "scene/shading_rules.h"
 #include "scene/view_frame.h"
 #include "trace/numerics.h"
-#include "trace/repeats.h"
+#include "trace/parts_builder.h"
 #include "trace/scene_impl.h"
 
 namespace pprt {
@@ -30,6 +31,37 @@ bool finite(const Vec3d& v) {
   throw InputError(place + ": error: " + problem);
 }
 
+// Returns the times that a scene's objects are looked at for their places.
+std::vector<double> times_of(const Movement& movement) {
+  std::vector<double> times;
+  if (movement.times) {
+    for (int i = 0; i < movement.times->frames; ++i) times.push_back(time_of_frame(*movement.times, i));
+    return times;
+  }
+  for (const auto& [name, track] : movement.tracks) {
+    for (const VectorKey& key : track.translation) times.push_back(key.time);
+    for (const VectorKey& key : track.scale) times.push_back(key.time);
+    for (const RotationKey& key : track.rotation) times.push_back(key.time);
+  }
+  if (times.empty()) times.push_back(0);
+  return times;
+}
+
+// Returns the box of all that the scene shows at its frames' times, or at its keys' if it has no frames.
+Box3d box_of_all_times(const SceneDescription& scene) {
+  std::vector<Box3d> boxes(scene.movement.nodes.size());  // of each node's objects, in its space
+  for (std::size_t place = 0; place < scene.order.size(); ++place)
+    boxes[node_of(scene, place)].extendBy(bounds(scene, scene.order[place]));
+  if (boxes.size() == 1) return boxes[0];
+  Box3d box;
+  for (const double time : times_of(scene.movement)) {
+    const std::vector<Placement> placements = placements_at(scene.movement, time);
+    for (std::size_t node = 0; node < boxes.size(); ++node)
+      box.extendBy(mapped(placements[node].to_parent, boxes[node]));
+  }
+  return box;
+}
+
 // Returns the origin of the compiled space, about which floats are finest. Usually it is the middle of the
 // scene's box.
 //
@@ -43,15 +75,16 @@ Vec3d origin_for(const SceneDescription& scene, const Box3d& box) {
   double weights = 0, objects = 0;
   Vec3d sum(0, 0, 0);  // of the objects' middles, relative to the box's middle
   const Vec3d middle = box.min * 0.5 + box.max * 0.5;
-  for (const PrimitiveRef ref : scene.order) {
-    const Box3d own = bounds(scene, ref);
+  for (std::size_t i = 0; i < scene.order.size(); ++i) {
+    if (node_of(scene, i) != 0) continue;
+    const Box3d own = bounds(scene, scene.order[i]);
     const double size = (own.max - own.min).length() / whole;
     if (!(size > kNoExtent)) continue;
     ++objects;
     weights += 1 / (size * size);
     sum += (own.min * 0.5 + own.max * 0.5 - middle) * (1 / (size * size));
   }
-  const double typical = std::sqrt(objects / weights);
+  const double typical = objects > 0 ? std::sqrt(objects / weights) : 1;
   return typical < kSmallDetail ? middle + sum * (1 / weights) : middle;
 }
 
@@ -62,10 +95,12 @@ double radius_about_origin(const Normalisation& map, const Box3d& box) {
   return Vec3d(farther(low.x, high.x), farther(low.y, high.y), farther(low.z, high.z)).length();
 }
 
-ShadingMaterial shading_material(const Material& m, double ambient_weight) {
+// `ambient`: the ambient light; `reflected`: what materials reflect of it that do not say how much.
+ShadingMaterial shading_material(const Material& m, const Rgb& ambient, const Rgb& reflected) {
   ShadingMaterial result;
-  result.ambient = to_color(m.color * (kAmbientReflectance * ambient_weight));
-  result.diffuse = to_color(m.color * m.diffuse);
+  result.ambient = to_color(m.terms ? m.terms->ambient * ambient : m.color * reflected);
+  result.diffuse = to_color(m.terms ? m.terms->diffuse : m.color * m.diffuse);
+  result.specular_color = to_color(m.terms ? m.terms->specular : Rgb(m.specular, m.specular, m.specular));
   result.specular = static_cast<float>(m.specular);
   result.shine = has_highlight(m) ? static_cast<float>(m.shine) : 0;
   result.transmittance = static_cast<float>(m.transmittance);
@@ -73,116 +108,6 @@ ShadingMaterial shading_material(const Material& m, double ambient_weight) {
   result.lit = result.diffuse != Color(0, 0, 0) || result.shine > 0;
   return result;
 }
-
-// Sorts the primitives into parts: those of one kind with the same visible faces.
-class PartsBuilder {
- public:
-  PartsBuilder(const SceneDescription& scene, CompiledScene::Impl& impl) : scene_(scene), impl_(impl) {}
-
-  void run() {
-    repeats_ = find_repeats(scene_);
-    impl_.figures.repeated = repeats_.count;
-    impl_.figures.first_repeated = repeats_.first;
-    add_all(PrimitiveKind::kSphere, scene_.spheres);
-    add_all(PrimitiveKind::kCone, scene_.cones);
-    add_all(PrimitiveKind::kPolygon, scene_.polygons);
-    add_all(PrimitiveKind::kPatch, scene_.patches);
-  }
-
- private:
-  template <class Primitive>
-  void add_all(PrimitiveKind kind, const std::vector<Primitive>& primitives) {
-    for (std::size_t i = 0; i < scene_.order.size(); ++i) {
-      if (scene_.order[i].kind != kind || (repeats_.count > 0 && repeats_.repeated[i])) continue;
-      primitive_ = static_cast<std::uint32_t>(i);
-      add(primitives[scene_.order[i].index]);
-    }
-  }
-
-  VisibleFaces faces(MaterialIndex material, bool inside_only) const {
-    if (inside_only) return VisibleFaces::kBack;
-    const bool opaque = !(scene_.materials[material].transmittance > 0);
-    return impl_.options.cull && opaque ? VisibleFaces::kFront : VisibleFaces::kBoth;
-  }
-
-  // Linear search: a kind has at most three parts.
-  template <class Shape>
-  std::pair<ScenePart&, Shape&> part(PrimitiveKind kind, VisibleFaces faces) {
-    for (ScenePart& p : impl_.parts) {
-      if (p.kind == kind && p.faces == faces) return {p, std::get<Shape>(p.shape)};
-    }
-    impl_.parts.push_back({kind, faces, Shape(), {}, {}});
-    return {impl_.parts.back(), std::get<Shape>(impl_.parts.back().shape)};
-  }
-
-  void add(const Sphere& s) {
-    require(finite(s.center) && std::isfinite(s.radius), s.location);
-    if (s.radius == 0) return drop();
-    auto [to, shape] =
-        part<std::vector<SphereRecord>>(PrimitiveKind::kSphere, faces(s.material, s.radius < 0));
-    shape.push_back({impl_.normalisation.point(s.center), impl_.normalisation.length(std::abs(s.radius))});
-    finish(to, 1, s.material);
-  }
-
-  void add(const Cone& c) {
-    require(finite(c.base) && finite(c.apex) && std::isfinite(c.base_radius + c.apex_radius), c.location);
-    const double base_radius = impl_.normalisation.length(std::abs(c.base_radius));
-    const double apex_radius = impl_.normalisation.length(std::abs(c.apex_radius));
-    const Vec3d axis = (c.apex - c.base) * impl_.normalisation.scale;
-    if (axis.dot(axis) == 0 || (base_radius == 0 && apex_radius == 0)) return drop();
-    const bool inside_only = c.base_radius < 0 || c.apex_radius < 0;
-    auto [to, shape] = part<std::vector<ConeRecord>>(PrimitiveKind::kCone, faces(c.material, inside_only));
-    shape.push_back({impl_.normalisation.point(c.base), axis, base_radius, apex_radius - base_radius});
-    finish(to, 1, c.material);
-  }
-
-  void add(const Polygon& p) {
-    positions_.clear();
-    for (const Vec3d& v : scene_.vertices(p)) {
-      require(finite(v), p.location);
-      positions_.push_back(impl_.normalisation.point(v));
-    }
-    auto [to, mesh] = part<Mesh>(PrimitiveKind::kPolygon, faces(p.material, false));
-    finish_mesh(to, mesh.add(positions_, {}), p.material);
-  }
-
-  void add(const Patch& p) {
-    positions_.clear();
-    normals_.clear();
-    for (const PatchVertex& v : scene_.vertices(p)) {
-      require(finite(v.position) && finite(v.normal), p.location);
-      positions_.push_back(impl_.normalisation.point(v.position));
-      normals_.emplace_back(v.normal.normalized());  // a zero normal stays zero
-    }
-    auto [to, mesh] = part<Mesh>(PrimitiveKind::kPatch, faces(p.material, false));
-    finish_mesh(to, mesh.add(positions_, normals_), p.material);
-  }
-
-  // `count`: number of Embree primitives, 1 or the number of triangles.
-  void finish(ScenePart& to, std::size_t count, MaterialIndex material) const {
-    to.materials.insert(to.materials.end(), count, material);
-    to.primitives.insert(to.primitives.end(), count, primitive_);
-  }
-
-  void finish_mesh(ScenePart& to, std::size_t triangles, MaterialIndex material) {
-    if (triangles == 0) return drop();
-    finish(to, triangles, material);
-    impl_.figures.triangles += triangles;
-  }
-
-  void require(bool is_finite, SourceLocation at) const {
-    if (!is_finite) reject(scene_.name, at, "a coordinate or radius is not finite");
-  }
-
-  void drop() { ++impl_.figures.degenerate; }
-
-  const SceneDescription& scene_;
-  CompiledScene::Impl& impl_;
-  Repeats repeats_;
-  std::uint32_t primitive_ = 0;  // place in the description's order of the primitive that is being added
-  std::vector<Vec3d> positions_;
-  std::vector<Vec3f> normals_;
-};
 
 template <class T>
 std::size_t bytes(const std::vector<T>& v) {
@@ -192,7 +117,8 @@ std::size_t bytes(const std::vector<T>& v) {
 std::size_t bytes(const ScenePart& part) {
   std::size_t shape = 0;
   if (const auto* mesh = std::get_if<Mesh>(&part.shape)) {
-    shape = bytes(mesh->vertices) + bytes(mesh->normals) + bytes(mesh->triangles) + bytes(mesh->facets);
+    shape = bytes(mesh->vertices) + bytes(mesh->normals) + bytes(mesh->texture_points) +
+            bytes(mesh->triangles) + bytes(mesh->facets);
   } else if (const auto* spheres = std::get_if<std::vector<SphereRecord>>(&part.shape)) {
     shape = bytes(*spheres);
   } else {
@@ -202,14 +128,15 @@ std::size_t bytes(const ScenePart& part) {
 }
 
 EmbreeGeometry new_geometry(const EmbreeDevice& device, ScenePart& part) {
+  const RayLength rays = part.body == 0 ? RayLength::kUnit : RayLength::kAny;
   if (auto* mesh = std::get_if<Mesh>(&part.shape)) return new_mesh_geometry(device, *mesh, part.faces);
   if (auto* spheres = std::get_if<std::vector<SphereRecord>>(&part.shape)) {
-    return new_user_geometry(device, *spheres, part.faces);
+    return new_user_geometry(device, *spheres, part.faces, rays);
   }
-  return new_user_geometry(device, std::get<std::vector<ConeRecord>>(part.shape), part.faces);
+  return new_user_geometry(device, std::get<std::vector<ConeRecord>>(part.shape), part.faces, rays);
 }
 
-// Builds Embree's BVH. A part's geometry number is its index in `parts`.
+// Builds Embree's BVH of each body that keeps its shape. A part's geometry number is its index in `parts`.
 void build_hierarchy(CompiledScene::Impl& impl) {
   const auto start = std::chrono::steady_clock::now();
   std::atomic<std::ptrdiff_t> allocated = 0;
@@ -221,15 +148,22 @@ void build_hierarchy(CompiledScene::Impl& impl) {
         return true;
       },
       &allocated);
-  impl.embree.reset(rtcNewScene(impl.device.get()));
-  rtcSetSceneFlags(impl.embree.get(), RTC_SCENE_FLAG_ROBUST);
-  rtcSetSceneBuildQuality(impl.embree.get(), RTC_BUILD_QUALITY_MEDIUM);
-  for (std::size_t i = 0; i < impl.parts.size(); ++i) {
-    const EmbreeGeometry geometry = new_geometry(impl.device, impl.parts[i]);
-    rtcAttachGeometryByID(impl.embree.get(), geometry.get(), static_cast<unsigned>(i));
-    impl.figures.primitive_bytes += bytes(impl.parts[i]);
+  for (CompiledBody& body : impl.bodies) {
+    if (body.deforms) continue;
+    body.embree.reset(rtcNewScene(impl.device.get()));
+    rtcSetSceneFlags(body.embree.get(), RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(body.embree.get(), RTC_BUILD_QUALITY_MEDIUM);
   }
-  rtcCommitScene(impl.embree.get());
+  for (std::size_t i = 0; i < impl.parts.size(); ++i) {
+    ScenePart& part = impl.parts[i];
+    impl.figures.primitive_bytes += bytes(part);
+    if (impl.bodies[part.body].deforms) continue;
+    const EmbreeGeometry geometry = new_geometry(impl.device, part);
+    rtcAttachGeometryByID(impl.bodies[part.body].embree.get(), geometry.get(), static_cast<unsigned>(i));
+  }
+  for (const CompiledBody& body : impl.bodies) {
+    if (!body.deforms) rtcCommitScene(body.embree.get());
+  }
   rtcSetDeviceMemoryMonitorFunction(impl.device.get(), nullptr, nullptr);
   check_embree(impl.device, "building the hierarchy");
   impl.figures.hierarchy_bytes = static_cast<std::size_t>(std::max<std::ptrdiff_t>(allocated, 0));
@@ -249,6 +183,52 @@ EffectSet chosen_effects(const Inventory& inventory, const CompileOptions& optio
   return effects;
 }
 
+void add_materials(const SceneDescription& scene, CompiledScene::Impl& impl) {
+  const bool has_textures = impl.effects.has(Effect::kTextures);
+  for (const Texture& texture : scene.textures) {
+    if (has_textures && texture.width > 0) impl.textures.emplace_back(texture);
+  }
+  const Rgb ambient = scene.ambient.value_or(Rgb(1, 1, 1));
+  const double weight = scene.ambient ? 1 : light_weight(scene.lights.size());
+  for (const Material& m : scene.materials) {
+    ShadingMaterial& material =
+        impl.materials.emplace_back(shading_material(m, ambient, ambient * (kAmbientReflectance * weight)));
+    if (has_textures && m.texture && *m.texture < impl.textures.size())
+      material.texture = &impl.textures[*m.texture];
+    impl.extended = impl.extended || m.terms || material.texture != nullptr;
+  }
+}
+
+void add_lights(const SceneDescription& scene, CompiledScene::Impl& impl) {
+  const double weight = scene.ambient ? 1 : light_weight(scene.lights.size());
+  for (const Light& l : scene.lights) {
+    if (!finite(l.position)) reject(scene.name, l.location, "the position of a light is not finite");
+    impl.lights.push_back(
+        {impl.normalisation.point(l.position), to_color(l.color.value_or(Rgb(1, 1, 1)) * weight), {}});
+    impl.light_positions.push_back(l.position);
+  }
+  impl.light_nodes = scene.light_nodes;
+}
+
+void number_parts(std::size_t primitives, CompiledScene::Impl& impl) {
+  impl.part_of_primitive.assign(primitives, kNoPart);
+  for (std::uint32_t i = 0; i < impl.parts.size(); ++i) {
+    for (const std::uint32_t place : impl.parts[i].primitives) impl.part_of_primitive[place] = i;
+  }
+}
+
+// Only where neither the light nor the surface moves.
+void find_light_contacts(CompiledScene::Impl& impl) {
+  const auto moving = std::find_if(impl.parts.begin(), impl.parts.end(),
+                                   [](const ScenePart& part) { return part.body != 0; });
+  const std::span<const ScenePart> resting(impl.parts.begin(), moving);
+  for (std::size_t i = 0; i < impl.lights.size(); ++i) {
+    const bool rests =
+        impl.light_nodes.empty() || (impl.light_nodes[i].node == 0 && impl.light_nodes[i].track.empty());
+    if (rests) impl.lights[i].contacts = contacts_of_light(impl.lights[i].position, resting, impl.radius);
+  }
+}
+
 }  // namespace
 
 CompiledScene::CompiledScene(std::unique_ptr<const Impl> impl) : impl_(std::move(impl)) {}
@@ -266,6 +246,28 @@ RepeatedPrimitives CompiledScene::repeated() const {
 
 std::string CompiledScene::census() const {
   return census_text(*impl_);
+}
+
+bool CompiledScene::moves() const {
+  return impl_->moves;
+}
+
+bool CompiledScene::moves_between(double one, double other) const {
+  if (!impl_->moves || one == other) return false;
+  const std::vector<Placement> before = placements_at(impl_->movement, one),
+                               after = placements_at(impl_->movement, other);
+  const auto same = [](const Placement& a, const Placement& b) {
+    return a.to_parent == b.to_parent && a.visible == b.visible;
+  };
+  const bool deforms = std::any_of(impl_->bodies.begin(), impl_->bodies.end(),
+                                   [](const CompiledBody& body) { return body.deforms; });
+  const auto stands = [&](const LightNode& light) {
+    const auto a = track_at(impl_->movement, light.track, one),
+               b = track_at(impl_->movement, light.track, other);
+    return !a || same(*a, *b);
+  };
+  return deforms || !std::equal(before.begin(), before.end(), after.begin(), same) ||
+         !std::all_of(impl_->light_nodes.begin(), impl_->light_nodes.end(), stands);
 }
 
 double CompiledScene::distance(const Vec3d& point) const {
@@ -289,7 +291,7 @@ Camera CompiledScene::camera(const View& view) const {
 }
 
 CompiledScene compile(const SceneDescription& scene, const CompileOptions& options) {
-  const Box3d box = bounds(scene);
+  const Box3d box = box_of_all_times(scene);
   if (scene.primitive_count() == 0 || box.isEmpty()) {
     reject(scene.name, {}, "the scene has no objects: there is nothing in it to see");
   }
@@ -300,26 +302,23 @@ CompiledScene compile(const SceneDescription& scene, const CompileOptions& optio
   impl->options = options;
   impl->inventory = take_inventory(scene);
   impl->effects = chosen_effects(impl->inventory, options);
-  impl->kernel =
-      kernel_for(options.general_kernel ? EffectSet::all() : impl->effects, options.count_as_published);
   impl->normalisation = normalising(box, origin_for(scene, box));
   // Enlarged by far more than the rounding of the sum, so that rays may start on the sphere.
   impl->radius = radius_about_origin(impl->normalisation, box) * (1 + 0x1p-20);
   impl->background = to_color(scene.background.value_or(Rgb(0, 0, 0)));
+  impl->movement = scene.movement;
+  add_materials(scene, *impl);
+  add_lights(scene, *impl);
 
-  const double weight = light_weight(scene.lights.size());
-  for (const Material& m : scene.materials) impl->materials.push_back(shading_material(m, weight));
-  for (const Light& l : scene.lights) {
-    if (!finite(l.position)) reject(scene.name, l.location, "the position of a light is not finite");
-    impl->lights.push_back(
-        {impl->normalisation.point(l.position), to_color(l.color.value_or(Rgb(1, 1, 1)) * weight), {}});
-  }
-  PartsBuilder(scene, *impl).run();
+  build_parts(scene, *impl);
   std::erase_if(impl->parts, [](const ScenePart& part) { return part.materials.empty(); });
   if (impl->parts.empty()) reject(scene.name, {}, "no object of the scene has any extent");
-  for (ShadingLight& light : impl->lights) {
-    light.contacts = contacts_of_light(light.position, impl->parts, impl->radius);
-  }
+  impl->moves = impl->bodies.size() > 1 || !impl->light_nodes.empty();
+  impl->extended = impl->extended || impl->moves;
+  if (impl->moves) number_parts(scene.order.size(), *impl);
+  find_light_contacts(*impl);
+  impl->kernel = kernel_for(options.general_kernel ? EffectSet::all() : impl->effects,
+                            options.count_as_published, impl->extended || options.general_kernel);
   build_hierarchy(*impl);
   return CompiledScene(std::move(impl));
 }

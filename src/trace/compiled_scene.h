@@ -54,6 +54,10 @@ class CompiledScene {
   // Returns the effects that are simulated: called for by the scene and allowed by the options.
   EffectSet effects() const;
 
+  // Whether anything but the camera moves; and whether it stands elsewhere at one time than at another.
+  bool moves() const;
+  bool moves_between(double one, double other) const;
+
   // Returns the distance of a point in scene space from the compiled space's origin, in sizes of the scene.
   double distance(const Vec3d& point) const;
   RepeatedPrimitives repeated() const;
@@ -72,6 +76,8 @@ class CompiledScene {
   std::unique_ptr<const Impl> impl_;
 };
 
+class Pose;
+
 // Compiles a scene. Throws InputError when it has no visible object or a number that is not finite.
 CompiledScene compile(const SceneDescription& scene, const CompileOptions& options = {});
 
@@ -87,7 +93,20 @@ struct GlassSeen {
 // Traces rays in one thread. The CompiledScene must outlive it.
 class Tracer {
  public:
+  // The time is that of the movement's start.
   Tracer(const CompiledScene& scene, const Camera& camera);
+  Tracer(Tracer&&) noexcept;
+  ~Tracer();
+
+  // Moves everything to its place at a time, seconds.
+  void set_time(double time);
+
+  // Carries a sample of the time before the last set_time() into this time: its hit point moves with its
+  // object. Lights that what moves may have hidden or freed, or that move, are no more known there; then the
+  // colour counts as one that changes with the eye. Returns false where the point is no more.
+  bool carry(RaySample& sample) const;
+
+  const CompiledScene& scene() const { return scene_; }
 
   void set_camera(const Camera& camera) { camera_ = camera; }
   const Camera& camera() const { return camera_; }
@@ -117,6 +136,7 @@ class Tracer {
 
  private:
   const CompiledScene& scene_;
+  std::unique_ptr<Pose> pose_;
   Camera camera_;
   RayCounts counts_;
 };

@@ -22,6 +22,7 @@ constexpr std::array kNames = {
     EffectName{Effect::kReflection, "reflection"},
     EffectName{Effect::kRefraction, "refraction"},
     EffectName{Effect::kSmoothNormals, "smooth-normals"},
+    EffectName{Effect::kTextures, "textures"},
 };
 
 std::vector<bool> materials_in_use(const SceneDescription& scene) {
@@ -30,6 +31,8 @@ std::vector<bool> materials_in_use(const SceneDescription& scene) {
   for (const Cone& c : scene.cones) used[c.material] = true;
   for (const Polygon& p : scene.polygons) used[p.material] = true;
   for (const Patch& p : scene.patches) used[p.material] = true;
+  for (const TriangleMesh& m : scene.meshes) used[m.material] = true;
+  for (const MovingTriangle& t : scene.moving_triangles) used[t.material] = true;
   return used;
 }
 
@@ -86,8 +89,18 @@ std::string to_string(EffectSet effects) {
 }
 
 Inventory take_inventory(const SceneDescription& scene) {
-  Inventory inventory{scene.spheres.size(), scene.cones.size(), scene.polygons.size(), scene.patches.size(),
-                      scene.lights.size()};
+  Inventory inventory{.spheres = scene.spheres.size(),
+                      .cones = scene.cones.size(),
+                      .polygons = scene.polygons.size(),
+                      .patches = scene.patches.size(),
+                      .triangles = scene.triangles.size(),
+                      .moving_triangles = scene.moving_triangles.size(),
+                      .lights = scene.lights.size()};
+  inventory.smooth_meshes = static_cast<std::size_t>(std::count_if(
+      scene.meshes.begin(), scene.meshes.end(), [](const TriangleMesh& m) { return !m.normals.empty(); }));
+  inventory.moving_nodes = static_cast<std::size_t>(
+      std::count_if(scene.movement.nodes.begin(), scene.movement.nodes.end(),
+                    [&](const SceneNode& node) { return scene.movement.tracks.contains(node.track); }));
   const std::vector<bool> used = materials_in_use(scene);
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (!used[i]) continue;
@@ -96,6 +109,7 @@ Inventory take_inventory(const SceneDescription& scene) {
     if (material.specular > 0) ++inventory.reflecting;
     if (has_highlight(material)) ++inventory.highlighting;
     if (material.transmittance > 0) ++inventory.transmitting;
+    if (material.texture) ++inventory.textured;
     if (std::max(material.specular, 0.0) + std::max(material.transmittance, 0.0) > 1) ++inventory.brightening;
   }
   return inventory;
@@ -107,7 +121,9 @@ EffectSet effects_called_for(const Inventory& inventory) {
   if (inventory.lights > 0 && inventory.highlighting > 0) effects.add(Effect::kHighlights);
   if (inventory.reflecting > 0) effects.add(Effect::kReflection);
   if (inventory.transmitting > 0) effects.add(Effect::kRefraction);
-  if (inventory.patches > 0) effects.add(Effect::kSmoothNormals);
+  if (inventory.patches + inventory.smooth_meshes + inventory.moving_triangles > 0)
+    effects.add(Effect::kSmoothNormals);
+  if (inventory.textured > 0) effects.add(Effect::kTextures);
   return effects;
 }
 

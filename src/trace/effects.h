@@ -16,7 +16,8 @@ enum class Effect : std::uint8_t {
   kHighlights = 1 << 1,     // a light, and a material with Ks > 0 and a visible highlight
   kReflection = 1 << 2,     // a material with Ks > 0
   kRefraction = 1 << 3,     // a material with T > 0
-  kSmoothNormals = 1 << 4,  // the scene has a patch
+  kSmoothNormals = 1 << 4,  // the scene has a patch, or a mesh with normals
+  kTextures = 1 << 5,       // a material with a texture
 };
 
 // A set of effects, one bit each.
@@ -27,7 +28,7 @@ class EffectSet {
   constexpr bool has(Effect e) const { return (bits_ & static_cast<unsigned>(e)) != 0; }
   constexpr void add(Effect e) { bits_ |= static_cast<unsigned>(e); }
   constexpr unsigned bits() const { return bits_; }
-  static constexpr EffectSet all() { return EffectSet(31); }
+  static constexpr EffectSet all() { return EffectSet(63); }
 
   friend constexpr bool operator==(EffectSet, EffectSet) = default;
   friend constexpr EffectSet operator&(EffectSet a, EffectSet b) { return EffectSet(a.bits_ & b.bits_); }
@@ -36,7 +37,7 @@ class EffectSet {
   unsigned bits_ = 0;
 };
 
-// Returns the option's word: shadows, highlights, reflection, refraction, smooth-normals.
+// Returns the option's word: shadows, highlights, reflection, refraction, smooth-normals, textures.
 std::string_view name(Effect effect);
 // Returns all effects, in the order of their bits.
 std::vector<Effect> every_effect();

@@ -54,21 +54,21 @@ inline void check_embree(const EmbreeDevice& device, const char* doing) {
 class RaySender {
  public:
 #if PPRT_EMBREE_MAJOR >= 4
-  void intersect(const EmbreeScene& scene, RTCRayHit& found) {
-    rtcIntersect1(scene.get(), &found);
+  void intersect(RTCScene scene, RTCRayHit& found) {
+    rtcIntersect1(scene, &found);
   }
-  void occluded(const EmbreeScene& scene, RTCRay& ray) {
-    rtcOccluded1(scene.get(), &ray);
+  void occluded(RTCScene scene, RTCRay& ray) {
+    rtcOccluded1(scene, &ray);
   }
 #else
   RaySender() {
     rtcInitIntersectContext(&context_);
   }
-  void intersect(const EmbreeScene& scene, RTCRayHit& found) {
-    rtcIntersect1(scene.get(), &context_, &found);
+  void intersect(RTCScene scene, RTCRayHit& found) {
+    rtcIntersect1(scene, &context_, &found);
   }
-  void occluded(const EmbreeScene& scene, RTCRay& ray) {
-    rtcOccluded1(scene.get(), &context_, &ray);
+  void occluded(RTCScene scene, RTCRay& ray) {
+    rtcOccluded1(scene, &context_, &ray);
   }
 
  private:

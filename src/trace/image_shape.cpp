@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "trace/scene_impl.h"
+#include "trace/pose.h"
 
 namespace pprt {
 namespace {
@@ -135,25 +135,39 @@ bool is_seen(const Facet& facet, const Vec3d& from_eye, VisibleFaces faces) {
   return front == (faces == VisibleFaces::kFront);
 }
 
-void project(const ScenePart& part, std::size_t first, std::size_t last, const Camera& camera,
-             ImageShape& shape) {
+// Returns the camera in a body's space: with the same rays, whose parameters are the same.
+Camera seen_from(const BodyPlace& body, Camera camera) {
+  const Affine& map = body.from_world;
+  camera.eye = map.point(camera.eye);
+  camera.right = map.vector(camera.right), camera.up = map.vector(camera.up);
+  camera.forward = map.vector(camera.forward);
+  return camera;
+}
+
+// `body`: where the part stands; null: in the world.
+void project(const ScenePart& part, const BodyPlace* body, std::size_t first, std::size_t last,
+             const Camera& camera, ImageShape& shape) {
   shape.quadric.front = part.faces != VisibleFaces::kBack;
   shape.quadric.back = part.faces != VisibleFaces::kFront;
   bool known = true;
   if (const auto* spheres = std::get_if<std::vector<SphereRecord>>(&part.shape)) {
     shape.kind = ImageShape::Kind::kQuadric;
-    known = project((*spheres)[first], camera, shape.quadric);
+    known = project((*spheres)[first], body ? seen_from(*body, camera) : camera, shape.quadric);
   } else if (const auto* cones = std::get_if<std::vector<ConeRecord>>(&part.shape)) {
     shape.kind = ImageShape::Kind::kQuadric;
-    known = project((*cones)[first], camera, shape.quadric);
+    known = project((*cones)[first], body ? seen_from(*body, camera) : camera, shape.quadric);
   } else {
     shape.kind = ImageShape::Kind::kFacets;
     const Mesh& mesh = std::get<Mesh>(part.shape);
+    const Vec3d eye = body ? body->from_world.point(camera.eye) : camera.eye;
     for (std::size_t i = first; i < last; ++i) {
-      const auto& [a, b, c] = mesh.triangles[i];
-      if (!is_seen(mesh.facets[i], Vec3d(mesh.vertices[a]) - camera.eye, part.faces)) continue;
-      if (const auto facet =
-              project({Vec3d(mesh.vertices[a]), Vec3d(mesh.vertices[b]), Vec3d(mesh.vertices[c])}, camera)) {
+      std::array<Vec3d, 3> corners;
+      for (std::size_t k = 0; k < 3; ++k) corners[k] = Vec3d(mesh.vertices[mesh.triangles[i][k]]);
+      if (!is_seen(mesh.facets[i], corners[0] - eye, part.faces)) continue;
+      if (body) {
+        for (Vec3d& corner : corners) corner = body->to_world.point(corner);
+      }
+      if (const auto facet = project(corners, camera)) {
         shape.facets.push_back(*facet);
       }
     }
@@ -163,19 +177,28 @@ void project(const ScenePart& part, std::size_t first, std::size_t last, const C
 
 }  // namespace
 
-void project_primitive(const CompiledScene::Impl& scene, std::uint32_t primitive, const Camera& camera,
-                       ImageShape& shape) {
+void project_primitive(const Pose& pose, std::uint32_t primitive, const Camera& camera, ImageShape& shape) {
   shape.kind = ImageShape::Kind::kUnknown;
   shape.facets.clear();
-  for (const ScenePart& part : scene.parts) {
+  const CompiledScene::Impl& scene = pose.scene();
+  const auto within = [&](const ScenePart& part) {
     // Within a part, primitives are in the description's order.
     const auto [first, last] =
         std::equal_range(part.primitives.begin(), part.primitives.end(), primitive - 1);
-    if (first == last) continue;
-    project(part, static_cast<std::size_t>(first - part.primitives.begin()),
+    if (first == last) return false;
+    project(part, pose.place_of(part), static_cast<std::size_t>(first - part.primitives.begin()),
             static_cast<std::size_t>(last - part.primitives.begin()), camera, shape);
+    return true;
+  };
+  if (scene.moves) {
+    if (primitive - 1 >= scene.part_of_primitive.size()) return;
+    const std::uint32_t number = scene.part_of_primitive[primitive - 1];
+    if (number == kNoPart) return;
+    const BodyPlace* body = pose.place_of(scene.parts[number]);
+    if (!body || body->is_shown) within(pose.part(number));
     return;
   }
+  std::any_of(scene.parts.begin(), scene.parts.end(), within);
 }
 
 }  // namespace pprt

@@ -11,7 +11,6 @@ namespace pprt {
 
 // Writes the projection of a primitive, counted from 1 as in RaySample, into `shape`, whose storage is
 // reused. The kind is kUnknown for a number that is no primitive.
-void project_primitive(const CompiledScene::Impl& scene, std::uint32_t primitive, const Camera& camera,
-                       ImageShape& shape);
+void project_primitive(const Pose& pose, std::uint32_t primitive, const Camera& camera, ImageShape& shape);
 
 }  // namespace pprt

@@ -4,16 +4,20 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 #include "trace/numerics.h"
+#include "trace/pose.h"
 #include "trace/scene_impl.h"
 
 namespace pprt {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr unsigned kEffectSets = EffectSet::all().bits() + 1;
+// Effects with kernels of their own; textures are the extended kernels' matter.
+constexpr unsigned kEffectSets = 32;
+static_assert(static_cast<unsigned>(Effect::kTextures) == kEffectSets);
 
 void set_ray(RTCRay& ray, const Vec3f& origin, const Vec3f& direction, float length) {
   ray.org_x = origin.x;
@@ -31,12 +35,12 @@ void set_ray(RTCRay& ray, const Vec3f& origin, const Vec3f& direction, float len
 }
 
 // Finds the first hit of a ray; returns whether there is one.
-bool intersect(const CompiledScene::Impl& scene, RaySender& sender, const Vec3f& origin,
-               const Vec3f& direction, float length, RTCRayHit& found) {
+bool intersect(RTCScene scene, RaySender& sender, const Vec3f& origin, const Vec3f& direction, float length,
+               RTCRayHit& found) {
   set_ray(found.ray, origin, direction, length);
   found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  sender.intersect(scene.embree, found);
+  sender.intersect(scene, found);
   return found.hit.geomID != RTC_INVALID_GEOMETRY_ID;
 }
 
@@ -50,18 +54,47 @@ struct Surface {
   const ShadingMaterial* material = nullptr;
 };
 
-// Recomputes a hit from its primitive. `direction` is the ray's, unit. kSmooth: patches have interpolated
-// normals.
-template <bool kSmooth>
-Surface surface_at(const CompiledScene::Impl& scene, const RTCRayHit& found, const Vec3d& direction) {
-  const ScenePart& part = scene.parts[found.hit.geomID];
+// The same in an extended kernel.
+struct TexturedSurface : Surface {
+  Color tint{1, 1, 1};  // of ambient and diffuse reflection
+};
+template <bool kExtended>
+using SurfaceOf = std::conditional_t<kExtended, TexturedSurface, Surface>;
+
+// Takes a surface of a body's compiled space to the world's, where `direction` is the ray's.
+void place(const BodyPlace& at, const Vec3d& direction, Surface& surface) {
+  const auto normal_of = [&at](const Vec3d& n) {
+    return Vec3d(at.from_world.x.dot(n), at.from_world.y.dot(n),
+                 at.from_world.z.dot(n));  // inverse transpose
+  };
+  const Vec3d normal = normal_of(surface.normal);
+  const double per_height = std::sqrt(normal.dot(normal));  // heights above the surface shrink so
+  surface.position = at.to_world.point(surface.position);
+  surface.normal = normal * (1 / per_height);
+  const double reach = sum_of_coordinates(surface.position);
+  surface.offset = surface.offset / per_height +
+                   std::min(kMaxTriangleOffset, at.rounding * (reach + at.distance)) + origin_rounding(reach);
+  if (surface.normal.dot(direction) > 0) surface.normal = -surface.normal;
+  surface.shading = unit(normal_of(surface.shading));
+  if (surface.shading.dot(surface.normal) < 0) surface.shading = -surface.shading;
+}
+
+// Recomputes a hit from its primitive. `along` is the ray's direction, unit. kSmooth: patches have
+// interpolated normals.
+template <bool kSmooth, bool kExtended>
+SurfaceOf<kExtended> surface_at(const Pose& pose, const RTCRayHit& found, const Vec3d& along) {
+  const CompiledScene::Impl& scene = pose.scene();
+  const ScenePart& part = kExtended ? pose.part(found.hit.geomID) : scene.parts[found.hit.geomID];
+  const BodyPlace* body = kExtended ? pose.place_of(part) : nullptr;
   const std::uint32_t primitive = found.hit.primID;
+  const Vec3d direction = kExtended && body ? body->from_world.vector(along) : along;
   const auto near = [&] {
-    const Vec3d origin(found.ray.org_x, found.ray.org_y, found.ray.org_z);
+    Vec3d origin(found.ray.org_x, found.ray.org_y, found.ray.org_z);
+    if (kExtended && body) origin = body->from_world.point(origin);
     return origin + direction * static_cast<double>(found.ray.tfar);
   };
 
-  Surface surface;
+  SurfaceOf<kExtended> surface;
   SurfacePoint point;
   const Mesh* mesh = nullptr;
   if (const auto* spheres = std::get_if<std::vector<SphereRecord>>(&part.shape)) {
@@ -79,12 +112,18 @@ Surface surface_at(const CompiledScene::Impl& scene, const RTCRayHit& found, con
   surface.normal = surface.entering ? point.normal : -point.normal;
   surface.shading = surface.normal;
   if constexpr (kSmooth) {
-    if (part.kind == PrimitiveKind::kPatch) {
+    if (part.smooth) {
       const Vec3d normal = shading_normal(*mesh, primitive, found.hit.u, found.hit.v);
       surface.shading = normal.dot(surface.normal) < 0 ? -normal : normal;
     }
   }
   surface.material = &scene.materials[part.materials[primitive]];
+  if constexpr (kExtended) {
+    const TextureImage* texture = surface.material->texture;
+    if (texture != nullptr && mesh != nullptr && !mesh->texture_points.empty())
+      surface.tint = texture->at(texture_point(*mesh, primitive, found.hit.u, found.hit.v));
+    if (body) place(*body, along, surface);
+  }
   return surface;
 }
 
@@ -114,16 +153,17 @@ bool refracted(const Vec3d& direction, const Vec3d& normal, double index_ratio, 
 
 // The ray tree of one eye ray. `kEffects` are the bits of an EffectSet; code for other effects is not
 // compiled in.
-template <unsigned kEffects, bool kPublished>
+template <unsigned kEffects, bool kPublished, bool kExtended>
 class RayTree {
  public:
-  RayTree(const CompiledScene::Impl& scene, RayCounts& counts) : scene_(scene), counts_(counts) {}
+  RayTree(const Pose& pose, RayCounts& counts)
+      : pose_(pose), scene_(pose.scene()), embree_(pose.embree()), lights_(pose.lights()), counts_(counts) {}
 
   void follow_eye_ray(const Vec3f& origin, const Vec3f& direction, std::span<const KnownLights> known,
                       RaySample& sample) {
     ++counts_.primary;
     RTCRayHit found;
-    if (!intersect(scene_, sender_, origin, direction, kInfinity, found)) {
+    if (!intersect(embree_, sender_, origin, direction, kInfinity, found)) {
       sample.color = scene_.background;
       sample.hit = direction;
       sample.at_infinity = true;
@@ -131,20 +171,22 @@ class RayTree {
     }
     ++counts_.eye_hits;
     const Vec3d d(direction);
-    const Surface surface = surface_at<kSmooth>(scene_, found, d);
+    const Hit surface = surface_at<kSmooth, kExtended>(pose_, found, d);
     const ShadingMaterial& material = *surface.material;
     sample.hit = Vec3f(surface.position);
     sample.primitive = scene_.parts[found.hit.geomID].primitives[found.hit.primID] + 1;
     sample.eye_dependent = ((kHighlights || kReflection) && material.specular > 0) ||
                            (kRefraction && material.transmittance > 0);
     const SeenLights lights = lights_known(known, sample.primitive);
-    sample.color = surface.material->ambient + from_lights<true>(surface, d, lights, sample.lights);
+    sample.color = ambient(surface) + from_lights<true>(surface, d, lights, sample.lights);
     if constexpr (kReflection || kRefraction) {
       if (1 < scene_.options.max_depth) sample.color += from_secondary_rays(surface, d, 2);
     }
   }
 
  private:
+  using Hit = SurfaceOf<kExtended>;
+
   static SeenLights lights_known(std::span<const KnownLights> known, std::uint32_t primitive) {
     for (const KnownLights& at : known) {
       if (at.primitive == primitive) return at.lights;
@@ -164,7 +206,7 @@ class RayTree {
     if (!light.contacts.empty()) return in_shadow_of_others(light, origin, direction, length);
     RTCRay ray;
     set_ray(ray, origin, Vec3f(direction), static_cast<float>(length));
-    sender_.occluded(scene_.embree, ray);
+    sender_.occluded(embree_, ray);
     return ray.tfar < 0;
   }
 
@@ -173,7 +215,7 @@ class RayTree {
   bool in_shadow_of_others(const ShadingLight& light, const Vec3f& origin, const Vec3d& direction,
                            double length) {
     RTCRayHit found;
-    if (!intersect(scene_, sender_, origin, Vec3f(direction), static_cast<float>(length), found))
+    if (!intersect(embree_, sender_, origin, Vec3f(direction), static_cast<float>(length), found))
       return false;
     const double before_light = length - static_cast<double>(found.ray.tfar);
     return std::none_of(light.contacts.begin(), light.contacts.end(), [&](const LightContact& contact) {
@@ -186,16 +228,16 @@ class RayTree {
   Color follow(const Vec3d& origin, const Vec3d& direction, int depth) {
     const Vec3f d(direction);
     RTCRayHit found;
-    if (!intersect(scene_, sender_, Vec3f(origin), d, kInfinity, found)) return scene_.background;
+    if (!intersect(embree_, sender_, Vec3f(origin), d, kInfinity, found)) return scene_.background;
     const Vec3d exact(d);
-    return shade(surface_at<kSmooth>(scene_, found, exact), exact, depth);
+    return shade(surface_at<kSmooth, kExtended>(pose_, found, exact), exact, depth);
   }
 
   // Returns the colour of a surface seen along `direction`, by NFF's model: ambient light, direct light, and
   // the secondary rays that `depth` allows. An eye ray has depth 1.
-  Color shade(const Surface& surface, const Vec3d& direction, int depth) {
+  Color shade(const Hit& surface, const Vec3d& direction, int depth) {
     SeenLights unused;
-    Color color = surface.material->ambient + from_lights<false>(surface, direction, {}, unused);
+    Color color = ambient(surface) + from_lights<false>(surface, direction, {}, unused);
     if constexpr (kReflection || kRefraction) {
       if (depth < scene_.options.max_depth) color += from_secondary_rays(surface, direction, depth + 1);
     }
@@ -205,15 +247,14 @@ class RayTree {
   // Lambert's diffuse reflection and Phong's highlight, summed over the lights that are not in shadow.
   // kNotes: lights that are `known` are not asked again, and what is found of the others is noted.
   template <bool kNotes>
-  Color from_lights(const Surface& surface, const Vec3d& direction, const SeenLights& known,
-                    SeenLights& found) {
+  Color from_lights(const Hit& surface, const Vec3d& direction, const SeenLights& known, SeenLights& found) {
     const ShadingMaterial& material = *surface.material;
     Color color(0, 0, 0);
     if (!kPublished && !material.lit) return color;
     const Vec3d position = surface.position + surface.normal * surface.offset;
     const Vec3f origin(position);
     unsigned bit = 1;  // of the light; 0 after the first eight
-    for (const ShadingLight& light : scene_.lights) {
+    for (const ShadingLight& light : lights_) {
       const unsigned own_bit = std::exchange(bit, bit << 1 & 0xFF);
       const Vec3d to_light = light.position - position;
       const double cosine_length = surface.shading.dot(to_light);
@@ -230,19 +271,39 @@ class RayTree {
         }
         if (is_hidden) continue;
       }
-      color += light.color * material.diffuse * static_cast<float>(cosine_length / length);
+      color += light.color * tinted(material.diffuse, surface) * static_cast<float>(cosine_length / length);
       if constexpr (kHighlights) {
-        if (material.shine > 0) color += light.color * highlight(surface, direction, unit_to_light);
+        if (material.shine > 0)
+          color += light.color * (specular(material) * highlight(surface, direction, unit_to_light));
       }
     }
     return color;
   }
 
-  // Phong: Ks cos(angle)^shine, with the angle between the mirrored ray and the light.
+  static Color ambient(const Hit& surface) { return tinted(surface.material->ambient, surface); }
+
+  static Color tinted(const Color& color, const Hit& surface) {
+    if constexpr (kExtended) {
+      return color * surface.tint;
+    } else {
+      return color;
+    }
+  }
+
+  // Ks, or a colour in its place.
+  static auto specular(const ShadingMaterial& material) {
+    if constexpr (kExtended) {
+      return material.specular_color;
+    } else {
+      return material.specular;
+    }
+  }
+
+  // Phong: cos(angle)^shine, with the angle between the mirrored ray and the light.
   static float highlight(const Surface& surface, const Vec3d& direction, const Vec3d& unit_to_light) {
     const double cosine = mirrored(direction, surface.shading).dot(unit_to_light);
     if (!(cosine > 0)) return 0;
-    return surface.material->specular * std::pow(static_cast<float>(cosine), surface.material->shine);
+    return std::pow(static_cast<float>(cosine), surface.material->shine);
   }
 
   // The reflected ray weighted by Ks, and the refracted ray weighted by T.
@@ -253,7 +314,7 @@ class RayTree {
       if (material.specular > 0 || (kPublished && material.transmittance > 0)) {
         ++counts_.reflection;
         const Vec3d away = lifted(mirrored(direction, surface.shading), surface.normal);
-        color += follow(surface.position + surface.normal * surface.offset, away, depth) * material.specular;
+        color += follow(surface.position + surface.normal * surface.offset, away, depth) * specular(material);
       }
     }
     if constexpr (kRefraction) {
@@ -276,43 +337,49 @@ class RayTree {
            material.transmittance;
   }
 
+  const Pose& pose_;
   const CompiledScene::Impl& scene_;
+  RTCScene embree_;
+  std::span<const ShadingLight> lights_;
   RayCounts& counts_;
   RaySender sender_;
 };
 
 // The kernel of one set of effects.
-template <unsigned kEffects, bool kPublished>
-void run(const CompiledScene::Impl& scene, const Vec3f& origin, const Vec3f& direction,
-         std::span<const KnownLights> known, RaySample& sample, RayCounts& counts) {
+template <unsigned kEffects, bool kPublished, bool kExtended>
+void run(const Pose& pose, const Vec3f& origin, const Vec3f& direction, std::span<const KnownLights> known,
+         RaySample& sample, RayCounts& counts) {
   const std::uint64_t before = counts.traced();
-  RayTree<kEffects, kPublished>(scene, counts).follow_eye_ray(origin, direction, known, sample);
+  RayTree<kEffects, kPublished, kExtended>(pose, counts).follow_eye_ray(origin, direction, known, sample);
   sample.rays = static_cast<std::uint32_t>(counts.traced() - before);
 }
 
 // Kernels of all sets of effects, indexed by EffectSet::bits().
-template <bool kPublished, unsigned... kSets>
+template <bool kPublished, bool kExtended, unsigned... kSets>
 constexpr std::array<Kernel, sizeof...(kSets)> table(std::integer_sequence<unsigned, kSets...>) {
-  return {run<kSets, kPublished>...};
+  return {run<kSets, kPublished, kExtended>...};
 }
 
 }  // namespace
 
-Kernel kernel_for(EffectSet effects, bool published) {
-  static constexpr auto kRendering = table<false>(std::make_integer_sequence<unsigned, kEffectSets>());
-  static constexpr auto kCounting = table<true>(std::make_integer_sequence<unsigned, kEffectSets>());
-  return published ? kCounting[effects.bits()] : kRendering[effects.bits()];
+Kernel kernel_for(EffectSet effects, bool published, bool extended) {
+  constexpr auto kSets = std::make_integer_sequence<unsigned, kEffectSets>();
+  static constexpr auto kRendering = table<false, false>(kSets);
+  static constexpr auto kExtended = table<false, true>(kSets);
+  static constexpr auto kCounting = table<true, true>(kSets);
+  const unsigned set = effects.bits() % kEffectSets;
+  if (published) return kCounting[set];
+  return extended ? kExtended[set] : kRendering[set];
 }
 
-std::optional<VisibleSurface> visible_surface(const CompiledScene::Impl& scene, const Vec3f& origin,
-                                              const Vec3f& direction) {
+std::optional<VisibleSurface> visible_surface(const Pose& pose, const Vec3f& origin, const Vec3f& direction) {
   RaySender sender;
   RTCRayHit found;
-  if (!intersect(scene, sender, origin, direction, kInfinity, found)) return std::nullopt;
-  const bool smooth = scene.effects.has(Effect::kSmoothNormals);
-  const Surface surface = smooth ? surface_at<true>(scene, found, Vec3d(direction))
-                                 : surface_at<false>(scene, found, Vec3d(direction));
-  const ScenePart& part = scene.parts[found.hit.geomID];
+  if (!intersect(pose.embree(), sender, origin, direction, kInfinity, found)) return std::nullopt;
+  const bool smooth = pose.scene().effects.has(Effect::kSmoothNormals);
+  const Surface surface = smooth ? surface_at<true, true>(pose, found, Vec3d(direction))
+                                 : surface_at<false, true>(pose, found, Vec3d(direction));
+  const ScenePart& part = pose.scene().parts[found.hit.geomID];
   return VisibleSurface{surface.position,
                         surface.shading,
                         part.primitives[found.hit.primID],
@@ -321,11 +388,11 @@ std::optional<VisibleSurface> visible_surface(const CompiledScene::Impl& scene, 
                         surface.position - surface.normal * surface.offset};
 }
 
-bool occluded(const CompiledScene::Impl& scene, const Vec3f& origin, const Vec3f& direction, float length) {
+bool occluded(const Pose& pose, const Vec3f& origin, const Vec3f& direction, float length) {
   RaySender sender;
   RTCRay ray;
   set_ray(ray, origin, direction, length);
-  sender.occluded(scene.embree, ray);
+  sender.occluded(pose.embree(), ray);
   return ray.tfar < 0;
 }
 

@@ -11,13 +11,16 @@
 
 namespace pprt {
 
+class Pose;
+
 // Traces the ray tree of an eye ray: fills the sample, adds to the counts. Origin and unit direction are in
 // the compiled space. `known`: lights that need no shadow rays from the first hit.
-using Kernel = void (*)(const CompiledScene::Impl& scene, const Vec3f& origin, const Vec3f& direction,
+using Kernel = void (*)(const Pose& pose, const Vec3f& origin, const Vec3f& direction,
                         std::span<const KnownLights> known, RaySample& sample, RayCounts& counts);
 
 // Returns the kernel that simulates exactly `effects`. `published` is CompileOptions::count_as_published.
-Kernel kernel_for(EffectSet effects, bool published);
+// `extended`: the kernel also knows bodies that move, textures, and materials with a colour for each term.
+Kernel kernel_for(EffectSet effects, bool published, bool extended);
 
 // The surface that an eye ray hits first, in the compiled space. Indices count from 0.
 struct VisibleSurface {
@@ -30,10 +33,9 @@ struct VisibleSurface {
 };
 
 // Returns the first hit of an eye ray, if any. Origin and unit direction are in the compiled space.
-std::optional<VisibleSurface> visible_surface(const CompiledScene::Impl& scene, const Vec3f& origin,
-                                              const Vec3f& direction);
+std::optional<VisibleSurface> visible_surface(const Pose& pose, const Vec3f& origin, const Vec3f& direction);
 
 // Returns whether a ray hits anything nearer than `length`. `direction` has unit length.
-bool occluded(const CompiledScene::Impl& scene, const Vec3f& origin, const Vec3f& direction, float length);
+bool occluded(const Pose& pose, const Vec3f& origin, const Vec3f& direction, float length);
 
 }  // namespace pprt

@@ -28,6 +28,21 @@ void set_filter(RTCGeometry geometry) {
   rtcSetGeometryOccludedFilterFunction(geometry, keep_visible_faces<kFaces>);
 }
 
+struct FacetShape {
+  Vec3d normal;  // of length twice_area
+  double twice_area;
+  double offset;  // see triangle_offset; only where there is an area
+};
+
+FacetShape facet_shape(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+  const Vec3d normal = (b - a).cross(c - a);
+  const double twice_area = std::sqrt(normal.dot(normal));
+  if (!(twice_area > 0)) return {normal, 0, 0};
+  const double longest = std::sqrt(std::max({(b - a).length2(), (c - b).length2(), (a - c).length2()}));
+  const double reach = std::max({sum_of_coordinates(a), sum_of_coordinates(b), sum_of_coordinates(c)});
+  return {normal, twice_area, triangle_offset(longest, twice_area, reach)};
+}
+
 }  // namespace
 
 std::size_t Mesh::add(std::span<const Vec3d> polygon, std::span<const Vec3f> vertex_normals) {
@@ -39,14 +54,11 @@ std::size_t Mesh::add(std::span<const Vec3d> polygon, std::span<const Vec3f> ver
     const Vec3d a{Vec3f(polygon[index[0]])};
     const Vec3d b{Vec3f(polygon[index[1]])};
     const Vec3d c{Vec3f(polygon[index[2]])};
-    const Vec3d normal = (b - a).cross(c - a);
-    const double twice_area = std::sqrt(normal.dot(normal));
-    if (!(twice_area > 0)) continue;
-    const double longest = std::sqrt(std::max({(b - a).length2(), (c - b).length2(), (a - c).length2()}));
-    const double reach = std::max({sum_of_coordinates(a), sum_of_coordinates(b), sum_of_coordinates(c)});
-    offset = std::max(offset, static_cast<float>(triangle_offset(longest, twice_area, reach)));
+    const FacetShape shape = facet_shape(a, b, c);
+    if (!(shape.twice_area > 0)) continue;
+    offset = std::max(offset, static_cast<float>(shape.offset));
     triangles.push_back({first_vertex + index[0], first_vertex + index[1], first_vertex + index[2]});
-    facets.push_back({Vec3f(normal * (1 / twice_area)), 0});
+    facets.push_back({Vec3f(shape.normal * (1 / shape.twice_area)), 0});
   }
   const std::size_t added = triangles.size() - first_triangle;
   if (added == 0) return 0;
@@ -73,6 +85,27 @@ Vec3d shading_normal(const Mesh& mesh, std::uint32_t triangle, double u, double 
   // square is 1.4e-14. Test: shading_test.cpp, "normals of no length ...".
   if (!(length2 > 1e-12)) return Vec3d(mesh.facets[triangle].normal);
   return normal * (1 / std::sqrt(length2));
+}
+
+Vec2d texture_point(const Mesh& mesh, std::uint32_t triangle, double u, double v) {
+  const TriangleIndices& index = mesh.triangles[triangle];
+  return Vec2d(mesh.texture_points[index[0]]) * (1 - u - v) + Vec2d(mesh.texture_points[index[1]]) * u +
+         Vec2d(mesh.texture_points[index[2]]) * v;
+}
+
+void Mesh::set_shape(std::size_t triangle, const std::array<Vec3d, 3>& corners,
+                     const std::array<Vec3f, 3>& corner_normals) {
+  const TriangleIndices& index = triangles[triangle];
+  for (std::size_t i = 0; i < 3; ++i) {
+    vertices[index[i]] = Vec3f(corners[i]);
+    normals[index[i]] = corner_normals[i];
+  }
+  const std::array<Vec3d, 3> p = {Vec3d(vertices[index[0]]), Vec3d(vertices[index[1]]),
+                                  Vec3d(vertices[index[2]])};
+  const FacetShape shape = facet_shape(p[0], p[1], p[2]);
+  facets[triangle] = shape.twice_area > 0 ? Facet{Vec3f(shape.normal * (1 / shape.twice_area)),
+                                                  static_cast<float>(shape.offset)}
+                                          : Facet{};
 }
 
 EmbreeGeometry new_mesh_geometry(const EmbreeDevice& device, Mesh& mesh, VisibleFaces faces) {

@@ -1,6 +1,7 @@
 // Polygons and patches as one indexed triangle mesh of the compiled space.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -23,13 +24,18 @@ static_assert(sizeof(Facet) == 16);
 // An indexed triangle mesh.
 struct Mesh {
   std::vector<Vec3f> vertices;
-  std::vector<Vec3f> normals;  // per vertex, unit, or zero where none was given; empty: flat shading
+  std::vector<Vec3f> normals;         // per vertex, unit, or zero where none was given; empty: flat shading
+  std::vector<Vec2f> texture_points;  // per vertex; empty: no texture
   std::vector<TriangleIndices> triangles;
   std::vector<Facet> facets;  // one per triangle
 
   // Adds a polygon of the compiled space, with one normal per vertex or none. Returns the number of triangles
   // added; those without area in float are left out.
   std::size_t add(std::span<const Vec3d> polygon, std::span<const Vec3f> vertex_normals);
+
+  // Gives a triangle with vertices of its own another shape, perhaps one without area.
+  void set_shape(std::size_t triangle, const std::array<Vec3d, 3>& corners,
+                 const std::array<Vec3f, 3>& corner_normals);
 };
 
 // Returns the point of a triangle at Embree's barycentric coordinates u, v, and the facet's normal.
@@ -38,6 +44,9 @@ SurfacePoint on_surface(const Mesh& mesh, std::uint32_t triangle, double u, doub
 // Returns the interpolated unit normal, or the facet's where interpolation gives none. The mesh must have
 // normals.
 Vec3d shading_normal(const Mesh& mesh, std::uint32_t triangle, double u, double v);
+
+// Returns the texture coordinates. The mesh must have them.
+Vec2d texture_point(const Mesh& mesh, std::uint32_t triangle, double u, double v);
 
 // Makes a geometry that reads the mesh's buffers on every ray: the mesh must outlive it and not move. A
 // filter drops hits on invisible faces. Appends the padding that Embree reads past the last vertex.

@@ -65,6 +65,17 @@ constexpr double triangle_offset(double longest_edge, double twice_area, double 
   return bound < kMaxTriangleOffset ? bound : kMaxTriangleOffset;
 }
 
+// Returns how far a ray may miss a body that Embree maps into the world, relative to the sum of the
+// coordinates of the ray's origin and of the body's. `condition`: norm of the map times that of its inverse,
+// 1 where it turns and scales alike.
+//
+// Counted from: Embree inverts the map in float, each component by some ten roundings of products that are up
+// to `condition` times the result, and maps the origin by it, with four roundings more; the world's length of
+// that is up to `condition` times as great again. Test: moving_bodies_test.cpp, "rays leave ...".
+constexpr double instance_rounding(double condition) {
+  return kFloatRounding * 16 * condition * condition;
+}
+
 // Flattest angle, as the inverse of its cosine to the normal, at which bounds that grow with it still hold.
 inline constexpr double kFlattestCosine = 256;
 

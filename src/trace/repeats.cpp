@@ -1,6 +1,7 @@
 #include "trace/repeats.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <limits>
 
@@ -26,6 +27,13 @@ bool same(const PatchVertex& a, const PatchVertex& b) {
   return a.position == b.position && a.normal == b.normal;
 }
 
+struct MeshVertex {
+  Vec3d position{0, 0, 0}, normal{0, 0, 0};
+  Vec2d texture_point{0, 0};
+
+  friend bool operator==(const MeshVertex&, const MeshVertex&) = default;
+};
+
 // Open addressing over places in the scene's order.
 class PrimitiveSet {
  public:
@@ -36,21 +44,23 @@ class PrimitiveSet {
   bool add(std::uint32_t place) {
     const PrimitiveRef ref = scene_.order[place];
     const std::size_t mask = slots_.size() - 1;
-    for (std::size_t slot = hash(ref) & mask;; slot = (slot + 1) & mask) {
+    for (std::size_t slot = hash(ref, place) & mask;; slot = (slot + 1) & mask) {
       if (slots_[slot] == kEmpty) {
         slots_[slot] = place;
         return true;
       }
-      if (equal(scene_.order[slots_[slot]], ref)) return false;
+      if (node_of(scene_, slots_[slot]) == node_of(scene_, place) && equal(scene_.order[slots_[slot]], ref))
+        return false;
     }
   }
 
  private:
   static constexpr std::uint32_t kEmpty = std::numeric_limits<std::uint32_t>::max();
 
-  std::uint64_t hash(PrimitiveRef ref) const {
+  std::uint64_t hash(PrimitiveRef ref, std::size_t place) const {
     Mixer mixer;
     mixer.add(static_cast<std::uint64_t>(ref.kind) << 32 | material_of(scene_, ref));
+    mixer.add(static_cast<std::uint64_t>(node_of(scene_, place)));
     switch (ref.kind) {
       case PrimitiveKind::kSphere: {
         const Sphere& s = scene_.spheres[ref.index];
@@ -67,6 +77,12 @@ class PrimitiveSet {
         break;
       case PrimitiveKind::kPatch:
         for (const PatchVertex& v : scene_.vertices(scene_.patches[ref.index])) mixer.add(v);
+        break;
+      case PrimitiveKind::kTriangle:
+        for (const MeshVertex& v : vertices(scene_.triangles[ref.index])) mixer.add(v.position);
+        break;
+      case PrimitiveKind::kMovingTriangle:
+        mixer.add(static_cast<std::uint64_t>(ref.index));
         break;
     }
     return mixer.bits();
@@ -90,8 +106,24 @@ class PrimitiveSet {
       case PrimitiveKind::kPatch:
         return std::ranges::equal(scene_.vertices(scene_.patches[a.index]),
                                   scene_.vertices(scene_.patches[b.index]), same);
+      case PrimitiveKind::kTriangle:
+        return vertices(scene_.triangles[a.index]) == vertices(scene_.triangles[b.index]);
+      case PrimitiveKind::kMovingTriangle:
+        return false;  // with all their keys they are hardly ever equal
     }
     return false;
+  }
+
+  std::array<MeshVertex, 3> vertices(const Triangle& triangle) const {
+    const TriangleMesh& mesh = scene_.meshes[triangle.mesh];
+    const TriangleCorners& at = triangle.corners;
+    std::array<MeshVertex, 3> all;
+    for (std::size_t i = 0; i < 3; ++i) {
+      all[i].position = mesh.positions[at.position[i]];
+      if (!mesh.normals.empty()) all[i].normal = mesh.normals[at.normal[i]];
+      if (!mesh.texture_points.empty()) all[i].texture_point = mesh.texture_points[at.texture_point[i]];
+    }
+    return all;
   }
 
   const SceneDescription& scene_;

@@ -15,6 +15,7 @@
 #include "trace/light_contacts.h"
 #include "trace/mesh.h"
 #include "trace/normalisation.h"
+#include "trace/texture_image.h"
 #include "trace/user_geometry.h"
 
 namespace pprt {
@@ -28,6 +29,9 @@ struct ShadingMaterial {
   float transmittance = 0;
   double refractive_index = 1;  // > 0
   bool lit = false;             // whether lights contribute to it at all
+  // What kernels for NFF do not know.
+  Color specular_color{0, 0, 0};          // in place of `specular`, its largest component
+  const TextureImage* texture = nullptr;  // times ambient and diffuse
 };
 
 // A light prepared for shading.
@@ -42,8 +46,21 @@ struct ScenePart {
   PrimitiveKind kind = PrimitiveKind::kSphere;
   VisibleFaces faces = VisibleFaces::kBoth;
   std::variant<std::vector<SphereRecord>, std::vector<ConeRecord>, Mesh> shape;
+  std::uint32_t body = 0;                 // in whose space it lies
+  bool smooth = false;                    // a mesh with normals
   std::vector<MaterialIndex> materials;   // by Embree's primitive number
   std::vector<std::uint32_t> primitives;  // place in SceneDescription::order, by Embree's primitive number
+  std::vector<MovingTriangle> shapes;     // of triangles whose corners move, in the body's space
+};
+
+// Objects that move as one, or change their shape, in a compiled space of their own. The first body is what
+// rests; its space is the world's.
+struct CompiledBody {
+  NodeIndex node = 0;
+  bool deforms = false;
+  Normalisation normalisation;
+  Box3d box;           // in its compiled space, of all times
+  EmbreeScene embree;  // of the first body and of those that keep their shape
 };
 
 // Figures of the compilation, for the census.
@@ -65,17 +82,28 @@ class CompiledScene::Impl {
   EffectSet effects;
   Kernel kernel = nullptr;
 
+  EmbreeDevice device;
   Normalisation normalisation;
   double radius = 1;  // of a sphere about the origin that contains the compiled scene
   Color background{0, 0, 0};
+  std::vector<TextureImage> textures;
   std::vector<ShadingMaterial> materials;
   std::vector<ShadingLight> lights;
   std::vector<ScenePart> parts;  // by Embree's geometry number; not moved once Embree reads them
+  bool extended = false;         // whether only an extended kernel knows all that is in the scene
+
+  // What moves.
+  bool moves = false;  // more than the camera
+  Movement movement;
+  std::vector<LightNode> light_nodes;            // empty: no light moves
+  std::vector<Vec3d> light_positions;            // in the space of its node, if lights move
+  std::vector<CompiledBody> bodies;              // destroyed before the parts that they read
+  std::vector<std::uint32_t> part_of_primitive;  // by place in the order, if something moves; kNoPart: none
 
   BuildFigures figures;
-  EmbreeDevice device;
-  EmbreeScene embree;  // destroyed before the device and the parts that it reads
 };
+
+inline constexpr std::uint32_t kNoPart = ~std::uint32_t{0};
 
 // Returns the text of CompiledScene::census().
 std::string census_text(const CompiledScene::Impl& scene);

@@ -5,6 +5,7 @@
 #include "trace/compiled_scene.h"
 #include "trace/image_shape.h"
 #include "trace/numerics.h"
+#include "trace/pose.h"
 #include "trace/scene_impl.h"
 
 namespace pprt {
@@ -22,13 +23,13 @@ bool is_glass(const CompiledScene::Impl& scene, MaterialIndex material) {
 }
 
 // Returns how many times a line leaves glass less how many times it enters it, from `origin` on.
-int times_left(const CompiledScene::Impl& scene, Vec3d origin, const Vec3f& direction) {
+int times_left(const Pose& pose, Vec3d origin, const Vec3f& direction) {
   constexpr int kMostSurfaces = 1000;  // far more than what anybody looks through
   int left = 0;
   for (int i = 0; i < kMostSurfaces; ++i) {
-    const std::optional<VisibleSurface> surface = visible_surface(scene, Vec3f(origin), direction);
+    const std::optional<VisibleSurface> surface = visible_surface(pose, Vec3f(origin), direction);
     if (!surface) break;
-    if (is_glass(scene, surface->material)) left += surface->entering ? -1 : 1;
+    if (is_glass(pose.scene(), surface->material)) left += surface->entering ? -1 : 1;
     origin = surface->beyond;
   }
   return left;
@@ -36,21 +37,31 @@ int times_left(const CompiledScene::Impl& scene, Vec3d origin, const Vec3f& dire
 
 }  // namespace
 
-Tracer::Tracer(const CompiledScene& scene, const Camera& camera) : scene_(scene), camera_(camera) {}
+Tracer::Tracer(const CompiledScene& scene, const Camera& camera)
+    : scene_(scene), pose_(std::make_unique<Pose>(scene.impl())), camera_(camera) {}
+Tracer::Tracer(Tracer&&) noexcept = default;
+Tracer::~Tracer() = default;
+
+void Tracer::set_time(double time) {
+  pose_->set_time(time);
+}
+
+bool Tracer::carry(RaySample& sample) const {
+  return pose_->carry(sample);
+}
 
 RaySample Tracer::trace(double x, double y, std::span<const KnownLights> known) {
   const Vec3d direction = unit(ray_direction(camera_, x, y));
   const Vec3d origin = camera_.eye + direction * distance_to_scene(scene_.impl(), camera_.eye, direction);
   RaySample sample;
-  scene_.impl().kernel(scene_.impl(), Vec3f(origin), Vec3f(direction), known, sample, counts_);
+  scene_.impl().kernel(*pose_, Vec3f(origin), Vec3f(direction), known, sample, counts_);
   return sample;
 }
 
 FirstHit Tracer::first_hit(double x, double y) const {
   const Vec3d direction = unit(ray_direction(camera_, x, y));
   const Vec3d origin = camera_.eye + direction * distance_to_scene(scene_.impl(), camera_.eye, direction);
-  const std::optional<VisibleSurface> surface =
-      visible_surface(scene_.impl(), Vec3f(origin), Vec3f(direction));
+  const std::optional<VisibleSurface> surface = visible_surface(*pose_, Vec3f(origin), Vec3f(direction));
   if (!surface) return {};
   const double depth = (surface->position - camera_.eye).dot(camera_.forward);
   return {static_cast<float>(depth / scene_.impl().normalisation.scale), Vec3f(surface->normal),
@@ -60,11 +71,10 @@ FirstHit Tracer::first_hit(double x, double y) const {
 GlassSeen Tracer::glass_seen(double x, double y) const {
   const Vec3d direction = unit(ray_direction(camera_, x, y));
   const Vec3d origin = camera_.eye + direction * distance_to_scene(scene_.impl(), camera_.eye, direction);
-  const std::optional<VisibleSurface> surface =
-      visible_surface(scene_.impl(), Vec3f(origin), Vec3f(direction));
+  const std::optional<VisibleSurface> surface = visible_surface(*pose_, Vec3f(origin), Vec3f(direction));
   if (!surface || !is_glass(scene_.impl(), surface->material)) return {};
   const bool inside_out =
-      !surface->entering && 1 + times_left(scene_.impl(), surface->beyond, Vec3f(direction)) <= 0;
+      !surface->entering && 1 + times_left(*pose_, surface->beyond, Vec3f(direction)) <= 0;
   return {true, inside_out, surface->primitive + 1};
 }
 
@@ -75,19 +85,21 @@ bool Tracer::visible(const Vec3f& hit, bool at_infinity) {
   const Vec3d direction = to_hit * (1 / distance);
   const double start = distance_to_scene(scene_.impl(), camera_.eye, direction);
   const Vec3d origin = camera_.eye + direction * start;
-  const double gap = visibility_gap(std::max(sum_of_coordinates(Vec3d(hit)), sum_of_coordinates(origin)));
+  const double reach = std::max(sum_of_coordinates(Vec3d(hit)), sum_of_coordinates(origin));
+  const double gap = visibility_gap(reach) + kFlattestCosine * pose_->rounding() * reach;
   const double length = at_infinity ? std::numeric_limits<double>::infinity() : distance - start - gap;
   if (!(length > 0)) return true;
-  return !occluded(scene_.impl(), Vec3f(origin), Vec3f(direction), static_cast<float>(length));
+  return !occluded(*pose_, Vec3f(origin), Vec3f(direction), static_cast<float>(length));
 }
 
 std::uint32_t Tracer::primitive_count() const {
   const Inventory& of = scene_.impl().inventory;
-  return static_cast<std::uint32_t>(of.spheres + of.cones + of.polygons + of.patches);
+  return static_cast<std::uint32_t>(of.spheres + of.cones + of.polygons + of.patches + of.triangles +
+                                    of.moving_triangles);
 }
 
 void Tracer::project(std::uint32_t primitive, ImageShape& shape) const {
-  project_primitive(scene_.impl(), primitive, camera_, shape);
+  project_primitive(*pose_, primitive, camera_, shape);
 }
 
 }  // namespace pprt

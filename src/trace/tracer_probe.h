@@ -8,15 +8,20 @@ namespace pprt {
 
 // Returns a Probe that calls `tracer`, which must outlive it.
 inline Probe probe_of(Tracer& tracer) {
-  return {[&tracer](const Camera& camera) { tracer.set_camera(camera); },
-          [&tracer](double x, double y) { return tracer.trace(x, y); },
-          [&tracer](const Vec3f& hit, bool at_infinity) { return tracer.visible(hit, at_infinity); },
-          [&tracer] { return tracer.counts(); },
-          [&tracer](std::uint32_t primitive, ImageShape& shape) { tracer.project(primitive, shape); },
-          tracer.primitive_count(),
-          [&tracer](double x, double y, std::span<const KnownLights> known) {
-            return tracer.trace(x, y, known);
-          }};
+  Probe probe = {[&tracer](const Camera& camera) { tracer.set_camera(camera); },
+                 [&tracer](double x, double y) { return tracer.trace(x, y); },
+                 [&tracer](const Vec3f& hit, bool at_infinity) { return tracer.visible(hit, at_infinity); },
+                 [&tracer] { return tracer.counts(); },
+                 [&tracer](std::uint32_t primitive, ImageShape& shape) { tracer.project(primitive, shape); },
+                 tracer.primitive_count(),
+                 [&tracer](double x, double y, std::span<const KnownLights> known) {
+                   return tracer.trace(x, y, known);
+                 }};
+  if (tracer.scene().moves()) {
+    probe.set_time = [&tracer](double time) { tracer.set_time(time); };
+    probe.carry = [&tracer](RaySample& sample) { return tracer.carry(sample); };
+  }
+  return probe;
 }
 
 }  // namespace pprt

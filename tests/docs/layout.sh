@@ -10,7 +10,7 @@ complain() { echo "$1"; failures=$((failures + 1)); }
 declare -A allowed=(
   [base]="base" [scene]="base scene" [spd]="base scene spd" [parser]="base scene parser" [trace]="base scene trace"
   [image]="base image" [pipeline]="base pipeline" [layers]="base image pipeline layers"
-  [parallel]="base image pipeline parallel" [live]="base image scene live" [cli]="base scene spd parser cli"
+  [parallel]="base image pipeline parallel" [live]="base image scene live" [cli]="base scene spd parser image cli"
   [render]="base scene spd parser trace image pipeline layers live parallel cli render"
   [convert]="base scene spd parser image cli convert" [compare]="base image cli compare"
   [study]="base scene spd parser trace image pipeline layers parallel cli convert study")

@@ -213,7 +213,7 @@ namespace {
 // All but the tiles.
 void put_common(WireWriter& out, const FrameOrder& order) {
   out.put(order.end), out.put(order.index), out.put(order.number), out.put(order.cut), out.put(order.carry);
-  out.put(order.report_samples);
+  out.put(order.report_samples), out.put(order.time);
   out.put(order.camera), out.put(order.evidence), out.put(order.deadline_s), out.put(order.reserve_s),
       out.put(order.generation);
   put_owners(out, order);
@@ -248,7 +248,7 @@ FrameOrder decode_frame_order(std::span<const std::byte> bytes) {
   FrameOrder order;
   in.get(order.end), in.get(order.index), in.get(order.number), in.get(order.cut),
       in.get(order.carry, Carry::kCastWherePaying);
-  in.get(order.report_samples);
+  in.get(order.report_samples), in.get(order.time);
   in.get(order.camera), in.get(order.evidence), in.get(order.deadline_s), in.get(order.reserve_s),
       in.get(order.generation);
   get_owners(in, order);

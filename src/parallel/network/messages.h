@@ -34,6 +34,7 @@ struct FrameOrder {
   bool cut = false;
   Carry carry = Carry::kNothing;
   Camera camera;
+  double time = 0;                   // of what moves in the scene, seconds
   CastEvidence evidence;             // of all ranks, in frames before
   double deadline_s = 0;             // since the start of the sequence; 0: no rate
   std::uint32_t generation = 0;      // of the partition in force from this frame on

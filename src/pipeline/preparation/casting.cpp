@@ -72,6 +72,10 @@ void hide_behind_turned_triangles(const SampleMesh& mesh, std::vector<ProjectedS
   }
 }
 
+bool is_carried(Sample& sample, const CastSettings& settings) {
+  return !settings.carry || settings.carry(sample.ray);
+}
+
 void collect(const Sample& sample, const ProjectedSample& projected, CastResult& result) {
   result.out_of_view += projected.outcome == CastOutcome::kOutOfView;
   result.too_old += projected.outcome == CastOutcome::kTooOld;
@@ -107,13 +111,16 @@ CastResult cast_samples(const SampleMesh& mesh, const Camera& next, int next_fra
   const std::span<const Sample> samples = mesh.samples();
   if (settings.method != CastMethod::kPaper)
     return cast_samples(samples, mesh.region(), next, next_frame, settings);
+  std::vector<Sample> carried(samples.begin(), samples.end());
   std::vector<ProjectedSample> all(samples.size());
-  std::transform(samples.begin(), samples.end(), all.begin(), [&](const Sample& s) {
-    return project_sample(s, mesh.region(), next, next_frame, settings);
-  });
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const bool is_there = is_carried(carried[i], settings);
+    all[i] = project_sample(carried[i], mesh.region(), next, next_frame, settings);
+    if (!is_there && all[i].outcome == CastOutcome::kCast) all[i].outcome = CastOutcome::kHidden;
+  }
   hide_behind_turned_triangles(mesh, all);
   CastResult result;
-  for (std::size_t i = 0; i < samples.size(); ++i) collect(samples[i], all[i], result);
+  for (std::size_t i = 0; i < samples.size(); ++i) collect(carried[i], all[i], result);
   return with_mean_way(std::move(result));
 }
 
@@ -122,8 +129,17 @@ CastResult cast_samples(std::span<const Sample> samples, const Region& region, c
   CastResult result;
   for (const Sample& s : samples) {
     const bool is_asked_for = !settings.lit_only || s.ray.lights.asked != 0;
-    if (is_asked_for && is_one_of(s, settings.one_of))
+    if (!is_asked_for || !is_one_of(s, settings.one_of)) continue;
+    if (!settings.carry) {
       collect(s, project_sample(s, region, next, next_frame, settings), result);
+      continue;
+    }
+    Sample carried = s;
+    const bool is_there = is_carried(carried, settings);
+    if (settings.lit_only && carried.ray.lights.asked == 0) continue;
+    ProjectedSample projected = project_sample(carried, region, next, next_frame, settings);
+    if (!is_there && projected.outcome == CastOutcome::kCast) projected.outcome = CastOutcome::kHidden;
+    collect(carried, projected, result);
   }
   return with_mean_way(std::move(result));
 }

@@ -26,6 +26,8 @@ struct CastSettings {
   // kVerified: casts one sample in so many, drawn by is_one_of(). The orientation test needs all samples.
   std::uint64_t one_of = 1;
   bool lit_only = false;  // kVerified: only samples that shadow rays were sent from
+  // Carries a sample to where its object is now; false where it is no more. Empty: nothing has moved.
+  std::function<bool(RaySample& sample)> carry = {};
 };
 
 // Largest age of verified samples, frames. Outlines have moved by then, and older samples tell little of them

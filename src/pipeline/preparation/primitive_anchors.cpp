@@ -41,6 +41,14 @@ void PrimitiveAnchors::note(std::span<const Sample> samples) {
   anchors_.swap(next_);
 }
 
+void PrimitiveAnchors::carry(const std::function<bool(RaySample&)>& carried) {
+  next_.clear();
+  for (Anchor& anchor : anchors_) {
+    if (carried(anchor.sample.ray)) add(next_, anchor);
+  }
+  anchors_.swap(next_);
+}
+
 std::vector<Sample> PrimitiveAnchors::unseen(std::span<const Sample> samples, const Camera& camera,
                                              const Region& region, std::size_t most) {
   for (Anchor& anchor : anchors_) anchor.is_seen = false;

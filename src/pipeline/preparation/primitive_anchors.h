@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 #include <vector>
@@ -25,6 +26,9 @@ class PrimitiveAnchors {
   // in which the frame found their primitives, for refinement finds large ones first. Those of primitives
   // that it has not seen come after them, for kLife frames.
   void note(std::span<const Sample> samples);
+
+  // Moves each anchor with its primitive, and drops those that are no more; see Probe::carry.
+  void carry(const std::function<bool(RaySample&)>& carried);
 
   // Returns the anchors of primitives that none of the samples lies on, at the points of the region where the
   // camera would see them: the first `most` of them. A visibility ray must tell whether one is hidden.

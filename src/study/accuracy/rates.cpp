@@ -92,7 +92,7 @@ std::vector<FrameRequest> orbit(const CompiledScene& scene, const View& view, in
     const double degrees = degrees_per_frame * i + (cut >= 0 && i >= cut ? kJump : 0);
     View turned = view;
     turned.from = view.at + rotated(view.from - view.at, axis, degrees * M_PI / 180);
-    frames.push_back({i + 1, square_camera(scene, turned, size), i == cut});
+    frames.push_back({.number = i + 1, .camera = square_camera(scene, turned, size), .cut = i == cut});
   }
   return frames;
 }

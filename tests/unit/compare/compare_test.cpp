@@ -141,7 +141,7 @@ TEST_CASE("pictures that cannot be compared are an error with the reason") {
   SECTION("no picture") {
     write_whole_file(pair.options.image, "text");
     CHECK_THROWS_WITH(run(pair.options),
-                      "cannot read '" + pair.options.image + "': it is neither an OpenEXR nor a PNG file");
+                      "cannot read '" + pair.options.image + "': it is no OpenEXR, PNG, JPEG or PPM file");
   }
   SECTION("an option for sequences") {
     pair.options.max_flicker = 0.1;

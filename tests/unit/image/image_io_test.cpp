@@ -351,7 +351,7 @@ TEST_CASE("damaged files are errors that name the file") {
   };
   const std::string prefix = "cannot read '" + (directory.path() / "damaged").string() + "': ";
   CHECK(message_for("") == prefix + "the file is empty");
-  CHECK(message_for("P6 1 1 255\n123") == prefix + "it is neither an OpenEXR nor a PNG file");
+  CHECK(message_for("P7 1 1 255\n123") == prefix + "it is no OpenEXR, PNG, JPEG or PPM file");
   for (const bool exr : {true, false}) {
     const std::string whole = exr ? encode_exr(image) : encode_png(image);
     const std::string kind = exr ? "it is no whole OpenEXR picture: " : "it is no whole PNG picture: ";

@@ -3,19 +3,14 @@
 #include <catch2/catch.hpp>
 
 #include "parser/nff_parser.h"
+#include "render/scene_bytes.h"
 
 namespace pprt {
 namespace {
 
-// A scene that canonical NFF does not keep whole: its first material is unused, so that the ball's is the
-// second one here and the first one in canonical form.
-constexpr const char* kLossyScene =
+constexpr const char* kScene =
     "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 30\nhither 1\nresolution 8 8\nl 5 5 5\n"
     "f 1 0 0 1 0 0 0 0\nf 0.2 0.4 0.1 0.7 0.2 9 0 0\ns 0.1 0.2 0.3 1\n";
-
-RenderJob job_of(const SceneDescription& scene) {
-  return {.go = true, .settings = {}, .compile = {}, .scene_name = "t", .scene_nff = canonical_nff(scene)};
-}
 
 // What a scene shows through its own view: hits and colours at every pixel's centre.
 struct Shown {
@@ -44,37 +39,32 @@ TEST_CASE("a render job arrives as it was sent") {
   job.settings.width = 77, job.settings.stop.flip = 0.25;
   job.compile.max_depth = 3, job.compile.cull = true;
   job.compile.effects = parse_effects("shadows,reflection");
-  job.scene_name = "ball.nff", job.scene_nff = "s 0 0 0 1\n";
+  job.scene = encode(parse_nff(kScene, "ball.nff").scene);
   const RenderJob back = decode_job(encode(job));
   CHECK((back.go && back.settings.width == 77 && back.settings.stop.flip == 0.25));
   CHECK((back.compile.max_depth == 3 && back.compile.cull));
   REQUIRE(back.compile.effects);
   CHECK(back.compile.effects->bits() == job.compile.effects->bits());
-  CHECK((back.scene_name == job.scene_name && back.scene_nff == job.scene_nff));
+  CHECK(back.scene == job.scene);
   CHECK_FALSE(decode_job(encode(RenderJob())).compile.effects);
 }
 
-TEST_CASE("all ranks see the same scene, also one that canonical NFF does not keep whole") {
-  const SceneDescription read = parse_nff(kLossyScene, "t").scene;
+TEST_CASE("all ranks see the scene that the first has read") {
+  const SceneDescription read = parse_nff(kScene, "t").scene;
   const View view = read.view.value();
-  const RenderJob job = job_of(read);
-  const Shown on_master = shown(compile_scene(job), view);
+  RenderJob job;
+  job.scene = encode(read);
   const Shown on_worker = shown(compile_scene(decode_job(encode(job))), view);
-  CHECK(on_master == on_worker);
-  // Control: the scene as it was read is another one.
-  CHECK_FALSE(shown(compile(read, job.compile), view).materials == on_worker.materials);
-}
-
-TEST_CASE("a scene's canonical text is that of its own parse") {
-  const SceneDescription read = parse_nff(kLossyScene, "t").scene;
-  const std::string text = canonical_nff(read);
-  CHECK(text != kLossyScene);
-  CHECK(canonical_nff(parse_nff(text, "t").scene) == text);
+  CHECK(shown(compile(read), view) == on_worker);
+  // Control: with one number changed it is another one.
+  SceneDescription other = read;
+  other.spheres[0].radius = 1.1;
+  CHECK_FALSE(shown(compile(other), view) == on_worker);
 }
 
 TEST_CASE("a render job cut short anywhere is refused") {
   RenderJob job;
-  job.scene_nff = "s 0 0 0 1\n";
+  job.scene = encode(parse_nff("f 1 1 1 1 0 0 0 0 s 0 0 0 1\n", "t").scene);
   const Bytes whole = encode(job);
   for (std::size_t size = 0; size < whole.size(); ++size) {
     CHECK_THROWS_AS(decode_job(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size))),

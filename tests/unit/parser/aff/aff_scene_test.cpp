@@ -11,7 +11,7 @@ using namespace pprt;
 
 namespace {
 
-MovingScene parsed(const std::string& text, const AffOptions& options = {}) {
+SceneDescription parsed(const std::string& text, const AffOptions& options = {}) {
   return parse_aff(text, "a.aff", options).scene;
 }
 
@@ -32,7 +32,7 @@ class Folder {
     std::ofstream(directory_.path() / name, std::ios::binary) << text;
   }
   std::string path(const std::string& name) const { return directory_.path() / name; }
-  MovingScene read(const std::string& name, const AffOptions& options = {}) const {
+  SceneDescription read(const std::string& name, const AffOptions& options = {}) const {
     return read_aff(path(name), options).scene;
   }
   std::string report(const std::string& name, const AffOptions& options = {}) const {
@@ -53,9 +53,9 @@ const std::string kMaterial = "fm .1 .2 .3 .4 .5 .6 .7 .8 .9 10 .11 1.2\n";
 }  // namespace
 
 TEST_CASE("aff: view, background, ambient light and frames") {
-  const MovingScene scene = parsed(R"(# a comment, and one with a byte of Latin-1: )"
-                                   "\xe4\r\n"
-                                   R"(v
+  const SceneDescription scene = parsed(R"(# a comment, and one with a byte of Latin-1: )"
+                                        "\xe4\r\n"
+                                        R"(v
 from 1 2 3 at 4 5 6 up 0 1 0 angle 40 % half of it
 hither 0.00001 resolution 800 600
 b .1 .2 .3  am 2.5 2.5 2 a -1.5 4.5E0 300)");
@@ -63,41 +63,44 @@ b .1 .2 .3  am 2.5 2.5 2 a -1.5 4.5E0 300)");
   CHECK((scene.view->from == Vec3d(1, 2, 3) && scene.view->at == Vec3d(4, 5, 6) &&
          scene.view->angle_degrees == 40));
   CHECK((scene.view->hither == 1 && scene.view->width == 800 && scene.view->height == 600));
-  CHECK(scene.background == Rgb(.1, .2, .3));
-  CHECK(scene.ambient == Rgb(2.5, 2.5, 2));
-  REQUIRE(scene.times);
-  CHECK((time_of_frame(*scene.times, 0) == -1.5 && time_of_frame(*scene.times, 299) == 4.5));
+  CHECK(*scene.background == Rgb(.1, .2, .3));
+  CHECK(*scene.ambient == Rgb(2.5, 2.5, 2));
+  REQUIRE(scene.movement.times);
+  CHECK(
+      (time_of_frame(*scene.movement.times, 0) == -1.5 && time_of_frame(*scene.movement.times, 299) == 4.5));
   CHECK(time_of_frame({2, 9, 1}, 0) == 2);
 }
 
 TEST_CASE("aff: lights, named or not, with a colour or not") {
-  const MovingScene scene = parsed("l 1 2 3 l 4 5 6 .1 .2 .3\nla lamp 7 8 9 xs 1 1 1 0 0 1 0 1 0 0{l 0 0 0}");
+  const SceneDescription scene =
+      parsed("l 1 2 3 l 4 5 6 .1 .2 .3\nla lamp 7 8 9 xs 1 1 1 0 0 1 0 1 0 0{l 0 0 0}");
   REQUIRE(scene.lights.size() == 4);
-  CHECK((scene.lights[0].light.position == Vec3d(1, 2, 3) && !scene.lights[0].light.color));
-  CHECK(*scene.lights[1].light.color == Rgb(.1, .2, .3));
-  CHECK((scene.lights[2].track == "lamp" && scene.lights[2].node == 0));
-  CHECK(scene.lights[3].node == 1);
+  CHECK((scene.lights[0].position == Vec3d(1, 2, 3) && !scene.lights[0].color));
+  CHECK(*scene.lights[1].color == Rgb(.1, .2, .3));
+  CHECK((scene.light_nodes[2].track == "lamp" && scene.light_nodes[2].node == 0));
+  CHECK(scene.light_nodes[3].node == 1);
   CHECK(report("l 1 2 3 .5 .5").find("expected a number for blue of 'l', found the end of the file") !=
         std::string::npos);
 }
 
 TEST_CASE("aff: there is one current material, which braces do not bound") {
-  const MovingScene scene = parsed("f 1 .5 0 .5 .25 3 0 0\ns 0 0 0 1\nxs 1 1 1 0 0 1 0 0 0 0 {\n" +
-                                   kMaterial + "s 0 0 0 2 }\ns 0 0 0 3 " + kMaterial + "s 0 0 0 4");
+  const SceneDescription scene = parsed("f 1 .5 0 .5 .25 3 0 0\ns 0 0 0 1\nxs 1 1 1 0 0 1 0 0 0 0 {\n" +
+                                        kMaterial + "s 0 0 0 2 }\ns 0 0 0 3 " + kMaterial + "s 0 0 0 4");
   REQUIRE(scene.materials.size() == 2);
-  CHECK(scene.materials[0].diffuse == Rgb(.5, .25, 0));
-  CHECK(scene.materials[0].specular == Rgb(.25, .25, .25));
+  CHECK(scene.materials[0].terms->diffuse == Rgb(.5, .25, 0));
+  CHECK(scene.materials[0].terms->specular == Rgb(.25, .25, .25));
   CHECK(scene.materials[0].refractive_index == 1);
-  const SurfaceMaterial& m = scene.materials[1];
-  CHECK((m.ambient == Rgb(.1, .2, .3) && m.diffuse == Rgb(.4, .5, .6) && m.specular == Rgb(.7, .8, .9)));
+  const Material& m = scene.materials[1];
+  CHECK(*m.terms == TermColors{{.1, .2, .3}, {.4, .5, .6}, {.7, .8, .9}});
+  CHECK(m.specular == .9);
   CHECK((m.shine == 10 && m.transmittance == .11 && m.refractive_index == 1.2));
   REQUIRE(scene.spheres.size() == 4);
-  for (const int i : {1, 2, 3}) CHECK(scene.spheres[static_cast<std::size_t>(i)].first.material == 1);
-  CHECK((scene.spheres[1].second == 1 && scene.spheres[2].second == 0));
+  for (const int i : {1, 2, 3}) CHECK(scene.spheres[static_cast<std::size_t>(i)].material == 1);
+  CHECK(scene.nodes == std::vector<NodeIndex>{0, 1, 0, 0});
 }
 
 TEST_CASE("aff: a mesh has rows of three, six or nine indices, from 0 on") {
-  const MovingScene scene = parsed(kMaterial + R"(
+  const SceneDescription scene = parsed(kMaterial + R"(
 m vertices 4  0 0 0  1 0 0  0 1 0  1 1 0
   normals 2  0 0 1  0 0 -1
   texturecoords 3 wood.ppm  0 0  1 0  0.5 -2
@@ -107,19 +110,24 @@ m vertices 4  0 0 0  1 0 0  0 1 0  1 1 0
 m vertices 3 0 0 0 1 0 0 0 1 0 triangles 1 2 1 0
 m vertices 3 0 0 0 1 0 0 0 1 0 texturecoords 1 wood.ppm 0 0 triangles 1 0 1 2 0 0 0)");
   REQUIRE(scene.meshes.size() == 3);
-  const Mesh& mesh = scene.meshes[0];
+  const TriangleMesh& mesh = scene.meshes[0];
   CHECK((mesh.positions.size() == 4 && mesh.normals.size() == 2 && mesh.texture_points[2] == Vec2d(0.5, -2)));
-  CHECK(mesh.triangles[1].position == std::array<std::uint32_t, 3>{1, 3, 2});
-  CHECK(mesh.triangles[0].normal == std::array<std::uint32_t, 3>{0, 0, 1});
-  CHECK(mesh.triangles[0].texture_point == std::array<std::uint32_t, 3>{2, 1, 0});
-  CHECK(scene.meshes[1].triangles[0].position == std::array<std::uint32_t, 3>{2, 1, 0});
-  CHECK_FALSE(scene.meshes[1].texture);
-  CHECK(scene.textures == std::vector<std::string>{"wood.ppm"});
-  CHECK(scene.meshes[2].texture == scene.meshes[0].texture);
+  REQUIRE(scene.triangles.size() == 4);
+  const auto& t = scene.triangles;
+  CHECK((t[0].mesh == 0 && t[1].mesh == 0 && t[2].mesh == 1 && t[3].mesh == 2));
+  CHECK(t[1].corners.position == std::array<std::uint32_t, 3>{1, 3, 2});
+  CHECK(t[0].corners.normal == std::array<std::uint32_t, 3>{0, 0, 1});
+  CHECK(t[0].corners.texture_point == std::array<std::uint32_t, 3>{2, 1, 0});
+  CHECK(t[2].corners.position == std::array<std::uint32_t, 3>{2, 1, 0});
+  const auto texture_of = [&](std::size_t i) { return scene.materials[scene.meshes[i].material].texture; };
+  CHECK_FALSE(texture_of(1));
+  REQUIRE(scene.textures.size() == 1);
+  CHECK(scene.textures[0].name == "wood.ppm");
+  CHECK((texture_of(0) == TextureIndex{0} && texture_of(2) == TextureIndex{0}));
 }
 
 TEST_CASE("aff: polygons, patches, textured and moving triangles, spheres and cones") {
-  const MovingScene scene = parsed(kMaterial + R"(
+  const SceneDescription scene = parsed(kMaterial + R"(
 p 4  0 0 0  1 0 0  1 1 0  0 1 0
 pp 3  0 0 0 0 0 1  1 0 0 0 0 1  0 1 0 0 1 1
 tt a.ppm  0 0 0 0 0  1 0 0 1 0  0 1 0 0 1
@@ -129,10 +137,10 @@ tpa 2  0  0 0 0 0 0 1  1 0 0 0 0 1  0 1 0 0 0 1
 s 1 2 3 4
 c 0 0 0 1 0 0 5 0.5)");
   REQUIRE(scene.meshes.size() == 4);
-  CHECK(scene.meshes[0].triangles.size() == 2);
-  CHECK((scene.meshes[1].normals.size() == 3 && scene.meshes[1].triangles.size() == 1));
-  CHECK((scene.textures.size() == 2 && scene.meshes[3].texture == TextureIndex{1}));
-  CHECK((scene.spheres.size() == 1 && scene.cones[0].first.apex_radius == 0.5));
+  CHECK((scene.triangles.size() == 5 && scene.triangles[1].mesh == 0 && scene.triangles[2].mesh == 1));
+  CHECK(scene.meshes[1].normals.size() == 3);
+  CHECK((scene.textures.size() == 2 && scene.materials[scene.meshes[3].material].texture == TextureIndex{1}));
+  CHECK((scene.spheres.size() == 1 && scene.cones[0].apex_radius == 0.5));
   REQUIRE(scene.moving_triangles.size() == 1);
   const MovingTriangle& moving = scene.moving_triangles[0];
   CHECK(shape_at(moving, -1).positions[0] == Vec3d(0, 0, 0));
@@ -142,7 +150,7 @@ c 0 0 0 1 0 0 5 0.5)");
 }
 
 TEST_CASE("aff: transforms stand in each other, static and moving") {
-  const MovingScene scene = parsed(kMaterial + R"(
+  const SceneDescription scene = parsed(kMaterial + R"(
 xs 2 2 2  0 0 1 90  1 0 0 {
   x wheel{ s 1 0 0 1 }
   x wheel { s 0 1 0 1 }
@@ -150,9 +158,11 @@ xs 2 2 2  0 0 1 90  1 0 0 {
 x nobody { s 0 0 0 1 }
 k wheel { transl 4  0 0 0 0 0 0 0  1 0 0 5 0 0 0  2 0 0 7 0 0 0  3 0 0 7 0 0 0
           visibility 1 1.5 0 })");
-  REQUIRE(scene.nodes.size() == 5);
-  CHECK((scene.nodes[2].parent == 1 && scene.nodes[3].parent == 1 && scene.nodes[4].parent == 0));
-  const std::vector<Placement> start = placements_at(scene, 0), end = placements_at(scene, 2);
+  REQUIRE(scene.movement.nodes.size() == 5);
+  CHECK((scene.movement.nodes[2].parent == 1 && scene.movement.nodes[3].parent == 1 &&
+         scene.movement.nodes[4].parent == 0));
+  const std::vector<Placement> start = placements_at(scene.movement, 0),
+                               end = placements_at(scene.movement, 2);
   const Vec3d world = start[2].to_parent.point({1, 0, 0});
   CHECK((world - Vec3d(1, 2, 10)).length() < 1e-12);
   CHECK(start[3].to_parent == start[2].to_parent);
@@ -182,8 +192,8 @@ TEST_CASE("aff: a track that is given twice counts as the last, before or after 
     for (int t = 0; t < 4; ++t) text += std::to_string(t) + " " + std::to_string(x) + " 0 0 0 0 0 ";
     return text;
   };
-  const MovingScene scene = parsed("k a {" + keys(1) + "} x a { l 0 0 0 } k a {" + keys(2) + "}");
-  CHECK(placements_at(scene, 1)[1].to_parent.origin == Vec3d(2, 0, 0));
+  const SceneDescription scene = parsed("k a {" + keys(1) + "} x a { l 0 0 0 } k a {" + keys(2) + "}");
+  CHECK(placements_at(scene.movement, 1)[1].to_parent.origin == Vec3d(2, 0, 0));
 }
 
 TEST_CASE("aff: problems are told with their place, all of them") {
@@ -217,7 +227,7 @@ TEST_CASE("aff: deviations are warnings, or errors when reading is strict") {
   const std::string text =
       "s 0 0 0 1\nfm 1 1 1 1 1 1 1 1 1 1 .5 0\ns 0 0 0 0\ns 1 1 1 0\n"
       "k a { visibility 2 3 1 1 0 }";
-  const ParsedMovingScene lenient = parse_aff(text, "a.aff");
+  const ParsedScene lenient = parse_aff(text, "a.aff");
   CHECK(lenient.warnings.find(
             "a.aff:1:1: warning: there is no material before the first object: white is taken") !=
         std::string::npos);
@@ -242,12 +252,12 @@ TEST_CASE("aff: included files stand where they are named, as often as they are 
   folder.write("detail.aff", "s 0 0 0 2\n");
   folder.write("parts/part.aff", "fm 0 0 0 0 0 0 0 0 0 0 0 0 i 0 near.aff i 0 ball.aff");
   folder.write("parts/near.aff", "s 0 0 0 3");
-  const MovingScene scene = folder.read("main.aff");
+  const SceneDescription scene = folder.read("main.aff");
   REQUIRE(scene.spheres.size() == 5);
-  CHECK((scene.spheres[0].second == 0 && scene.spheres[1].second == 1));
-  CHECK((scene.spheres[2].first.radius == 3 && scene.spheres[3].first.radius == 1 &&
-         scene.spheres[4].first.radius == 4));
-  CHECK(scene.spheres[4].first.material == 1);  // the included file's material stays
+  CHECK(scene.nodes[0] == 0);
+  CHECK(scene.nodes[1] == 1);
+  CHECK((scene.spheres[2].radius == 3 && scene.spheres[3].radius == 1 && scene.spheres[4].radius == 4));
+  CHECK(scene.spheres[4].material == 1);  // the included file's material stays
 }
 
 TEST_CASE("aff: a file that is included can fail in many ways") {
@@ -319,7 +329,7 @@ k a { rot 4 0 0 0 1 0 0 0 0 1 0 0 1 0 0 0 0 2 0 0 1 0 0 0 0 3 0 0 1 0 0 0 0 visi
   for (std::size_t size = 0; size < whole.size(); ++size) {
     const std::string text = whole.substr(0, size);
     try {
-      for (const Placement& placement : placements_at(parsed(text), 0.5))
+      for (const Placement& placement : placements_at(parsed(text).movement, 0.5))
         CHECK(placement.to_parent == Affine());
     } catch (const InputError& e) {
       CHECK(std::string(e.what()).find("a.aff:") == 0);

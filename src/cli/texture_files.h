@@ -1,0 +1,14 @@
+// Reads the pictures that a scene's surfaces show.
+#pragma once
+
+#include <filesystem>
+
+#include "scene/scene_description.h"
+
+namespace pprt {
+
+// Reads every texture of a scene that lies in `folder`: beside the scene, in TextureFiles/ there, or in
+// ../TextureFiles/. Throws InputError that names every one that is not there or cannot be read.
+void read_textures(SceneDescription& scene, const std::filesystem::path& folder);
+
+}  // namespace pprt

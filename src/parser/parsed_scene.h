@@ -1,0 +1,16 @@
+// What a scene's parser returns.
+#pragma once
+
+#include <string>
+
+#include "scene/scene_description.h"
+
+namespace pprt {
+
+// A scene and the warnings of its reading.
+struct ParsedScene {
+  SceneDescription scene;
+  std::string warnings;  // formatted with their places, each line ended; empty when there are none
+};
+
+}  // namespace pprt

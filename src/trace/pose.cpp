@@ -1,0 +1,238 @@
+#include "trace/pose.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "trace/numerics.h"
+
+namespace pprt {
+
+// A body that changes its shape: parts and hierarchy of its own, which Embree refits.
+struct Pose::Deforming {
+  std::uint32_t body = 0;
+  std::vector<std::pair<std::uint32_t, ScenePart>> parts;  // with their numbers
+  std::vector<EmbreeGeometry> geometries;
+  EmbreeScene embree;
+};
+
+namespace {
+
+Vec3d in_float(const Vec3d& v) {
+  return Vec3d(Vec3f(v));
+}
+
+double norm(const Affine& map) {
+  return std::sqrt(map.x.length2() + map.y.length2() + map.z.length2());
+}
+
+// Returns the map of a body's compiled space to the world's, rounded as Embree has it.
+BodyPlace place_body(const CompiledBody& body, const Normalisation& world, const Placement& node) {
+  const double scale = world.scale / body.normalisation.scale;
+  const Affine& map = node.to_parent;
+  BodyPlace place;
+  place.to_world = {in_float(map.x * scale), in_float(map.y * scale), in_float(map.z * scale),
+                    in_float(world.point(map.point(body.normalisation.center)))};
+  const double volume = place.to_world.determinant();
+  const double size = norm(place.to_world);
+  // A body that is flattened shows nothing: its faces have no inside, and rays cannot be mapped into it.
+  constexpr double kFlat = 1e-12;
+  place.is_shown = node.visible && std::abs(volume) > kFlat * size * size * size && std::isfinite(volume);
+  if (!place.is_shown) {
+    place.to_world = place.from_world = Affine();
+    return place;
+  }
+  place.from_world = inverse(place.to_world);
+  place.rounding = instance_rounding(size * norm(place.from_world) / 3);
+  place.distance = sum_of_coordinates(place.to_world.origin);
+  return place;
+}
+
+bool crosses(const Box3d& box, const Vec3d& from, const Vec3d& step) {
+  double near = 0, far = 1;
+  for (int i = 0; i < 3; ++i) {
+    const double a = (box.min[i] - from[i]) / step[i], b = (box.max[i] - from[i]) / step[i];
+    if (std::isnan(a) || std::isnan(b)) continue;  // along the box's face: the other axes decide
+    near = std::max(near, std::min(a, b));
+    far = std::min(far, std::max(a, b));
+  }
+  return near <= far;
+}
+
+}  // namespace
+
+Pose::Pose(const CompiledScene::Impl& scene) : scene_(scene), lights_(scene.lights) {
+  embree_ = scene.bodies[0].embree.get();
+  if (!scene.moves) return;
+  own_lights_ = scene.lights;
+  lights_ = own_lights_;
+  for (std::uint32_t body = 0; body < scene.bodies.size(); ++body) {
+    if (!scene.bodies[body].deforms) continue;
+    auto& own = *deforming_.emplace_back(std::make_unique<Deforming>());
+    own.body = body;
+    own.embree.reset(rtcNewScene(scene.device.get()));
+    rtcSetSceneFlags(own.embree.get(), RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC);
+    deformed_.resize(scene.parts.size());
+    for (std::uint32_t i = 0; i < scene.parts.size(); ++i) {
+      if (scene.parts[i].body == body) own.parts.emplace_back(i, scene.parts[i]);
+    }
+    for (auto& [number, part] : own.parts) deformed_[number] = &part;
+  }
+  if (scene.bodies.size() > 1) {
+    own_embree_.reset(rtcNewScene(scene.device.get()));
+    rtcSetSceneFlags(own_embree_.get(), RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC);
+    rtcSetSceneBuildQuality(own_embree_.get(), RTC_BUILD_QUALITY_LOW);
+    embree_ = own_embree_.get();
+  }
+  set_time(scene.movement.times ? scene.movement.times->start : 0);
+}
+
+Pose::~Pose() = default;
+
+void Pose::set_time(double time) {
+  if (!scene_.moves) return;
+  const std::vector<BodyPlace> before = places_;
+  const std::vector<ShadingLight> lights_before = own_lights_;
+  place_bodies(time);
+  place_lights(time);
+  note_changes(has_time_ ? before : places_, has_time_ ? lights_before : own_lights_);
+  has_time_ = true;
+}
+
+void Pose::place_bodies(double time) {
+  const std::vector<Placement> nodes = placements_at(scene_.movement, time);
+  for (const auto& own : deforming_) {
+    for (auto& [number, part] : own->parts) {
+      Mesh& mesh = std::get<Mesh>(part.shape);
+      for (std::size_t i = 0; i < part.shapes.size(); ++i) {
+        const MovingTriangle::Key shape = shape_at(part.shapes[i], time);
+        mesh.set_shape(i, shape.positions,
+                       {Vec3f(shape.normals[0]), Vec3f(shape.normals[1]), Vec3f(shape.normals[2])});
+      }
+    }
+    if (own->geometries.empty()) {
+      for (auto& [number, part] : own->parts) {
+        EmbreeGeometry& geometry = own->geometries.emplace_back(
+            new_mesh_geometry(scene_.device, std::get<Mesh>(part.shape), part.faces));
+        rtcSetGeometryBuildQuality(geometry.get(), RTC_BUILD_QUALITY_REFIT);
+        rtcCommitGeometry(geometry.get());
+        rtcAttachGeometryByID(own->embree.get(), geometry.get(), number);
+      }
+    } else {
+      for (const EmbreeGeometry& geometry : own->geometries) {
+        rtcUpdateGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0);
+        rtcCommitGeometry(geometry.get());
+      }
+    }
+    rtcCommitScene(own->embree.get());
+  }
+  if (!own_embree_) return;
+
+  places_.resize(scene_.bodies.size());
+  const bool are_new = instances_.empty();
+  rounding_ = 0;
+  for (std::uint32_t i = 0; i < scene_.bodies.size(); ++i) {
+    const CompiledBody& body = scene_.bodies[i];
+    if (i > 0) places_[i] = place_body(body, scene_.normalisation, nodes[body.node]);
+    rounding_ = std::max(rounding_, places_[i].rounding);
+    if (are_new) {
+      EmbreeGeometry& instance =
+          instances_.emplace_back(rtcNewGeometry(scene_.device.get(), RTC_GEOMETRY_TYPE_INSTANCE));
+      const auto own =
+          std::find_if(deforming_.begin(), deforming_.end(), [i](const auto& d) { return d->body == i; });
+      rtcSetGeometryInstancedScene(instance.get(),
+                                   own != deforming_.end() ? (*own)->embree.get() : body.embree.get());
+      rtcSetGeometryTimeStepCount(instance.get(), 1);
+      rtcAttachGeometryByID(own_embree_.get(), instance.get(), i);
+    }
+    const Affine& map = places_[i].to_world;
+    std::array<float, 12> columns;
+    std::size_t next = 0;
+    for (const Vec3d& column : {map.x, map.y, map.z, map.origin}) {
+      for (int k = 0; k < 3; ++k) columns[next++] = static_cast<float>(column[k]);
+    }
+    RTCGeometry const instance = instances_[i].get();
+    rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns.data());
+    if (places_[i].is_shown) {
+      rtcEnableGeometry(instance);
+    } else {
+      rtcDisableGeometry(instance);
+    }
+    rtcCommitGeometry(instance);
+  }
+  rtcCommitScene(own_embree_.get());
+  check_embree(scene_.device, "moving the scene's objects");
+}
+
+void Pose::place_lights(double time) {
+  if (scene_.light_nodes.empty()) return;
+  const std::vector<Placement> nodes = placements_at(scene_.movement, time);
+  for (std::size_t i = 0; i < own_lights_.size(); ++i) {
+    const LightNode& at = scene_.light_nodes[i];
+    if (at.node == 0 && at.track.empty()) continue;
+    const auto moved = track_at(scene_.movement, at.track, time);
+    const Vec3d position = moved ? moved->to_parent.origin : scene_.light_positions[i];
+    own_lights_[i].position = scene_.normalisation.point(nodes[at.node].to_parent.point(position));
+  }
+}
+
+void Pose::note_changes(const std::vector<BodyPlace>& before,
+                        const std::vector<ShadingLight>& lights_before) {
+  swept_.clear();
+  all_swept_.makeEmpty();
+  moved_by_.assign(places_.size(), {});
+  has_moved_.assign(places_.size(), false);
+  for (std::size_t i = 1; i < places_.size(); ++i) {
+    const BodyPlace &then = before[i], &now = places_[i];
+    const bool deforms = scene_.bodies[i].deforms;
+    if (then.is_shown == now.is_shown && then.to_world == now.to_world && !deforms) continue;
+    has_moved_[i] = true;
+    moved_by_[i] = now.to_world * then.from_world;
+    for (const BodyPlace* at : {&then, &now}) {
+      if (!at->is_shown) continue;
+      swept_.push_back(mapped(at->to_world, scene_.bodies[i].box));
+      all_swept_.extendBy(swept_.back());
+    }
+  }
+  lights_moved_ = 0;
+  for (std::size_t i = 0; i < std::min<std::size_t>(own_lights_.size(), 8); ++i) {
+    if (own_lights_[i].position != lights_before[i].position)
+      lights_moved_ = static_cast<std::uint8_t>(lights_moved_ | 1U << i);
+  }
+}
+
+bool Pose::may_be_crossed(const Vec3d& from, const Vec3d& to) const {
+  const Vec3d step = to - from;
+  return crosses(all_swept_, from, step) && std::any_of(swept_.begin(), swept_.end(), [&](const Box3d& box) {
+           return crosses(box, from, step);
+         });
+}
+
+bool Pose::carry(RaySample& sample) const {
+  if (!scene_.moves || sample.at_infinity || sample.primitive == 0) return true;
+  const std::uint32_t number = sample.primitive - 1 < scene_.part_of_primitive.size()
+                                   ? scene_.part_of_primitive[sample.primitive - 1]
+                                   : kNoPart;
+  if (number == kNoPart) return false;
+  const std::uint32_t body = scene_.parts[number].body;
+  std::uint8_t changed = lights_moved_;
+  if (body != 0 && has_moved_[body]) {
+    if (scene_.bodies[body].deforms || !places_[body].is_shown) return false;
+    sample.hit = Vec3f(moved_by_[body].point(Vec3d(sample.hit)));
+    changed = 0xFF;
+  } else if (!swept_.empty()) {
+    const Vec3d hit(sample.hit);
+    for (std::size_t i = 0; i < std::min<std::size_t>(lights_.size(), 8); ++i) {
+      const auto bit = static_cast<std::uint8_t>(1U << i);
+      if ((sample.lights.asked & bit) != 0 && may_be_crossed(hit, lights_[i].position))
+        changed = static_cast<std::uint8_t>(changed | bit);
+    }
+  }
+  if ((sample.lights.asked & changed) != 0) sample.eye_dependent = true;
+  sample.lights.asked = static_cast<std::uint8_t>(sample.lights.asked & ~changed);
+  sample.lights.seen = static_cast<std::uint8_t>(sample.lights.seen & ~changed);
+  return true;
+}
+
+}  // namespace pprt
