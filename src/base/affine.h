@@ -20,6 +20,10 @@ struct Affine {
   // mirrors.
   Vec3d normal(const Vec3d& n) const { return y.cross(z) * n.x + z.cross(x) * n.y + x.cross(y) * n.z; }
 
+  // The same, but it points to the side to which the map takes what lies on the normal's side: outwards stays
+  // outwards where the map mirrors.
+  Vec3d outward(const Vec3d& n) const { return determinant() < 0 ? -normal(n) : normal(n); }
+
   // Negative where the map mirrors, 0 where it flattens.
   double determinant() const { return x.dot(y.cross(z)); }
 

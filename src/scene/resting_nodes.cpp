@@ -95,6 +95,8 @@ class Settler {
     const PrimitiveRef ref = scene_.order[place];
     const Base& base = bases_[node_];
     scene_.nodes[place] = base.node;
+    // A mirrored surface keeps its front by the order of its vertices.
+    const bool mirrors = base.map.determinant() < 0;
     switch (ref.kind) {
       case PrimitiveKind::kSphere: {
         Sphere& s = scene_.spheres[ref.index];
@@ -117,33 +119,48 @@ class Settler {
           Vec3d& v = scene_.polygon_vertices[p.first_vertex + i];
           v = base.map.point(v);
         }
+        if (mirrors) reverse(p, scene_.polygon_vertices);
         break;
       }
       case PrimitiveKind::kPatch: {
         const Patch& p = scene_.patches[ref.index];
         for (std::uint32_t i = 0; i < p.vertex_count; ++i) {
           PatchVertex& v = scene_.patch_vertices[p.first_vertex + i];
-          v = {base.map.point(v.position), base.map.normal(v.normal)};
+          v = {base.map.point(v.position), base.map.outward(v.normal)};
         }
+        if (mirrors) reverse(p, scene_.patch_vertices);
         break;
       }
       case PrimitiveKind::kTriangle:
         mesh_maps_[scene_.triangles[ref.index].mesh] = base.map;
+        if (mirrors) turn(scene_.triangles[ref.index].corners);
         break;
       case PrimitiveKind::kMovingTriangle:
         for (MovingTriangle::Key& key : scene_.moving_triangles[ref.index].keys) {
           for (Vec3d& p : key.positions) p = base.map.point(p);
-          for (Vec3d& n : key.normals) n = base.map.normal(n);
+          for (Vec3d& n : key.normals) n = base.map.outward(n);
+          if (mirrors)
+            std::swap(key.positions[1], key.positions[2]), std::swap(key.normals[1], key.normals[2]);
         }
         break;
     }
+  }
+
+  template <typename Shape, typename Vertex>
+  static void reverse(const Shape& shape, std::vector<Vertex>& vertices) {
+    const auto first = vertices.begin() + shape.first_vertex;
+    std::reverse(first, first + shape.vertex_count);
+  }
+  static void turn(TriangleCorners& corners) {
+    for (auto* indices : {&corners.position, &corners.normal, &corners.texture_point})
+      std::swap((*indices)[1], (*indices)[2]);
   }
 
   // All triangles of a mesh stand in one node.
   static void move(TriangleMesh& mesh, const Affine& map) {
     if (map == Affine()) return;
     for (Vec3d& p : mesh.positions) p = map.point(p);
-    for (Vec3d& n : mesh.normals) n = map.normal(n);
+    for (Vec3d& n : mesh.normals) n = map.outward(n);
   }
 
   // A primitive that the resting node's map would turn into another kind.

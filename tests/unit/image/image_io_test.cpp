@@ -337,6 +337,33 @@ TEST_CASE("EXRs of every pixel type are read, wherever their data window lies") 
   }
 }
 
+TEST_CASE("PPMs are read, as bytes or as text, with comments and with bytes behind the picture") {
+  const Color a(1, 0, 0), b(0, 102 / 255.F, 1);
+  for (const std::string& whole : {std::string("P6\n# marble\xe4\n2 1\n255\n\xff\x00\x00\x00\x66\xff!", 30),
+                                   std::string("P3 2 1 # size\n255 255 0 0\n0 102 255\n")}) {
+    const Image image = decode_ppm(whole);
+    REQUIRE((image.width == 2 && image.height == 1));
+    CHECK((image.at(0, 0) - a).length() < 1e-6F);
+    CHECK((image.at(1, 0) - b).length() < 1e-6F);
+  }
+  CHECK(decode_ppm("P3 1 1 15 15 5 0").at(0, 0).y == Approx(1 / 3.0));
+  for (const char* broken :
+       {"P6", "P6 2", "P6 2 1 255", "P6 2 1 255 abc", "P6 0 1 255 abc", "P6 1 1 65535 abcdef", "P6 1 1 0 abc",
+        "P6 -1 1 255 abc", "P6 99999999999 1 255 abc", "P3 1 1 255 1 2", "P6 2000000000 2000000000 255 abc",
+        "P3 1 1 255 x y z"})
+    CHECK_THROWS_AS(decode_ppm(broken), std::runtime_error);
+}
+
+TEST_CASE("a JPEG decodes to nearly what was encoded, and one that is cut short to an error") {
+  Image image(16, 16, Color(0.2F, 0.6F, 0.8F));
+  const std::string bytes = encode_jpeg(image, 95);
+  const Image back = decode_jpeg(bytes);
+  REQUIRE((back.width == 16 && back.height == 16));
+  CHECK((back.at(7, 9) - image.at(7, 9)).length() < 0.02F);
+  CHECK_THROWS_AS(decode_jpeg(bytes.substr(0, bytes.size() / 2)), std::runtime_error);
+  CHECK_THROWS_AS(decode_jpeg("\xff\xd8"), std::runtime_error);
+}
+
 TEST_CASE("damaged files are errors that name the file") {
   const TemporaryDirectory directory;
   const Image image = half_exact_picture(40, 40);
