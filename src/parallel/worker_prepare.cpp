@@ -10,6 +10,7 @@ void Worker::prepare(const FrameOrder& order) {
   // How far an eye at rest may move, in a scene of size 1: what interpolating equal positions leaves.
   constexpr double kAtRest = 1e-9;
   tracer_.begin_frame(order);
+  if (tracer_.moves()) timer_.end_stage(&StageTimes::moving);
   const MissedFrames missed = ownership_.take_missed();
   const Carry carry = ownership_.carry_into(order);
   costs_.begin_frame(carry != Carry::kAccumulate || missed.triangulation, likeness_to_last(order, missed));

@@ -10,6 +10,7 @@ namespace {
 
 void add(const StageTimes& times, StageTimes& sum) {
   sum.sampling += times.sampling;
+  sum.moving += times.moving;
   sum.casting += times.casting;
   sum.reconstruction += times.reconstruction;
   sum.balancing += times.balancing;

@@ -88,6 +88,7 @@ struct RoundDue {
 
 // CPU time by stage, milliseconds (work clock: work units / 1e6).
 struct StageTimes {
+  double moving = 0;  // placing what moves
   double sampling = 0;
   double casting = 0;
   double reconstruction = 0;

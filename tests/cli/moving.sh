@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# Scenes in AFF: what moves, textures, and how they are refused.
+source "$(dirname "$0")/check.sh"
+
+cat >toy.aff <<'AFF'
+v from 0 3 9 at 0 1 0 up 0 1 0 angle 40 hither 1 resolution 48 36
+am 1 1 1 b .2 .3 .4 l 4 8 6 .7 .7 .7 a 1 2 6
+fm .2 .2 .2 .7 .7 .7 0 0 0 0 0 1
+tt floor.ppm -6 0 6 0 1 6 0 6 1 1 0 0 -6 0.5 0
+i 0 part.aff
+AFF
+cat >part.aff <<'AFF'
+fm .1 0 0 .7 .2 .1 .2 .2 .2 20 0 1
+x ball { s 0 .7 0 .7 }
+k ball { transl 4 0 -3 0 0 0 0 0 1 -2 0 0 0 0 0 2 2 0 0 0 0 0 3 3 0 0 0 0 0 }
+AFF
+
+# The pictures: beside the scene, in TextureFiles/ there, or in ../TextureFiles/.
+missing="toy.aff: error: there is no texture 'floor.ppm' beside the scene, in TextureFiles/ or in ../TextureFiles/"
+run pprt-render toy.aff; expect_code 3; expect_text err "$missing"
+mkdir TextureFiles
+printf 'P6 2 2 255\n\377\0\0\0\377\0\0\0\377\377\377' >TextureFiles/floor.ppm
+run pprt-render toy.aff; expect_code 3
+expect_text err "toy.aff: error: cannot read 'TextureFiles/floor.ppm': the file ends early"
+printf 'P6 2 2 255\n\377\0\0\0\377\0\0\0\377\377\377\377' >TextureFiles/floor.ppm
+
+run pprt-render toy.aff --census; expect_code 0
+expect_line out 'primitives  1 sphere, 1 triangle of a mesh (1 triangle)'
+expect_line out 'movement    1 object that moves'
+expect_line out '  textures        yes  1 material with a texture'
+
+# Frames and their times come from the scene; ranks and threads make no difference that has no reason.
+run pprt-render toy.aff --clock work -o 'a%d.png'; expect_code 0
+for n in 1 2 3 4 5 6; do expect_file a$n.png; done
+run pprt-render toy.aff --frames 3-4 --clock work --samples 3000 --cast off -o 'b%d.png'; expect_code 0
+run pprt-render -np 3 toy.aff --frames 3-4 --clock work --samples 3000 --cast off -o 'c%d.png'; expect_code 0
+run pprt-compare b3.png c3.png --max-rmse 0.02; expect_code 0
+run pprt-compare b3.png c4.png --max-rmse 0.02; expect_code 1
+for i in 1 2; do
+  run pprt-render -np 2 --threads 2 toy.aff --clock work --fps 8 --overwrite -o "r$i-%d.png"; expect_code 0
+done
+for n in 1 3 6; do expect_same r1-$n.png r2-$n.png; done
+run pprt-compare r1-2.png r1-5.png --max-rmse 0.02; expect_code 1
+
+# A script names the scene: its frames are spread over the scene's time, and the camera is its own.
+echo 'animation { scene "toy.aff" frames 2 }' >toy.anim
+run pprt-render toy.anim --clock work --samples 3000 --cast off -o 's%d.png'; expect_code 0
+run pprt-render toy.aff --frames 6-6 --clock work --samples 3000 --cast off -o e.png; expect_code 0
+run pprt-compare s2.png e.png --max-rmse 0.001; expect_code 0
+run pprt-compare s1.png e.png --max-rmse 0.02; expect_code 1
+
+# Problems of every file, each with its place.
+echo 'fm 1 2 x' >>part.aff; echo 's 0 0' >>toy.aff
+run pprt-render toy.aff; expect_code 3
+expect_line err "toy.aff:6:6: error: expected .*"
+expect_line err "part.aff:4:8: error: expected a number for blue of the ambient colour of 'fm', found 'x'"
+mkdir inner; cp toy.aff part.aff inner; cp inner/part.aff outside.aff
+printf 'i 0 ../outside.aff\n' >inner/bad.aff
+run pprt-render inner/bad.aff; expect_code 3
+expect_line err ".*the file lies outside the scene's folder"
+finish
