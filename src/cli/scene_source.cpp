@@ -14,6 +14,7 @@
 #include "cli/texture_files.h"
 #include "parser/aff_parser.h"
 #include "parser/text_input.h"
+#include "scene/object_motion.h"
 #include "scene/resting_nodes.h"
 #include "spd/spd.h"
 
@@ -69,18 +70,24 @@ ParsedScene load_aff(const std::string& path, bool strict) {
   return parsed;
 }
 
-// Returns a problem with the scene that a script names, reported at the statement that names it.
-std::string at_scene_statement(const Animation& script, const std::string& script_path, std::string problem) {
+// Returns a problem with a scene that a script names, reported at the place in the script that names it.
+std::string at_name_in_script(const Animation& script, const std::string& script_path, SourceLocation place,
+                              std::string problem) {
   constexpr std::string_view kError = ": error: ";
   if (const std::size_t at = problem.find(kError); at != std::string::npos) {
     problem.replace(at, kError.size(), ": ");  // the script's error now
   }
   Diagnostics diagnostics;
-  diagnostics.error(script.scene_location, std::move(problem));
+  diagnostics.error(place, std::move(problem));
   std::string report =
       format(diagnostics, script.name, read_text(script_path, std::numeric_limits<std::uint32_t>::max()));
   report.pop_back();  // the last line end
   return report;
+}
+
+// Returns what a script calls a file or a generated scene, for load_scene().
+std::string named_in_script(const std::string& name, const std::string& script_path) {
+  return is_spd_name(name) ? name : (std::filesystem::path(script_path).parent_path() / name).string();
 }
 
 }  // namespace
@@ -111,8 +118,7 @@ std::string scene_of_script(const Animation& script, const std::string& script_p
     throw UsageError("the script " + script_path +
                      " names no scene: give one before it, or add 'scene \"...\"' to it");
   }
-  if (is_spd_name(*script.scene)) return *script.scene;
-  return (std::filesystem::path(script_path).parent_path() / *script.scene).string();
+  return named_in_script(*script.scene, script_path);
 }
 
 ParsedScene load_scene_of_script(const Animation& script, const std::string& script_path,
@@ -125,9 +131,26 @@ ParsedScene load_scene_of_script(const Animation& script, const std::string& scr
     if (is_aff_name(name)) return load_aff(name, options.strict);
     text = read_text(name, options.max_bytes);
   } catch (const InputError& e) {
-    throw InputError(at_scene_statement(script, script_path, e.what()));
+    throw InputError(at_name_in_script(script, script_path, script.scene_location, e.what()));
   }
   return parse_nff(text, printable(name), options);
+}
+
+void add_objects(SceneDescription& scene, const Animation& script, const std::string& script_path,
+                 const FrameTimes& times, const NffOptions& options) {
+  for (const ObjectMotion& object : script.objects) {
+    const std::vector<SceneNode>& nodes = scene.movement.nodes;
+    const bool is_known = std::any_of(nodes.begin(), nodes.end(),
+                                      [&](const SceneNode& node) { return node.track == object.name; });
+    if (!is_known) {
+      try {
+        add_moving(scene, load_scene(named_in_script(object.name, script_path), options).scene, object.name);
+      } catch (const InputError& e) {
+        throw InputError(at_name_in_script(script, script_path, object.location, e.what()));
+      }
+    }
+    if (!object.keys.empty()) scene.movement.tracks[object.name] = track_of(object, times);
+  }
 }
 
 ParsedScene load_scene(const std::string& name, const NffOptions& options) {

@@ -278,6 +278,7 @@ Animation Steering::film() const {
   film.width = run_.width;
   film.height = run_.height;
   film.keys = keys_.keys();
+  film.objects = show_.objects;
   return film;
 }
 

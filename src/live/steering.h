@@ -33,6 +33,7 @@ struct ScriptFrame {
 struct LiveShow {
   std::string title;                           // of the scene, for people
   std::optional<std::string> scene_name = {};  // as a script names the scene; empty: no script can
+  std::vector<ObjectMotion> objects = {};      // that a script moves, named as there
   View home = {};                              // what is shown first; its size is that of the pictures
   std::vector<ScriptFrame> script = {};        // empty: there is none
   double frames_per_second = 24;               // between kSlowestRate and kFastestRate

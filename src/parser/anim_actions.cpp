@@ -12,8 +12,9 @@
 namespace pprt::anim {
 namespace {
 
-constexpr int kMaxNesting = 100;             // levels of operands; each takes some 2 kB of the call stack
-constexpr std::size_t kMostKeys = 100'000;   // key, hold and cut statements
+constexpr int kMaxNesting = 100;            // levels of operands; each takes some 2 kB of the call stack
+constexpr std::size_t kMostKeys = 100'000;  // key, hold and cut statements
+constexpr std::size_t kMostObjects = 10'000;
 constexpr std::size_t kMostNames = 100'000;  // declared names
 
 // The keywords of statements and the block of each. The fields come last.
@@ -42,6 +43,11 @@ constexpr Word kWords[] = {
     {"bias", Block::kKey},
     {"ease_in", Block::kKey},
     {"ease_out", Block::kKey},
+    {"object", Block::kAnimation},
+    {"translate", Block::kObjectKey},
+    {"rotate", Block::kObjectKey},
+    {"scale", Block::kObjectKey},
+    {"visible", Block::kObjectKey},
 };
 
 constexpr std::string_view name_of(Block block) {
@@ -54,6 +60,10 @@ constexpr std::string_view name_of(Block block) {
       return "camera { ... }";
     case Block::kKey:
       return "a key's { ... }";
+    case Block::kObject:
+      return "object { ... }";
+    case Block::kObjectKey:
+      return "the { ... } of an object's key";
   }
   return {};
 }
@@ -182,13 +192,22 @@ void ScriptReader::declare() {
 }
 
 void ScriptReader::begin_animation(const char* place) {
+  in_object_ = false;
   if (script_.has_animation) problems_.error(place, "a script has one animation");
   script_.has_animation = true;
 }
 
 void ScriptReader::begin_camera(const char* place) {
+  in_object_ = false;
   if (script_.has_camera) problems_.error(place, "an animation has one camera");
   script_.has_camera = true;
+}
+
+void ScriptReader::begin_object(std::string_view name) {
+  if (script_.objects.size() >= kMostObjects)
+    throw ParseFailure{name.data(), fmt::format("more than {} objects", kMostObjects), true};
+  script_.objects.push_back({.name = std::string(name), .place = name.data(), .keys = {}});
+  in_object_ = true;
 }
 
 void ScriptReader::begin_key(WrittenKey::Kind kind, const char* place) {
@@ -212,12 +231,17 @@ void ScriptReader::set_field() {
   if (field)
     problems_.error(field_place_, fmt::format("'{}' is given twice in this key", kFieldWords[field_]));
   field = take();
+  const auto which = static_cast<Field>(field_);
+  if (!in_object_ && !is_of_camera(which)) {
+    problems_.error(field_place_, fmt::format("'{}' is an object's, not the camera's", kFieldWords[field_]));
+  } else if (in_object_ && !is_of_object(which)) {
+    problems_.error(field_place_, fmt::format("'{}' is the camera's, not an object's", kFieldWords[field_]));
+  }
 }
 
 void ScriptReader::end_key() {
-  if (script_.keys.size() >= kMostKeys)
-    throw ParseFailure{key_.place, fmt::format("more than {} keys", kMostKeys), true};
-  script_.keys.push_back(key_);
+  if (keys_++ >= kMostKeys) throw ParseFailure{key_.place, fmt::format("more than {} keys", kMostKeys), true};
+  (in_object_ ? script_.objects.back().keys : script_.keys).push_back(key_);
 }
 
 void ScriptReader::set_scene(std::string_view name) {

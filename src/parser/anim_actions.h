@@ -22,7 +22,7 @@ struct ParseFailure {
 };
 
 // The block that is being read; messages name it when a word does not belong there.
-enum class Block { kTop, kAnimation, kCamera, kKey };
+enum class Block { kTop, kAnimation, kCamera, kKey, kObject, kObjectKey };
 
 // Collects the script while it is read. Values of expressions are kept on a stack.
 class ScriptReader {
@@ -46,6 +46,8 @@ class ScriptReader {
   void declare();
   void begin_animation(const char* place);
   void begin_camera(const char* place);
+  void begin_object(std::string_view name);
+  void end_object() { in_object_ = false; }
   void begin_key(WrittenKey::Kind kind, const char* place);
   void set_in_seconds() { key_.in_seconds = true; }
   void set_when();
@@ -88,6 +90,8 @@ class ScriptReader {
   std::vector<Call> calls_;
   int depth_ = 0;
   std::string_view declared_;
+  std::size_t keys_ = 0;    // of camera and objects
+  bool in_object_ = false;  // the last one of the script
   WrittenKey key_;
   std::size_t field_ = 0;
   const char* field_place_ = nullptr;
@@ -175,6 +179,8 @@ struct action<grammar::animation_item> : recovering {};
 template <>
 struct action<grammar::camera_item> : recovering {};
 template <>
+struct action<grammar::object_item> : recovering {};
+template <>
 struct action<grammar::key_item> : recovering {};
 template <>
 struct action<grammar::unary> : limiting_depth {};
@@ -222,6 +228,12 @@ template <>
 struct action<grammar::field> : plainly<&ScriptReader::set_field> {};
 template <>
 struct action<grammar::key> : plainly<&ScriptReader::end_key> {};
+template <>
+struct action<grammar::object_name> : with_text<&ScriptReader::begin_object> {};
+template <>
+struct action<grammar::object> : plainly<&ScriptReader::end_object> {};
+template <>
+struct action<grammar::object_key> : plainly<&ScriptReader::end_key> {};
 template <>
 struct action<grammar::hold> : plainly<&ScriptReader::end_key> {};
 template <>
@@ -273,5 +285,7 @@ template <>
 struct action<grammar::unknown_in_camera> : unknown_in<Block::kCamera> {};
 template <>
 struct action<grammar::unknown_in_key> : unknown_in<Block::kKey> {};
+template <>
+struct action<grammar::unknown_in_object> : unknown_in<Block::kObject> {};
 
 }  // namespace pprt::anim

@@ -49,6 +49,7 @@ struct frames_word : TAO_PEGTL_KEYWORD("frames") {};
 struct fps_word : TAO_PEGTL_KEYWORD("fps") {};
 struct resolution_word : TAO_PEGTL_KEYWORD("resolution") {};
 struct camera_word : TAO_PEGTL_KEYWORD("camera") {};
+struct object_word : TAO_PEGTL_KEYWORD("object") {};
 struct spline_word : TAO_PEGTL_KEYWORD("spline") {};
 struct key_word : TAO_PEGTL_KEYWORD("key") {};
 struct hold_word : TAO_PEGTL_KEYWORD("hold") {};
@@ -56,8 +57,11 @@ struct cut_word : TAO_PEGTL_KEYWORD("cut") {};
 struct field_word
     : sor<TAO_PEGTL_KEYWORD("from"), TAO_PEGTL_KEYWORD("at"), TAO_PEGTL_KEYWORD("up"),
           TAO_PEGTL_KEYWORD("angle"), TAO_PEGTL_KEYWORD("tension"), TAO_PEGTL_KEYWORD("continuity"),
-          TAO_PEGTL_KEYWORD("bias"), TAO_PEGTL_KEYWORD("ease_in"), TAO_PEGTL_KEYWORD("ease_out")> {};
-struct in_animation_word : sor<scene_word, frames_word, fps_word, resolution_word, camera_word> {};
+          TAO_PEGTL_KEYWORD("bias"), TAO_PEGTL_KEYWORD("ease_in"), TAO_PEGTL_KEYWORD("ease_out"),
+          TAO_PEGTL_KEYWORD("translate"), TAO_PEGTL_KEYWORD("rotate"), TAO_PEGTL_KEYWORD("scale"),
+          TAO_PEGTL_KEYWORD("visible")> {};
+struct in_animation_word : sor<scene_word, frames_word, fps_word, resolution_word, camera_word, object_word> {
+};
 struct in_camera_word : sor<spline_word, key_word, hold_word, cut_word> {};
 struct above_key_word : sor<declare_word, animation_word, in_animation_word, in_camera_word> {};
 struct statement_word : sor<above_key_word, field_word> {};
@@ -152,6 +156,20 @@ struct open_camera : sor<mark<'{'>, no_brace_before_camera_word> {};
 struct close_camera : mark<'}'> {};
 struct camera : seq<token<camera_word>, open_camera, star<camera_item>, close_camera> {};
 
+// object
+struct object_name : plus<not_one<'"', '\n', '\r'>> {};
+struct open_object_quote : one<'"'> {};
+struct close_object_quote : one<'"'> {};
+struct object_key : seq<token<key_word>, place, open_key, star<key_item>, close_key> {};
+struct unknown_in_object : sor<identifier, quoted, any> {};
+struct object_item
+    : sor<declaration, object_key,
+          seq<not_at<sor<in_animation_word, animation_word, one<'}'>, eof>>, unknown_in_object, skip>> {};
+struct open_object : mark<'{'> {};
+struct close_object : mark<'}'> {};
+struct object : seq<token<object_word>, open_object_quote, object_name, token<close_object_quote>,
+                    open_object, star<object_item>, close_object> {};
+
 // animation
 struct scene_name : plus<not_one<'"', '\n', '\r'>> {};
 struct open_quote : one<'"'> {};
@@ -161,7 +179,7 @@ struct frames : seq<token<frames_word>, expression> {};
 struct fps : seq<token<fps_word>, expression> {};
 struct resolution : seq<token<resolution_word>, expression> {};
 struct unknown_in_animation : sor<identifier, quoted, any> {};
-struct animation_item : sor<declaration, camera, scene, frames, fps, resolution,
+struct animation_item : sor<declaration, camera, object, scene, frames, fps, resolution,
                             seq<not_at<sor<animation_word, one<'}'>, eof>>, unknown_in_animation, skip>> {};
 struct no_brace_before_animation_word : at<in_animation_word> {};
 struct open_animation : sor<mark<'{'>, no_brace_before_animation_word> {};

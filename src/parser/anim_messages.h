@@ -43,6 +43,16 @@ inline constexpr const char* expected<grammar::scene_name> = "the scene's name b
 template <>
 inline constexpr const char* expected<grammar::close_quote> = "'\"' at the end of the scene's name";
 template <>
+inline constexpr const char* expected<grammar::open_object_quote> = "the object's name in quotation marks";
+template <>
+inline constexpr const char* expected<grammar::object_name> = "the object's name between the quotation marks";
+template <>
+inline constexpr const char* expected<grammar::close_object_quote> = "'\"' at the end of the object's name";
+template <>
+inline constexpr const char* expected<grammar::open_object> = "'{' with the keys of the object";
+template <>
+inline constexpr const char* expected<grammar::close_object> = "'}' at the end of the object";
+template <>
 inline constexpr const char* expected<grammar::open_animation> = "'{' after 'animation'";
 template <>
 inline constexpr const char* expected<grammar::close_animation> = "'}' at the end of the animation";

@@ -12,14 +12,6 @@ constexpr double kMostFrames = 1e6;
 constexpr double kMostFps = 1000;
 constexpr double kLargestSide = 16384;  // pixels
 
-// Returns a value as a number, if it is one; reports a vector. `what` names it in the message.
-std::optional<double> number(const Value& value, std::string_view what, Problems& problems) {
-  if (!value.known()) return std::nullopt;
-  if (value.size == 1) return value.c[0];
-  problems.error(value.place, fmt::format("'{}' is a number, not a vector", what));
-  return std::nullopt;
-}
-
 std::optional<int> whole_number(double value, double most) {
   if (value != std::trunc(value) || value < 1 || value > most) return std::nullopt;
   return static_cast<int>(value);
@@ -74,47 +66,20 @@ class KeyReader {
                                          : "nothing to cut from: no key stands before this");
       return;
     }
-    const std::optional<double> frame = frame_of(written);
+    const std::optional<double> frame = frame_of(written, animation_, fps_given_, problems_);
     begin_camera(written);
     read_fields(written);
     check_camera(written);
     first_ = false;
-    if (!frame || !in_order(*frame, written)) return;
+    const CameraKey* before = animation_.keys.empty() ? nullptr : &animation_.keys.back();
+    if (!frame || !is_in_order(*frame, written, before ? &before->frame : nullptr,
+                               before ? before->location : SourceLocation(), problems_))
+      return;
     camera_.frame = *frame;
     animation_.keys.push_back(camera_);
   }
 
  private:
-  // Returns the frame of a key, converted from seconds where needed.
-  std::optional<double> frame_of(const WrittenKey& written) {
-    const std::optional<double> when = number(written.when, "key", problems_);
-    if (!when) return std::nullopt;
-    if (written.in_seconds && animation_.fps == 0) {
-      if (!fps_given_) problems_.error(written.when.place, "a time in seconds needs 'fps' in the animation");
-      return std::nullopt;
-    }
-    const double frame = written.in_seconds ? 1 + *when * animation_.fps : *when;
-    if (frame >= 1 && frame <= kMostFrames) return frame;
-    problems_.error(
-        written.when.place,
-        frame < 1
-            ? fmt::format("frame {} is before the first one: frames count from 1, seconds from 0", frame)
-            : fmt::format("frame {} is beyond the last possible one, {}", frame, kMostFrames));
-    return std::nullopt;
-  }
-
-  bool in_order(double frame, const WrittenKey& written) {
-    if (animation_.keys.empty() || frame > animation_.keys.back().frame) return true;
-    const CameraKey& before = animation_.keys.back();
-    problems_.error(
-        written.when.place,
-        frame == before.frame
-            ? fmt::format("frame {} has its key already, in line {}", frame, before.location.line)
-            : fmt::format("frame {} comes after frame {} of line {}: keys stand in the order of time", frame,
-                          before.frame, before.location.line));
-    return false;
-  }
-
   // Starts from the camera of the key before; after a cut, from the scene's view.
   void begin_camera(const WrittenKey& written) {
     const bool hold = written.kind == WrittenKey::Kind::kHold;
@@ -215,11 +180,15 @@ class KeyReader {
   bool first_ = true;
 };
 
-// Sets the number of frames. Without `frames` the animation ends with its last key.
+// Sets the number of frames. Without `frames` the animation ends with its last key, of the camera or of an
+// object.
 void set_frame_count(const WrittenScript& script, Animation& animation, Problems& problems) {
-  if (animation.keys.empty()) return;
+  double last = animation.keys.empty() ? 1 : animation.keys.back().frame;
+  for (const ObjectMotion& object : animation.objects) {
+    if (!object.keys.empty()) last = std::max(last, object.keys.back().frame);
+  }
   if (!script.frames) {
-    animation.frames = static_cast<int>(std::ceil(animation.keys.back().frame));
+    animation.frames = static_cast<int>(std::ceil(last));
     return;
   }
   for (const WrittenKey& written : script.keys) {
@@ -234,6 +203,42 @@ void set_frame_count(const WrittenScript& script, Animation& animation, Problems
 
 }  // namespace
 
+std::optional<double> number(const Value& value, std::string_view what, Problems& problems) {
+  if (!value.known()) return std::nullopt;
+  if (value.size == 1) return value.c[0];
+  problems.error(value.place, fmt::format("'{}' is a number, not a vector", what));
+  return std::nullopt;
+}
+
+std::optional<double> frame_of(const WrittenKey& written, const Animation& animation, bool fps_given,
+                               Problems& problems) {
+  const std::optional<double> when = number(written.when, "key", problems);
+  if (!when) return std::nullopt;
+  if (written.in_seconds && animation.fps == 0) {
+    if (!fps_given) problems.error(written.when.place, "a time in seconds needs 'fps' in the animation");
+    return std::nullopt;
+  }
+  const double frame = written.in_seconds ? 1 + *when * animation.fps : *when;
+  if (frame >= 1 && frame <= kMostFrames) return frame;
+  problems.error(
+      written.when.place,
+      frame < 1 ? fmt::format("frame {} is before the first one: frames count from 1, seconds from 0", frame)
+                : fmt::format("frame {} is beyond the last possible one, {}", frame, kMostFrames));
+  return std::nullopt;
+}
+
+bool is_in_order(double frame, const WrittenKey& written, const double* before, SourceLocation before_at,
+                 Problems& problems) {
+  if (before == nullptr || frame > *before) return true;
+  problems.error(
+      written.when.place,
+      frame == *before
+          ? fmt::format("frame {} has its key already, in line {}", frame, before_at.line)
+          : fmt::format("frame {} comes after frame {} of line {}: keys stand in the order of time", frame,
+                        *before, before_at.line));
+  return false;
+}
+
 Animation interpret(const WrittenScript& script, std::string_view file_name, Problems& problems) {
   Animation animation;
   animation.name = file_name;
@@ -246,6 +251,8 @@ Animation interpret(const WrittenScript& script, std::string_view file_name, Pro
 
   KeyReader reader(animation, script.fps.has_value(), problems);
   for (const WrittenKey& key : script.keys) reader.read(key);
+  for (const WrittenObject& object : script.objects)
+    animation.objects.push_back(interpret_object(object, animation, script.fps.has_value(), problems));
   set_frame_count(script, animation, problems);
   return animation;
 }

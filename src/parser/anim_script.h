@@ -25,12 +25,25 @@ enum Field : std::size_t {
   kBias,
   kEaseIn,
   kEaseOut,
+  // Of an object; it has tension, continuity and bias, too.
+  kTranslate,
+  kRotate,
+  kScale,
+  kVisible,
   kFieldCount
 };
 
 // The keywords of the fields, in the order of Field.
 inline constexpr std::array<std::string_view, kFieldCount> kFieldWords = {
-    "from", "at", "up", "angle", "tension", "continuity", "bias", "ease_in", "ease_out"};
+    "from",    "at",       "up",        "angle",  "tension", "continuity", "bias",
+    "ease_in", "ease_out", "translate", "rotate", "scale",   "visible"};
+
+constexpr bool is_of_camera(Field field) {
+  return field < kTranslate;
+}
+constexpr bool is_of_object(Field field) {
+  return field >= kTranslate || field == kTension || field == kContinuity || field == kBias;
+}
 
 // A key, hold or cut statement.
 struct WrittenKey {
@@ -42,6 +55,12 @@ struct WrittenKey {
   std::array<std::optional<Value>, kFieldCount> fields;
 };
 
+struct WrittenObject {
+  std::string name;
+  const char* place = nullptr;  // of the name
+  std::vector<WrittenKey> keys;
+};
+
 // A script after parsing, before its values are checked.
 struct WrittenScript {
   bool has_animation = false;
@@ -50,11 +69,27 @@ struct WrittenScript {
   const char* scene_place = nullptr;  // of the keyword, if there is a scene
   std::optional<Value> frames, fps, resolution;
   std::optional<SplineKind> spline;
-  std::vector<WrittenKey> keys;
+  std::vector<WrittenKey> keys;  // of the camera
+  std::vector<WrittenObject> objects;
 };
 
 // Checks every value and copies omitted camera fields from key to key. A value in error is reported and left
 // out.
 Animation interpret(const WrittenScript& script, std::string_view file_name, Problems& problems);
+
+// The same for the keys of an object; `animation` has its rate already.
+ObjectMotion interpret_object(const WrittenObject& object, const Animation& animation, bool fps_given,
+                              Problems& problems);
+
+// Returns a value as a number, if it is one; reports a vector. `what` names it in the message.
+std::optional<double> number(const Value& value, std::string_view what, Problems& problems);
+
+// Returns the frame of a key, converted from seconds where needed; reports what is none.
+std::optional<double> frame_of(const WrittenKey& written, const Animation& animation, bool fps_given,
+                               Problems& problems);
+
+// Reports a key that does not come after the one before. `before`: null for the first one.
+bool is_in_order(double frame, const WrittenKey& written, const double* before, SourceLocation before_at,
+                 Problems& problems);
 
 }  // namespace pprt::anim

@@ -25,13 +25,14 @@ namespace {
 LiveShow show_of(const RenderPlan& plan, const CompiledScene& scene) {
   LiveShow show{.title = plan.scene.name,
                 .scene_name = plan.scene_name,
+                .objects = plan.objects,
                 .home = plan.frames.front().view,
                 .script = {},
                 .frames_per_second = plan.settings.frames_per_second,
                 .records = !plan.output.pictures.empty(),
                 .require_camera = [&scene](const View& view) { scene.camera(view); },
                 .require_size = [](int width, int height) { require_memory(width, height, true); }};
-  if (plan.script_name.empty()) return show;
+  if (plan.script_name.empty() && plan.frames.size() < 2) return show;
   for (const PlannedFrame& frame : plan.frames) show.script.push_back({frame.number, frame.view, frame.cut});
   return show;
 }

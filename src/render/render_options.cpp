@@ -45,7 +45,7 @@ constexpr const char* kRun = "Run";
 void add_positionals(CLI::App& app, RenderOptions& o) {
   auto* scene = app.add_option(
       "SCENE", o.input,
-      "FILE.nff, - (NFF on standard input), spd:NAME[:SIZE], or a script that names its scene");
+      "FILE.nff, FILE.aff, - (NFF on standard input), spd:NAME[:SIZE], or a script that names its scene");
   scene->required()->type_name("");
   take_path_or(*scene, generated_scenes());
   app.add_option("SCRIPT", o.script,

@@ -16,6 +16,7 @@
 #include "parallel/session.h"
 #include "parser/anim_parser.h"
 #include "render/film.h"
+#include "scene/resting_nodes.h"
 #include "spd/spd.h"
 
 namespace pprt {
@@ -345,16 +346,37 @@ RenderPlan plan_of(const RenderOptions& options, Sources& sources) {
   plan.compile.cull = options.cull;
   plan.compile.effects = options.effects;
   plan.warnings = sources.warnings();
-  if (sources.script) plan.script_name = sources.script->animation.name;
+  if (sources.script) {
+    plan.script_name = sources.script->animation.name;
+    plan.objects = sources.script->animation.objects;
+    const std::filesystem::path folder = std::filesystem::path(sources.script_path).parent_path();
+    for (ObjectMotion& object : plan.objects) {
+      if (const auto name = absolute_scene_name((folder / object.name).string());
+          exists(folder / object.name))
+        object.name = *name;
+    }
+  }
   plan.scene = std::move(sources.scene.scene);
   return plan;
 }
 
 }  // namespace
 
+// What a script moves becomes part of the scene.
+void add_objects(const RenderOptions& options, Sources& sources) {
+  if (!sources.script) return;
+  SceneDescription& scene = sources.scene.scene;
+  const FrameTimes times = frame_times(sources);
+  const std::size_t own_nodes = scene.movement.nodes.size();
+  add_objects(scene, sources.script->animation, sources.script_path, times, {.strict = options.strict});
+  if (scene.movement.nodes.size() > own_nodes) scene = without_resting_nodes(std::move(scene));
+  if (scene.movement.nodes.size() > 1) scene.movement.times = times;
+}
+
 RenderPlan plan_render(const RenderOptions& options) {
   Sources sources = read_sources(options);
   try {
+    add_objects(options, sources);
     return plan_of(options, sources);
   } catch (const InputError& e) {
     throw InputError(sources.warnings() + e.what());  // a warning may tell why

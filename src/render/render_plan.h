@@ -48,6 +48,7 @@ struct ReportPlan {
 struct RenderPlan {
   SceneDescription scene;
   std::optional<std::string> scene_name;    // as a script in any directory names it; empty: none can
+  std::vector<ObjectMotion> objects;        // that the script moves, named so that any script can
   std::string script_name;                  // empty: none
   std::vector<PlannedFrame> script_frames;  // all, rendered or not
   std::vector<PlannedFrame> frames;         // those to render

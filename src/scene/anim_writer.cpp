@@ -74,6 +74,26 @@ void write_key(const CameraKey& key, const CameraKey& before, ScriptOutput& out)
   out.text("\n");
 }
 
+void write_object(const ObjectMotion& object, ScriptOutput& out) {
+  out.text("  object \"");
+  out.text(object.name);
+  out.text("\" {\n");
+  for (const ObjectKey& key : object.keys) {
+    out.text("   ");
+    out.field("key", key.frame);
+    out.text(" {");
+    out.field("translate", key.translate);
+    out.field("rotate", key.rotate);
+    out.field("scale", key.scale);
+    out.field("visible", key.visible ? 1 : 0);
+    out.field("tension", key.shape.tension);
+    out.field("continuity", key.shape.continuity);
+    out.field("bias", key.shape.bias);
+    out.text(" }\n");
+  }
+  out.text("  }\n");
+}
+
 }  // namespace
 
 std::string anim_script(const Animation& animation) {
@@ -96,6 +116,7 @@ std::string anim_script(const Animation& animation) {
     out.text(">");
   }
   out.text("\n");
+  for (const ObjectMotion& object : animation.objects) write_object(object, out);
   if (!animation.keys.empty()) {
     out.text("  camera {\n   ");
     out.word("spline");

@@ -9,6 +9,7 @@
 #include "base/diagnostics.h"
 #include "base/source_location.h"
 #include "base/vector.h"
+#include "scene/motion_track.h"
 #include "scene/scene_description.h"
 
 namespace pprt {
@@ -39,6 +40,25 @@ struct CameraKey {
   SourceLocation location;
 };
 
+// An object's place at one moment. Fields that a key omits are copied from the key before.
+struct ObjectKey {
+  double frame = 1;
+  Vec3d translate{0, 0, 0};
+  Vec3d rotate{0, 0,
+               0};  // degrees about the axes x, y and z, in this order, counter-clockwise from their tips
+  Vec3d scale{1, 1, 1};  // first of all
+  bool visible = true;   // from this key on
+  KeyShape shape = {};
+  SourceLocation location = {};
+};
+
+// Something that a script moves: what a scene calls by that name, or the objects of another scene's file.
+struct ObjectMotion {
+  std::string name;
+  SourceLocation location;
+  std::vector<ObjectKey> keys;  // strictly sorted by frame; none: it rests
+};
+
 // Lower bound of fps: a frame lasts at most 1000 s, so that every animation ends.
 inline constexpr double kLeastFramesPerSecond = 0.001;
 
@@ -52,6 +72,7 @@ struct Animation {
   std::optional<int> width, height;
   SplineKind spline = SplineKind::kTcb;
   std::vector<CameraKey> keys;  // empty: the scene's own view throughout
+  std::vector<ObjectMotion> objects = {};
 };
 
 // Returns the view at a frame (1 .. frames, fractions allowed). `base` is the scene's own view: it gives

@@ -47,7 +47,7 @@ class Settler {
   }
 
  private:
-  bool moves(const SceneNode& node) const { return scene_.movement.tracks.contains(node.track); }
+  static bool moves(const SceneNode& node) { return !node.track.empty(); }
 
   void settle_nodes() {
     for (const SceneNode& node : scene_.movement.nodes) {

@@ -104,6 +104,7 @@ ShadingMaterial shading_material(const Material& m, const Rgb& ambient, const Rg
   result.specular = static_cast<float>(m.specular);
   result.shine = has_highlight(m) ? static_cast<float>(m.shine) : 0;
   result.transmittance = static_cast<float>(m.transmittance);
+  result.reflects_totally = m.terms.has_value();
   result.refractive_index = effective_refractive_index(m);
   result.lit = result.diffuse != Color(0, 0, 0) || result.shine > 0;
   return result;

@@ -329,7 +329,11 @@ class RayTree {
     Vec3d through;
     if (!refracted(direction, surface.shading, ratio, through)) {
       ++counts_.total_internal_reflection;
-      return Color(0, 0, 0);
+      if (!kExtended || !material.reflects_totally) return Color(0, 0, 0);
+      ++counts_.reflection;
+      const Vec3d inwards = lifted(mirrored(direction, surface.shading), surface.normal);
+      return follow(surface.position + surface.normal * surface.offset, inwards, depth) *
+             material.transmittance;
     }
     ++counts_.refraction;
     through = lifted(through, -surface.normal);

@@ -30,6 +30,7 @@ struct ShadingMaterial {
   double refractive_index = 1;  // > 0
   bool lit = false;             // whether lights contribute to it at all
   // What kernels for NFF do not know.
+  bool reflects_totally = false;          // follows the mirrored ray where none is refracted
   Color specular_color{0, 0, 0};          // in place of `specular`, its largest component
   const TextureImage* texture = nullptr;  // times ambient and diffuse
 };

@@ -58,4 +58,22 @@ mkdir inner; cp toy.aff part.aff inner; cp inner/part.aff outside.aff
 printf 'i 0 ../outside.aff\n' >inner/bad.aff
 run pprt-render inner/bad.aff; expect_code 3
 expect_line err ".*the file lies outside the scene's folder"
+
+# Scripts move other scenes, and parts of this one by name.
+cat >moves.anim <<'ANIM'
+animation { scene "ball.nff" frames 4 fps 4
+  object "other.nff" { key 1 { scale .5 translate <-2, 0, 0> } key 4 { translate <2, 0, 0> rotate <0, 0, 360> } }
+}
+ANIM
+run pprt-render moves.anim --fps 0 --samples 2000 --cast off --clock work -o 'm%d.png'; expect_code 3
+expect_line err "moves.anim:2:11: error: cannot read 'other.nff': No such file or directory"
+printf 'f 1 0 0 1 0 0 0 0\ns 0 0 3 1\n' >other.nff
+run pprt-render moves.anim --fps 0 --samples 2000 --cast off --clock work -o 'm%d.png'; expect_code 0
+run pprt-compare m1.png m4.png --max-rmse 0.01; expect_code 1
+run pprt-render moves.anim --census; expect_line out 'movement    1 object that moves'
+sed -i '$d' toy.aff; sed -i '$d' part.aff
+echo 'animation { scene "toy.aff" frames 2 object "ball" { key 1 { translate <0, 3, 0> } } }' >named.anim
+run pprt-render named.anim --clock work --samples 3000 --cast off -o 'n%d.png'; expect_code 0
+run pprt-compare n1.png n2.png; expect_code 0
+run pprt-compare n2.png e.png --max-rmse 0.02; expect_code 1
 finish

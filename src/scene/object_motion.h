@@ -1,0 +1,19 @@
+// Objects that a script moves, as part of a scene.
+#pragma once
+
+#include "scene/animation.h"
+#include "scene/scene_description.h"
+
+namespace pprt {
+
+// Returns the movement that a script's keys describe, as a track in seconds. `times`: of the script's frames.
+// Between keys the values follow the splines of motion_track.h, turns about the three axes each as a number,
+// so that a turn may be of any angle. They are exact at the frames' times; before the first key and after the
+// last one they stand still.
+MotionTrack track_of(const ObjectMotion& object, const FrameTimes& times);
+
+// Adds the objects of another scene under a node that the track called `name` moves. Its view, background and
+// lights do not count.
+void add_moving(SceneDescription& scene, const SceneDescription& other, const std::string& name);
+
+}  // namespace pprt
