@@ -16,7 +16,7 @@ struct ConvertOptions {
   std::optional<int> tessellate;  // Fineness::divisions; empty: keep curved surfaces if the format has them
   std::optional<double> chord_error;  // Fineness::chord_error
   UpAxis up = UpAxis::kY;             // of an added view
-  std::optional<double> at;  // time of a scene that moves, seconds; empty: the start of its animation
+  std::optional<double> at = {};  // time of a scene that moves, seconds; empty: the start of its animation
 };
 
 // Reads the input and writes the output, which is left as it was on failure. Prints warnings about the scene,
