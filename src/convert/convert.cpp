@@ -131,9 +131,9 @@ void write_pov_and_tell(const SceneDescription& scene, std::ostream& out, const 
     say(scene, fmt::format("{} spheres or cones of which only the inside is seen: POV-Ray shows both sides",
                            losses.one_sided));
   }
-  if (losses.colored_highlights > 0) {
-    say(scene, fmt::format("{} materials with a coloured highlight: in POV-Ray it is white",
-                           losses.colored_highlights));
+  if (losses.lost_highlights > 0) {
+    say(scene,
+        fmt::format("{} materials with a coloured highlight that becomes white", losses.lost_highlights));
   }
   if (losses.lost_ambient > 0) {
     say(scene, fmt::format("{} materials with a texture lack ambient light in a colour that they do not "

@@ -15,6 +15,9 @@ constexpr double kLargestTransmittance = 1 - 0x1p-10;
 // it.
 constexpr double kLeastPigment = 0x1p-20;
 
+// Least share of a highlight that a channel gets.
+constexpr double kLeastFilter = 0x1p-10;
+
 double largest(const Rgb& c) {
   return std::max({c.x, c.y, c.z});
 }
@@ -38,6 +41,27 @@ void set_terms(const Rgb& ambient, const Rgb& diffuse, bool textured, PovMateria
     result.pigment[c] = std::max(result.pigment[c], kLeastPigment);
     result.ambient[c] = ambient[c] / result.pigment[c];
   }
+}
+
+// A highlight is white in POV-Ray. A layer above colours it, and the surface gets more of what that takes.
+// Not so where it would colour what lies behind the surface, or where a picture would need more than 8 bits.
+void set_highlight(const SceneDescription& scene, const Material& m, const Rgb& specular,
+                   PovMaterial& result) {
+  if (is_grey(specular) || !m.terms) {
+    result.phong = m.specular;
+    return;
+  }
+  if (m.transmittance > 0 || m.texture) {
+    result.lost_highlight = true;
+    result.phong = (specular.x + specular.y + specular.z) / 3;
+    return;
+  }
+  result.phong = largest(specular);
+  Rgb filter;
+  for (int c = 0; c < 3; ++c) filter[c] = std::max(specular[c] / result.phong, kLeastFilter);
+  set_terms(m.terms->ambient * scene.ambient.value_or(Rgb(1, 1, 1)) / filter, m.terms->diffuse / filter,
+            false, result);
+  result.filter = filter;
 }
 
 bool is_taken(const std::string& name, const std::vector<PovPicture>& files) {
@@ -73,10 +97,7 @@ PovMaterial pov_material(const SceneDescription& scene, const Material& m) {
   result.ambient *= per_opacity;
   result.diffuse *= per_opacity;
   if (m.specular > 0) result.reflection = specular;
-  if (has_highlight(m)) {
-    result.colored_highlight = !is_grey(specular);
-    result.phong = result.colored_highlight ? (specular.x + specular.y + specular.z) / 3 : m.specular;
-  }
+  if (has_highlight(m)) set_highlight(scene, m, specular, result);
   return result;
 }
 

@@ -20,8 +20,10 @@ struct PovMaterial {
   double diffuse = 0;
   double phong = 0;  // 0: no highlight
   Rgb reflection{0, 0, 0};
-  bool colored_highlight = false;  // the material's; POV-Ray's is white, of the mean brightness
-  bool lost_ambient = false;       // a channel that the texture's picture cannot hold
+  // The colour of a layer above that lets light pass. It colours all but the reflection.
+  std::optional<Rgb> filter;
+  bool lost_highlight = false;  // the highlight's colour; POV-Ray's is white, of the mean brightness
+  bool lost_ambient = false;    // a channel that the texture's picture cannot hold
 };
 
 // Returns the parameters that give the material's colours.

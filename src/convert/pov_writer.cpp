@@ -132,12 +132,15 @@ class PovWriter {
   void material(std::size_t index) {
     const Material& m = scene_.materials[index];
     const PovMaterial pov = pov_material(scene_, m);
-    losses_.colored_highlights += pov.colored_highlight;
+    losses_.lost_highlights += pov.lost_highlight;
     losses_.lost_ambient += pov.lost_ambient;
     put("#declare Material_", index + 1, " = texture {\n  pigment { ", pov.pigment);
     if (pov.transmit > 0) put(" transmit ", pov.transmit);
     put(" }\n");
     finish(m, pov);
+    if (pov.filter) {
+      put("texture {\n  pigment { ", *pov.filter, " filter 1 }\n  finish { ambient 0 diffuse 0 }\n}\n");
+    }
     if (!pictures_.materials[index]) return;
     put("#declare Textured_", index + 1, " = texture {\n  uv_mapping\n  pigment { image_map { png ");
     quoted(pictures_.files[*pictures_.materials[index]].name);

@@ -11,10 +11,10 @@ namespace pprt {
 
 // What could not be written.
 struct PovLosses {
-  std::size_t one_sided = 0;           // spheres and cones with only the inside visible: written two-sided
-  std::size_t degenerate = 0;          // primitives of no extent: left out, as in our pictures
-  std::size_t colored_highlights = 0;  // materials: the highlight becomes white
-  std::size_t lost_ambient = 0;        // materials whose ambient light lacks a colour: see PovMaterial
+  std::size_t one_sided = 0;        // spheres and cones with only the inside visible: written two-sided
+  std::size_t degenerate = 0;       // primitives of no extent: left out, as in our pictures
+  std::size_t lost_highlights = 0;  // materials whose highlight becomes white: see PovMaterial
+  std::size_t lost_ambient = 0;     // materials whose ambient light lacks a colour: see PovMaterial
 };
 
 // Writes the scene so that POV-Ray renders the same image plane and, as far as its model allows, the same

@@ -29,7 +29,7 @@ m vertices 3 -1.5 -1.5 .5 1.5 -1.5 .5 0 0 .5
   texturecoords 3 spots.ppm 0 1 1 1 .5 0 triangles 1 0 1 2 0 1 2
 fm .1 0 .2 0 .5 .7 .3 .2 .1 0 0 0
 xs .8 .3 .5 0 0 1 30 1 .8 .2 { s 0 0 0 1 }
-fm .3 0 0 .5 .2 0 .2 .2 .2 30 0 0
+fm .3 0 0 .5 .2 0 .3 .2 0 30 0 0
 x ball { c 0 0 0 .4 0 1 0 .1 }
 k ball { transl 4 0 -2 .5 1 0 0 0 1 -1.5 .5 1 0 0 0 3 -.5 1 1 0 0 0 4 0 1 1 0 0 0 }
 k lamp { transl 4 0 2 3 5 0 0 0 1 2 3 5 0 0 0 3 4 3 5 0 0 0 4 5 3 5 0 0 0 }
@@ -42,6 +42,7 @@ case $fault in
   flipped) sed -i 's/\(image_map .*\) }$/\1 scale <1, -1, 1> }/' scene.pov ;;
   coarse) sed -i 's/ interpolate 2//' scene.pov ;;
   early) pprt-convert scene.aff scene.pov ;;
+  white) sed -i '/^texture {/,/^}/d' scene.pov ;;
   round) sed -i 's/ matrix <[^>]*>//' scene.pov ;;
 esac
 povray +Iscene.pov +Opov.png +W256 +H256 -A -D +FN8 >/dev/null 2>pov.err || { cat pov.err; exit 1; }

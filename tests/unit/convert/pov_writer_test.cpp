@@ -219,13 +219,32 @@ TEST_CASE("for POV-Ray a channel that reflects ambient light alone keeps it") {
   CHECK(contains(pov(dark), "pigment { rgb <1, 1, 1> }\n  finish { ambient rgb <0.5, 0.25, 0> diffuse 0 }"));
 }
 
-TEST_CASE("for POV-Ray a coloured mirror is kept, a coloured highlight becomes white and is counted") {
-  const SceneDescription scene = with_terms({{0, 0, 0}, {1, 1, 1}, {0.75, 0.5, 0.25}}, Rgb(1, 1, 1));
-  std::ostringstream out;
-  CHECK(write_pov(scene, out).colored_highlights == 1);
-  CHECK(contains(out.str(), "phong 0.5 phong_size 8 reflection rgb <0.75, 0.5, 0.25> }"));
+TEST_CASE("for POV-Ray a coloured highlight is white under a layer that colours it") {
+  const SceneDescription scene = with_terms({{0.5, 0, 0}, {0.5, 0.25, 0}, {0.5, 0.25, 0.5}}, Rgb(1, 1, 1));
+  CHECK(contains(pov(scene), R"(#declare Material_1 = texture {
+  pigment { rgb <1, 1, 0> }
+  finish { ambient rgb <0.5, 0, 0> diffuse 0.5 phong 0.5 phong_size 8 reflection rgb <0.5, 0.25, 0.5> }
+}
+texture {
+  pigment { rgb <1, 0.5, 1> filter 1 }
+  finish { ambient 0 diffuse 0 }
+}
+)"));
   const SceneDescription grey = with_terms({{0, 0, 0}, {1, 1, 1}, {0.5, 0.5, 0.5}}, Rgb(1, 1, 1));
-  CHECK(write_pov(grey, out).colored_highlights == 0);
+  CHECK_FALSE(contains(pov(grey), "filter"));
+}
+
+TEST_CASE("for POV-Ray a coloured highlight on glass or on a texture becomes white and is counted") {
+  SceneDescription scene = with_terms({{0, 0, 0}, {1, 1, 1}, {0.75, 0.5, 0.25}}, Rgb(1, 1, 1));
+  std::ostringstream out;
+  CHECK(write_pov(scene, out).lost_highlights == 0);
+  scene.materials[0].transmittance = 0.5;
+  CHECK(write_pov(scene, out).lost_highlights == 1);
+  CHECK(contains(out.str(), "phong 0.5 phong_size 8 reflection rgb <0.75, 0.5, 0.25> }"));
+  scene.materials[0].transmittance = 0;
+  scene.materials[0].texture = TextureIndex{0};
+  scene.textures = {{"a", 1, 1, {1, 2, 3}}};
+  CHECK(write_pov(scene, out).lost_highlights == 1);
 }
 
 TEST_CASE("for POV-Ray a texture is a picture, whose v runs up") {
