@@ -35,7 +35,7 @@ void add_options(CLI::App& app, pprt::ConvertOptions& options) {
       ->check(pprt::number_above_zero())
       ->excludes(divisions);
   pprt::add_choice(app, "--up", options.up, "Up axis of an added camera");
-  app.add_flag("--strict", options.strict, "Reject what the NFF specification does not allow");
+  app.add_flag("--strict", options.strict, "Reject what the format's specification does not allow");
 }
 
 }  // namespace
