@@ -47,7 +47,8 @@ case $fault in
 esac
 povray +Iscene.pov +Opov.png +W256 +H256 -A -D +FN8 >/dev/null 2>pov.err || { cat pov.err; exit 1; }
 failed=0
-pprt-compare pov.png ours.png --threshold 0.02 --max-rmse 0.004 --max-share 0.002 >figures.txt || failed=1
+pprt-compare pov.png ours.png --threshold 0.02 --max-rmse 0.004 --max-share 0.002 >figures.txt 2>limits.txt || failed=1
+[[ -s figures.txt ]] || { cat limits.txt; exit 1; }
 echo "rmse $(awk '$1 == "rmse" { print $2 }' figures.txt), share over 0.02: $(awk '$1 == "share" { print $2 }' figures.txt)"
 case $mode in
   check) [[ $failed -eq 0 ]] ;;
