@@ -8,15 +8,20 @@
 #include <filesystem>
 #include <iostream>
 #include <stdexcept>
+#include <utility>
 
 #include "base/diagnostics.h"
 #include "cli/scene_source.h"
+#include "convert/losses.h"
 #include "convert/mesh_reader.h"
 #include "convert/mesh_writer.h"
+#include "convert/pov_material.h"
 #include "convert/pov_writer.h"
 #include "convert/tessellate.h"
 #include "image/atomic_file.h"
+#include "image/image_io.h"
 #include "scene/nff_writer.h"
+#include "scene/resting_nodes.h"
 #include "spd/spd.h"
 
 namespace pprt {
@@ -35,11 +40,11 @@ std::string extension_of(const std::string& path) {
 InputFormat input_format(const std::string& input) {
   if (is_spd_name(input) || input == "-") return InputFormat::kScene;
   const std::string extension = extension_of(input);
-  if (extension == ".nff") return InputFormat::kScene;
+  if (extension == ".nff" || extension == ".aff") return InputFormat::kScene;
   if (is_mesh_extension(extension)) return InputFormat::kMesh;
   throw UsageError(
-      fmt::format("cannot tell the format of input '{}': it must be FILE.nff, - (NFF on standard input), "
-                  "spd:NAME[:SIZE] or a mesh such as FILE.obj{}",
+      fmt::format("cannot tell the format of input '{}': it must be FILE.nff, FILE.aff, - (NFF on standard "
+                  "input), spd:NAME[:SIZE] or a mesh such as FILE.obj{}",
                   input, hint_at_meant(input)));
 }
 
@@ -87,30 +92,75 @@ void complete_lights(SceneDescription& scene) {
   say(scene, "no lights: one behind the viewer's left shoulder is added");
 }
 
+// Whether time changes the scene.
+bool moves(const SceneDescription& scene) {
+  const auto has_track = [&](const auto& moved) { return scene.movement.tracks.contains(moved.track); };
+  const std::vector<SceneNode>& nodes = scene.movement.nodes;
+  return (scene.view && scene.movement.tracks.contains(kCameraTrack)) || !scene.moving_triangles.empty() ||
+         std::any_of(nodes.begin(), nodes.end(), has_track) ||
+         std::any_of(scene.light_nodes.begin(), scene.light_nodes.end(), has_track);
+}
+
+// Returns the scene at the time asked for.
+SceneDescription still(SceneDescription scene, const ConvertOptions& options) {
+  if (!moves(scene)) {
+    if (options.at) throw UsageError("--at: nothing moves in " + scene.name);
+    return scene;
+  }
+  const double start = scene.movement.times ? scene.movement.times->start : 0;
+  return still_at(std::move(scene), options.at.value_or(start));
+}
+
 SceneDescription read(const ConvertOptions& options, InputFormat format) {
   if (format == InputFormat::kScene) {
     ParsedScene parsed = load_scene(options.input, {.strict = options.strict});
     std::cerr << parsed.warnings;
-    return std::move(parsed.scene);
+    return still(std::move(parsed.scene), options);
   }
   require_file(options.input);
   ReadMesh mesh = read_mesh(options.input);
   for (const std::string& note : mesh.notes) say(mesh.scene, note);
   complete_view(mesh.scene, options.up);
   complete_lights(mesh.scene);
-  return std::move(mesh.scene);
+  return still(std::move(mesh.scene), options);
 }
 
-void write_pov_and_tell(const SceneDescription& scene, std::ostream& out) {
-  const PovLosses losses = write_pov(scene, out);
+void write_pov_and_tell(const SceneDescription& scene, std::ostream& out, const std::string& stem) {
+  const PovLosses losses = write_pov(scene, out, stem);
   if (losses.one_sided > 0) {
     say(scene, fmt::format("{} spheres or cones of which only the inside is seen: POV-Ray shows both sides",
                            losses.one_sided));
   }
+  if (losses.lost_highlights > 0) {
+    say(scene,
+        fmt::format("{} materials with a coloured highlight that becomes white", losses.lost_highlights));
+  }
+  if (losses.lost_ambient > 0) {
+    say(scene, fmt::format("{} materials with a texture lack ambient light in a colour that they do not "
+                           "reflect diffusely",
+                           losses.lost_ambient));
+  }
   say_degenerate(scene, losses.degenerate);
 }
 
-void write_mesh_files(const SceneDescription& scene, const ConvertOptions& options) {
+// Tells what is lost and returns the rest.
+SceneDescription told(PlainScene plain) {
+  for (const std::string& loss : plain.losses) say(plain.scene, loss);
+  return std::move(plain.scene);
+}
+
+// Leaves no spheres and cones that a node stretches.
+SceneDescription without_stretched(SceneDescription scene, const ConvertOptions& options) {
+  if (scene.nodes.empty()) return scene;
+  const auto count = static_cast<std::size_t>(
+      std::count_if(scene.nodes.begin(), scene.nodes.end(), [](NodeIndex node) { return node != 0; }));
+  say(scene, fmt::format("{} stretched spheres or cones become triangles", count));
+  return with_stretched_tessellated(scene, fineness(options));
+}
+
+void write_mesh_files(SceneDescription scene, const ConvertOptions& options) {
+  check_triangle_count(scene, fineness(options));
+  scene = without_stretched(told(for_meshes(std::move(scene))), options);
   const std::filesystem::path path = options.output;
   const WrittenMesh mesh =
       write_mesh(scene, extension_of(options.output), path.stem().string(), fineness(options));
@@ -121,17 +171,24 @@ void write_mesh_files(const SceneDescription& scene, const ConvertOptions& optio
   say_degenerate(scene, mesh.degenerate);
 }
 
-void write_text(const SceneDescription& scene, const ConvertOptions& options, OutputFormat format) {
+void write_nff_file(SceneDescription scene, const ConvertOptions& options) {
+  scene = without_stretched(told(for_nff(std::move(scene))), options);
   if (options.output == "-") {
     write_nff(scene, std::cout);
     std::cout.flush();
     if (!std::cout) throw std::runtime_error("cannot write to standard output");
     return;
   }
-  write_whole_file(options.output, [&](std::ostream& out) {
-    if (format == OutputFormat::kNff) return write_nff(scene, out);
-    write_pov_and_tell(scene, out);
-  });
+  write_whole_file(options.output, [&](std::ostream& out) { write_nff(scene, out); });
+}
+
+// The scene last, after the pictures that it refers to.
+void write_pov_files(const SceneDescription& scene, const ConvertOptions& options) {
+  const std::filesystem::path path = options.output;
+  const std::string stem = path.stem().string();
+  for (const PovPicture& picture : pov_pictures(scene, stem).files)
+    write_image(path.parent_path() / picture.name, picture_of(scene, picture));
+  write_whole_file(path, [&](std::ostream& out) { write_pov_and_tell(scene, out, stem); });
 }
 
 }  // namespace
@@ -140,10 +197,11 @@ void convert(const ConvertOptions& options) {
   const InputFormat from = input_format(options.input);
   const OutputFormat to = output_format(options.output);
   SceneDescription scene = read(options, from);
-  if (to == OutputFormat::kMesh) return write_mesh_files(scene, options);
+  if (to == OutputFormat::kMesh) return write_mesh_files(std::move(scene), options);
   complete_view(scene, options.up);
   if (options.tessellate || options.chord_error) scene = tessellated(scene, fineness(options));
-  write_text(scene, options, to);
+  if (to == OutputFormat::kPov) return write_pov_files(scene, options);
+  write_nff_file(std::move(scene), options);
 }
 
 }  // namespace pprt

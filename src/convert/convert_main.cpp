@@ -14,13 +14,17 @@ namespace {
 void add_options(CLI::App& app, pprt::ConvertOptions& options) {
   auto* input = app.add_option(
       "IN", options.input,
-      "FILE.nff, - (NFF on standard input), spd:NAME[:SIZE], or a mesh (.obj .ply .stl .gltf ...)");
+      "FILE.nff, FILE.aff, - (NFF on standard input), spd:NAME[:SIZE], or a mesh (.obj .ply .stl .gltf ...)");
   input->required()->type_name("");
   pprt::take_path_or(*input, pprt::generated_scenes());
   app.add_option("OUT", options.output,
                  "FILE.nff, - (NFF on standard output), FILE.pov, or a mesh (.obj .ply .stl .glb .gltf .dae)")
       ->required()
       ->type_name("FILE");
+  app.add_option("--at", options.at,
+                 "Time at which a scene that moves is taken (default: the start of its animation)")
+      ->type_name("SECONDS")
+      ->check(pprt::number_between(-1e9, 1e9));
   auto* divisions =
       app.add_option("--tessellate", options.tessellate,
                      "Divide spheres into 12 N x N triangles, cones into 8 N (default for meshes: 6)");
@@ -31,7 +35,7 @@ void add_options(CLI::App& app, pprt::ConvertOptions& options) {
       ->check(pprt::number_above_zero())
       ->excludes(divisions);
   pprt::add_choice(app, "--up", options.up, "Up axis of an added camera");
-  app.add_flag("--strict", options.strict, "Reject what the NFF specification does not allow");
+  app.add_flag("--strict", options.strict, "Reject what the format's specification does not allow");
 }
 
 }  // namespace

@@ -154,7 +154,7 @@ std::unique_ptr<aiMesh> to_assimp(const MaterialMesh& from, unsigned material) {
 std::unique_ptr<aiMaterial> to_assimp(const Material& m, std::size_t number, bool physically_based) {
   auto material = std::make_unique<aiMaterial>();
   const aiString name("material_" + std::to_string(number));
-  const aiColor3D diffuse = to_assimp(m.color * m.diffuse);
+  const aiColor3D diffuse = to_assimp(m.terms ? m.terms->diffuse : m.color * m.diffuse);
   const auto opacity = static_cast<float>(1 - m.transmittance);
   const auto mirror = static_cast<float>(m.specular);
   material->AddProperty(&name, AI_MATKEY_NAME);
@@ -167,10 +167,14 @@ std::unique_ptr<aiMaterial> to_assimp(const Material& m, std::size_t number, boo
     material->AddProperty(&roughness, 1, AI_MATKEY_ROUGHNESS_FACTOR);
     return material;
   }
-  const aiColor3D specular(mirror, mirror, mirror);
+  const aiColor3D specular = m.terms ? to_assimp(m.terms->specular) : aiColor3D(mirror, mirror, mirror);
   const int model = aiShadingMode_Phong;
   const auto shine = static_cast<float>(m.shine);
   const auto index = static_cast<float>(effective_refractive_index(m));
+  if (m.terms) {
+    const aiColor3D ambient = to_assimp(m.terms->ambient);
+    material->AddProperty(&ambient, 1, AI_MATKEY_COLOR_AMBIENT);
+  }
   material->AddProperty(&diffuse, 1, AI_MATKEY_COLOR_DIFFUSE);
   material->AddProperty(&specular, 1, AI_MATKEY_COLOR_SPECULAR);
   material->AddProperty(&model, 1, AI_MATKEY_SHADING_MODEL);

@@ -7,7 +7,9 @@
 #include <string>
 #include <string_view>
 
+#include "base/affine.h"
 #include "base/diagnostics.h"
+#include "convert/pov_material.h"
 #include "scene/shading_rules.h"
 #include "scene/text_output.h"
 #include "scene/triangulate.h"
@@ -21,12 +23,11 @@ namespace {
 // extent, the rounding of a float.
 constexpr int kExtentExponent = 16;
 
-// Largest transmittance written: it leaves POV-Ray a share of the surface to light, which is compensated.
-constexpr double kLargestTransmittance = 1 - 0x1p-10;
-
 // Returns the factor of that scaling, a power of two, which rounds nothing.
-double pov_scale(const SceneDescription& scene) {
-  Box3d box = bounds(scene);
+double pov_scale(const SceneDescription& scene, const std::vector<Placement>& placements) {
+  Box3d box;
+  for (std::size_t i = 0; i < scene.order.size(); ++i)
+    box.extendBy(mapped(placements[node_of(scene, i)].to_parent, bounds(scene, scene.order[i])));
   box.extendBy(scene.view->from);
   const Vec3d size = box.max - box.min;
   const double extent = std::max({size.x, size.y, size.z});
@@ -34,17 +35,32 @@ double pov_scale(const SceneDescription& scene) {
   return std::ldexp(1.0, kExtentExponent - 1 - std::ilogb(extent));
 }
 
+// Triangles of one kind may make one mesh.
+struct MeshKind {
+  MaterialIndex material = 0;
+  bool textured = false;
+
+  friend bool operator==(const MeshKind&, const MeshKind&) = default;
+};
+
 class PovWriter {
  public:
-  PovWriter(const SceneDescription& scene, std::ostream& stream)
-      : scene_(scene), out_(stream), scale_(pov_scale(scene)) {}
+  PovWriter(const SceneDescription& scene, std::ostream& stream, const std::string& stem)
+      : scene_(scene),
+        out_(stream),
+        placements_(placements_at(scene.movement, 0)),
+        scale_(pov_scale(scene, placements_)),
+        pictures_(pov_pictures(scene, stem)) {}
 
   PovLosses run() {
     header();
     camera();
     lights();
     for (std::size_t i = 0; i < scene_.materials.size(); ++i) material(i);
-    for (const PrimitiveRef ref : scene_.order) primitive(ref);
+    for (std::size_t place = 0; place < scene_.order.size(); ++place) {
+      map_ = placements_[node_of(scene_, place)].to_parent;
+      primitive(scene_.order[place]);
+    }
     close_mesh();
     out_.flush();
     return losses_;
@@ -61,7 +77,24 @@ class PovWriter {
   void value(double number) { out_.number(number); }
   void value(std::size_t number) { out_.number(number); }
   void value(const Vec3d& v) { put("<", v.x, ", ", v.y, ", ", v.z, ">"); }
+  void value(const Vec2d& v) { put("<", v.x, ", ", v.y, ">"); }
   void value(const Rgb& c) { put("rgb <", c.x, ", ", c.y, ", ", c.z, ">"); }
+
+  // Writes one number for three equal ones.
+  void amount(const Rgb& c) {
+    if (c.x == c.y && c.y == c.z) return put(c.x);
+    put(c);
+  }
+
+  // Writes a file's name as a text of POV-Ray's language.
+  void quoted(std::string_view name) {
+    std::string escaped;
+    for (const char c : name) {
+      if (c == '"' || c == '\\') escaped += '\\';
+      escaped += c;
+    }
+    put("\"", escaped, "\"");
+  }
 
   Vec3d point(const Vec3d& p) const { return p * scale_; }
   double length(double l) const { return std::abs(l) * scale_; }
@@ -88,24 +121,44 @@ class PovWriter {
   }
 
   void lights() {
-    const double weight = light_weight(scene_.lights.size());
+    const double weight = scene_.ambient ? 1 : light_weight(scene_.lights.size());
     for (const Light& light : scene_.lights) {
       put("light_source { ", point(light.position), " ", light.color.value_or(Rgb(1, 1, 1)) * weight, " }\n");
     }
     put("\n");
   }
 
-  // POV-Ray scales the ambient and the diffuse share by the pigment's opacity, NFF does not.
+  // A material with a texture also gets one that shows it, for triangles with texture points.
   void material(std::size_t index) {
     const Material& m = scene_.materials[index];
-    const double transmittance = std::clamp(m.transmittance, 0.0, kLargestTransmittance);
-    const double per_opacity = 1 / (1 - transmittance);
-    put("#declare Material_", index + 1, " = texture {\n  pigment { ", m.color);
-    if (transmittance > 0) put(" transmit ", transmittance);
-    put(" }\n  finish { ambient ", kAmbientReflectance * light_weight(scene_.lights.size()) * per_opacity,
-        " diffuse ", m.diffuse * per_opacity);
-    if (has_highlight(m)) put(" phong ", m.specular, " phong_size ", m.shine);
-    if (m.specular > 0) put(" reflection ", m.specular);
+    const PovMaterial pov = pov_material(scene_, m);
+    losses_.lost_highlights += pov.lost_highlight;
+    losses_.lost_ambient += pov.lost_ambient;
+    put("#declare Material_", index + 1, " = texture {\n  pigment { ", pov.pigment);
+    if (pov.transmit > 0) put(" transmit ", pov.transmit);
+    put(" }\n");
+    finish(m, pov);
+    if (pov.filter) {
+      put("texture {\n  pigment { ", *pov.filter, " filter 1 }\n  finish { ambient 0 diffuse 0 }\n}\n");
+    }
+    if (!pictures_.materials[index]) return;
+    put("#declare Textured_", index + 1, " = texture {\n  uv_mapping\n  pigment { image_map { png ");
+    quoted(pictures_.files[*pictures_.materials[index]].name);
+    put(" gamma srgb interpolate 2");
+    if (pov.transmit > 0) put(" transmit all ", pov.transmit);
+    put(" } }\n");
+    finish(m, pov);
+  }
+
+  void finish(const Material& m, const PovMaterial& pov) {
+    put("  finish { ambient ");
+    amount(pov.ambient);
+    put(" diffuse ", pov.diffuse);
+    if (pov.phong > 0) put(" phong ", pov.phong, " phong_size ", m.shine);
+    if (m.specular > 0) {
+      put(" reflection ");
+      amount(pov.reflection);
+    }
     put(" }\n}\n");
   }
 
@@ -119,12 +172,14 @@ class PovWriter {
         const Polygon& polygon = scene_.polygons[ref.index];
         const std::span<const Vec3d> vertices = scene_.vertices(polygon);
         corners_.assign(vertices.begin(), vertices.end());
+        texture_points_.clear();
         return facets(polygon.material, {});
       }
       case PrimitiveKind::kPatch: {
         const Patch& patch = scene_.patches[ref.index];
         const std::span<const PatchVertex> vertices = scene_.vertices(patch);
         corners_.clear();
+        texture_points_.clear();
         for (const PatchVertex& v : vertices) corners_.push_back(v.position);
         return facets(patch.material, vertices);
       }
@@ -135,14 +190,20 @@ class PovWriter {
     }
   }
 
+  // POV-Ray's v runs up from a picture's lower edge.
   void triangle(const Triangle& t) {
     const TriangleMesh& mesh = scene_.meshes[t.mesh];
     const std::array<PatchVertex, 3> corners = corners_of(scene_, t);
     corners_.clear();
+    texture_points_.clear();
     for (const PatchVertex& v : corners) corners_.push_back(v.position);
+    if (pictures_.materials[mesh.material] && !mesh.texture_points.empty()) {
+      for (const std::uint32_t at : t.corners.texture_point) {
+        const Vec2d& p = mesh.texture_points[at];
+        texture_points_.emplace_back(p.x, 1 - p.y);
+      }
+    }
     facets(mesh.material, mesh.normals.empty() ? std::span<const PatchVertex>() : corners);
-    if (mesh.texture_points.empty() || triangulate(corners_).empty()) return;
-    // Written after the triangle's corners, inside its braces: see facets().
   }
 
   void sphere(const Sphere& s) {
@@ -150,6 +211,7 @@ class PovWriter {
     if (s.radius < 0) ++losses_.one_sided;
     begin_object(s.material);
     put("sphere { ", point(s.center), ", ", length(s.radius));
+    stretch();
     end_object(s.material);
   }
 
@@ -163,18 +225,29 @@ class PovWriter {
       put("cone { ", point(c.base), ", ", length(c.base_radius), ", ", point(c.apex), ", ",
           length(c.apex_radius), " open");
     }
+    stretch();
     end_object(c.material);
   }
 
-  // Writes the polygon in corners_, with normals when `smooth` is not empty.
+  // Writes how a sphere or cone stands in the world that is of another shape there.
+  void stretch() {
+    if (map_ == Affine()) return;
+    put(" matrix <");
+    for (const Vec3d& v : {map_.x, map_.y, map_.z}) put(v.x, ", ", v.y, ", ", v.z, ", ");
+    const Vec3d origin = point(map_.origin);
+    put(origin.x, ", ", origin.y, ", ", origin.z, ">");
+  }
+
+  // Writes the polygon in corners_, with normals when `smooth` is not empty, and with texture_points_ if any.
   void facets(MaterialIndex material, std::span<const PatchVertex> smooth) {
     const std::vector<TriangleIndices> triangles = triangulate(corners_);
     if (triangles.empty()) return drop();
-    open_mesh(material);
+    open_mesh({material, !texture_points_.empty()});
     if (smooth.empty()) {
       for (const TriangleIndices& t : triangles) {
         put("\n  triangle { ", point(corners_[t[0]]), ", ", point(corners_[t[1]]), ", ",
-            point(corners_[t[2]]), " }");
+            point(corners_[t[2]]));
+        end_triangle(t);
       }
       return;
     }
@@ -185,24 +258,32 @@ class PovWriter {
     };
     for (const TriangleIndices& t : triangles) {
       put("\n  smooth_triangle { ", point(corners_[t[0]]), ", ", normal(t[0]), ", ", point(corners_[t[1]]),
-          ", ", normal(t[1]), ", ", point(corners_[t[2]]), ", ", normal(t[2]), " }");
+          ", ", normal(t[1]), ", ", point(corners_[t[2]]), ", ", normal(t[2]));
+      end_triangle(t);
     }
+  }
+
+  void end_triangle(const TriangleIndices& t) {
+    if (!texture_points_.empty()) {
+      put(" uv_vectors ", texture_points_[t[0]], ", ", texture_points_[t[1]], ", ", texture_points_[t[2]]);
+    }
+    put(" }");
   }
 
   // Polygons of one material that follow each other make one mesh. Glass needs them together: POV-Ray tells
   // entering from leaving by the interior that a ray is in, and each object has its own.
-  void open_mesh(MaterialIndex material) {
-    if (mesh_ == material) return;
-    begin_object(material);
-    mesh_ = material;
+  void open_mesh(const MeshKind& kind) {
+    if (mesh_ == kind) return;
+    begin_object(kind.material);
+    mesh_ = kind;
     put("mesh {");
   }
 
   void close_mesh() {
     if (!mesh_) return;
-    const MaterialIndex material = *mesh_;
+    const MeshKind kind = *mesh_;
     mesh_.reset();
-    end_object(material);
+    end_object(kind.material, kind.textured ? "Textured_" : "Material_");
   }
 
   bool transparent(MaterialIndex material) const { return scene_.materials[material].transmittance > 0; }
@@ -214,10 +295,10 @@ class PovWriter {
 
   // Transparent objects cast full shadows here, but let light through in POV-Ray. So the visible object casts
   // none, and an invisible copy of it does.
-  void end_object(MaterialIndex material) {
+  void end_object(MaterialIndex material, const char* texture = "Material_") {
     const std::size_t name = material + std::size_t{1};
-    if (!transparent(material)) return put(" texture { Material_", name, " } }\n");
-    put(" }\nobject { Glass texture { Material_", name, " } interior { ior ",
+    if (!transparent(material)) return put(" texture { ", texture, name, " } }\n");
+    put(" }\nobject { Glass texture { ", texture, name, " } interior { ior ",
         effective_refractive_index(scene_.materials[material]),
         " } no_shadow }\nobject { Glass no_image no_reflection }\n");
   }
@@ -226,17 +307,21 @@ class PovWriter {
 
   const SceneDescription& scene_;
   TextOutput out_;
+  std::vector<Placement> placements_;  // of the nodes in which stretched spheres and cones stand
   double scale_;
-  std::optional<MaterialIndex> mesh_;  // the material of the mesh that is being written
+  PovPictures pictures_;
+  Affine map_;                    // of the primitive at hand
+  std::optional<MeshKind> mesh_;  // of the mesh that is being written
   std::vector<Vec3d> corners_;
+  std::vector<Vec2d> texture_points_;  // of the corners; empty: none
   PovLosses losses_;
 };
 
 }  // namespace
 
-PovLosses write_pov(const SceneDescription& scene, std::ostream& out) {
+PovLosses write_pov(const SceneDescription& scene, std::ostream& out, const std::string& stem) {
   if (!scene.view) throw InputError(scene.name + ": error: the scene has no view");
-  return PovWriter(scene, out).run();
+  return PovWriter(scene, out, stem).run();
 }
 
 }  // namespace pprt

@@ -5,8 +5,11 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 
+#include "base/affine.h"
 #include "base/diagnostics.h"
+#include "scene/resting_nodes.h"
 
 namespace pprt {
 namespace {
@@ -149,8 +152,20 @@ void check_triangle_count(const SceneDescription& scene, const Fineness& finenes
                    " triangles, more than " + std::to_string(kMaxTriangles) + ": cut them less finely");
 }
 
-SceneDescription tessellated(const SceneDescription& scene, const Fineness& fineness) {
-  check_triangle_count(scene, fineness);
+namespace {
+
+// Returns the fineness in the space of a node: a map lengthens nothing by more than the root of the sum of
+// all squares.
+Fineness in_node(const Fineness& fineness, const Affine& map) {
+  Fineness result = fineness;
+  if (result.chord_error && map != Affine())
+    *result.chord_error /= std::sqrt(map.x.length2() + map.y.length2() + map.z.length2());
+  return result;
+}
+
+// Cuts all spheres and cones, or only those that a node stretches.
+SceneDescription cut(const SceneDescription& scene, const Fineness& fineness, bool all) {
+  const std::vector<Placement> placements = placements_at(scene.movement, 0);
   SceneDescription result;
   result.name = scene.name;
   result.background = scene.background;
@@ -160,22 +175,30 @@ SceneDescription tessellated(const SceneDescription& scene, const Fineness& fine
   result.meshes = scene.meshes;
   result.textures = scene.textures;
   result.ambient = scene.ambient;
+  result.movement = scene.movement;
+  NodeIndex node = 0;
   const auto add_surface = [&](const auto& object) {
-    const int n = divisions(object, fineness);
+    const int n = divisions(object, in_node(fineness, placements[node].to_parent));
     if (n == 0) return;
     const Surface surface = tessellate(object, n);
     for (const TriangleIndices& t : surface.triangles) {
       add_triangle(result, surface, t, object.material, object.location);
     }
   };
-  for (const PrimitiveRef ref : scene.order) {
+  for (std::size_t place = 0; place < scene.order.size(); ++place) {
+    const PrimitiveRef ref = scene.order[place];
+    node = node_of(scene, place);
     switch (ref.kind) {
-      case PrimitiveKind::kSphere:
-        add_surface(scene.spheres[ref.index]);
+      case PrimitiveKind::kSphere: {
+        const Sphere& s = scene.spheres[ref.index];
+        all || node != 0 ? add_surface(s) : add_sphere(result, s);
         break;
-      case PrimitiveKind::kCone:
-        add_surface(scene.cones[ref.index]);
+      }
+      case PrimitiveKind::kCone: {
+        const Cone& c = scene.cones[ref.index];
+        all || node != 0 ? add_surface(c) : add_cone(result, c);
         break;
+      }
       case PrimitiveKind::kPolygon: {
         const Polygon& p = scene.polygons[ref.index];
         add_polygon(result, scene.vertices(p), p.material, p.location);
@@ -193,8 +216,21 @@ SceneDescription tessellated(const SceneDescription& scene, const Fineness& fine
       case PrimitiveKind::kMovingTriangle:
         break;  // still_at() leaves none
     }
+    result.nodes.resize(result.order.size(), node);
   }
-  return result;
+  if (scene.nodes.empty()) result.nodes.clear();
+  return without_resting_nodes(std::move(result));
+}
+
+}  // namespace
+
+SceneDescription tessellated(const SceneDescription& scene, const Fineness& fineness) {
+  check_triangle_count(scene, fineness);
+  return cut(scene, fineness, true);
+}
+
+SceneDescription with_stretched_tessellated(const SceneDescription& scene, const Fineness& fineness) {
+  return cut(scene, fineness, false);
 }
 
 }  // namespace pprt

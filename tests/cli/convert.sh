@@ -41,6 +41,31 @@ sed 's/^s .*/s 0 0 0 -1/' ball.nff >inside.nff
 run pprt-convert inside.nff inside.pov; expect_code 0
 expect_text err "inside.nff: 1 spheres or cones of which only the inside is seen: POV-Ray shows both sides"
 
+# AFF: the scene at a time, and what is lost is told.
+printf 'P3 2 1 255 255 0 0 0 255 102\n' >t.ppm
+cat >moving.aff <<'SCENE'
+v from 0 0 9 at 0 0 0 up 0 1 0 angle 45 hither 1 resolution 8 8
+am 1 1 1  l 0 0 20 .5 .25 1  a 1 3 5
+fm .5 .5 .5 .5 .5 .5 0 0 0 0 0 0
+m vertices 3 0 0 0 1 0 0 0 1 0 texturecoords 1 t.ppm 0 0 triangles 1 0 1 2 0 0 0
+fm 0 0 0 .25 .5 0 .5 .25 .125 5 0 0
+x ball { s 0 0 0 1 }
+k ball { transl 4 0 0 0 0 0 0 0 1 1 0 0 0 0 0 3 3 0 0 0 0 0 4 4 0 0 0 0 0 }
+SCENE
+run pprt-convert moving.aff moving.pov; expect_code 0; expect_text err ''; expect_file moving-t.png
+run pprt-convert --at 3 moving.aff moving.nff; expect_code 0; expect_line moving.nff 's 3 0 0 1'
+expect_text err "moving.aff: 1 texture is not kept: its surfaces get its mean colour
+moving.aff: 1 material with a coloured highlight and mirror: it becomes white
+moving.aff: the ambient light and its colours are not kept: NFF has none
+moving.aff: the lights are made 2.00 times as bright, as readers of NFF weaken them"
+run pprt-convert moving.aff - ; expect_code 0; expect_line out 's 1 0 0 1'
+run pprt-convert moving.aff moving.obj; expect_code 0
+expect_text err "moving.aff: 1 texture is not kept: its surfaces get its mean colour
+moving.aff: the ambient light is not kept"
+run pprt-convert --at 3 ball.nff x.nff; expect_code 2; expect_no_file x.nff
+expect_text err "pprt-convert: error: --at: nothing moves in ball.nff"$'\n'"try 'pprt-convert --help'"
+run pprt-convert --at soon moving.aff x.nff; expect_code 2; expect_no_file x.nff
+
 # Errors: usage, scenes, failures.
 run pprt-convert ball.nff ball.png; expect_code 2
 expect_line err "pprt-convert: error: cannot tell the format of output 'ball.png': it must be FILE.nff, - (NFF on standard output) or FILE with one of .pov .obj .ply .stl .glb .gltf .dae"
@@ -58,6 +83,6 @@ expect_no_file x.nff
 mkdir folder.ply
 run pprt-convert ball.nff folder.ply; expect_code 1; expect_text err "pprt-convert: error: cannot write 'folder.ply': it is a directory"
 run pprt-convert teapot:3 x.nff; expect_code 2
-expect_text err "pprt-convert: error: cannot tell the format of input 'teapot:3': it must be FILE.nff, - (NFF on standard input), spd:NAME[:SIZE] or a mesh such as FILE.obj; did you mean 'spd:teapot:3'?
+expect_text err "pprt-convert: error: cannot tell the format of input 'teapot:3': it must be FILE.nff, FILE.aff, - (NFF on standard input), spd:NAME[:SIZE] or a mesh such as FILE.obj; did you mean 'spd:teapot:3'?
 try 'pprt-convert --help'"
 finish

@@ -1,18 +1,20 @@
-// pixel_rays SCENE SIZE FLAT.png SHADED.png [tachyon]: traces one ray through the centre of each pixel of a
-// SIZE x SIZE image, as POV-Ray does without anti-aliasing. FLAT shows the colour of the material first hit,
-// black for a miss; SHADED the whole ray trees. Prints the number of shadow rays.
+// pixel_rays SCENE SIZE FLAT.png SHADED.png [tachyon|SECONDS]: traces one ray through the centre of each
+// pixel of a SIZE x SIZE image, as POV-Ray does without anti-aliasing. FLAT shows the colour of the material
+// first hit, black for a miss; SHADED the whole ray trees. Prints the number of shadow rays.
 //
 // With "tachyon" rays go as in Tachyon: it takes NFF's coordinates for left-handed, so its picture is
 // mirrored, and sends rays through the pixels' upper corners.
+//
+// A scene that moves is taken at SECONDS, by default 0.
 #include <cstdlib>
 #include <iostream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "cli/scene_source.h"
 #include "image/image_io.h"
-#include "parser/nff_parser.h"
-#include "spd/spd.h"
+#include "scene/resting_nodes.h"
 #include "trace/compiled_scene.h"
 
 namespace {
@@ -22,8 +24,8 @@ using namespace pprt;
 const Color kNothing(0, 0, 0);
 
 void run(const std::string& name, int size, const std::string& flat_name, const std::string& shaded_name,
-         bool tachyon) {
-  const SceneDescription scene = is_spd_name(name) ? make_spd_scene(name) : read_nff(name).scene;
+         bool tachyon, double time) {
+  const SceneDescription scene = still_at(load_scene(name).scene, time);
   const CompiledScene compiled = compile(scene);
   View view = scene.view.value();
   view.width = view.height = size;
@@ -48,12 +50,13 @@ void run(const std::string& name, int size, const std::string& flat_name, const 
 
 int main(int argc, char** argv) {
   const bool tachyon = argc == 6 && std::string(argv[5]) == "tachyon";
-  if (argc != 5 && !tachyon) {
-    std::cerr << "usage: pixel_rays SCENE SIZE FLAT.png SHADED.png [tachyon]\n";
+  if (argc != 5 && argc != 6) {
+    std::cerr << "usage: pixel_rays SCENE SIZE FLAT.png SHADED.png [tachyon|SECONDS]\n";
     return 2;
   }
   try {
-    run(argv[1], std::stoi(argv[2]), argv[3], argv[4], tachyon);
+    run(argv[1], std::stoi(argv[2]), argv[3], argv[4], tachyon,
+        argc == 6 && !tachyon ? std::stod(argv[5]) : 0);
     return 0;
   } catch (const std::exception& e) {
     std::cerr << e.what() << '\n';

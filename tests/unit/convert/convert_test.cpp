@@ -2,12 +2,14 @@
 
 #include <catch2/catch.hpp>
 
+#include <optional>
 #include <sstream>
 #include <string>
 
 #include "base/diagnostics.h"
 #include "cli/scene_source.h"
 #include "image/atomic_file.h"
+#include "image/image_io.h"
 #include "scene/nff_writer.h"
 #include "spd/spd.h"
 #include "unit/image/temporary_directory.h"
@@ -27,6 +29,29 @@ std::string nff(const SceneDescription& scene) {
   std::ostringstream out;
   write_nff(scene, out);
   return out.str();
+}
+
+// A textured triangle, a ball that moves from x = 0 to 3 within three seconds, and a stretched ball.
+void write_moving_scene(const Folder& folder) {
+  write_whole_file(folder.file("t.ppm"), "P3 2 1 255 255 0 0 0 255 102\n");
+  write_whole_file(folder.file("a.aff"), R"(
+v from 0 0 9 at 0 0 0 up 0 1 0 angle 45 hither 1 resolution 8 8
+am 1 1 1  l 0 0 20 .5 .25 1  a 1 3 5
+fm .5 .5 .5 .5 .5 .5 0 0 0 0 0 0
+m vertices 3 0 0 0 1 0 0 0 1 0 texturecoords 1 t.ppm 0 0 triangles 1 0 1 2 0 0 0
+fm 0 0 0 .25 .5 0 .5 .25 .125 5 0 0
+x ball { s 0 0 0 1 }
+k ball { transl 6 -1 -1 0 0 0 0 0 0 0 0 0 0 0 0 1 1 0 0 0 0 0 2 2 0 0 0 0 0 3 3 0 0 0 0 0 4 4 0 0 0 0 0 }
+xs 1 2 1 0 0 1 0 0 5 0 { s 0 0 0 1 }
+)");
+}
+
+ConvertOptions at(const Folder& folder, const std::string& output, std::optional<double> time) {
+  return {.input = folder.file("a.aff"),
+          .output = folder.file(output),
+          .tessellate = {},
+          .chord_error = {},
+          .at = time};
 }
 
 }  // namespace
@@ -88,6 +113,67 @@ TEST_CASE("an unknown format is a usage error before anything is read") {
   CHECK_THROWS_AS(convert({"missing.nff", "out.mov", false, {}, {}}), UsageError);
   CHECK_THROWS_AS(convert({"missing.nff", "spd:tree", false, {}, {}}), UsageError);
   CHECK_THROWS_AS(convert({"missing.nff", "", false, {}, {}}), UsageError);
+}
+
+TEST_CASE("a scene that moves is converted as it is at a time, by default at its start") {
+  const Folder folder;
+  write_moving_scene(folder);
+  const auto ball_at = [&](std::optional<double> time) {
+    convert(at(folder, "b.nff", time));
+    return read_nff(folder.file("b.nff")).scene.spheres.at(0).center.x;
+  };
+  CHECK(ball_at({}) == Approx(1));
+  CHECK(ball_at(1) == Approx(1));
+  CHECK(ball_at(2.5) == Approx(2.5));
+  CHECK(ball_at(1000) == Approx(3));
+}
+
+TEST_CASE("a time for a scene in which nothing moves is a usage error") {
+  const Folder folder;
+  write_whole_file(folder.file("a.aff"), "fm 0 0 0 1 1 1 0 0 0 0 0 0 s 0 0 0 1\n");
+  CHECK_THROWS_WITH(convert(at(folder, "b.nff", 1)), "--at: nothing moves in " + folder.file("a.aff"));
+  CHECK_NOTHROW(convert(at(folder, "b.nff", {})));
+}
+
+TEST_CASE(
+    "NFF gets mean colours of textures, lights that its readers weaken, and stretched balls as triangles") {
+  const Folder folder;
+  write_moving_scene(folder);
+  convert(at(folder, "b.nff", {}));
+  const SceneDescription scene = read_nff(folder.file("b.nff")).scene;
+  REQUIRE(scene.lights.size() == 1);
+  CHECK(scene.lights[0].color == Rgb(1, 0.5, 2));
+  REQUIRE(scene.materials.size() == 2);
+  const Rgb seen = scene.materials[0].color * scene.materials[0].diffuse;  // half of (0.5, 0.5, 0.2)
+  CHECK((seen.x == Approx(0.25) && seen.y == Approx(0.25) && seen.z == Approx(0.1)));
+  CHECK(scene.materials[1].specular == 0.5);
+  CHECK((scene.spheres.size() == 1 && scene.patches.size() == 432));
+  CHECK(bounds(scene).max.y == Approx(7).epsilon(0.01));
+}
+
+TEST_CASE("a mesh of a moving scene has its materials' colours and its stretched balls") {
+  const Folder folder;
+  write_moving_scene(folder);
+  convert(at(folder, "b.obj", 2));
+  const std::string materials = read_whole_file(folder.file("b.mtl"));
+  CHECK(materials.find("Kd 0.25 0.25 0.1") != std::string::npos);
+  CHECK(materials.find("Ks 0.5 0.25 0.125") != std::string::npos);
+  CHECK(materials.find("Ka 0.25 0.25 0.1") != std::string::npos);
+  convert(
+      {.input = folder.file("b.obj"), .output = folder.file("b.nff"), .tessellate = {}, .chord_error = {}});
+  const SceneDescription back = read_nff(folder.file("b.nff")).scene;
+  CHECK(back.polygons.size() + back.patches.size() == 1 + 2 * 432);
+  CHECK(bounds(back).max.x == Approx(3));
+}
+
+TEST_CASE("POV-Ray's scene has its textures beside it") {
+  const Folder folder;
+  write_moving_scene(folder);
+  convert(at(folder, "b.pov", {}));
+  CHECK(read_whole_file(folder.file("b.pov")).find("png \"b-t.png\"") != std::string::npos);
+  const Image picture = read_image(folder.file("b-t.png"));
+  CHECK((picture.width == 2 && picture.height == 1));
+  CHECK(picture.at(1, 0).z == Approx(102 / 255.0));
 }
 
 TEST_CASE("a scene is loaded from a database or from a file") {

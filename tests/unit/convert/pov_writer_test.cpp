@@ -2,10 +2,13 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <string>
 
 #include "base/diagnostics.h"
+#include "convert/pov_material.h"
 
 using namespace pprt;
 
@@ -31,6 +34,37 @@ SceneDescription two_materials() {
   scene.view = View{{0, 0, 40000}, {0, 0, 0}, {0, 1, 0}, 90, 0, 640, 3, {}};
   scene.materials = {{}, {Rgb(0.5, 0.25, 1), 0.125, 0.5, 30, 0.75, 1.5}};
   return scene;
+}
+
+// A white material for a colour of each term, in a scene with an ambient light.
+SceneDescription with_terms(const TermColors& terms, const Rgb& ambient) {
+  SceneDescription scene = two_materials();
+  scene.ambient = ambient;
+  scene.lights = {{{1, 2, 3}, Rgb(0.5, 1, 0.25), {}}, {{4, 5, 6}, {}, {}}};
+  scene.materials = {{}};
+  scene.materials[0].terms = terms;
+  scene.materials[0].specular = std::max({terms.specular.x, terms.specular.y, terms.specular.z});
+  scene.materials[0].shine = 8;
+  return scene;
+}
+
+// A triangle that shows a texture of 1 x 2 texels, red above blue.
+SceneDescription textured() {
+  SceneDescription scene = with_terms({{0.25, 0.25, 0.25}, {0.5, 0.5, 0.5}, {0, 0, 0}}, Rgb(2, 1, 1));
+  scene.textures = {{"red \"blue\".ppm", 1, 2, {255, 1, 2, 3, 4, 255}}};
+  scene.materials[0].texture = TextureIndex{0};
+  const TriangleCorners corners{.position = {0, 1, 2}, .normal = {}, .texture_point = {2, 1, 0}};
+  add_mesh(scene,
+           {.positions = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}},
+            .normals = {},
+            .texture_points = {{0, 0}, {2, 0.25}, {-1, 3}},
+            .material = 0},
+           {&corners, 1});
+  return scene;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
 }
 
 }  // namespace
@@ -156,4 +190,117 @@ TEST_CASE("a scene without a view or with a degenerate one cannot be written for
   CHECK_THROWS_WITH(pov(scene), "a.nff: error: view: 'up' is zero or parallel to the direction of view");
   scene.view.reset();
   CHECK_THROWS_WITH(pov(scene), "a.nff: error: the scene has no view");
+}
+
+TEST_CASE("for POV-Ray lights count as written where the scene has an ambient light") {
+  SceneDescription scene = with_terms({}, Rgb(1, 1, 1));
+  CHECK(contains(pov(scene), "light_source { <1, 2, 3> rgb <0.5, 1, 0.25> }"));
+  scene.ambient.reset();
+  CHECK_FALSE(contains(pov(scene), "light_source { <1, 2, 3> rgb <0.5, 1, 0.25> }"));
+}
+
+TEST_CASE("for POV-Ray pigment times finish gives the colour of each term") {
+  const SceneDescription scene =
+      with_terms({{0.5, 0.25, 0.5}, {0.25, 0.5, 0.125}, {0.5, 0.5, 0.5}}, Rgb(1, 2, 0.5));
+  const std::string text = pov(scene);
+  CHECK(contains(text, "pigment { rgb <0.5, 1, 0.25> }"));
+  CHECK(
+      contains(text, "finish { ambient rgb <1, 0.5, 1> diffuse 0.5 phong 0.5 phong_size 8 reflection 0.5 }"));
+}
+
+TEST_CASE("for POV-Ray a channel that reflects ambient light alone keeps it") {
+  const SceneDescription scene = with_terms({{0.5, 0.5, 0}, {0, 0.5, 0}, {0, 0, 0}}, Rgb(1, 1, 1));
+  const PovMaterial m = pov_material(scene, scene.materials[0]);
+  CHECK(m.pigment.x * m.diffuse < 1e-6);
+  CHECK(m.pigment.x * m.ambient.x == Approx(0.5));
+  CHECK((m.pigment.z == 0 && m.ambient.z == 0));
+  CHECK_FALSE(m.lost_ambient);
+  const SceneDescription dark = with_terms({{0.5, 0.25, 0}, {0, 0, 0}, {0, 0, 0}}, Rgb(1, 1, 2));
+  CHECK(contains(pov(dark), "pigment { rgb <1, 1, 1> }\n  finish { ambient rgb <0.5, 0.25, 0> diffuse 0 }"));
+}
+
+TEST_CASE("for POV-Ray a coloured highlight is white under a layer that colours it") {
+  const SceneDescription scene = with_terms({{0.5, 0, 0}, {0.5, 0.25, 0}, {0.5, 0.25, 0.5}}, Rgb(1, 1, 1));
+  CHECK(contains(pov(scene), R"(#declare Material_1 = texture {
+  pigment { rgb <1, 1, 0> }
+  finish { ambient rgb <0.5, 0, 0> diffuse 0.5 phong 0.5 phong_size 8 reflection rgb <0.5, 0.25, 0.5> }
+}
+texture {
+  pigment { rgb <1, 0.5, 1> filter 1 }
+  finish { ambient 0 diffuse 0 }
+}
+)"));
+  const SceneDescription grey = with_terms({{0, 0, 0}, {1, 1, 1}, {0.5, 0.5, 0.5}}, Rgb(1, 1, 1));
+  CHECK_FALSE(contains(pov(grey), "filter"));
+}
+
+TEST_CASE("for POV-Ray a coloured highlight on glass or on a texture becomes white and is counted") {
+  SceneDescription scene = with_terms({{0, 0, 0}, {1, 1, 1}, {0.75, 0.5, 0.25}}, Rgb(1, 1, 1));
+  std::ostringstream out;
+  CHECK(write_pov(scene, out).lost_highlights == 0);
+  scene.materials[0].transmittance = 0.5;
+  CHECK(write_pov(scene, out).lost_highlights == 1);
+  CHECK(contains(out.str(), "phong 0.5 phong_size 8 reflection rgb <0.75, 0.5, 0.25> }"));
+  scene.materials[0].transmittance = 0;
+  scene.materials[0].texture = TextureIndex{0};
+  scene.textures = {{"a", 1, 1, {1, 2, 3}}};
+  CHECK(write_pov(scene, out).lost_highlights == 1);
+}
+
+TEST_CASE("for POV-Ray a texture is a picture, whose v runs up") {
+  const SceneDescription scene = textured();
+  std::ostringstream out;
+  write_pov(scene, out, "a");
+  CHECK(contains(out.str(), R"(#declare Textured_1 = texture {
+  uv_mapping
+  pigment { image_map { png "a-red \"blue\".png" gamma srgb interpolate 2 } }
+  finish { ambient rgb <0.5, 0.25, 0.25> diffuse 0.5 }
+}
+mesh {
+  triangle { <0, 0, 0>, <4, 0, 0>, <0, 4, 0> uv_vectors <-1, -2>, <2, 0.75>, <0, 1> } texture { Textured_1 } }
+)"));
+}
+
+TEST_CASE(
+    "for POV-Ray a triangle without texture points shows no texture, and ends the mesh of those that do") {
+  SceneDescription scene = textured();
+  const Vec3d triangle[] = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
+  add_polygon(scene, triangle, 0);
+  CHECK(contains(pov(scene), R"( texture { Textured_1 } }
+mesh {
+  triangle { <0, 0, 0>, <4, 0, 0>, <0, 4, 0> } texture { Material_1 } }
+)"));
+}
+
+TEST_CASE("the pictures of textures have their bytes, one for each tint, under distinct names") {
+  SceneDescription scene = textured();
+  scene.textures.push_back({"red \"blue\".png", 1, 1, {9, 9, 9}});
+  for (int i = 0; i < 3; ++i) scene.materials.push_back(scene.materials[0]);
+  scene.materials[1].terms->diffuse = {1, 0.5, 0};
+  scene.materials[2].texture = TextureIndex{1};
+  const PovPictures pictures = pov_pictures(scene, "a");
+  REQUIRE(pictures.files.size() == 3);
+  CHECK(pictures.files[0].name == "a-red \"blue\".png");
+  CHECK(pictures.files[1].name == "a-red \"blue\"-2.png");
+  CHECK(pictures.files[2].name == "a-red \"blue\"-3.png");
+  CHECK((pictures.materials[0] == std::size_t{0} && pictures.materials[3] == std::size_t{0}));
+  const Image plain = picture_of(scene, pictures.files[0]);
+  for (std::size_t i = 0; i < 6; ++i)
+    CHECK(std::lround(255 * plain.pixels[i / 3][static_cast<int>(i % 3)]) == scene.textures[0].rgb[i]);
+  const Image tinted = picture_of(scene, pictures.files[1]);
+  CHECK(tinted.pixels[0].x == 1);
+  CHECK(tinted.pixels[1].y == Approx(2 / 255.0));
+  CHECK(tinted.pixels[1].z < 1e-5);
+  std::ostringstream out;
+  CHECK(write_pov(scene, out).lost_ambient == 1);  // the blue of the second material
+}
+
+TEST_CASE("for POV-Ray a stretched ball keeps the map that stretches it") {
+  SceneDescription scene = two_materials();
+  add_sphere(scene, {{0, 0, 0}, 1, 0, {}});
+  scene.movement.nodes.push_back(
+      {.parent = 0, .to_parent = {{2, 0, 0}, {0, 1, 0}, {0, 0, 3}, {5, 6, 7}}, .track = {}, .location = {}});
+  scene.nodes = {1};
+  CHECK(objects(scene) ==
+        "sphere { <0, 0, 0>, 1 matrix <2, 0, 0, 0, 1, 0, 0, 0, 3, 5, 6, 7> texture { Material_1 } }\n");
 }
