@@ -40,7 +40,9 @@ struct OtherRenderer {
 };
 
 OtherRenderer povray() {
-  OtherRenderer povray{"POV-Ray", "scene.pov", write_pov, {}, {}, {"converged", {"-A"}, false, 6}};
+  OtherRenderer povray{
+      "POV-Ray", "scene.pov", [](const SceneDescription& scene, std::ostream& out) { write_pov(scene, out); },
+      {},        {},          {"converged", {"-A"}, false, 6}};
   povray.command = [](const std::string& scene_file, const std::string& picture, int size) {
     return Words{"povray",
                  "+I" + scene_file,

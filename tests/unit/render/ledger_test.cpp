@@ -104,7 +104,7 @@ TEST_CASE("a frame's counts and times are sums over its ranks") {
   for (RankReport& r : frame.ranks) {
     r.samples_new = 10, r.samples_cast = 3, r.samples_in_region = 11, r.non_finite = 1;
     r.rays.primary = 10, r.rays.shadow = 70, r.rays.reflection = 4, r.rays.refraction = 5;
-    r.cpu_ms = {1, 2, 3, 4, 5};
+    r.cpu_ms = {6, 1, 2, 3, 4, 5};
     r.bytes_samples = 640, r.bytes_pixels = 1200;
   }
   const Json record = frame_record(summarize(frame));
@@ -113,6 +113,7 @@ TEST_CASE("a frame's counts and times are sums over its ranks") {
   CHECK(record["non_finite"] == 2);
   CHECK((record["rays"]["primary"] == 20 && record["rays"]["shadow"] == 140));
   CHECK((record["rays"]["reflection"] == 8 && record["rays"]["refraction"] == 10));
+  CHECK(record["cpu_ms"]["moving"] == 12);
   CHECK((record["cpu_ms"]["sampling"] == 2 && record["cpu_ms"]["idle"] == 10));
   CHECK((record["bytes"]["samples"] == 1280 && record["bytes"]["pixels"] == 2400));
 }
