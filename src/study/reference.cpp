@@ -17,6 +17,13 @@
 #include "study/frame_series.h"
 
 namespace pprt {
+
+Tracer tracer_of(const Subject& subject) {
+  Tracer tracer(subject.scene, subject.camera);
+  tracer.set_time(subject.time);
+  return tracer;
+}
+
 namespace {
 
 Color displayed(const Color& c) {
@@ -27,7 +34,7 @@ Color displayed(const Color& c) {
 // place within the cell.
 template <typename Place>
 void trace_row(const Subject& subject, int y, int n, const Place& place, Image& image) {
-  Tracer tracer(subject.scene, subject.camera);
+  Tracer tracer = tracer_of(subject);
   for (int x = 0; x < image.width; ++x) {
     const auto pixel = static_cast<std::uint64_t>(y) * 0x10000u + static_cast<std::uint64_t>(x);
     Vec3d sum(0, 0, 0);
@@ -51,7 +58,7 @@ auto random_places(int first_cell) {
 // Colours at 16 x 16 points, as text.
 std::string fingerprint(const Subject& subject) {
   constexpr int kPoints = 16;
-  Tracer tracer(subject.scene, subject.camera);
+  Tracer tracer = tracer_of(subject);
   std::string text;
   for (int i = 0; i < kPoints * kPoints; ++i) {
     const int row = i / kPoints, column = i % kPoints;

@@ -15,7 +15,11 @@ namespace pprt {
 struct Subject {
   const CompiledScene& scene;
   Camera camera;
+  double time = 0;  // of what moves, seconds
 };
+
+// Returns a tracer of the subject at its time.
+Tracer tracer_of(const Subject& subject);
 
 struct Reference {
   Image image;

@@ -14,6 +14,7 @@
 #include "cli/scene_source.h"
 #include "parser/anim_parser.h"
 #include "scene/nff_writer.h"
+#include "scene/resting_nodes.h"
 #include "study/accuracy/page.h"
 #include "study/accuracy/pictures.h"
 #include "study/accuracy/planner.h"
@@ -64,7 +65,11 @@ struct StudiedScene {
   int sequence_size() const {
     return options.directory.empty() ? options.size : options.size / effort.sequence_share;
   }
-  Subject subject(int size) const { return {scene, square_camera(scene, *description.view, size)}; }
+  double start() const { return description.movement.times ? description.movement.times->start : 0; }
+  bool has_frames() const { return description.movement.times && description.movement.times->frames > 1; }
+  Subject subject(int size) const {
+    return {scene, square_camera(scene, *view_at(description, start()), size), start()};
+  }
 };
 
 // Throws InputError for a scene that cannot be read or has no view.
@@ -72,7 +77,7 @@ StudiedScene studied_scene(const std::string& name, const Animation* script, con
   SceneDescription description = load_scene(name).scene;
   if (!description.view) throw InputError(fmt::format("{}: the scene has no view", name));
   std::ostringstream nff;
-  write_nff(description, nff);
+  write_nff(still_at(description, 0), nff);
   CompiledScene scene = compile(description);
   return {name, options, effort_of(options), script, std::move(description), nff.str(), std::move(scene)};
 }
@@ -92,12 +97,16 @@ Sequence sequence_of(const StudiedScene& studied, int script_frames,
   if (const Animation* script = studied.script) {
     sequence.frames = frames_of(studied.scene, *script, std::min(script_frames, script->frames),
                                 *studied.description.view, studied.sequence_size());
+  } else if (studied.has_frames()) {
+    sequence.frames =
+        own_frames_of(studied.scene, studied.description, script_frames, studied.sequence_size());
   }
   for (const FrameRequest& frame : sequence.frames) {
-    const Subject subject{studied.scene, frame.camera};
+    const Subject subject{studied.scene, frame.camera, frame.time};
     sequence.references.push_back(reference_of(studied, subject, studied.effort.sequence_cells).image);
   }
-  sequence.units_per_second = measured_units_per_second({studied.scene, sequence.frames.front().camera});
+  sequence.units_per_second = measured_units_per_second(
+      {studied.scene, sequence.frames.front().camera, sequence.frames.front().time});
   return sequence;
 }
 
@@ -125,8 +134,10 @@ std::string rates_setup(const StudiedScene& studied, const char* without_script)
   return fmt::format(
       "{0} of {1} x {1} pixels on {2} under the work clock, which counts work instead of seconds: a second "
       "is what a core of this machine does in a second, measured on each scene.",
-      studied.script ? "The frames of " + studied.script->name : without_script, studied.sequence_size(),
-      ranks == 1 ? "one rank" : fmt::format("{} ranks", ranks));
+      studied.script         ? "The frames of " + studied.script->name
+      : studied.has_frames() ? "The first frames of the scene's own animation,"
+                             : without_script,
+      studied.sequence_size(), ranks == 1 ? "one rank" : fmt::format("{} ranks", ranks));
 }
 
 // Names of what is played without a script.
@@ -145,7 +156,7 @@ SlowOrbit slow_orbit(const StudiedScene& studied) {
   SlowOrbit slow{studied.name, {}, {}};
   for (const FrameRequest& frame :
        orbit(studied.scene, *studied.description.view, studied.sequence_size(), kFrames, kDegreesPerFrame)) {
-    slow.frames.push_back({studied.scene, frame.camera});
+    slow.frames.push_back({studied.scene, frame.camera, studied.start()});
     slow.references.push_back(
         reference_of(studied, slow.frames.back(), studied.options.reference_cells).image);
   }
@@ -175,7 +186,8 @@ Reference measure_methods(const StudiedScene& studied, Steps& steps, AccuracyRes
   // Other renderers run beside the curves, which CPU times allow.
   auto renderers = std::async(std::launch::async, [&]() -> std::vector<RendererPoint> {
     if (options.only_curves) return {};
-    return measure_other_renderers(studied.name, studied.description, options.size / 2);
+    return measure_other_renderers(studied.name, still_at(studied.description, studied.start()),
+                                   options.size / 2);
   });
   const CurveRun run{results.methods, options.repeats, options.seed, options.busy_threads};
   results.curves.push_back(measure_curves(studied.name, subject, converged, run));

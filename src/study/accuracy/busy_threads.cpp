@@ -12,7 +12,7 @@ namespace {
 void trace_endlessly(const std::stop_token& stop, const Subject& subject, std::uint64_t thread,
                      std::latch& at_work) {
   constexpr std::uint64_t kSeed = 0x9fb21c651e98df25u;  // unlike those of the samplers
-  Tracer tracer(subject.scene, subject.camera);
+  Tracer tracer = tracer_of(subject);
   for (std::uint64_t i = 0; i == 0 || !stop.stop_requested(); i += 2) {
     const double x = uniform(kSeed, thread, i) * subject.camera.width;
     const double y = uniform(kSeed, thread, i + 1) * subject.camera.height;

@@ -34,7 +34,7 @@ std::vector<Variant> variants_of(const SceneDescription& description) {
 
 // CPU time of one sample per pixel, in scan lines.
 double scan_seconds(const Subject& subject, RayCounts& counts) {
-  Tracer tracer(subject.scene, subject.camera);
+  Tracer tracer = tracer_of(subject);
   float sum = 0;
   const double begin = thread_cpu_seconds();
   for (int y = 0; y < subject.camera.height; ++y) {

@@ -103,7 +103,7 @@ void run_grids(const CurveTask& task, const Make& make) {
 
 void run_uniform(const CurveTask& task) {
   const Camera& camera = task.subject.camera;
-  Tracer tracer(task.subject.scene, camera);
+  Tracer tracer = tracer_of(task.subject);
   run_grids(task, [&](const Size& size) {
     const double begin = thread_cpu_seconds();
     Image image = uniform_picture(tracer, camera, size);
@@ -124,7 +124,7 @@ class MeshPainter {
  public:
   MeshPainter(const Subject& subject, const WeightTerms& terms, PixelRule rule)
       : camera_(subject.camera),
-        tracer_(subject.scene, subject.camera),
+        tracer_(tracer_of(subject)),
         mesh_(Region::whole({camera_.width, camera_.height, kTilePixels}), learning_of(terms, rule)),
         rule_(rule),
         projected_shapes_(
@@ -242,7 +242,7 @@ class LatticePicture {
  public:
   explicit LatticePicture(const Subject& subject)
       : camera_(subject.camera),
-        tracer_(subject.scene, subject.camera),
+        tracer_(tracer_of(subject)),
         sampler_(Region::whole({camera_.width, camera_.height, kTilePixels}),
                  [this](std::uint32_t primitive, ImageShape& shape) { tracer_.project(primitive, shape); }) {}
 
@@ -307,7 +307,7 @@ Image uniform_picture_in(double seconds, const Subject& subject) {
   double density = 0.05;      // samples per pixel
   Image image;
   for (int trial = 0; trial < kTrials; ++trial) {
-    Tracer tracer(subject.scene, subject.camera);
+    Tracer tracer = tracer_of(subject);
     const double begin = thread_cpu_seconds();
     image = uniform_picture(tracer, subject.camera, grid_size(subject.camera, density));
     density *= seconds / std::max(thread_cpu_seconds() - begin, 1e-9);

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "base/subprocess.h"
+#include "convert/pov_material.h"
 #include "convert/pov_writer.h"
 #include "image/atomic_file.h"
 #include "image/contact_sheet.h"
@@ -116,6 +117,8 @@ std::vector<RendererPoint> pictures_of(const OtherRenderer& renderer, const std:
   const ScratchDirectory scratch;
   const std::string scene_file = scratch.path / renderer.scene_file, file = scratch.path / "picture.png";
   write_whole_file(scene_file, [&](std::ostream& out) { renderer.write(scene, out); });
+  for (const PovPicture& texture : pov_pictures(scene, "scene").files)
+    write_image(scratch.path / texture.name, picture_of(scene, texture));
   const auto run = [&](const Trial& trial, int side) {
     Words command = renderer.command(scene_file, file, side);
     command.insert(command.end(), trial.options.begin(), trial.options.end());

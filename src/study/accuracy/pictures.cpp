@@ -22,7 +22,7 @@ Image complexity_map(const Subject& subject) {
   constexpr int kTries = 3;
   constexpr double kShown = 0.999;  // of the pixels lie within the map's range
   const Camera& camera = subject.camera;
-  Tracer tracer(subject.scene, camera);
+  Tracer tracer = tracer_of(subject);
   std::vector<float> seconds(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height),
                              std::numeric_limits<float>::infinity());
   for (int t = 0; t < kTries; ++t) {
@@ -49,7 +49,7 @@ Image complexity_map(const Subject& subject) {
 std::vector<Picture> figure_pictures(const std::string& scene, const Subject& subject, std::uint64_t seed) {
   SessionSettings settings;
   settings.width = subject.camera.width, settings.height = subject.camera.height, settings.seed = seed;
-  Tracer tracer(subject.scene, subject.camera);
+  Tracer tracer = tracer_of(subject);
   const FinishedFrame frame = serial_frame(settings, subject.camera, kFigureSamples, probe_of(tracer));
   const TileGrid grid = tile_grid_for(settings.width, settings.height, 1);
   FrameLayers layers({frame.order.number, grid, frame.owners, frame.samples, {}});

@@ -185,7 +185,8 @@ double fewest_after_fifth(std::span<const double> samples_of_frames) {
 double uniform_rmse_in(double seconds, const Sequence& sequence) {
   std::vector<double> errors;
   for (std::size_t i = 0; i < sequence.frames.size(); ++i) {
-    const Image uniform = uniform_picture_in(seconds, {sequence.scene, sequence.frames[i].camera});
+    const Image uniform =
+        uniform_picture_in(seconds, {sequence.scene, sequence.frames[i].camera, sequence.frames[i].time});
     errors.push_back(rmse_of(uniform, sequence.references[i]));
   }
   return mean_of(errors);
