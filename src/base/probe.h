@@ -33,8 +33,8 @@ struct Probe {
   // Moves everything to its place at a time, seconds. Empty: nothing moves.
   std::function<void(double time)> set_time = {};
   // Carries a sample of the time before the last set_time() into this time: its hit point moves with its
-  // object, and lights that may have changed are no more known. False where the point is no more.
-  std::function<bool(RaySample& sample)> carry = {};
+  // object, and lights that may have changed are no more known.
+  std::function<Carried(RaySample& sample)> carry = {};
 };
 
 }  // namespace pprt

@@ -32,4 +32,11 @@ struct RaySample {
   std::uint32_t rays = 1;       // rays of all kinds in its ray tree: the work it took
 };
 
+// What has become of a sample when things have moved.
+enum class Carried : std::uint8_t {
+  kKept,    // it is where its object is now
+  kRelit,   // and something that moved may have changed the light there: its colour is of another time
+  kNothing  // its point is no more: it is hidden with its object, or the object has changed its shape
+};
+
 }  // namespace pprt

@@ -27,7 +27,7 @@ class AnchorSearch {
   void forget() { anchors_.clear(); }
 
   // Carries the anchors into this frame, in which something moves; see Probe::carry.
-  void carry(const std::function<bool(RaySample&)>& carried) { anchors_.carry(carried); }
+  void carry(const std::function<Carried(RaySample&)>& carried) { anchors_.carry(carried); }
 
   // This frame is to seek anchors; `samples`: count carried into it.
   void allow(std::uint64_t samples) { most_ = kShare * static_cast<double>(samples); }

@@ -102,9 +102,9 @@ class Tracer {
   void set_time(double time);
 
   // Carries a sample of the time before the last set_time() into this time: its hit point moves with its
-  // object. Lights that what moves may have hidden or freed, or that move, are no more known there; then the
-  // colour counts as one that changes with the eye. Returns false where the point is no more.
-  bool carry(RaySample& sample) const;
+  // object. Lights that what moves may have hidden or freed, or that move, are no more known there. A colour
+  // on what has moved counts as one that changes with the eye.
+  Carried carry(RaySample& sample) const;
 
   const CompiledScene& scene() const { return scene_; }
 

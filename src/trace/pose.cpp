@@ -209,30 +209,37 @@ bool Pose::may_be_crossed(const Vec3d& from, const Vec3d& to) const {
          });
 }
 
-bool Pose::carry(RaySample& sample) const {
-  if (!scene_.moves || sample.at_infinity || sample.primitive == 0) return true;
+Carried Pose::carry(RaySample& sample) const {
+  if (!scene_.moves || sample.at_infinity || sample.primitive == 0) return Carried::kKept;
   const std::uint32_t number = sample.primitive - 1 < scene_.part_of_primitive.size()
                                    ? scene_.part_of_primitive[sample.primitive - 1]
                                    : kNoPart;
-  if (number == kNoPart) return false;
+  if (number == kNoPart) return Carried::kNothing;
   const std::uint32_t body = scene_.parts[number].body;
-  std::uint8_t changed = lights_moved_;
   if (body != 0 && has_moved_[body]) {
-    if (scene_.bodies[body].deforms || !places_[body].is_shown) return false;
+    if (scene_.bodies[body].deforms || !places_[body].is_shown) return Carried::kNothing;
     sample.hit = Vec3f(moved_by_[body].point(Vec3d(sample.hit)));
-    changed = 0xFF;
-  } else if (!swept_.empty()) {
-    const Vec3d hit(sample.hit);
-    for (std::size_t i = 0; i < std::min<std::size_t>(lights_.size(), 8); ++i) {
-      const auto bit = static_cast<std::uint8_t>(1U << i);
-      if ((sample.lights.asked & bit) != 0 && may_be_crossed(hit, lights_[i].position))
-        changed = static_cast<std::uint8_t>(changed | bit);
-    }
+    sample.eye_dependent = true;
+    sample.lights = {};
+    return lights_moved_ == 0 ? Carried::kKept : Carried::kRelit;
   }
-  if ((sample.lights.asked & changed) != 0) sample.eye_dependent = true;
+  const std::uint8_t changed = lights_changed_at(sample) & sample.lights.asked;
   sample.lights.asked = static_cast<std::uint8_t>(sample.lights.asked & ~changed);
   sample.lights.seen = static_cast<std::uint8_t>(sample.lights.seen & ~changed);
-  return true;
+  return changed == 0 ? Carried::kKept : Carried::kRelit;
+}
+
+// Returns the lights, of the first eight, that may be seen at a sample now and were not then, or the reverse.
+std::uint8_t Pose::lights_changed_at(const RaySample& sample) const {
+  std::uint8_t changed = lights_moved_;
+  if (swept_.empty()) return changed;
+  const Vec3d hit(sample.hit);
+  for (std::size_t i = 0; i < std::min<std::size_t>(lights_.size(), 8); ++i) {
+    const auto bit = static_cast<std::uint8_t>(1U << i);
+    if ((sample.lights.asked & bit) != 0 && may_be_crossed(hit, lights_[i].position))
+      changed = static_cast<std::uint8_t>(changed | bit);
+  }
+  return changed;
 }
 
 }  // namespace pprt

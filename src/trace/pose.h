@@ -51,10 +51,8 @@ class Pose {
   // Largest relative rounding of all bodies' places.
   double rounding() const { return rounding_; }
 
-  // Carries a hit point from the pose before into this one. Forgets the lights that may have changed there,
-  // and says in `eye_dependent` that the colour may have. Returns false where the point is no more: its
-  // primitive has changed its shape, or is not shown.
-  bool carry(RaySample& sample) const;
+  // Carries a sample from the pose before into this one; see Tracer::carry.
+  Carried carry(RaySample& sample) const;
 
  private:
   struct Deforming;  // triangles that change their shape
@@ -62,6 +60,7 @@ class Pose {
   void place_bodies(double time);
   void place_lights(double time);
   void note_changes(const std::vector<BodyPlace>& before, const std::vector<ShadingLight>& lights_before);
+  std::uint8_t lights_changed_at(const RaySample& sample) const;
   bool may_be_crossed(const Vec3d& from, const Vec3d& to) const;
 
   const CompiledScene::Impl& scene_;

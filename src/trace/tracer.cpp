@@ -46,7 +46,7 @@ void Tracer::set_time(double time) {
   pose_->set_time(time);
 }
 
-bool Tracer::carry(RaySample& sample) const {
+Carried Tracer::carry(RaySample& sample) const {
   return pose_->carry(sample);
 }
 

@@ -73,7 +73,9 @@ void hide_behind_turned_triangles(const SampleMesh& mesh, std::vector<ProjectedS
 }
 
 bool is_carried(Sample& sample, const CastSettings& settings) {
-  return !settings.carry || settings.carry(sample.ray);
+  if (!settings.carry) return true;
+  const Carried carried = settings.carry(sample.ray);
+  return carried == Carried::kKept || (carried == Carried::kRelit && settings.lit_only);
 }
 
 void collect(const Sample& sample, const ProjectedSample& projected, CastResult& result) {

@@ -26,8 +26,9 @@ struct CastSettings {
   // kVerified: casts one sample in so many, drawn by is_one_of(). The orientation test needs all samples.
   std::uint64_t one_of = 1;
   bool lit_only = false;  // kVerified: only samples that shadow rays were sent from
-  // Carries a sample to where its object is now; false where it is no more. Empty: nothing has moved.
-  std::function<bool(RaySample& sample)> carry = {};
+  // Carries a sample to where its object is now, see Probe::carry. Empty: nothing has moved. What is relit is
+  // cast only for what it knows of lights, with lit_only.
+  std::function<Carried(RaySample& sample)> carry = {};
 };
 
 // Largest age of verified samples, frames. Outlines have moved by then, and older samples tell little of them

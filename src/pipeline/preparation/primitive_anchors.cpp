@@ -41,10 +41,10 @@ void PrimitiveAnchors::note(std::span<const Sample> samples) {
   anchors_.swap(next_);
 }
 
-void PrimitiveAnchors::carry(const std::function<bool(RaySample&)>& carried) {
+void PrimitiveAnchors::carry(const std::function<Carried(RaySample&)>& carried) {
   next_.clear();
   for (Anchor& anchor : anchors_) {
-    if (carried(anchor.sample.ray)) add(next_, anchor);
+    if (carried(anchor.sample.ray) == Carried::kKept) add(next_, anchor);
   }
   anchors_.swap(next_);
 }

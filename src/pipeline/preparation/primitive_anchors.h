@@ -28,7 +28,7 @@ class PrimitiveAnchors {
   void note(std::span<const Sample> samples);
 
   // Moves each anchor with its primitive, and drops those that are no more; see Probe::carry.
-  void carry(const std::function<bool(RaySample&)>& carried);
+  void carry(const std::function<Carried(RaySample&)>& carried);
 
   // Returns the anchors of primitives that none of the samples lies on, at the points of the region where the
   // camera would see them: the first `most` of them. A visibility ray must tell whether one is hidden.
