@@ -218,4 +218,33 @@ TEST_CASE("casting: only samples of the own region are cast") {
   for (const Sample& s : cast.samples) CHECK(kGrid.tile_at(s.x, s.y) == 5);
 }
 
+TEST_CASE("casting: a sample goes where its object is, and is dropped where it is no more or relit") {
+  std::vector<Sample> samples;
+  for (const double x : {20.0, 32.0, 44.0}) samples.push_back(look(straight(), x, 10.5, 1));
+  for (std::size_t i = 0; i < 3; ++i)
+    samples[i].ray.primitive = static_cast<std::uint32_t>(i), samples[i].ray.lights = {1, 1};
+  CastSettings settings{.method = CastMethod::kVerified};
+  settings.carry = [](RaySample& ray) {
+    if (ray.primitive == 1) return Carried::kNothing;
+    if (ray.primitive == 2) {
+      ray.lights = {};
+      return Carried::kRelit;
+    }
+    ray.hit.x += 0.5F;
+    return Carried::kKept;
+  };
+  const auto cast = [&] { return cast_samples(samples, Region::whole(kGrid), straight(), 2, settings); };
+  const CastResult all = cast();
+  REQUIRE(all.samples.size() == 1);
+  CHECK(all.hidden == 2);
+  CHECK(all.samples[0].x > 25);  // half a unit at the distance of 4
+  CHECK(all.samples[0].y == Approx(10.5));
+  CHECK(samples[0].ray.hit.x == look(straight(), 20, 10.5, 1).ray.hit.x);
+  // For lights: what is relit counts if it knows any.
+  settings.lit_only = true;
+  CHECK(cast().samples.size() == 1);
+  settings.carry = [](RaySample&) { return Carried::kRelit; };
+  CHECK(cast().samples.size() == 3);
+}
+
 }  // namespace pprt

@@ -96,4 +96,19 @@ TEST_CASE("anchors: a primitive out of sight keeps its anchor for four frames, a
   CHECK(anchors.unseen({}, camera_at(0), kWhole, kAll).empty());
 }
 
+TEST_CASE("anchors: they move with their primitives, and end with them") {
+  PrimitiveAnchors anchors(3);
+  anchors.note(std::vector{seen_at(10, 10, 1), seen_at(20, 20, 2), seen_at(30, 30, 3)});
+  anchors.carry([](RaySample& ray) {
+    ray.hit.x += 5;
+    return ray.primitive == 2 ? Carried::kNothing : Carried::kKept;
+  });
+  const std::vector<Sample> sought = anchors.unseen({}, camera_at(0), kWhole, kAll);
+  REQUIRE(sought.size() == 2);
+  CHECK(sought[0].x == Approx(15).margin(1e-4));
+  CHECK(sought[1].x == Approx(35).margin(1e-4));
+  // Those that are left are found again by their primitive.
+  CHECK(anchors.unseen(std::vector{seen_at(1, 1, 3)}, camera_at(0), kWhole, kAll).size() == 1);
+}
+
 }  // namespace pprt
