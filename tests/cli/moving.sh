@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Scenes in AFF: what moves, textures, and how they are refused.
-source "$(dirname "$0")/check.sh"
+here=$(cd "$(dirname "$0")" && pwd)
+source "$here/check.sh"
 
 cat >toy.aff <<'AFF'
 v from 0 3 9 at 0 1 0 up 0 1 0 angle 40 hither 1 resolution 48 36
@@ -76,4 +77,16 @@ echo 'animation { scene "toy.aff" frames 2 object "ball" { key 1 { translate <0,
 run pprt-render named.anim --clock work --samples 3000 --cast off -o 'n%d.png'; expect_code 0
 run pprt-compare n1.png n2.png; expect_code 0
 run pprt-compare n2.png e.png --max-rmse 0.02; expect_code 1
+
+# The scenes of the distribution: without a warning, and they move.
+shown=0
+for scene in "$here"/../../scenes/*.aff; do
+  name=$(basename "$scene" .aff)
+  run pprt-render "$scene" --frames 10-40 --clock work --fps 8 -s 48x32 --overwrite -o "$name-%d.png"; expect_code 0
+  expect_line err "done: 31 of 31 frames in .*"
+  [[ $(wc -l <err) -eq 1 ]] || complain "$name: it said more: $(cat err)"
+  run pprt-compare "$name-10.png" "$name-40.png" --max-rmse 0.01; expect_code 1
+  shown=$((shown + 1))
+done
+[[ $shown -gt 1 ]] || complain "there are $shown scenes"
 finish
