@@ -5,8 +5,8 @@
 
 namespace pprt {
 
-// Transforms what rests in a node into the space around it, so that only nodes remain that have the name of a
-// track, and their places in others that do. Lights come into the world or into the node that moves them.
+// Transforms what rests in a node into the space around it. Only nodes remain that have the name of a track,
+// and what places them in others that do. Lights come into the world or into the node that moves them.
 //
 // A sphere or cone that a resting node stretches unevenly, or shears, keeps that node.
 SceneDescription without_resting_nodes(SceneDescription scene);
