@@ -30,8 +30,9 @@ struct Probe {
   // Traces the eye ray through image point (x, y), pixels, but sends no shadow rays from its first hit to
   // lights that are known there. Empty: not available.
   std::function<RaySample(double x, double y, std::span<const KnownLights> known)> trace_knowing = {};
-  // Moves everything to its place at a time, seconds. Empty: nothing moves.
-  std::function<void(double time)> set_time = {};
+  // Moves everything to its place at a time, seconds. Returns whether anything stands elsewhere than before.
+  // Empty: nothing moves.
+  std::function<bool(double time)> set_time = {};
   // Carries a sample of the time before the last set_time() into this time: its hit point moves with its
   // object, and lights that may have changed are no more known.
   std::function<Carried(RaySample& sample)> carry = {};

@@ -136,21 +136,32 @@ ParsedScene load_scene_of_script(const Animation& script, const std::string& scr
   return parse_nff(text, printable(name), options);
 }
 
-void add_objects(SceneDescription& scene, const Animation& script, const std::string& script_path,
-                 const FrameTimes& times, const NffOptions& options) {
+std::string add_objects(SceneDescription& scene, const Animation& script, const std::string& script_path,
+                        const FrameTimes& times, const NffOptions& options) {
+  constexpr std::size_t kMostTurns = 5'000'000;  // an object that turns takes a key a frame
+  std::string warnings;
+  std::size_t turns = 0;
+  const auto refuse = [&](const ObjectMotion& object, const std::string& problem) {
+    throw InputError(at_name_in_script(script, script_path, object.location, problem));
+  };
   for (const ObjectMotion& object : script.objects) {
+    turns += static_cast<std::size_t>(times.frames);
+    if (turns > kMostTurns) refuse(object, "too many objects for so many frames");
     const std::vector<SceneNode>& nodes = scene.movement.nodes;
     const bool is_known = std::any_of(nodes.begin(), nodes.end(),
                                       [&](const SceneNode& node) { return node.track == object.name; });
     if (!is_known) {
       try {
-        add_moving(scene, load_scene(named_in_script(object.name, script_path), options).scene, object.name);
+        ParsedScene other = load_scene(named_in_script(object.name, script_path), options);
+        warnings += other.warnings;
+        add_moving(scene, other.scene, object.name);
       } catch (const InputError& e) {
-        throw InputError(at_name_in_script(script, script_path, object.location, e.what()));
+        refuse(object, e.what());
       }
     }
     if (!object.keys.empty()) scene.movement.tracks[object.name] = track_of(object, times);
   }
+  return warnings;
 }
 
 ParsedScene load_scene(const std::string& name, const NffOptions& options) {

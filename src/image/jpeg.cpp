@@ -44,6 +44,7 @@ Image decode_jpeg(std::string_view bytes) {
   };
   int width = 0, height = 0, subsampling = 0, colors = 0;
   require(tjDecompressHeader3(decoder.get(), data, bytes.size(), &width, &height, &subsampling, &colors));
+  require_decodable_size(width, height);
   Image image(width, height);
   std::vector<unsigned char> rgb(3 * image.pixels.size());
   require(tjDecompress2(decoder.get(), data, bytes.size(), rgb.data(), width, 0, height, TJPF_RGB,

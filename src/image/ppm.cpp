@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "image/image_io.h"
+#include "image/picture_checks.h"
 
 namespace pprt {
 namespace {
@@ -52,6 +53,7 @@ Image decode_ppm(std::string_view bytes) {
   const int width = text.number("width"), height = text.number("height");
   const int most = text.number("largest value");
   if (most < 1 || most > 255) throw std::runtime_error("a channel of it has more than 8 bits");
+  require_decodable_size(width, height);
   const std::size_t values = 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   const std::string_view body = text.body();
   if (values == 0 || body.size() < values) throw std::runtime_error("the file ends early");

@@ -16,8 +16,7 @@ void SampleTracer::begin_frame(const FrameOrder& order) {
   non_finite_ = 0;
   frame_number_ = order.number;
   probe_.set_camera(order.camera);
-  moves_ = probe_.set_time && time_ != order.time;
-  if (moves_) probe_.set_time(order.time);
+  moves_ = probe_.set_time && time_ != order.time && probe_.set_time(order.time);
   time_ = order.time;
 }
 

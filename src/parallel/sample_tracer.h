@@ -37,7 +37,7 @@ class SampleTracer {
   // Whether nothing hides a hit point from the eye.
   bool is_visible(const Vec3f& hit, bool at_infinity);
 
-  // Whether something may stand elsewhere than in the frame before.
+  // Whether something stands elsewhere than in the frame before.
   bool moves() const { return moves_; }
 
   const Probe& probe() const { return probe_; }

@@ -41,6 +41,7 @@ FrameLikeness Worker::likeness_to_last(const FrameOrder& order, const MissedFram
 // the seeds of that frame and from what they have sent since.
 void Worker::rejoin(const FrameOrder& order, const MissedFrames& missed) {
   if (!order.owners.empty()) ownership_.repartition(order, false);
+  if (tracer_.moves()) anchors_.forget();
   begin_picture(missed.epoch, !missed.cut);
   sampler_.trace_seeds();
   take_in(bundles_.receive());

@@ -128,6 +128,7 @@ void SceneBuilder::add_light() {
   light.position = vector_at(0);
   if (numbers_.size() > 3) light.color = color_at(3);
   light.location = location_in_scene();
+  count_kept(1);
   scene_.lights.push_back(light);
   scene_.light_nodes.push_back({.node = nodes_.back().node});
 }
@@ -203,15 +204,19 @@ TextureIndex SceneBuilder::texture() {
 
 // --- Objects
 
-void SceneBuilder::count_triangles(std::size_t more) {
-  triangles_ += more;
-  if (triangles_ > options_.max_triangles)
-    throw ParseFailure{keyword_.data(), fmt::format("more than {} triangles", options_.max_triangles), true};
+// Files that are short may be read many times: all that is kept counts.
+void SceneBuilder::count_kept(std::size_t more) {
+  kept_ += more;
+  if (kept_ > options_.max_items)
+    throw ParseFailure{keyword_.data(),
+                       fmt::format("more than {} objects, vertices, keys and transforms", options_.max_items),
+                       true};
 }
 
 void SceneBuilder::add_sphere() {
   const MaterialIndex of = material();
   if (numbers_[3] == 0) return deviation(Deviation::kNoExtent);
+  count_kept(1);
   pprt::add_sphere(scene_, {vector_at(0), numbers_[3], of, location_in_scene()});
   stand_in_node(1);
 }
@@ -221,6 +226,7 @@ void SceneBuilder::add_cone() {
   const double base = numbers_[3], apex = numbers_[7];
   if (vector_at(0) == vector_at(4) || (base == 0 && apex == 0) || base * apex < 0)
     return deviation(Deviation::kNoExtent);
+  count_kept(1);
   pprt::add_cone(scene_, {vector_at(0), base, vector_at(4), apex, of, location_in_scene()});
   stand_in_node(1);
 }
@@ -286,7 +292,7 @@ void SceneBuilder::add_moving() {
   check_times(moving_.keys);
   moving_.material = material();
   moving_.location = location_in_scene();
-  count_triangles(1);
+  count_kept(1 + moving_.keys.size());
   add_moving_triangle(scene_, std::move(moving_));
   stand_in_node(1);
 }
@@ -336,7 +342,8 @@ void SceneBuilder::triangle() {
 void SceneBuilder::add_mesh() {
   mesh_.material = material();
   mesh_.location = location_in_scene();
-  count_triangles(triangles_of_mesh_.size());
+  count_kept(triangles_of_mesh_.size() + mesh_.positions.size() + mesh_.normals.size() +
+             mesh_.texture_points.size());
   if (triangles_of_mesh_.empty()) return;
   pprt::add_mesh(scene_, std::move(mesh_), triangles_of_mesh_);
   stand_in_node(triangles_of_mesh_.size());
@@ -366,6 +373,7 @@ void SceneBuilder::begin_node(const Affine& to_parent, std::string track) {
     throw ParseFailure{keyword_.data(),
                        fmt::format("more than {} transforms in each other", options_.max_depth), true};
   const SourceLocation at = locate(keyword_.data());
+  count_kept(1);
   const auto node = static_cast<NodeIndex>(scene_.movement.nodes.size());
   scene_.movement.nodes.push_back(
       {.parent = nodes_.back().node, .to_parent = to_parent, .track = std::move(track), .location = at});
@@ -424,6 +432,7 @@ void SceneBuilder::add_track() {
   check_times(track_.translation);
   check_times(track_.scale);
   check_times(track_.rotation);
+  note_order(track_);
   tracks_.insert_or_assign(std::string(name_), std::move(track_));
 }
 

@@ -137,7 +137,7 @@ class SceneBuilder {
   TextureIndex texture();
   void begin_node(const Affine& to_parent, std::string track);
   void add_corners();
-  void count_triangles(std::size_t more);
+  void count_kept(std::size_t more);
   template <typename Key>
   void check_times(const std::vector<Key>& keys);
 
@@ -151,7 +151,7 @@ class SceneBuilder {
   std::map<std::string, MotionTrack, std::less<>> tracks_;
   std::array<Occurrence, static_cast<std::size_t>(Deviation::kCount)> deviations_{};
   std::size_t errors_ = 0;
-  std::size_t triangles_ = 0;
+  std::size_t kept_ = 0;
   int detail_ = 0;
   bool has_material_ = false;
   Material material_;

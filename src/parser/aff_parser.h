@@ -18,7 +18,7 @@ struct AffOptions {
   std::size_t max_reads = 100'000;               // of files
   std::size_t max_bytes = std::size_t{1} << 30;  // read in all
   std::size_t max_rows = 20'000'000;             // of one list
-  std::size_t max_triangles = 50'000'000;        // in all
+  std::size_t max_items = 100'000'000;           // objects, vertices, keys and transforms, in all
   std::size_t max_errors = 1'000;                // reading stops here
 };
 

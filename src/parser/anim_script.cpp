@@ -191,7 +191,10 @@ void set_frame_count(const WrittenScript& script, Animation& animation, Problems
     animation.frames = static_cast<int>(std::ceil(last));
     return;
   }
-  for (const WrittenKey& written : script.keys) {
+  std::vector<WrittenKey> all = script.keys;
+  for (const WrittenObject& object : script.objects)
+    all.insert(all.end(), object.keys.begin(), object.keys.end());
+  for (const WrittenKey& written : all) {
     if (!written.when.known()) continue;
     const double frame = written.in_seconds ? 1 + written.when.c[0] * animation.fps : written.when.c[0];
     if (frame > animation.frames) {

@@ -111,7 +111,7 @@ class LiveRunner {
         recorder_(recorder),
         run_sequence_(run_sequence),
         view_(*plan.live, show_of(plan, scene)) {
-    time_ = plan.script_frames.front().time;
+    time_ = plan.frames.front().time;
     if (recorder == nullptr) return;
     for (const PlannedFrame& frame : plan.frames)
       if (!recorder->finished_before(frame.number)) missing_.insert(frame.number);

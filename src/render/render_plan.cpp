@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "base/diagnostics.h"
@@ -28,7 +29,8 @@ struct Sources {
   ParsedScene scene;
   std::string scene_path;  // or another name of a scene
   std::optional<ParsedAnimation> script;
-  std::string script_path;  // as it was given
+  std::string script_path;                       // as it was given
+  std::set<std::string, std::less<>> own_names;  // of what the scene itself can move
 
   std::string warnings() const { return scene.warnings + (script ? script->warnings : ""); }
 };
@@ -107,8 +109,8 @@ FrameTimes frame_times(const Sources& sources) {
   if (!sources.script) return own.value_or(FrameTimes());
   const Animation& script = sources.script->animation;
   const double fps = script.fps > 0 ? script.fps : kCustomaryRate;
-  FrameTimes times = own.value_or(FrameTimes{.start = 0, .end = (script.frames - 1) / fps, .frames = 1});
-  times.frames = script.frames;
+  FrameTimes times{.start = 0, .end = (script.frames - 1) / fps, .frames = script.frames};
+  if (own && own->frames > 1 && own->end > own->start) times.start = own->start, times.end = own->end;
   return times;
 }
 
@@ -351,9 +353,8 @@ RenderPlan plan_of(const RenderOptions& options, Sources& sources) {
     plan.objects = sources.script->animation.objects;
     const std::filesystem::path folder = std::filesystem::path(sources.script_path).parent_path();
     for (ObjectMotion& object : plan.objects) {
-      if (const auto name = absolute_scene_name((folder / object.name).string());
-          exists(folder / object.name))
-        object.name = *name;
+      if (sources.own_names.contains(object.name) || is_spd_name(object.name)) continue;
+      object.name = absolute_scene_name((folder / object.name).string()).value_or(object.name);
     }
   }
   plan.scene = std::move(sources.scene.scene);
@@ -368,7 +369,9 @@ void add_objects(const RenderOptions& options, Sources& sources) {
   SceneDescription& scene = sources.scene.scene;
   const FrameTimes times = frame_times(sources);
   const std::size_t own_nodes = scene.movement.nodes.size();
-  add_objects(scene, sources.script->animation, sources.script_path, times, {.strict = options.strict});
+  for (const SceneNode& node : scene.movement.nodes) sources.own_names.insert(node.track);
+  sources.scene.warnings +=
+      add_objects(scene, sources.script->animation, sources.script_path, times, {.strict = options.strict});
   if (scene.movement.nodes.size() > own_nodes) scene = without_resting_nodes(std::move(scene));
   if (scene.movement.nodes.size() > 1) scene.movement.times = times;
 }

@@ -144,7 +144,7 @@ void fields_of(Archive& archive, T& v) {
   } else if constexpr (std::is_same_v<T, VisibilityKey>) {
     archive(v.time, v.visible);
   } else if constexpr (std::is_same_v<T, MotionTrack>) {
-    archive(v.translation, v.scale, v.rotation, v.visibility);
+    archive(v.translation, v.scale, v.rotation, v.visibility, v.is_in_order);
   } else if constexpr (std::is_same_v<T, SceneNode>) {
     archive(v.parent, v.to_parent, v.track, v.location);
   } else if constexpr (std::is_same_v<T, FrameTimes>) {

@@ -23,12 +23,18 @@ struct CurvePlace {
 // The curve runs from the second key to the last but one. A segment that ends before it begins is never
 // found.
 template <typename Key>
-CurvePlace place_at(const std::vector<Key>& keys, double time) {
+CurvePlace place_at(const std::vector<Key>& keys, double time, bool in_order) {
   const std::size_t last = keys.size() - 2;
   if (time <= keys[1].time) return {1, 0};
   if (time >= keys[last].time) return {last - 1, 1};
   std::size_t j = 1;
-  while (j + 1 < last && !(time < keys[j + 1].time)) ++j;
+  if (in_order) {
+    const auto later = std::upper_bound(keys.begin() + 2, keys.begin() + static_cast<std::ptrdiff_t>(last),
+                                        time, [](double t, const Key& key) { return t < key.time; });
+    j = static_cast<std::size_t>(later - keys.begin()) - 1;
+  } else {
+    while (j + 1 < last && !(time < keys[j + 1].time)) ++j;
+  }
   const double begin = keys[j].time, end = keys[j + 1].time;
   return {j, end > begin ? std::clamp((time - begin) / (end - begin), 0.0, 1.0) : 1};
 }
@@ -64,8 +70,8 @@ Tangents tangents(const std::vector<Key>& keys, std::size_t j, const Vec3d& befo
       .in = reaching(keys[j + 1].shape, change, after) * share_of(length, keys[j + 2].time - keys[j].time)};
 }
 
-Vec3d vector_at(const std::vector<VectorKey>& keys, double time) {
-  const auto [j, u] = place_at(keys, time);
+Vec3d vector_at(const std::vector<VectorKey>& keys, double time, bool in_order) {
+  const auto [j, u] = place_at(keys, time, in_order);
   const Vec3d &from = keys[j].value, &to = keys[j + 1].value;
   if (u <= 0) return from;
   if (u >= 1) return to;
@@ -98,8 +104,8 @@ Vec3d turn_between(const Quaternion& a, const Quaternion& b) {
   return logarithm(~a * b);  // the conjugate: they are of unit length
 }
 
-Quaternion rotation_at(const std::vector<RotationKey>& keys, double time) {
-  const auto [j, u] = place_at(keys, time);
+Quaternion rotation_at(const std::vector<RotationKey>& keys, double time, bool in_order) {
+  const auto [j, u] = place_at(keys, time, in_order);
   std::array<Quaternion, 4> q;
   for (std::size_t i = 0; i < q.size(); ++i) {
     q[i] = quaternion_of(keys[j - 1 + i].axis, keys[j - 1 + i].degrees);
@@ -135,11 +141,20 @@ Affine rotation(const Vec3d& axis, double degrees) {
   return affine_of(quaternion_of(axis, degrees));
 }
 
+void note_order(MotionTrack& track) {
+  const auto is_ordered = [](const auto& keys) {
+    return std::is_sorted(keys.begin(), keys.end(),
+                          [](const auto& a, const auto& b) { return a.time < b.time; });
+  };
+  track.is_in_order = is_ordered(track.translation) && is_ordered(track.scale) && is_ordered(track.rotation);
+}
+
 Placement placement_at(const MotionTrack& track, double time) {
   Affine map;
-  if (!track.scale.empty()) map = scaling(vector_at(track.scale, time));
-  if (!track.rotation.empty()) map = affine_of(rotation_at(track.rotation, time)) * map;
-  if (!track.translation.empty()) map = translation(vector_at(track.translation, time)) * map;
+  if (!track.scale.empty()) map = scaling(vector_at(track.scale, time, track.is_in_order));
+  if (!track.rotation.empty()) map = affine_of(rotation_at(track.rotation, time, track.is_in_order)) * map;
+  if (!track.translation.empty())
+    map = translation(vector_at(track.translation, time, track.is_in_order)) * map;
   return {.to_parent = map, .visible = visible_at(track.visibility, time)};
 }
 

@@ -46,6 +46,7 @@ struct MotionTrack {
   std::vector<VectorKey> translation, scale;
   std::vector<RotationKey> rotation;
   std::vector<VisibilityKey> visibility;  // visible before the first
+  bool is_in_order = false;  // no time of a curve is less than the one before; then it is found faster
 };
 
 inline constexpr std::size_t kLeastCurveKeys = 4;
@@ -55,6 +56,9 @@ struct Placement {
   Affine to_parent;  // scale, then rotation, then translation
   bool visible = true;
 };
+
+// Notes whether the times are in order.
+void note_order(MotionTrack& track);
 
 // Always finite for finite keys.
 Placement placement_at(const MotionTrack& track, double time);

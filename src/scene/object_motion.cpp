@@ -49,6 +49,7 @@ std::vector<RotationKey> turns(const ObjectMotion& object, const FrameTimes& tim
   if (std::none_of(object.keys.begin(), object.keys.end(), is_turned)) return {};
   MotionTrack angles;
   angles.translation = curve(object, times, &ObjectKey::rotate);
+  note_order(angles);
   std::vector<RotationKey> keys;
   const double step = times.frames > 1 ? (times.end - times.start) / (times.frames - 1) : 1;
   for (int frame = 0; frame < times.frames + 2; ++frame) {
@@ -72,6 +73,7 @@ MotionTrack track_of(const ObjectMotion& object, const FrameTimes& times) {
   track.rotation = turns(object, times);
   for (const ObjectKey& key : object.keys)
     track.visibility.push_back({time_of(key.frame, times), key.visible});
+  note_order(track);
   return track;
 }
 

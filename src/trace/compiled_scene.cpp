@@ -43,7 +43,7 @@ std::vector<double> times_of(const Movement& movement) {
     for (const VectorKey& key : track.scale) times.push_back(key.time);
     for (const RotationKey& key : track.rotation) times.push_back(key.time);
   }
-  if (times.empty()) times.push_back(0);
+  times.push_back(0);  // such a scene has one frame, at this time
   return times;
 }
 

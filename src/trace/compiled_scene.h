@@ -98,8 +98,8 @@ class Tracer {
   Tracer(Tracer&&) noexcept;
   ~Tracer();
 
-  // Moves everything to its place at a time, seconds.
-  void set_time(double time);
+  // Moves everything to its place at a time, seconds. Returns whether anything stands elsewhere than before.
+  bool set_time(double time);
 
   // Carries a sample of the time before the last set_time() into this time: its hit point moves with its
   // object. Lights that what moves may have hidden or freed, or that move, are no more known there. A colour

@@ -110,22 +110,16 @@ class PartsBuilder {
     bool smooth = false, textured = false;
   };
 
-  static bool has_texture_points(const ScenePart& part) {
-    const auto* mesh = std::get_if<Mesh>(&part.shape);
-    return mesh != nullptr && !mesh->texture_points.empty();
-  }
-
   // Linear search: a body has few parts.
   template <class Shape>
   std::pair<ScenePart&, Shape&> part(const PartKey& key) {
     for (std::size_t i = first_part_; i < impl_.parts.size(); ++i) {
       ScenePart& p = impl_.parts[i];
-      if (p.kind == key.kind && p.faces == key.faces && p.smooth == key.smooth &&
-          has_texture_points(p) == key.textured)
+      if (p.kind == key.kind && p.faces == key.faces && p.smooth == key.smooth && p.textured == key.textured)
         return {p, std::get<Shape>(p.shape)};
     }
     ScenePart& p = impl_.parts.emplace_back();
-    p.kind = key.kind, p.faces = key.faces, p.smooth = key.smooth;
+    p.kind = key.kind, p.faces = key.faces, p.smooth = key.smooth, p.textured = key.textured;
     p.body = static_cast<std::uint32_t>(body_);
     return {p, p.shape.emplace<Shape>()};
   }

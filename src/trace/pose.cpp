@@ -19,6 +19,8 @@ struct Pose::Deforming {
 
 namespace {
 
+constexpr std::size_t kNotedLights = 8;  // see SeenLights
+
 Vec3d in_float(const Vec3d& v) {
   return Vec3d(Vec3f(v));
 }
@@ -38,7 +40,8 @@ BodyPlace place_body(const CompiledBody& body, const Normalisation& world, const
   const double size = norm(place.to_world);
   // A body that is flattened shows nothing: its faces have no inside, and rays cannot be mapped into it.
   constexpr double kFlat = 1e-12;
-  place.is_shown = node.visible && std::abs(volume) > kFlat * size * size * size && std::isfinite(volume);
+  place.is_shown = node.visible && std::abs(volume) > kFlat * size * size * size && std::isfinite(volume) &&
+                   std::isfinite(sum_of_coordinates(place.to_world.origin));
   if (!place.is_shown) {
     place.to_world = place.from_world = Affine();
     return place;
@@ -90,14 +93,15 @@ Pose::Pose(const CompiledScene::Impl& scene) : scene_(scene), lights_(scene.ligh
 
 Pose::~Pose() = default;
 
-void Pose::set_time(double time) {
-  if (!scene_.moves) return;
+bool Pose::set_time(double time) {
+  if (!scene_.moves) return false;
   const std::vector<BodyPlace> before = places_;
   const std::vector<ShadingLight> lights_before = own_lights_;
   place_bodies(time);
   place_lights(time);
   note_changes(has_time_ ? before : places_, has_time_ ? lights_before : own_lights_);
   has_time_ = true;
+  return any_light_moved_ || std::find(has_moved_.begin(), has_moved_.end(), true) != has_moved_.end();
 }
 
 void Pose::place_bodies(double time) {
@@ -195,10 +199,11 @@ void Pose::note_changes(const std::vector<BodyPlace>& before,
       all_swept_.extendBy(swept_.back());
     }
   }
-  lights_moved_ = 0;
-  for (std::size_t i = 0; i < std::min<std::size_t>(own_lights_.size(), 8); ++i) {
-    if (own_lights_[i].position != lights_before[i].position)
-      lights_moved_ = static_cast<std::uint8_t>(lights_moved_ | 1U << i);
+  lights_moved_ = 0, any_light_moved_ = false;
+  for (std::size_t i = 0; i < own_lights_.size(); ++i) {
+    if (own_lights_[i].position == lights_before[i].position) continue;
+    any_light_moved_ = true;
+    if (i < kNotedLights) lights_moved_ = static_cast<std::uint8_t>(lights_moved_ | 1U << i);
   }
 }
 
@@ -221,12 +226,23 @@ Carried Pose::carry(RaySample& sample) const {
     sample.hit = Vec3f(moved_by_[body].point(Vec3d(sample.hit)));
     sample.eye_dependent = true;
     sample.lights = {};
-    return lights_moved_ == 0 ? Carried::kKept : Carried::kRelit;
+    return any_light_moved_ ? Carried::kRelit : Carried::kKept;
   }
   const std::uint8_t changed = lights_changed_at(sample) & sample.lights.asked;
+  const bool is_relit = changed != 0 || any_light_moved_ || is_unnoted_light_changed_at(sample);
   sample.lights.asked = static_cast<std::uint8_t>(sample.lights.asked & ~changed);
   sample.lights.seen = static_cast<std::uint8_t>(sample.lights.seen & ~changed);
-  return changed == 0 ? Carried::kKept : Carried::kRelit;
+  return is_relit ? Carried::kRelit : Carried::kKept;
+}
+
+// Of lights beyond those that samples note, none is known to be behind the surface.
+bool Pose::is_unnoted_light_changed_at(const RaySample& sample) const {
+  if (swept_.empty()) return false;
+  const Vec3d hit(sample.hit);
+  for (std::size_t i = kNotedLights; i < lights_.size(); ++i) {
+    if (may_be_crossed(hit, lights_[i].position)) return true;
+  }
+  return false;
 }
 
 // Returns the lights, of the first eight, that may be seen at a sample now and were not then, or the reverse.
@@ -234,7 +250,7 @@ std::uint8_t Pose::lights_changed_at(const RaySample& sample) const {
   std::uint8_t changed = lights_moved_;
   if (swept_.empty()) return changed;
   const Vec3d hit(sample.hit);
-  for (std::size_t i = 0; i < std::min<std::size_t>(lights_.size(), 8); ++i) {
+  for (std::size_t i = 0; i < std::min(lights_.size(), kNotedLights); ++i) {
     const auto bit = static_cast<std::uint8_t>(1U << i);
     if ((sample.lights.asked & bit) != 0 && may_be_crossed(hit, lights_[i].position))
       changed = static_cast<std::uint8_t>(changed | bit);

@@ -33,8 +33,9 @@ class Pose {
   Pose(const Pose&) = delete;
   Pose& operator=(const Pose&) = delete;
 
-  // Moves all bodies and lights to their places at a time, seconds.
-  void set_time(double time);
+  // Moves all bodies and lights to their places at a time, seconds. Returns whether any of them has moved or
+  // changed its shape.
+  bool set_time(double time);
 
   const CompiledScene::Impl& scene() const { return scene_; }
   RTCScene embree() const { return embree_; }
@@ -61,6 +62,7 @@ class Pose {
   void place_lights(double time);
   void note_changes(const std::vector<BodyPlace>& before, const std::vector<ShadingLight>& lights_before);
   std::uint8_t lights_changed_at(const RaySample& sample) const;
+  bool is_unnoted_light_changed_at(const RaySample& sample) const;
   bool may_be_crossed(const Vec3d& from, const Vec3d& to) const;
 
   const CompiledScene::Impl& scene_;
@@ -82,6 +84,7 @@ class Pose {
   std::vector<Box3d> swept_;      // by bodies that have moved or changed their shape, then and now
   Box3d all_swept_;
   std::uint8_t lights_moved_ = 0;  // bits as in SeenLights
+  bool any_light_moved_ = false;
 };
 
 }  // namespace pprt

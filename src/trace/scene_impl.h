@@ -49,6 +49,7 @@ struct ScenePart {
   std::variant<std::vector<SphereRecord>, std::vector<ConeRecord>, Mesh> shape;
   std::uint32_t body = 0;                 // in whose space it lies
   bool smooth = false;                    // a mesh with normals
+  bool textured = false;                  // a mesh with texture coordinates
   std::vector<MaterialIndex> materials;   // by Embree's primitive number
   std::vector<std::uint32_t> primitives;  // place in SceneDescription::order, by Embree's primitive number
   std::vector<MovingTriangle> shapes;     // of triangles whose corners move, in the body's space

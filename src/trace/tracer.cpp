@@ -42,8 +42,8 @@ Tracer::Tracer(const CompiledScene& scene, const Camera& camera)
 Tracer::Tracer(Tracer&&) noexcept = default;
 Tracer::~Tracer() = default;
 
-void Tracer::set_time(double time) {
-  pose_->set_time(time);
+bool Tracer::set_time(double time) {
+  return pose_->set_time(time);
 }
 
 Carried Tracer::carry(RaySample& sample) const {
@@ -86,7 +86,8 @@ bool Tracer::visible(const Vec3f& hit, bool at_infinity) {
   const double start = distance_to_scene(scene_.impl(), camera_.eye, direction);
   const Vec3d origin = camera_.eye + direction * start;
   const double reach = std::max(sum_of_coordinates(Vec3d(hit)), sum_of_coordinates(origin));
-  const double gap = visibility_gap(reach) + kFlattestCosine * pose_->rounding() * reach;
+  const double gap =
+      visibility_gap(reach) + kFlattestCosine * std::min(kMaxTriangleOffset, pose_->rounding() * reach);
   const double length = at_infinity ? std::numeric_limits<double>::infinity() : distance - start - gap;
   if (!(length > 0)) return true;
   return !occluded(*pose_, Vec3f(origin), Vec3f(direction), static_cast<float>(length));

@@ -18,7 +18,7 @@ inline Probe probe_of(Tracer& tracer) {
                    return tracer.trace(x, y, known);
                  }};
   if (tracer.scene().moves()) {
-    probe.set_time = [&tracer](double time) { tracer.set_time(time); };
+    probe.set_time = [&tracer](double time) { return tracer.set_time(time); };
     probe.carry = [&tracer](RaySample& sample) { return tracer.carry(sample); };
   }
   return probe;

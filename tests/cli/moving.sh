@@ -78,6 +78,17 @@ run pprt-render named.anim --clock work --samples 3000 --cast off -o 'n%d.png'; 
 run pprt-compare n1.png n2.png; expect_code 0
 run pprt-compare n2.png e.png --max-rmse 0.02; expect_code 1
 
+# A scene of one moment has no time of its own for a script's frames.
+sed 's/a 1 2 6/a 1 1 1/' toy.aff >moment.aff
+echo 'animation { scene "moment.aff" frames 5 fps 4 object "ball" { key 1 {} key 5 { translate <0, 3, 0> } } }' >moment.anim
+run pprt-render moment.anim --fps 0 --clock work --samples 3000 --cast off -o 'o%d.png'; expect_code 0
+run pprt-compare o1.png o5.png --max-rmse 0.02; expect_code 1
+echo 'animation { scene "toy.aff" frames 1000000 object "ball" {} object "a.nff" {} object "b.nff" {} object "c.nff" {}
+  object "d.nff" {} object "e.nff" {} }' >many.anim
+for name in a b c d e; do cp other.nff $name.nff; done
+run pprt-render many.anim; expect_code 3
+expect_line err 'many.anim:2:[0-9]*: error: too many objects for so many frames'
+
 # The scenes of the distribution: without a warning, and they move.
 shown=0
 for scene in "$here"/../../scenes/*.aff; do

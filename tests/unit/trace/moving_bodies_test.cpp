@@ -332,3 +332,49 @@ TEST_CASE("moving bodies: projected shapes cover what eye rays hit") {
     CHECK(hits > 10);
   }
 }
+
+TEST_CASE("moving bodies: a body that is pressed flat does not let hidden points show") {
+  const SceneDescription scene =
+      scene_of(kView + kLight + kFloor + kMatte + "s 0 1 4 .8 xs 1 .02 1 0 0 1 0 5 0 -3 { s 0 0 0 1 }");
+  const CompiledScene compiled = compile(scene);
+  REQUIRE(compiled.moves());
+  Tracer tracer(compiled, compiled.camera(*scene.view));
+  View from_behind = *scene.view;
+  from_behind.from = {0, 1, -6}, from_behind.at = {0, 1, 4};
+  tracer.set_camera(compiled.camera(from_behind));
+  const RaySample back = tracer.trace(24, 24);
+  REQUIRE(back.primitive == kFloorTriangles + 1);
+  CHECK(tracer.visible(back.hit, false));
+  tracer.set_camera(compiled.camera(*scene.view));
+  CHECK_FALSE(tracer.visible(back.hit, false));
+}
+
+TEST_CASE("moving bodies: colours under lights that no sample notes, and that move, are relit") {
+  std::string lights;
+  for (int i = 0; i < 8; ++i) lights += "l " + std::to_string(i) + " -5 0\n";  // below the floor
+  const std::string ninth = "la lamp 0 4 0 k lamp {" + keys("transl", "@ 4 0", 1) + "}";
+  const std::string ball = kMatte + "x body { s 0 0 0 2 } k body {" + keys("transl", "@ 3 0", 1) + "}";
+  for (const bool light_moves : {true, false}) {
+    const SceneDescription scene = scene_of(kView + "am 1 1 1 a 1 3 9 " + lights + kMatte + kGround +
+                                            (light_moves ? ninth : "l 0 4 0\n" + ball));
+    const CompiledScene compiled = compile(scene);
+    Tracer tracer(compiled, compiled.camera(*scene.view));
+    tracer.set_time(1);
+    RaySample below = tracer.trace(24, 40);
+    REQUIRE((below.primitive > 0 && below.primitive <= kFloorTriangles && below.lights.asked == 0));
+    CHECK(tracer.set_time(2));
+    CHECK(tracer.carry(below) == Carried::kRelit);
+    CHECK_FALSE(tracer.set_time(2));
+    RaySample again = tracer.trace(24, 40);
+    CHECK(tracer.carry(again) == Carried::kKept);
+  }
+}
+
+TEST_CASE("moving bodies: triangles with a texture but without area make no parts of their own") {
+  std::string text = kView + kLight + kMatte;
+  for (int i = 0; i < 300; ++i) text += "tt t 0 0 0 0 0  1 1 1 0 0  2 2 2 " + std::to_string(i) + " 0\n";
+  text += "tt t -1 0 0 0 0  1 0 0 1 0  0 2 0 0 1\n";
+  const CompiledScene compiled = compile(scene_of(text));
+  CHECK(compiled.census().find("301 triangles of meshes (1 triangle); 300 without extent left out") !=
+        std::string::npos);
+}

@@ -310,9 +310,9 @@ TEST_CASE("aff: there are limits of everything") {
   for (int n = 0; n < 3; ++n) nested += "x a { ";
   CHECK(report(nested, few).find("more than 2 transforms in each other") != std::string::npos);
   few = {};
-  few.max_triangles = 1;
-  CHECK(report(kMaterial + "p 4 0 0 0 1 0 0 1 1 0 0 1 0", few).find("more than 1 triangles") !=
-        std::string::npos);
+  few.max_items = 1;
+  CHECK(report(kMaterial + "p 4 0 0 0 1 0 0 1 1 0 0 1 0", few)
+            .find("more than 1 objects, vertices, keys and transforms") != std::string::npos);
   few = {};
   few.max_errors = 3;
   CHECK(report("l x\nl x\nl x\nl x\n", few).find("reading stopped after 3 errors") != std::string::npos);
