@@ -69,9 +69,9 @@ constexpr double triangle_offset(double longest_edge, double twice_area, double 
 // coordinates of the ray's origin and of the body's. `condition` is the norm of the map times that of its
 // inverse: 1 where it turns, and scales all directions alike.
 //
-// Counted from: Embree inverts the map in float. Some ten roundings of products make each component, and these
-// are up to `condition` times the result. Four more roundings map the origin. In the world all that is up to
-// `condition` times as long again. Test: moving_bodies_test.cpp, "rays leave ...".
+// Counted from: Embree inverts the map in float. Some ten roundings of products make each component, and
+// these are up to `condition` times the result. Four more roundings map the origin. In the world all that is
+// up to `condition` times as long again. Test: moving_bodies_test.cpp, "rays leave ...".
 constexpr double instance_rounding(double condition) {
   return kFloatRounding * 16 * condition * condition;
 }
