@@ -140,7 +140,7 @@ void SceneBuilder::add_named_light() {
 
 // --- Materials
 
-// Of the ambient light NFF's materials reflect a fixed share.
+// NFF's materials reflect a fixed share of the ambient light.
 void SceneBuilder::set_fill() {
   const Rgb color = color_at(0);
   Material m;
@@ -183,7 +183,7 @@ MaterialIndex SceneBuilder::material() {
   return materials_.intern(scene_.materials, m);
 }
 
-// Of the directive at hand. A place is one in the scene's own file; included ones have none.
+// Returns where the directive at hand stands in the scene's own file. One of an included file has no place.
 SourceLocation SceneBuilder::location_in_scene() {
   return depth() == 1 ? locate(keyword_.data()) : SourceLocation();
 }

@@ -25,7 +25,7 @@ enum Field : std::size_t {
   kBias,
   kEaseIn,
   kEaseOut,
-  // Of an object; it has tension, continuity and bias, too.
+  // An object has these, and tension, continuity and bias.
   kTranslate,
   kRotate,
   kScale,

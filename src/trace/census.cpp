@@ -21,9 +21,9 @@ std::string primitives(const CompiledScene::Impl& scene) {
   add(held.cones, "cone or cylinder", "cones and cylinders");
   add(held.polygons, "polygon", "polygons");
   add(held.patches, "patch", "patches");
-  add(held.triangles, "triangle of a mesh", "triangles of meshes");
+  add(held.triangles, "triangle", "triangles");
   add(held.moving_triangles, "triangle that changes its shape", "triangles that change their shape");
-  if (scene.figures.triangles > 0)
+  if (scene.figures.triangles > 0 && held.polygons + held.patches > 0)
     text += fmt::format(" ({})", counted(scene.figures.triangles, "triangle", "triangles"));
   if (scene.figures.degenerate > 0)
     text += fmt::format("; {} without extent left out", scene.figures.degenerate);
@@ -54,7 +54,8 @@ std::string reason(Effect effect, const Inventory& held) {
         return counted(held.smooth_meshes, "mesh with normals", "meshes with normals");
       return held.moving_triangles > 0
                  ? counted(held.moving_triangles, "triangle with normals", "triangles with normals")
-                 : "no patch";
+             : held.triangles > 0 ? "no patch, and no mesh with normals"
+                                  : "no patch";
     case Effect::kTextures:
       return materials(held.textured, "with a texture");
   }

@@ -52,6 +52,22 @@ BodyPlace place_body(const CompiledBody& body, const Normalisation& world, const
   return place;
 }
 
+void place_instance(RTCGeometry instance, const BodyPlace& place) {
+  std::array<float, 12> columns;
+  std::size_t next = 0;
+  const Affine& map = place.to_world;
+  for (const Vec3d& column : {map.x, map.y, map.z, map.origin}) {
+    for (int k = 0; k < 3; ++k) columns[next++] = static_cast<float>(column[k]);
+  }
+  rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns.data());
+  if (place.is_shown) {
+    rtcEnableGeometry(instance);
+  } else {
+    rtcDisableGeometry(instance);
+  }
+  rtcCommitGeometry(instance);
+}
+
 bool crosses(const Box3d& box, const Vec3d& from, const Vec3d& step) {
   double near = 0, far = 1;
   for (int i = 0; i < 3; ++i) {
@@ -105,68 +121,60 @@ bool Pose::set_time(double time) {
 }
 
 void Pose::place_bodies(double time) {
-  const std::vector<Placement> nodes = placements_at(scene_.movement, time);
-  for (const auto& own : deforming_) {
-    for (auto& [number, part] : own->parts) {
-      Mesh& mesh = std::get<Mesh>(part.shape);
-      for (std::size_t i = 0; i < part.shapes.size(); ++i) {
-        const MovingTriangle::Key shape = shape_at(part.shapes[i], time);
-        mesh.set_shape(i, shape.positions,
-                       {Vec3f(shape.normals[0]), Vec3f(shape.normals[1]), Vec3f(shape.normals[2])});
-      }
-    }
-    if (own->geometries.empty()) {
-      for (auto& [number, part] : own->parts) {
-        EmbreeGeometry& geometry = own->geometries.emplace_back(
-            new_mesh_geometry(scene_.device, std::get<Mesh>(part.shape), part.faces));
-        rtcSetGeometryBuildQuality(geometry.get(), RTC_BUILD_QUALITY_REFIT);
-        rtcCommitGeometry(geometry.get());
-        rtcAttachGeometryByID(own->embree.get(), geometry.get(), number);
-      }
-    } else {
-      for (const EmbreeGeometry& geometry : own->geometries) {
-        rtcUpdateGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0);
-        rtcCommitGeometry(geometry.get());
-      }
-    }
-    rtcCommitScene(own->embree.get());
-  }
+  for (const auto& own : deforming_) deform(*own, time);
   if (!own_embree_) return;
-
-  places_.resize(scene_.bodies.size());
-  const bool are_new = instances_.empty();
+  if (instances_.empty()) add_instances();
+  const std::vector<Placement> nodes = placements_at(scene_.movement, time);
   rounding_ = 0;
-  for (std::uint32_t i = 0; i < scene_.bodies.size(); ++i) {
+  for (std::size_t i = 0; i < places_.size(); ++i) {
     const CompiledBody& body = scene_.bodies[i];
     if (i > 0) places_[i] = place_body(body, scene_.normalisation, nodes[body.node]);
     rounding_ = std::max(rounding_, places_[i].rounding);
-    if (are_new) {
-      EmbreeGeometry& instance =
-          instances_.emplace_back(rtcNewGeometry(scene_.device.get(), RTC_GEOMETRY_TYPE_INSTANCE));
-      const auto own =
-          std::find_if(deforming_.begin(), deforming_.end(), [i](const auto& d) { return d->body == i; });
-      rtcSetGeometryInstancedScene(instance.get(),
-                                   own != deforming_.end() ? (*own)->embree.get() : body.embree.get());
-      rtcSetGeometryTimeStepCount(instance.get(), 1);
-      rtcAttachGeometryByID(own_embree_.get(), instance.get(), i);
-    }
-    const Affine& map = places_[i].to_world;
-    std::array<float, 12> columns;
-    std::size_t next = 0;
-    for (const Vec3d& column : {map.x, map.y, map.z, map.origin}) {
-      for (int k = 0; k < 3; ++k) columns[next++] = static_cast<float>(column[k]);
-    }
-    RTCGeometry const instance = instances_[i].get();
-    rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns.data());
-    if (places_[i].is_shown) {
-      rtcEnableGeometry(instance);
-    } else {
-      rtcDisableGeometry(instance);
-    }
-    rtcCommitGeometry(instance);
+    place_instance(instances_[i].get(), places_[i]);
   }
   rtcCommitScene(own_embree_.get());
   check_embree(scene_.device, "moving the scene's objects");
+}
+
+// Gives triangles their shapes at a time. Embree refits what it has built.
+void Pose::deform(Deforming& own, double time) const {
+  for (auto& [number, part] : own.parts) {
+    Mesh& mesh = std::get<Mesh>(part.shape);
+    for (std::size_t i = 0; i < part.shapes.size(); ++i) {
+      const MovingTriangle::Key shape = shape_at(part.shapes[i], time);
+      mesh.set_shape(i, shape.positions,
+                     {Vec3f(shape.normals[0]), Vec3f(shape.normals[1]), Vec3f(shape.normals[2])});
+    }
+  }
+  const bool is_new = own.geometries.empty();
+  for (std::size_t i = 0; i < own.parts.size(); ++i) {
+    auto& [number, part] = own.parts[i];
+    if (is_new) {
+      EmbreeGeometry& geometry = own.geometries.emplace_back(
+          new_mesh_geometry(scene_.device, std::get<Mesh>(part.shape), part.faces));
+      rtcSetGeometryBuildQuality(geometry.get(), RTC_BUILD_QUALITY_REFIT);
+      rtcAttachGeometryByID(own.embree.get(), geometry.get(), number);
+    } else {
+      rtcUpdateGeometryBuffer(own.geometries[i].get(), RTC_BUFFER_TYPE_VERTEX, 0);
+    }
+    rtcCommitGeometry(own.geometries[i].get());
+  }
+  rtcCommitScene(own.embree.get());
+}
+
+// One for each body, what rests among them. A body's number is that of its instance.
+void Pose::add_instances() {
+  places_.resize(scene_.bodies.size());
+  std::vector<RTCScene> shapes;
+  for (const CompiledBody& body : scene_.bodies) shapes.push_back(body.embree.get());
+  for (const auto& own : deforming_) shapes[own->body] = own->embree.get();
+  for (std::uint32_t i = 0; i < shapes.size(); ++i) {
+    EmbreeGeometry& instance =
+        instances_.emplace_back(rtcNewGeometry(scene_.device.get(), RTC_GEOMETRY_TYPE_INSTANCE));
+    rtcSetGeometryInstancedScene(instance.get(), shapes[i]);
+    rtcSetGeometryTimeStepCount(instance.get(), 1);
+    rtcAttachGeometryByID(own_embree_.get(), instance.get(), i);
+  }
 }
 
 void Pose::place_lights(double time) {
@@ -235,7 +243,7 @@ Carried Pose::carry(RaySample& sample) const {
   return is_relit ? Carried::kRelit : Carried::kKept;
 }
 
-// Of lights beyond those that samples note, none is known to be behind the surface.
+// Samples do not note these lights. Any of them may shine on the surface.
 bool Pose::is_unnoted_light_changed_at(const RaySample& sample) const {
   if (swept_.empty()) return false;
   const Vec3d hit(sample.hit);

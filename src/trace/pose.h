@@ -59,6 +59,8 @@ class Pose {
   struct Deforming;  // triangles that change their shape
 
   void place_bodies(double time);
+  void deform(Deforming& own, double time) const;
+  void add_instances();
   void place_lights(double time);
   void note_changes(const std::vector<BodyPlace>& before, const std::vector<ShadingLight>& lights_before);
   std::uint8_t lights_changed_at(const RaySample& sample) const;

@@ -26,7 +26,7 @@ expect_text err "toy.aff: error: cannot read 'TextureFiles/floor.ppm': the file 
 printf 'P6 2 2 255\n\377\0\0\0\377\0\0\0\377\377\377\377' >TextureFiles/floor.ppm
 
 run pprt-render toy.aff --census; expect_code 0
-expect_line out 'primitives  1 sphere, 1 triangle of a mesh (1 triangle)'
+expect_line out 'primitives  1 sphere, 1 triangle'
 expect_line out 'movement    1 object that moves'
 expect_line out '  textures        yes  1 material with a texture'
 
