@@ -27,6 +27,8 @@ std::optional<fs::path> find_texture(const std::string& name, const fs::path& fo
   return std::nullopt;
 }
 
+}  // namespace
+
 void fill(Texture& texture, const Image& image) {
   texture.width = image.width, texture.height = image.height;
   texture.rgb.reserve(3 * image.pixels.size());
@@ -35,8 +37,6 @@ void fill(Texture& texture, const Image& image) {
       texture.rgb.push_back(static_cast<std::uint8_t>(std::lround(255 * std::clamp(pixel[i], 0.F, 1.F))));
   }
 }
-
-}  // namespace
 
 void read_textures(SceneDescription& scene, const fs::path& folder) {
   std::string problems;

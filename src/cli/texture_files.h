@@ -3,9 +3,13 @@
 
 #include <filesystem>
 
+#include "image/image.h"
 #include "scene/scene_description.h"
 
 namespace pprt {
+
+// Sets what a texture shows; 1 and above become 255.
+void fill(Texture& texture, const Image& image);
 
 // Reads every texture of a scene that lies in `folder`: beside the scene, in TextureFiles/ there, or in
 // ../TextureFiles/. Throws InputError that names every one that is not there or cannot be read.

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <iostream>
 #include <stdexcept>
@@ -12,14 +11,17 @@
 
 #include "base/diagnostics.h"
 #include "cli/scene_source.h"
+#include "convert/extension.h"
 #include "convert/losses.h"
 #include "convert/mesh_reader.h"
 #include "convert/mesh_writer.h"
+#include "convert/picture_names.h"
 #include "convert/pov_material.h"
 #include "convert/pov_writer.h"
 #include "convert/tessellate.h"
 #include "image/atomic_file.h"
 #include "image/image_io.h"
+#include "scene/aff_writer.h"
 #include "scene/nff_writer.h"
 #include "scene/resting_nodes.h"
 #include "spd/spd.h"
@@ -28,14 +30,7 @@ namespace pprt {
 namespace {
 
 enum class InputFormat { kScene, kMesh };
-enum class OutputFormat { kNff, kPov, kMesh };
-
-std::string extension_of(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
+enum class OutputFormat { kNff, kAff, kPov, kMesh };
 
 InputFormat input_format(const std::string& input) {
   if (is_spd_name(input) || input == "-") return InputFormat::kScene;
@@ -52,13 +47,14 @@ OutputFormat output_format(const std::string& output) {
   const std::string extension = extension_of(output);
   if (!is_spd_name(output)) {
     if (output == "-" || extension == ".nff") return OutputFormat::kNff;
+    if (extension == ".aff") return OutputFormat::kAff;
     if (extension == ".pov") return OutputFormat::kPov;
     const std::vector<std::string>& meshes = mesh_output_extensions();
     if (std::find(meshes.begin(), meshes.end(), extension) != meshes.end()) return OutputFormat::kMesh;
   }
   throw UsageError(fmt::format(
       "cannot tell the format of output '{}': it must be FILE.nff, - (NFF on standard output) or FILE with "
-      "one of .pov {}",
+      "one of .aff .pov {}",
       output, fmt::join(mesh_output_extensions(), " ")));
 }
 
@@ -77,10 +73,20 @@ void say_degenerate(const SceneDescription& scene, std::size_t count) {
   if (count > 0) say(scene, fmt::format("{} objects without extent left out", count));
 }
 
+// Whether time changes the scene.
+bool moves(const SceneDescription& scene) {
+  const auto has_track = [&](const auto& moved) { return scene.movement.tracks.contains(moved.track); };
+  const std::vector<SceneNode>& nodes = scene.movement.nodes;
+  return (scene.view && scene.movement.tracks.contains(kCameraTrack)) || !scene.moving_triangles.empty() ||
+         std::any_of(nodes.begin(), nodes.end(), has_track) ||
+         std::any_of(scene.light_nodes.begin(), scene.light_nodes.end(), has_track);
+}
+
 // Adds a view, which mesh files often lack and a scene to be rendered needs.
 void complete_view(SceneDescription& scene, UpAxis up) {
   if (scene.view || scene.primitive_count() == 0) return;
-  scene.view = fitted_view(scene, up);
+  const double start = scene.movement.times ? scene.movement.times->start : 0;
+  scene.view = fitted_view(moves(scene) ? still_at(scene, start) : scene, up);
   const bool y = up == UpAxis::kY;
   say(scene, fmt::format("no camera: one that shows everything is added, with {} up (--up {} for the other)",
                          y ? 'y' : 'z', y ? 'z' : 'y'));
@@ -92,37 +98,33 @@ void complete_lights(SceneDescription& scene) {
   say(scene, "no lights: one behind the viewer's left shoulder is added");
 }
 
-// Whether time changes the scene.
-bool moves(const SceneDescription& scene) {
-  const auto has_track = [&](const auto& moved) { return scene.movement.tracks.contains(moved.track); };
-  const std::vector<SceneNode>& nodes = scene.movement.nodes;
-  return (scene.view && scene.movement.tracks.contains(kCameraTrack)) || !scene.moving_triangles.empty() ||
-         std::any_of(nodes.begin(), nodes.end(), has_track) ||
-         std::any_of(scene.light_nodes.begin(), scene.light_nodes.end(), has_track);
-}
-
-// Returns the scene at the time asked for.
-SceneDescription still(SceneDescription scene, const ConvertOptions& options) {
+// Returns the scene as the output can hold it: with its movement, or at one time.
+SceneDescription at_time_asked(SceneDescription scene, const ConvertOptions& options, OutputFormat to) {
   if (!moves(scene)) {
     if (options.at) throw UsageError("--at: nothing moves in " + scene.name);
     return scene;
   }
-  const double start = scene.movement.times ? scene.movement.times->start : 0;
-  return still_at(std::move(scene), options.at.value_or(start));
+  if (!options.at && to == OutputFormat::kAff) return scene;
+  const double time = options.at.value_or(scene.movement.times ? scene.movement.times->start : 0);
+  if (options.at || to != OutputFormat::kMesh || !keeps_movement(extension_of(options.output)))
+    return still_at(std::move(scene), time);
+  if (const std::size_t count = scene.moving_triangles.size(); count > 0)
+    say(scene, fmt::format("{} triangles that change their shape keep that of {} seconds", count, time));
+  return with_still_triangles(std::move(scene), time);
 }
 
 SceneDescription read(const ConvertOptions& options, InputFormat format) {
   if (format == InputFormat::kScene) {
     ParsedScene parsed = load_scene(options.input, {.strict = options.strict});
     std::cerr << parsed.warnings;
-    return still(std::move(parsed.scene), options);
+    return std::move(parsed.scene);
   }
   require_file(options.input);
   ReadMesh mesh = read_mesh(options.input);
   for (const std::string& note : mesh.notes) say(mesh.scene, note);
   complete_view(mesh.scene, options.up);
   complete_lights(mesh.scene);
-  return still(std::move(mesh.scene), options);
+  return std::move(mesh.scene);
 }
 
 void write_pov_and_tell(const SceneDescription& scene, std::ostream& out, const std::string& stem) {
@@ -160,10 +162,11 @@ SceneDescription without_stretched(SceneDescription scene, const ConvertOptions&
 
 void write_mesh_files(SceneDescription scene, const ConvertOptions& options) {
   check_triangle_count(scene, fineness(options));
-  scene = without_stretched(told(for_meshes(std::move(scene))), options);
   const std::filesystem::path path = options.output;
-  const WrittenMesh mesh =
-      write_mesh(scene, extension_of(options.output), path.stem().string(), fineness(options));
+  const std::string extension = extension_of(path);
+  scene = told(for_meshes(std::move(scene), keeps_textures(extension)));
+  if (!keeps_movement(extension)) scene = without_stretched(std::move(scene), options);
+  const WrittenMesh mesh = write_mesh(scene, extension, path.stem().string(), fineness(options));
   for (const MeshFile& file : mesh.files) {
     const bool named = &file == &mesh.files.back();  // perhaps with its extension in capitals
     write_whole_file(named ? path : path.parent_path() / file.name, file.bytes);
@@ -183,6 +186,14 @@ void write_nff_file(SceneDescription scene, const ConvertOptions& options) {
 }
 
 // The scene last, after the pictures that it refers to.
+void write_aff_files(const SceneDescription& scene, const ConvertOptions& options) {
+  const std::filesystem::path path = options.output;
+  const std::vector<std::string> pictures = picture_names(scene, path.stem().string());
+  for (TextureIndex i = 0; i < scene.textures.size(); ++i)
+    write_image(path.parent_path() / pictures[i], picture_of(scene, {.name = {}, .texture = i}));
+  write_whole_file(path, [&](std::ostream& out) { write_aff(scene, out, pictures); });
+}
+
 void write_pov_files(const SceneDescription& scene, const ConvertOptions& options) {
   const std::filesystem::path path = options.output;
   const std::string stem = path.stem().string();
@@ -196,10 +207,11 @@ void write_pov_files(const SceneDescription& scene, const ConvertOptions& option
 void convert(const ConvertOptions& options) {
   const InputFormat from = input_format(options.input);
   const OutputFormat to = output_format(options.output);
-  SceneDescription scene = read(options, from);
+  SceneDescription scene = at_time_asked(read(options, from), options, to);
   if (to == OutputFormat::kMesh) return write_mesh_files(std::move(scene), options);
   complete_view(scene, options.up);
   if (options.tessellate || options.chord_error) scene = tessellated(scene, fineness(options));
+  if (to == OutputFormat::kAff) return write_aff_files(scene, options);
   if (to == OutputFormat::kPov) return write_pov_files(scene, options);
   write_nff_file(std::move(scene), options);
 }

@@ -9,14 +9,17 @@
 namespace pprt {
 
 struct ConvertOptions {
-  std::string
-      input;  // *.nff, *.aff, "-" (NFF on standard input), "spd:NAME[:SIZE]" or a mesh that Assimp reads
-  std::string output;  // *.nff, "-" (NFF on standard output), *.pov, or one of mesh_output_extensions()
+  // *.nff, *.aff, "-" (NFF on standard input), "spd:NAME[:SIZE]" or a mesh that Assimp reads
+  std::string input;
+  // *.nff, "-" (NFF on standard output), *.aff, *.pov, or one of mesh_output_extensions()
+  std::string output;
   bool strict = false;
   std::optional<int> tessellate;  // Fineness::divisions; empty: keep curved surfaces if the format has them
   std::optional<double> chord_error;  // Fineness::chord_error
   UpAxis up = UpAxis::kY;             // of an added view
-  std::optional<double> at = {};  // time of a scene that moves, seconds; empty: the start of its animation
+  // Time at which a scene that moves is taken, seconds. Empty: its movement, where the format has that; else
+  // the start of its animation.
+  std::optional<double> at = {};
 };
 
 // Reads the input and writes the output, which is left as it was on failure. Prints warnings about the scene,

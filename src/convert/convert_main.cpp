@@ -18,11 +18,12 @@ void add_options(CLI::App& app, pprt::ConvertOptions& options) {
   input->required()->type_name("");
   pprt::take_path_or(*input, pprt::generated_scenes());
   app.add_option("OUT", options.output,
-                 "FILE.nff, - (NFF on standard output), FILE.pov, or a mesh (.obj .ply .stl .glb .gltf .dae)")
+                 "FILE.nff, - (NFF on standard output), FILE.aff, FILE.pov, or a mesh (.obj .ply .stl .glb "
+                 ".gltf .dae)")
       ->required()
       ->type_name("FILE");
   app.add_option("--at", options.at,
-                 "Time at which a scene that moves is taken (default: the start of its animation)")
+                 "Time at which a scene that moves is taken (default: its movement, or the start)")
       ->type_name("SECONDS")
       ->check(pprt::number_between(-1e9, 1e9));
   auto* divisions =

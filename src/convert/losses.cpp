@@ -80,9 +80,9 @@ PlainScene for_nff(SceneDescription scene) {
   return plain;
 }
 
-PlainScene for_meshes(SceneDescription scene) {
+PlainScene for_meshes(SceneDescription scene, bool keeps_textures) {
   PlainScene plain{std::move(scene), {}};
-  drop_textures(plain, used_materials(plain.scene));
+  if (!keeps_textures) drop_textures(plain, used_materials(plain.scene));
   if (plain.scene.ambient) plain.losses.emplace_back("the ambient light is not kept");
   return plain;
 }

@@ -18,7 +18,7 @@ struct PlainScene {
 // written when a reader of NFF weakens them.
 PlainScene for_nff(SceneDescription scene);
 
-// Returns the scene for meshes: no textures but their mean colours.
-PlainScene for_meshes(SceneDescription scene);
+// Returns the scene for meshes: no ambient light, and where the format has no textures their mean colours.
+PlainScene for_meshes(SceneDescription scene, bool keeps_textures);
 
 }  // namespace pprt

@@ -1,7 +1,5 @@
 #include "convert/mesh_reader.h"
 
-#include <Imath/ImathMatrix.h>
-
 #include <assimp/camera.h>
 #include <assimp/light.h>
 #include <assimp/material.h>
@@ -12,101 +10,73 @@
 #include <assimp/Importer.hpp>
 #include <cerrno>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <numbers>
 #include <optional>
+#include <set>
+#include <stdexcept>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "base/diagnostics.h"
+#include "convert/assimp_values.h"
+#include "convert/extension.h"
+#include "convert/gltf_document.h"
+#include "convert/mesh_animation.h"
+#include "convert/mesh_materials.h"
+#include "convert/mesh_textures.h"
+#include "image/atomic_file.h"
+#include "scene/resting_nodes.h"
+#include "scene/straight_track.h"
 #include "scene/triangulate.h"
 
 namespace pprt {
 namespace {
 
-constexpr double kDefaultGlassIndex = 1.5;  // of transparent materials that name none
 constexpr std::size_t kMaxPolygons = 20'000'000;
 
 // Cosine from which on a vertex' normal is taken for the polygon's: half a degree.
 constexpr double kSameDirection = 0.99996;
 
-Vec3d to_vector(const aiVector3D& v) {
-  return {v.x, v.y, v.z};
-}
-
-// Imath's vectors are rows, Assimp's columns.
-Imath::M44d to_matrix(const aiMatrix4x4& m) {
-  return {m.a1, m.b1, m.c1, m.d1, m.a2, m.b2, m.c2, m.d2, m.a3, m.b3, m.c3, m.d3, m.a4, m.b4, m.c4, m.d4};
-}
-
-Vec3d direction_by(const Imath::M44d& transform, const Vec3d& v) {
-  Vec3d result;
-  transform.multDirMatrix(v, result);
-  return result;
-}
-
 bool finite(const Vec3d& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-double unit_interval(double v) {
-  return std::isfinite(v) ? std::clamp(v, 0.0, 1.0) : 0;
-}
-
-Rgb to_color(const aiColor3D& c) {
-  return {unit_interval(c.r), unit_interval(c.g), unit_interval(c.b)};
 }
 
 // Scales the brightest channel to 1, as the intensity of lights follows from a rule of NFF.
 std::optional<Rgb> light_color(const aiColor3D& c) {
   const double largest = std::max({c.r, c.g, c.b});
   if (!(largest > 0) || !std::isfinite(largest)) return std::nullopt;
-  const Rgb color(unit_interval(c.r / largest), unit_interval(c.g / largest), unit_interval(c.b / largest));
+  const auto share = [&](double v) { return std::isfinite(v) ? std::clamp(v / largest, 0.0, 1.0) : 0; };
+  const Rgb color(share(c.r), share(c.g), share(c.b));
   if (color == Rgb(1, 1, 1)) return std::nullopt;
   return color;
 }
 
-// The material that Assimp adds to meshes without one becomes NFF's default, white and matte.
-Material to_material(const aiMaterial& from) {
-  Material material;
-  if (std::string_view(const_cast<aiMaterial&>(from).GetName().C_Str()) == AI_DEFAULT_MATERIAL_NAME)
-    return material;
-  aiColor3D color(1, 1, 1);
-  aiColor4D base;
-  if (from.Get(AI_MATKEY_COLOR_DIFFUSE, color) == aiReturn_SUCCESS) {
-    material.color = to_color(color);
-  } else if (from.Get(AI_MATKEY_BASE_COLOR, base) == aiReturn_SUCCESS) {
-    material.color = to_color({base.r, base.g, base.b});
-  }
-  float value = 0;
-  // The PLY reader invents a highlight without a size.
-  if (from.Get(AI_MATKEY_COLOR_SPECULAR, color) == aiReturn_SUCCESS &&
-      from.Get(AI_MATKEY_SHININESS, value) == aiReturn_SUCCESS) {
-    material.specular = unit_interval((color.r + color.g + color.b) / 3);
-    if (value > 0) material.shine = value;
-  } else if (from.Get(AI_MATKEY_METALLIC_FACTOR, value) == aiReturn_SUCCESS) {
-    float rough = 1;
-    from.Get(AI_MATKEY_ROUGHNESS_FACTOR, rough);
-    material.specular = unit_interval(value * (1 - unit_interval(rough)));
-  }
-  if (from.Get(AI_MATKEY_OPACITY, value) == aiReturn_SUCCESS)
-    material.transmittance = 1 - unit_interval(value);
-  if (material.transmittance > 0) {
-    const bool given = from.Get(AI_MATKEY_REFRACTI, value) == aiReturn_SUCCESS && value > 0;
-    material.refractive_index = given ? value : kDefaultGlassIndex;
-  }
-  return material;
-}
+// Where the contents of a file's node stand: in a node of the scene that moves, or in the world.
+struct Space {
+  NodeIndex node = 0;
+  Affine map;
+};
 
 class SceneReader {
  public:
-  SceneReader(const aiScene& from, const std::string& path) : from_(from) { scene_.name = path; }
+  // `gltf`: the bytes of a file in glTF, else empty.
+  SceneReader(const aiScene& from, const std::string& path, std::string gltf)
+      : from_(from), gltf_(std::move(gltf)), textures_(from, std::filesystem::path(path).parent_path()) {
+    scene_.name = path;
+  }
 
   ReadMesh run() {
-    node(*from_.mRootNode, Imath::M44d());
+    read_movement();
+    node(*from_.mRootNode, {});
     if (scene_.primitive_count() == 0) reject("there is no polygon in it");
     note(skipped_, "points, lines and faces without extent left out");
-    return {std::move(scene_), std::move(notes_)};
+    note(skins_, "meshes with a skin stand in the pose that they are bound in");
+    move_camera();
+    drop_unused_tracks();
+    return {without_resting_nodes(std::move(scene_)), std::move(notes_)};
   }
 
  private:
@@ -118,31 +88,77 @@ class SceneReader {
     if (count > 0) notes_.push_back(std::to_string(count) + " " + what);
   }
 
-  void node(const aiNode& from, const Imath::M44d& parent) {
-    const Imath::M44d transform = to_matrix(from.mTransformation) * parent;
-    for (unsigned i = 0; i < from.mNumMeshes; ++i) mesh(*from_.mMeshes[from.mMeshes[i]], transform);
-    camera(from, transform);
-    lights(from, transform);
-    for (unsigned i = 0; i < from.mNumChildren; ++i) node(*from.mChildren[i], transform);
+  void read_movement() {
+    try {
+      MeshAnimation animation = read_animation(from_);
+      scene_.movement.times = animation.times;
+      notes_ = std::move(animation.notes);
+      for (auto& [name, track] : animation.tracks)
+        scene_.movement.tracks[name == kCameraTrack ? kNodeCalledCamera : name] = std::move(track);
+    } catch (const std::runtime_error& e) {
+      reject(e.what());
+    }
   }
 
-  void mesh(const aiMesh& from, const Imath::M44d& transform) {
-    const Imath::M44d for_normals = transform.inverse().transposed();
-    const bool mirrored = transform.determinant() < 0;
-    const MaterialIndex material =
-        table_.intern(scene_.materials, to_material(*from_.mMaterials[from.mMaterialIndex]));
+  void node(const aiNode& from, const Space& parent) {
+    if (++depth_ > kMaxDepth) reject("its nodes lie more than 1000 deep in each other");
+    const Space space = space_of(from, parent);
+    for (unsigned i = 0; i < from.mNumMeshes; ++i) {
+      mesh(*from_.mMeshes[from.mMeshes[i]], space);
+      scene_.nodes.resize(scene_.order.size(), space.node);
+    }
+    camera(from, space);
+    lights(from, space);
+    for (unsigned i = 0; i < from.mNumChildren; ++i) node(*from.mChildren[i], space);
+    --depth_;
+  }
+
+  Space space_of(const aiNode& from, const Space& parent) {
+    std::string name = from.mName.C_Str();
+    if (name == kCameraTrack) name = kNodeCalledCamera;
+    if (!scene_.movement.tracks.contains(name))
+      return {parent.node, parent.map * to_affine(from.mTransformation)};
+    const NodeIndex around = add_node({.parent = parent.node, .to_parent = parent.map});
+    return {add_node({.parent = around, .track = std::move(name)}), {}};
+  }
+
+  NodeIndex add_node(SceneNode node) {
+    scene_.movement.nodes.push_back(std::move(node));
+    return static_cast<NodeIndex>(scene_.movement.nodes.size() - 1);
+  }
+
+  void mesh(const aiMesh& from, const Space& space) {
+    skins_ += from.mNumBones > 0;
+    const aiMaterial& material = *from_.mMaterials[from.mMaterialIndex];
+    Material own = to_material(material);
+    if (const std::string path = picture_path(material); !path.empty() && from.mTextureCoords[0] != nullptr)
+      own.texture = textures_.intern(path, scene_.textures, notes_);
+    const MaterialIndex index = table_.intern(scene_.materials, own);
+    own.texture ? textured_mesh(from, space, index) : polygons(from, space, index);
+  }
+
+  Vec3d normal_of(const aiMesh& from, unsigned vertex, const Space& space) const {
+    if (from.mNormals == nullptr) return {0, 0, 0};
+    const Vec3d normal = space.map.outward(to_vector(from.mNormals[vertex])).normalized();
+    return finite(normal) ? normal : Vec3d(0, 0, 0);
+  }
+
+  Vec3d position_of(const aiMesh& from, unsigned vertex, const Space& space) const {
+    const Vec3d position = space.map.point(to_vector(from.mVertices[vertex]));
+    if (!finite(position)) reject("a coordinate is not finite");
+    return position;
+  }
+
+  void polygons(const aiMesh& from, const Space& space, MaterialIndex material) {
+    const bool mirrored = space.map.determinant() < 0;
     for (unsigned i = 0; i < from.mNumFaces; ++i) {
       const aiFace& face = from.mFaces[i];
       positions_.clear();
       vertices_.clear();
       for (unsigned k = 0; k < face.mNumIndices; ++k) {
         const unsigned at = face.mIndices[mirrored ? face.mNumIndices - 1 - k : k];
-        Vec3d normal(0, 0, 0);
-        if (from.mNormals != nullptr)
-          normal = direction_by(for_normals, to_vector(from.mNormals[at])).normalized();
-        positions_.push_back(to_vector(from.mVertices[at]) * transform);
-        vertices_.push_back({positions_.back(), finite(normal) ? normal : Vec3d(0, 0, 0)});
-        if (!finite(positions_.back())) reject("a coordinate is not finite");
+        positions_.push_back(position_of(from, at, space));
+        vertices_.push_back({positions_.back(), normal_of(from, at, space)});
       }
       polygon(material);
     }
@@ -154,7 +170,7 @@ class SceneReader {
       ++skipped_;
       return;
     }
-    if (scene_.primitive_count() == kMaxPolygons) reject("it has more than 20 million polygons");
+    count_polygons(1);
     const bool flat = std::all_of(vertices_.begin(), vertices_.end(), [&](const PatchVertex& v) {
       return v.normal == Vec3d(0, 0, 0) || v.normal.dot(plane) > kSameDirection;
     });
@@ -165,27 +181,113 @@ class SceneReader {
     }
   }
 
+  void count_polygons(std::size_t more) const {
+    if (scene_.primitive_count() + more > kMaxPolygons) reject("it has more than 20 million polygons");
+  }
+
+  // Triangles that share their corners, which have a place in the texture. Assimp's second coordinate runs
+  // upwards.
+  void textured_mesh(const aiMesh& from, const Space& space, MaterialIndex material) {
+    TriangleMesh mesh;
+    mesh.material = material;
+    for (unsigned i = 0; i < from.mNumVertices; ++i) {
+      mesh.positions.push_back(position_of(from, i, space));
+      if (from.mNormals != nullptr) mesh.normals.push_back(normal_of(from, i, space));
+      const Vec3d place = to_vector(from.mTextureCoords[0][i]);
+      mesh.texture_points.push_back(finite(place) ? Vec2d(place.x, 1 - place.y) : Vec2d(0, 0));
+    }
+    const bool mirrored = space.map.determinant() < 0;
+    std::vector<TriangleCorners> triangles;
+    for (unsigned i = 0; i < from.mNumFaces; ++i) {
+      const aiFace& face = from.mFaces[i];
+      positions_.clear();
+      for (unsigned k = 0; k < face.mNumIndices; ++k) positions_.push_back(mesh.positions[face.mIndices[k]]);
+      const std::vector<TriangleIndices> cut = triangulate(positions_);
+      skipped_ += cut.empty();
+      for (const TriangleIndices& t : cut) {
+        std::array<std::uint32_t, 3> at = {face.mIndices[t[0]], face.mIndices[t[1]], face.mIndices[t[2]]};
+        if (mirrored) std::swap(at[1], at[2]);
+        triangles.push_back({.position = at, .normal = at, .texture_point = at});
+      }
+    }
+    count_polygons(triangles.size());
+    if (!triangles.empty()) add_mesh(scene_, std::move(mesh), triangles);
+  }
+
   // Takes the first camera as the view. The angle of modelling programs spans the picture, that of NFF the
   // centres of its rows.
-  void camera(const aiNode& node, const Imath::M44d& transform) {
+  void camera(const aiNode& node, const Space& space) {
     for (unsigned i = 0; i < from_.mNumCameras && !scene_.view; ++i) {
       const aiCamera& from = *from_.mCameras[i];
       if (std::string_view(from.mName.C_Str()) != node.mName.C_Str()) continue;
       View view;
       const double aspect = from.mAspect > 0 ? from.mAspect : 1;
       view.width = std::clamp(static_cast<int>(std::lround(view.height * aspect)), 1, 1 << 15);
-      const double half_height = std::tan(0.5 * from.mHorizontalFOV) / aspect;
+      double half_height = std::tan(0.5 * from.mHorizontalFOV) / aspect;
+      if (const auto angle = camera_angle(gltf_, node.mName.C_Str())) half_height = std::tan(0.5 * *angle);
       const double rows = view.height;
       view.angle_degrees = 2 * std::atan(half_height * (rows - 1) / rows) * (180 / std::numbers::pi);
-      view.from = to_vector(from.mPosition) * transform;
-      view.at = view.from + direction_by(transform, to_vector(from.mLookAt)).normalized();
-      view.up = direction_by(transform, to_vector(from.mUp)).normalized();
       view.hither = from.mClipPlaneNear;
+      camera_ = {space.node, space.map};
+      from_camera_ = &from;
+      aim(view, space.map);
       scene_.view = view;
     }
   }
 
-  void lights(const aiNode& node, const Imath::M44d& transform) {
+  // `map`: from the camera's node to the world.
+  void aim(View& view, const Affine& map) const {
+    // One of glTF stands in its node's origin; versions of Assimp differ in what they say.
+    view.from = gltf_.empty() ? map.point(to_vector(from_camera_->mPosition)) : map.origin;
+    view.at = view.from + map.vector(to_vector(from_camera_->mLookAt)).normalized();
+    view.up = map.vector(to_vector(from_camera_->mUp)).normalized();
+  }
+
+  // Gives the camera a track in the world where its node moves.
+  void move_camera() {
+    if (camera_.node == 0) return;
+    const auto view_at = [&](double time) {
+      View view = *scene_.view;
+      aim(view, placements_at(scene_.movement, time)[camera_.node].to_parent * camera_.map);
+      return view;
+    };
+    const auto values_at = [&](double time) {
+      const View view = view_at(time);
+      const Vec3d back = view.from - view.at;
+      const Vec3d right = view.up.cross(back).normalized();
+      const Affine turn{right, back.cross(right).normalized(), back.normalized(), {0, 0, 0}};
+      return TrackValues{.rotation = turn, .translation = view.from};
+    };
+    std::vector<double> times;
+    for (NodeIndex n = camera_.node; n != 0; n = scene_.movement.nodes[n].parent) {
+      const auto track = scene_.movement.tracks.find(scene_.movement.nodes[n].track);
+      if (track == scene_.movement.tracks.end()) continue;
+      const std::vector<double> own = key_times(track->second);
+      times.insert(times.end(), own.begin(), own.end());
+    }
+    if (times.empty()) times.push_back(0);
+    MotionTrack track;
+    for (const double time : straight_times(std::move(times), values_at)) {
+      const TrackValues values = values_at(time);
+      track.translation.push_back({time, values.translation, {}});
+      track.rotation.push_back(rotation_key(time, values.rotation));
+    }
+    make_straight(track.translation);
+    make_straight(track.rotation);
+    note_order(track);
+    scene_.view = view_at(scene_.movement.times ? scene_.movement.times->start : 0);
+    scene_.movement.tracks[kCameraTrack] = std::move(track);
+  }
+
+  // A file may move nodes that hold nothing but a camera, or that it does not have.
+  void drop_unused_tracks() {
+    std::set<std::string> used = {kCameraTrack};
+    for (const SceneNode& node : scene_.movement.nodes) used.insert(node.track);
+    std::erase_if(scene_.movement.tracks, [&](const auto& track) { return !used.contains(track.first); });
+    if (scene_.movement.tracks.empty()) scene_.movement.times.reset();
+  }
+
+  void lights(const aiNode& node, const Space& space) {
     for (unsigned i = 0; i < from_.mNumLights; ++i) {
       const aiLight& from = *from_.mLights[i];
       if (std::string_view(from.mName.C_Str()) != node.mName.C_Str()) continue;
@@ -194,15 +296,25 @@ class SceneReader {
                          "' is neither a point nor a spot: left out");
         continue;
       }
-      scene_.lights.push_back({to_vector(from.mPosition) * transform, light_color(from.mColorDiffuse), {}});
+      scene_.lights.push_back(
+          {space.map.point(to_vector(from.mPosition)), light_color(from.mColorDiffuse), {}});
+      scene_.light_nodes.push_back({.node = space.node});
     }
   }
 
+  static constexpr int kMaxDepth = 1000;
+  static constexpr const char* kNodeCalledCamera = "camera_node";  // "camera" moves the view
+
   const aiScene& from_;
+  std::string gltf_;
+  MeshTextures textures_;
   SceneDescription scene_;
   std::vector<std::string> notes_;
   MaterialTable table_;
-  std::size_t skipped_ = 0;
+  std::size_t skipped_ = 0, skins_ = 0;
+  int depth_ = 0;
+  const aiCamera* from_camera_ = nullptr;  // that the view is taken from
+  Space camera_;
   std::vector<Vec3d> positions_;  // of the polygon at hand
   std::vector<PatchVertex> vertices_;
 };
@@ -222,7 +334,8 @@ ReadMesh read_mesh(const std::string& path) {
   if (scene == nullptr || scene->mRootNode == nullptr) {
     throw InputError(path + ": error: " + importer.GetErrorString());
   }
-  return SceneReader(*scene, path).run();
+  const bool is_gltf = extension_of(path) == ".glb" || extension_of(path) == ".gltf";
+  return SceneReader(*scene, path, is_gltf && scene->HasCameras() ? read_whole_file(path) : "").run();
 }
 
 }  // namespace pprt

@@ -1,22 +1,38 @@
 #include "convert/mesh_writer.h"
 
+#include <assimp/anim.h>
 #include <assimp/camera.h>
 #include <assimp/config.h>
 #include <assimp/light.h>
 #include <assimp/material.h>
 #include <assimp/mesh.h>
 #include <assimp/scene.h>
+#include <assimp/texture.h>
 #include <algorithm>
 #include <array>
 #include <assimp/Exporter.hpp>
 #include <cmath>
+#include <cstring>
+#include <deque>
+#include <functional>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <memory>
+#include <optional>
+#include <set>
 #include <stdexcept>
 
 #include "base/diagnostics.h"
-#include "scene/shading_rules.h"
+#include "convert/assimp_values.h"
+#include "convert/gltf_document.h"
+#include "convert/material_meshes.h"
+#include "convert/mesh_animation.h"
+#include "convert/mesh_materials.h"
+#include "convert/picture_names.h"
+#include "convert/pov_material.h"
+#include "image/image_io.h"
+#include "scene/straight_track.h"
 #include "scene/view_frame.h"
 
 namespace pprt {
@@ -25,110 +41,30 @@ namespace {
 struct Format {
   std::string_view extension;
   const char* assimp_id;
-  bool physically_based = false;  // its materials
+  bool is_gltf = false;  // has physically based materials, movement, and pictures within the file
+  bool has_textures = true;
 };
 
 // Binary where there is a choice: a tenth of the time, a third of the size.
-constexpr std::array kFormats = {Format{".obj", "obj"},          Format{".ply", "plyb"},
-                                 Format{".stl", "stlb"},         Format{".glb", "glb2", true},
-                                 Format{".gltf", "gltf2", true}, Format{".dae", "collada"}};
+constexpr std::array kFormats = {Format{.extension = ".obj", .assimp_id = "obj"},
+                                 Format{.extension = ".ply", .assimp_id = "plyb", .has_textures = false},
+                                 Format{.extension = ".stl", .assimp_id = "stlb", .has_textures = false},
+                                 Format{.extension = ".glb", .assimp_id = "glb2", .is_gltf = true},
+                                 Format{.extension = ".gltf", .assimp_id = "gltf2", .is_gltf = true},
+                                 Format{.extension = ".dae", .assimp_id = "collada"}};
 
-aiVector3D to_assimp(const Vec3d& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+const Format& format_of(std::string_view extension) {
+  const auto* format = std::find_if(kFormats.begin(), kFormats.end(),
+                                    [&](const Format& f) { return f.extension == extension; });
+  if (format == kFormats.end()) throw std::invalid_argument("no mesh format: " + std::string(extension));
+  return *format;
 }
 
-aiColor3D to_assimp(const Rgb& c) {
+aiColor3D to_color(const Rgb& c) {
   return {static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)};
 }
 
-// The triangles of one material.
-struct MaterialMesh {
-  std::vector<PatchVertex> vertices;
-  std::vector<TriangleIndices> triangles;
-
-  void add(const Surface& surface) {
-    const auto first = static_cast<std::uint32_t>(vertices.size());
-    vertices.insert(vertices.end(), surface.vertices.begin(), surface.vertices.end());
-    for (const TriangleIndices& t : surface.triangles) {
-      triangles.push_back({first + t[0], first + t[1], first + t[2]});
-    }
-  }
-};
-
-// Makes every primitive a surface. Flat ones get their own normal at every vertex, so that they stay flat.
-class MeshBuilder {
- public:
-  MeshBuilder(const SceneDescription& scene, const Fineness& fineness)
-      : scene_(scene), fineness_(fineness), meshes_(scene.materials.size()) {}
-
-  std::vector<MaterialMesh> run() {
-    for (const PrimitiveRef ref : scene_.order) {
-      const Surface surface = surface_of(ref);
-      if (surface.triangles.empty()) ++degenerate_;
-      meshes_[material_of(scene_, ref)].add(surface);
-    }
-    return std::move(meshes_);
-  }
-
-  std::size_t degenerate() const { return degenerate_; }
-
- private:
-  Surface surface_of(PrimitiveRef ref) {
-    switch (ref.kind) {
-      case PrimitiveKind::kSphere:
-        return curved(scene_.spheres[ref.index]);
-      case PrimitiveKind::kCone:
-        return curved(scene_.cones[ref.index]);
-      case PrimitiveKind::kPolygon: {
-        corners_.clear();
-        for (const Vec3d& v : scene_.vertices(scene_.polygons[ref.index])) corners_.push_back({v, {0, 0, 0}});
-        return facets();
-      }
-      case PrimitiveKind::kTriangle: {
-        const std::array<PatchVertex, 3> corners = corners_of(scene_, scene_.triangles[ref.index]);
-        corners_.assign(corners.begin(), corners.end());
-        return facets();
-      }
-      case PrimitiveKind::kPatch:
-      case PrimitiveKind::kMovingTriangle:
-        break;
-    }
-    const std::span<const PatchVertex> vertices = scene_.vertices(scene_.patches[ref.index]);
-    corners_.assign(vertices.begin(), vertices.end());
-    return facets();
-  }
-
-  template <typename Curved>
-  Surface curved(const Curved& object) const {
-    const int n = divisions(object, fineness_);
-    return n > 0 ? tessellate(object, n) : Surface();
-  }
-
-  // A vertex without a normal of its own gets the polygon's.
-  Surface facets() {
-    positions_.clear();
-    for (const PatchVertex& v : corners_) positions_.push_back(v.position);
-    Surface surface;
-    surface.triangles = triangulate(positions_);
-    if (surface.triangles.empty()) return surface;
-    const Vec3d flat = newell_normal(positions_).normalized();
-    for (PatchVertex& v : corners_) {
-      v.normal.normalize();  // zero stays zero
-      if (v.normal == Vec3d(0, 0, 0)) v.normal = flat;
-    }
-    surface.vertices = corners_;
-    return surface;
-  }
-
-  const SceneDescription& scene_;
-  const Fineness& fineness_;
-  std::vector<MaterialMesh> meshes_;  // one a material, some perhaps empty
-  std::size_t degenerate_ = 0;
-  std::vector<PatchVertex> corners_;
-  std::vector<Vec3d> positions_;
-};
-
-std::unique_ptr<aiMesh> to_assimp(const MaterialMesh& from, unsigned material) {
+std::unique_ptr<aiMesh> to_mesh(const MaterialMesh& from, unsigned material) {
   auto mesh = std::make_unique<aiMesh>();
   mesh->mPrimitiveTypes = aiPrimitiveType_TRIANGLE;
   mesh->mMaterialIndex = material;
@@ -138,6 +74,13 @@ std::unique_ptr<aiMesh> to_assimp(const MaterialMesh& from, unsigned material) {
   for (std::size_t i = 0; i < from.vertices.size(); ++i) {
     mesh->mVertices[i] = to_assimp(from.vertices[i].position);
     mesh->mNormals[i] = to_assimp(from.vertices[i].normal);
+  }
+  if (from.texture_points.size() == from.vertices.size()) {  // Assimp's second coordinate runs upwards
+    mesh->mNumUVComponents[0] = 2;
+    mesh->mTextureCoords[0] = new aiVector3D[from.vertices.size()];
+    for (std::size_t i = 0; i < from.vertices.size(); ++i)
+      mesh->mTextureCoords[0][i] =
+          to_assimp(Vec3d(from.texture_points[i].x, 1 - from.texture_points[i].y, 0));
   }
   mesh->mNumFaces = static_cast<unsigned>(from.triangles.size());
   mesh->mFaces = new aiFace[from.triangles.size()];
@@ -149,108 +92,201 @@ std::unique_ptr<aiMesh> to_assimp(const MaterialMesh& from, unsigned material) {
   return mesh;
 }
 
-// Phong's model is that of NFF without the mirror. Formats with only physically based materials get smooth
-// metal for it.
-std::unique_ptr<aiMaterial> to_assimp(const Material& m, std::size_t number, bool physically_based) {
-  auto material = std::make_unique<aiMaterial>();
-  const aiString name("material_" + std::to_string(number));
-  const aiColor3D diffuse = to_assimp(m.terms ? m.terms->diffuse : m.color * m.diffuse);
-  const auto opacity = static_cast<float>(1 - m.transmittance);
-  const auto mirror = static_cast<float>(m.specular);
-  material->AddProperty(&name, AI_MATKEY_NAME);
-  material->AddProperty(&opacity, 1, AI_MATKEY_OPACITY);
-  if (physically_based) {
-    const aiColor4D base(diffuse.r, diffuse.g, diffuse.b, 1);  // times the opacity
-    const float roughness = 0;
-    material->AddProperty(&base, 1, AI_MATKEY_BASE_COLOR);
-    material->AddProperty(&mirror, 1, AI_MATKEY_METALLIC_FACTOR);
-    material->AddProperty(&roughness, 1, AI_MATKEY_ROUGHNESS_FACTOR);
-    return material;
-  }
-  const aiColor3D specular = m.terms ? to_assimp(m.terms->specular) : aiColor3D(mirror, mirror, mirror);
-  const int model = aiShadingMode_Phong;
-  const auto shine = static_cast<float>(m.shine);
-  const auto index = static_cast<float>(effective_refractive_index(m));
-  if (m.terms) {
-    const aiColor3D ambient = to_assimp(m.terms->ambient);
-    material->AddProperty(&ambient, 1, AI_MATKEY_COLOR_AMBIENT);
-  }
-  material->AddProperty(&diffuse, 1, AI_MATKEY_COLOR_DIFFUSE);
-  material->AddProperty(&specular, 1, AI_MATKEY_COLOR_SPECULAR);
-  material->AddProperty(&model, 1, AI_MATKEY_SHADING_MODEL);
-  material->AddProperty(&shine, 1, AI_MATKEY_SHININESS);
-  material->AddProperty(&index, 1, AI_MATKEY_REFRACTI);
-  return material;
-}
+// Fills Assimp's scene, which takes what it is given.
+class AssimpScene {
+ public:
+  AssimpScene(const SceneDescription& scene, const Format& format, const std::vector<std::string>& pictures)
+      : scene_(scene),
+        format_(format),
+        pictures_(pictures),
+        materials_(scene.materials.size()),
+        start_(start_of_keys(scene.movement)) {}
 
-// Returns a node that places the camera or light of the same name.
-aiNode* new_node(aiNode& root, const std::string& name, const Vec3d& x, const Vec3d& y, const Vec3d& z,
-                 const Vec3d& origin) {
-  auto node = std::make_unique<aiNode>(name);
-  node->mParent = &root;
-  const aiVector3D a = to_assimp(x), b = to_assimp(y), c = to_assimp(z), o = to_assimp(origin);
-  node->mTransformation = {a.x, b.x, c.x, o.x, a.y, b.y, c.y, o.y, a.z, b.z, c.z, o.z, 0, 0, 0, 1};
-  return node.release();
-}
-
-// Returns a camera that looks along its node's -z, as in most formats.
-void add_camera(const SceneDescription& scene, aiScene& to, std::vector<aiNode*>& children) {
-  if (!scene.view) return;
-  const View& view = *scene.view;
-  const ViewFrame frame = view_frame(view, scene.name);
-  auto camera = std::make_unique<aiCamera>();
-  camera->mName = "camera";
-  camera->mLookAt = {0, 0, -1};
-  camera->mUp = {0, 1, 0};
-  camera->mAspect = static_cast<float>(view.width) / static_cast<float>(view.height);
-  camera->mHorizontalFOV = static_cast<float>(2 * std::atan(0.5 * view.width * frame.slope_per_pixel));
-  if (view.hither > 0) camera->mClipPlaneNear = static_cast<float>(view.hither);
-  children.push_back(new_node(*to.mRootNode, "camera", frame.right, frame.up, -frame.forward, view.from));
-  to.mNumCameras = 1;
-  to.mCameras = new aiCamera* [1] { camera.release() };
-}
-
-void add_lights(const SceneDescription& scene, aiScene& to, std::vector<aiNode*>& children) {
-  to.mLights = new aiLight*[scene.lights.size()];
-  for (const Light& from : scene.lights) {
-    auto light = std::make_unique<aiLight>();
-    const std::string name = "light_" + std::to_string(to.mNumLights + 1);
-    light->mName = name;
-    light->mType = aiLightSource_POINT;
-    light->mColorDiffuse = light->mColorSpecular = to_assimp(from.color.value_or(Rgb(1, 1, 1)));
-    light->mAttenuationConstant = 1;
-    light->mAttenuationLinear = light->mAttenuationQuadratic = 0;
-    children.push_back(new_node(*to.mRootNode, name, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, from.position));
-    to.mLights[to.mNumLights++] = light.release();
+  std::unique_ptr<aiScene> run(const MaterialMeshes& meshes) {
+    to_->mRootNode = new aiNode("scene");
+    nodes_.push_back({to_->mRootNode, {}, {}});
+    add_nodes();
+    add_meshes(meshes);
+    add_camera();
+    add_lights();
+    add_animation();
+    for (Node& node : nodes_) {
+      own(node.children, node.to->mChildren, node.to->mNumChildren);
+      own(node.meshes, node.to->mMeshes, node.to->mNumMeshes);
+    }
+    own(meshes_, to_->mMeshes, to_->mNumMeshes);
+    own(used_materials_, to_->mMaterials, to_->mNumMaterials);
+    if (format_.is_gltf) add_pictures();
+    return std::move(to_);
   }
-}
 
-// Keeps only materials of some mesh: most formats drop the others.
-std::unique_ptr<aiScene> to_assimp(const SceneDescription& scene, const std::vector<MaterialMesh>& meshes,
-                                   bool physically_based) {
-  auto result = std::make_unique<aiScene>();
-  result->mRootNode = new aiNode("scene");
-  result->mMeshes = new aiMesh*[meshes.size()];
-  result->mMaterials = new aiMaterial*[meshes.size()];
-  for (std::size_t i = 0; i < meshes.size(); ++i) {
-    if (meshes[i].triangles.empty()) continue;
-    result->mMeshes[result->mNumMeshes] = to_assimp(meshes[i], result->mNumMaterials).release();
-    ++result->mNumMeshes;
-    result->mMaterials[result->mNumMaterials] =
-        to_assimp(scene.materials[i], i + 1, physically_based).release();
-    ++result->mNumMaterials;
+ private:
+  struct Node {
+    aiNode* to;
+    std::vector<aiNode*> children;
+    std::vector<unsigned> meshes;
+  };
+
+  template <typename T>
+  static void own(const std::vector<T>& from, T*& to, unsigned& count) {
+    if (from.empty()) return;
+    to = new T[from.size()];
+    count = static_cast<unsigned>(from.size());
+    std::copy(from.begin(), from.end(), to);
   }
-  result->mRootNode->mNumMeshes = result->mNumMeshes;
-  result->mRootNode->mMeshes = new unsigned[result->mNumMeshes];
-  for (unsigned i = 0; i < result->mNumMeshes; ++i) result->mRootNode->mMeshes[i] = i;
-  std::vector<aiNode*> children;
-  add_camera(scene, *result, children);
-  add_lights(scene, *result, children);
-  result->mRootNode->mNumChildren = static_cast<unsigned>(children.size());
-  result->mRootNode->mChildren = new aiNode*[children.size()];
-  std::copy(children.begin(), children.end(), result->mRootNode->mChildren);
-  return result;
-}
+
+  // `parent`: in nodes_.
+  Node& add_node(NodeIndex parent, const std::string& name, const Affine& map) {
+    auto* node = new aiNode(name);
+    node->mParent = nodes_[parent].to;
+    node->mTransformation = to_assimp(map);
+    nodes_[parent].children.push_back(node);
+    return nodes_.emplace_back(Node{node, {}, {}});
+  }
+
+  // A node has the name of its movement, where no other has it.
+  void add_nodes() {
+    std::set<std::string> names = {"scene", "camera"};
+    for (std::size_t i = 1; i < scene_.movement.nodes.size(); ++i) {
+      const SceneNode& from = scene_.movement.nodes[i];
+      const auto track = scene_.movement.tracks.find(from.track);
+      const bool moves = track != scene_.movement.tracks.end();
+      const std::string first = moves ? from.track : "node";
+      std::string name = first;
+      for (int n = 2; !names.insert(name).second; ++n) name = first + "_" + std::to_string(n);
+      add_node(from.parent, name,
+               moves ? placement_at(track->second, first_time()).to_parent : from.to_parent);
+      if (moves) add_movement(track->second, name);
+    }
+  }
+
+  void add_movement(const MotionTrack& track, const std::string& node) {
+    add_movement(
+        track, [&](double time) { return values_at(track, time); }, node);
+  }
+
+  void add_movement(const MotionTrack& track, const std::function<TrackValues(double)>& values,
+                    const std::string& node) {
+    if (!format_.is_gltf) return;
+    std::vector<double> times = key_times(track);
+    if (times.empty()) times.push_back(start_);
+    channels_.push_back(node_animation(std::move(times), values, node, start_).release());
+  }
+
+  void add_animation() {
+    if (channels_.empty()) return;
+    auto animation = std::make_unique<aiAnimation>();
+    animation->mName = "movement";
+    animation->mTicksPerSecond = 1;
+    own(channels_, animation->mChannels, animation->mNumChannels);
+    if (scene_.movement.times) animation->mDuration = scene_.movement.times->end - start_;
+    own(std::vector<aiAnimation*>{animation.release()}, to_->mAnimations, to_->mNumAnimations);
+  }
+
+  double first_time() const { return scene_.movement.times ? scene_.movement.times->start : 0; }
+
+  // Returns the time that is 0 in the file, where no key may be earlier.
+  static double start_of_keys(const Movement& movement) {
+    double start = 0;
+    for (const auto& [name, track] : movement.tracks) {
+      for (const double time : key_times(track)) start = std::min(start, time);
+    }
+    return start;
+  }
+
+  void add_meshes(const MaterialMeshes& meshes) {
+    for (const auto& [place, mesh] : meshes) {
+      nodes_[place.first].meshes.push_back(static_cast<unsigned>(meshes_.size()));
+      meshes_.push_back(to_mesh(mesh, material(place.second)).release());
+    }
+  }
+
+  // Keeps only materials of some mesh: most formats drop the others.
+  unsigned material(MaterialIndex index) {
+    std::optional<unsigned>& to = materials_[index];
+    if (to) return *to;
+    to = static_cast<unsigned>(used_materials_.size());
+    const Material& from = scene_.materials[index];
+    std::string picture;
+    if (from.texture && format_.has_textures)
+      picture = format_.is_gltf ? "*" + std::to_string(*from.texture) : pictures_[*from.texture];
+    used_materials_.push_back(
+        to_assimp(from, "material_" + std::to_string(index + 1), format_.is_gltf, picture).release());
+    return *to;
+  }
+
+  void add_pictures() {
+    std::vector<aiTexture*> textures;
+    for (TextureIndex i = 0; i < scene_.textures.size(); ++i) {
+      const std::string bytes = encode_png(picture_of(scene_, {.name = {}, .texture = i}));
+      auto texture = std::make_unique<aiTexture>();
+      texture->mFilename = pictures_[i];
+      texture->mWidth = static_cast<unsigned>(bytes.size());
+      std::strcpy(texture->achFormatHint, "png");
+      texture->pcData = new aiTexel[(bytes.size() + sizeof(aiTexel) - 1) / sizeof(aiTexel)];
+      std::memcpy(texture->pcData, bytes.data(), bytes.size());
+      textures.push_back(texture.release());
+    }
+    own(textures, to_->mTextures, to_->mNumTextures);
+  }
+
+  // A camera that looks along its node's -z, as in most formats.
+  void add_camera() {
+    if (!scene_.view) return;
+    const View& view = *scene_.view;
+    const ViewFrame frame = view_frame(view, scene_.name);
+    auto camera = std::make_unique<aiCamera>();
+    camera->mName = "camera";
+    camera->mLookAt = {0, 0, -1};
+    camera->mUp = {0, 1, 0};
+    camera->mAspect = static_cast<float>(view.width) / static_cast<float>(view.height);
+    camera->mHorizontalFOV = static_cast<float>(2 * std::atan(0.5 * view.width * frame.slope_per_pixel));
+    if (view.hither > 0) camera->mClipPlaneNear = static_cast<float>(view.hither);
+    add_node(0, "camera", {frame.right, frame.up, -frame.forward, view.from});
+    const auto track = scene_.movement.tracks.find(kCameraTrack);
+    if (track != scene_.movement.tracks.end()) {
+      const auto values = [&](double time) {
+        const View at_time = *view_at(scene_, time);
+        const ViewFrame axes = view_frame(at_time, scene_.name);
+        return TrackValues{.rotation = {axes.right, axes.up, -axes.forward, {0, 0, 0}},
+                           .translation = at_time.from};
+      };
+      add_movement(track->second, values, "camera");
+    }
+    own(std::vector<aiCamera*>{camera.release()}, to_->mCameras, to_->mNumCameras);
+  }
+
+  void add_lights() {
+    std::vector<aiLight*> lights;
+    for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
+      const Light& from = scene_.lights[i];
+      auto light = std::make_unique<aiLight>();
+      const std::string name = "light_" + std::to_string(i + 1);
+      light->mName = name;
+      light->mType = aiLightSource_POINT;
+      light->mColorDiffuse = light->mColorSpecular = to_color(from.color.value_or(Rgb(1, 1, 1)));
+      light->mAttenuationConstant = 1;
+      light->mAttenuationLinear = light->mAttenuationQuadratic = 0;
+      const LightNode at = scene_.light_nodes.empty() ? LightNode() : scene_.light_nodes[i];
+      add_node(at.node, name, translation(from.position));
+      const auto track = scene_.movement.tracks.find(at.track);
+      if (track != scene_.movement.tracks.end()) add_movement(track->second, name);
+      lights.push_back(light.release());
+    }
+    own(lights, to_->mLights, to_->mNumLights);
+  }
+
+  const SceneDescription& scene_;
+  const Format& format_;
+  const std::vector<std::string>& pictures_;
+  std::unique_ptr<aiScene> to_ = std::make_unique<aiScene>();
+  std::deque<Node> nodes_;  // those of the movement, then those of camera and lights
+  std::vector<aiMesh*> meshes_;
+  std::vector<std::optional<unsigned>> materials_;  // the place of each that is used
+  std::vector<aiMaterial*> used_materials_;
+  double start_;  // of the animation in the file
+  std::vector<aiNodeAnim*> channels_;
+};
 
 }  // namespace
 
@@ -264,27 +300,32 @@ const std::vector<std::string>& mesh_output_extensions() {
   return kExtensions;
 }
 
+bool keeps_movement(std::string_view extension) {
+  return format_of(extension).is_gltf;
+}
+
+bool keeps_textures(std::string_view extension) {
+  return format_of(extension).has_textures;
+}
+
 WrittenMesh write_mesh(const SceneDescription& scene, std::string_view extension, const std::string& stem,
                        const Fineness& fineness) {
-  const auto* format = std::find_if(kFormats.begin(), kFormats.end(),
-                                    [&](const Format& f) { return f.extension == extension; });
-  if (format == kFormats.end()) throw std::invalid_argument("no mesh format: " + std::string(extension));
+  const Format& format = format_of(extension);
   check_triangle_count(scene, fineness);
   WrittenMesh result;
+  const std::vector<std::string> pictures = picture_names(scene, stem);
   std::unique_ptr<aiScene> assimp;
   {
-    MeshBuilder builder(scene, fineness);
-    const std::vector<MaterialMesh> meshes = builder.run();
-    result.degenerate = builder.degenerate();
-    for (const MaterialMesh& mesh : meshes) result.triangles += mesh.triangles.size();
+    const MaterialMeshes meshes = material_meshes(scene, fineness, result.degenerate);
+    for (const auto& [place, mesh] : meshes) result.triangles += mesh.triangles.size();
     if (result.triangles == 0)
       throw InputError(scene.name + ": error: no object of the scene has any extent");
-    assimp = to_assimp(scene, meshes, format->physically_based);
+    assimp = AssimpScene(scene, format, pictures).run(meshes);
   }
   Assimp::Exporter exporter;
   Assimp::ExportProperties properties;
   properties.SetPropertyString(AI_CONFIG_EXPORT_BLOB_NAME, stem);
-  const aiExportDataBlob* blob = exporter.ExportToBlob(assimp.get(), format->assimp_id, 0, &properties);
+  const aiExportDataBlob* blob = exporter.ExportToBlob(assimp.get(), format.assimp_id, 0, &properties);
   if (blob == nullptr)
     throw std::runtime_error(std::string("cannot make a mesh file: ") + exporter.GetErrorString());
   for (; blob != nullptr;
@@ -292,6 +333,11 @@ WrittenMesh write_mesh(const SceneDescription& scene, std::string_view extension
     result.files.push_back({result.files.empty() ? stem + std::string(extension) : blob->name.C_Str(),
                             std::string(static_cast<const char*>(blob->data), blob->size)});
   }
+  if (format.has_textures && !format.is_gltf) {
+    for (TextureIndex i = 0; i < scene.textures.size(); ++i)
+      result.files.push_back({pictures[i], encode_png(picture_of(scene, {.name = {}, .texture = i}))});
+  }
+  if (format.is_gltf) add_camera_and_lights(result.files.front().bytes, scene);
   std::reverse(result.files.begin(), result.files.end());
   return result;
 }

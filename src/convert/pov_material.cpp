@@ -1,8 +1,8 @@
 #include "convert/pov_material.h"
 
 #include <algorithm>
-#include <filesystem>
 
+#include "convert/picture_names.h"
 #include "scene/shading_rules.h"
 
 namespace pprt {
@@ -64,18 +64,6 @@ void set_highlight(const SceneDescription& scene, const Material& m, const Rgb& 
   result.filter = filter;
 }
 
-bool is_taken(const std::string& name, const std::vector<PovPicture>& files) {
-  return std::any_of(files.begin(), files.end(), [&](const PovPicture& f) { return f.name == name; });
-}
-
-// "STEM-wood.png", or "STEM-wood-2.png" where that is taken.
-std::string file_name(const std::string& stem, const Texture& texture, const std::vector<PovPicture>& files) {
-  const std::string first = stem + "-" + std::filesystem::path(texture.name).stem().string();
-  std::string name = first + ".png";
-  for (int i = 2; is_taken(name, files); ++i) name = first + "-" + std::to_string(i) + ".png";
-  return name;
-}
-
 }  // namespace
 
 PovMaterial pov_material(const SceneDescription& scene, const Material& m) {
@@ -112,8 +100,11 @@ PovPictures pov_pictures(const SceneDescription& scene, const std::string& stem)
       return f.texture == *m.texture && f.tint == tint;
     });
     at = static_cast<std::size_t>(equal - files.begin());
-    if (equal == files.end())
-      files.push_back({file_name(stem, scene.textures[*m.texture], files), *m.texture, tint});
+    if (equal != files.end()) continue;
+    const auto is_taken = [&](const std::string& name) {
+      return std::any_of(files.begin(), files.end(), [&](const PovPicture& f) { return f.name == name; });
+    };
+    files.push_back({picture_name(stem, scene.textures[*m.texture], is_taken), *m.texture, tint});
   }
   return result;
 }

@@ -165,17 +165,14 @@ Fineness in_node(const Fineness& fineness, const Affine& map) {
 
 // Cuts all spheres and cones, or only those that a node stretches.
 SceneDescription cut(const SceneDescription& scene, const Fineness& fineness, bool all) {
-  const std::vector<Placement> placements = placements_at(scene.movement, 0);
-  SceneDescription result;
-  result.name = scene.name;
-  result.background = scene.background;
-  result.view = scene.view;
-  result.lights = scene.lights;
-  result.materials = scene.materials;
-  result.meshes = scene.meshes;
-  result.textures = scene.textures;
-  result.ambient = scene.ambient;
-  result.movement = scene.movement;
+  const double start = scene.movement.times ? scene.movement.times->start : 0;
+  const std::vector<Placement> placements = placements_at(scene.movement, start);
+  SceneDescription result = scene;
+  result.spheres.clear(), result.cones.clear();
+  result.polygons.clear(), result.polygon_vertices.clear();
+  result.patches.clear(), result.patch_vertices.clear();
+  result.triangles.clear(), result.moving_triangles.clear();
+  result.order.clear(), result.nodes.clear();
   NodeIndex node = 0;
   const auto add_surface = [&](const auto& object) {
     const int n = divisions(object, in_node(fineness, placements[node].to_parent));
@@ -214,7 +211,8 @@ SceneDescription cut(const SceneDescription& scene, const Fineness& fineness, bo
         result.triangles.push_back(scene.triangles[ref.index]);
         break;
       case PrimitiveKind::kMovingTriangle:
-        break;  // still_at() leaves none
+        add_moving_triangle(result, scene.moving_triangles[ref.index]);
+        break;
     }
     result.nodes.resize(result.order.size(), node);
   }

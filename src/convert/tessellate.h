@@ -46,11 +46,12 @@ std::size_t triangle_count(const SceneDescription& scene, const Fineness& finene
 // Throws InputError when that exceeds kMaxTriangles.
 void check_triangle_count(const SceneDescription& scene, const Fineness& fineness);
 
-// Returns the scene with every sphere and cone as patches of three vertices, and all else unchanged. Nothing
-// may move (still_at()). Throws InputError as check_triangle_count().
+// Returns the scene with every sphere and cone as patches of three vertices, and all else unchanged. The
+// chord error holds at the animation's start. Throws InputError as check_triangle_count().
 SceneDescription tessellated(const SceneDescription& scene, const Fineness& fineness);
 
-// The same for those spheres and cones alone that a node stretches unevenly. Leaves no nodes.
+// The same for those spheres and cones alone that a node stretches unevenly. Nothing may move (still_at()).
+// Leaves no nodes.
 SceneDescription with_stretched_tessellated(const SceneDescription& scene, const Fineness& fineness);
 
 }  // namespace pprt

@@ -66,8 +66,11 @@ void write_image(const std::filesystem::path& path, const Image& image, const Me
 Image decode_jpeg(std::string_view bytes);
 Image decode_ppm(std::string_view bytes);
 
-// Reads an EXR, a PNG, a JPEG or a PPM, told apart by its first bytes. Throws std::runtime_error "cannot read
-// 'PATH': REASON".
+// Returns the picture in the bytes of an EXR, a PNG, a JPEG or a PPM, told apart by the first ones. Throws as
+// decode_png().
+Image decode_image(std::string_view bytes);
+
+// Reads such a file. Throws std::runtime_error "cannot read 'PATH': REASON".
 Image read_image(const std::filesystem::path& path);
 
 // Whether the file may be a whole picture: it begins as an EXR, or it begins and ends as a PNG. Reads a few

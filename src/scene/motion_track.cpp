@@ -141,6 +141,17 @@ Affine rotation(const Vec3d& axis, double degrees) {
   return affine_of(quaternion_of(axis, degrees));
 }
 
+RotationKey rotation_key(double time, const Affine& map) {
+  const Vec3d twice_sine(map.y.z - map.z.y, map.z.x - map.x.z, map.x.y - map.y.x);
+  const double cosine = (map.x.x + map.y.y + map.z.z - 1) / 2, sine = twice_sine.length() / 2;
+  const double angle = std::atan2(sine, cosine) * (180 / std::acos(-1.0));
+  constexpr double kHalfTurn = 1e-6;  // there the difference above says nothing of the axis
+  if (sine > kHalfTurn || cosine > 0) return {time, twice_sine, angle};
+  const Vec3d columns[] = {map.x + Vec3d(1, 0, 0), map.y + Vec3d(0, 1, 0), map.z + Vec3d(0, 0, 1)};
+  const auto longer = [](const Vec3d& a, const Vec3d& b) { return a.length2() < b.length2(); };
+  return {time, *std::max_element(std::begin(columns), std::end(columns), longer), angle, {}};
+}
+
 void note_order(MotionTrack& track) {
   const auto is_ordered = [](const auto& keys) {
     return std::is_sorted(keys.begin(), keys.end(),
@@ -149,13 +160,22 @@ void note_order(MotionTrack& track) {
   track.is_in_order = is_ordered(track.translation) && is_ordered(track.scale) && is_ordered(track.rotation);
 }
 
+TrackValues values_at(const MotionTrack& track, double time) {
+  TrackValues values;
+  if (!track.scale.empty()) values.scale = vector_at(track.scale, time, track.is_in_order);
+  if (!track.rotation.empty())
+    values.rotation = affine_of(rotation_at(track.rotation, time, track.is_in_order));
+  if (!track.translation.empty()) values.translation = vector_at(track.translation, time, track.is_in_order);
+  values.visible = visible_at(track.visibility, time);
+  return values;
+}
+
 Placement placement_at(const MotionTrack& track, double time) {
-  Affine map;
-  if (!track.scale.empty()) map = scaling(vector_at(track.scale, time, track.is_in_order));
-  if (!track.rotation.empty()) map = affine_of(rotation_at(track.rotation, time, track.is_in_order)) * map;
-  if (!track.translation.empty())
-    map = translation(vector_at(track.translation, time, track.is_in_order)) * map;
-  return {.to_parent = map, .visible = visible_at(track.visibility, time)};
+  const TrackValues values = values_at(track, time);
+  Affine map = values.rotation;
+  map.x *= values.scale.x, map.y *= values.scale.y, map.z *= values.scale.z;
+  map.origin = values.translation;
+  return {.to_parent = map, .visible = values.visible};
 }
 
 }  // namespace pprt

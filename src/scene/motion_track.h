@@ -57,13 +57,28 @@ struct Placement {
   bool visible = true;
 };
 
+// The parts of a placement.
+struct TrackValues {
+  Vec3d scale{1, 1, 1};
+  Affine rotation;
+  Vec3d translation{0, 0, 0};
+  bool visible = true;
+};
+
 // Notes whether the times are in order.
 void note_order(MotionTrack& track);
 
 // Always finite for finite keys.
+TrackValues values_at(const MotionTrack& track, double time);
+
+// Returns them as one map.
 Placement placement_at(const MotionTrack& track, double time);
 
 // Returns a turn about an axis of any length; zero: none.
 Affine rotation(const Vec3d& axis, double degrees);
+
+// Returns the turn that a map makes, which must not stretch or mirror, as a key. Its angle is at most 180
+// degrees.
+RotationKey rotation_key(double time, const Affine& turn);
 
 }  // namespace pprt

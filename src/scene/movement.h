@@ -18,8 +18,8 @@ using NodeIndex = std::uint32_t;  // into Movement::nodes
 // A coordinate system in that of its parent. Node 0 is the world.
 struct SceneNode {
   NodeIndex parent = 0;
-  Affine to_parent;   // where it does not move
-  std::string track;  // the name of its movement; empty or unknown: none
+  Affine to_parent = {};   // where it does not move
+  std::string track = {};  // the name of its movement; empty or unknown: none
   SourceLocation location = {};
 };
 

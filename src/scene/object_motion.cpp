@@ -33,14 +33,7 @@ std::vector<VectorKey> curve(const ObjectMotion& object, const FrameTimes& times
 RotationKey turn(const Vec3d& degrees, double time) {
   const Affine map =
       rotation({0, 0, 1}, degrees.z) * rotation({0, 1, 0}, degrees.y) * rotation({1, 0, 0}, degrees.x);
-  const Vec3d twice_sine(map.y.z - map.z.y, map.z.x - map.x.z, map.x.y - map.y.x);
-  const double cosine = (map.x.x + map.y.y + map.z.z - 1) / 2, sine = twice_sine.length() / 2;
-  const double angle = std::atan2(sine, cosine) * (180 / std::acos(-1.0));
-  constexpr double kHalfTurn = 1e-6;  // there the difference above says nothing of the axis
-  if (sine > kHalfTurn || cosine > 0) return {time, twice_sine, angle, {}};
-  const Vec3d columns[] = {map.x + Vec3d(1, 0, 0), map.y + Vec3d(0, 1, 0), map.z + Vec3d(0, 0, 1)};
-  const auto longer = [](const Vec3d& a, const Vec3d& b) { return a.length2() < b.length2(); };
-  return {time, *std::max_element(std::begin(columns), std::end(columns), longer), angle, {}};
+  return rotation_key(time, map);
 }
 
 // A key at each frame, for turns between keys may be greater than a quaternion's.

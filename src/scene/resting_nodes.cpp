@@ -201,7 +201,21 @@ void add_still(SceneDescription& scene, const MovingTriangle& triangle, double t
 
 }  // namespace
 
+SceneDescription with_still_triangles(SceneDescription scene, double time) {
+  const std::vector<PrimitiveRef> order = std::exchange(scene.order, {});
+  for (const PrimitiveRef ref : order) {
+    if (ref.kind == PrimitiveKind::kMovingTriangle) {
+      add_still(scene, scene.moving_triangles[ref.index], time);
+    } else {
+      scene.order.push_back(ref);
+    }
+  }
+  scene.moving_triangles.clear();
+  return scene;
+}
+
 SceneDescription still_at(SceneDescription scene, double time) {
+  scene = with_still_triangles(std::move(scene), time);
   const std::vector<Placement> placements = placements_at(scene.movement, time);
   scene.view = view_at(scene, time);
   for (std::size_t i = 0; i < scene.light_nodes.size(); ++i) {
@@ -214,14 +228,9 @@ SceneDescription still_at(SceneDescription scene, double time) {
   for (std::size_t place = 0; place < order.size(); ++place) {
     const NodeIndex node = nodes.empty() ? 0 : nodes[place];
     if (!placements[node].visible) continue;
-    if (order[place].kind == PrimitiveKind::kMovingTriangle) {
-      add_still(scene, scene.moving_triangles[order[place].index], time);
-    } else {
-      scene.order.push_back(order[place]);
-    }
+    scene.order.push_back(order[place]);
     scene.nodes.push_back(node);
   }
-  scene.moving_triangles.clear();
   for (std::size_t i = 1; i < placements.size(); ++i)
     scene.movement.nodes[i] = {
         .parent = 0, .to_parent = placements[i].to_parent, .track = {}, .location = {}};

@@ -11,6 +11,9 @@ namespace pprt {
 // A sphere or cone that a resting node stretches unevenly, or shears, keeps that node.
 SceneDescription without_resting_nodes(SceneDescription scene);
 
+// Returns the scene with the triangles that change their shape as they are at a time.
+SceneDescription with_still_triangles(SceneDescription scene, double time);
+
 // Returns the scene as it is at a time: nothing moves, and what is not shown is left out.
 SceneDescription still_at(SceneDescription scene, double time);
 

@@ -22,7 +22,7 @@ declare -A closed=([pipeline/sampling]="pipeline/(reconstruction|preparation|lat
   [pipeline/lattice]="pipeline/preparation/")
 declare -A home=(
   [embree3]=trace [embree4]=trace [CGAL]=pipeline [mpi.h]=parallel [tao]=parser [assimp]=convert [OpenEXR]=image [png.h]=image [boost]=live
-  [CLI]="cli render convert compare study" [nlohmann]="cli live render compare study" [spdlog]="cli render")
+  [CLI]="cli render convert compare study" [nlohmann]="cli live render convert compare study" [spdlog]="cli render")
 
 seen=0
 while IFS=: read -r file include; do

@@ -156,14 +156,35 @@ TEST_CASE("a mesh of a moving scene has its materials' colours and its stretched
   write_moving_scene(folder);
   convert(at(folder, "b.obj", 2));
   const std::string materials = read_whole_file(folder.file("b.mtl"));
-  CHECK(materials.find("Kd 0.25 0.25 0.1") != std::string::npos);
+  CHECK(materials.find("Kd 0.5 0.5 0.5") != std::string::npos);
   CHECK(materials.find("Ks 0.5 0.25 0.125") != std::string::npos);
-  CHECK(materials.find("Ka 0.25 0.25 0.1") != std::string::npos);
+  CHECK(materials.find("Ka 0.5 0.5 0.5") != std::string::npos);
+  CHECK(materials.find("map_Kd b-t.png") != std::string::npos);
+  CHECK(read_image(folder.file("b-t.png")).width == 2);
   convert(
       {.input = folder.file("b.obj"), .output = folder.file("b.nff"), .tessellate = {}, .chord_error = {}});
   const SceneDescription back = read_nff(folder.file("b.nff")).scene;
   CHECK(back.polygons.size() + back.patches.size() == 1 + 2 * 432);
   CHECK(bounds(back).max.x == Approx(3));
+}
+
+TEST_CASE("AFF keeps all that moves, also by way of glTF") {
+  const Folder folder;
+  write_moving_scene(folder);
+  convert(at(folder, "b.aff", {}));
+  convert(at(folder, "b.glb", {}));
+  convert(
+      {.input = folder.file("b.glb"), .output = folder.file("c.aff"), .tessellate = {}, .chord_error = {}});
+  for (const char* name : {"a.aff", "b.aff", "c.aff"}) {
+    CAPTURE(name);
+    const SceneDescription scene = load_scene(folder.file(name)).scene;
+    CHECK(scene.textures.at(0).rgb == std::vector<std::uint8_t>{255, 0, 0, 0, 255, 102});
+    REQUIRE(scene.movement.tracks.contains("ball"));
+    CHECK(track_at(scene.movement, "ball", 2.5)->to_parent.origin.x == Approx(2.5));
+    CHECK(scene.movement.times->frames == (name[0] == 'c' ? 73 : 5));
+  }
+  convert(at(folder, "still.aff", 2));
+  CHECK(load_scene(folder.file("still.aff")).scene.movement.tracks.empty());
 }
 
 TEST_CASE("POV-Ray's scene has its textures beside it") {

@@ -253,7 +253,7 @@ TEST_CASE("for POV-Ray a texture is a picture, whose v runs up") {
   write_pov(scene, out, "a");
   CHECK(contains(out.str(), R"(#declare Textured_1 = texture {
   uv_mapping
-  pigment { image_map { png "a-red \"blue\".png" gamma srgb interpolate 2 } }
+  pigment { image_map { png "a-red__blue_.png" gamma srgb interpolate 2 } }
   finish { ambient rgb <0.5, 0.25, 0.25> diffuse 0.5 }
 }
 mesh {
@@ -280,9 +280,9 @@ TEST_CASE("the pictures of textures have their bytes, one for each tint, under d
   scene.materials[2].texture = TextureIndex{1};
   const PovPictures pictures = pov_pictures(scene, "a");
   REQUIRE(pictures.files.size() == 3);
-  CHECK(pictures.files[0].name == "a-red \"blue\".png");
-  CHECK(pictures.files[1].name == "a-red \"blue\"-2.png");
-  CHECK(pictures.files[2].name == "a-red \"blue\"-3.png");
+  CHECK(pictures.files[0].name == "a-red__blue_.png");
+  CHECK(pictures.files[1].name == "a-red__blue_-2.png");
+  CHECK(pictures.files[2].name == "a-red__blue_-3.png");
   CHECK((pictures.materials[0] == std::size_t{0} && pictures.materials[3] == std::size_t{0}));
   const Image plain = picture_of(scene, pictures.files[0]);
   for (std::size_t i = 0; i < 6; ++i)

@@ -1,0 +1,105 @@
+#include "convert/mesh_materials.h"
+
+#include <assimp/material.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "scene/shading_rules.h"
+
+namespace pprt {
+namespace {
+
+constexpr double kDefaultGlassIndex = 1.5;  // of transparent materials that name none
+
+double unit_interval(double v) {
+  return std::isfinite(v) ? std::clamp(v, 0.0, 1.0) : 0;
+}
+
+Rgb to_color(const aiColor3D& c) {
+  return {unit_interval(c.r), unit_interval(c.g), unit_interval(c.b)};
+}
+
+aiColor3D to_color(const Rgb& c) {
+  return {static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)};
+}
+
+}  // namespace
+
+Material to_material(const aiMaterial& from) {
+  Material material;
+  if (std::string_view(const_cast<aiMaterial&>(from).GetName().C_Str()) == AI_DEFAULT_MATERIAL_NAME)
+    return material;
+  aiColor3D color(1, 1, 1);
+  aiColor4D base;
+  if (from.Get(AI_MATKEY_COLOR_DIFFUSE, color) == aiReturn_SUCCESS) {
+    material.color = to_color(color);
+  } else if (from.Get(AI_MATKEY_BASE_COLOR, base) == aiReturn_SUCCESS) {
+    material.color = to_color(aiColor3D(base.r, base.g, base.b));
+  }
+  float value = 0;
+  // The PLY reader invents a highlight without a size.
+  if (from.Get(AI_MATKEY_COLOR_SPECULAR, color) == aiReturn_SUCCESS &&
+      from.Get(AI_MATKEY_SHININESS, value) == aiReturn_SUCCESS) {
+    material.specular = unit_interval((color.r + color.g + color.b) / 3);
+    if (value > 0) material.shine = value;
+  } else if (from.Get(AI_MATKEY_METALLIC_FACTOR, value) == aiReturn_SUCCESS) {
+    float rough = 1;
+    from.Get(AI_MATKEY_ROUGHNESS_FACTOR, rough);
+    material.specular = unit_interval(value * (1 - unit_interval(rough)));
+  }
+  if (from.Get(AI_MATKEY_OPACITY, value) == aiReturn_SUCCESS)
+    material.transmittance = 1 - unit_interval(value);
+  if (material.transmittance > 0) {
+    const bool given = from.Get(AI_MATKEY_REFRACTI, value) == aiReturn_SUCCESS && value > 0;
+    material.refractive_index = given ? value : kDefaultGlassIndex;
+  }
+  return material;
+}
+
+std::string picture_path(const aiMaterial& from) {
+  aiString path;
+  for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}) {
+    if (from.GetTexture(type, 0, &path) == aiReturn_SUCCESS && path.length > 0) return path.C_Str();
+  }
+  return {};
+}
+
+std::unique_ptr<aiMaterial> to_assimp(const Material& m, const std::string& name_in_file,
+                                      bool physically_based, const std::string& picture) {
+  auto material = std::make_unique<aiMaterial>();
+  const aiString name(name_in_file);
+  const aiColor3D diffuse = to_color(m.terms ? m.terms->diffuse : m.color * m.diffuse);
+  const auto opacity = static_cast<float>(1 - m.transmittance);
+  const auto mirror = static_cast<float>(m.specular);
+  material->AddProperty(&name, AI_MATKEY_NAME);
+  material->AddProperty(&opacity, 1, AI_MATKEY_OPACITY);
+  const aiString file(picture);
+  if (!picture.empty()) material->AddProperty(&file, AI_MATKEY_TEXTURE_DIFFUSE(0));
+  if (physically_based) {
+    const aiColor4D base(diffuse.r, diffuse.g, diffuse.b, 1);  // times the opacity
+    const float roughness = m.specular > 0 ? 0 : 1;
+    material->AddProperty(&base, 1, AI_MATKEY_BASE_COLOR);
+    material->AddProperty(&mirror, 1, AI_MATKEY_METALLIC_FACTOR);
+    material->AddProperty(&roughness, 1, AI_MATKEY_ROUGHNESS_FACTOR);
+    if (!picture.empty()) material->AddProperty(&file, AI_MATKEY_TEXTURE(aiTextureType_BASE_COLOR, 0));
+    return material;
+  }
+  const aiColor3D specular = m.terms ? to_color(m.terms->specular) : aiColor3D(mirror, mirror, mirror);
+  const int model = aiShadingMode_Phong;
+  const auto shine = static_cast<float>(m.shine);
+  const auto index = static_cast<float>(effective_refractive_index(m));
+  if (m.terms) {
+    const aiColor3D ambient = to_color(m.terms->ambient);
+    material->AddProperty(&ambient, 1, AI_MATKEY_COLOR_AMBIENT);
+  }
+  material->AddProperty(&diffuse, 1, AI_MATKEY_COLOR_DIFFUSE);
+  material->AddProperty(&specular, 1, AI_MATKEY_COLOR_SPECULAR);
+  material->AddProperty(&model, 1, AI_MATKEY_SHADING_MODEL);
+  material->AddProperty(&shine, 1, AI_MATKEY_SHININESS);
+  material->AddProperty(&index, 1, AI_MATKEY_REFRACTI);
+  return material;
+}
+
+}  // namespace pprt

@@ -1,0 +1,57 @@
+#include "convert/mesh_textures.h"
+
+#include <assimp/scene.h>
+#include <assimp/texture.h>
+
+#include <stdexcept>
+
+#include "base/printable.h"
+#include "cli/texture_files.h"
+#include "image/image_io.h"
+
+namespace pprt {
+namespace {
+
+std::string name_of(const std::string& path) {
+  if (path.starts_with('*')) return "texture" + path.substr(1);
+  return std::filesystem::path(path).filename().string();
+}
+
+// Returns a picture within the file: another file's bytes, or texels where there is a height.
+Image embedded(const aiTexture& from) {
+  if (from.mHeight == 0) return decode_image({reinterpret_cast<const char*>(from.pcData), from.mWidth});
+  Image image(static_cast<int>(from.mWidth), static_cast<int>(from.mHeight));
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    const aiTexel& texel = from.pcData[i];
+    image.pixels[i] = Color(texel.r, texel.g, texel.b) / 255.F;
+  }
+  return image;
+}
+
+}  // namespace
+
+std::optional<TextureIndex> MeshTextures::intern(const std::string& path, std::vector<Texture>& textures,
+                                                 std::vector<std::string>& notes) {
+  const auto [found, is_new] = known_.try_emplace(path);
+  if (!is_new) return found->second;
+  try {
+    Texture texture;
+    texture.name = name_of(path);
+    fill(texture, picture(path));
+    textures.push_back(std::move(texture));
+    found->second = static_cast<TextureIndex>(textures.size() - 1);
+  } catch (const std::exception& e) {
+    notes.push_back("the texture '" + printable(path) + "' is left out: " + e.what());
+  }
+  return found->second;
+}
+
+Image MeshTextures::picture(const std::string& path) const {
+  if (const aiTexture* texture = from_.GetEmbeddedTexture(path.c_str())) return embedded(*texture);
+  const std::filesystem::path file = std::filesystem::path(path).lexically_normal();
+  if (file.is_absolute() || file.empty() || *file.begin() == "..")
+    throw std::runtime_error("it lies outside the folder of the mesh");
+  return read_image(folder_ / file);
+}
+
+}  // namespace pprt

@@ -1,0 +1,35 @@
+// Pictures on the surfaces of mesh files.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "image/image.h"
+#include "scene/texture.h"
+
+struct aiScene;
+
+namespace pprt {
+
+// Reads the pictures of a file's materials, each once: those within the file, and those in its folder.
+class MeshTextures {
+ public:
+  MeshTextures(const aiScene& from, std::filesystem::path folder) : from_(from), folder_(std::move(folder)) {}
+
+  // Returns the place among `textures` of the picture of a path (picture_path()). Empty where it cannot be
+  // read; `notes` then gets the reason.
+  std::optional<TextureIndex> intern(const std::string& path, std::vector<Texture>& textures,
+                                     std::vector<std::string>& notes);
+
+ private:
+  Image picture(const std::string& path) const;
+
+  const aiScene& from_;
+  std::filesystem::path folder_;
+  std::map<std::string, std::optional<TextureIndex>> known_;
+};
+
+}  // namespace pprt

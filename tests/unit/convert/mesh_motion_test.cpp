@@ -1,0 +1,252 @@
+// Movement, textures, cameras and lights in glTF, out and in.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include "base/diagnostics.h"
+#include "convert/mesh_reader.h"
+#include "convert/mesh_writer.h"
+#include "image/image_io.h"
+#include "parser/aff_parser.h"
+#include "scene/resting_nodes.h"
+#include "unit/image/temporary_directory.h"
+
+using namespace pprt;
+
+namespace {
+
+// Writes a scene as a mesh and reads that.
+ReadMesh there_and_back(const SceneDescription& scene, const std::string& extension) {
+  const TemporaryDirectory folder;
+  const WrittenMesh mesh = write_mesh(scene, extension, "m", {2, {}});
+  for (const MeshFile& file : mesh.files)
+    std::ofstream(folder.path() / file.name, std::ios::binary) << file.bytes;
+  return read_mesh((folder.path() / mesh.files.back().name).string());
+}
+
+// Returns the box of all that is seen at a time, in the world.
+Box3d seen(const SceneDescription& scene, double time) {
+  Box3d box;
+  const std::vector<Placement> placements = placements_at(scene.movement, time);
+  for (std::size_t place = 0; place < scene.order.size(); ++place) {
+    const Placement& p = placements[node_of(scene, place)];
+    if (p.visible) box.extendBy(mapped(p.to_parent, bounds(scene, scene.order[place])));
+  }
+  return box;
+}
+
+// Axis-parallel boxes of turned things depend on how finely they are cut: the tolerance is that of a mesh.
+void check_near(const Vec3d& a, const Vec3d& b, double tolerance) {
+  CAPTURE(a.x, a.y, a.z, b.x, b.y, b.z);
+  CHECK((a - b).length() <= tolerance);
+}
+
+constexpr const char* kCar = R"(
+v from 0 1 9 at 0 0.1 0 up 0 1 0 angle 33.3 hither 1 resolution 64 48
+a 0 4 97
+l 1 2 3 .3 .4 .5
+la lamp 4 5 6 1 1 1
+k lamp { transl 4 -2 0 0 0 0 0 0 0 0 0 0 0 0 0 4 1 1 1 0 0 0 5 0 0 0 0 0 0 }
+k camera { transl 5 -1 0 1 9 0 0 0  0 0 1 9 0 0 0  1 5 1 9 0 0 0 4 5 3 2 0 0 0 5 0 0 0 0 0 0
+           rot 4 -1 0 1 0 0 0 0 0  0 0 1 0 0 0 0 0  4 0 1 .2 100 0 0 0  5 0 1 0 0 0 0 0 }
+k car { transl 5 -1 0 0 0 0 0 0 0 0 0 0 0 0 0 1 3 1 0 0 0 .5 4 9 -2 1 0 0 0 5 0 0 0 0 0 0 }
+k wheel { rot 5 -1 0 0 1 0 0 0 0 0 0 0 1 0 0 0 0 2 0 0 1 170 0 0 0 4 0 0 1 340 0 0 0 5 0 0 1 350 0 0 0 }
+fm .1 .2 .3 .4 .5 .6 0 0 0 0 0 1
+p 4  -9 -9 -9  9 -9 -9  9 9 -9  -9 9 -9
+x car {
+  m vertices 4  0 0 0  2 0 0  2 1 0  0 1 0
+    texturecoords 4 wood.ppm  0 0  1 0  1 .25  0 .25
+    triangles 2  0 1 2  0 1 2   0 2 3  0 2 3
+  xs 1 1 1  0 1 0 90  1 0 0 { x wheel { p 3  0 0 0  1 0 0  0 .5 0 } }
+}
+)";
+
+SceneDescription car() {
+  SceneDescription scene = parse_aff(kCar, "car.aff").scene;
+  Texture& wood = scene.textures.at(0);
+  wood.width = 2, wood.height = 1;
+  wood.rgb = {255, 0, 0, 0, 51, 102};
+  return scene;
+}
+
+// A triangle that an animation moves, as a modeller would write it: one buffer of times and values.
+std::string gltf(const std::string& node = R"("name":"arm","mesh":0)", const std::string& more_nodes = "") {
+  // Positions (0 0 0) (1 0 0) (0 1 0); times 0 1 3; translations (0 0 0) (2 0 0) (2 4 0).
+  return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{)" + node + "}" +
+         more_nodes + R"(],
+  "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+  "animations":[{"name":"first","channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}],
+                 "samplers":[{"input":1,"output":2}]}],
+  "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
+               {"bufferView":1,"componentType":5126,"count":3,"type":"SCALAR","min":[0],"max":[3]},
+               {"bufferView":2,"componentType":5126,"count":3,"type":"VEC3"}],
+  "bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":12},
+                 {"buffer":0,"byteOffset":48,"byteLength":36}],
+  "buffers":[{"byteLength":84,"uri":"numbers.bin"}]})";
+}
+
+std::string numbers() {
+  const float values[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, /* times */ 0, 1, 3, /* places */ 0,
+                          0, 0, 2, 0, 0, 2, 4, 0};
+  return {reinterpret_cast<const char*>(values), sizeof values};
+}
+
+ReadMesh read_gltf(const std::string& text, const std::string& bytes = numbers()) {
+  const TemporaryDirectory folder;
+  std::ofstream(folder.path() / "a.gltf") << text;
+  std::ofstream(folder.path() / "numbers.bin", std::ios::binary) << bytes;
+  return read_mesh((folder.path() / "a.gltf").string());
+}
+
+}  // namespace
+
+TEST_CASE("what moves in glTF stands where it stood, at every time") {
+  const SceneDescription scene = car();
+  for (const char* extension : {".glb", ".gltf"}) {
+    const SceneDescription back = there_and_back(scene, extension).scene;
+    CHECK(back.movement.tracks.contains("car"));
+    CHECK((back.movement.times->start == 0 && back.movement.times->end == 4 &&
+           back.movement.times->frames == 97));
+    for (double time = 0; time <= 4; time += 0.19) {
+      CAPTURE(extension, time);
+      const Box3d a = seen(scene, time), b = seen(back, time);
+      check_near(a.min, b.min, 0.01);
+      check_near(a.max, b.max, 0.01);
+    }
+  }
+}
+
+TEST_CASE("the box above tells times apart") {
+  const SceneDescription scene = car();
+  const Box3d before = seen(scene, 1), after = seen(scene, 1.19);
+  CHECK((before.max - after.max).length() > 0.1);
+}
+
+TEST_CASE("the camera of glTF moves as the scene's") {
+  const SceneDescription scene = car();
+  const SceneDescription back = there_and_back(scene, ".glb").scene;
+  REQUIRE(back.view);
+  CHECK(back.view->angle_degrees ==
+        Approx(33.3).epsilon(0.02));  // rows and centres of rows, of other numbers
+  CHECK(back.view->width * 48 == Approx(back.view->height * 64).epsilon(0.01));
+  for (double time = 0; time <= 4; time += 0.23) {
+    CAPTURE(time);
+    const View a = *view_at(scene, time), b = *view_at(back, time);
+    check_near(a.from, b.from, 0.005);
+    check_near((a.at - a.from).normalized(), (b.at - b.from).normalized(), 0.001);
+    check_near(a.up.normalized(), b.up.normalized(), 0.001);
+  }
+  const View early = *view_at(back, 0), late = *view_at(back, 4);
+  CHECK((early.from - late.from).length() > 5);
+}
+
+TEST_CASE("lights of glTF have their colours and move") {
+  const SceneDescription back = there_and_back(car(), ".glb").scene;
+  REQUIRE(back.lights.size() == 2);
+  check_near(back.lights[0].position, {1, 2, 3}, 1e-6);
+  const Rgb color = back.lights[0].color.value();
+  CHECK((color.x == Approx(0.6) && color.y == Approx(0.8) && color.z == Approx(1)));
+  const auto stands = [&](double time) {
+    return placements_at(back.movement, time)[back.light_nodes[1].node].to_parent.point(
+        back.lights[1].position);
+  };
+  check_near(stands(0), {0, 0, 0}, 1e-6);
+  check_near(stands(4), {1, 1, 1}, 1e-6);
+}
+
+TEST_CASE("textures go with a mesh, the right way up") {
+  const SceneDescription scene = car();
+  for (const char* extension : {".glb", ".gltf", ".obj", ".dae"}) {
+    CAPTURE(extension);
+    const ReadMesh read = there_and_back(still_at(scene, 0), extension);
+    const SceneDescription& back = read.scene;
+    REQUIRE(back.textures.size() == 1);
+    CHECK(back.textures[0].rgb == scene.textures[0].rgb);
+    REQUIRE(back.triangles.size() == 2);
+    for (const Triangle& triangle : back.triangles) {
+      const TriangleMesh& mesh = back.meshes[triangle.mesh];
+      REQUIRE(back.materials[mesh.material].texture);
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3d p = mesh.positions[triangle.corners.position[i]];
+        const Vec2d t = mesh.texture_points[triangle.corners.texture_point[i]];
+        CHECK((t.x == Approx(p.x / 2).margin(1e-6) && t.y == Approx(p.y / 4).margin(1e-6)));
+      }
+    }
+  }
+}
+
+TEST_CASE("what is hidden has no extent in glTF, and times before 0 begin at 0") {
+  SceneDescription scene = parse_aff(R"(
+f 1 1 1 1 0 0 0 1
+k a { transl 4 -3 0 0 0 0 0 0 -2 0 0 0 0 0 0 2 4 0 0 0 0 0 3 0 0 0 0 0 0  visibility 2 -1 0 1 1 }
+x a { p 3 0 0 0 1 0 0 0 1 0 })",
+                                     "a.aff")
+                               .scene;
+  const SceneDescription back = there_and_back(scene, ".glb").scene;
+  for (const double time : {-1.5, 0.0, 1.5}) {
+    const Box3d box = seen(back, time + 2);  // its first key is at -2 seconds
+    CAPTURE(time);
+    CHECK(box.size().x == Approx(time == 0 ? 0 : 1).margin(1e-3));
+    if (time != 0) check_near(box.min, seen(scene, time).min, 1e-3);
+  }
+}
+
+TEST_CASE("a modeller's glTF moves in straight lines") {
+  const ReadMesh read = read_gltf(gltf());
+  CHECK(read.notes.empty());
+  check_near(seen(read.scene, -1).min, {0, 0, 0}, 1e-6);
+  check_near(seen(read.scene, 0.25).min, {0.5, 0, 0}, 1e-6);
+  check_near(seen(read.scene, 1).min, {2, 0, 0}, 1e-6);
+  check_near(seen(read.scene, 2.5).min, {2, 3, 0}, 1e-6);
+  check_near(seen(read.scene, 7).min, {2, 4, 0}, 1e-6);
+  CHECK((read.scene.movement.times->end == 3 && read.scene.movement.times->frames == 73));
+}
+
+TEST_CASE("a node called camera does not move the view, and one that does moves it in the world") {
+  const ReadMesh named = read_gltf(gltf(R"("name":"camera","mesh":0)"));
+  CHECK(!named.scene.movement.tracks.contains(kCameraTrack));
+  check_near(seen(named.scene, 1).min, {2, 0, 0}, 1e-6);
+
+  std::string text =
+      gltf(R"("name":"arm","mesh":0,"children":[1])", R"(,{"name":"eye","camera":0,"translation":[0,0,5]})");
+  text.insert(
+      1, R"("cameras":[{"type":"perspective","perspective":{"yfov":0.5,"aspectRatio":2,"znear":0.1}}],)");
+  const SceneDescription scene = read_gltf(text).scene;
+  REQUIRE(scene.view);
+  CHECK(std::tan(scene.view->angle_degrees * std::numbers::pi / 360) ==
+        Approx(std::tan(0.25) * (scene.view->height - 1) / scene.view->height));
+  check_near(view_at(scene, 0)->from, {0, 0, 5}, 1e-6);
+  check_near(view_at(scene, 2)->from, {2, 2, 5}, 1e-3);
+  check_near(view_at(scene, 2)->at, {2, 2, 4}, 1e-3);
+}
+
+TEST_CASE("keys that are not finite, and pictures elsewhere, are told") {
+  std::string bytes = numbers();
+  const float nothing = std::nanf("");
+  bytes.replace(52, 4, reinterpret_cast<const char*>(&nothing), 4);
+  CHECK_THROWS_AS(read_gltf(gltf(), bytes), InputError);
+
+  const TemporaryDirectory folder;
+  std::ofstream(folder.path() / "a.obj") << "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n"
+                                            "f 1/1 2/1 3/1\n";
+  for (const char* file : {"../a.png", "/etc/passwd", "no.png"}) {
+    std::ofstream(folder.path() / "a.mtl") << "newmtl m\nKd 1 0.5 0.25\nmap_Kd " << file << "\n";
+    const ReadMesh read = read_mesh((folder.path() / "a.obj").string());
+    CAPTURE(file);
+    REQUIRE(read.notes.size() == 1);
+    CHECK(read.notes[0].find(file) != std::string::npos);
+    CHECK(read.scene.polygons.size() == 1);
+    CHECK(read.scene.materials[0].color.y == 0.5);
+  }
+}
+
+TEST_CASE("a glTF file that is cut off is refused or read, never worse") {
+  const TemporaryDirectory folder;
+  const std::string whole = write_mesh(car(), ".glb", "m", {2, {}}).files.back().bytes;
+  const std::string path = folder.path() / "m.glb";
+  for (std::size_t size = 0; size < whole.size(); size += 97) {
+    std::ofstream(path, std::ios::binary | std::ios::trunc) << whole.substr(0, size);
+    CHECK_THROWS_AS(read_mesh(path), InputError);
+  }
+}
