@@ -43,6 +43,18 @@ done
 for n in 1 3 6; do expect_same r1-$n.png r2-$n.png; done
 run pprt-compare r1-2.png r1-5.png --max-rmse 0.02; expect_code 1
 
+# AFF holds all of it: the same bytes. By way of glTF it moves as well, in a material of that format's.
+run pprt-convert toy.aff kept.aff; expect_code 0; expect_same err /dev/null; expect_file kept-floor.png
+run pprt-render kept.aff --clock work -o 'k%d.png'; expect_code 0
+for n in 1 3 6; do expect_same a$n.png k$n.png; done
+cmp -s a3.png k6.png && complain 'another frame is the same'
+run pprt-convert toy.aff toy.glb; expect_code 0; expect_line err 'toy.aff: the ambient light is not kept'
+run pprt-convert toy.glb back.aff; expect_code 0; expect_same err /dev/null
+run pprt-render back.aff --census; expect_code 0; expect_line out 'movement    1 object that moves'
+run pprt-convert --at 1.5 toy.aff still.aff; expect_code 0
+run pprt-render still.aff --census; expect_code 0
+grep -q movement out && complain 'a scene at one time moves'
+
 # A script names the scene: its frames are spread over the scene's time, and the camera is its own.
 echo 'animation { scene "toy.aff" frames 2 }' >toy.anim
 run pprt-render toy.anim --clock work --samples 3000 --cast off -o 's%d.png'; expect_code 0
