@@ -22,10 +22,6 @@ constexpr const char* kMissing = "--film needs ffmpeg, which is not on the PATH 
   throw std::runtime_error("cannot write '" + film.string() + "': " + reason);
 }
 
-std::string container(const std::filesystem::path& film) {
-  return film.extension() == ".mkv" ? "matroska" : "mp4";
-}
-
 // Starts ffmpeg in a process group of its own. A terminal's Ctrl-C then reaches this process alone, which
 // lets ffmpeg finish the film.
 Subprocess start_encoder(std::vector<std::string> command, StreamTo input) {
@@ -37,26 +33,11 @@ Subprocess start_encoder(std::vector<std::string> command, StreamTo input) {
   }
 }
 
-// Returns the command for H.264 with chroma at half resolution, in the colours of high definition (BT.709).
-// Without -xerror ffmpeg 5.1 ends with code 0 although the disk had no room for the end of the film.
-std::vector<std::string> ffmpeg_command(const Image& first, double frames_per_second,
-                                        const std::string& format, const std::string& output) {
-  return {"ffmpeg",
-          "-hide_banner",
-          "-loglevel",
-          "error",
-          "-xerror",
-          "-f",
-          "rawvideo",
-          "-pix_fmt",
-          "rgb24",
-          "-video_size",
-          fmt::format("{}x{}", first.width, first.height),
-          "-framerate",
-          fmt::format("{}", frames_per_second),
-          "-i",
-          "pipe:0",
-          "-vf",
+using Words = std::vector<std::string>;
+
+// H.264 with chroma at half resolution, in the colours of high definition (BT.709).
+Words video(const std::string& container) {
+  return {"-vf",
           "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709",
           "-c:v",
           "libx264",
@@ -71,16 +52,54 @@ std::vector<std::string> ffmpeg_command(const Image& first, double frames_per_se
           "-color_trc",
           "bt709",
           "-f",
-          format,
-          "-y",
-          "file:" + output};  // whatever the name looks like, it is no option and no URL
+          container};
+}
+
+// A GIF that repeats for ever, with the 256 colours that suit its frames best. Dots that a frame shares with
+// the one before take no bytes.
+Words animated_gif() {
+  return {"-filter_complex",
+          "split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=bayer:bayer_scale=4",
+          "-loop",
+          "0",
+          "-f",
+          "gif"};
+}
+
+Words encoding(const std::filesystem::path& film) {
+  if (film.extension() == ".gif") return animated_gif();
+  return video(film.extension() == ".mkv" ? "matroska" : "mp4");
+}
+
+// Without -xerror ffmpeg 5.1 ends with code 0 although the disk had no room for the end of the film.
+Words ffmpeg_command(const Image& first, double frames_per_second, const Words& encoding,
+                     const std::string& output) {
+  Words command = {"ffmpeg",
+                   "-hide_banner",
+                   "-loglevel",
+                   "error",
+                   "-xerror",
+                   "-f",
+                   "rawvideo",
+                   "-pix_fmt",
+                   "rgb24",
+                   "-video_size",
+                   fmt::format("{}x{}", first.width, first.height),
+                   "-framerate",
+                   fmt::format("{}", frames_per_second),
+                   "-i",
+                   "pipe:0"};
+  command.insert(command.end(), encoding.begin(), encoding.end());
+  // Whatever the name looks like, it is no option and no URL.
+  command.insert(command.end(), {"-y", "file:" + output});
+  return command;
 }
 
 void encode(const std::filesystem::path& film, const std::filesystem::path& temporary,
             const std::vector<std::filesystem::path>& pictures, double frames_per_second) {
   const Image first = read_image(pictures.front());
   Subprocess encoder = start_encoder(
-      ffmpeg_command(first, frames_per_second, container(film), temporary.string()), StreamTo::kPipe);
+      ffmpeg_command(first, frames_per_second, encoding(film), temporary.string()), StreamTo::kPipe);
   for (const std::filesystem::path& picture : pictures) {
     const Image image = read_image(picture);
     if (image.width != first.width || image.height != first.height) {
@@ -98,8 +117,10 @@ void encode(const std::filesystem::path& film, const std::filesystem::path& temp
 }  // namespace
 
 void require_film_name(const std::filesystem::path& film) {
-  if (film.extension() == ".mp4" || film.extension() == ".mkv") return;
-  throw UsageError("--film " + film.string() + ": want a name that ends in .mp4 or .mkv");
+  for (const char* known : {".mp4", ".mkv", ".gif"}) {
+    if (film.extension() == known) return;
+  }
+  throw UsageError("--film " + film.string() + ": want a name that ends in .mp4, .mkv or .gif");
 }
 
 void require_ffmpeg() {

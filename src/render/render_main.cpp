@@ -6,6 +6,7 @@
 #include "cli/config_text.h"
 #include "cli/exit.h"
 #include "cli/launch.h"
+#include "render/examples.h"
 #include "render/render.h"
 #include "render/render_plan.h"
 
@@ -26,6 +27,20 @@ bool read_options(CLI::App& app, pprt::RenderOptions& options, const std::vector
   return false;
 }
 
+// Like --version it prints and ends the parsing, whatever else the command line lacks.
+void add_examples(CLI::App& app) {
+  app.add_flag_callback(
+         "--examples", [] { throw CLI::CallForVersion(pprt::examples(), 0); },
+         "Print commands to begin with and exit")
+      ->configurable(false);
+}
+
+int say_first_steps() {
+  if (pprt::launcher_rank() != 0) return pprt::kExitDone;
+  pprt::print_message(pprt::first_steps());
+  return pprt::kExitUsage;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -35,7 +50,9 @@ int main(int argc, char** argv) {
         "pprt-render");
     pprt::RenderOptions options;
     pprt::add_render_options(app, options);
+    add_examples(app);
     pprt::add_common_flags(app);
+    if (argc == 1) return say_first_steps();
     const std::vector<std::string> words = pprt::user_words(argc, argv);
     if (!read_options(app, options, words)) return pprt::kExitDone;
     return pprt::render(options, words);

@@ -169,7 +169,7 @@ void add_image_options(CLI::App& app, RenderOptions& o) {
                  "Write thumbnails of the finished frames to one picture, .exr or .png")
       ->type_name("FILE")
       ->group(group);
-  app.add_option("--film", o.film, "Make a film of the finished frames, .mp4 or .mkv (needs ffmpeg)")
+  app.add_option("--film", o.film, "Make a film of the finished frames, .mp4, .mkv or .gif (needs ffmpeg)")
       ->type_name("FILE")
       ->group(group);
   auto* overwrite = app.add_flag("--overwrite", o.overwrite, "Replace existing files")->group(group);

@@ -3,7 +3,7 @@
 source "$(dirname "$0")/check.sh"
 work=(--clock work --budget 400000)
 
-run pprt-render ball.nff --film x.avi; expect_usage "--film x.avi: want a name that ends in .mp4 or .mkv"
+run pprt-render ball.nff --film x.avi; expect_usage "--film x.avi: want a name that ends in .mp4, .mkv or .gif"
 
 # Without ffmpeg nothing is begun.
 mkdir only
@@ -51,10 +51,12 @@ for np in 1 2; do
   expect_text <(film_facts films/$np.mp4) h264,34,24,4/1,6
 done
 expect_text <(ls films) "$(printf '%s\n' 1.mp4 2.mp4)"
+run pprt-render ball.anim "${work[@]}" --frames 1-6 -s 33x24 -o h3/%d.png --film films/3.gif; expect_code 0
+expect_text <(film_facts films/3.gif) gif,33,24,4/1,6
 
 # The disk has no room for the end of the film. A limit on the size of files, whose signal is ignored, is as good.
 run pprt-render ball.anim "${work[@]}" -s 96x64 -o i/%d.png; expect_code 0
-for film in end.mp4 end.mkv; do
+for film in end.mp4 end.mkv end.gif; do
   code=0
   (trap '' XFSZ; ulimit -f 2; pprt-render ball.anim "${work[@]}" -s 96x64 -o i/%d.png --resume --film i/$film) >out 2>err || code=$?
   command="a run with no room for $film"

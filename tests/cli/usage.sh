@@ -2,7 +2,11 @@
 # Command lines that make no sense.
 source "$(dirname "$0")/check.sh"
 
-run pprt-render; expect_usage "SCENE is required"
+run pprt-render; expect_code 2; expect_text out ''
+expect_text err 'pprt-render needs a scene. To begin with:
+  pprt-render spd:tree -s 256x256 -o tree.png
+More commands: pprt-render --examples. All options: pprt-render --help'
+run pprt-render --seed 1; expect_usage "SCENE is required"
 run pprt-render --bogus ball.nff; expect_usage "there is no option --bogus"
 run pprt-render ball.nff ball.anim third; expect_usage "'third' is one argument too many"
 run pprt-render ball.nff --np 0; expect_usage "--np: value 0 is not a whole number from 1 to 4096"
