@@ -24,6 +24,7 @@ struct Word {
 };
 constexpr Word kWords[] = {
     {"#declare", Block::kTop},
+    {"#version", Block::kTop},
     {"animation", Block::kTop},
     {"scene", Block::kAnimation},
     {"frames", Block::kAnimation},
@@ -189,6 +190,16 @@ void ScriptReader::declare() {
     throw ParseFailure{declared_.data(), fmt::format("more than {} names", kMostNames), true};
   names_.insert_or_assign(std::string(declared_), value);
   declared_ = {};
+}
+
+void ScriptReader::check_version() {
+  const Value value = take();
+  const std::optional<double> version = number(value, "#version", problems_);
+  if (version && *version != kScriptVersion) {
+    problems_.error(value.place,
+                    fmt::format("this is a script of version {}; version {} is the one that can be read",
+                                *version, kScriptVersion));
+  }
 }
 
 void ScriptReader::begin_animation(const char* place) {

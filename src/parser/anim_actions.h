@@ -44,6 +44,7 @@ class ScriptReader {
   // Statements; each takes its value off the stack.
   void begin_declaration(std::string_view name) { declared_ = name; }
   void declare();
+  void check_version();
   void begin_animation(const char* place);
   void begin_camera(const char* place);
   void begin_object(std::string_view name);
@@ -214,6 +215,8 @@ template <>
 struct action<grammar::new_name> : with_text<&ScriptReader::begin_declaration> {};
 template <>
 struct action<grammar::declaration> : plainly<&ScriptReader::declare> {};
+template <>
+struct action<grammar::version> : plainly<&ScriptReader::check_version> {};
 template <>
 struct action<grammar::animation_word> : with_place<&ScriptReader::begin_animation> {};
 template <>

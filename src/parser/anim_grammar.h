@@ -27,11 +27,12 @@ using pegtl::sor;
 using pegtl::star;
 using pegtl::string;
 
-// The gap between tokens. "#" begins a comment, "#declare" does not.
+// The gap between tokens. "#" begins a comment, "#declare" and "#version" do not.
 struct blank : one<' ', '\t', '\n', '\r', '\f', '\v'> {};
 struct to_line_end : star<not_one<'\n', '\r'>> {};
 struct declare_word : TAO_PEGTL_KEYWORD("#declare") {};
-struct hash_comment : seq<not_at<declare_word>, one<'#'>, to_line_end> {};
+struct version_word : TAO_PEGTL_KEYWORD("#version") {};
+struct hash_comment : seq<not_at<sor<declare_word, version_word>>, one<'#'>, to_line_end> {};
 struct line_comment : seq<string<'/', '/'>, to_line_end> {};
 struct block_comment_rest : pegtl::until<string<'*', '/'>> {};
 struct block_comment : seq<string<'/', '*'>, block_comment_rest> {};
@@ -63,7 +64,7 @@ struct field_word
 struct in_animation_word : sor<scene_word, frames_word, fps_word, resolution_word, camera_word, object_word> {
 };
 struct in_camera_word : sor<spline_word, key_word, hold_word, cut_word> {};
-struct above_key_word : sor<declare_word, animation_word, in_animation_word, in_camera_word> {};
+struct above_key_word : sor<declare_word, version_word, animation_word, in_animation_word, in_camera_word> {};
 struct statement_word : sor<above_key_word, field_word> {};
 struct function_word : sor<TAO_PEGTL_KEYWORD("sin"), TAO_PEGTL_KEYWORD("cos"), TAO_PEGTL_KEYWORD("tan"),
                            TAO_PEGTL_KEYWORD("sqrt"), TAO_PEGTL_KEYWORD("abs"), TAO_PEGTL_KEYWORD("min"),
@@ -186,8 +187,12 @@ struct open_animation : sor<mark<'{'>, no_brace_before_animation_word> {};
 struct close_animation : mark<'}'> {};
 struct animation : seq<token<animation_word>, open_animation, star<animation_item>, close_animation> {};
 
+// #version expression;
+struct version_semicolon : semicolon {};
+struct version : seq<token<version_word>, expression, version_semicolon> {};
+
 struct unknown_at_top : sor<identifier, quoted, any> {};
-struct top_item : sor<declaration, animation, seq<not_at<eof>, unknown_at_top, skip>> {};
+struct top_item : sor<version, declaration, animation, seq<not_at<eof>, unknown_at_top, skip>> {};
 struct script : seq<opt<pegtl::utf8::bom>, gap, star<top_item>, eof> {};
 
 }  // namespace pprt::anim::grammar

@@ -27,6 +27,8 @@ inline constexpr const char* expected<grammar::equals> = "'=' after the declared
 template <>
 inline constexpr const char* expected<grammar::semicolon> = "';' after the declared value";
 template <>
+inline constexpr const char* expected<grammar::version_semicolon> = "';' after the version";
+template <>
 inline constexpr const char* expected<grammar::open_key> = "'{' with the camera of the key";
 template <>
 inline constexpr const char* expected<grammar::close_key> = "'}' at the end of the key";

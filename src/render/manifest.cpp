@@ -51,14 +51,18 @@ Json frame_entry(int frame, const Names& files, const Json& layers) {
 struct Parts {
   std::string text;
   std::string key;
+  int format = 0;
   std::string rest;
 };
 
 std::optional<Parts> parts_of(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(path)) return std::nullopt;
-  Parts parts{.text = read_whole_file(path), .key = {}, .rest = {}};
+  Parts parts{.text = read_whole_file(path), .key = {}, .format = 0, .rest = {}};
   const std::size_t end = std::min(parts.text.find('\n'), parts.text.size());
-  parts.key = text_of(record_in(std::string_view(parts.text).substr(0, end)), "key");
+  const Json run = record_in(std::string_view(parts.text).substr(0, end));
+  parts.key = text_of(run, "key");
+  const auto format = run.find("format");
+  if (format != run.end() && format->is_number_integer()) parts.format = format->get<int>();
   if (end < parts.text.size()) parts.rest = parts.text.substr(end + 1);
   if (parts.key.empty() && end == parts.text.size()) return std::nullopt;  // the first line never came
   return parts;
@@ -72,11 +76,15 @@ bool goes_on(const Parts& parts, const std::filesystem::path& path, const std::s
     throw UsageError((resumes ? "--resume: " : "") + path.string() +
                      " is there already and is no manifest; --overwrite replaces it");
   }
+  if (parts.format != kManifestFormat && resumes) {
+    throw UsageError("--resume: " + path.string() +
+                     " is of another version of pprt-render; --overwrite starts anew");
+  }
   if (parts.key != key && resumes) {
     throw UsageError("--resume: " + path.string() +
                      " is of another scene or other options; --overwrite starts anew");
   }
-  return parts.key == key;
+  return parts.key == key && parts.format == kManifestFormat;
 }
 
 }  // namespace
@@ -90,7 +98,7 @@ std::filesystem::path manifest_path(const FramePattern& output) {
 Manifest::Manifest(const std::filesystem::path& path, const std::string& key, ExistingFiles existing,
                    const std::set<std::string>& rewritten) {
   const std::optional<Parts> parts = parts_of(path);
-  std::string lines = Json{{"record", "run"}, {"key", key}}.dump() + "\n";
+  std::string lines = Json{{"record", "run"}, {"format", kManifestFormat}, {"key", key}}.dump() + "\n";
   if (parts && goes_on(*parts, path, key, existing)) {
     lines += read(parts->rest, existing == ExistingFiles::kResume ? std::set<std::string>() : rewritten);
   }

@@ -14,6 +14,9 @@
 
 namespace pprt {
 
+// The version of the manifest's format.
+inline constexpr int kManifestFormat = 1;
+
 // Returns its path, beside the frames: "out/manifest.ndjson" for "out/%04d.exr", "frame_manifest.ndjson" for
 // "frame_%04d.png".
 std::filesystem::path manifest_path(const FramePattern& output);

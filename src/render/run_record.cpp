@@ -67,6 +67,7 @@ std::string run_key(const RunIdentity& run) {
 Json run_record(const RunIdentity& run, EffectSet effects) {
   const SessionSettings& s = run.plan.settings;
   return {{"record", "run"},
+          {"format", kLedgerFormat},
           {"version", kVersion},
           {"scene", json_name(run.plan.scene.name)},
           {"scene_hash", run.scene_hash},

@@ -99,7 +99,9 @@ void write_object(const ObjectMotion& object, ScriptOutput& out) {
 std::string anim_script(const Animation& animation) {
   std::ostringstream text;
   ScriptOutput out(text);
-  out.text("animation {\n");
+  out.text("#version ");
+  out.number(static_cast<std::size_t>(kScriptVersion));
+  out.text(";\nanimation {\n");
   if (animation.scene && animation.scene->find_first_of("\"\n\r") == std::string::npos) {
     out.text("  scene \"");
     out.text(*animation.scene);

@@ -14,6 +14,9 @@
 
 namespace pprt {
 
+// The version of the language of scripts, as a script may tell it (pprt-anim(5)).
+inline constexpr int kScriptVersion = 1;
+
 // kCatmullRom equals kTcb with tension, continuity and bias 0 at every key.
 enum class SplineKind { kLinear, kCatmullRom, kTcb };
 

@@ -60,6 +60,8 @@ moving.aff: the ambient light and its colours are not kept: NFF has none
 moving.aff: the lights are made 2.00 times as bright, as readers of NFF weaken them"
 run pprt-convert moving.aff - ; expect_code 0; expect_line out 's 1 0 0 1'
 run pprt-convert moving.aff moving.obj; expect_code 0
+expect_text err "moving.aff: the ambient light is not kept"
+run pprt-convert moving.aff moving.stl; expect_code 0
 expect_text err "moving.aff: 1 texture is not kept: its surfaces get its mean colour
 moving.aff: the ambient light is not kept"
 run pprt-convert --at 3 ball.nff x.nff; expect_code 2; expect_no_file x.nff
@@ -68,7 +70,7 @@ run pprt-convert --at soon moving.aff x.nff; expect_code 2; expect_no_file x.nff
 
 # Errors: usage, scenes, failures.
 run pprt-convert ball.nff ball.png; expect_code 2
-expect_line err "pprt-convert: error: cannot tell the format of output 'ball.png': it must be FILE.nff, - (NFF on standard output) or FILE with one of .pov .obj .ply .stl .glb .gltf .dae"
+expect_line err "pprt-convert: error: cannot tell the format of output 'ball.png': it must be FILE.nff, - (NFF on standard output) or FILE with one of .aff .pov .obj .ply .stl .glb .gltf .dae"
 run pprt-convert ball.png ball.nff; expect_code 2
 expect_line err "pprt-convert: error: cannot tell the format of input 'ball.png': .*"
 run pprt-convert --tessellate 0 ball.nff x.nff; expect_code 2; expect_no_file x.nff

@@ -21,7 +21,7 @@ void append(const fs::path& path, const std::string& text) {
   std::ofstream(path, std::ios::app) << text;
 }
 
-constexpr const char* kFirstLine = "{\"record\":\"run\",\"key\":\"key\"}\n";
+constexpr const char* kFirstLine = "{\"record\":\"run\",\"format\":1,\"key\":\"key\"}\n";
 
 // As little as a picture needs to look whole.
 constexpr const char* kPng = "\x89PNG\r\n\x1a\n....IEND\xae\x42\x60\x82";
@@ -124,6 +124,18 @@ TEST_CASE("a manifest of another scene or other options cannot be resumed") {
   CHECK(run.resumed().size() == 3);  // nothing was lost by trying
 }
 
+TEST_CASE("a manifest of another format cannot be resumed") {
+  const FinishedRun run;
+  std::string text = text_of(run.path);
+  text.replace(text.find("\"format\":1"), 10, "\"format\":2");
+  std::ofstream(run.path, std::ios::trunc) << text;
+  CHECK_THROWS_WITH(Manifest(run.path, "key", ExistingFiles::kResume),
+                    Catch::Contains("another version of pprt-render"));
+  CHECK(text_of(run.path) == text);
+  Manifest(run.path, "key", ExistingFiles::kRefuse);  // a run of its own
+  CHECK(text_of(run.path) == kFirstLine);
+}
+
 TEST_CASE("a manifest whose first line never came counts as none") {
   const FinishedRun run;
   for (const std::string& text : {std::string(), std::string("{\"record\":\"ru"), std::string(100, '\0')}) {
@@ -199,7 +211,7 @@ TEST_CASE("lines of a manifest that are JSON but not records are skipped") {
 TEST_CASE("without --resume a manifest of another key is replaced") {
   const FinishedRun run;
   CHECK(run.finished(Manifest(run.path, "other", ExistingFiles::kReplace)).empty());
-  CHECK(text_of(run.path) == "{\"record\":\"run\",\"key\":\"other\"}\n");
+  CHECK(text_of(run.path) == "{\"record\":\"run\",\"format\":1,\"key\":\"other\"}\n");
 }
 
 TEST_CASE("resuming without a manifest begins a new run") {

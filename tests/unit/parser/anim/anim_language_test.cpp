@@ -170,5 +170,11 @@ TEST_CASE("warnings come with their places, and the animation all the same") {
         "             ^\n");
 }
 
+TEST_CASE("a script may tell the version of its language") {
+  CHECK(parsed("#version 1;\nanimation { frames 3 }").frames == 3);
+  CHECK(parsed("animation { frames 3 } #version 2 - 1;").frames == 3);
+  CHECK(parsed("#versions 2;\nanimation { frames 3 }").frames == 3);  // a comment
+}
+
 }  // namespace
 }  // namespace pprt
