@@ -65,6 +65,8 @@ void answer(Communicator& network, SequenceClock& clock, const Message& question
   network.send(question.from, Tag::kClockPong, encode(ClockPong{ping.sent_s, now_s}));
 }
 
+}  // namespace
+
 Partition equal_areas(const SessionSettings& settings, int ranks) {
   const TileGrid grid = tile_grid(settings, ranks);
   std::vector<double> areas;
@@ -74,6 +76,8 @@ Partition equal_areas(const SessionSettings& settings, int ranks) {
   }
   return bisect(grid, areas, ranks);
 }
+
+namespace {
 
 // How many ranks share one of this host's cores, at least 1.
 double ranks_per_core(const Communicator& network) {
