@@ -247,6 +247,7 @@ FinishedFrame Master::finish(PendingFrame& pending) {
   frame.samples = std::move(assembly.samples);
   frame.tiles = std::move(assembly.tiles);
   frame.transfers = std::move(assembly.transfers);
+  frame.units_per_frame = clock_->units_per_frame();
   frame.frames_known = pending.frames_known;
   frame.late_ranks = assembly.late_ranks();
   frame.overdue_pixels = std::exchange(overdue_pixels_, 0);

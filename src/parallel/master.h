@@ -52,6 +52,7 @@ struct FinishedFrame {
   std::vector<Sample> samples;                 // of all ranks, each once; empty unless they are asked for
   std::vector<std::vector<TileReport>> tiles;  // per rank: what its tiles took
   std::vector<TransferChoice> transfers;       // of all ranks, each rank's in order; empty unless asked for
+  double units_per_frame = 0;                  // work units that a rank can do in a period; 0 without a rate
   int frames_known = 0;                  // whose reports balancing had considered when this frame was ordered
   std::vector<std::int32_t> late_ranks;  // whose pixels had not come: ascending
   int stale_tiles = 0;                   // tiles that show an earlier frame, for nobody has sent them
@@ -81,9 +82,9 @@ class Master {
   void frame_begun();
   void frame_done();
 
-  // Takes in how a rank chose transfers; its pixels, or a part of them, also those of a frame that did not
-  // wait for them. Throws
-  // ProtocolError for pixels of a frame that was not ordered, and for those that come twice.
+  // Takes in how a rank chose transfers, or its pixels or a part of them, also those of a frame that did not
+  // wait for them. Throws ProtocolError for pixels of a frame that was not ordered, and for those that come
+  // twice.
   void handle(const Message& message);
 
   // Delivers what is due: to be called whenever all that has arrived has been taken in.
