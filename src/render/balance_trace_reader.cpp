@@ -113,7 +113,7 @@ class Object {
   const Json& json_;
 };
 
-constexpr Range<double> kPositive{std::numeric_limits<double>::min(), kLargest}, kNotNegative{0, kLargest},
+constexpr Range<double> kPace{1e-6, 1e6}, kPositive{std::numeric_limits<double>::min(), kLargest}, kNotNegative{0, kLargest},
     kAny{-kLargest, kLargest};
 
 TraceHeader header_in(const Object& line) {
@@ -169,7 +169,7 @@ class FrameReader {
  private:
   std::vector<TracedRank> ranks_in(const Object& line) const {
     constexpr Range<std::uint64_t> kCount{0, std::uint64_t{1} << 62};
-    const auto pace = line.numbers("pace", kPositive, ranks_);
+    const auto pace = line.numbers("pace", kPace, ranks_);
     const auto samples = line.numbers("samples", kCount, ranks_);
     const auto cast = line.numbers("samples_cast", kCount, ranks_);
     std::vector<TracedRank> ranks;
@@ -201,7 +201,7 @@ class FrameReader {
             .progress = {.quality = taker.number("quality", kPositive),
                          .target = taker.number("target", kPositive),
                          .future_cost = taker.number("future_cost", kAny),
-                         .pace = taker.number("pace", kPositive)},
+                         .pace = taker.number("pace", kPace)},
             .giver_cost = taker.number("giver_cost", kAny)};
   }
 
