@@ -39,12 +39,13 @@ Json taker_record(const PossibleTaker& taker) {
           {"giver_cost", taker.giver_cost}};
 }
 
+Json run_record(const TileRun& run) {
+  return {run.first, run.count};
+}
+
 Json view_record(const RecordedTaker& taker) {
   return {{"rank", taker.rank},
-          {"tiles", column(taker.tiles,
-                           [](const TileRun& run) {
-                             return Json{run.first, run.count};
-                           })},
+          {"tiles", column(taker.tiles, run_record)},
           {"offers", column(taker.offers, [](const RecordedOffer& o) {
              return Json{o.tile, o.offer.future_cost, o.offer.samples, o.offer.known_to_taker};
            })}};
@@ -54,6 +55,7 @@ Json transfer_record(const TransferChoice& choice) {
   const TransferInputs& inputs = choice.inputs;
   return {{"round", choice.round},
           {"giver", choice.giver},
+          {"tiles", column(choice.tiles, run_record)},
           {"quality", inputs.quality},
           {"noise", inputs.noise},
           {"most_samples", std::isfinite(inputs.most_samples) ? Json(inputs.most_samples) : Json()},

@@ -113,8 +113,8 @@ class Object {
   const Json& json_;
 };
 
-constexpr Range<double> kPace{1e-6, 1e6}, kPositive{std::numeric_limits<double>::min(), kLargest}, kNotNegative{0, kLargest},
-    kAny{-kLargest, kLargest};
+constexpr Range<double> kPace{1e-6, 1e6}, kPositive{std::numeric_limits<double>::min(), kLargest},
+    kNotNegative{0, kLargest}, kAny{-kLargest, kLargest};
 
 TraceHeader header_in(const Object& line) {
   if (line.text("format") != kBalanceTraceFormat) throw BadLine("this is no balancing trace");
@@ -217,14 +217,19 @@ class FrameReader {
     return numbers;
   }
 
-  RecordedTaker view_in(const Object& view) const {
-    RecordedTaker taker{.rank = view.number("rank", rank_)};
-    for (const Json& run : view.list("tiles")) {
+  std::vector<TileRun> runs_in(const Json& list) const {
+    std::vector<TileRun> runs;
+    for (const Json& run : list) {
       const std::vector<double> numbers = about_tile(run, 2);
       if (!(numbers[1] >= 1 && numbers[0] + numbers[1] <= tile_.high + 1.0))
-        throw BadLine("\"tiles\" of a taker reach beyond the image");
-      taker.tiles.push_back({static_cast<int>(numbers[0]), static_cast<int>(numbers[1])});
+        throw BadLine("\"tiles\" reach beyond the image");
+      runs.push_back({static_cast<int>(numbers[0]), static_cast<int>(numbers[1])});
     }
+    return runs;
+  }
+
+  RecordedTaker view_in(const Object& view) const {
+    RecordedTaker taker{.rank = view.number("rank", rank_), .tiles = runs_in(view.list("tiles"))};
     for (const Json& offer : view.list("offers")) {
       const std::vector<double> numbers = about_tile(offer, 4);
       taker.offers.push_back({static_cast<int>(numbers[0]), {numbers[1], numbers[2], numbers[3]}});
@@ -237,6 +242,7 @@ class FrameReader {
     TransferChoice transfer{
         .giver = choice.number("giver", rank_),
         .round = choice.number<int>("round", {0, kMost}),
+        .tiles = runs_in(choice.list("tiles")),
         .inputs = {.quality = choice.number("quality", kNotNegative),
                    .noise = choice.number("noise", kNotNegative),
                    .most_samples = is_bounded ? choice.number("most_samples", kNotNegative)

@@ -32,8 +32,8 @@ struct LocalBalanceSettings {
 double relative_noise(const RegionQuality& refined, double elapsed);
 double relative_noise(std::int64_t triangles, double elapsed);
 
-// How much more a rank has to pay than its neighbours for what they aim at: the geometric mean of the ratios;
-// 1 where no neighbour has reported. `own_future_cost`: at a target quality, by its pace.
+// Returns how much more a rank has to pay than its neighbours for what they aim at. It is the geometric mean
+// of the ratios; 1 where no neighbour has reported. `own_future_cost`: at a target quality, by its pace.
 double load_by_neighbours(std::span<const RankProgress> neighbours,
                           const std::function<double(double target)>& own_future_cost);
 

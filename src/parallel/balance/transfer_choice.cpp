@@ -21,19 +21,17 @@ std::vector<TileRun> runs_of(const Partition& partition, int rank) {
   return runs;
 }
 
-// Gives the neighbours the tiles that the giver took for theirs.
-void apply_view(const TransferChoice& recorded, Partition& partition) {
-  constexpr std::int32_t kNobody = -1;
-  for (const RecordedTaker& taker : recorded.takers) {
-    std::replace(partition.owner.begin(), partition.owner.end(), taker.rank, kNobody);
-  }
-  for (const RecordedTaker& taker : recorded.takers) {
-    for (const TileRun& run : taker.tiles) {
-      const auto begin = partition.owner.begin() + run.first;
-      std::replace_if(
-          begin, begin + run.count, [&](std::int32_t owner) { return owner != recorded.giver; }, taker.rank);
-    }
-  }
+// Returns who owned which tile, as the giver knew it: its own tiles and those of the neighbours ahead. The
+// others are nobody's.
+Partition view_of(const TransferChoice& recorded, const TileGrid& grid, int ranks) {
+  const auto tiles = static_cast<std::size_t>(grid.tile_count());
+  Partition view{grid, ranks, std::vector<std::int32_t>(tiles, -1), std::vector<std::uint64_t>(tiles, 0)};
+  const auto own = [&](std::int32_t rank, const std::vector<TileRun>& runs) {
+    for (const TileRun& run : runs) std::fill_n(view.owner.begin() + run.first, run.count, rank);
+  };
+  for (const RecordedTaker& taker : recorded.takers) own(taker.rank, taker.tiles);
+  own(recorded.giver, recorded.tiles);
+  return view;
 }
 
 TileOffers offers_in(const TransferChoice& recorded, int taker) {
@@ -86,7 +84,7 @@ std::vector<GivenTile> choose_tiles(const LocalBalanceSettings& settings, Partit
 std::vector<GivenTile> TransferRecord::choose(const LocalBalanceSettings& settings,
                                               const Partition& partition, int giver,
                                               const TransferInputs& inputs, const OffersTo& offers_to) {
-  TransferChoice choice{.giver = giver, .round = round, .inputs = inputs};
+  TransferChoice choice{.giver = giver, .round = round, .tiles = runs_of(partition, giver), .inputs = inputs};
   std::map<int, std::map<int, TileOffer>> asked;  // by taker and tile
   const OffersTo recording = [&](const PossibleTaker& taker) {
     choice.takers.push_back({.rank = taker.rank, .tiles = runs_of(partition, taker.rank)});
@@ -103,11 +101,9 @@ std::vector<GivenTile> TransferRecord::choose(const LocalBalanceSettings& settin
   return given;
 }
 
-std::vector<GivenTile> choose_again(const LocalBalanceSettings& settings, const Partition& partition,
+std::vector<GivenTile> choose_again(const LocalBalanceSettings& settings, const TileGrid& grid, int ranks,
                                     const TransferChoice& recorded) {
-  Partition view = partition;
-  apply_view(recorded, view);
-  return choose_tiles(settings, std::move(view), recorded.giver, recorded.inputs,
+  return choose_tiles(settings, view_of(recorded, grid, ranks), recorded.giver, recorded.inputs,
                       [&](const PossibleTaker& taker) { return offers_in(recorded, taker.rank); });
 }
 

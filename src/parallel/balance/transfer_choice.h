@@ -1,5 +1,5 @@
-// Which tiles a rank gives to which neighbours: a function of plain values, so that a choice can be recorded
-// and made again (paper s. 3.6, 4.3).
+// Which tiles a rank gives to which neighbours (paper s. 3.6, 4.3). The choice is a function of plain values,
+// so that it can be recorded and made again.
 #pragma once
 
 #include <cstdint>
@@ -66,10 +66,11 @@ struct RecordedTaker {
   std::vector<RecordedOffer> offers = {};
 };
 
-// A choice with all that it depends on, but for the giver's own tiles.
+// A choice with all that it depends on.
 struct TransferChoice {
   std::int32_t giver = 0;
-  std::int32_t round = 0;  // of the frame's exchanges
+  std::int32_t round = 0;           // of the frame's exchanges
+  std::vector<TileRun> tiles = {};  // the giver's, ascending
   TransferInputs inputs = {};
   std::vector<RecordedTaker> takers = {};  // those that were ahead
   std::vector<GivenTile> given = {};       // the result
@@ -85,9 +86,9 @@ struct TransferRecord {
                                 const TransferInputs& inputs, const OffersTo& offers_to);
 };
 
-// Makes a recorded choice again. `partition` says which tiles are the giver's. A tile of which nothing was
-// recorded is not given.
-std::vector<GivenTile> choose_again(const LocalBalanceSettings& settings, const Partition& partition,
+// Makes a recorded choice again, of `ranks` ranks on that grid. A tile of which nothing was recorded is not
+// given.
+std::vector<GivenTile> choose_again(const LocalBalanceSettings& settings, const TileGrid& grid, int ranks,
                                     const TransferChoice& recorded);
 
 }  // namespace pprt

@@ -322,7 +322,7 @@ Bytes encode(const TransferMessage& transfers) {
   WireWriter out;
   out.put(transfers.frame_index), out.put(static_cast<std::uint32_t>(transfers.choices.size()));
   for (const TransferChoice& choice : transfers.choices) {
-    out.put(choice.giver), out.put(choice.round);
+    out.put(choice.giver), out.put(choice.round), out.put_all(std::span(choice.tiles));
     out.put(choice.inputs.quality), out.put(choice.inputs.noise), out.put(choice.inputs.most_samples);
     out.put_all(std::span(choice.inputs.takers)), out.put_all(std::span(choice.given));
     out.put(static_cast<std::uint32_t>(choice.takers.size()));
@@ -340,7 +340,7 @@ TransferMessage decode_transfers(std::span<const std::byte> bytes) {
   in.get(transfers.frame_index), in.get(choices);
   for (std::uint32_t c = 0; c < choices; ++c) {
     TransferChoice& choice = transfers.choices.emplace_back();
-    in.get(choice.giver), in.get(choice.round);
+    in.get(choice.giver), in.get(choice.round), in.get_all(choice.tiles);
     in.get(choice.inputs.quality), in.get(choice.inputs.noise), in.get(choice.inputs.most_samples);
     in.get_all(choice.inputs.takers), in.get_all(choice.given);
     std::uint32_t takers = 0;

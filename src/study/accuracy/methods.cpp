@@ -1,6 +1,5 @@
 #include "study/accuracy/methods.h"
 
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

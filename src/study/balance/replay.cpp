@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <map>
+#include <iterator>
 #include <utility>
 
 #include "parallel/balance/global_balance.h"
@@ -70,15 +70,36 @@ class Replay {
     if (!balances_locally(policy_) || run_.header.ranks == 1) return;
     if (policy_ != run_.header.settings.balance)
       return move_tiles_locally(run_.header, frame, policy_, local_, partition_);
-    // Choices of a round see what the rounds before have led to.
-    std::map<int, std::vector<const TransferChoice*>> rounds;
-    for (const TransferChoice& choice : frame.transfers) rounds[choice.round].push_back(&choice);
-    for (const auto& [round, choices] : rounds) {
-      const Partition before = partition_;
-      for (const TransferChoice* choice : choices) {
-        for (const GivenTile& given : choose_again(local_, before, *choice))
-          partition_.owner[static_cast<std::size_t>(given.tile)] = given.taker;
-      }
+    std::vector<TransferChoice> choices = frame.transfers;
+    std::stable_sort(choices.begin(), choices.end(),
+                     [](const TransferChoice& a, const TransferChoice& b) { return a.round < b.round; });
+    std::vector<Transfer> transfers;
+    for (const TransferChoice& choice : choices) {
+      for (const GivenTile& given : choose_again(local_, run_.header.grid, run_.header.ranks, choice))
+        transfers.push_back({choice.giver, given});
+    }
+    apply(std::move(transfers));
+  }
+
+  struct Transfer {
+    std::int32_t giver;
+    GivenTile given;
+  };
+
+  // In the order of rounds. In real time each rank counts its own, so a tile that is given on may seem to be
+  // given on first: then its transfer waits for the one before.
+  void apply(std::vector<Transfer> transfers) {
+    const auto is_waiting = [this](const Transfer& transfer) {
+      std::int32_t& owner = partition_.owner[static_cast<std::size_t>(transfer.given.tile)];
+      if (owner != transfer.giver) return true;
+      owner = transfer.given.taker;
+      return false;
+    };
+    for (std::size_t before = transfers.size() + 1; transfers.size() < before;) {
+      before = transfers.size();
+      std::vector<Transfer> waiting;
+      std::copy_if(transfers.begin(), transfers.end(), std::back_inserter(waiting), is_waiting);
+      transfers = std::move(waiting);
     }
   }
 

@@ -21,15 +21,15 @@ struct ReplayedRound {
 };
 
 // Replays a run. The policy that ran is replayed from the inputs that its decisions had, so it makes the
-// recorded ones again. Another policy has figures that it would have had if the cost of a tile times its mean
-// weight did not depend on its owner (modelled_transfers.h, figures_under()).
+// recorded ones again. Another policy has modelled ones: the cost of a tile times its mean weight does not
+// depend on its owner (figures_under(), modelled_transfers.h).
 //
 // `local`: of decisions made during frames.
 std::vector<ReplayedRound> replay(const BalanceTrace& run, BalanceMode policy,
                                   const LocalBalanceSettings& local = {});
 
-// Per rank: the time, in work units at pace 1, until its tiles have the mean weight of the whole image (paper
-// s. 4.4), without ranks that are lost.
+// Returns the load of each rank that is not lost: the time, in work units at pace 1, until its tiles have the
+// mean weight of the whole image (paper s. 4.4).
 std::vector<double> loads(const TraceHeader& header, const TracedFrame& frame,
                           const std::vector<std::int32_t>& owners);
 

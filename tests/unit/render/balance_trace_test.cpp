@@ -44,6 +44,7 @@ FinishedFrame some_frame() {
   frame.transfers = {
       {.giver = 0,
        .round = 9,
+       .tiles = {{.first = 1, .count = 1}},
        .inputs = {.quality = 1.0 / 3,
                   .noise = 0.01,
                   .most_samples = std::numeric_limits<double>::infinity(),
@@ -109,6 +110,7 @@ TEST_CASE("balancing trace: what is written is read again, to the bit") {
   REQUIRE(frame.transfers.size() == 1);
   const TransferChoice &choice = frame.transfers[0], &made = written.transfers[0];
   CHECK((choice.giver == 0 && choice.round == 9 && choice.given == made.given));
+  CHECK((choice.tiles.at(0).first == 1 && choice.tiles[0].count == 1));
   CHECK((choice.inputs.quality == made.inputs.quality && choice.inputs.noise == made.inputs.noise &&
          choice.inputs.most_samples == made.inputs.most_samples));
   const PossibleTaker &taker = choice.inputs.takers.at(0), &known = made.inputs.takers[0];
@@ -142,7 +144,7 @@ TEST_CASE("balancing trace: what is no trace is refused by file and line") {
   CHECK(problem_with(2, "/transfers/0/giver", 2) == "t:2: error: \"giver\" is out of range");
   CHECK(problem_with(2, "/transfers/0/given/0/1", 2) == "t:2: error: \"given\" names a rank that is none");
   CHECK(problem_with(2, "/transfers/0/ahead/0/tiles/0/1", 3) ==
-        "t:2: error: \"tiles\" of a taker reach beyond the image");
+        "t:2: error: \"tiles\" reach beyond the image");
   CHECK(problem_with(2, "/transfers/0/ahead/0/offers/0/0", 2) ==
         "t:2: error: \"transfers\" holds a tile that is none");
   CHECK(problem_with(2, "/transfers/0/takers", 1) == "t:2: error: \"takers\" is no list");

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <numeric>
+#include <random>
 
+#include "base/diagnostics.h"
 #include "parallel/session_words.h"
 #include "unit/study/balance/recorded_run.h"
 
@@ -112,6 +114,35 @@ TEST_CASE("balancing replay: policies that balance lower the deviation of the lo
   }
   const std::vector<ReplayedRound> unmoved = replay(run, BalanceMode::kNone);
   CHECK(sum_of(unmoved, &ReplayedRound::moved) == 0);
+}
+
+TEST_CASE("balancing replay: figures that make no sense are borne") {
+  const BalanceTrace run = recorded_run(uneven_settings(BalanceMode::kCombined), 4, 4);
+  std::string text = trace_line(run.header);
+  for (const TracedFrame& frame : run.frames) text += trace_line(frame);
+  std::mt19937 random(3);
+  int replayed = 0;
+  for (int i = 0; i < 300; ++i) {
+    std::string broken = text;
+    for (int change = 0; change < 12; ++change) {
+      char& c = broken[random() % broken.size()];
+      if (c >= '0' && c <= '9') c = static_cast<char>('0' + random() % 10);
+      if (c == '.') c = "0e"[random() % 2];
+    }
+    try {
+      for (const BalanceTrace& read : parse_balance_trace(broken, "t").runs) {
+        for (const BalanceMode policy : kAll) {
+          for (const ReplayedRound& round : replay(read, policy)) {
+            CHECK(std::all_of(round.owners.begin(), round.owners.end(),
+                              [&](std::int32_t owner) { return owner >= 0 && owner < read.header.ranks; }));
+          }
+        }
+        ++replayed;
+      }
+    } catch (const InputError&) {
+    }
+  }
+  CHECK(replayed > 20);
 }
 
 TEST_CASE("balancing replay: loads are predicted costs of the tiles owned, by pace") {
