@@ -48,7 +48,7 @@ TEST_CASE("balance study: the table for people is aligned, that for programs a J
         "\n");
 }
 
-TEST_CASE("word lists: in the order given; an unknown word is refused by the option's name") {
+TEST_CASE("word lists: in the order given, and an unknown word is refused by the option's name") {
   constexpr std::string_view kKnown[] = {"red", "green"};
   CHECK(words_in_list("--hue", "green,red", kKnown) == std::vector<std::string_view>{"green", "red"});
   CHECK_THROWS_WITH(words_in_list("--hue", "red,gren", kKnown),
