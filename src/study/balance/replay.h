@@ -28,8 +28,8 @@ struct ReplayedRound {
 std::vector<ReplayedRound> replay(const BalanceTrace& run, BalanceMode policy,
                                   const LocalBalanceSettings& local = {});
 
-// Returns the load of each rank that is not lost: the time, in work units at pace 1, until its tiles have the
-// mean weight of the whole image (paper s. 4.4).
+// Returns the load of each rank that is not lost (paper s. 4.4): the time until its tiles have the mean
+// weight of the whole image. In work units at pace 1.
 std::vector<double> loads(const TraceHeader& header, const TracedFrame& frame,
                           const std::vector<std::int32_t>& owners);
 
