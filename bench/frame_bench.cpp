@@ -151,8 +151,8 @@ void rank_0(benchmark::State& state, bool partition) {
       assembly.add(rank, decode_pixels(messages[static_cast<std::size_t>(rank)]));
     FrameOrder next = order;
     if (partition) {
-      balancer.consider({.tiles = assembly.tiles_of_ranks(),
-                         .speeds = std::vector<double>(static_cast<std::size_t>(ranks), 1)});
+      balancer.consider(
+          {.tiles = assembly.tiles, .speeds = std::vector<double>(static_cast<std::size_t>(ranks), 1)});
       balancer.add_partition(next);
     }
     ordered = 0;

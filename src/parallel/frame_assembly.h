@@ -22,17 +22,17 @@ class FrameAssembly {
   bool is_whole() const { return missing_ == 0; }
   const FrameOrder& order() const { return order_; }
   std::span<const RankReport> reports() const { return reports_; }  // empty ones of late ranks
-  const std::vector<std::vector<TileReport>>& tiles_of_ranks() const { return tiles_; }
-  std::vector<std::int32_t> late_ranks() const;  // whose pixels have not come: ascending
+  std::vector<std::int32_t> late_ranks() const;                     // whose pixels have not come: ascending
 
   // Moved out when the frame is delivered.
   Mosaic picture;
   std::vector<Sample> samples;
+  std::vector<std::vector<TileReport>> tiles;  // per rank
+  std::vector<TransferChoice> transfers;       // of all ranks, as they came
 
  private:
   FrameOrder order_;
   std::vector<RankReport> reports_;
-  std::vector<std::vector<TileReport>> tiles_;
   std::vector<std::uint8_t> has_come_;  // per rank: all its pixels
   int missing_;                         // ranks whose pixels have not come
 };

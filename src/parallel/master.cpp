@@ -1,6 +1,7 @@
 #include "parallel/master.h"
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -67,7 +68,7 @@ void Master::order_next() {
     return;
   }
   FrameOrder order = make_order(*request);
-  PendingFrame frame{.assembly = FrameAssembly(order, grid_, network_.size())};
+  PendingFrame frame{.assembly = FrameAssembly(order, grid_, network_.size()), .frames_known = delivered_};
   // Rank 0 was away for so long that nobody can carry this order out in time.
   if (clock_->keeps_deadlines() && clock_->now_s() >= order.deadline_s + kGraceSeconds)
     frame.overdue_since_s = order.deadline_s;
@@ -125,6 +126,7 @@ void Master::send(const FrameOrder& order) {
 
 void Master::handle(const Message& message) {
   if (is_lost(message.from)) return;  // it answers again, too late
+  if (message.tag == Tag::kTransfers) return handle_transfers(message);
   const PixelMessage pixels = decode_pixels(message.payload);
   const auto found = frames_.find(pixels.frame_index);
   if (found == frames_.end()) {
@@ -136,6 +138,15 @@ void Master::handle(const Message& message) {
   if (!pixels.is_last) return;
   frame.after_sampling_s = std::max(frame.after_sampling_s, after_sampling_s(pixels.report));
   while (!frames_.empty() && frames_.begin()->second.assembly.is_whole()) deliver_first();
+}
+
+// Those of a frame that has been delivered are of no use any more.
+void Master::handle_transfers(const Message& message) {
+  TransferMessage transfers = decode_transfers(message.payload);
+  const auto found = frames_.find(transfers.frame_index);
+  if (found == frames_.end()) return;
+  std::vector<TransferChoice>& all = found->second.assembly.transfers;
+  std::move(transfers.choices.begin(), transfers.choices.end(), std::back_inserter(all));
 }
 
 // Pixels for which the frame has not waited fill the next gap, unless something newer is shown there. The
@@ -209,7 +220,7 @@ void Master::learn_from(const PendingFrame& frame) {
   FrameReports reports{.is_whole = frame.assembly.is_whole(),
                        .generation = order.generation,
                        .accumulates = order.carry == Carry::kAccumulate,
-                       .tiles = frame.assembly.tiles_of_ranks(),
+                       .tiles = frame.assembly.tiles,
                        .speeds = {}};
   evidence_ = halved(evidence_);
   for (const RankReport& r : frame.assembly.reports()) {
@@ -234,6 +245,10 @@ FinishedFrame Master::finish(PendingFrame& pending) {
   frame.owners = assembly.picture.shown_ranks();
   frame.image = assembly.picture.take_image();
   frame.samples = std::move(assembly.samples);
+  frame.tiles = std::move(assembly.tiles);
+  frame.transfers = std::move(assembly.transfers);
+  frame.units_per_frame = clock_->units_per_frame();
+  frame.frames_known = pending.frames_known;
   frame.late_ranks = assembly.late_ranks();
   frame.overdue_pixels = std::exchange(overdue_pixels_, 0);
   frame.global_balance = !frame.order.owners.empty();

@@ -47,9 +47,13 @@ inline constexpr double kGraceSeconds = 0.003;
 struct FinishedFrame {
   FrameOrder order;
   Image image;
-  std::vector<RankReport> ranks;         // empty reports of those that were late
-  std::vector<std::int32_t> owners;      // per tile: the rank whose pixels are shown
-  std::vector<Sample> samples;           // of all ranks, each once; empty unless they are asked for
+  std::vector<RankReport> ranks;               // empty reports of those that were late
+  std::vector<std::int32_t> owners;            // per tile: the rank whose pixels are shown
+  std::vector<Sample> samples;                 // of all ranks, each once; empty unless they are asked for
+  std::vector<std::vector<TileReport>> tiles;  // per rank: what its tiles took
+  std::vector<TransferChoice> transfers;       // of all ranks, each rank's in order; empty unless asked for
+  double units_per_frame = 0;                  // work units that a rank can do in a period; 0 without a rate
+  int frames_known = 0;                  // whose reports balancing had considered when this frame was ordered
   std::vector<std::int32_t> late_ranks;  // whose pixels had not come: ascending
   int stale_tiles = 0;                   // tiles that show an earlier frame, for nobody has sent them
   int overdue_pixels = 0;       // messages of earlier frames that came after those had been delivered
@@ -78,8 +82,9 @@ class Master {
   void frame_begun();
   void frame_done();
 
-  // Takes in a rank's pixels, or a part of them, also those of a frame that did not wait for them. Throws
-  // ProtocolError for pixels of a frame that was not ordered, and for those that come twice.
+  // Takes in how a rank chose transfers, or its pixels or a part of them, also those of a frame that did not
+  // wait for them. Throws ProtocolError for pixels of a frame that was not ordered, and for those that come
+  // twice.
   void handle(const Message& message);
 
   // Delivers what is due: to be called whenever all that has arrived has been taken in.
@@ -102,6 +107,7 @@ class Master {
   // A frame that was ordered and is not delivered.
   struct PendingFrame {
     FrameAssembly assembly;
+    int frames_known = 0;                        // when it was ordered: delivered
     double after_sampling_s = 0;                 // the longest of those whose pixels have come
     std::optional<double> overdue_since_s = {};  // seen by rank 0, which may have been away at the deadline
   };
@@ -113,6 +119,7 @@ class Master {
   FrameOrder make_order(const FrameRequest& request);
   Carry carry_into(const FrameRequest& request) const;
   void send(const FrameOrder& order);
+  void handle_transfers(const Message& message);
   void handle_overdue(int from, const PixelMessage& pixels);
   double after_sampling_s(const RankReport& report) const;
   bool is_due(const PendingFrame& frame) const;

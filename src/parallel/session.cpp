@@ -65,8 +65,9 @@ void answer(Communicator& network, SequenceClock& clock, const Message& question
   network.send(question.from, Tag::kClockPong, encode(ClockPong{ping.sent_s, now_s}));
 }
 
-Partition equal_areas(const SessionSettings& settings, int ranks) {
-  const TileGrid grid = tile_grid(settings, ranks);
+}  // namespace
+
+Partition equal_areas(const TileGrid& grid, int ranks) {
   std::vector<double> areas;
   areas.reserve(static_cast<std::size_t>(grid.tile_count()));
   for (int tile = 0; tile < grid.tile_count(); ++tile) {
@@ -74,6 +75,8 @@ Partition equal_areas(const SessionSettings& settings, int ranks) {
   }
   return bisect(grid, areas, ranks);
 }
+
+namespace {
 
 // How many ranks share one of this host's cores, at least 1.
 double ranks_per_core(const Communicator& network) {
@@ -113,7 +116,7 @@ TileGrid tile_grid(const SessionSettings& settings, int ranks) {
 
 void run_as_master(Communicator& network, const SessionSettings& settings, const Probe& probe,
                    const CameraSource& source, const FrameSink& sink, const SessionEvents& events) {
-  const Partition partition = equal_areas(settings, network.size());
+  const Partition partition = equal_areas(tile_grid(settings, network.size()), network.size());
   Master master(network, settings, partition, ranks_per_core(network), source, sink);
   RankClocks clocks(network);
   LossWatch losses(events.loss, clocks, network.size());
@@ -162,7 +165,7 @@ void run_as_master(Communicator& network, const SessionSettings& settings, const
 
 void run_as_worker(Communicator& network, const SessionSettings& settings, const Probe& probe,
                    std::function<double()> now) {
-  const Partition partition = equal_areas(settings, network.size());
+  const Partition partition = equal_areas(tile_grid(settings, network.size()), network.size());
   SequenceClock clock(std::move(now));
   Inbox inbox(network, longest_rest_s(settings), [&](const Message& message) {
     if (message.tag != Tag::kClockPing) throw ProtocolError("a message came that is for rank 0");

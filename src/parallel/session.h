@@ -31,6 +31,9 @@ void run_as_worker(Communicator& network, const SessionSettings& settings, const
 // Returns the tiles of the image: the units of balancing, which suit the sampler.
 TileGrid tile_grid(const SessionSettings& settings, int ranks);
 
+// Returns the partition of the first frame: regions of equal areas.
+Partition equal_areas(const TileGrid& grid, int ranks);
+
 // A frame's budget in work units when the user gives none: what the virtual processor does in one period.
 std::uint64_t default_budget_units(double frames_per_second);
 

@@ -13,7 +13,8 @@ Bytes encode(const SessionSettings& settings) {
   out.put(settings.balance), out.put(settings.cast), out.put(settings.keep_samples);
   out.put(settings.pixel_rule), out.put(settings.sampler), out.put(settings.learned_weights);
   out.put(settings.seed);
-  out.put(settings.is_still), out.put(settings.report_samples), out.put(settings.late_orders);
+  out.put(settings.is_still), out.put(settings.report_samples), out.put(settings.report_transfers);
+  out.put(settings.late_orders);
   out.put(settings.machine);
   return out.take();
 }
@@ -26,7 +27,8 @@ SessionSettings decode_settings(const Bytes& bytes) {
   in.get(settings.balance, BalanceMode::kCombined), in.get(settings.cast, CastChoice::kAuto);
   in.get(settings.keep_samples), in.get(settings.pixel_rule, PixelRule::kEdges);
   in.get(settings.sampler, SamplerChoice::kGrid), in.get(settings.learned_weights), in.get(settings.seed);
-  in.get(settings.is_still), in.get(settings.report_samples), in.get(settings.late_orders);
+  in.get(settings.is_still), in.get(settings.report_samples), in.get(settings.report_transfers);
+  in.get(settings.late_orders);
   in.get(settings.machine);
   in.expect_end();
   return settings;

@@ -31,6 +31,7 @@ TileOwnership::TileOwnership(const SessionSettings& settings, int rank, int rank
 
 void TileOwnership::begin_frame() {
   given_.clear();
+  record_ = {};
   partition_bytes_ = 0;
   balancer_.begin_frame(clock_.pace());
 }
@@ -60,7 +61,7 @@ bool TileOwnership::may_give(bool fresh_mesh) const {
   return balancer_.is_early_enough(elapsed);
 }
 
-std::vector<TileTransfer> TileOwnership::give_tiles(bool fresh_mesh) {
+std::vector<TileTransfer> TileOwnership::give_tiles(bool fresh_mesh, int round) {
   if (!may_give(fresh_mesh)) return {};
   const StageTimer::Balancing timed(timer_);
   RegionSamples& samples = sampler_.samples();
@@ -72,8 +73,9 @@ std::vector<TileTransfer> TileOwnership::give_tiles(bool fresh_mesh) {
   const double elapsed = clock_.sampling_share();
   handshake_.set_giving(
       balancer_.wants_to_give(refined, samples.neighbours(), elapsed, handshake_.is_giving()));
-  const std::vector<TileTransfer> transfers =
-      balancer_.choose_transfers(refined, samples, handshake_, elapsed, most_samples);
+  record_.round = round;
+  const std::vector<TileTransfer> transfers = balancer_.choose_transfers(
+      refined, samples, handshake_, elapsed, most_samples, settings_.report_transfers ? &record_ : nullptr);
   for (auto first = transfers.begin(); first != transfers.end();) {
     const int taker = first->owner;
     std::vector<int> tiles;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "parallel/balance/balancer.h"
@@ -39,7 +40,11 @@ class TileOwnership {
   // Gives tiles to neighbours that are ahead. They are theirs at once as far as this rank is concerned; the
   // caller tells takers and neighbours. Without a rate all ranks are to be told: they await each other's
   // seeds without limit, and must agree whose these are. `fresh_mesh`: the triangulation began in this frame.
-  std::vector<TileTransfer> give_tiles(bool fresh_mesh);
+  // `round`: of the frame's exchanges.
+  std::vector<TileTransfer> give_tiles(bool fresh_mesh, int round);
+
+  // How this frame's transfers were chosen, where the settings ask for it.
+  std::vector<TransferChoice> take_choices() { return std::exchange(record_.choices, {}); }
 
   // Tiles that this rank has taken and has still, for all ranks, once a frame when tiles hardly change hands
   // any more; else none. Those that are far from them need not be told of every transfer on the way.
@@ -95,6 +100,7 @@ class TileOwnership {
   Balancer balancer_;
   std::vector<std::int32_t> given_;
   std::vector<std::int32_t> gained_;  // and not told to all
+  TransferRecord record_;
   std::uint64_t partition_bytes_ = 0;
   MissedFrames missed_;
 };

@@ -66,6 +66,7 @@ void Worker::render(const FrameOrder& order) {
   sample(order);
   const double sampling_ended_s = clock_->sampling_end_seconds();
   reconstruct();
+  send_choices(order);
   send_pixels(order, sampling_ended_s);
 }
 
@@ -129,7 +130,7 @@ void Worker::exchange_bundles(bool concerns_all) {
 void Worker::send_bundles(bool concerns_all) {
   // Those before a transfer: they send samples for its tiles to this rank.
   const std::vector<int> neighbours = sampler_.samples().neighbours();
-  const std::vector<TileTransfer> transfers = ownership_.give_tiles(is_fresh());
+  const std::vector<TileTransfer> transfers = ownership_.give_tiles(is_fresh(), bundles_.at().round);
   const std::vector<OwnerChange> gains = ownership_.take_gains();
   const RankProgress progress = ownership_.progress();
   const bool is_progress_due =
@@ -180,6 +181,13 @@ void Worker::reconstruct() {
   picture_.reconstruct(sampler_.samples(), ownership_.given());
   clock_->spend(Work::kPixel, sampler_.region().pixel_count());
   timer_.end_stage(&StageTimes::reconstruction);
+}
+
+void Worker::send_choices(const FrameOrder& order) {
+  std::vector<TransferChoice> choices = ownership_.take_choices();
+  if (choices.empty()) return;
+  network_.send(0, Tag::kTransfers,
+                encode(TransferMessage{.frame_index = order.index, .choices = std::move(choices)}));
 }
 
 void Worker::send_pixels(const FrameOrder& order, double sampling_ended_s) {

@@ -85,6 +85,7 @@ class Worker {
 
   // Reconstruct and report.
   void reconstruct();
+  void send_choices(const FrameOrder& order);
   void send_pixels(const FrameOrder& order, double sampling_ended_s);
   std::size_t send_part(PixelMessage& message);
   RankReport make_report(double sampling_ended_s);

@@ -4,6 +4,7 @@
 #include <future>
 #include <utility>
 
+#include "cli/version.h"
 #include "image/contact_sheet.h"
 #include "image/metrics.h"
 #include "layers/frame_layers.h"
@@ -59,13 +60,24 @@ std::set<int> frames_in(const Manifest& manifest, const RenderPlan& plan) {
   return frames;
 }
 
+std::unique_ptr<BalanceTraceWriter> trace_of(const RenderPlan& plan, int ranks) {
+  if (plan.report.trace.empty()) return nullptr;
+  return std::make_unique<BalanceTraceWriter>(plan.report.trace, plan.output.existing,
+                                              TraceHeader{.program = kVersion,
+                                                          .scene = plan.scene.name,
+                                                          .ranks = ranks,
+                                                          .grid = tile_grid(plan.settings, ranks),
+                                                          .settings = plan.settings});
+}
+
 }  // namespace
 
-FrameRecorder::FrameRecorder(const RenderPlan& plan, const CompiledScene& scene, const std::string& key,
-                             const Json& run, ProgressReporter& progress)
+FrameRecorder::FrameRecorder(const RenderPlan& plan, const CompiledScene& scene, int ranks,
+                             const std::string& key, const Json& run, ProgressReporter& progress)
     : plan_(plan),
       scene_(scene),
       ledger_(plan.report.ledger, plan.output.existing),
+      trace_(trace_of(plan, ranks)),
       manifest_(manifest_path(plan.output.pictures.front()), key, plan.output.existing,
                 rewritten_files(plan)),
       finished_before_(frames_in(manifest_, plan)),
@@ -80,6 +92,8 @@ FrameRecorder::FrameRecorder(const RenderPlan& plan, const CompiledScene& scene,
 }
 
 void FrameRecorder::record(FinishedFrame&& frame) {
+  if (trace_) trace_->submit(frame);
+  if (finished_before(frame.order.number)) return;
   const FrameSummary summary = summarize(frame);
   Json record = frame_record(summary);
   Metadata metadata = header_metadata(record);
@@ -175,6 +189,7 @@ void FrameRecorder::finish(bool stopped) {
     write_contact_sheet();
     make_film();
     if (serial_) serial_->catch_up();
+    if (trace_) trace_->finish();
     ledger_.finish();
     ledger_.write(summary_record(totals_, plan_.settings.frames_per_second > 0));
   } catch (...) {

@@ -2,6 +2,7 @@
 // the rest happens in threads of its own.
 #pragma once
 
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "image/frame_writer.h"
+#include "render/balance_trace.h"
 #include "render/ledger.h"
 #include "render/manifest.h"
 #include "render/progress.h"
@@ -21,16 +23,17 @@ class FrameRecorder {
  public:
   // `key` stands for scene and options in the manifest (run_key()); `run` is the ledger's first record. Plan,
   // scene and progress must outlive the recorder.
-  FrameRecorder(const RenderPlan& plan, const CompiledScene& scene, const std::string& key, const Json& run,
-                ProgressReporter& progress);
+  FrameRecorder(const RenderPlan& plan, const CompiledScene& scene, int ranks, const std::string& key,
+                const Json& run, ProgressReporter& progress);
 
   // Whether an earlier run has finished the frame (--resume).
   bool finished_before(int frame) const { return finished_before_.count(frame) != 0; }
 
+  // Traces the frame's balancing. Everything else is left out where an earlier run has finished the frame.
   void record(FinishedFrame&& frame);
 
-  // Whether a frame could not be written, so that going on serves nothing.
-  bool failed() const { return writer_.error().has_value(); }
+  // Whether a frame or its trace could not be written, so that going on serves nothing.
+  bool failed() const { return writer_.error().has_value() || (trace_ && trace_->failed()); }
 
   // Prints a line of status; may be called from any thread.
   void status() const;
@@ -53,6 +56,7 @@ class FrameRecorder {
   const CompiledScene& scene_;
   std::optional<SerialComparison> serial_;
   Ledger ledger_;  // before the manifest, which must stand as it was when no ledger can be written
+  std::unique_ptr<BalanceTraceWriter> trace_;  // likewise; null: none
   Manifest manifest_;
   std::set<int> finished_before_;
   std::set<int> written_;  // frames whose files are whole, those of earlier runs too

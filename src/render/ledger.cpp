@@ -22,7 +22,7 @@ Json rays_record(const RayCounts& rays) {
 }
 
 // Whether the file is empty or its last line is complete; a killed process may leave one that is not.
-bool ends_with_line(const std::string& path) {
+bool ends_with_line(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   file.seekg(-1, std::ios::end);
   return !file || file.get() == '\n';
@@ -88,16 +88,20 @@ bool is_open_stream(const std::filesystem::path& path) {
          name.starts_with("/proc/self/fd/");
 }
 
-Ledger::Ledger(const std::string& path, ExistingFiles existing) : path_(path) {
-  if (path_.empty() || path_ == "-") return;
+AppendedFile open_lines(const std::filesystem::path& path, ExistingFiles existing) {
   std::error_code unknown;  // then opening will tell
-  const std::filesystem::file_status found = std::filesystem::status(path_, unknown);
-  const bool is_file = std::filesystem::is_regular_file(found) && !is_open_stream(path_);
+  const std::filesystem::file_status found = std::filesystem::status(path, unknown);
+  const bool is_file = std::filesystem::is_regular_file(found) && !is_open_stream(path);
   const bool is_new = !std::filesystem::exists(found) || (is_file && existing != ExistingFiles::kResume);
-  const bool is_torn = is_file && !is_new && !ends_with_line(path_);
-  if (is_new) write_whole_file(path_, "");
-  file_ = AppendedFile(path_);
-  if (is_torn) file_.append("\n");
+  const bool is_torn = is_file && !is_new && !ends_with_line(path);
+  if (is_new) write_whole_file(path, "");
+  AppendedFile file(path);
+  if (is_torn) file.append("\n");
+  return file;
+}
+
+Ledger::Ledger(const std::string& path, ExistingFiles existing) : path_(path) {
+  if (!path_.empty() && path_ != "-") file_ = open_lines(path_, existing);
 }
 
 void Ledger::write(const Json& record) {

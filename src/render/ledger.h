@@ -26,6 +26,11 @@ Json frame_record(const FrameSummary& frame);
 // Returns the last record. `has_rate`: frames had deadlines, so that lateness is reported.
 Json summary_record(const RunTotals& totals, bool has_rate);
 
+// Opens a file to which a run writes lines. A resumed run adds to it; otherwise a new file takes its name.
+// What is no file is written to as it is: a pipe, a device, a stream of this process. Throws
+// std::runtime_error.
+AppendedFile open_lines(const std::filesystem::path& path, ExistingFiles existing);
+
 // A figure of a frame that is still being measured, beside the frame loop. When that fails, the figure is
 // left out of the record; the reason is printed on standard error, once a run.
 struct Measurement {
@@ -46,8 +51,7 @@ class Ledger {
   // oldest.
   static constexpr std::size_t kMostPictures = 4;
 
-  // `path` empty: writes nothing; "-": standard output. A resumed run adds to the file; otherwise a new file
-  // takes its name. What is no file is written to as it is: a pipe, a device, a stream of this process.
+  // `path` empty: writes nothing; "-": standard output; else as open_lines().
   Ledger(const std::string& path, ExistingFiles existing);
 
   bool enabled() const { return !path_.empty(); }

@@ -119,7 +119,8 @@ void for_each_frame_file(const RenderPlan& plan, const Take& take) {
 std::vector<NamedFile> files_of_the_run(const RenderPlan& plan) {
   std::vector<NamedFile> files = {{"--contact-sheet", plan.output.contact_sheet},
                                   {"--film", plan.output.film},
-                                  {"--stats", plan.report.ledger}};
+                                  {"--stats", plan.report.ledger},
+                                  {"--trace", plan.report.trace}};
   std::erase_if(files, [](const NamedFile& file) { return file.path.empty() || file.path == "-"; });
   return files;
 }
@@ -138,14 +139,14 @@ void require_distinct_files(const RenderPlan& plan) {
   for_each_frame_file(plan, [&](const fs::path& file) { table.add_frame({"the frame", file}, has_twins); });
 }
 
-// Whether there is a file that this run would replace. The ledger may also be a pipe or a device.
+// Whether there is a file that this run would replace. Ledger and trace may also be pipes or devices.
 bool would_be_replaced(const NamedFile& file) {
   std::error_code error;
   const fs::file_status found = fs::status(file.path, error);
   if (found.type() == fs::file_type::none) {
     throw std::runtime_error(fmt::format("cannot write '{}': {}", file.path.string(), error.message()));
   }
-  if (file.role != "--stats") return fs::exists(found);
+  if (file.role != "--stats" && file.role != "--trace") return fs::exists(found);
   return !is_open_stream(file.path) &&
          (fs::is_regular_file(found) || (!fs::exists(found) && fs::is_symlink(file.path)));
 }

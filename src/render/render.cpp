@@ -184,7 +184,7 @@ int run_live_view(ProcessRanks& ranks, const PreparedRun& run, const SessionEven
   std::optional<FrameRecorder> recorder;
   if (!run.plan.output.pictures.empty()) {
     const RunIdentity identity{run.plan, size, hash_of(run.plan.scene)};
-    recorder.emplace(run.plan, run.scene, run_key(identity), run_record(identity, run.scene.effects()),
+    recorder.emplace(run.plan, run.scene, size, run_key(identity), run_record(identity, run.scene.effects()),
                      progress);
   }
   watch_signals();
@@ -211,8 +211,8 @@ int run_frames(ProcessRanks& ranks, const PreparedRun& run, const SessionEvents&
   // Open the outputs, which may fail, while the other processes wait.
   const int size = ranks.ranks().size;
   const RunIdentity identity{run.plan, size, hash_of(run.plan.scene)};
-  FrameRecorder recorder(run.plan, run.scene, run_key(identity), run_record(identity, run.scene.effects()),
-                         progress);
+  FrameRecorder recorder(run.plan, run.scene, size, run_key(identity),
+                         run_record(identity, run.scene.effects()), progress);
   const auto finished_before = [&](int frame) { return recorder.finished_before(frame); };
   const CameraSource source =
       camera_source(frame_requests(run.plan, run.scene, size, finished_before), recorder);
@@ -221,9 +221,7 @@ int run_frames(ProcessRanks& ranks, const PreparedRun& run, const SessionEvents&
   broadcast.send(run.job);
   watch_signals();
   const StatusPrinter printer([&recorder] { recorder.status(); }, [&progress] { progress.stopping(); });
-  const FrameSink sink = [&](FinishedFrame&& frame) {
-    if (!recorder.finished_before(frame.order.number)) recorder.record(std::move(frame));
-  };
+  const FrameSink sink = [&](FinishedFrame&& frame) { recorder.record(std::move(frame)); };
   run_sequence(ranks, run.scene, run.plan.settings, source, sink, events);
 
   const int code = finish_files(recorder, progress);

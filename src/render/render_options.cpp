@@ -214,6 +214,10 @@ void add_report_options(CLI::App& app, RenderOptions& o) {
   app.add_option("--stats", o.stats, "Write the ledger, one JSON object a line; - is standard output")
       ->type_name("FILE")
       ->group(group);
+  app.add_option("--trace", o.trace,
+                 "Write the balancing trace, one JSON object a line, which pprt-study balance replays")
+      ->type_name("FILE")
+      ->group(group);
   const auto parse_reference = [](const std::string& text) {
     return parse_frame_pattern(text, FrameCount::kOne, "--reference");
   };

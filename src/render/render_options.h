@@ -64,6 +64,7 @@ struct RenderOptions {
   std::optional<LiveAddress> live;  // empty: nobody watches
 
   std::string stats;                      // the ledger's file; "-": standard output; empty: none
+  std::filesystem::path trace;            // the balancing trace; empty: none
   std::optional<FramePattern> reference;  // pictures to measure errors against
   bool compare_serial = false;
   ProgressKind progress = ProgressKind::kAuto;

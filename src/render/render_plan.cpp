@@ -225,6 +225,7 @@ SessionSettings session_settings(const RenderOptions& options, const View& view,
                          : options.sampler;
   settings.learned_weights = options.weights == WeightRule::kLearned;
   settings.seed = options.seed;
+  settings.report_transfers = !options.trace.empty();
   settings.report_samples =
       options.compare_serial || std::any_of(options.layers.begin(), options.layers.end(), needs_samples);
   settle_ends(options, fps, settings);
@@ -276,6 +277,7 @@ namespace {
 void require_live_usage(const RenderOptions& options) {
   if (options.clock == ClockKind::kWork) throw UsageError("--live needs real time, not --clock work");
   if (options.go_on) throw UsageError("--live needs all ranks: it cannot be used with --go-on");
+  if (!options.trace.empty()) throw UsageError("--live changes its settings on the way: it takes no --trace");
   if (!options.outputs.empty()) return;
   const bool writes = !options.layers.empty() || !options.stats.empty() || !options.film.empty() ||
                       !options.contact_sheet.empty() || options.reference || options.compare_serial ||
@@ -291,6 +293,7 @@ void check_usage(const RenderOptions& options) {
     throw UsageError("--contact-sheet " + sheet.string() + ": want a name that ends in .png or .exr");
   }
   if (!options.film.empty()) require_film_name(options.film);
+  if (options.trace == "-") throw UsageError("--trace -: want the name of a file");
   if (options.compare_serial && options.stats.empty()) {
     throw UsageError("--compare-serial tells the ledger: it needs --stats");
   }
@@ -336,6 +339,7 @@ RenderPlan plan_of(const RenderOptions& options, Sources& sources) {
   plan.inputs = inputs_of(options, sources);
   plan.output = output_plan(options, plan.frames.size(), film_rate(fps, sources));
   plan.report = {.ledger = options.stats,
+                 .trace = options.trace,
                  .reference = options.reference,
                  .compare_serial = options.compare_serial,
                  .census = options.census};

@@ -40,6 +40,7 @@ struct OutputPlan {
 // What the run reports about its frames.
 struct ReportPlan {
   std::string ledger;                     // file; "-": standard output; empty: none
+  std::filesystem::path trace;            // of balancing; empty: none
   std::optional<FramePattern> reference;  // pictures to measure errors against
   bool compare_serial = false;            // measure the distance to the serial sample pattern
   bool census = false;                    // print the scene's effects, and with frames the rays

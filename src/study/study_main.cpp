@@ -9,6 +9,7 @@
 #include "cli/typed_options.h"
 #include "study/accuracy/accuracy_study.h"
 #include "study/accuracy/methods.h"
+#include "study/balance/balance_study.h"
 #include "study/counts.h"
 #include "study/paper/paper_study.h"
 
@@ -125,6 +126,21 @@ CLI::App& add_accuracy(CLI::App& app, pprt::AccuracyOptions& options) {
   return command;
 }
 
+CLI::App& add_balance(CLI::App& app, pprt::BalanceOptions& options) {
+  CLI::App& command = *app.add_subcommand("balance", "Replays a balancing trace under several policies");
+  add(command, "FILE", "", options.file, "The trace, as pprt-render --trace writes it")->required();
+  pprt::take_some_of(*add(command, "--policy", "LIST", options.policies,
+                          "Replay only these, with commas: none, local, global, combined (default: all)"),
+                     pprt::policy_words());
+  add(command, "-o,--output", "DIR", options.directory, "Directory for tables, plots and index.html");
+  add(command, "--frames", "N,...", options.frames,
+      "Draw the regions of these frames (default: the first, the middle and the last)")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 1'000'000'000));
+  command.add_flag("--json", options.json, "Print a JSON object a line for each row");
+  return command;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -134,9 +150,11 @@ int main(int argc, char** argv) {
     pprt::CountsOptions counts;
     pprt::PaperOptions paper;
     pprt::AccuracyOptions accuracy;
+    pprt::BalanceOptions balance;
     add_counts(app, counts);
     const CLI::App& paper_command = add_paper(app, paper);
     const CLI::App& accuracy_command = add_accuracy(app, accuracy);
+    const CLI::App& balance_command = add_balance(app, balance);
     pprt::add_common_flags(app);
     if (!pprt::parse_command_line(app, argc, argv)) return pprt::kExitDone;
     const std::string command_line = fmt::format("{}", fmt::join(argv, argv + argc, " "));
@@ -144,6 +162,8 @@ int main(int argc, char** argv) {
       pprt::study_paper(paper, command_line);
     } else if (accuracy_command.parsed()) {
       pprt::study_accuracy(accuracy, command_line);
+    } else if (balance_command.parsed()) {
+      pprt::study_balance(balance, command_line);
     } else {
       return pprt::study_counts(counts) ? pprt::kExitDone : pprt::kExitFailure;
     }

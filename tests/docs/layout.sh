@@ -15,7 +15,7 @@ declare -A allowed=(
   [convert]="base scene spd parser image cli convert" [compare]="base image cli compare"
   [study]="base scene spd parser trace image pipeline layers parallel cli convert study")
 # Single headers of other rooms.
-declare -A besides=([study]="render/frame_summary.h")
+declare -A besides=([study]="render/balance_trace.h render/frame_summary.h")
 # Stages of the pipeline: sampling knows of none of those that follow it.
 declare -A closed=([pipeline/sampling]="pipeline/(reconstruction|preparation|lattice)/"
   [pipeline/reconstruction]="pipeline/(preparation|lattice)/" [pipeline/preparation]="pipeline/(reconstruction|lattice)/"

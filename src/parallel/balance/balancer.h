@@ -7,6 +7,7 @@
 #include "parallel/balance/cost_estimator.h"
 #include "parallel/balance/local_balance.h"
 #include "parallel/balance/tile_cost.h"
+#include "parallel/balance/transfer_choice.h"
 #include "parallel/balance/transfer_handshake.h"
 #include "parallel/region_samples.h"
 #include "pipeline/region_quality.h"
@@ -40,18 +41,18 @@ class Balancer {
                      bool is_giving) const;
 
   // The tiles to give to neighbours that accept tiles and are ahead, all of one neighbour's together. A
-  // neighbour need not take in more than `most_samples`. Empty while the handshake forbids transfers.
+  // neighbour need not take in more than `most_samples`. Empty while the handshake forbids transfers. Unless
+  // null, `record` gets the choice made, where a neighbour is ahead.
   std::vector<TileTransfer> choose_transfers(const RegionQuality& refined, const RegionSamples& samples,
                                              const TransferHandshake& handshake, double elapsed,
-                                             double most_samples) const;
+                                             double most_samples, TransferRecord* record) const;
 
  private:
   double own_future_cost(const RegionQuality& refined, double quality) const;
-  double load_by_neighbours(const RegionQuality& refined, const std::vector<int>& neighbours) const;
-  std::vector<int> takers(const RegionQuality& refined, const std::vector<int>& neighbours, double elapsed,
-                          const TransferHandshake& handshake) const;
-  std::vector<int> tiles_for(const RegionQuality& refined, const RegionSamples& samples,
-                             const Partition& partition, int taker, double most_samples) const;
+  TransferInputs inputs(const RegionQuality& refined, const std::vector<int>& neighbours, double elapsed,
+                        const TransferHandshake& handshake, double most_samples) const;
+  TileOffers offers_to(const PossibleTaker& taker, const RegionQuality& refined,
+                       const RegionSamples& samples) const;
 
   LocalBalanceSettings settings_;
   int rank_;

@@ -117,7 +117,29 @@ std::vector<Candidate> candidates_of(const Partition& partition, const std::vect
 double relative_noise(const RegionQuality& refined, double elapsed) {
   std::int64_t triangles = 0;
   for (const int tile : refined.region.tiles()) triangles += refined.tile(tile).count;
+  return relative_noise(triangles, elapsed);
+}
+
+double relative_noise(std::int64_t triangles, double elapsed) {
   return std::sqrt((0.1 + 0.9 * elapsed) / static_cast<double>(std::max(triangles, std::int64_t{1})));
+}
+
+double load_by_neighbours(std::span<const RankProgress> neighbours,
+                          const std::function<double(double target)>& own_future_cost) {
+  constexpr double kOneSample = 1300;  // time at pace 1; costs below are all the same
+  double sum = 0;
+  int count = 0;
+  for (const RankProgress& theirs : neighbours) {
+    if (theirs.quality <= 0) continue;
+    const double own = own_future_cost(theirs.target);
+    sum += std::log(std::max(own, kOneSample) / std::max(theirs.future_cost, kOneSample));
+    ++count;
+  }
+  return count > 0 ? std::exp(sum / count) : 1;
+}
+
+bool should_begin_to_give(const LocalBalanceSettings& settings, double load, double noise, bool is_giving) {
+  return load > (is_giving ? 1 : settings.giving_ratio + settings.giving_noise * noise);
 }
 
 bool should_give(const LocalBalanceSettings& settings, double own_quality, double own_future_cost,

@@ -1,6 +1,7 @@
 // Local balancing: tiles move between neighbours during a frame (paper s. 3.6, 4.3).
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
@@ -29,6 +30,15 @@ struct LocalBalanceSettings {
 // will have at the frame's end. Answering smaller differences would move tiles to and fro. `elapsed`: share
 // of the sampling time that has passed.
 double relative_noise(const RegionQuality& refined, double elapsed);
+double relative_noise(std::int64_t triangles, double elapsed);
+
+// Returns how much more a rank has to pay than its neighbours for what they aim at. It is the geometric mean
+// of the ratios; 1 where no neighbour has reported. `own_future_cost`: at a target quality, by its pace.
+double load_by_neighbours(std::span<const RankProgress> neighbours,
+                          const std::function<double(double target)>& own_future_cost);
+
+// Whether a rank with this load should give tiles. One that gives already goes on longer.
+bool should_begin_to_give(const LocalBalanceSettings& settings, double load, double noise, bool is_giving);
 
 // Whether a rank should give tiles to the neighbour that sent `theirs`. `own_future_cost`: by its pace, at
 // theirs.target. `noise`: relative_noise() of its region.

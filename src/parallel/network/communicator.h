@@ -20,6 +20,7 @@ enum class Tag : int {
   kPixels,         // rank -> master, after reconstruction: pixels and what they cost
   kRoundSent,      // work clock: rank -> master, after a round's bundles: whom they went to
   kRoundDue,       // work clock: master -> rank, when all have sent theirs: how many come to it
+  kTransfers,      // where asked for: rank -> master, before its pixels: how it chose tile transfers
 };
 
 // Bundles may come in numbers; whoever rests is woken by each message of another kind.

@@ -27,6 +27,7 @@ void Inbox::accept(const Message& message) {
       due_ = decode_round_due(message.payload);
       return;
     case Tag::kPixels:
+    case Tag::kTransfers:
     case Tag::kRoundSent:
     case Tag::kClockPing:
     case Tag::kClockPong:

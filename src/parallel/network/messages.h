@@ -9,6 +9,7 @@
 #include "base/ray_counts.h"
 #include "base/vector.h"
 #include "parallel/balance/tile_cost.h"
+#include "parallel/balance/transfer_choice.h"
 #include "parallel/balance/transfer_handshake.h"
 #include "parallel/clock/clock_estimate.h"
 #include "parallel/network/communicator.h"
@@ -136,6 +137,12 @@ struct PixelMessage {
   std::vector<Sample> samples;      // of the region; empty unless the settings ask for them
 };
 
+// Rank to master, before its pixels, where the settings ask for it and there is any choice.
+struct TransferMessage {
+  std::int32_t frame_index = 0;
+  std::vector<TransferChoice> choices;
+};
+
 // What a sample takes in a message, and a tile's report.
 inline constexpr std::size_t kSampleBytes = 64;
 inline constexpr std::size_t kTileReportBytes = 20;
@@ -153,6 +160,7 @@ std::vector<Bytes> encode_for_ranks(const FrameOrder& order,
 
 Bytes encode(const Bundle& bundle);
 Bytes encode(const PixelMessage& pixels);
+Bytes encode(const TransferMessage& transfers);
 Bytes encode(const RoundSent& sent);
 Bytes encode(const RoundDue& due);
 
@@ -162,6 +170,7 @@ ClockPong decode_clock_pong(std::span<const std::byte> bytes);
 FrameOrder decode_frame_order(std::span<const std::byte> bytes);
 Bundle decode_bundle(std::span<const std::byte> bytes);
 PixelMessage decode_pixels(std::span<const std::byte> bytes);
+TransferMessage decode_transfers(std::span<const std::byte> bytes);
 RoundSent decode_round_sent(std::span<const std::byte> bytes);
 RoundDue decode_round_due(std::span<const std::byte> bytes);
 

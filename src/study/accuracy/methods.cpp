@@ -1,8 +1,5 @@
 #include "study/accuracy/methods.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -11,13 +8,12 @@
 #include <set>
 #include <utility>
 
-#include "base/diagnostics.h"
-#include "base/nearest_word.h"
 #include "image/contact_sheet.h"
 #include "pipeline/lattice/lattice_sampler.h"
 #include "pipeline/reconstruction/reconstruction.h"
 #include "pipeline/sampling/sample_mesh.h"
 #include "pipeline/sampling/seeds.h"
+#include "study/word_list.h"
 
 namespace pprt {
 namespace {
@@ -350,16 +346,7 @@ std::vector<Method> methods_of(std::string_view list) {
   const std::vector<std::string> words = method_words();
   const std::vector<std::string_view> known(words.begin(), words.end());
   std::set<std::string_view> asked = {kUniform, kControl};
-  for (std::size_t begin = 0; begin <= list.size();) {
-    const std::size_t end = std::min(list.find(',', begin), list.size());
-    const std::string_view word = list.substr(begin, end - begin);
-    if (std::find(known.begin(), known.end(), word) == known.end()) {
-      throw UsageError(fmt::format("--methods {}: '{}' is none of {}{}", list, word, fmt::join(known, ", "),
-                                   did_you_mean(word, known)));
-    }
-    asked.insert(word);
-    begin = end + 1;
-  }
+  for (const std::string_view word : words_in_list("--methods", list, known)) asked.insert(word);
   std::vector<Method> methods = accuracy_methods();
   std::erase_if(methods, [&](const Method& method) { return !asked.contains(word_of(method)); });
   return methods;

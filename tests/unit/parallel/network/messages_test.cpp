@@ -55,6 +55,18 @@ FrameOrder some_order() {
   return order;
 }
 
+TransferMessage some_transfers() {
+  TransferMessage transfers{.frame_index = 3, .choices = {}};
+  transfers.choices.resize(2);
+  TransferChoice& choice = transfers.choices[1];
+  choice.giver = 4, choice.round = 12, choice.tiles = {{0, 3}};
+  choice.inputs = {.quality = 0.5, .noise = 0.01, .most_samples = 7, .takers = {{5, {0.5, 0.25, 8, 1}, 9}}};
+  choice.takers = {{.rank = 5, .tiles = {}, .offers = {{8, {1, 2, 3}}}},
+                   {.rank = 2, .tiles = {{4, 6}}, .offers = {}}};
+  choice.given = {{8, 5}};
+  return transfers;
+}
+
 PixelMessage some_pixels() {
   PixelMessage pixels;
   pixels.frame_index = 9;
@@ -74,7 +86,7 @@ SessionSettings some_settings() {
   settings.stop = {1.5, 678, 0.01};
   settings.cast = CastChoice::kVerified, settings.seed = 99;
   settings.balance = BalanceMode::kLocal, settings.keep_samples = false, settings.report_samples = true;
-  settings.late_orders = true;
+  settings.late_orders = true, settings.report_transfers = true;
   settings.pixel_rule = PixelRule::kMean, settings.learned_weights = false;
   settings.machine = {3e8, 1e-3, 4e7};
   return settings;
@@ -108,6 +120,7 @@ void check_hostile_count(Bytes whole, std::size_t at, const std::function<void(c
 const auto kDecodeOrder = [](const Bytes& bytes) { decode_frame_order(bytes); };
 const auto kDecodeBundle = [](const Bytes& bytes) { decode_bundle(bytes); };
 const auto kDecodePixels = [](const Bytes& bytes) { decode_pixels(bytes); };
+const auto kDecodeTransfers = [](const Bytes& bytes) { decode_transfers(bytes); };
 const auto kDecodeSettings = [](const Bytes& bytes) { decode_settings(bytes); };
 
 }  // namespace
@@ -224,6 +237,21 @@ TEST_CASE("messages: pixels and their report are decoded as they were encoded") 
   CHECK(encode(back) == encode(pixels));
 }
 
+TEST_CASE("messages: choices of transfers are decoded as they were encoded") {
+  const TransferMessage sent = some_transfers();
+  const TransferMessage got = decode_transfers(encode(sent));
+  CHECK(got.frame_index == 3);
+  REQUIRE(got.choices.size() == 2);
+  CHECK(encode(got) == encode(sent));
+  const TransferChoice& choice = got.choices[1];
+  CHECK((choice.tiles.at(0).count == 3 && choice.giver == 4 && choice.round == 12 &&
+         choice.inputs.noise == 0.01));
+  CHECK((choice.inputs.takers.at(0).giver_cost == 9 && choice.inputs.takers[0].progress.target == 0.25));
+  CHECK((choice.takers.at(1).rank == 2 && choice.takers[1].tiles.at(0).count == 6));
+  CHECK((choice.takers[0].offers.at(0).tile == 8 && choice.takers[0].offers[0].offer.samples == 2));
+  CHECK(choice.given == std::vector<GivenTile>{{8, 5}});
+}
+
 TEST_CASE("messages: settings are decoded as they were encoded") {
   CHECK((decode_settings(encode(some_settings())) == some_settings()));
 }
@@ -232,6 +260,7 @@ TEST_CASE("messages: a message cut short anywhere is refused") {
   check_cut_short(encode(some_order()), kDecodeOrder);
   check_cut_short(encode(some_bundle()), kDecodeBundle);
   check_cut_short(encode(some_pixels()), kDecodePixels);
+  check_cut_short(encode(some_transfers()), kDecodeTransfers);
   check_cut_short(encode(some_settings()), kDecodeSettings);
 }
 
@@ -239,6 +268,7 @@ TEST_CASE("messages: a message with trailing bytes is refused") {
   check_one_too_many(encode(some_order()), kDecodeOrder);
   check_one_too_many(encode(some_bundle()), kDecodeBundle);
   check_one_too_many(encode(some_pixels()), kDecodePixels);
+  check_one_too_many(encode(some_transfers()), kDecodeTransfers);
 }
 
 TEST_CASE("messages: a value that its type does not have is refused") {

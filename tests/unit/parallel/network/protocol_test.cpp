@@ -43,6 +43,19 @@ std::size_t pixels_bytes(std::size_t tiles, std::size_t transfers, std::size_t p
   return encode(message).size();
 }
 
+// Of so many choices, each with so many possible takers, takers ahead, and tiles given; each taker ahead with
+// so many runs and offers.
+std::size_t transfer_bytes(std::size_t choices, std::size_t possible, std::size_t ahead, std::size_t runs,
+                           std::size_t offers, std::size_t given) {
+  TransferMessage message;
+  message.choices.resize(choices);
+  for (TransferChoice& choice : message.choices) {
+    choice.inputs.takers.resize(possible), choice.takers.resize(ahead), choice.given.resize(given);
+    for (RecordedTaker& taker : choice.takers) taker.tiles.resize(runs), taker.offers.resize(offers);
+  }
+  return encode(message).size();
+}
+
 // Numbers on the page, found by a pattern; each match's numbers go to `check`. What is optional and missing
 // counts as 0, a "q " as 1.
 template <typename Check>
@@ -83,6 +96,13 @@ TEST_CASE("docs/protocol.md: its size formulas are those of the encoders") {
   CHECK(text.find("once a second from then on | `" + n(encode(ClockPing{}).size()) + "` |") !=
         std::string::npos);
   CHECK(text.find("with its time | `" + n(encode(ClockPong{}).size()) + "` |") != std::string::npos);
+  const std::size_t nothing = transfer_bytes(0, 0, 0, 0, 0, 0), choice = transfer_bytes(1, 0, 0, 0, 0, 0);
+  const std::size_t taker = transfer_bytes(1, 0, 1, 0, 0, 0);
+  CHECK(states(n(nothing) + " + " + n(choice - nothing) + " d + " +
+               n(transfer_bytes(1, 1, 0, 0, 0, 0) - choice) + " n + " + n(taker - choice) + " k + " +
+               n(transfer_bytes(1, 0, 1, 1, 0, 0) - taker) + " u + " +
+               n(transfer_bytes(1, 0, 1, 0, 1, 0) - taker) + " o + " +
+               n(transfer_bytes(1, 0, 0, 0, 0, 1) - choice) + " g"));
   RoundSent sent;
   const std::size_t to_nobody = encode(sent).size();
   sent.receivers.resize(1);
@@ -110,7 +130,7 @@ TEST_CASE("docs/protocol.md: its tags are those of the communicator") {
   const std::vector<std::pair<Tag, std::string>> tags = {
       {Tag::kClockPing, "kClockPing"},   {Tag::kClockPong, "kClockPong"}, {Tag::kStart, "kStart"},
       {Tag::kFrameOrder, "kFrameOrder"}, {Tag::kBundle, "kBundle"},       {Tag::kPixels, "kPixels"},
-      {Tag::kRoundSent, "kRoundSent"},   {Tag::kRoundDue, "kRoundDue"}};
+      {Tag::kRoundSent, "kRoundSent"},   {Tag::kRoundDue, "kRoundDue"},   {Tag::kTransfers, "kTransfers"}};
   for (const auto& [tag, name] : tags) {
     const std::string row = "| " + std::to_string(static_cast<int>(tag)) + " `" + name + "` |";
     INFO(row);

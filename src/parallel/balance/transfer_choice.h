@@ -1,0 +1,94 @@
+// Which tiles a rank gives to which neighbours (paper s. 3.6, 4.3). The choice is a function of plain values,
+// so that it can be recorded and made again.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "parallel/balance/local_balance.h"
+#include "parallel/balance/partition.h"
+#include "parallel/balance/tile_cost.h"
+
+namespace pprt {
+
+// A neighbour that may be given tiles: it has reported progress, and the handshake allows a transfer.
+struct PossibleTaker {
+  std::int32_t rank = 0;
+  RankProgress progress = {};  // its own
+  double giver_cost = 0;       // the giver's future cost at progress.target: time
+};
+
+// What a rank goes by when it chooses transfers.
+struct TransferInputs {
+  double quality = 0;       // Q_k of the giver
+  double noise = 0;         // relative_noise() of its region
+  double most_samples = 0;  // that a taker need take in
+  std::vector<PossibleTaker> takers = {};
+};
+
+struct GivenTile {
+  std::int32_t tile = 0;
+  std::int32_t taker = 0;
+
+  friend bool operator==(const GivenTile&, const GivenTile&) = default;
+};
+
+// Returns what the giver knows of its tiles, for transfers to one neighbour. Asked once for each neighbour
+// that should be given tiles, and then for tiles of the giver only.
+using TileOffers = std::function<TileOffer(int tile)>;
+using OffersTo = std::function<TileOffers(const PossibleTaker& taker)>;
+
+// Returns the neighbours that the giver should give to, the one that is farthest ahead first.
+std::vector<PossibleTaker> takers_ahead(const LocalBalanceSettings& settings, const TransferInputs& inputs);
+
+// Returns the tiles to give, all of one taker's together. `partition`: as the giver knows it.
+std::vector<GivenTile> choose_tiles(const LocalBalanceSettings& settings, Partition partition, int giver,
+                                    const TransferInputs& inputs, const OffersTo& offers_to);
+
+// --- Recording
+
+// Tiles `first` to `first + count - 1`.
+struct TileRun {
+  std::int32_t first = 0;
+  std::int32_t count = 0;
+};
+
+struct RecordedOffer {
+  std::int32_t tile = 0;
+  TileOffer offer = {};
+};
+
+// What the giver knew of one neighbour's region, and of its own tiles beside it.
+struct RecordedTaker {
+  std::int32_t rank = 0;
+  std::vector<TileRun> tiles = {};  // the neighbour's, ascending
+  std::vector<RecordedOffer> offers = {};
+};
+
+// A choice with all that it depends on.
+struct TransferChoice {
+  std::int32_t giver = 0;
+  std::int32_t round = 0;           // of the frame's exchanges
+  std::vector<TileRun> tiles = {};  // the giver's, ascending
+  TransferInputs inputs = {};
+  std::vector<RecordedTaker> takers = {};  // those that were ahead
+  std::vector<GivenTile> given = {};       // the result
+};
+
+// The choices of one rank in one frame. One in which no neighbour was ahead is not kept.
+struct TransferRecord {
+  std::int32_t round = 0;  // now
+  std::vector<TransferChoice> choices = {};
+
+  // Chooses as choose_tiles() does.
+  std::vector<GivenTile> choose(const LocalBalanceSettings& settings, const Partition& partition, int giver,
+                                const TransferInputs& inputs, const OffersTo& offers_to);
+};
+
+// Makes a recorded choice again, of `ranks` ranks on that grid. A tile of which nothing was recorded is not
+// given.
+std::vector<GivenTile> choose_again(const LocalBalanceSettings& settings, const TileGrid& grid, int ranks,
+                                    const TransferChoice& recorded);
+
+}  // namespace pprt

@@ -1,0 +1,20 @@
+// Words of the balancing trace, for its writer and its reader.
+#pragma once
+
+#include "base/words.h"
+#include "parallel/network/messages.h"
+
+namespace pprt {
+
+inline constexpr const char* kBalanceTraceFormat = "pprt-balancing-trace";
+
+template <>
+inline constexpr std::array<Word<Carry>, 5> kWords<Carry>{{
+    {Carry::kNothing, "nothing", "a new picture"},
+    {Carry::kAccumulate, "accumulate", "the camera rests"},
+    {Carry::kCastPaper, "cast-paper", "samples that pass the test of the paper"},
+    {Carry::kCastVerified, "cast-verified", "samples that a ray finds visible"},
+    {Carry::kCastWherePaying, "cast-auto", "those of them that pay off"},
+}};
+
+}  // namespace pprt

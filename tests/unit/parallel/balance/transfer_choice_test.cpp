@@ -1,0 +1,72 @@
+#include "parallel/balance/transfer_choice.h"
+
+#include <catch2/catch.hpp>
+
+namespace pprt {
+namespace {
+
+// Three ranks side by side on 9 x 3 tiles, three columns each.
+Partition thirds() {
+  Partition partition{TileGrid(90, 30, 10), 3, std::vector<std::int32_t>(27), std::vector<std::uint64_t>(27)};
+  for (std::size_t tile = 0; tile < 27; ++tile)
+    partition.owner[tile] = static_cast<std::int32_t>(tile % 9 / 3);
+  return partition;
+}
+
+// Rank 1 is behind both others, rank 2 is farthest ahead.
+TransferInputs inputs() {
+  const auto taker = [](std::int32_t rank, double future_cost) {
+    return PossibleTaker{.rank = rank,
+                         .progress = {.quality = 0.1, .target = 0.0625, .future_cost = future_cost},
+                         .giver_cost = 1000};
+  };
+  return {.quality = 1, .noise = 0, .most_samples = 1e9, .takers = {taker(0, 500), taker(2, 100)}};
+}
+
+TileOffers hundred_each(const PossibleTaker&) {
+  return [](int) { return TileOffer{.future_cost = 100, .samples = 0, .known_to_taker = 0}; };
+}
+
+}  // namespace
+
+TEST_CASE(
+    "transfer choice: the neighbour that is farthest ahead gets tiles first, and one that is behind gets "
+    "none") {
+  const std::vector<PossibleTaker> ahead = takers_ahead({}, inputs());
+  REQUIRE(ahead.size() == 2);
+  CHECK((ahead[0].rank == 2 && ahead[1].rank == 0));
+  const std::vector<GivenTile> given = choose_tiles({}, thirds(), 1, inputs(), hundred_each);
+  REQUIRE(given.size() >= 2);
+  CHECK((given.front().taker == 2 && given.back().taker == 0));
+  for (const GivenTile& g : given) CHECK(g.tile % 9 == (g.taker == 2 ? 5 : 3));  // at the borders
+  TransferInputs level = inputs();
+  level.quality = 0.05;
+  CHECK(takers_ahead({}, level).empty());
+}
+
+TEST_CASE("transfer choice: what is recorded is chosen again, and no other tile") {
+  TransferRecord record{.round = 7};
+  const std::vector<GivenTile> given = record.choose({}, thirds(), 1, inputs(), hundred_each);
+  CHECK(given == choose_tiles({}, thirds(), 1, inputs(), hundred_each));
+  REQUIRE(record.choices.size() == 1);
+  TransferChoice choice = record.choices[0];
+  CHECK((choice.giver == 1 && choice.round == 7 && choice.given == given));
+  CHECK(choice.tiles.size() == 3);  // a run each row
+  CHECK((choice.tiles[1].first == 12 && choice.tiles[1].count == 3));
+  CHECK(choose_again({}, thirds().grid, 3, choice) == given);
+  for (RecordedTaker& taker : choice.takers) taker.offers.clear();
+  CHECK(choose_again({}, thirds().grid, 3, choice).empty());
+  choice = record.choices[0];
+  choice.tiles.pop_back();
+  CHECK(choose_again({}, thirds().grid, 3, choice) != given);
+}
+
+TEST_CASE("transfer choice: nothing is recorded where no neighbour is ahead") {
+  TransferRecord record;
+  TransferInputs level = inputs();
+  level.quality = 0.05;
+  CHECK(record.choose({}, thirds(), 1, level, hundred_each).empty());
+  CHECK(record.choices.empty());
+}
+
+}  // namespace pprt
