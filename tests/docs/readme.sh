@@ -34,6 +34,6 @@ until_address() {
 awk '/^```/ { inside = ($0 == "```sh runnable"); live = ($0 == "```sh live"); next }
      inside { print }
      live { sub(/--live 8080/, "--live 0"); print "until_address " $0 }' "$readme" >"$scratch/commands.sh"
-[[ $(grep -cE '^(until_address )?pprt-' "$scratch/commands.sh") -ge $least ]] || { echo "hardly a command to run in $readme"; exit 1; }
+[[ $(grep -cE '^ *(until_address )?pprt-' "$scratch/commands.sh") -ge $least ]] || { echo "hardly a command to run in $readme"; exit 1; }
 set -x
 source "$scratch/commands.sh"
