@@ -142,6 +142,7 @@ group() {  # NAME READER FILE...
 }
 list=${2:-}
 group 'README.md' texts_of_markdown README.md
+group 'CONTRIBUTING.md and the like' texts_of_markdown CONTRIBUTING.md SECURITY.md CODE_OF_CONDUCT.md
 group 'docs/*.md' texts_of_markdown docs/*.md
 group 'docs/decisions/*.md' texts_of_markdown docs/decisions/*.md
 group 'comments of headers' texts_of_comments "${headers[@]}"

@@ -1,17 +1,15 @@
 #!/usr/bin/env bash
-# in_bare_debian.sh: run by scripts/bare-debian beside the package, as root of a system that has nothing else. Installs
-# it, uses it as its users would, and removes it.
-set -euo pipefail
-fail() { echo "package: $1" >&2; exit 1; }
+# Run by scripts/package beside the package, in a bare Debian system. Installs it, uses it as its users would, removes and
+# purges it. Then runs the tests of debian/tests.
+source "$(dirname "$0")/lib.sh"
 package=$(echo "$PWD"/pprt_*.deb)
-export DEBIAN_FRONTEND=noninteractive
-
-quietly() { "$@" >/tmp/log 2>&1 || { cat /tmp/log >&2; fail "'$*' failed"; }; }
 quietly apt-get update
+SECONDS=0
 quietly apt-get install -y --no-install-recommends "$package"
+did "installed"
 version=$(dpkg-query --show --showformat '${Version}' pprt)
 for program in pprt-render pprt-convert pprt-compare pprt-study; do
-  [[ $($program --version) == "$program ${version%-*}" ]] || fail "$program --version: $($program --version)"
+  [[ $($program --version) == "$program $version" ]] || fail "$program --version: $($program --version)"
 done
 # An address that is nobody's.
 [[ $(dpkg-query --show --showformat '${Maintainer}' pprt) == *'.invalid>' ]] || fail 'the maintainer has an address'
@@ -36,16 +34,33 @@ for page in pprt-render.1 pprt-convert.1 pprt-compare.1 pprt-study.1 pprt-anim.5
   name=${page%.*} section=${page##*.}
   MANWIDTH=80 man -P cat "$section" "$name" >page 2>problems || fail "man shows no $page: $(cat problems)"
   [[ ! -s problems ]] || fail "$page: $(cat problems)"
-  grep -q '^NAME' page && grep -q "${name^^}($section)" page || fail "$page does not look like a manual page"
+  grep -q '^NAME' page && grep -q "${name^^}($section)" page && grep -q "^pprt $version " page ||
+    fail "$page does not look like a manual page"
 done
 
-# Away with it: nothing stays but what is not its own.
+did "used"
+
+# Nothing stays: neither after removal nor after purging. What man has rendered is its own.
 cd /
 dpkg-query --listfiles pprt | sort >/tmp/files
 [[ $(wc -l </tmp/files) -gt 30 ]] || fail "the package has only $(wc -l </tmp/files) files"
-quietly apt-get purge -y pprt
+expect_gone() {
+  local left
+  left=$(find / -xdev -name '*pprt*' -not -path '/tmp/*' -not -path '/src/*' -not -path '/proc/*' -not -path '/var/cache/man/*')
+  [[ -z $left ]] || fail "left behind: $left"
+}
+quietly apt-get remove -y pprt
+expect_gone
+quietly dpkg --purge pprt
 if dpkg-query --status pprt >/dev/null 2>&1; then fail 'it is still known'; fi
-# What man has rendered is its own.
-left=$(find / -xdev -name '*pprt*' -not -path '/tmp/*' -not -path '/src/*' -not -path '/proc/*' -not -path '/var/cache/man/*')
-[[ -z $left ]] || fail "left behind: $left"
-echo "package: installed, used and removed on Debian $(cat /etc/debian_version)"
+expect_gone
+did "removed and purged"
+
+cd /src
+quietly apt-get install -y --no-install-recommends autopkgtest
+did "autopkgtest installed"
+autopkgtest --output-dir /tmp/autopkgtest "$package" pprt_*.dsc -- null >/tmp/log 2>&1 || { cat /tmp/log >&2; fail 'autopkgtest fails'; }
+cat /tmp/autopkgtest/summary
+grep -q '^demo  *PASS' /tmp/autopkgtest/summary || fail 'autopkgtest ran no demo'
+did "autopkgtest passed"
+echo "package: installed, used, removed and tested on Debian $(cat /etc/debian_version)"
