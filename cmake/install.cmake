@@ -22,7 +22,7 @@ install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR}
 file(GLOB guides CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/*.md)
 install(FILES ${guides} DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)
 install(DIRECTORY docs/images docs/decisions DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)
-install(DIRECTORY scenes/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples)
+install(DIRECTORY scenes examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # The programs tell their own completion; the folders are those in which Debian's shells look.
 function(pprt_completion program shell file directory)

@@ -18,7 +18,7 @@ mkdir /tmp/use
 cd /tmp/use
 pprt-render spd:tree --fps 4 -np 2
 [[ $(head -c 4 frame_0001.png | tail -c 3) == PNG ]] || fail 'no picture came out'
-pprt-render /usr/share/doc/pprt/examples/demo.anim --frames 1-2 -np 3 -o out/%04d.exr --stats ledger.ndjson
+pprt-render /usr/share/doc/pprt/scenes/demo.anim --frames 1-2 -np 3 -o out/%04d.exr --stats ledger.ndjson
 [[ $(ls out/*.exr | wc -l) -eq 2 && $(wc -l <ledger.ndjson) -eq 4 ]] || fail 'the demo made no two frames'
 pprt-convert spd:tree:5 tree.nff
 pprt-convert tree.nff tree.glb
