@@ -15,6 +15,7 @@
 #include <numbers>
 #include <optional>
 #include <set>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -128,6 +129,7 @@ class SceneReader {
   }
 
   void mesh(const aiMesh& from, const Space& space) {
+    check_indices(from);
     skins_ += from.mNumBones > 0;
     const aiMaterial& material = *from_.mMaterials[from.mMaterialIndex];
     Material own = to_material(material);
@@ -135,6 +137,15 @@ class SceneReader {
       own.texture = textures_.intern(path, scene_.textures, notes_);
     const MaterialIndex index = table_.intern(scene_.materials, own);
     own.texture ? textured_mesh(from, space, index) : polygons(from, space, index);
+  }
+
+  // Not every reader of Assimp's does.
+  void check_indices(const aiMesh& from) const {
+    for (const aiFace& face : std::span(from.mFaces, from.mNumFaces)) {
+      for (const unsigned index : std::span(face.mIndices, face.mNumIndices)) {
+        if (index >= from.mNumVertices) reject("a face names a vertex that is not there");
+      }
+    }
   }
 
   Vec3d normal_of(const aiMesh& from, unsigned vertex, const Space& space) const {
