@@ -86,7 +86,8 @@ bool moves(const SceneDescription& scene) {
 void complete_view(SceneDescription& scene, UpAxis up) {
   if (scene.view || scene.primitive_count() == 0) return;
   const double start = scene.movement.times ? scene.movement.times->start : 0;
-  scene.view = fitted_view(moves(scene) ? still_at(scene, start) : scene, up);
+  const SceneDescription still = moves(scene) ? still_at(scene, start) : scene;
+  scene.view = fitted_view(still.primitive_count() > 0 ? still : scene, up);
   const bool y = up == UpAxis::kY;
   say(scene, fmt::format("no camera: one that shows everything is added, with {} up (--up {} for the other)",
                          y ? 'y' : 'z', y ? 'z' : 'y'));

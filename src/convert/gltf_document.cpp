@@ -1,6 +1,7 @@
 #include "convert/gltf_document.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -8,6 +9,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string_view>
+#include <vector>
 
 #include "scene/view_frame.h"
 
@@ -19,6 +21,7 @@ using nlohmann::json;
 // A .glb is a header, a chunk of JSON and one of numbers (glTF 2.0, section 4.4). Lengths are 32 bits, the
 // lowest first.
 constexpr std::string_view kMagic = "glTF";
+constexpr std::size_t kMaxNodeDepth = 1000;
 constexpr std::size_t kHeader = 12, kChunkHeader = 8;
 
 std::uint32_t length_at(std::string_view bytes, std::size_t place) {
@@ -41,6 +44,21 @@ Range range_of_json(std::string_view bytes) {
   if (!bytes.starts_with(kMagic)) return {0, bytes.size()};
   const std::size_t begin = kHeader + kChunkHeader;
   return {begin, begin + std::min<std::size_t>(length_at(bytes, kHeader), bytes.substr(begin).size())};
+}
+
+// Percent-encodes what a URI cannot hold (RFC 3986, section 2.3), but for its slashes.
+std::string uri_of(const std::string& name) {
+  constexpr std::string_view kDigits = "0123456789ABCDEF", kPlain = "-._~/";
+  std::string uri;
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (std::isalnum(byte) != 0 || kPlain.find(c) != std::string_view::npos) {
+      uri += c;
+    } else {
+      uri += {'%', kDigits[byte >> 4], kDigits[byte & 15]};
+    }
+  }
+  return uri;
 }
 
 json& node_called(json& document, const std::string& name) {
@@ -69,6 +87,7 @@ void add_lights(json& document, const SceneDescription& scene) {
   constexpr const char* kExtension = "KHR_lights_punctual";
   if (scene.lights.empty()) return;
   const Vec3d middle = bounds(scene).center();
+  const double least = 0.01 * bounds(scene).size().length2();  // of the squared distances: not dark within
   json lights = json::array();
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
@@ -77,15 +96,19 @@ void add_lights(json& document, const SceneDescription& scene) {
     const Rgb hue = brightest > 0 ? color / brightest : color;
     lights.push_back({{"type", "point"},
                       {"color", {hue.x, hue.y, hue.z}},
-                      {"intensity", brightest * (light.position - middle).length2()}});
-    node_called(document, "light_" + std::to_string(i + 1))["extensions"][kExtension]["light"] = i;
+                      {"intensity", brightest * std::max((light.position - middle).length2(), least)}});
+    node_called(document, light_name(i))["extensions"][kExtension]["light"] = i;
   }
   document["extensions"][kExtension]["lights"] = std::move(lights);
   document["extensionsUsed"].push_back(kExtension);
 }
 
 std::string completed(std::string_view text, const SceneDescription& scene) {
-  json document = json::parse(text);
+  json document = json::parse(utf8(std::string(text)));
+  for (json& buffer : document.at("buffers")) {
+    if (const std::string uri = buffer.value("uri", ""); !uri.empty() && !uri.starts_with("data:"))
+      buffer["uri"] = uri_of(uri);
+  }
   add_camera(document, scene);
   add_lights(document, scene);
   return document.dump();
@@ -106,11 +129,69 @@ void add_camera_and_lights(std::string& bytes, const SceneDescription& scene) {
   set_length(bytes, 8, bytes.size());
 }
 
+// By RFC 3629, section 4.
+std::string utf8(std::string name) {
+  const auto byte_at = [&](std::size_t at) {
+    return at < name.size() ? static_cast<unsigned char>(name[at]) : 0U;
+  };
+  for (std::size_t i = 0; i < name.size();) {
+    const unsigned first = byte_at(i), second = byte_at(i + 1);
+    std::size_t length = first < 0x80 ? 1 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
+    bool is_whole = first < 0x80 || (first >= 0xc2 && first < 0xf5);
+    for (std::size_t k = 1; k < length; ++k) is_whole = is_whole && (byte_at(i + k) & 0xc0U) == 0x80;
+    // Longer than needed, half of a pair of UTF-16, or beyond the last code point.
+    if ((first == 0xe0 && second < 0xa0) || (first == 0xed && second >= 0xa0) ||
+        (first == 0xf0 && second < 0x90) || (first == 0xf4 && second >= 0x90))
+      is_whole = false;
+    if (!is_whole) name[i] = '_', length = 1;
+    i += length;
+  }
+  return name;
+}
+
+std::string document_problem(std::string_view bytes) {
+  constexpr int kFloat = 5126;  // componentType
+  json document;
+  try {
+    const auto [begin, end] = range_of_json(bytes);
+    document = json::parse(bytes.substr(begin, end - begin));
+    const json nodes = document.value("nodes", json::array());
+    std::vector<std::size_t> parents(nodes.size(), nodes.size());
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      for (const json& child : nodes[i].value("children", json::array())) {
+        std::size_t& parent = parents.at(child.get<std::size_t>());
+        if (parent != nodes.size()) return "a node has two parents";
+        parent = i;
+      }
+    }
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      std::size_t depth = 0;
+      for (std::size_t n = i; n != nodes.size() && depth <= kMaxNodeDepth; n = parents[n]) ++depth;
+      if (depth > kMaxNodeDepth) return "its nodes lie more than 1000 deep in each other";
+    }
+    for (const json& animation : document.value("animations", json::array())) {
+      for (const json& sampler : animation.at("samplers")) {
+        const json& accessor = document.at("accessors").at(sampler.at("output").get<std::size_t>());
+        if (accessor.value("componentType", kFloat) != kFloat)
+          return "its animations have keys of whole numbers, which cannot be read; export them as floats";
+      }
+    }
+  } catch (const std::exception&) {
+    return {};  // Assimp will tell
+  }
+  return {};
+}
+
 std::optional<double> camera_angle(std::string_view bytes, std::string_view node) {
   try {
     const auto [begin, end] = range_of_json(bytes);
     json document = json::parse(bytes.substr(begin, end - begin));
-    const std::size_t camera = node_called(document, std::string(node)).at("camera");
+    // Assimp calls a node without a name after its place.
+    const std::size_t open = node.find('[');
+    const bool unnamed = node.starts_with("nodes[") && node.ends_with(']');
+    const json& found = unnamed ? document.at("nodes").at(std::stoul(std::string(node.substr(open + 1))))
+                                : node_called(document, std::string(node));
+    const std::size_t camera = found.at("camera");
     return document.at("cameras").at(camera).at("perspective").at("yfov").get<double>();
   } catch (const std::exception&) {
     return std::nullopt;

@@ -16,6 +16,7 @@ namespace pprt {
 namespace {
 
 constexpr double kFramesPerSecond = 24;
+constexpr double kRounding = 1e-3;  // of a frame: times are floats
 constexpr int kMostFrames = 1'000'000;
 constexpr double kTicksPerSecond = 25;  // where a file does not tell
 
@@ -56,7 +57,8 @@ class AnimationReader {
     if (others > 0)
       result_.notes.push_back(std::to_string(others) + " movements that change a mesh's shape: left out");
     if (last_ > first_) {
-      const double frames = std::min(std::ceil((last_ - first_) * kFramesPerSecond), double{kMostFrames});
+      const double frames =
+          std::min(std::ceil((last_ - first_) * kFramesPerSecond - kRounding), double{kMostFrames});
       result_.times = {.start = first_, .end = last_, .frames = static_cast<int>(frames) + 1};
     }
     return std::move(result_);
@@ -127,7 +129,9 @@ std::unique_ptr<aiNodeAnim> node_animation(std::vector<double> times,
   result->mScalingKeys = new aiVectorKey[count];
   for (unsigned i = 0; i < count; ++i) {
     const TrackValues values = shown_at(times[i]);
-    const double time = times[i] - start;
+    // The files' times are floats, and no two keys have the same.
+    const auto next = static_cast<float>(i + 1 < count ? times[i + 1] - start : times[i] - start + 1);
+    const double time = std::min<double>(times[i] - start, std::nextafter(next, -1.F));
     result->mPositionKeys[i] = {time, to_assimp(values.translation)};
     result->mRotationKeys[i] = {time, to_quaternion(values.rotation)};
     result->mScalingKeys[i] = {time, to_assimp(values.scale)};

@@ -1,5 +1,6 @@
 #include "convert/mesh_materials.h"
 
+#include <assimp/GltfMaterial.h>
 #include <assimp/material.h>
 
 #include <algorithm>
@@ -49,7 +50,10 @@ Material to_material(const aiMaterial& from) {
     from.Get(AI_MATKEY_ROUGHNESS_FACTOR, rough);
     material.specular = unit_interval(value * (1 - unit_interval(rough)));
   }
-  if (from.Get(AI_MATKEY_OPACITY, value) == aiReturn_SUCCESS)
+  aiString mode;
+  const bool is_opaque = from.Get(AI_MATKEY_GLTF_ALPHAMODE, mode) == aiReturn_SUCCESS &&
+                         std::string_view(mode.C_Str()) == "OPAQUE";  // whatever its alpha
+  if (!is_opaque && from.Get(AI_MATKEY_OPACITY, value) == aiReturn_SUCCESS)
     material.transmittance = 1 - unit_interval(value);
   if (material.transmittance > 0) {
     const bool given = from.Get(AI_MATKEY_REFRACTI, value) == aiReturn_SUCCESS && value > 0;

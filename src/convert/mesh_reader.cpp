@@ -22,6 +22,7 @@
 #include <utility>
 
 #include "base/diagnostics.h"
+#include "base/printable.h"
 #include "convert/assimp_values.h"
 #include "convert/extension.h"
 #include "convert/gltf_document.h"
@@ -29,6 +30,7 @@
 #include "convert/mesh_materials.h"
 #include "convert/mesh_textures.h"
 #include "image/atomic_file.h"
+#include "scene/animation.h"
 #include "scene/resting_nodes.h"
 #include "scene/straight_track.h"
 #include "scene/triangulate.h"
@@ -74,6 +76,7 @@ class SceneReader {
     node(*from_.mRootNode, {});
     if (scene_.primitive_count() == 0) reject("there is no polygon in it");
     note(skipped_, "points, lines and faces without extent left out");
+    note(namesakes_, "nodes have the name of another: movements, cameras and lights may be mixed up");
     note(skins_, "meshes with a skin stand in the pose that they are bound in");
     move_camera();
     drop_unused_tracks();
@@ -103,6 +106,7 @@ class SceneReader {
 
   void node(const aiNode& from, const Space& parent) {
     if (++depth_ > kMaxDepth) reject("its nodes lie more than 1000 deep in each other");
+    namesakes_ += !names_.insert(from.mName.C_Str()).second;
     const Space space = space_of(from, parent);
     for (unsigned i = 0; i < from.mNumMeshes; ++i) {
       mesh(*from_.mMeshes[from.mMeshes[i]], space);
@@ -233,17 +237,26 @@ class SceneReader {
       if (std::string_view(from.mName.C_Str()) != node.mName.C_Str()) continue;
       View view;
       const double aspect = from.mAspect > 0 ? from.mAspect : 1;
-      view.width = std::clamp(static_cast<int>(std::lround(view.height * aspect)), 1, 1 << 15);
+      view.width = static_cast<int>(std::lround(std::clamp(view.height * aspect, 1.0, 32768.0)));
       double half_height = std::tan(0.5 * from.mHorizontalFOV) / aspect;
       if (const auto angle = camera_angle(gltf_, node.mName.C_Str())) half_height = std::tan(0.5 * *angle);
       const double rows = view.height;
       view.angle_degrees = 2 * std::atan(half_height * (rows - 1) / rows) * (180 / std::numbers::pi);
-      view.hither = from.mClipPlaneNear;
-      camera_ = {space.node, space.map};
+      if (std::isfinite(from.mClipPlaneNear)) view.hither = std::max(from.mClipPlaneNear, 0.F);
       from_camera_ = &from;
       aim(view, space.map);
+      if (!is_usable(view)) {
+        notes_.push_back("the camera '" + printable(from.mName.C_Str()) + "' has no perspective: left out");
+        continue;
+      }
+      camera_ = space;
       scene_.view = view;
     }
+  }
+
+  static bool is_usable(const View& view) {
+    return view.angle_degrees > 0 && view.angle_degrees < 180 &&
+           camera_defect(view.from, view.at, view.up).empty();
   }
 
   // `map`: from the camera's node to the world.
@@ -307,6 +320,7 @@ class SceneReader {
                          "' is neither a point nor a spot: left out");
         continue;
       }
+      if (!finite(space.map.point(to_vector(from.mPosition)))) reject("a light's place is not finite");
       scene_.lights.push_back(
           {space.map.point(to_vector(from.mPosition)), light_color(from.mColorDiffuse), {}});
       scene_.light_nodes.push_back({.node = space.node});
@@ -323,6 +337,8 @@ class SceneReader {
   std::vector<std::string> notes_;
   MaterialTable table_;
   std::size_t skipped_ = 0, skins_ = 0;
+  std::set<std::string> names_;  // of nodes
+  std::size_t namesakes_ = 0;
   int depth_ = 0;
   const aiCamera* from_camera_ = nullptr;  // that the view is taken from
   Space camera_;
@@ -340,13 +356,16 @@ ReadMesh read_mesh(const std::string& path) {
   // Assimp has the same message for every reason why a file cannot be read.
   if (!std::ifstream(path))
     throw InputError("cannot read '" + path + "': " + std::generic_category().message(errno));
+  const bool is_gltf = extension_of(path) == ".glb" || extension_of(path) == ".gltf";
+  const std::string gltf = is_gltf ? read_whole_file(path) : "";
+  if (const std::string problem = document_problem(gltf); is_gltf && !problem.empty())
+    throw InputError(path + ": error: " + problem);
   Assimp::Importer importer;
   const aiScene* scene = importer.ReadFile(path, 0);
   if (scene == nullptr || scene->mRootNode == nullptr) {
     throw InputError(path + ": error: " + importer.GetErrorString());
   }
-  const bool is_gltf = extension_of(path) == ".glb" || extension_of(path) == ".gltf";
-  return SceneReader(*scene, path, is_gltf && scene->HasCameras() ? read_whole_file(path) : "").run();
+  return SceneReader(*scene, path, gltf).run();
 }
 
 }  // namespace pprt

@@ -147,6 +147,7 @@ class AssimpScene {
   // A node has the name of its movement, where no other has it.
   void add_nodes() {
     std::set<std::string> names = {"scene", "camera"};
+    for (std::size_t i = 0; i < scene_.lights.size(); ++i) names.insert(light_name(i));
     for (std::size_t i = 1; i < scene_.movement.nodes.size(); ++i) {
       const SceneNode& from = scene_.movement.nodes[i];
       const auto track = scene_.movement.tracks.find(from.track);
@@ -261,7 +262,7 @@ class AssimpScene {
     for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
       const Light& from = scene_.lights[i];
       auto light = std::make_unique<aiLight>();
-      const std::string name = "light_" + std::to_string(i + 1);
+      const std::string name = light_name(i);
       light->mName = name;
       light->mType = aiLightSource_POINT;
       light->mColorDiffuse = light->mColorSpecular = to_color(from.color.value_or(Rgb(1, 1, 1)));
@@ -313,7 +314,7 @@ WrittenMesh write_mesh(const SceneDescription& scene, std::string_view extension
   const Format& format = format_of(extension);
   check_triangle_count(scene, fineness);
   WrittenMesh result;
-  const std::vector<std::string> pictures = picture_names(scene, stem);
+  const std::vector<std::string> pictures = picture_names(scene, format.is_gltf ? utf8(stem) : stem);
   std::unique_ptr<aiScene> assimp;
   {
     const MaterialMeshes meshes = material_meshes(scene, fineness, result.degenerate);
@@ -324,7 +325,7 @@ WrittenMesh write_mesh(const SceneDescription& scene, std::string_view extension
   }
   Assimp::Exporter exporter;
   Assimp::ExportProperties properties;
-  properties.SetPropertyString(AI_CONFIG_EXPORT_BLOB_NAME, stem);
+  properties.SetPropertyString(AI_CONFIG_EXPORT_BLOB_NAME, format.is_gltf ? utf8(stem) : stem);
   const aiExportDataBlob* blob = exporter.ExportToBlob(assimp.get(), format.assimp_id, 0, &properties);
   if (blob == nullptr)
     throw std::runtime_error(std::string("cannot make a mesh file: ") + exporter.GetErrorString());

@@ -55,20 +55,18 @@ Words video(const std::string& container) {
           container};
 }
 
-// A GIF that repeats for ever, with the 256 colours that suit its frames best. Dots that a frame shares with
-// the one before take no bytes.
-Words animated_gif() {
-  return {"-filter_complex",
-          "split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=bayer:bayer_scale=4",
-          "-loop",
-          "0",
-          "-f",
-          "gif"};
+// The palette of 256 colours that suits all frames best, as a picture.
+Words palette() {
+  return {"-vf", "palettegen", "-frames:v", "1", "-c:v", "png", "-f", "image2", "-update", "1"};
 }
 
-Words encoding(const std::filesystem::path& film) {
-  if (film.extension() == ".gif") return animated_gif();
-  return video(film.extension() == ".mkv" ? "matroska" : "mp4");
+// A GIF of such a palette that repeats for ever. Dots that a frame shares with the one before take no bytes.
+// Its clock counts hundredths of a second, and players want two at least.
+Words animated_gif(const std::string& palette) {
+  return {"-i",     "file:" + palette,
+          "-lavfi", "fps=fps='min(source_fps,50)'[a];[a][1:v]paletteuse=dither=bayer:bayer_scale=4",
+          "-loop",  "0",
+          "-f",     "gif"};
 }
 
 // Without -xerror ffmpeg 5.1 ends with code 0 although the disk had no room for the end of the film.
@@ -95,11 +93,12 @@ Words ffmpeg_command(const Image& first, double frames_per_second, const Words& 
   return command;
 }
 
-void encode(const std::filesystem::path& film, const std::filesystem::path& temporary,
+// Passes all pictures to ffmpeg.
+void encode(const std::filesystem::path& film, const Words& encoding, const std::filesystem::path& output,
             const std::vector<std::filesystem::path>& pictures, double frames_per_second) {
   const Image first = read_image(pictures.front());
-  Subprocess encoder = start_encoder(
-      ffmpeg_command(first, frames_per_second, encoding(film), temporary.string()), StreamTo::kPipe);
+  Subprocess encoder =
+      start_encoder(ffmpeg_command(first, frames_per_second, encoding, output.string()), StreamTo::kPipe);
   for (const std::filesystem::path& picture : pictures) {
     const Image image = read_image(picture);
     if (image.width != first.width || image.height != first.height) {
@@ -132,7 +131,15 @@ void require_ffmpeg() {
 void write_film(const std::filesystem::path& film, const std::vector<std::filesystem::path>& pictures,
                 double frames_per_second) {
   AtomicFile file(film);
-  encode(film, file.temporary(), pictures, frames_per_second);
+  if (film.extension() == ".gif") {
+    // Twice over the pictures: else ffmpeg would hold them all.
+    AtomicFile colors(film.string() + ".palette");
+    encode(film, palette(), colors.temporary(), pictures, frames_per_second);
+    encode(film, animated_gif(colors.temporary().string()), file.temporary(), pictures, frames_per_second);
+  } else {
+    encode(film, video(film.extension() == ".mkv" ? "matroska" : "mp4"), file.temporary(), pictures,
+           frames_per_second);
+  }
   file.commit();
 }
 

@@ -1,6 +1,7 @@
 #include "render/manifest.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
@@ -51,7 +52,7 @@ Json frame_entry(int frame, const Names& files, const Json& layers) {
 struct Parts {
   std::string text;
   std::string key;
-  int format = 0;
+  std::int64_t format = 0;
   std::string rest;
 };
 
@@ -62,7 +63,7 @@ std::optional<Parts> parts_of(const std::filesystem::path& path) {
   const Json run = record_in(std::string_view(parts.text).substr(0, end));
   parts.key = text_of(run, "key");
   const auto format = run.find("format");
-  if (format != run.end() && format->is_number_integer()) parts.format = format->get<int>();
+  if (format != run.end() && format->is_number_integer()) parts.format = format->get<std::int64_t>();
   if (end < parts.text.size()) parts.rest = parts.text.substr(end + 1);
   if (parts.key.empty() && end == parts.text.size()) return std::nullopt;  // the first line never came
   return parts;

@@ -53,6 +53,10 @@ done
 expect_text <(ls films) "$(printf '%s\n' 1.mp4 2.mp4)"
 run pprt-render ball.anim "${work[@]}" --frames 1-6 -s 33x24 -o h3/%d.png --film films/3.gif; expect_code 0
 expect_text <(film_facts films/3.gif) gif,33,24,4/1,6
+# Hundredths of a second, two at least: of 12 frames at 100 a second six are left.
+run pprt-render ball.anim "${work[@]}" --fps 100 --frames 1-12 -s 33x24 -o h4/%d.png --film films/4.gif; expect_code 0
+expect_text <(film_facts films/4.gif) gif,33,24,50/1,6
+expect_text <(ls films) "$(printf '%s\n' 1.mp4 2.mp4 3.gif 4.gif)"
 
 # The disk has no room for the end of the film. A limit on the size of files, whose signal is ignored, is as good.
 run pprt-render ball.anim "${work[@]}" -s 96x64 -o i/%d.png; expect_code 0

@@ -1,6 +1,7 @@
 // Movement, textures, cameras and lights in glTF, out and in.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <numbers>
 
@@ -249,4 +250,86 @@ TEST_CASE("a glTF file that is cut off is refused or read, never worse") {
     std::ofstream(path, std::ios::binary | std::ios::trunc) << whole.substr(0, size);
     CHECK_THROWS_AS(read_mesh(path), InputError);
   }
+}
+
+TEST_CASE("a movement called light_1 leaves the light where it is") {
+  const SceneDescription scene = parse_aff(R"(
+l 7 8 9
+f 1 1 1 1 0 0 0 1
+k light_1 { transl 4 -1 0 0 0 0 0 0 0 0 0 0 0 0 0 2 4 0 0 0 0 0 3 0 0 0 0 0 0 }
+x light_1 { p 3 0 0 0 1 0 0 0 1 0 })",
+                                           "a.aff")
+                                     .scene;
+  const SceneDescription back = there_and_back(scene, ".glb").scene;
+  REQUIRE(back.lights.size() == 1);
+  check_near(back.lights[0].position, {7, 8, 9}, 1e-6);
+  CHECK(back.light_nodes.empty());
+  check_near(seen(back, 2).min, {4, 0, 0}, 1e-6);
+}
+
+TEST_CASE("names that are not UTF-8 can be written as glTF") {
+  SceneDescription scene = car();
+  scene.textures[0].name = "h\xf6lzern.ppm";
+  scene.movement.tracks["w\xe4gen"] = scene.movement.tracks.at("car");
+  for (SceneNode& node : scene.movement.nodes) {
+    if (node.track == "car") node.track = "w\xe4gen";
+  }
+  scene.movement.tracks.erase("car");
+  const SceneDescription back = there_and_back(scene, ".gltf").scene;
+  CHECK(back.movement.tracks.contains("w_gen"));
+  CHECK(back.textures.size() == 1);
+}
+
+TEST_CASE("pictures are found under the spellings of URIs and of Windows") {
+  const TemporaryDirectory folder;
+  std::filesystem::create_directory(folder.path() / "textures");
+  write_image(folder.path() / "textures/my wood.png", Image(2, 1, Color(1, 0, 0)));
+  std::ofstream(folder.path() / "a.obj") << "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n"
+                                            "f 1/1 2/1 3/1\n";
+  for (const char* file : {"textures/my%20wood.png", "textures\\my wood.png"}) {
+    CAPTURE(file);
+    std::ofstream(folder.path() / "a.mtl") << "newmtl m\nmap_Kd " << file << "\n";
+    CHECK(read_mesh((folder.path() / "a.obj").string()).scene.textures.size() == 1);
+  }
+}
+
+TEST_CASE("there are as many frames as the modeller's, whatever a float makes of the time") {
+  for (int frames = 2; frames < 500; ++frames) {
+    std::string bytes = numbers();
+    const float last = static_cast<float>(frames - 1) / 24;
+    bytes.replace(44, 4, reinterpret_cast<const char*>(&last), 4);
+    const float middle = last / 2;
+    bytes.replace(40, 4, reinterpret_cast<const char*>(&middle), 4);
+    CHECK(read_gltf(gltf(), bytes).scene.movement.times->frames == frames);
+  }
+}
+
+TEST_CASE("nodes without end, keys of whole numbers and cameras without perspective") {
+  std::string deep = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[)";
+  for (int i = 1; i <= 5000; ++i) deep += R"({"children":[)" + std::to_string(i) + "]},";
+  CHECK_THROWS_WITH(read_gltf(deep + "{}]}"), Catch::Contains("deep in each other"));
+  CHECK_THROWS_WITH(read_gltf(gltf(R"("children":[1,1])", ",{}")), Catch::Contains("two parents"));
+  std::string whole = gltf();
+  whole.replace(whole.rfind("5126"), 4, "5122");
+  CHECK_THROWS_WITH(read_gltf(whole), Catch::Contains("whole numbers"));
+
+  for (const char* camera :
+       {R"({"type":"orthographic","orthographic":{"xmag":1,"ymag":1,"zfar":9,"znear":0}})",
+        R"({"type":"perspective","perspective":{"yfov":0,"znear":0.1}})"}) {
+    std::string text = gltf(R"("mesh":0,"camera":0)");
+    text.insert(1, std::string(R"("cameras":[)") + camera + "],");
+    const ReadMesh read = read_gltf(text);
+    CAPTURE(camera);
+    CHECK(!read.scene.view);
+    REQUIRE(!read.notes.empty());
+    CHECK(read.notes[0].find("no perspective") != std::string::npos);
+  }
+  std::string unnamed = gltf(R"("mesh":0)", R"(,{"camera":0})");
+  unnamed.replace(unnamed.find(R"("nodes":[0])"), 11, R"("nodes":[0,1])");
+  unnamed.insert(
+      1, R"("cameras":[{"type":"perspective","perspective":{"yfov":0.5,"aspectRatio":2,"znear":0.1}}],)");
+  const SceneDescription scene = read_gltf(unnamed).scene;
+  REQUIRE(scene.view);
+  CHECK(std::tan(scene.view->angle_degrees * std::numbers::pi / 360) ==
+        Approx(std::tan(0.25) * (scene.view->height - 1) / scene.view->height));
 }
