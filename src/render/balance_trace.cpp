@@ -98,8 +98,7 @@ std::string trace_line(const TraceHeader& header) {
   const SessionSettings& s = header.settings;
   const Json record = {{"record", "trace"},
                        {"format", kBalanceTraceFormat},
-                       {"version", kBalanceTraceVersion},
-                       {"program", header.program},
+                       {"version", header.version},
                        {"scene", json_name(header.scene)},
                        {"ranks", header.ranks},
                        {"size", {s.width, s.height}},

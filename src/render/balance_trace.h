@@ -20,12 +20,13 @@
 
 namespace pprt {
 
-inline constexpr int kBalanceTraceVersion = 1;
+// The version of the trace's format.
+inline constexpr int kBalanceTraceFormat = 1;
 
 // First line of a run: what its balancing depends on. Settings that a trace does not hold have their
 // defaults.
 struct TraceHeader {
-  std::string program;  // its version
+  std::string version;  // of pprt-render
   std::string scene;
   int ranks = 1;
   TileGrid grid{1, 1, 1};

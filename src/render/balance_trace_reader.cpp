@@ -117,14 +117,13 @@ constexpr Range<double> kPace{1e-6, 1e6}, kPositive{std::numeric_limits<double>:
     kNotNegative{0, kLargest}, kAny{-kLargest, kLargest};
 
 TraceHeader header_in(const Object& line) {
-  if (line.text("format") != kBalanceTraceFormat) throw BadLine("this is no balancing trace");
-  const int version = line.number<int>("version", {1, kMost});
-  if (version != kBalanceTraceVersion) {
-    throw BadLine(fmt::format("the trace has version {}, but this program reads version {}", version,
-                              kBalanceTraceVersion));
+  const int format = line.number<int>("format", {1, kMost});
+  if (format != kBalanceTraceFormat) {
+    throw BadLine(fmt::format("the trace has format {}, but this program reads format {}", format,
+                              kBalanceTraceFormat));
   }
   constexpr int kLongestSide = 65535;
-  TraceHeader header{.program = line.text("program"), .scene = name_in(line.member("scene")).value_or("")};
+  TraceHeader header{.version = line.text("version"), .scene = name_in(line.member("scene")).value_or("")};
   header.ranks = line.number<int>("ranks", {1, 1 << 20});
   const std::vector<int> size = line.numbers<int>("size", {1, kLongestSide}, 2);
   header.grid = TileGrid(size[0], size[1], line.number<int>("tile", {2, kLongestSide}));

@@ -6,8 +6,6 @@
 
 namespace pprt {
 
-inline constexpr const char* kBalanceTraceFormat = "pprt-balancing-trace";
-
 template <>
 inline constexpr std::array<Word<Carry>, 5> kWords<Carry>{{
     {Carry::kNothing, "nothing", "a new picture"},

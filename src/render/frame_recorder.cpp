@@ -63,7 +63,7 @@ std::set<int> frames_in(const Manifest& manifest, const RenderPlan& plan) {
 std::unique_ptr<BalanceTraceWriter> trace_of(const RenderPlan& plan, int ranks) {
   if (plan.report.trace.empty()) return nullptr;
   return std::make_unique<BalanceTraceWriter>(plan.report.trace, plan.output.existing,
-                                              TraceHeader{.program = kVersion,
+                                              TraceHeader{.version = kVersion,
                                                           .scene = plan.scene.name,
                                                           .ranks = ranks,
                                                           .grid = tile_grid(plan.settings, ranks),

@@ -65,7 +65,7 @@ struct StudiedScene {
   int sequence_size() const {
     return options.directory.empty() ? options.size : options.size / effort.sequence_share;
   }
-  double start() const { return description.movement.times ? description.movement.times->start : 0; }
+  double start() const { return start_time(description.movement); }
   bool has_frames() const { return description.movement.times && description.movement.times->frames > 1; }
   Subject subject(int size) const {
     return {scene, square_camera(scene, *view_at(description, start()), size), start()};

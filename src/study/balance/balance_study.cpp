@@ -136,7 +136,7 @@ void write_page(const BalanceOptions& options, const std::string& command_line,
                 const std::vector<PolicyResult>& results) {
   const TraceHeader& header = runs.front().header;
   StudyOutput output(options.directory, "Balancing replayed",
-                     {{"command", command_line}, {"trace", options.file}, {"recorded by", header.program}});
+                     {{"command", command_line}, {"trace", options.file}, {"recorded by", header.version}});
   output.paragraph(
       fmt::format("{} on {} ranks, {}x{} pixels in tiles of {}, recorded under '{}'. A rank's load is the "
                   "time until its tiles have the mean weight of the whole image.",

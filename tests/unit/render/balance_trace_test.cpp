@@ -19,7 +19,7 @@ namespace {
 
 TraceHeader some_header() {
   TraceHeader header;
-  header.program = "1.2.3", header.scene = "a \"scene\"", header.ranks = 2, header.grid = TileGrid(6, 4, 4);
+  header.version = "1.2.3", header.scene = "a \"scene\"", header.ranks = 2, header.grid = TileGrid(6, 4, 4);
   header.settings.width = 6, header.settings.height = 4;
   header.settings.balance = BalanceMode::kLocal;
   header.settings.sampler = SamplerChoice::kGrid;
@@ -92,7 +92,7 @@ TEST_CASE("balancing trace: what is written is read again, to the bit") {
   CHECK(traces.warnings.empty());
   REQUIRE(traces.runs.size() == 1);
   const TraceHeader header = some_header(), &read = traces.runs[0].header;
-  CHECK((read.program == header.program && read.scene == header.scene && read.ranks == header.ranks));
+  CHECK((read.version == header.version && read.scene == header.scene && read.ranks == header.ranks));
   CHECK(read.grid == header.grid);
   SessionSettings expected = header.settings;
   CHECK(read.settings == expected);
@@ -126,9 +126,9 @@ TEST_CASE("balancing trace: what is no trace is refused by file and line") {
   CHECK(problem_of("v\nfrom 0 0 5\n") == "t:1: error: the line is no JSON");
   CHECK(problem_of("7\n") == "t:1: error: want an object");
   CHECK(problem_of("{\"record\":\"run\"}\n") == "t:1: error: this is no balancing trace");
-  CHECK(problem_with(1, "/version", 2) ==
-        "t:1: error: the trace has version 2, but this program reads version 1");
-  CHECK(problem_with(1, "/format", "x") == "t:1: error: this is no balancing trace");
+  CHECK(problem_with(1, "/format", 2) ==
+        "t:1: error: the trace has format 2, but this program reads format 1");
+  CHECK(problem_with(1, "/format", "x") == "t:1: error: \"format\" is out of range");
   CHECK(problem_with(1, "/balance", "best") == "t:1: error: \"balance\" is unknown: 'best'");
   CHECK(problem_with(1, "/ranks", 0) == "t:1: error: \"ranks\" is out of range");
   CHECK(problem_with(1, "/ranks", 1.5) == "t:1: error: \"ranks\" is out of range");

@@ -38,7 +38,7 @@ SessionSettings uneven_settings(BalanceMode balance) {
 BalanceTrace recorded_run(const SessionSettings& settings, int ranks, int frames) {
   const TileGrid grid = tile_grid(settings, ranks);
   std::string text = trace_line(
-      TraceHeader{.program = "test", .scene = "uneven", .ranks = ranks, .grid = grid, .settings = settings});
+      TraceHeader{.version = "test", .scene = "uneven", .ranks = ranks, .grid = grid, .settings = settings});
   const CameraSource source = [&](int index) -> std::optional<FrameRequest> {
     if (index >= frames) return std::nullopt;
     Camera camera;
