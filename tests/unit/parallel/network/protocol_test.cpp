@@ -43,8 +43,8 @@ std::size_t pixels_bytes(std::size_t tiles, std::size_t transfers, std::size_t p
   return encode(message).size();
 }
 
-// Of so many choices, each with so many possible takers, takers ahead, and tiles given; each taker ahead with
-// so many runs and offers.
+// Returns the length of a message with so many choices. Each has so many possible takers, takers ahead, and
+// tiles given. Each taker ahead has so many runs and offers.
 std::size_t transfer_bytes(std::size_t choices, std::size_t possible, std::size_t ahead, std::size_t runs,
                            std::size_t offers, std::size_t given) {
   TransferMessage message;
