@@ -85,8 +85,7 @@ bool moves(const SceneDescription& scene) {
 // Adds a view, which mesh files often lack and a scene to be rendered needs.
 void complete_view(SceneDescription& scene, UpAxis up) {
   if (scene.view || scene.primitive_count() == 0) return;
-  const double start = scene.movement.times ? scene.movement.times->start : 0;
-  const SceneDescription still = moves(scene) ? still_at(scene, start) : scene;
+  const SceneDescription still = moves(scene) ? still_at(scene, start_time(scene.movement)) : scene;
   scene.view = fitted_view(still.primitive_count() > 0 ? still : scene, up);
   const bool y = up == UpAxis::kY;
   say(scene, fmt::format("no camera: one that shows everything is added, with {} up (--up {} for the other)",
@@ -106,7 +105,7 @@ SceneDescription at_time_asked(SceneDescription scene, const ConvertOptions& opt
     return scene;
   }
   if (!options.at && to == OutputFormat::kAff) return scene;
-  const double time = options.at.value_or(scene.movement.times ? scene.movement.times->start : 0);
+  const double time = options.at.value_or(start_time(scene.movement));
   if (options.at || to != OutputFormat::kMesh || !keeps_movement(extension_of(options.output)))
     return still_at(std::move(scene), time);
   if (const std::size_t count = scene.moving_triangles.size(); count > 0)
@@ -186,7 +185,7 @@ void write_nff_file(SceneDescription scene, const ConvertOptions& options) {
   write_whole_file(options.output, [&](std::ostream& out) { write_nff(scene, out); });
 }
 
-// The scene last, after the pictures that it refers to.
+// Each writes the scene last, after the pictures that it refers to.
 void write_aff_files(const SceneDescription& scene, const ConvertOptions& options) {
   const std::filesystem::path path = options.output;
   const std::vector<std::string> pictures = picture_names(scene, path.stem().string());

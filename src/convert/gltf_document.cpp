@@ -6,11 +6,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
 
+#include "scene/resting_nodes.h"
 #include "scene/view_frame.h"
 
 namespace pprt {
@@ -21,7 +21,6 @@ using nlohmann::json;
 // A .glb is a header, a chunk of JSON and one of numbers (glTF 2.0, section 4.4). Lengths are 32 bits, the
 // lowest first.
 constexpr std::string_view kMagic = "glTF";
-constexpr std::size_t kMaxNodeDepth = 1000;
 constexpr std::size_t kHeader = 12, kChunkHeader = 8;
 
 std::uint32_t length_at(std::string_view bytes, std::size_t place) {
@@ -86,17 +85,18 @@ void add_camera(json& document, const SceneDescription& scene) {
 void add_lights(json& document, const SceneDescription& scene) {
   constexpr const char* kExtension = "KHR_lights_punctual";
   if (scene.lights.empty()) return;
-  const Vec3d middle = bounds(scene).center();
-  const double least = 0.01 * bounds(scene).size().length2();  // of the squared distances: not dark within
+  const SceneDescription still = still_at(scene, start_time(scene.movement));
+  const Box3d box = bounds(still);
+  const double least = 0.01 * box.size().length2();  // of the squared distances: not dark within
   json lights = json::array();
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-    const Light& light = scene.lights[i];
+    const Light& light = still.lights[i];
     const Rgb color = light.color.value_or(Rgb(1, 1, 1));
     const double brightest = std::max({color.x, color.y, color.z});
     const Rgb hue = brightest > 0 ? color / brightest : color;
     lights.push_back({{"type", "point"},
                       {"color", {hue.x, hue.y, hue.z}},
-                      {"intensity", brightest * std::max((light.position - middle).length2(), least)}});
+                      {"intensity", brightest * std::max((light.position - box.center()).length2(), least)}});
     node_called(document, light_name(i))["extensions"][kExtension]["light"] = i;
   }
   document["extensions"][kExtension]["lights"] = std::move(lights);
@@ -112,6 +112,56 @@ std::string completed(std::string_view text, const SceneDescription& scene) {
   add_camera(document, scene);
   add_lights(document, scene);
   return document.dump();
+}
+
+// --- Reading
+
+std::string problem_of_nodes(const json& document) {
+  const json nodes = document.value("nodes", json::array());
+  const std::size_t none = nodes.size();
+  std::vector<std::size_t> parents(nodes.size(), none);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    for (const json& child : nodes[i].value("children", json::array())) {
+      std::size_t& parent = parents.at(child.get<std::size_t>());
+      if (parent != none) return "a node has two parents";
+      parent = i;
+    }
+  }
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    int depth = 0;
+    for (std::size_t n = i; n != none && depth <= kMaxNodeDepth; n = parents[n]) ++depth;
+    if (depth > kMaxNodeDepth)
+      return "its nodes lie more than " + std::to_string(kMaxNodeDepth) + " deep in each other";
+  }
+  return {};
+}
+
+std::string problem_of_keys(const json& document) {
+  constexpr int kFloat = 5126;  // componentType
+  for (const json& animation : document.value("animations", json::array())) {
+    for (const json& sampler : animation.at("samplers")) {
+      const json& keys = document.at("accessors").at(sampler.at("output").get<std::size_t>());
+      if (keys.value("componentType", kFloat) != kFloat)
+        return "its animations have keys of whole numbers, which cannot be read; export them as floats";
+    }
+  }
+  return {};
+}
+
+std::map<std::string, double> camera_angles(const json& document) {
+  std::map<std::string, double> angles;
+  const json nodes = document.value("nodes", json::array());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (!nodes[i].contains("camera")) continue;
+    const json& camera = document.at("cameras").at(nodes[i]["camera"].get<std::size_t>());
+    const std::string name = nodes[i].value("name", "");
+    if (camera.contains("perspective")) {
+      // Assimp calls a node without a name after its place.
+      angles.try_emplace(name.empty() ? "nodes[" + std::to_string(i) + "]" : name,
+                         camera["perspective"].at("yfov").get<double>());
+    }
+  }
+  return angles;
 }
 
 }  // namespace
@@ -149,53 +199,18 @@ std::string utf8(std::string name) {
   return name;
 }
 
-std::string document_problem(std::string_view bytes) {
-  constexpr int kFloat = 5126;  // componentType
-  json document;
+GltfFacts gltf_facts(std::string_view bytes) {
+  GltfFacts facts;
   try {
     const auto [begin, end] = range_of_json(bytes);
-    document = json::parse(bytes.substr(begin, end - begin));
-    const json nodes = document.value("nodes", json::array());
-    std::vector<std::size_t> parents(nodes.size(), nodes.size());
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      for (const json& child : nodes[i].value("children", json::array())) {
-        std::size_t& parent = parents.at(child.get<std::size_t>());
-        if (parent != nodes.size()) return "a node has two parents";
-        parent = i;
-      }
-    }
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      std::size_t depth = 0;
-      for (std::size_t n = i; n != nodes.size() && depth <= kMaxNodeDepth; n = parents[n]) ++depth;
-      if (depth > kMaxNodeDepth) return "its nodes lie more than 1000 deep in each other";
-    }
-    for (const json& animation : document.value("animations", json::array())) {
-      for (const json& sampler : animation.at("samplers")) {
-        const json& accessor = document.at("accessors").at(sampler.at("output").get<std::size_t>());
-        if (accessor.value("componentType", kFloat) != kFloat)
-          return "its animations have keys of whole numbers, which cannot be read; export them as floats";
-      }
-    }
+    const json document = json::parse(bytes.substr(begin, end - begin));
+    facts.problem = problem_of_nodes(document);
+    if (facts.problem.empty()) facts.problem = problem_of_keys(document);
+    facts.camera_angles = camera_angles(document);
   } catch (const std::exception&) {
-    return {};  // Assimp will tell
+    // Assimp tells what is wrong.
   }
-  return {};
-}
-
-std::optional<double> camera_angle(std::string_view bytes, std::string_view node) {
-  try {
-    const auto [begin, end] = range_of_json(bytes);
-    json document = json::parse(bytes.substr(begin, end - begin));
-    // Assimp calls a node without a name after its place.
-    const std::size_t open = node.find('[');
-    const bool unnamed = node.starts_with("nodes[") && node.ends_with(']');
-    const json& found = unnamed ? document.at("nodes").at(std::stoul(std::string(node.substr(open + 1))))
-                                : node_called(document, std::string(node));
-    const std::size_t camera = found.at("camera");
-    return document.at("cameras").at(camera).at("perspective").at("yfov").get<double>();
-  } catch (const std::exception&) {
-    return std::nullopt;
-  }
+  return facts;
 }
 
 }  // namespace pprt

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -21,16 +21,25 @@ std::string utf8(std::string name);
 // Adds the scene's camera and its lights (KHR_lights_punctual) to a file, to the nodes "camera" and
 // light_name(). `bytes`: of a .glb or a .gltf.
 //
-// Lights of glTF weaken with the distance. They are as bright as the scene's own at the middle of the scene.
+// Lights of glTF weaken with the distance. At the animation's start they are as bright as the scene's own
+// in the middle of the scene.
 // Throws std::runtime_error when the file is not as Assimp writes it.
 void add_camera_and_lights(std::string& bytes, const SceneDescription& scene);
 
-// Returns why a file should not be read; empty where nothing is found. Assimp would go through nodes without
-// end, or take keys of whole numbers for others. `bytes`: of a .glb or a .gltf.
-std::string document_problem(std::string_view bytes);
+// What Assimp does not tell of a file, or not rightly.
+struct GltfFacts {
+  // Why it should not be read: nodes without end, or keys of whole numbers. Empty: nothing was found.
+  std::string problem;
+  // Vertical angles of perspective cameras, in radians, by Assimp's names of their nodes. The first of
+  // namesakes counts.
+  std::map<std::string, double> camera_angles;
+};
 
-// Returns the vertical angle of the camera of a node, in radians. Empty where the file has no such node, or
-// its camera is not a perspective one. `bytes`: of a .glb or a .gltf.
-std::optional<double> camera_angle(std::string_view bytes, std::string_view node);
+// Returns what can be found; nothing where the file is broken, which Assimp tells. `bytes`: of a .glb or a
+// .gltf.
+GltfFacts gltf_facts(std::string_view bytes);
+
+// Levels of nodes in each other that can be read.
+inline constexpr int kMaxNodeDepth = 1000;
 
 }  // namespace pprt

@@ -10,8 +10,10 @@
 #include <assimp/Importer.hpp>
 #include <cerrno>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -29,7 +31,7 @@
 #include "convert/mesh_animation.h"
 #include "convert/mesh_materials.h"
 #include "convert/mesh_textures.h"
-#include "image/atomic_file.h"
+#include "parser/text_input.h"
 #include "scene/animation.h"
 #include "scene/resting_nodes.h"
 #include "scene/straight_track.h"
@@ -65,8 +67,8 @@ struct Space {
 
 class SceneReader {
  public:
-  // `gltf`: the bytes of a file in glTF, else empty.
-  SceneReader(const aiScene& from, const std::string& path, std::string gltf)
+  // `gltf`: of a file in glTF.
+  SceneReader(const aiScene& from, const std::string& path, std::optional<GltfFacts> gltf)
       : from_(from), gltf_(std::move(gltf)), textures_(from, std::filesystem::path(path).parent_path()) {
     scene_.name = path;
   }
@@ -105,7 +107,8 @@ class SceneReader {
   }
 
   void node(const aiNode& from, const Space& parent) {
-    if (++depth_ > kMaxDepth) reject("its nodes lie more than 1000 deep in each other");
+    if (++depth_ > kMaxNodeDepth)
+      reject("its nodes lie more than " + std::to_string(kMaxNodeDepth) + " deep in each other");
     namesakes_ += !names_.insert(from.mName.C_Str()).second;
     const Space space = space_of(from, parent);
     for (unsigned i = 0; i < from.mNumMeshes; ++i) {
@@ -238,10 +241,9 @@ class SceneReader {
       View view;
       const double aspect = from.mAspect > 0 ? from.mAspect : 1;
       view.width = static_cast<int>(std::lround(std::clamp(view.height * aspect, 1.0, 32768.0)));
-      double half_height = std::tan(0.5 * from.mHorizontalFOV) / aspect;
-      if (const auto angle = camera_angle(gltf_, node.mName.C_Str())) half_height = std::tan(0.5 * *angle);
       const double rows = view.height;
-      view.angle_degrees = 2 * std::atan(half_height * (rows - 1) / rows) * (180 / std::numbers::pi);
+      view.angle_degrees =
+          2 * std::atan(half_height(from, aspect) * (rows - 1) / rows) * (180 / std::numbers::pi);
       if (std::isfinite(from.mClipPlaneNear)) view.hither = std::max(from.mClipPlaneNear, 0.F);
       from_camera_ = &from;
       aim(view, space.map);
@@ -254,6 +256,15 @@ class SceneReader {
     }
   }
 
+  // Returns half the picture's height at a distance of 1.
+  double half_height(const aiCamera& from, double aspect) const {
+    if (gltf_) {
+      const auto found = gltf_->camera_angles.find(from.mName.C_Str());
+      if (found != gltf_->camera_angles.end()) return std::tan(0.5 * found->second);
+    }
+    return std::tan(0.5 * from.mHorizontalFOV) / aspect;
+  }
+
   static bool is_usable(const View& view) {
     return view.angle_degrees > 0 && view.angle_degrees < 180 &&
            camera_defect(view.from, view.at, view.up).empty();
@@ -262,7 +273,7 @@ class SceneReader {
   // `map`: from the camera's node to the world.
   void aim(View& view, const Affine& map) const {
     // One of glTF stands in its node's origin; versions of Assimp differ in what they say.
-    view.from = gltf_.empty() ? map.point(to_vector(from_camera_->mPosition)) : map.origin;
+    view.from = gltf_ ? map.origin : map.point(to_vector(from_camera_->mPosition));
     view.at = view.from + map.vector(to_vector(from_camera_->mLookAt)).normalized();
     view.up = map.vector(to_vector(from_camera_->mUp)).normalized();
   }
@@ -290,16 +301,9 @@ class SceneReader {
       times.insert(times.end(), own.begin(), own.end());
     }
     if (times.empty()) times.push_back(0);
-    MotionTrack track;
-    for (const double time : straight_times(std::move(times), values_at)) {
-      const TrackValues values = values_at(time);
-      track.translation.push_back({time, values.translation, {}});
-      track.rotation.push_back(rotation_key(time, values.rotation));
-    }
-    make_straight(track.translation);
-    make_straight(track.rotation);
-    note_order(track);
-    scene_.view = view_at(scene_.movement.times ? scene_.movement.times->start : 0);
+    MotionTrack track = straight_track(straight_times(std::move(times), values_at), values_at);
+    track.scale.clear();  // means nothing
+    scene_.view = view_at(start_time(scene_.movement));
     scene_.movement.tracks[kCameraTrack] = std::move(track);
   }
 
@@ -327,11 +331,10 @@ class SceneReader {
     }
   }
 
-  static constexpr int kMaxDepth = 1000;
   static constexpr const char* kNodeCalledCamera = "camera_node";  // "camera" moves the view
 
   const aiScene& from_;
-  std::string gltf_;
+  std::optional<GltfFacts> gltf_;
   MeshTextures textures_;
   SceneDescription scene_;
   std::vector<std::string> notes_;
@@ -356,16 +359,17 @@ ReadMesh read_mesh(const std::string& path) {
   // Assimp has the same message for every reason why a file cannot be read.
   if (!std::ifstream(path))
     throw InputError("cannot read '" + path + "': " + std::generic_category().message(errno));
-  const bool is_gltf = extension_of(path) == ".glb" || extension_of(path) == ".gltf";
-  const std::string gltf = is_gltf ? read_whole_file(path) : "";
-  if (const std::string problem = document_problem(gltf); is_gltf && !problem.empty())
-    throw InputError(path + ": error: " + problem);
+  std::optional<GltfFacts> gltf;
+  if (extension_of(path) == ".glb" || extension_of(path) == ".gltf") {
+    gltf = gltf_facts(read_text(path, std::numeric_limits<std::uint32_t>::max()));
+    if (!gltf->problem.empty()) throw InputError(path + ": error: " + gltf->problem);
+  }
   Assimp::Importer importer;
   const aiScene* scene = importer.ReadFile(path, 0);
   if (scene == nullptr || scene->mRootNode == nullptr) {
     throw InputError(path + ": error: " + importer.GetErrorString());
   }
-  return SceneReader(*scene, path, gltf).run();
+  return SceneReader(*scene, path, std::move(gltf)).run();
 }
 
 }  // namespace pprt

@@ -156,7 +156,7 @@ class AssimpScene {
       std::string name = first;
       for (int n = 2; !names.insert(name).second; ++n) name = first + "_" + std::to_string(n);
       add_node(from.parent, name,
-               moves ? placement_at(track->second, first_time()).to_parent : from.to_parent);
+               moves ? placement_at(track->second, start_time(scene_.movement)).to_parent : from.to_parent);
       if (moves) add_movement(track->second, name);
     }
   }
@@ -183,8 +183,6 @@ class AssimpScene {
     if (scene_.movement.times) animation->mDuration = scene_.movement.times->end - start_;
     own(std::vector<aiAnimation*>{animation.release()}, to_->mAnimations, to_->mNumAnimations);
   }
-
-  double first_time() const { return scene_.movement.times ? scene_.movement.times->start : 0; }
 
   // Returns the time that is 0 in the file, where no key may be earlier.
   static double start_of_keys(const Movement& movement) {

@@ -165,8 +165,7 @@ Fineness in_node(const Fineness& fineness, const Affine& map) {
 
 // Cuts all spheres and cones, or only those that a node stretches.
 SceneDescription cut(const SceneDescription& scene, const Fineness& fineness, bool all) {
-  const double start = scene.movement.times ? scene.movement.times->start : 0;
-  const std::vector<Placement> placements = placements_at(scene.movement, start);
+  const std::vector<Placement> placements = placements_at(scene.movement, start_time(scene.movement));
   SceneDescription result = scene;
   result.spheres.clear(), result.cones.clear();
   result.polygons.clear(), result.polygon_vertices.clear();

@@ -4,6 +4,10 @@
 
 namespace pprt {
 
+double start_time(const Movement& movement) {
+  return movement.times ? movement.times->start : 0;
+}
+
 double time_of_frame(const FrameTimes& times, int frame) {
   if (times.frames <= 1) return times.start;
   return times.start + frame * (times.end - times.start) / (times.frames - 1);

@@ -45,6 +45,9 @@ struct LightNode {
 // The track that moves the camera.
 inline constexpr const char* kCameraTrack = "camera";
 
+// Returns the time at which the frames begin, in seconds; 0 where there are none.
+double start_time(const Movement& movement);
+
 // Returns the time of a frame, from 0, in seconds.
 double time_of_frame(const FrameTimes& times, int frame);
 

@@ -9,13 +9,13 @@
 namespace pprt {
 namespace {
 
-// Of two segments that meet in a key, the shorter is left out of account below this share of both: a jump.
+// Two segments meet in a key. One with less than half of this share of both lengths is a jump.
 constexpr double kJumpShare = 1e-9;
 
 // Returns the shape of a key whose two tangents equal the changes of the segments before and after it.
 //
-// With continuity -1 the tangents are (1 - s)(1 + b) g1 d0 and (1 - s)(1 - b) g0 d, where g1 and g0 are twice
-// the segments' shares of both lengths. Both factors become 1.
+// Let the continuity be -1. Then the tangents are (1 - s)(1 + b) g1 d0 and (1 - s)(1 - b) g0 d. Twice the
+// segments' shares of both lengths are g1 and g0. Tension s and bias b make both factors 1.
 KeyShape straight_shape(double before, double after) {
   const double both = before + after;
   if (!(both > 0)) return {.tension = 0, .continuity = -1, .bias = 0};
@@ -153,6 +153,22 @@ std::vector<double> key_times(const MotionTrack& track) {
 std::vector<double> straight_times(std::vector<double> times,
                                    const std::function<TrackValues(double)>& values_at) {
   return Divider(std::move(times), values_at).run();
+}
+
+MotionTrack straight_track(const std::vector<double>& times,
+                           const std::function<TrackValues(double)>& values_at) {
+  MotionTrack track;
+  for (const double time : times) {
+    const TrackValues values = values_at(time);
+    track.translation.push_back({time, values.translation});
+    track.rotation.push_back(rotation_key(time, values.rotation));
+    track.scale.push_back({time, values.scale});
+  }
+  make_straight(track.translation);
+  make_straight(track.rotation);
+  make_straight(track.scale);
+  note_order(track);
+  return track;
 }
 
 }  // namespace pprt

@@ -23,4 +23,9 @@ std::vector<double> key_times(const MotionTrack& track);
 std::vector<double> straight_times(std::vector<double> times,
                                    const std::function<TrackValues(double)>& values_at);
 
+// Returns a track with keys at these times, ascending and at least one, and straight lines between them. It
+// is always visible.
+MotionTrack straight_track(const std::vector<double>& times,
+                           const std::function<TrackValues(double)>& values_at);
+
 }  // namespace pprt

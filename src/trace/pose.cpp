@@ -104,7 +104,7 @@ Pose::Pose(const CompiledScene::Impl& scene) : scene_(scene), lights_(scene.ligh
     rtcSetSceneBuildQuality(own_embree_.get(), RTC_BUILD_QUALITY_LOW);
     embree_ = own_embree_.get();
   }
-  set_time(scene.movement.times ? scene.movement.times->start : 0);
+  set_time(start_time(scene.movement));
 }
 
 Pose::~Pose() = default;

@@ -100,6 +100,16 @@ ReadMesh read_gltf(const std::string& text, const std::string& bytes = numbers()
   return read_mesh((folder.path() / "a.gltf").string());
 }
 
+// glTF's angle spans the picture, that of a view the centres of its rows.
+void check_angle(const SceneDescription& scene, double radians) {
+  REQUIRE(scene.view);
+  CHECK(std::tan(scene.view->angle_degrees * std::numbers::pi / 360) ==
+        Approx(std::tan(radians / 2) * (scene.view->height - 1) / scene.view->height));
+}
+
+constexpr const char* kCameras =
+    R"("cameras":[{"type":"perspective","perspective":{"yfov":0.5,"aspectRatio":2,"znear":0.1}}],)";
+
 }  // namespace
 
 TEST_CASE("what moves in glTF stands where it stood, at every time") {
@@ -211,12 +221,9 @@ TEST_CASE("a node called camera does not move the view, and one that does moves 
 
   std::string text =
       gltf(R"("name":"arm","mesh":0,"children":[1])", R"(,{"name":"eye","camera":0,"translation":[0,0,5]})");
-  text.insert(
-      1, R"("cameras":[{"type":"perspective","perspective":{"yfov":0.5,"aspectRatio":2,"znear":0.1}}],)");
+  text.insert(1, kCameras);
   const SceneDescription scene = read_gltf(text).scene;
-  REQUIRE(scene.view);
-  CHECK(std::tan(scene.view->angle_degrees * std::numbers::pi / 360) ==
-        Approx(std::tan(0.25) * (scene.view->height - 1) / scene.view->height));
+  check_angle(scene, 0.5);
   check_near(view_at(scene, 0)->from, {0, 0, 5}, 1e-6);
   check_near(view_at(scene, 2)->from, {2, 2, 5}, 1e-3);
   check_near(view_at(scene, 2)->at, {2, 2, 4}, 1e-3);
@@ -326,10 +333,7 @@ TEST_CASE("nodes without end, keys of whole numbers and cameras without perspect
   }
   std::string unnamed = gltf(R"("mesh":0)", R"(,{"camera":0})");
   unnamed.replace(unnamed.find(R"("nodes":[0])"), 11, R"("nodes":[0,1])");
-  unnamed.insert(
-      1, R"("cameras":[{"type":"perspective","perspective":{"yfov":0.5,"aspectRatio":2,"znear":0.1}}],)");
+  unnamed.insert(1, kCameras);
   const SceneDescription scene = read_gltf(unnamed).scene;
-  REQUIRE(scene.view);
-  CHECK(std::tan(scene.view->angle_degrees * std::numbers::pi / 360) ==
-        Approx(std::tan(0.25) * (scene.view->height - 1) / scene.view->height));
+  check_angle(scene, 0.5);
 }

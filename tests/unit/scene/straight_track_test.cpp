@@ -88,14 +88,7 @@ TEST_CASE("times are added until straight lines come close to a curve") {
   CHECK(std::is_sorted(times.begin(), times.end()));
   CHECK((times.front() == 0 && times.back() == 3));
   CHECK((times.size() > 20 && times.size() < 2000));
-  MotionTrack straight;
-  for (const double time : times) {
-    straight.translation.push_back({time, at(time).translation});
-    straight.rotation.push_back(rotation_key(time, at(time).rotation));
-  }
-  make_straight(straight.translation);
-  make_straight(straight.rotation);
-  note_order(straight);
+  const MotionTrack straight = straight_track(times, at);
   for (double time = -0.5; time < 3.5; time += 0.0137) {
     CAPTURE(time);
     const Affine exact = placement_at(track, time).to_parent, line = placement_at(straight, time).to_parent;
