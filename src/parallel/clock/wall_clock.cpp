@@ -28,7 +28,6 @@ bool WallClock::is_past(const FrameOrder& order) const {
 
 void WallClock::begin_frame(const FrameOrder& order) {
   frame_began_s_ = sequence_.now_s();
-  frame_began_ns_ = thread_cpu_ns();
   sampling_began_s_ = frame_began_s_;
   is_sampling_ = false;
   rested_s_ = 0;
@@ -50,9 +49,8 @@ void WallClock::begin_packet(std::uint64_t samples) {
   left_in_packet_ = ranks_per_core_ > 1 ? kSamplesOfAShortTurn : kSamplesPerPacket;
   size_ = static_cast<double>(samples) + region_size_;
   set_stop();
-  const double now = sequence_.now_s();
-  if (!std::exchange(is_sampling_, true)) sampling_began_s_ = now, rested_before_sampling_s_ = rested_s_;
-  if (stop_s_ > 0 && now >= stop_s_) extend(now);
+  if (!std::exchange(is_sampling_, true))
+    sampling_began_s_ = sequence_.now_s(), rested_before_sampling_s_ = rested_s_;
   // With more ranks than cores, short turns keep every rank near its deadline.
   if (ranks_per_core_ > 1) sched_yield();
 }
@@ -63,9 +61,7 @@ bool WallClock::packet_over() {
 }
 
 bool WallClock::sampling_over() {
-  if (stop_s_ == 0) return false;
-  const double now = sequence_.now_s();
-  return now >= stop_s_ && !extend(now);
+  return stop_s_ != 0 && sequence_.now_s() >= stop_s_;
 }
 
 void WallClock::end_sampling(double units) {
@@ -98,26 +94,6 @@ std::size_t WallClock::affordable(Work work, double share) const {
 double WallClock::rested(double seconds) {
   rested_s_ += seconds;
   return 1e3 * seconds;
-}
-
-// Puts the end of sampling off, at most into half of the reserve. It does so for a new picture that began
-// late or whose rank was not scheduled, until the rank has had nearly the time of the others. The next frames
-// each have a little less, until the reserve is whole again. Returns false where nothing can be put off:
-// where ranks share cores no time is their own.
-bool WallClock::extend(double now) {
-  constexpr double kShareOfOthers = 0.93;
-  if (ranks_per_core_ > 1 || is_at_rest_ || reconstruction_s() == 0) return false;
-  const double had_s = 1e-9 * static_cast<double>(thread_cpu_ns() - frame_began_ns_) + rested_s_;
-  const double lacks_s = kShareOfOthers * (period_s_ - reconstruction_s()) - had_s;
-  const double until_s = std::min(now + lacks_s, latest_s());
-  if (until_s <= now) return false;
-  stop_s_ = until_s;
-  return true;
-}
-
-double WallClock::latest_s() const {
-  constexpr double kLeastOfReserve = 0.5;
-  return deadline_s_ - std::max(kLeastOfReserve * reserve_s_ + reconstruction_s(), kLeastLeft * period_s_);
 }
 
 // Seconds after sampling: for this rank's own reconstruction beside those of the ranks that share its core,

@@ -56,8 +56,6 @@ class WallClock final : public FrameClock {
 
  private:
   void set_stop() { stop_s_ = deadline_s_ > 0 ? deadline_s_ - left_for_the_rest() : 0; }
-  bool extend(double now);
-  double latest_s() const;
   double left_for_the_rest() const;
   double reconstruction_s() const;
 
@@ -72,7 +70,6 @@ class WallClock final : public FrameClock {
   double stop_s_ = 0;  // when sampling must stop; 0: no rate
   double sampling_began_s_ = 0;
   bool is_sampling_ = false;  // this frame has begun to
-  std::int64_t frame_began_ns_ = 0;
   double rested_s_ = 0;  // in this frame
   double rested_before_sampling_s_ = 0;
   double pace_ = 1;

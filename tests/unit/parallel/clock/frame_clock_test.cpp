@@ -2,7 +2,6 @@
 
 #include <catch2/catch.hpp>
 #include <chrono>
-#include <ctime>
 #include <deque>
 #include <thread>
 
@@ -98,68 +97,22 @@ TEST_CASE("wall clock: the pace is the time of sampling, without rest, by the wo
       (clock->pace() > pace && clock->pace() < pace + 0.5 * 1e9 * (monotonic_seconds() - before_s) / kUnits));
 }
 
-// A clock in a frame that has to end sampling in `stops_in_s`, with a reserve of seven tenths of the period,
-// and whose reconstruction takes so long.
-std::unique_ptr<FrameClock> clock_about_to_stop(double period_s, double stops_in_s, double reconstruction_s,
-                                                Carry carry = Carry::kNothing, double ranks_per_core = 1) {
+TEST_CASE("wall clock: a new picture that began late ends in time all the same", "[realtime]") {
   SessionSettings settings;
   settings.clock = ClockKind::kWall;
-  settings.frames_per_second = 1 / period_s;
-  auto clock = make_frame_clock(settings, 0, sequence_of_now(), 0, ranks_per_core);
-  FrameOrder order;
-  order.reserve_s = 0.7 * period_s - 1.25 * reconstruction_s * ranks_per_core;
-  order.carry = carry;
-  order.deadline_s = 0.7 * period_s + stops_in_s;
-  for (int frame = 0; frame < 2; ++frame) {
-    clock->begin_frame(order);
-    clock->begin_packet(3000);
-    if (frame == 0) clock->end_frame(1e3 * reconstruction_s);
+  settings.frames_per_second = 1 / kPeriod;
+  for (const double ranks_per_core : {1.0, 2.0}) {
+    const auto clock = make_frame_clock(settings, 0, sequence_of_now(), 0, ranks_per_core);
+    FrameOrder order;
+    order.reserve_s = 0.5 * kPeriod;
+    for (const double stops_in_s : {100.0, -0.001}) {
+      order.deadline_s = 0.5 * kPeriod + 1.25 * 0.004 * ranks_per_core + stops_in_s;
+      clock->begin_frame(order);
+      clock->begin_packet(3000);
+      CHECK(clock->sampling_over() == (stops_in_s < 0));
+      clock->end_frame(4);
+    }
   }
-  return clock;
-}
-
-TEST_CASE("wall clock: a new picture that lost time is sampled into half of the reserve", "[realtime]") {
-  constexpr double kLong = 100;  // seconds: no delay of this test's matters
-  const auto clock = clock_about_to_stop(kLong, -5, 8);
-  CHECK_FALSE(clock->sampling_over());
-  CHECK(clock->sampling_end_seconds() == Approx(-5 + 0.5 * (70 - 1.25 * 8)));
-  clock->begin_packet(3000);
-  CHECK_FALSE(clock->sampling_over());
-  CHECK(clock_about_to_stop(kLong, -40, 8)->sampling_over());  // beyond that half
-  CHECK(clock_about_to_stop(kLong, -5, 8, Carry::kAccumulate)->sampling_over());
-  CHECK(clock_about_to_stop(kLong, -5, 8, Carry::kNothing, 2)->sampling_over());
-  CHECK(clock_about_to_stop(kLong, -5, 0)->sampling_over());  // nobody knows yet what follows
-}
-
-TEST_CASE("wall clock: sampling is extended where the rank was not scheduled, not where it rested",
-          "[realtime]") {
-  for (const bool rests : {false, true}) {
-    const auto clock = clock_about_to_stop(10, 0.1, 0.1);
-    std::this_thread::sleep_for(std::chrono::milliseconds(200));
-    if (rests) clock->rested(9.9);
-    CHECK(clock->sampling_over() == rests);
-    const auto is_put_off = [&] { return clock->sampling_end_seconds() > 1; };
-    CHECK(is_put_off() == !rests);
-    clock->begin_packet(3000);
-    CHECK(is_put_off() == !rests);
-  }
-}
-
-TEST_CASE("wall clock: an end of sampling that cannot be put off stays what it was", "[realtime]") {
-  const auto clock = clock_about_to_stop(0.8, 0.05, 0.001);
-  std::this_thread::sleep_for(std::chrono::milliseconds(400));  // beyond half of the reserve, which is 0.28 s
-  CHECK(clock->sampling_over());
-  CHECK(clock->sampling_end_seconds() < 0.2);
-}
-
-TEST_CASE("wall clock: a new picture that has had its time ends at the deadline less the reserve",
-          "[realtime]") {
-  constexpr double kShort = 0.2;
-  const auto clock = clock_about_to_stop(kShort, 0.15, 0.001);
-  const auto cpu_seconds = [] { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; };
-  for (const double began = cpu_seconds(); cpu_seconds() < began + kShort;) {
-  }
-  CHECK(clock->sampling_over());
 }
 
 // A tiny picture on many ranks leaves some of them without a tile.
