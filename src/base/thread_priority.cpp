@@ -9,10 +9,23 @@
 
 namespace pprt {
 
+namespace {
+
 // On Linux a priority belongs to the thread, not the process.
+void take_nice(int value) {
+  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), value);
+}
+
+}  // namespace
+
 void take_lowest_priority() {
   constexpr int kLowest = 19;
-  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kLowest);
+  take_nice(kLowest);
+}
+
+void take_low_priority() {
+  constexpr int kLow = 5;
+  take_nice(kLow);
 }
 
 // A thread that asks for short turns gets its turn earlier: sched_setattr(2), sched_runtime.

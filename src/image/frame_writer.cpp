@@ -21,9 +21,7 @@ bool holds_channels(const FramePattern& output) {
 }
 
 FrameWriter::FrameWriter(std::vector<FramePattern> outputs, FrameWriterOptions options)
-    : outputs_(std::move(outputs)),
-      options_(options),
-      at_lowest_priority_([this] { run(Priority::kLowest); }) {}
+    : outputs_(std::move(outputs)), options_(options), at_low_priority_([this] { run(Priority::kLow); }) {}
 
 FrameWriter::~FrameWriter() {
   stop();
@@ -67,15 +65,15 @@ void FrameWriter::stop() {
     stopping_ = true;
   }
   work_.notify_all();
-  for (std::thread* thread : {&at_lowest_priority_, &at_usual_priority_}) {
+  for (std::thread* thread : {&at_low_priority_, &at_usual_priority_}) {
     if (thread->joinable()) thread->join();
   }
 }
 
 void FrameWriter::run(Priority priority) {
-  if (priority == Priority::kLowest) take_lowest_priority();
+  if (priority == Priority::kLow) take_low_priority();
   std::unique_lock lock(mutex_);
-  const auto is_replaced = [&] { return priority == Priority::kLowest && is_behind_; };
+  const auto is_replaced = [&] { return priority == Priority::kLow && is_behind_; };
   for (;;) {
     work_.wait(lock, [&] { return stopping_ || !waiting_.empty() || is_replaced(); });
     if (waiting_.empty() || is_replaced()) return;

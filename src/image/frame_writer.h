@@ -49,9 +49,9 @@ bool holds_channels(const FramePattern& output);
 // Writes frames in the order in which they are submitted. submit, take_finished and error may be called from
 // any thread.
 //
-// A thread of the lowest priority does the work until an eighth of the memory bound waits. Then it is too
-// slow, and a thread of usual priority takes over. At the change, one frame may be finished after its
-// successor.
+// A thread of low priority does the work, a little in every frame's time: work that is put off is done at a
+// bad moment. When an eighth of the memory bound waits it is too slow, and a thread of usual priority takes
+// over. At the change, one frame may be finished after its successor.
 //
 // The first error is kept until it is asked for. Later frames are still tried, as the error may concern one
 // frame only.
@@ -78,7 +78,7 @@ class FrameWriter {
   void finish();
 
  private:
-  enum class Priority : std::uint8_t { kLowest, kUsual };
+  enum class Priority : std::uint8_t { kLow, kUsual };
   void run(Priority priority);
   WrittenFrame write(const FrameToWrite& frame) const;
   void stop();
@@ -91,7 +91,7 @@ class FrameWriter {
   std::condition_variable room_;
   std::deque<FrameToWrite> waiting_;
   std::size_t bytes_ = 0;   // bytes of pixels, waiting and being written
-  bool is_behind_ = false;  // the lowest-priority thread has handed over
+  bool is_behind_ = false;  // the low-priority thread has handed over
   bool stopping_ = false;
   std::vector<WrittenFrame> finished_;
   std::exception_ptr first_error_;
@@ -99,7 +99,7 @@ class FrameWriter {
 
   // Declared last, because they use all members above. A thread inherits its priority and may not raise it,
   // so the caller of submit starts the one of usual priority.
-  std::thread at_lowest_priority_;
+  std::thread at_low_priority_;
   std::thread at_usual_priority_;
 };
 

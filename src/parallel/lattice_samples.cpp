@@ -220,7 +220,16 @@ void LatticeSamples::paint(std::span<const std::int32_t> further_tiles, RegionPi
   for (const int tile : region().tiles()) parts_.push_back(partition_.grid.pixels(tile));
   for (const int tile : further_tiles) parts_.push_back(partition_.grid.pixels(tile));
   weighed_ = 0;
-  lattice_.paint(region().bounds_with(further_tiles), parts_, pixels);
+  lattice_.paint(region().bounds_with(further_tiles), parts_, pixels, [] { return false; });
+}
+
+std::size_t LatticeSamples::repaint(std::span<const std::int32_t> tiles, const std::function<bool()>& is_over,
+                                    RegionPixels& pixels) {
+  parts_.clear();
+  for (const std::int32_t tile : tiles) parts_.push_back(partition_.grid.pixels(tile));
+  // A region that is fine enough to keep its tiles need not be weighed in every frame.
+  if (lattice_.samples() <= region().pixel_count()) weighed_ = 0;
+  return lattice_.paint(region().bounds(), parts_, pixels, is_over);
 }
 
 }  // namespace pprt

@@ -52,6 +52,8 @@ class LatticeSamples : public RegionSamples {
   CastResult cast(const Camera& next, int next_frame, const CastSettings& settings) const override;
   void camera_changed() override { lattice_.camera_changed(); }
   void paint(std::span<const std::int32_t> further_tiles, RegionPixels& pixels) override;
+  std::size_t repaint(std::span<const std::int32_t> tiles, const std::function<bool()>& is_over,
+                      RegionPixels& pixels) override;
 
  private:
   // Tiles in whose closed area a sample is needed.

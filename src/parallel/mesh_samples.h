@@ -46,6 +46,11 @@ class MeshSamples : public RegionSamples {
   CastResult cast(const Camera& next, int next_frame, const CastSettings& settings) const override;
   void camera_changed() override { projected_shapes_.forget(); }
   void paint(std::span<const std::int32_t> further_tiles, RegionPixels& pixels) override;
+  std::size_t repaint(std::span<const std::int32_t> tiles, const std::function<bool()>& /*is_over*/,
+                      RegionPixels& pixels) override {
+    paint({}, pixels);
+    return tiles.size();
+  }
 
  private:
   int rank_;

@@ -1,7 +1,9 @@
 // The pixels of one rank's region (paper s. 2.2, 3.7).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -12,9 +14,12 @@ namespace pprt {
 class RegionPicture {
  public:
   // Reconstructs the region's pixels, and those of further tiles that the samples cover.
-  void reconstruct(RegionSamples& samples, std::span<const std::int32_t> further_tiles) {
-    samples.paint(further_tiles, pixels_);
-  }
+  void reconstruct(RegionSamples& samples, std::span<const std::int32_t> further_tiles);
+
+  // Brings a picture up to date that shows the same as before, with more samples. After each tile asks
+  // whether time is over; the tiles that have waited longest come first. A tile waits while samples come to
+  // any. Returns the share of the tiles that were reconstructed: all of them where the region has changed.
+  double refresh(RegionSamples& samples, const std::function<bool()>& is_over);
 
   // Appends the pixels of a tile to `colors`, rows from the top.
   void append_tile(const TileGrid& grid, int tile, std::vector<Color>& colors) const;
@@ -23,6 +28,9 @@ class RegionPicture {
 
  private:
   RegionPixels pixels_;
+  std::vector<std::int32_t> tiles_;  // of the region, those that have waited longest first
+  std::vector<std::size_t>
+      shows_;  // per tile of the image: samples that there were when it was reconstructed
 };
 
 }  // namespace pprt

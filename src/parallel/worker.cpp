@@ -65,7 +65,7 @@ void Worker::render(const FrameOrder& order) {
   prepare(order);
   sample(order);
   const double sampling_ended_s = clock_->sampling_end_seconds();
-  reconstruct();
+  reconstruct(order.carry == Carry::kAccumulate);
   send_choices(order);
   send_pixels(order, sampling_ended_s);
 }
@@ -177,8 +177,14 @@ void Worker::take_in(const std::vector<Inbox::Arrived>& bundles) {
 
 // --- Reconstruct and report
 
-void Worker::reconstruct() {
-  picture_.reconstruct(sampler_.samples(), ownership_.given());
+// Under a resting camera a tile shows what it showed until it is its turn.
+void Worker::reconstruct(bool rests) {
+  reconstructed_ = 1;
+  if (rests && ownership_.given().empty()) {
+    reconstructed_ = picture_.refresh(sampler_.samples(), [this] { return clock_->reconstruction_over(); });
+  } else {
+    picture_.reconstruct(sampler_.samples(), ownership_.given());
+  }
   clock_->spend(Work::kPixel, sampler_.region().pixel_count());
   timer_.end_stage(&StageTimes::reconstruction);
 }
@@ -221,7 +227,7 @@ void Worker::send_pixels(const FrameOrder& order, double sampling_ended_s) {
   message.report.bytes_balance += tiles.size() * kTileReportBytes;
   message.report.bytes_pixels = bytes + message.colors.size() * sizeof(Color);
   network_.send(0, Tag::kPixels, encode(message));
-  clock_->end_frame(message.report.cpu_ms.reconstruction);
+  clock_->end_frame(message.report.cpu_ms.reconstruction, reconstructed_);
 }
 
 // Sends some of a large region's tiles, and empties the message. Returns the bytes of their pixels. Rank 0

@@ -84,7 +84,7 @@ class Worker {
   void take_in(const std::vector<Inbox::Arrived>& bundles);
 
   // Reconstruct and report.
-  void reconstruct();
+  void reconstruct(bool rests);
   void send_choices(const FrameOrder& order);
   void send_pixels(const FrameOrder& order, double sampling_ended_s);
   std::size_t send_part(PixelMessage& message);
@@ -106,6 +106,7 @@ class Worker {
   AnchorSearch anchors_;
   FrameGoal goal_;
   RegionPicture picture_;
+  double reconstructed_ = 1;           // share of the region in this frame
   std::optional<Camera> last_camera_;  // of the last frame that was not left out
 };
 

@@ -28,9 +28,9 @@ class FrameClock {
   // A frame begins.
   virtual void begin_frame(const FrameOrder& order) = 0;
 
-  // The frame is sent. `reconstruction_ms`: what its reconstruction took by used_ns(), from which the clock
-  // learns what the next frames must leave.
-  virtual void end_frame(double reconstruction_ms) = 0;
+  // The frame is sent. `reconstruction_ms`: what reconstructing a share of the region took by used_ns(), from
+  // which the clock learns what the next frames must leave.
+  virtual void end_frame(double reconstruction_ms, double share = 1) = 0;
 
   // Number of pixels that this rank reconstructs from now on.
   virtual void region_changed(std::size_t pixels) = 0;
@@ -42,9 +42,13 @@ class FrameClock {
   virtual void begin_packet(std::uint64_t samples) = 0;
   virtual bool packet_over() = 0;
 
-  // With a rate: whether the rest of the frame's time is needed for what follows sampling. Puts the end off a
-  // little where the rank was not let run. Without a rate: false.
+  // With a rate: whether the rest of the frame's time is needed for what follows sampling. Without a rate:
+  // false.
   virtual bool sampling_over() = 0;
+
+  // With a rate, while a picture rests that can be reconstructed in parts: whether the rest of the frame's
+  // time is needed for what follows reconstruction. Otherwise false.
+  virtual bool reconstruction_over() const = 0;
 
   // Sampling has ended. `units`: the work that it took by the table of prices, from which the clock learns
   // this rank's pace.

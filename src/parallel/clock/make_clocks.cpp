@@ -37,7 +37,8 @@ std::unique_ptr<FrameClock> make_frame_clock(const SessionSettings& settings, in
   if (is_reproducible(settings)) {
     return std::make_unique<WorkClock>(budget(settings), region_pixels, slowness_of(settings.machine, rank));
   }
-  return std::make_unique<WallClock>(sequence, period_s(settings), ranks_per_core);
+  const bool refreshes_in_parts = settings.sampler != SamplerChoice::kDelaunay;
+  return std::make_unique<WallClock>(sequence, period_s(settings), ranks_per_core, refreshes_in_parts);
 }
 
 std::unique_ptr<ExchangePolicy> make_exchange_policy(const SessionSettings& settings, int ranks) {

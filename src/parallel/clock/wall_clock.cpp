@@ -37,8 +37,8 @@ void WallClock::begin_frame(const FrameOrder& order) {
   set_stop();
 }
 
-void WallClock::end_frame(double reconstruction_ms) {
-  if (size_ > 0) reconstruction_s_per_size_.add(1e-3 * reconstruction_ms / size_);
+void WallClock::end_frame(double reconstruction_ms, double share) {
+  if (size_ > 0 && share > 0) reconstruction_s_per_size_.add(1e-3 * reconstruction_ms / (share * size_));
 }
 
 void WallClock::region_changed(std::size_t pixels) {
@@ -62,6 +62,11 @@ bool WallClock::packet_over() {
 
 bool WallClock::sampling_over() {
   return stop_s_ != 0 && sequence_.now_s() >= stop_s_;
+}
+
+bool WallClock::reconstruction_over() const {
+  return is_at_rest_ && refreshes_in_parts_ && deadline_s_ > 0 &&
+         sequence_.now_s() >= deadline_s_ - std::max(reserve_s_, kLeastLeft * period_s_);
 }
 
 void WallClock::end_sampling(double units) {
@@ -97,11 +102,16 @@ double WallClock::rested(double seconds) {
 }
 
 // Seconds after sampling: for this rank's own reconstruction beside those of the ranks that share its core,
-// and for what else the master has seen to pass until a frame is whole. A resting picture whose
-// reconstruction fills the frame is fine enough; a new one gets some samples, whatever that takes.
+// and for what else the master has seen to pass until a frame is whole. A new picture gets some samples,
+// whatever that takes. A resting one is reconstructed in parts, or it is fine enough when its reconstruction
+// fills the frame.
 double WallClock::left_for_the_rest() const {
+  constexpr double kMostForParts = 0.35;
+  const bool in_parts = is_at_rest_ && refreshes_in_parts_;
+  const double reconstruction_s =
+      in_parts ? std::min(this->reconstruction_s(), kMostForParts * period_s_) : this->reconstruction_s();
   const double most = is_at_rest_ ? 1 : kMostLeftOfANewPicture;
-  return std::clamp(reserve_s_ + reconstruction_s(), kLeastLeft * period_s_, most * period_s_);
+  return std::clamp(reserve_s_ + reconstruction_s, kLeastLeft * period_s_, most * period_s_);
 }
 
 // Predicted seconds: as in the slowest of the last frames, and a quarter more.

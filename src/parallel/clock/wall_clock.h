@@ -27,19 +27,24 @@ class RecentMaximum {
 class WallClock final : public FrameClock {
  public:
   // `sequence` must outlive it. `period_s`: seconds from frame to frame, 0 without a rate. `ranks_per_core`:
-  // number of ranks that share one of this host's cores, at least 1.
-  WallClock(const SequenceClock& sequence, double period_s, double ranks_per_core)
-      : sequence_(sequence), period_s_(period_s), ranks_per_core_(ranks_per_core) {}
+  // number of ranks that share one of this host's cores, at least 1. `refreshes_in_parts`: a resting picture
+  // need not be reconstructed as a whole in every frame.
+  WallClock(const SequenceClock& sequence, double period_s, double ranks_per_core, bool refreshes_in_parts)
+      : sequence_(sequence),
+        period_s_(period_s),
+        ranks_per_core_(ranks_per_core),
+        refreshes_in_parts_(refreshes_in_parts) {}
 
   bool may_begin(const FrameOrder& order) const override;
   bool is_past(const FrameOrder& order) const override;
   void begin_frame(const FrameOrder& order) override;
-  void end_frame(double reconstruction_ms) override;
+  void end_frame(double reconstruction_ms, double share = 1) override;
   void region_changed(std::size_t pixels) override;
 
   void begin_packet(std::uint64_t samples) override;
   bool packet_over() override;
   bool sampling_over() override;
+  bool reconstruction_over() const override;
   void end_sampling(double units) override;
   double pace() const override { return pace_; }
   double sampling_share() const override;
@@ -63,6 +68,7 @@ class WallClock final : public FrameClock {
   const SequenceClock& sequence_;
   double period_s_;
   double ranks_per_core_;
+  bool refreshes_in_parts_;
   double frame_began_s_ = 0;
   double deadline_s_ = 0;  // 0: no rate
   double reserve_s_ = 0;   // for what follows reconstruction
@@ -70,7 +76,7 @@ class WallClock final : public FrameClock {
   double stop_s_ = 0;  // when sampling must stop; 0: no rate
   double sampling_began_s_ = 0;
   bool is_sampling_ = false;  // this frame has begun to
-  double rested_s_ = 0;  // in this frame
+  double rested_s_ = 0;       // in this frame
   double rested_before_sampling_s_ = 0;
   double pace_ = 1;
   bool knows_pace_ = false;

@@ -21,12 +21,13 @@ class WorkClock final : public FrameClock {
   bool may_begin(const FrameOrder&) const override { return true; }
   bool is_past(const FrameOrder&) const override { return false; }
   void begin_frame(const FrameOrder& order) override;
-  void end_frame(double) override { frames_before_ += std::exchange(frame_units_, 0); }
+  void end_frame(double, double) override { frames_before_ += std::exchange(frame_units_, 0); }
   void region_changed(std::size_t pixels) override { reconstruction_ = cost(Work::kPixel, pixels); }
 
   void begin_packet(std::uint64_t samples) override;
   bool packet_over() override { return frame_units_ >= round_end_; }
   bool sampling_over() override { return budget_ > 0 && round_ >= kRoundsPerFrame; }
+  bool reconstruction_over() const override { return false; }
   void end_sampling(double) override {}
   double pace() const override { return slowness_; }
   double sampling_share() const override;

@@ -452,12 +452,18 @@ double LatticeSampler::weigh(std::vector<TileWeights>& weights) const {
   return candidates > 0 ? worth / static_cast<double>(candidates) : 0;
 }
 
-void LatticeSampler::paint(const PixelRect& bounds, std::span<const PixelRect> parts, RegionPixels& pixels) {
+std::size_t LatticeSampler::paint(const PixelRect& bounds, std::span<const PixelRect> parts,
+                                  RegionPixels& pixels, const std::function<bool()>& is_over) {
   store_.forget_predictions();
   errors_.start_round();
   pixels.bounds = bounds;
   pixels.colors.resize(bounds.area());
-  for (const PixelRect& part : parts) painter_.paint(part, pixels);
+  std::size_t painted = 0;
+  while (painted < parts.size()) {
+    painter_.paint(parts[painted++], pixels);
+    if (is_over()) break;
+  }
+  return painted;
 }
 
 }  // namespace pprt

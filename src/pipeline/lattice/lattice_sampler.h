@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -84,10 +85,14 @@ class LatticeSampler {
   // is a quarter.
   double weigh(std::vector<TileWeights>& weights) const;
 
-  // Replaces `pixels` by those of a rectangle of the image, of the parts of it that are named. Each is the
-  // mean over the pixel's area. Parts are black while there are fewer than least_samples().
-  void paint(const PixelRect& bounds, std::span<const PixelRect> parts, RegionPixels& pixels);
-  void paint(const PixelRect& bounds, RegionPixels& pixels) { paint(bounds, {&bounds, 1}, pixels); }
+  // Replaces the pixels of parts of the image, within `bounds`. Each pixel is the mean over its area. Parts
+  // are black while there are fewer than least_samples(). Pixels of the same bounds keep their colours
+  // elsewhere. After each part asks whether time is over, and returns how many parts it has painted.
+  std::size_t paint(const PixelRect& bounds, std::span<const PixelRect> parts, RegionPixels& pixels,
+                    const std::function<bool()>& is_over);
+  void paint(const PixelRect& bounds, RegionPixels& pixels) {
+    paint(bounds, {&bounds, 1}, pixels, [] { return false; });
+  }
 
  private:
   // A node whose sample is wanted, and what is known of it.

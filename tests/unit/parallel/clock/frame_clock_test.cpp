@@ -73,6 +73,32 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("wall clock: a resting picture on a lattice is reconstructed in parts, up to the reserve",
+          "[realtime]") {
+  SessionSettings settings;
+  settings.clock = ClockKind::kWall;
+  settings.frames_per_second = 1 / kPeriod;
+  settings.sampler = SamplerChoice::kAuto;
+  for (const bool rests : {true, false}) {
+    const auto clock = make_frame_clock(settings, 0, sequence_of_now(), 0, 1);
+    FrameOrder order;
+    order.carry = rests ? Carry::kAccumulate : Carry::kNothing;
+    order.deadline_s = 1;
+    order.reserve_s = 0.01;
+    clock->begin_frame(order);
+    left_with(*clock, 10000);
+    clock->end_frame(10, 0.5);  // all of it would have taken 20
+    CHECK(left_with(*clock, 10000) == Approx(0.01 + 1.25 * 0.02));
+    CHECK(left_with(*clock, 100000) == Approx(rests ? 0.01 + 0.35 * kPeriod : 0.7 * kPeriod));
+    clock->end_frame(0, 0);  // nothing was reconstructed: nothing is learned
+    CHECK(left_with(*clock, 10000) == Approx(0.01 + 1.25 * 0.02));
+    CHECK_FALSE(clock->reconstruction_over());
+    order.deadline_s = 0.009;  // within the reserve
+    clock->begin_frame(order);
+    CHECK(clock->reconstruction_over() == rests);
+  }
+}
+
 TEST_CASE("wall clock: the pace is the time of sampling, without rest, by the work that it took",
           "[realtime]") {
   constexpr double kUnits = 1e6;

@@ -17,12 +17,13 @@ class SetClock final : public FrameClock {
     return order.index > 0 && now_s_ >= order.deadline_s;
   }
   void begin_frame(const FrameOrder&) override { packets_ = 0; }
-  void end_frame(double) override {}
+  void end_frame(double, double) override {}
   void region_changed(std::size_t) override {}
 
   void begin_packet(std::uint64_t) override { left_ = samples_per_packet_, ++packets_; }
   bool packet_over() override { return left_-- == 0; }
   bool sampling_over() override { return packets_ >= kPackets; }
+  bool reconstruction_over() const override { return false; }
   void end_sampling(double) override {}
   double pace() const override { return 1; }
   double sampling_share() const override { return packets_ < kPackets ? 0.25 : 1; }
