@@ -24,7 +24,16 @@ LatticeSamples::LatticeSamples(const SessionSettings& settings, const Partition&
       was_own_(partition.owner.size(), 0),
       casts_(settings.cast != CastChoice::kOff),
       keeps_samples_(partition.ranks > 1 || !settings.is_still || settings.report_samples),
-      neighbours_(ranks_beside(partition, rank)) {}
+      neighbours_(ranks_beside(partition, rank)) {
+  if (keeps_samples_) reserve_samples();
+}
+
+// Makes room for the samples of a resting picture, which takes no memory before they come. A list that grows
+// is copied: with a million samples that takes as long as a frame.
+void LatticeSamples::reserve_samples() {
+  constexpr std::size_t kMostBytes = std::size_t{256} << 20;
+  samples_.reserve(std::min(kMostSamplesPerPixel * region().pixel_count(), kMostBytes / sizeof(Sample)));
+}
 
 void LatticeSamples::clear(bool keep_learned) {
   if (keep_learned) {
@@ -166,7 +175,7 @@ std::vector<std::uint32_t> LatticeSamples::known_in_tiles(int rank) const {
 
 // --- Readings
 
-// Weighing costs as much as some hundred samples. What is reported after painting is exact.
+// Weighing costs as much as some ten samples. What is reported after painting is exact.
 RegionQuality LatticeSamples::quality() {
   constexpr double kGrowth = 1.5;
   weigh_after(kGrowth);
@@ -227,8 +236,7 @@ std::size_t LatticeSamples::repaint(std::span<const std::int32_t> tiles, const s
                                     RegionPixels& pixels) {
   parts_.clear();
   for (const std::int32_t tile : tiles) parts_.push_back(partition_.grid.pixels(tile));
-  // A region that is fine enough to keep its tiles need not be weighed in every frame.
-  if (lattice_.samples() <= region().pixel_count()) weighed_ = 0;
+  weighed_ = 0;
   return lattice_.paint(region().bounds(), parts_, pixels, is_over);
 }
 

@@ -60,6 +60,7 @@ class LatticeSamples : public RegionSamples {
   struct TileRange {
     int x0, y0, x1, y1;  // inclusive
   };
+  void reserve_samples();
   void expect_goal();
   void weigh_after(double growth);
   void forget_weights(const Region& next);

@@ -61,9 +61,6 @@ Sample RegionSampler::trace(const Vec2d& point) {
 }
 
 bool RegionSampler::is_full() const {
-  // A resting camera accumulates no more: further samples change a pixel by less than a display step, and
-  // each costs time in every reconstruction to come.
-  constexpr std::uint64_t kMostSamplesPerPixel = 16;
   return in_region_ >= kMostSamplesPerPixel * region().pixel_count();
 }
 

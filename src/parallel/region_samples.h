@@ -27,6 +27,10 @@ struct SeedPoint {
   bool own = false;          // it lies in the region
 };
 
+// A resting camera accumulates no more: further samples change a pixel by less than a display step, and each
+// costs time in every reconstruction to come.
+inline constexpr std::size_t kMostSamplesPerPixel = 16;
+
 // What the picture shows before a sample refines it.
 struct PictureGuess {
   Color color;

@@ -46,9 +46,10 @@ class FrameClock {
   // false.
   virtual bool sampling_over() = 0;
 
-  // With a rate, while a picture rests that can be reconstructed in parts: whether the rest of the frame's
-  // time is needed for what follows reconstruction. Otherwise false.
-  virtual bool reconstruction_over() const = 0;
+  // With a rate, while a picture rests that can be reconstructed in parts: whether another part, as long as
+  // the one since the last call or the end of sampling, would need the time of what follows reconstruction.
+  // Otherwise false.
+  virtual bool reconstruction_over() = 0;
 
   // Sampling has ended. `units`: the work that it took by the table of prices, from which the clock learns
   // this rank's pace.

@@ -64,16 +64,18 @@ bool WallClock::sampling_over() {
   return stop_s_ != 0 && sequence_.now_s() >= stop_s_;
 }
 
-bool WallClock::reconstruction_over() const {
-  return is_at_rest_ && refreshes_in_parts_ && deadline_s_ > 0 &&
-         sequence_.now_s() >= deadline_s_ - std::max(reserve_s_, kLeastLeft * period_s_);
+bool WallClock::reconstruction_over() {
+  if (!is_at_rest_ || !refreshes_in_parts_ || deadline_s_ == 0) return false;
+  const double now = sequence_.now_s(), part_s = now - std::exchange(part_began_s_, now);
+  return now + part_s >= deadline_s_ - std::max(reserve_s_, kLeastLeft * period_s_);
 }
 
 void WallClock::end_sampling(double units) {
   // About 150 samples: fewer say nothing.
   constexpr double kLeastUnits = 2e5, kShareOfNew = 0.25;
+  part_began_s_ = sequence_.now_s();
   if (units < kLeastUnits) return;
-  const double took_s = sequence_.now_s() - sampling_began_s_ - (rested_s_ - rested_before_sampling_s_);
+  const double took_s = part_began_s_ - sampling_began_s_ - (rested_s_ - rested_before_sampling_s_);
   const double pace = 1e9 * took_s / units;
   pace_ += (knows_pace_ ? kShareOfNew : 1) * (pace - pace_);
   knows_pace_ = true;

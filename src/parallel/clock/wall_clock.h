@@ -44,7 +44,7 @@ class WallClock final : public FrameClock {
   void begin_packet(std::uint64_t samples) override;
   bool packet_over() override;
   bool sampling_over() override;
-  bool reconstruction_over() const override;
+  bool reconstruction_over() override;
   void end_sampling(double units) override;
   double pace() const override { return pace_; }
   double sampling_share() const override;
@@ -75,6 +75,7 @@ class WallClock final : public FrameClock {
   bool is_at_rest_ = false;
   double stop_s_ = 0;  // when sampling must stop; 0: no rate
   double sampling_began_s_ = 0;
+  double part_began_s_ = 0;  // of reconstruction
   bool is_sampling_ = false;  // this frame has begun to
   double rested_s_ = 0;       // in this frame
   double rested_before_sampling_s_ = 0;

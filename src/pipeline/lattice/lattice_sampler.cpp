@@ -426,29 +426,17 @@ void LatticeSampler::make_candidate(const LatticeNode& node, const LatticeLevel&
 }
 
 double LatticeSampler::weigh(std::vector<TileWeights>& weights) const {
-  struct Values {
-    std::array<double, 256> worth{}, root{};
-  };
-  static const Values kOf = [] {
-    Values of;
-    for (std::size_t i = kLeastCandidate + 1; i <= kGreatestCandidate; ++i) {
-      of.worth[i] = static_cast<double>(least_worth(static_cast<NodeState>(i)));
-      of.root[i] = std::sqrt(of.worth[i]);
-    }
-    return of;
-  }();
   const TileGrid& grid = region().grid();
   weights.assign(static_cast<std::size_t>(grid.tile_count()), {});
+  store_.for_each_square([&](int x, int y, std::int64_t count, double root) {
+    TileWeights& here = weights[static_cast<std::size_t>(grid.tile_at(x, y))];
+    here.count += count, here.total_weight += root;
+  });
+  const std::array<std::int64_t, 256>& of = store_.candidates();
   double worth = 0;
-  std::int64_t candidates = 0;
-  for (int tile = 0; tile < store_.tile_count(); ++tile) {
-    if (!own_.touches_tile(tile)) continue;
-    store_.for_each_candidate(tile, [&](int x, int y, NodeState state) {
-      TileWeights& here = weights[static_cast<std::size_t>(grid.tile_at(x, y))];
-      ++here.count, here.total_weight += kOf.root[state];
-      ++candidates, worth += kOf.worth[state];
-    });
-  }
+  for (std::size_t i = kLeastCandidate + 1; i <= kGreatestCandidate; ++i)
+    worth += static_cast<double>(of[i]) * static_cast<double>(least_worth(static_cast<NodeState>(i)));
+  const std::int64_t candidates = std::accumulate(of.begin() + kLeastCandidate, of.end(), std::int64_t{0});
   return candidates > 0 ? worth / static_cast<double>(candidates) : 0;
 }
 

@@ -1,6 +1,7 @@
 #include "pipeline/lattice/lattice_store.h"
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 #include <span>
 #include <type_traits>
@@ -65,6 +66,14 @@ void for_each_row(const LatticeLevel& level, const Visit& visit) {
 
 }  // namespace
 
+const std::array<std::int64_t, 256> LatticeStore::kRoots = [] {
+  std::array<std::int64_t, 256> roots{};
+  for (std::size_t i = kLeastCandidate + 1; i <= kGreatestCandidate; ++i)
+    roots[i] =
+        std::llround(std::sqrt(static_cast<double>(least_worth(static_cast<NodeState>(i)))) / kRootUnit);
+  return roots;
+}();
+
 LatticeStore::LatticeStore(int width, int height)
     : width_(width),
       height_(height),
@@ -72,6 +81,7 @@ LatticeStore::LatticeStore(int width, int height)
       bottom_(kPixelSide * covered(height)),
       columns_(right_ / (kPixelSide * kTilePixels) + 1),
       rows_(bottom_ / (kPixelSide * kTilePixels) + 1),
+      squares_(square_of({right_, bottom_}) + 1),
       tiles_(static_cast<Tile*>(std::calloc(static_cast<std::size_t>(tile_count()), sizeof(Tile)))),
       is_touched_(static_cast<std::size_t>(tile_count())),
       pixels_with_blocks_(static_cast<std::size_t>(tile_count())),
@@ -94,6 +104,7 @@ void LatticeStore::clear() {
   }
   round_ = 1;
   counts_.fill(0);
+  std::fill(squares_.begin(), squares_.end(), SquareCandidates());
   pixel_blocks_.clear();
   cells_.clear();
   cell_blocks_.clear();
@@ -139,19 +150,19 @@ void LatticeStore::set_sample(const LatticeNode& node, const NodeValue& value) {
   const std::size_t number = tile_of(node), pixel = pixel_in_tile(node), slot = cell_of(node);
   Tile& tile = tile_for_writing(number);
   if (slot == 0) {
-    --counts_[std::exchange(tile.corner_states[pixel], kSampled)];
+    change(node, tile.corner_states[pixel], kSampled);
     tile.corners[pixel] = value;
     return;
   }
   PixelBlock& own = pixel_block_for_writing(number, pixel);
   own.values[place_of(slot)] = value;
-  --counts_[std::exchange(slot == kCenterSlot ? tile.center_states[pixel] : own.states[slot], kSampled)];
+  change(node, slot == kCenterSlot ? tile.center_states[pixel] : own.states[slot], kSampled);
 }
 
 void LatticeStore::set_sample_in_cell(const LatticeNode& node, const NodeValue& value) {
   const std::size_t slot = slot_in_cell(node), place = place_of(slot);
   CellBlock& block = cell_block_for_writing(node);
-  --counts_[std::exchange(block.states[slot], kSampled)];
+  change(node, block.states[slot], kSampled);
   if (place < kFirstValues) {
     block.values[place] = value;
     return;

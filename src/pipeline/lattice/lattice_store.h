@@ -104,18 +104,13 @@ class LatticeStore {
   }
 
   // Changes the state of a node that holds no sample. Makes storage where there is none.
-  void set_state(const LatticeNode& node, NodeState state) {
-    NodeState& now = state_for_writing(node);
-    --counts_[now], ++counts_[state];
-    now = state;
-  }
+  void set_state(const LatticeNode& node, NodeState state) { change(node, state_for_writing(node), state); }
 
   // Makes a node a candidate of at least this priority. False if it is one already, or holds a sample.
   bool raise(const LatticeNode& node, NodeState priority) {
     NodeState& now = state_for_writing(node);
     if (now == kSampled || now >= priority) return false;
-    --counts_[now], ++counts_[priority];
-    now = priority;
+    change(node, now, priority);
     return true;
   }
 
@@ -178,9 +173,11 @@ class LatticeStore {
   // Returns how many candidates have each state. Other states do not count.
   const std::array<std::int64_t, 256>& candidates() const { return counts_; }
 
-  // Calls visit(pixel_x, pixel_y, state) for each candidate of a tile.
+  // Calls visit(pixel_x, pixel_y, count, root) for each base square with candidates, by the pixel of its
+  // upper left corner: how many there are, and the sum of the roots of their least worth. The least
+  // candidates count with a worth of 0.
   template <class Visit>
-  void for_each_candidate(int tile, const Visit& visit) const;
+  void for_each_square(const Visit& visit) const;
 
   // The upper left corner of a pixel of a tile; pixels are numbered row by row.
   LatticeNode corner_of(int tile, std::size_t pixel = 0) const;
@@ -254,6 +251,23 @@ class LatticeStore {
     return kPlaces[slot];
   }
 
+  // The candidates of a base square; of its border those on the left and upper side.
+  struct SquareCandidates {
+    std::int64_t root = 0;  // sum of kRoots
+    std::int64_t count = 0;
+  };
+  std::size_t square_of(const LatticeNode& node) const {
+    const int square = node.y / kBaseSide * (right_ / kBaseSide + 1) + node.x / kBaseSide;
+    return static_cast<std::size_t>(square);
+  }
+  void change(const LatticeNode& node, NodeState& now, NodeState state) {
+    --counts_[now], ++counts_[state];
+    SquareCandidates& square = squares_[square_of(node)];
+    square.count += (state >= kLeastCandidate ? 1 : 0) - (now >= kLeastCandidate ? 1 : 0);
+    square.root += kRoots[state] - kRoots[now];
+    now = state;
+  }
+
   NodeState state_in_cell(const LatticeNode& node) const;
   const NodeValue* sample_in_cell(const LatticeNode& node) const;
   Tile& tile_for_writing(std::size_t number) {
@@ -272,7 +286,11 @@ class LatticeStore {
 
   int width_, height_, right_, bottom_, columns_, rows_;
   std::uint8_t round_ = 1;
+  // By state: the root of the least worth, 0 of what is no candidate. Whole numbers, so that sums are exact.
+  static constexpr double kRootUnit = 1.0 / (std::int64_t{1} << 32);
+  static const std::array<std::int64_t, 256> kRoots;
   std::array<std::int64_t, 256> counts_{};  // by state; of candidates only
+  std::vector<SquareCandidates> squares_;   // per base square, row by row
   // Zeroed pages, so that tiles which nothing is written to take no memory: their nodes are not wanted.
   std::unique_ptr<Tile[], Release> tiles_;
   std::vector<std::uint8_t> is_touched_;                        // per tile: written to since clear()
@@ -285,24 +303,14 @@ class LatticeStore {
 };
 
 template <class Visit>
-void LatticeStore::for_each_candidate(int tile, const Visit& visit) const {
-  const Tile& from = tiles_[static_cast<std::size_t>(tile)];
-  const int left = tile % columns_ * kTilePixels, top = tile / columns_ * kTilePixels;
-  const auto visit_pixel = [&](std::size_t pixel, NodeState state) {
-    if (state >= kLeastCandidate)
-      visit(left + static_cast<int>(pixel % kTilePixels), top + static_cast<int>(pixel / kTilePixels), state);
-  };
-  for (std::size_t i = 0; i < kTileArea; i += sizeof(std::uint64_t)) {
-    const auto corners = load<std::uint64_t>(&from.corner_states[i]);
-    const auto centers = load<std::uint64_t>(&from.center_states[i]);
-    if ((corners | centers) == 0) continue;
-    for (std::size_t k = i; k < i + sizeof(std::uint64_t); ++k)
-      visit_pixel(k, from.corner_states[k]), visit_pixel(k, from.center_states[k]);
+void LatticeStore::for_each_square(const Visit& visit) const {
+  constexpr int kPixels = kBaseSide / kPixelSide;
+  std::size_t i = 0;
+  for (int y = 0; y <= bottom_ / kPixelSide; y += kPixels) {
+    for (int x = 0; x <= right_ / kPixelSide; x += kPixels, ++i)
+      if (squares_[i].count > 0)
+        visit(x, y, squares_[i].count, kRootUnit * static_cast<double>(squares_[i].root));
   }
-  for (const std::uint16_t pixel : pixels_with_blocks_[static_cast<std::size_t>(tile)])
-    for (const NodeState state : pixel_blocks_[from.blocks[pixel]].states) visit_pixel(pixel, state);
-  for (const Cell& cell : cells_with_blocks_[static_cast<std::size_t>(tile)])
-    for (const NodeState state : cell_blocks_[cell.block].states) visit_pixel(cell.pixel, state);
 }
 
 template <class Visit>

@@ -80,6 +80,7 @@ TEST_CASE("wall clock: a resting picture on a lattice is reconstructed in parts,
   settings.frames_per_second = 1 / kPeriod;
   settings.sampler = SamplerChoice::kAuto;
   for (const bool rests : {true, false}) {
+    const double began_s = monotonic_seconds();
     const auto clock = make_frame_clock(settings, 0, sequence_of_now(), 0, 1);
     FrameOrder order;
     order.carry = rests ? Carry::kAccumulate : Carry::kNothing;
@@ -93,8 +94,12 @@ TEST_CASE("wall clock: a resting picture on a lattice is reconstructed in parts,
     clock->end_frame(0, 0);  // nothing was reconstructed: nothing is learned
     CHECK(left_with(*clock, 10000) == Approx(0.01 + 1.25 * 0.02));
     CHECK_FALSE(clock->reconstruction_over());
-    order.deadline_s = 0.009;  // within the reserve
+    // A part as long as this one would reach into the reserve.
+    order.deadline_s = monotonic_seconds() - began_s + 0.01 + 0.05;
     clock->begin_frame(order);
+    clock->end_sampling(0);
+    CHECK_FALSE(clock->reconstruction_over());
+    std::this_thread::sleep_for(std::chrono::milliseconds(30));
     CHECK(clock->reconstruction_over() == rests);
   }
 }
