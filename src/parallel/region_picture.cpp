@@ -26,7 +26,7 @@ double RegionPicture::refresh(RegionSamples& samples, const std::function<bool()
   };
   const auto waiting = std::find_if(tiles_.begin(), tiles_.end(),
                                     [&](std::int32_t tile) { return shows(tile) == samples.size(); });
-  if (waiting == tiles_.begin()) return 0;
+  if (waiting == tiles_.begin() || is_over()) return 0;
   const std::span<const std::int32_t> stale(tiles_.begin(), waiting);
   const std::size_t done = samples.repaint(stale, is_over, pixels_);
   for (const std::int32_t tile : stale.first(done)) shows(tile) = samples.size();

@@ -16,9 +16,9 @@ class RegionPicture {
   // Reconstructs the region's pixels, and those of further tiles that the samples cover.
   void reconstruct(RegionSamples& samples, std::span<const std::int32_t> further_tiles);
 
-  // Brings a picture up to date that shows the same as before, with more samples. After each tile asks
-  // whether time is over; the tiles that have waited longest come first. A tile waits while samples come to
-  // any. Returns the share of the tiles that were reconstructed: all of them where the region has changed.
+  // Brings a picture up to date that shows the same as before, with more samples. Before each tile it asks
+  // whether time is over. The tiles that have waited longest come first. Returns the share of the tiles that
+  // were reconstructed: all of them where the region has changed, none where no sample has come.
   double refresh(RegionSamples& samples, const std::function<bool()>& is_over);
 
   // Appends the pixels of a tile to `colors`, rows from the top.

@@ -142,8 +142,8 @@ class RegionSamples {
   // Replaces `pixels` by those of the region, and of further tiles that the samples cover.
   virtual void paint(std::span<const std::int32_t> further_tiles, RegionPixels& pixels) = 0;
 
-  // Brings tiles of the region up to date in what paint() has made of it. After each one it asks whether
-  // time is over, and returns how many there were. A mesh does all at once.
+  // Brings tiles of the region up to date in what paint() has made of it. After each one it asks whether time
+  // is over, and returns how many there were. A mesh does all at once.
   virtual std::size_t repaint(std::span<const std::int32_t> tiles, const std::function<bool()>& is_over,
                               RegionPixels& pixels) = 0;
 };

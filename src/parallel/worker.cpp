@@ -115,7 +115,7 @@ Worker::Packet Worker::sample_packet(bool has_rate, CastEvidence* evidence) {
 
 // Anchors come first, but not while evidence is taken. False when there is nothing to sample.
 bool Worker::sample_once(CastEvidence* evidence) {
-  if (sampler_.is_full()) return false;
+  if (sampler_.is_full() || clock_->is_fine_enough()) return false;
   const std::optional<Sample> anchor = evidence == nullptr ? anchors_.next() : std::nullopt;
   if (!anchor) return sampler_.refine(evidence);
   if (tracer_.is_visible(anchor->ray.hit, anchor->ray.at_infinity)) sampler_.reinsert(*anchor);

@@ -46,9 +46,13 @@ class FrameClock {
   // false.
   virtual bool sampling_over() = 0;
 
-  // With a rate, while a picture rests that can be reconstructed in parts: whether another part, as long as
-  // the one since the last call or the end of sampling, would need the time of what follows reconstruction.
-  // Otherwise false.
+  // With a rate: whether a resting picture without parts has as many samples as can be reconstructed within a
+  // frame. Otherwise false.
+  virtual bool is_fine_enough() const = 0;
+
+  // With a rate, while a picture rests: whether another part, as long as the one since the last call or the
+  // end of sampling, would need the time of what follows reconstruction. Where there are no parts: whether it
+  // is not the picture's turn in this frame. Otherwise false.
   virtual bool reconstruction_over() = 0;
 
   // Sampling has ended. `units`: the work that it took by the table of prices, from which the clock learns

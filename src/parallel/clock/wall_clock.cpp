@@ -16,6 +16,9 @@ constexpr double kPixelsPerSample = 8;
 // Shares of the period that are left for all that follows sampling.
 constexpr double kLeastLeft = 0.04, kMostLeftOfANewPicture = 0.7;
 
+// Share of the time that goes into the reconstruction of a resting picture.
+constexpr double kMostForRefreshing = 0.35;
+
 }  // namespace
 
 bool WallClock::may_begin(const FrameOrder& order) const {
@@ -34,6 +37,7 @@ void WallClock::begin_frame(const FrameOrder& order) {
   deadline_s_ = order.deadline_s;
   reserve_s_ = order.reserve_s;
   is_at_rest_ = order.carry == Carry::kAccumulate;
+  take_turns();
   set_stop();
 }
 
@@ -49,6 +53,7 @@ void WallClock::begin_packet(std::uint64_t samples) {
   left_in_packet_ = ranks_per_core_ > 1 ? kSamplesOfAShortTurn : kSamplesPerPacket;
   size_ = static_cast<double>(samples) + region_size_;
   set_stop();
+  if (is_at_rest_ && sampling_over()) left_in_packet_ = 0;
   if (!std::exchange(is_sampling_, true))
     sampling_began_s_ = sequence_.now_s(), rested_before_sampling_s_ = rested_s_;
   // With more ranks than cores, short turns keep every rank near its deadline.
@@ -65,7 +70,8 @@ bool WallClock::sampling_over() {
 }
 
 bool WallClock::reconstruction_over() {
-  if (!is_at_rest_ || !refreshes_in_parts_ || deadline_s_ == 0) return false;
+  if (!is_at_rest_ || deadline_s_ == 0) return false;
+  if (!refreshes_in_parts_) return !is_turn_;
   const double now = sequence_.now_s(), part_s = now - std::exchange(part_began_s_, now);
   return now + part_s >= deadline_s_ - std::max(reserve_s_, kLeastLeft * period_s_);
 }
@@ -103,17 +109,29 @@ double WallClock::rested(double seconds) {
   return 1e3 * seconds;
 }
 
+bool WallClock::is_fine_enough() const {
+  return deadline_s_ > 0 && is_at_rest_ && !refreshes_in_parts_ &&
+         reserve_s_ + reconstruction_s() >= period_s_;
+}
+
 // Seconds after sampling: for this rank's own reconstruction beside those of the ranks that share its core,
 // and for what else the master has seen to pass until a frame is whole. A new picture gets some samples,
-// whatever that takes. A resting one is reconstructed in parts, or it is fine enough when its reconstruction
-// fills the frame.
+// whatever that takes. A resting one is reconstructed in parts or by turns.
 double WallClock::left_for_the_rest() const {
-  constexpr double kMostForParts = 0.35;
-  const bool in_parts = is_at_rest_ && refreshes_in_parts_;
-  const double reconstruction_s =
-      in_parts ? std::min(this->reconstruction_s(), kMostForParts * period_s_) : this->reconstruction_s();
+  double reconstruction_s = is_turn_ ? this->reconstruction_s() : 0;
+  if (is_at_rest_ && refreshes_in_parts_)
+    reconstruction_s = std::min(reconstruction_s, kMostForRefreshing * period_s_);
   const double most = is_at_rest_ ? 1 : kMostLeftOfANewPicture;
   return std::clamp(reserve_s_ + reconstruction_s, kLeastLeft * period_s_, most * period_s_);
+}
+
+// A resting picture without parts is reconstructed when the frames since have saved the time for it.
+void WallClock::take_turns() {
+  is_turn_ = true;
+  if (!is_at_rest_ || refreshes_in_parts_) return;
+  saved_s_ += kMostForRefreshing * period_s_;
+  is_turn_ = saved_s_ >= reconstruction_s();
+  if (is_turn_) saved_s_ = 0;
 }
 
 // Predicted seconds: as in the slowest of the last frames, and a quarter more.

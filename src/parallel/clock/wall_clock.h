@@ -28,7 +28,7 @@ class WallClock final : public FrameClock {
  public:
   // `sequence` must outlive it. `period_s`: seconds from frame to frame, 0 without a rate. `ranks_per_core`:
   // number of ranks that share one of this host's cores, at least 1. `refreshes_in_parts`: a resting picture
-  // need not be reconstructed as a whole in every frame.
+  // can be reconstructed in parts. Otherwise the frames in which it is take turns with others.
   WallClock(const SequenceClock& sequence, double period_s, double ranks_per_core, bool refreshes_in_parts)
       : sequence_(sequence),
         period_s_(period_s),
@@ -44,6 +44,7 @@ class WallClock final : public FrameClock {
   void begin_packet(std::uint64_t samples) override;
   bool packet_over() override;
   bool sampling_over() override;
+  bool is_fine_enough() const override;
   bool reconstruction_over() override;
   void end_sampling(double units) override;
   double pace() const override { return pace_; }
@@ -60,6 +61,7 @@ class WallClock final : public FrameClock {
   double sampling_end_seconds() const override { return std::max(stop_s_, sampling_began_s_); }
 
  private:
+  void take_turns();
   void set_stop() { stop_s_ = deadline_s_ > 0 ? deadline_s_ - left_for_the_rest() : 0; }
   double left_for_the_rest() const;
   double reconstruction_s() const;
@@ -75,7 +77,9 @@ class WallClock final : public FrameClock {
   bool is_at_rest_ = false;
   double stop_s_ = 0;  // when sampling must stop; 0: no rate
   double sampling_began_s_ = 0;
-  double part_began_s_ = 0;  // of reconstruction
+  double part_began_s_ = 0;   // of reconstruction
+  double saved_s_ = 0;        // for the next reconstruction as a whole, while the picture rests
+  bool is_turn_ = true;       // of reconstruction as a whole
   bool is_sampling_ = false;  // this frame has begun to
   double rested_s_ = 0;       // in this frame
   double rested_before_sampling_s_ = 0;

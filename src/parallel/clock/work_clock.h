@@ -27,6 +27,7 @@ class WorkClock final : public FrameClock {
   void begin_packet(std::uint64_t samples) override;
   bool packet_over() override { return frame_units_ >= round_end_; }
   bool sampling_over() override { return budget_ > 0 && round_ >= kRoundsPerFrame; }
+  bool is_fine_enough() const override { return false; }
   bool reconstruction_over() override { return false; }
   void end_sampling(double) override {}
   double pace() const override { return slowness_; }

@@ -68,8 +68,51 @@ TEST_CASE(
     left_with(*clock, 9000);
     clock->end_frame(50);
     CHECK(left_with(*clock, 10000) == Approx(1.25 * 0.055));
-    for (const std::uint64_t samples : {19000, 1000000})
+    CHECK_FALSE(clock->is_fine_enough());
+    for (const std::uint64_t samples : {19000, 1000000}) {
       CHECK(left_with(*clock, samples) == Approx(rests ? kPeriod : 0.7 * kPeriod));
+      CHECK(clock->is_fine_enough() == rests);
+    }
+  }
+}
+
+TEST_CASE("wall clock: a resting picture without parts is reconstructed in every so many frames",
+          "[realtime]") {
+  const auto clock = clock_in_a_frame(0.01, Carry::kAccumulate);
+  left_with(*clock, 9000);
+  clock->end_frame(60);  // with a quarter more .75 of the period: .35 are saved in each frame
+  FrameOrder order;
+  order.carry = Carry::kAccumulate;
+  order.deadline_s = 1;
+  order.reserve_s = 0.01;
+  std::vector<bool> turns;
+  for (int frame = 0; frame < 6; ++frame) {
+    clock->begin_frame(order);
+    const bool is_turn = !clock->reconstruction_over();
+    turns.push_back(is_turn);
+    CHECK(left_with(*clock, 9000) == Approx(0.01 + (is_turn ? 0.075 : 0)));
+  }
+  CHECK(turns == std::vector{false, false, true, false, false, true});
+  clock->begin_frame(order);
+  REQUIRE(clock->reconstruction_over());
+  CHECK_FALSE(clock->is_fine_enough());
+  CHECK(left_with(*clock, 13000) == Approx(0.01));
+  CHECK(clock->is_fine_enough());
+  order.carry = Carry::kNothing;
+  clock->begin_frame(order);
+  CHECK_FALSE(clock->reconstruction_over());
+  CHECK(left_with(*clock, 9000) == Approx(0.7 * kPeriod));
+}
+
+TEST_CASE("wall clock: a resting frame whose time is over already traces nothing", "[realtime]") {
+  for (const bool rests : {true, false}) {
+    const auto clock = clock_in_a_frame(1.5, rests ? Carry::kAccumulate : Carry::kNothing);
+    FrameOrder order;
+    order.carry = rests ? Carry::kAccumulate : Carry::kNothing;
+    order.deadline_s = 0.001;
+    clock->begin_frame(order);
+    clock->begin_packet(100);
+    CHECK(clock->packet_over() == rests);
   }
 }
 

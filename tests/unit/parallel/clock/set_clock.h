@@ -23,6 +23,7 @@ class SetClock final : public FrameClock {
   void begin_packet(std::uint64_t) override { left_ = samples_per_packet_, ++packets_; }
   bool packet_over() override { return left_-- == 0; }
   bool sampling_over() override { return packets_ >= kPackets; }
+  bool is_fine_enough() const override { return false; }
   bool reconstruction_over() override { return false; }
   void end_sampling(double) override {}
   double pace() const override { return 1; }
