@@ -132,9 +132,11 @@ void BundleExchange::rest() {
   timer_.rested(monotonic_seconds() - began);
 }
 
-void BundleExchange::poll() {
-  constexpr unsigned kCallsPerLook = 128;
-  if (++polls_ % kCallsPerLook == 0) inbox_.pump();
+void BundleExchange::poll(std::uint64_t rays) {
+  constexpr std::uint64_t kRaysPerLook = 1024;
+  if ((rays_ += rays) < kRaysPerLook) return;
+  rays_ = 0;
+  inbox_.pump();
 }
 
 }  // namespace pprt

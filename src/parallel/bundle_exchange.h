@@ -77,9 +77,9 @@ class BundleExchange {
   // The rank has nothing to refine: one short wait for messages, if the policy says so.
   void rest();
 
-  // Looks for messages at every 128th call. Call it in long stretches of work: on rank 0 the frame before may
-  // become whole, or due, meanwhile.
-  void poll();
+  // Counts work, in rays, and looks for messages after every 1024 of them, some .4 ms. On rank 0 the frame
+  // before may become whole meanwhile, or due.
+  void poll(std::uint64_t rays);
 
   // Looks for messages now.
   void look() { inbox_.pump(); }
@@ -100,7 +100,7 @@ class BundleExchange {
   ExchangeRound at_;
   BundleBytes bytes_;
   std::vector<std::int32_t> receivers_;  // of this round's bundles
-  unsigned polls_ = 0;                   // wraps
+  std::uint64_t rays_ = 0;               // since the last look
 };
 
 }  // namespace pprt

@@ -27,7 +27,7 @@ struct SampleCounts {
 // noted for the other ranks.
 class RegionSampler {
  public:
-  // `poll` is called now and then while many samples are reinserted. The references must outlive the sampler.
+  // `poll` is called for each sample that is reinserted. The references must outlive the sampler.
   RegionSampler(const SessionSettings& settings, const Partition& partition, int rank, SampleTracer& tracer,
                 CostEstimator& costs, FrameClock& clock, std::function<void()> poll);
 

@@ -34,11 +34,12 @@ Sample SampleTracer::trace(double x, double y, std::span<const KnownLights> know
   }
   clock_.spend(Work::kRay, sample.ray.rays);
   costs_.add_own(sample);
+  poll_(sample.ray.rays);
   return sample;
 }
 
 bool SampleTracer::is_visible(const Vec3f& hit, bool at_infinity) {
-  poll_();
+  poll_(1);
   clock_.spend(Work::kRay, 1);
   return probe_.visible(hit, at_infinity);
 }

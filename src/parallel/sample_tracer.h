@@ -18,9 +18,11 @@ namespace pprt {
 // clock and to its tile's cost.
 class SampleTracer {
  public:
-  // `poll` is called now and then between rays that are not followed by an exchange. The references must
+  // `poll` is called after each sample with the rays that it took, so that messages do not wait for long. The
+  // references must
   // outlive the tracer.
-  SampleTracer(Probe probe, int rank, FrameClock& clock, CostEstimator& costs, std::function<void()> poll)
+  SampleTracer(Probe probe, int rank, FrameClock& clock, CostEstimator& costs,
+               std::function<void(std::uint64_t rays)> poll)
       : probe_(std::move(probe)), rank_(rank), clock_(clock), costs_(costs), poll_(std::move(poll)) {}
 
   // Looks from the order's camera at the order's time, and counts rays anew.
@@ -50,7 +52,7 @@ class SampleTracer {
   int rank_;
   FrameClock& clock_;
   CostEstimator& costs_;
-  std::function<void()> poll_;
+  std::function<void(std::uint64_t rays)> poll_;
   int frame_number_ = 0;
   std::optional<double> time_;  // of what moves, in the frame before
   bool moves_ = false;

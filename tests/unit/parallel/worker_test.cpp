@@ -22,7 +22,8 @@ class Scene {
     for (int rank = 0; rank < 3; ++rank) {
       communicators_.push_back(std::make_unique<LocalCommunicator>(network_, rank));
     }
-    inbox_ = std::make_unique<Inbox>(*communicators_[1], 0.1, [](const Message&) {});
+    inbox_ = std::make_unique<Inbox>(
+        *communicators_[1], 0.1, [](const Message&) {}, [this] { ++looks_; });
     auto clock = std::make_unique<SetClock>(20, kPeriod, kNow);
     clock_ = clock.get();
     worker_ = std::make_unique<Worker>(*communicators_[1], *inbox_, settings_, partition_, probe(),
@@ -68,6 +69,11 @@ class Scene {
     return *report;
   }
 
+  void set_rays(std::uint32_t of_a_sample) { rays_ = of_a_sample; }
+
+  // How often rank 1 has looked for messages since the last call.
+  int looks() { return std::exchange(looks_, 0); }
+
   const SetClock& clock() const { return *clock_; }
   const Partition& partition() const { return partition_; }
 
@@ -88,7 +94,7 @@ class Scene {
               RaySample sample;
               const bool inside = std::hypot(x - 48, y - 32) < 20;
               sample.color = inside ? Color(0.9f, 0.7f, 0.2f) : Color(0.1f, 0.1f, 0.3f);
-              sample.rays = 1;
+              sample.rays = rays_;
               return sample;
             },
             [](const Vec3f&, bool) { return true; }, [] { return RayCounts(); }};
@@ -119,6 +125,8 @@ class Scene {
   const SetClock* clock_ = nullptr;  // the worker's
   std::vector<std::pair<int, Bundle>> pending_;
   int index_ = -1;
+  std::uint32_t rays_ = 1;  // of a sample
+  int looks_ = 0;
 };
 
 bool contain(const std::vector<Bundle>& bundles, SampleId id) {
@@ -231,6 +239,19 @@ TEST_CASE(
     CHECK(ms.sampling + ms.casting + ms.reconstruction + ms.balancing ==
           Approx(scene.clock().readings() - 1));
   }
+}
+
+// The frame before may become whole on rank 0, or due.
+TEST_CASE("worker: messages do not wait for long while samples take many rays") {
+  Scene scene;
+  scene.render(Carry::kNothing);
+  scene.report();
+  const int usual = scene.looks();
+  scene.set_rays(1024);
+  scene.render(Carry::kNothing);
+  const auto samples = static_cast<int>(scene.report().samples_new);
+  REQUIRE(samples > 100);
+  CHECK(scene.looks() >= usual + samples);
 }
 
 TEST_CASE("worker: a new partition is charged to balancing") {
