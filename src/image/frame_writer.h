@@ -49,7 +49,7 @@ bool holds_channels(const FramePattern& output);
 // Writes frames in the order in which they are submitted. submit, take_finished and error may be called from
 // any thread.
 //
-// A thread of low priority does the work, a little in every frame's time: work that is put off is done at a
+// A thread of low priority does the work, a little in every frame's time. Work that is put off is done at a
 // bad moment. When an eighth of the memory bound waits it is too slow, and a thread of usual priority takes
 // over. At the change, one frame may be finished after its successor.
 //

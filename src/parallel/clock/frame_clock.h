@@ -50,9 +50,9 @@ class FrameClock {
   // frame. Otherwise false.
   virtual bool is_fine_enough() const = 0;
 
-  // With a rate, while a picture rests: whether another part, as long as the one since the last call or the
-  // end of sampling, would need the time of what follows reconstruction. Where there are no parts: whether it
-  // is not the picture's turn in this frame. Otherwise false.
+  // With a rate, while a picture rests: whether there is no time for another part of it. A part is expected
+  // to take as long as the one before, from the last call or the end of sampling on. Where there are no
+  // parts: whether this is not the picture's turn. Otherwise false.
   virtual bool reconstruction_over() = 0;
 
   // Sampling has ended. `units`: the work that it took by the table of prices, from which the clock learns

@@ -173,9 +173,9 @@ class LatticeStore {
   // Returns how many candidates have each state. Other states do not count.
   const std::array<std::int64_t, 256>& candidates() const { return counts_; }
 
-  // Calls visit(pixel_x, pixel_y, count, root) for each base square with candidates, by the pixel of its
-  // upper left corner: how many there are, and the sum of the roots of their least worth. The least
-  // candidates count with a worth of 0.
+  // Calls visit(pixel_x, pixel_y, count, root) for each base square with candidates. The pixel is that of its
+  // upper left corner. `count`: the number of candidates. `root`: the sum of the roots of their least worth,
+  // where those of the lowest priority count as 0.
   template <class Visit>
   void for_each_square(const Visit& visit) const;
 
