@@ -19,8 +19,7 @@ namespace pprt {
 class SampleTracer {
  public:
   // `poll` is called after each sample with the rays that it took, so that messages do not wait for long. The
-  // references must
-  // outlive the tracer.
+  // references must outlive the tracer.
   SampleTracer(Probe probe, int rank, FrameClock& clock, CostEstimator& costs,
                std::function<void(std::uint64_t rays)> poll)
       : probe_(std::move(probe)), rank_(rank), clock_(clock), costs_(costs), poll_(std::move(poll)) {}

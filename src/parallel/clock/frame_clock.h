@@ -30,7 +30,7 @@ class FrameClock {
 
   // The frame is sent. `reconstruction_ms`: what reconstructing a share of the region took by used_ns(), from
   // which the clock learns what the next frames must leave.
-  virtual void end_frame(double reconstruction_ms, double share = 1) = 0;
+  virtual void end_frame(double reconstruction_ms, double share) = 0;
 
   // Number of pixels that this rank reconstructs from now on.
   virtual void region_changed(std::size_t pixels) = 0;

@@ -38,7 +38,7 @@ class WallClock final : public FrameClock {
   bool may_begin(const FrameOrder& order) const override;
   bool is_past(const FrameOrder& order) const override;
   void begin_frame(const FrameOrder& order) override;
-  void end_frame(double reconstruction_ms, double share = 1) override;
+  void end_frame(double reconstruction_ms, double share) override;
   void region_changed(std::size_t pixels) override;
 
   void begin_packet(std::uint64_t samples) override;

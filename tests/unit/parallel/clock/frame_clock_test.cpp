@@ -46,7 +46,7 @@ TEST_CASE("wall clock: sampling leaves time for the reconstruction of as many sa
   const auto clock = clock_in_a_frame(0.01);
   CHECK(left_with(*clock, 500) == Approx(0.01));  // nothing is known of it yet
   left_with(*clock, 3000);
-  clock->end_frame(8);  // milliseconds, for 3000 samples and the pixels
+  clock->end_frame(8, 1);  // milliseconds, for 3000 samples and the pixels
   const double per_sample = 0.008 / (3000 + 1000);
   CHECK(left_with(*clock, 0) == Approx(0.01 + 1.25 * per_sample * 1000));
   CHECK(left_with(*clock, 9000) == Approx(0.01 + 1.25 * per_sample * 10000));
@@ -55,7 +55,7 @@ TEST_CASE("wall clock: sampling leaves time for the reconstruction of as many sa
 TEST_CASE("wall clock: ranks that share a core leave time for each other's reconstruction", "[realtime]") {
   const auto clock = clock_in_a_frame(0, Carry::kNothing, 16);
   left_with(*clock, 3000);
-  clock->end_frame(1);
+  clock->end_frame(1, 1);
   CHECK(left_with(*clock, 3000) == Approx(1.25 * 16 * 0.001));
 }
 
@@ -66,7 +66,7 @@ TEST_CASE(
   for (const bool rests : {true, false}) {
     const auto clock = clock_in_a_frame(0, rests ? Carry::kAccumulate : Carry::kNothing);
     left_with(*clock, 9000);
-    clock->end_frame(50);
+    clock->end_frame(50, 1);
     CHECK(left_with(*clock, 10000) == Approx(1.25 * 0.055));
     CHECK_FALSE(clock->is_fine_enough());
     for (const std::uint64_t samples : {19000, 1000000}) {
@@ -80,7 +80,7 @@ TEST_CASE("wall clock: a resting picture without parts is reconstructed in every
           "[realtime]") {
   const auto clock = clock_in_a_frame(0.01, Carry::kAccumulate);
   left_with(*clock, 9000);
-  clock->end_frame(60);  // with a quarter more .75 of the period: .35 are saved in each frame
+  clock->end_frame(60, 1);  // with a quarter more .75 of the period: .35 are saved in each frame
   FrameOrder order;
   order.carry = Carry::kAccumulate;
   order.deadline_s = 1;
@@ -184,7 +184,7 @@ TEST_CASE("wall clock: a new picture that began late ends in time all the same",
       clock->begin_frame(order);
       clock->begin_packet(3000);
       CHECK(clock->sampling_over() == (stops_in_s < 0));
-      clock->end_frame(4);
+      clock->end_frame(4, 1);
     }
   }
 }
@@ -195,7 +195,7 @@ TEST_CASE("wall clock: a rank without pixels and samples ends its frames as the 
   clock->region_changed(0);
   CHECK(left_with(*clock, 0) == Approx(0.01));
   CHECK_FALSE(clock->expected_growth(0, 0));
-  clock->end_frame(0);
+  clock->end_frame(0, 1);
   CHECK(left_with(*clock, 0) == Approx(0.01));
   clock->region_changed(kPixels);
   CHECK(left_with(*clock, 0) == Approx(0.01));  // nothing was learned
@@ -205,7 +205,7 @@ TEST_CASE("wall clock: the slowest of the last eight reconstructions counts", "[
   const auto clock = clock_in_a_frame(0);
   const auto left_after = [&](double reconstruction_ms) {
     left_with(*clock, 9000);
-    clock->end_frame(reconstruction_ms);
+    clock->end_frame(reconstruction_ms, 1);
     return left_with(*clock, 9000);
   };
   CHECK(left_after(40) == Approx(1.25 * 0.04));

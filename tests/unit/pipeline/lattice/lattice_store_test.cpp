@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+#include <random>
 #include <set>
 #include <utility>
 
@@ -163,6 +166,50 @@ TEST_CASE("lattice store: a priority is that of its least worth, and grows with 
   }
   CHECK(last == kGreatestCandidate);
   CHECK(priority_of(0) == kLeastCandidate);
+}
+
+TEST_CASE("lattice store: the sums of each square are those of a count, whatever has happened to its nodes") {
+  struct Sum {
+    double root = 0;
+    std::int64_t count = 0;
+  };
+  LatticeStore store(kWidth, kHeight);
+  const std::vector<LatticeNode> nodes = all_nodes(store);
+  std::mt19937 random(1);
+  const auto any = [&](std::size_t count) { return random() % count; };
+  for (int change = 0; change < 200000; ++change) {
+    const LatticeNode node = nodes[any(nodes.size())];
+    const auto state =
+        static_cast<NodeState>(kLeastCandidate + any(kGreatestCandidate - kLeastCandidate + 1));
+    if (change % 3 == 0) {
+      store.raise(node, state);
+    } else if (!store.is_sampled(node)) {
+      if (change % 3 == 1) store.set_state(node, change % 2 == 0 ? state : kNotWanted);
+      if (change % 3 == 2 && change % 4 == 0) store.set_sample(node, value_at(node));
+    }
+  }
+  std::map<std::pair<int, int>, Sum> counted, kept;
+  constexpr int kPixels = kBaseSide / kPixelSide;
+  for (const LatticeNode& node : nodes) {
+    const NodeState state = store.state(node);
+    if (state < kLeastCandidate) continue;
+    Sum& sum = counted[{node.x / kBaseSide * kPixels, node.y / kBaseSide * kPixels}];
+    ++sum.count;
+    if (state > kLeastCandidate) sum.root += std::sqrt(static_cast<double>(least_worth(state)));
+  }
+  store.for_each_square([&](int x, int y, std::int64_t count, double root) {
+    kept[{x, y}] = {.root = root, .count = count};
+  });
+  REQUIRE(counted.size() > 50);
+  REQUIRE(kept.size() == counted.size());
+  for (const auto& [square, sum] : counted) {
+    CHECK(kept[square].count == sum.count);
+    // Each is rounded to a multiple of 2^-32.
+    CHECK(std::abs(kept[square].root - sum.root) <=
+          0x1p-33 * static_cast<double>(sum.count) + 1e-12 * sum.root);
+  }
+  store.clear();
+  store.for_each_square([](int, int, std::int64_t, double) { FAIL("candidates are left"); });
 }
 
 }  // namespace pprt
