@@ -25,7 +25,6 @@ namespace {
 constexpr int kThreads = 0;
 
 // Chosen by measurement: docs/decisions/0005-picture-encoding.md.
-constexpr Imf::Compression kCompression = Imf::ZIP_COMPRESSION;
 constexpr int kZipLevel = 1;
 
 class StringOutput : public Imf::OStream {
@@ -84,7 +83,7 @@ struct ToAttribute {
   }
 };
 
-Imf::Header make_header(const Image& image, const Metadata& metadata) {
+Imf::Header make_header(const Image& image, const Metadata& metadata, PictureKind kind) {
   Imf::Header header(image.width, image.height);
   for (const auto& [name, value] : metadata) {
     if (header.find(name) != header.end()) {
@@ -92,7 +91,7 @@ Imf::Header make_header(const Image& image, const Metadata& metadata) {
     }
     std::visit(ToAttribute{header, name}, value);
   }
-  header.compression() = kCompression;
+  header.compression() = kind == PictureKind::kHurried ? Imf::RLE_COMPRESSION : Imf::ZIP_COMPRESSION;
   header.zipCompressionLevel() = kZipLevel;
   for (const char* channel : {"R", "G", "B"}) header.channels().insert(channel, Imf::Channel(Imf::HALF));
   return header;
@@ -155,10 +154,11 @@ ChannelNames channels_to_read(const Imf::ChannelList& channels) {
 
 }  // namespace
 
-std::string encode_exr(const Image& image, const Metadata& metadata, const std::vector<Channel>& channels) {
+std::string encode_exr(const Image& image, const Metadata& metadata, const std::vector<Channel>& channels,
+                       PictureKind kind) {
   require_encodable(image);
   try {
-    Imf::Header header = make_header(image, metadata);
+    Imf::Header header = make_header(image, metadata, kind);
     std::vector<half> halves = to_half(image);
     Imf::FrameBuffer buffer;
     std::size_t offset = 0;

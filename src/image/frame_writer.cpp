@@ -118,7 +118,7 @@ WrittenFrame FrameWriter::write(const FrameToWrite& frame) const {
   for (const FramePattern& output : outputs_) {
     const bool has_channels = !layers.empty() && holds_channels(output);
     write_to(output, frame.image, has_channels ? frame.layers.channels() : std::vector<Channel>(),
-             PictureKind::kRendered);
+             options_.is_hurried ? PictureKind::kHurried : PictureKind::kRendered);
     for (std::size_t i = 0; i < layers.size() && !has_channels; ++i) {
       write_to(beside(output, layers[i]), frame.layers.picture(i, frame.image), {}, PictureKind::kDrawn);
     }

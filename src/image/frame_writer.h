@@ -36,7 +36,8 @@ struct WrittenFrame {
 
 // Settings of a FrameWriter.
 struct FrameWriterOptions {
-  bool overwrite = false;  // false: an existing file is an error
+  bool overwrite = false;   // false: an existing file is an error
+  bool is_hurried = false;  // frames have deadlines: their time counts before the size of the files
 
   // Bytes of pixels that may wait; submit() blocks above it. A 256x256 frame takes 0.75 MiB, so some 340 of
   // them may wait.

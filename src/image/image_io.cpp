@@ -19,7 +19,7 @@ constexpr std::string_view kPngEnd = "IEND\xae\x42\x60\x82";
 
 std::string encode(const std::filesystem::path& path, const Image& image, const Metadata& metadata,
                    const std::vector<Channel>& channels, PictureKind kind) {
-  if (path.extension() == ".exr") return encode_exr(image, metadata, channels);
+  if (path.extension() == ".exr") return encode_exr(image, metadata, channels, kind);
   if (path.extension() == ".png") return encode_png(image, metadata, kind);
   throw std::runtime_error("the name ends neither in .exr nor in .png");
 }

@@ -31,9 +31,12 @@ using Metadata = std::vector<std::pair<std::string, MetadataValue>>;
 // Sets every channel that is NaN or infinite to 0. Returns the number of pixels that had one.
 std::size_t replace_non_finite(Image& image);
 
-// What a picture shows: rendered surfaces with smooth colours, or a drawn layer of lines, areas and numbers.
-// It selects the compression of a PNG (docs/decisions/0005-picture-encoding.md).
-enum class PictureKind : std::uint8_t { kRendered, kDrawn };
+// What a picture is, which selects its compression (docs/decisions/0005-picture-encoding.md).
+enum class PictureKind : std::uint8_t {
+  kRendered,  // surfaces with smooth colours
+  kHurried,   // the same, where time counts before size
+  kDrawn      // a layer of lines, areas and numbers
+};
 
 // Return the bytes of a file. Values beyond the range of half (65504) are clamped to it. Channels are stored
 // beside R, G and B, in 32 bits each.
@@ -41,7 +44,7 @@ enum class PictureKind : std::uint8_t { kRendered, kDrawn };
 // Throw std::runtime_error with the reason: an empty picture, a value that is not finite, a name that the
 // format refuses. For a channel also: another size than the picture's, a NaN, a name that is taken.
 std::string encode_exr(const Image& image, const Metadata& metadata = {},
-                       const std::vector<Channel>& channels = {});
+                       const std::vector<Channel>& channels = {}, PictureKind kind = PictureKind::kRendered);
 std::string encode_png(const Image& image, const Metadata& metadata = {},
                        PictureKind kind = PictureKind::kRendered);
 

@@ -60,6 +60,11 @@ std::set<int> frames_in(const Manifest& manifest, const RenderPlan& plan) {
   return frames;
 }
 
+// Whether the time of encoding is taken from the frames.
+bool is_hurried(const SessionSettings& settings) {
+  return settings.frames_per_second > 0 && settings.clock == ClockKind::kWall;
+}
+
 std::unique_ptr<BalanceTraceWriter> trace_of(const RenderPlan& plan, int ranks) {
   if (plan.report.trace.empty()) return nullptr;
   return std::make_unique<BalanceTraceWriter>(plan.report.trace, plan.output.existing,
@@ -82,7 +87,7 @@ FrameRecorder::FrameRecorder(const RenderPlan& plan, const CompiledScene& scene,
                 rewritten_files(plan)),
       finished_before_(frames_in(manifest_, plan)),
       written_(finished_before_),
-      writer_(plan.output.pictures, {.overwrite = true}),
+      writer_(plan.output.pictures, {.overwrite = true, .is_hurried = is_hurried(plan.settings)}),
       progress_(progress) {
   progress_.begin({.frames = static_cast<int>(plan.frames.size()),
                    .finished_before = static_cast<int>(finished_before_.size()),

@@ -122,6 +122,21 @@ TEST_CASE("an error is reported while the frame loop runs") {
   CHECK(writer.error() == "cannot write '/dev/null/1.png': Not a directory");
 }
 
+TEST_CASE("frames in a hurry are encoded in less time and more bytes") {
+  const TemporaryDirectory directory;
+  Image image(64, 64);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)  // repeats, but not from pixel to pixel
+    image.pixels[i] = Color(static_cast<float>(i % 7), static_cast<float>(i % 5), static_cast<float>(i % 3));
+  const auto bytes_of = [&](const char* name, bool is_hurried) {
+    const fs::path folder = directory.path() / name;
+    FrameWriter writer({pattern_in(folder, "%d.exr")}, {.is_hurried = is_hurried});
+    writer.submit({1, image, {}});
+    writer.finish();
+    return fs::file_size(folder / "1.exr");
+  };
+  CHECK(bytes_of("hurried", true) > 2 * bytes_of("small", false));
+}
+
 TEST_CASE("files that are there are kept unless overwriting is asked for") {
   const TemporaryDirectory directory;
   const fs::path path = directory.path() / "5.png";

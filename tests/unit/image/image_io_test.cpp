@@ -217,6 +217,20 @@ TEST_CASE("channels stand in the EXR beside its colours, exact in 32 bits") {
   CHECK(read_image(path).pixels == half_exact_picture(2, 2).pixels);
 }
 
+TEST_CASE("an EXR in a hurry holds the same picture in run lengths") {
+  const Image image = half_exact_picture(64, 48);
+  const auto compression_of = [](const std::string& bytes) {
+    const TemporaryDirectory directory;
+    const fs::path path = directory.path() / "a.exr";
+    write_whole_file(path, bytes);
+    return Imf::InputFile(path.c_str()).header().compression();
+  };
+  const std::string hurried = encode_exr(image, {}, {}, PictureKind::kHurried);
+  CHECK(compression_of(hurried) == Imf::RLE_COMPRESSION);
+  CHECK(compression_of(encode_exr(image)) == Imf::ZIP_COMPRESSION);
+  CHECK(decode_exr(hurried).pixels == image.pixels);
+}
+
 TEST_CASE("a channel that does not fit is refused") {
   const Image image(2, 1);
   const auto encode = [&](const Channel& channel) { return encode_exr(image, {}, {channel}); };
