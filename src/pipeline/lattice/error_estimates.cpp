@@ -17,31 +17,16 @@ float expected(NodeClass c) {
   return std::exp2(kOctaves * (steps - kMiddle));
 }
 
-constexpr int kSteps = 4;  // an octave of the variance
+}  // namespace
 
-std::array<float, 128 * kSteps> make_details() {
-  std::array<float, 128 * kSteps> details{};
+const std::array<float, 512> kDetails = [] {
+  std::array<float, 512> details{};
   for (std::uint32_t i = 0; i < details.size(); ++i) {
     const float least = std::bit_cast<float>(i << 21), middle = std::min(1.1F * least, 4.0F);
     details[i] = std::sqrt(std::log(1.03F + 500 * middle));
   }
   return details;
-}
-
-}  // namespace
-
-NodeClass class_of(int primitives, float variance, int error_level) {
-  constexpr int kLeast = 55;  // half the exponent of a float of 2^-17
-  const int level = std::clamp(static_cast<int>(std::bit_cast<std::uint32_t>(variance) >> 24) - kLeast, 0,
-                               kVarianceLevels - 1);
-  return static_cast<std::size_t>(
-      ((std::min(primitives, kPrimitiveCounts) - 1) * kVarianceLevels + level) * kErrorLevels + error_level);
-}
-
-float detail_of(float variance) {
-  static const std::array<float, 128 * kSteps> details = make_details();
-  return details[std::bit_cast<std::uint32_t>(variance) >> 21];
-}
+}();
 
 void ErrorEstimates::clear() {
   constexpr float kDetail = 100, kError = 2;  // of all classes together, until there is more

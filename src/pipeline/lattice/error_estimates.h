@@ -14,11 +14,22 @@ inline constexpr int kPrimitiveCounts = 4, kVarianceLevels = 8;
 using NodeClass = std::size_t;
 inline constexpr std::size_t kNodeClasses = std::size_t{kPrimitiveCounts} * kVarianceLevels * kErrorLevels;
 
-NodeClass class_of(int primitives, float variance, int error_level);
+inline NodeClass class_of(int primitives, float variance, int error_level) {
+  constexpr int kLeast = 55;  // half the exponent of a float of 2^-17
+  const int level = std::clamp(static_cast<int>(std::bit_cast<std::uint32_t>(variance) >> 24) - kLeast, 0,
+                               kVarianceLevels - 1);
+  return static_cast<std::size_t>(
+      ((std::min(primitives, kPrimitiveCounts) - 1) * kVarianceLevels + level) * kErrorLevels + error_level);
+}
+
+// detail_of() of the floats that share their sign, their exponent and the first two bits after the point.
+extern const std::array<float, 512> kDetails;
 
 // Returns sqrt(log(1.03 + 500 variance)), to an eighth of an octave of the variance: the refinement weight of
 // the paper for a difference instead of its square (refinement_weight.h).
-float detail_of(float variance);
+inline float detail_of(float variance) {
+  return kDetails[std::bit_cast<std::uint32_t>(variance) >> 21];
+}
 
 class ErrorEstimates {
  public:

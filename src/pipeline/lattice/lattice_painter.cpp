@@ -165,7 +165,7 @@ std::array<SquareCorners, 4> LatticePainter::quarters_within_pixel(const Lattice
   for (std::size_t i = 0; i < middles.size(); ++i) {
     if (const NodeValue* sample = store_.sample_at(middles[i])) {
       shown[i] = *sample;
-      around.add(shown[i]);
+      around.add_middle(shown[i], kEnds[i][0], kEnds[i][1]);
       continue;
     }
     Surroundings ends;

@@ -16,6 +16,7 @@ constexpr float kInsertion = 2;            // time of choosing and inserting a s
 constexpr float kGreatestFall = 3;         // of the threshold, from pass to pass
 constexpr double kFirstGrowth = 3;         // pessimistic: nothing is learned yet
 constexpr float kSurprise = 1e-4F;         // squared error
+constexpr float kShareOfLast = 0.2F;       // that an error of the last picture counts as, of one of this
 constexpr float kUnpredicted = 1.0F / 32;  // squared error that a sample without a prediction counts as
 
 // Calls visit(x, y) for the four corners of a square of nodes.
@@ -23,6 +24,16 @@ template <class Visit>
 void for_each_corner(const LatticeNode& corner, int side, const Visit& visit) {
   visit(corner.x, corner.y), visit(corner.x + side, corner.y);
   visit(corner.x, corner.y + side), visit(corner.x + side, corner.y + side);
+}
+
+// Returns the numbers of tiles, neighbours far apart: steps of the golden section fall evenly everywhere.
+std::vector<int> scattered(int count) {
+  constexpr double kGolden = 0.618;
+  int step = std::max(1, static_cast<int>(kGolden * count));
+  while (std::gcd(step, count) != 1) ++step;
+  std::vector<int> tiles(static_cast<std::size_t>(count), 0);
+  for (std::size_t i = 1; i < tiles.size(); ++i) tiles[i] = (tiles[i - 1] + step) % count;
+  return tiles;
 }
 
 float squared_error(const float4& a, const float4& b) {
@@ -42,6 +53,7 @@ LatticeSampler::LatticeSampler(const Region& region, ProjectedShapeCache::View v
     : order_(order),
       store_(region.grid().width, region.grid().height),
       own_(store_, region),
+      tiles_(scattered(store_.tile_count())),
       shapes_(std::move(view)),
       errors_(store_.right(), store_.bottom()),
       predictor_(store_, shapes_, errors_, share_),
@@ -55,26 +67,27 @@ void LatticeSampler::clear() {
   estimates_.clear();
   share_.clear();
   growth_ = kFirstGrowth;
+  errors_.clear();
   forget_samples();
 }
 
 void LatticeSampler::restart() {
   const double as_many = static_cast<double>(samples_);
   growth_ = kFirstGrowth;  // of the last, small passes until now
+  errors_.fade(kShareOfLast);
   forget_samples();
   expect(as_many);
 }
 
 void LatticeSampler::forget_samples() {
   store_.clear();
-  errors_.clear();
   samples_ = 0;
   expected_ = 0;
   has_base_ = has_grid_ = false;
   grid_levels_ = 0;
   last_threshold_ = 0;
   pass_ = {};
-  tile_ = store_.tile_count();
+  tiles_left_ = {};
   level_ = pass_.end_level;
   nodes_.clear();
   next_ = 0;
@@ -174,7 +187,9 @@ bool LatticeSampler::next_nodes() {
 
 // Goes on to the next tile of the pass.
 bool LatticeSampler::next_tile() {
-  while (++tile_ < store_.tile_count()) {
+  while (!tiles_left_.empty()) {
+    tile_ = tiles_left_.front();
+    tiles_left_ = tiles_left_.subspan(1);
     if (!own_.touches_tile(tile_)) continue;
     level_ = pass_.first_level;
     return true;
@@ -203,7 +218,7 @@ bool LatticeSampler::start_pass() {
 void LatticeSampler::start(const Pass& pass) {
   pass_ = pass;
   pass_.begun_with = static_cast<std::int64_t>(samples_);
-  tile_ = -1;
+  tiles_left_ = tiles_;
   level_ = pass_.end_level;
 }
 

@@ -143,6 +143,7 @@ class LatticeSampler {
   LatticeOrder order_;
   LatticeStore store_;
   LatticeRegion own_;
+  std::vector<int> tiles_;  // in the order of passes
   ProjectedShapeCache shapes_;
   LocalErrors errors_;
   ErrorEstimates estimates_;
@@ -158,9 +159,10 @@ class LatticeSampler {
   bool has_base_ = false, has_grid_ = false;
   double growth_ = 0;  // samples that a pass takes, for each that its candidates promise
   float last_threshold_ = 0;
-  int tile_ = 0;                    // of the pass
-  std::size_t level_ = 0;           // of the pass, in the tile
-  std::vector<LatticeNode> nodes_;  // of the level in the tile
+  int tile_ = 0;                     // of the pass
+  std::span<const int> tiles_left_;  // for the pass after this one
+  std::size_t level_ = 0;            // of the pass, in the tile
+  std::vector<LatticeNode> nodes_;   // of the level in the tile
   std::size_t next_ = 0;
   std::vector<NodeState> greatest_;  // per tile and level: no candidate has a greater priority
   Wanted wanted_;

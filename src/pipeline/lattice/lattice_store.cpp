@@ -212,34 +212,40 @@ void LatticeStore::collect(int tile, const LatticeLevel& level, NodeState least,
                            std::vector<LatticeNode>& nodes) const {
   nodes.clear();
   const Tile& from = tiles_[static_cast<std::size_t>(tile)];
-  const auto add = [&](const LatticeNode& corner, std::size_t slot, int step) {
+  const LatticeNode first = corner_of(tile);
+  const auto corner_in = [&](std::uint16_t pixel) -> LatticeNode {
+    return {first.x + kPixelSide * (pixel % kTilePixels), first.y + kPixelSide * (pixel / kTilePixels)};
+  };
+  const auto add = [&](int x, int y, std::size_t slot, int step) {
     const auto s = static_cast<int>(slot);
-    nodes.push_back({corner.x + s % kCells * step, corner.y + s / kCells * step});
+    nodes.push_back({x + s % kCells * step, y + s / kCells * step});
   };
   if (level.side > kPixelSide) {
     collect_corners(tile, level, least, nodes);
     return;
   }
   if (level == LatticeLevel{kPixelSide, LatticeKind::kCenter}) {
-    for (std::size_t row = 0; row < kTileArea; row += kTilePixels) {
-      for (std::uint32_t bits = at_least(&from.center_states[row], least); bits != 0; bits &= bits - 1)
-        add(corner_of(tile, row + static_cast<std::size_t>(std::countr_zero(bits))), kCenterSlot, kCellSide);
+    for (int row = 0; row < kTilePixels; ++row) {
+      const NodeState* states = &from.center_states[static_cast<std::size_t>(row) * kTilePixels];
+      for (std::uint32_t bits = at_least(states, least); bits != 0; bits &= bits - 1)
+        add(first.x + kPixelSide * std::countr_zero(bits), first.y + kPixelSide * row, kCenterSlot,
+            kCellSide);
     }
     return;
   }
   const std::span<const std::uint8_t> slots = slots_of(level);
   const auto add_slots = [&](const auto& block, const LatticeNode& corner, int step) {
     for (const std::uint8_t slot : slots)
-      if (block.states[slot] >= least) add(corner, slot, step);
+      if (block.states[slot] >= least) add(corner.x, corner.y, slot, step);
   };
   const auto t = static_cast<std::size_t>(tile);
   if (level.side > kCellSide) {
     for (const std::uint16_t pixel : pixels_with_blocks_[t])
-      add_slots(pixel_blocks_[from.blocks[pixel]], corner_of(tile, pixel), kCellSide);
+      add_slots(pixel_blocks_[from.blocks[pixel]], corner_in(pixel), kCellSide);
     return;
   }
   for (const Cell& cell : cells_with_blocks_[t]) {
-    LatticeNode corner = corner_of(tile, cell.pixel);
+    LatticeNode corner = corner_in(cell.pixel);
     corner.x += cell.number % kCells * kCellSide, corner.y += cell.number / kCells * kCellSide;
     add_slots(cell_blocks_[cell.block], corner, 1);
   }
@@ -248,21 +254,21 @@ void LatticeStore::collect(int tile, const LatticeLevel& level, NodeState least,
 void LatticeStore::collect_corners(int tile, const LatticeLevel& level, NodeState least,
                                    std::vector<LatticeNode>& nodes) const {
   const Tile& from = tiles_[static_cast<std::size_t>(tile)];
+  const auto [left, top] = corner_of(tile);
   for_each_row(level, [&](int row, std::uint32_t pixels) {
-    const std::size_t first = static_cast<std::size_t>(row) * kTilePixels;
-    for (std::uint32_t bits = pixels & at_least(&from.corner_states[first], least); bits != 0;
-         bits &= bits - 1)
-      nodes.push_back(corner_of(tile, first + static_cast<std::size_t>(std::countr_zero(bits))));
+    const NodeState* states = &from.corner_states[static_cast<std::size_t>(row) * kTilePixels];
+    for (std::uint32_t bits = pixels & at_least(states, least); bits != 0; bits &= bits - 1)
+      nodes.push_back({left + kPixelSide * std::countr_zero(bits), top + kPixelSide * row});
   });
 }
 
 void LatticeStore::collect_all(int tile, const LatticeLevel& level, std::vector<LatticeNode>& nodes) const {
   nodes.clear();
   if (level.side <= kPixelSide) return collect_all_between_corners(tile, level, nodes);
+  const auto [left, top] = corner_of(tile);
   for_each_row(level, [&](int row, std::uint32_t pixels) {
-    const std::size_t first = static_cast<std::size_t>(row) * kTilePixels;
     for (std::uint32_t bits = pixels; bits != 0; bits &= bits - 1) {
-      const LatticeNode node = corner_of(tile, first + static_cast<std::size_t>(std::countr_zero(bits)));
+      const LatticeNode node{left + kPixelSide * std::countr_zero(bits), top + kPixelSide * row};
       if (has(node)) nodes.push_back(node);
     }
   });

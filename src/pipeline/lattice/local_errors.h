@@ -29,6 +29,9 @@ class LocalErrors {
 
   void clear();
 
+  // Lets what is known count as this share of it: for a picture much like the last.
+  void fade(float share);
+
   // Means are computed anew when they are asked for next.
   void start_round();
 

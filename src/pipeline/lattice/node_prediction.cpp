@@ -56,9 +56,10 @@ Surroundings NodePredictor::around(const LatticeNode& node, const LatticeLevel& 
     around.add(value({x + half, y - half}));
     around.add(value({x - half, y + half}));
     around.add(value({x + half, y + half}));
-    for (const LatticeNode& middle : {LatticeNode{x - half, y}, LatticeNode{x + half, y},
-                                      LatticeNode{x, y - half}, LatticeNode{x, y + half}})
-      if (const NodeValue* sample = store_.sample_at(middle)) around.add(*sample);
+    if (const NodeValue* sample = store_.sample_at({x - half, y})) around.add_middle(*sample, 0, 2);
+    if (const NodeValue* sample = store_.sample_at({x + half, y})) around.add_middle(*sample, 1, 3);
+    if (const NodeValue* sample = store_.sample_at({x, y - half})) around.add_middle(*sample, 0, 1);
+    if (const NodeValue* sample = store_.sample_at({x, y + half})) around.add_middle(*sample, 2, 3);
     return around;
   }
   const int dx = (x & half) != 0 ? half : 0, dy = half - dx;  // along the side

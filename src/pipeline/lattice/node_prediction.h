@@ -32,10 +32,18 @@ class Surroundings {
 
   void add(const NodeValue& value) { values_[count_++] = value; }
 
+  // Adds the middle of a side of a square whose corners are values 0 to 3. The side's ends are a and b.
+  void add_middle(const NodeValue& value, std::size_t a, std::size_t b) {
+    const float4 all =
+        (values_[0].channels() + values_[1].channels()) + (values_[2].channels() + values_[3].channels());
+    off_center_ += (values_[a].channels() + values_[b].channels()) * 0.5F - all * 0.25F;
+    add(value);
+  }
+
   std::size_t count() const { return count_; }
   const NodeValue& operator[](std::size_t i) const { return values_[i]; }
 
-  // Mean colour.
+  // Mean colour, exact at the centre of what changes evenly: a middle counts by how it differs from its ends.
   float4 mean() const;
 
   // Mean over the channels of the variance of the colours on the display scale.
@@ -43,6 +51,8 @@ class Surroundings {
 
   // The number of different primitives.
   int primitives() const;
+
+  bool is_on_one_primitive() const;
 
   // Whether value i is the first on its primitive.
   bool is_first(std::size_t i) const;
@@ -53,6 +63,7 @@ class Surroundings {
  private:
   std::array<NodeValue, 8> values_;  // the first count_ of them
   std::size_t count_ = 0;
+  float4 off_center_{};  // sum over the middles: what even change makes of the difference to the centre
 };
 
 struct Prediction {
@@ -95,7 +106,7 @@ class NodePredictor {
 };
 
 inline float4 Surroundings::mean() const {
-  float4 sum{};
+  float4 sum = -off_center_;
   for (std::size_t i = 0; i < count_; ++i) sum += values_[i].channels();
   return sum * (1.0F / static_cast<float>(count_));
 }
@@ -128,7 +139,14 @@ inline bool Surroundings::is_first(std::size_t i) const {
   return true;
 }
 
+inline bool Surroundings::is_on_one_primitive() const {
+  for (std::size_t i = 1; i < count_; ++i)
+    if (values_[i].primitive() != values_[0].primitive()) return false;
+  return true;
+}
+
 inline int Surroundings::primitives() const {
+  if (is_on_one_primitive()) return 1;
   int count = 0;
   for (std::size_t i = 0; i < count_; ++i) count += is_first(i) ? 1 : 0;
   return count;

@@ -133,7 +133,8 @@ TEST_CASE("lattice sampler: one colour stays one colour") {
   }
   Sampled unfinished(kFlat, kBase - 1);
   CHECK(unfinished.sampler.least_samples() == kBase);
-  CHECK(painted(unfinished.sampler).colors.back() != Color(0.25F, 0.5F, 0.75F));
+  const std::vector<Color> colors = painted(unfinished.sampler).colors;
+  CHECK(std::count(colors.begin(), colors.end(), Color(0.25F, 0.5F, 0.75F)) < std::ssize(colors));
 }
 
 TEST_CASE("lattice sampler: a linear picture is exact after the base grid") {
@@ -386,7 +387,8 @@ TEST_CASE("lattice sampler: what is like the picture before is refined evenly, n
     const std::array<int, 2> in_half = samples_of_frame();
     INFO("frame " << frame << ": " << in_half[0] << " samples above, " << in_half[1] << " below");
     CHECK(in_half[0] + in_half[1] == kSamples);
-    CHECK(in_half[0] < 1.35 * in_half[1]);
+    CHECK(in_half[0] < 1.2 * in_half[1]);
+    CHECK(in_half[1] < 1.2 * in_half[0]);
     sampler.restart();
   }
 }

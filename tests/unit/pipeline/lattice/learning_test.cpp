@@ -23,6 +23,24 @@ TEST_CASE("local errors: an error counts near its point and nowhere else") {
   CHECK(errors.near(here).level == errors.near(far).level);
 }
 
+TEST_CASE("local errors: what is kept of the last picture gives way to what this one shows") {
+  constexpr float kWrong = 0.25F, kRight = 1e-6F;
+  constexpr int kNoted = 10;
+  const LatticeNode here = node_at({32.5, 32.5});
+  LocalErrors faded(64 * kPixelSide, 64 * kPixelSide), kept = faded;
+  for (LocalErrors* errors : {&faded, &kept})
+    for (int i = 0; i < kNoted; ++i) errors->note(here, kWrong, 20);
+  faded.fade(0.1F);
+  CHECK(faded.near(here).level == error_level_of(kWrong));
+  CHECK(faded.near(here).rays == Approx(20));
+  for (LocalErrors* errors : {&faded, &kept}) {
+    for (int i = 0; i < kNoted; ++i) errors->note(here, kRight, 2);
+    errors->start_round();
+  }
+  CHECK(faded.near(here).level == error_level_of(kWrong / 11));
+  CHECK(kept.near(here).level == error_level_of(kWrong / 2));
+}
+
 TEST_CASE("local errors: levels are octaves of the squared error") {
   CHECK(error_level_of(0) == 0);
   CHECK(error_level_of(0.25F) == error_level_of(0.125F) + 1);
