@@ -26,13 +26,20 @@ void for_each_corner(const LatticeNode& corner, int side, const Visit& visit) {
   visit(corner.x, corner.y + side), visit(corner.x + side, corner.y + side);
 }
 
-// Returns the numbers of tiles, neighbours far apart: steps of the golden section fall evenly everywhere.
-std::vector<int> scattered(int count) {
+// Returns the tiles in bands of two rows. Bands beside each other are far apart: steps of the golden section
+// fall evenly.
+std::vector<int> in_scattered_bands(int columns, int rows) {
+  constexpr int kBand = 2;
   constexpr double kGolden = 0.618;
-  int step = std::max(1, static_cast<int>(kGolden * count));
-  while (std::gcd(step, count) != 1) ++step;
-  std::vector<int> tiles(static_cast<std::size_t>(count), 0);
-  for (std::size_t i = 1; i < tiles.size(); ++i) tiles[i] = (tiles[i - 1] + step) % count;
+  const int bands = (rows + kBand - 1) / kBand;
+  int step = std::max(1, static_cast<int>(kGolden * bands));
+  while (std::gcd(step, bands) != 1) ++step;
+  std::vector<int> tiles;
+  for (int i = 0; i < bands; ++i) {
+    const int first = i * step % bands * kBand;
+    for (int row = first; row < std::min(first + kBand, rows); ++row)
+      for (int column = 0; column < columns; ++column) tiles.push_back(row * columns + column);
+  }
   return tiles;
 }
 
@@ -53,7 +60,7 @@ LatticeSampler::LatticeSampler(const Region& region, ProjectedShapeCache::View v
     : order_(order),
       store_(region.grid().width, region.grid().height),
       own_(store_, region),
-      tiles_(scattered(store_.tile_count())),
+      tiles_(in_scattered_bands(store_.tile_columns(), store_.tile_rows())),
       shapes_(std::move(view)),
       errors_(store_.right(), store_.bottom()),
       predictor_(store_, shapes_, errors_, share_),

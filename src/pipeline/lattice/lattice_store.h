@@ -78,6 +78,8 @@ class LatticeStore {
   int height() const { return height_; }
   int right() const { return right_; }    // x of the last nodes, sixteenths of a pixel
   int bottom() const { return bottom_; }  // y of the last nodes
+  int tile_columns() const { return columns_; }
+  int tile_rows() const { return rows_; }
   int tile_count() const { return columns_ * rows_; }
 
   // Whether the node exists. Nodes between the corners of pixels do so inside the image only.
