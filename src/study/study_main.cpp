@@ -90,6 +90,7 @@ void add_sequences(CLI::App& command, pprt::AccuracyOptions& options) {
       ->check(CLI::Range(1, 512))
       ->capture_default_str()
       ->group(kGroup);
+  pprt::add_choice(command, "--sampler", options.sampler, "What chooses a frame's samples").group(kGroup);
   add(command, "--want-rmse", "E", options.want_rmse,
       "Print the frame rate that gives this error; without -o measure nothing else")
       ->check(pprt::number_above_zero())

@@ -93,7 +93,8 @@ Reference reference_of(const StudiedScene& studied, const Subject& subject, int 
 Sequence sequence_of(const StudiedScene& studied, int script_frames,
                      const std::vector<FrameRequest>& without_script) {
   const AccuracyOptions& options = studied.options;
-  Sequence sequence{studied.name, studied.scene, without_script, {}, options.ranks, 0, options.seed};
+  Sequence sequence{studied.name, studied.scene, without_script, {}, options.ranks, options.sampler, 0,
+                    options.seed};
   if (const Animation* script = studied.script) {
     sequence.frames = frames_of(studied.scene, *script, std::min(script_frames, script->frames),
                                 *studied.description.view, studied.sequence_size());
@@ -106,7 +107,7 @@ Sequence sequence_of(const StudiedScene& studied, int script_frames,
     sequence.references.push_back(reference_of(studied, subject, studied.effort.sequence_cells).image);
   }
   sequence.units_per_second = measured_units_per_second(
-      {studied.scene, sequence.frames.front().camera, sequence.frames.front().time});
+      {studied.scene, sequence.frames.front().camera, sequence.frames.front().time}, options.sampler);
   return sequence;
 }
 
@@ -242,7 +243,7 @@ void print_error(const StudiedScene& studied, double fps) {
   for (int turn = 0; turn < studied.options.repeats; ++turn, ++sequence.seed) {
     const RealTimePoint with = measure_in_real_time(sequence, CastChoice::kAuto, fps);
     const RealTimePoint without = measure_in_real_time(sequence, CastChoice::kOff, fps);
-    turns.push_back({with, without, uniform_rmse_in(sequence.ranks / fps, sequence)});
+    turns.push_back({with, without, uniform_errors_in(sequence.ranks / fps, sequence)});
   }
   fmt::print("{}\n", real_time_summary(turns));
 }

@@ -60,21 +60,25 @@ std::string real_time_summary(std::span<const RealTimeTurn> turns) {
   const RealTimePoint& first = turns.front().with;
   int frames = 0;
   double on_time = 0, late_max_ms = first.late_max_ms, fewest = first.fewest_samples;
-  std::vector<double> rmse, over_without, over_uniform;
-  for (const auto& [with, without, uniform_rmse] : turns) {
+  std::vector<double> rmse, flip, over_without, over_uniform, flip_over_uniform;
+  for (const auto& [with, without, uniform] : turns) {
     frames += with.frames, on_time += with.on_time * with.frames;
     late_max_ms = std::max(late_max_ms, with.late_max_ms), fewest = std::min(fewest, with.fewest_samples);
-    rmse.push_back(with.rmse);
-    over_without.push_back(with.rmse / without.rmse), over_uniform.push_back(with.rmse / uniform_rmse);
+    rmse.push_back(with.errors.rmse), flip.push_back(with.errors.flip);
+    over_without.push_back(with.errors.rmse / without.errors.rmse);
+    over_uniform.push_back(with.errors.rmse / uniform.rmse);
+    flip_over_uniform.push_back(with.errors.flip / uniform.flip);
   }
   const Spread ratio = spread_of(over_without);
   return fmt::format(
       "{}: in real time {:.0f} of {} frames were on time on {}, the latest {:.1f} ms {}; no frame after the "
       "fifth had fewer than {:.0f} samples. RMSE {:.4f}: {:.2f} ({:.2f} to {:.2f} by turns) of that without "
-      "casting and {:.2f} of that of uniform sampling in all of their time.",
+      "casting and {:.2f} of that of uniform sampling in all of their time. FLIP {:.4f}: {:.2f} of uniform "
+      "sampling's.",
       first.scene, on_time, frames, first.ranks == 1 ? "one rank" : fmt::format("{} ranks", first.ranks),
       std::abs(late_max_ms), late_max_ms > 0 ? "late" : "early", fewest, spread_of(rmse).median, ratio.median,
-      ratio.low, ratio.high, spread_of(over_uniform).median);
+      ratio.low, ratio.high, spread_of(over_uniform).median, spread_of(flip).median,
+      spread_of(flip_over_uniform).median);
 }
 
 }  // namespace pprt

@@ -17,7 +17,7 @@ std::string rate_with_error(std::vector<RatePoint> points, double rmse);
 // One turn of measurements in real time, of the same sequence.
 struct RealTimeTurn {
   RealTimePoint with, without;  // casting
-  double uniform_rmse = 0;      // of uniform grids in all of the ranks' time
+  MeanErrors uniform = {};      // of uniform grids in all of the ranks' time
 };
 
 // Describes what a sequence did in real time. The error is the median over the turns; the ratios are medians

@@ -24,6 +24,7 @@ SessionSettings settings_of(const Sequence& sequence, CastChoice cast, double fp
   s.frames_per_second = fps;
   s.budget_units = static_cast<std::uint64_t>(sequence.units_per_second / fps);
   s.cast = cast;
+  s.sampler = sequence.sampler;
   s.seed = sequence.seed;
   return s;
 }
@@ -81,6 +82,16 @@ std::vector<FrameRequest> repeated(const std::vector<FrameRequest>& frames, doub
   return all;
 }
 
+// The pictures are those of the references, once or again and again.
+MeanErrors mean_errors(std::span<const Image> pictures, std::span<const Image> references) {
+  std::vector<double> rmse(pictures.size()), flip(pictures.size());
+  run_concurrently(pictures.size(), [&](std::size_t i) {
+    const Image& reference = references[i % references.size()];
+    rmse[i] = rmse_of(pictures[i], reference), flip[i] = FlipReference(reference).mean(pictures[i]);
+  });
+  return {mean_of(rmse), mean_of(flip)};
+}
+
 }  // namespace
 
 std::vector<FrameRequest> orbit(const CompiledScene& scene, const View& view, int size, int count,
@@ -97,9 +108,10 @@ std::vector<FrameRequest> orbit(const CompiledScene& scene, const View& view, in
   return frames;
 }
 
-double measured_units_per_second(const Subject& subject) {
+double measured_units_per_second(const Subject& subject, SamplerChoice sampler) {
   constexpr double kUnits = 2e8;
   Sequence still{"", subject.scene, {{1, subject.camera}}, {}};
+  still.sampler = sampler;
   still.units_per_second = kUnits;
   const std::clock_t begin = std::clock();
   play(still, CastChoice::kOff, 1);
@@ -160,10 +172,7 @@ RealTimePoint measure_in_real_time(const Sequence& sequence, CastChoice cast, do
                       .late_max_ms = totals.worst_late_ms(),
                       .samples = series.samples_per_pixel(),
                       .fewest_samples = fewest_after_fifth(series.samples)};
-  for (std::size_t i = 0; i < series.pictures.size(); ++i) {
-    const Image& reference = sequence.references[i % sequence.frames.size()];
-    point.rmse += rmse_of(series.pictures[i], reference) / point.frames;
-  }
+  point.errors = mean_errors(series.pictures, sequence.references);
   return point;
 }
 
@@ -171,7 +180,7 @@ std::vector<RealTimePoint> measure_in_real_time(const Sequence& sequence, std::s
   std::vector<RealTimePoint> points;
   for (const double fps : rates) {
     points.push_back(measure_in_real_time(sequence, CastChoice::kAuto, fps));
-    points.back().uniform_rmse = uniform_rmse_in(sequence.ranks / fps, sequence);
+    points.back().uniform = uniform_errors_in(sequence.ranks / fps, sequence);
   }
   return points;
 }
@@ -182,14 +191,11 @@ double fewest_after_fifth(std::span<const double> samples_of_frames) {
   return *std::min_element(settled.begin(), settled.end());
 }
 
-double uniform_rmse_in(double seconds, const Sequence& sequence) {
-  std::vector<double> errors;
-  for (std::size_t i = 0; i < sequence.frames.size(); ++i) {
-    const Image uniform =
-        uniform_picture_in(seconds, {sequence.scene, sequence.frames[i].camera, sequence.frames[i].time});
-    errors.push_back(rmse_of(uniform, sequence.references[i]));
-  }
-  return mean_of(errors);
+MeanErrors uniform_errors_in(double seconds, const Sequence& sequence) {
+  std::vector<Image> pictures;
+  for (const FrameRequest& frame : sequence.frames)
+    pictures.push_back(uniform_picture_in(seconds, {sequence.scene, frame.camera, frame.time}));
+  return mean_errors(pictures, sequence.references);
 }
 
 Table rates_table(const std::vector<RatePoint>& points) {
@@ -215,8 +221,10 @@ Table real_time_table(const std::vector<RealTimePoint>& points) {
                               {"late p95 ms", &P::late_p95_ms},
                               {"late p99 ms", &P::late_p99_ms},
                               {"late max ms", &P::late_max_ms},
-                              {"rmse", &P::rmse},
-                              {"uniform rmse", &P::uniform_rmse},
+                              {"rmse", [](const P& p) { return p.errors.rmse; }},
+                              {"uniform rmse", [](const P& p) { return p.uniform.rmse; }},
+                              {"flip", [](const P& p) { return p.errors.flip; }},
+                              {"uniform flip", [](const P& p) { return p.uniform.flip; }},
                               {"samples a pixel", &P::samples}});
 }
 

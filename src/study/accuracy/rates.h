@@ -19,6 +19,7 @@ struct Sequence {
   std::vector<FrameRequest> frames;
   std::vector<Image> references;  // converged, one per frame
   int ranks = 1;
+  SamplerChoice sampler = SamplerChoice::kAuto;
   double units_per_second = 1e9;  // of the work clock, each rank
   std::uint64_t seed = 1;
 };
@@ -40,6 +41,11 @@ struct RatePoint {
   double samples = 0;   // per pixel and frame
 };
 
+// Mean errors of frames.
+struct MeanErrors {
+  double rmse = 0, flip = 0;
+};
+
 // A sequence at one rate in real time. Lateness below 0 is early.
 struct RealTimePoint {
   std::string scene;
@@ -49,14 +55,14 @@ struct RealTimePoint {
   int frames = 0;
   double on_time = 1;  // share of the frames
   double late_p50_ms = 0, late_p95_ms = 0, late_p99_ms = 0, late_max_ms = 0;
-  double rmse = 0;            // mean over the frames
+  MeanErrors errors = {};
   double samples = 0;         // per pixel and frame
   double fewest_samples = 0;  // of any frame after the fifth, when balancing has settled
-  double uniform_rmse = 0;    // of uniform grids that take all of the ranks' time
+  MeanErrors uniform = {};    // of grids that take all of the ranks' time
 };
 
 // Returns the work units that a rank does per second of CPU time on this machine and scene.
-double measured_units_per_second(const Subject& subject);
+double measured_units_per_second(const Subject& subject, SamplerChoice sampler);
 
 // Fills in the errors of a sequence's pictures. Throws std::invalid_argument unless each frame has one.
 void judge_sequence(const Sequence& sequence, const std::vector<Image>& pictures, RatePoint& point);
@@ -65,7 +71,7 @@ void judge_sequence(const Sequence& sequence, const std::vector<Image>& pictures
 std::vector<RatePoint> measure_rates(const Sequence& sequence, std::span<const double> rates,
                                      std::span<const CastChoice> casts);
 
-// Plays the sequence in real time, again and again for at least two seconds. Leaves out uniform_rmse.
+// Plays the sequence in real time, again and again for at least two seconds. Leaves out `uniform`.
 RealTimePoint measure_in_real_time(const Sequence& sequence, CastChoice cast, double fps);
 
 // Plays it at each rate with auto casting, and adds the error of uniform grids.
@@ -74,8 +80,8 @@ std::vector<RealTimePoint> measure_in_real_time(const Sequence& sequence, std::s
 // Returns the fewest samples of any frame after the fifth; of the last one where there are no more.
 double fewest_after_fifth(std::span<const double> samples_of_frames);
 
-// Returns the mean error of uniform grids that take `seconds` of one thread for each frame.
-double uniform_rmse_in(double seconds, const Sequence& sequence);
+// Returns the errors of uniform grids that take `seconds` of one thread for each frame.
+MeanErrors uniform_errors_in(double seconds, const Sequence& sequence);
 
 Table rates_table(const std::vector<RatePoint>& points);
 Table real_time_table(const std::vector<RealTimePoint>& points);

@@ -43,18 +43,21 @@ TEST_CASE("planner: summarises real time by medians over the turns") {
   for (RealTimeTurn& turn : turns) {
     turn.with.scene = "tree", turn.with.ranks = 2, turn.with.frames = 80, turn.with.on_time = 1;
     turn.with.late_max_ms = -0.5, turn.with.fewest_samples = 19'500;
-    turn.without.rmse = 0.025;
+    turn.without.errors.rmse = 0.025;
+    turn.with.errors.flip = 0.03, turn.uniform.flip = 0.04;
   }
   turns[1].with.on_time = 0.9875, turns[1].with.late_max_ms = 1.25, turns[1].with.fewest_samples = 18'900;
   // A turn in which all were slower, and one in which casting had bad luck: ratios .8, .7 and 1.
-  turns[0].with.rmse = 0.04, turns[0].without.rmse = 0.05;
-  turns[1].with.rmse = 0.0175;
-  turns[2].with.rmse = 0.025;
-  turns[0].uniform_rmse = 0.1, turns[1].uniform_rmse = 0.05, turns[2].uniform_rmse = 0.04;  // .4, .35, .625
+  turns[0].with.errors.rmse = 0.04, turns[0].without.errors.rmse = 0.05;
+  turns[1].with.errors.rmse = 0.0175;
+  turns[2].with.errors.rmse = 0.025;
+  // .4, .35, .625
+  turns[0].uniform.rmse = 0.1, turns[1].uniform.rmse = 0.05, turns[2].uniform.rmse = 0.04;
   CHECK(
       real_time_summary(turns) ==
       "tree: in real time 239 of 240 frames were on time on 2 ranks, the latest 1.2 ms late; no frame after "
       "the fifth had fewer than 18900 samples. RMSE 0.0250: 0.80 (0.70 to 1.00 by turns) of that without "
-      "casting and 0.40 of that of uniform sampling in all of their time.");
+      "casting and 0.40 of that of uniform sampling in all of their time. FLIP 0.0300: 0.75 of uniform "
+      "sampling's.");
   CHECK_THROWS_AS(real_time_summary({}), std::invalid_argument);
 }

@@ -69,6 +69,9 @@ TEST_CASE("sequence: more time per frame makes better frames under the work cloc
   REQUIRE(points.size() == 4);
   CHECK(points[0].rmse < 0.8 * points[2].rmse);
   CHECK(points[0].samples > points[2].samples);
+  Sequence of_paper = sequence;
+  of_paper.sampler = SamplerChoice::kDelaunay;
+  CHECK(measure_rates(of_paper, rates, casts)[0].rmse != points[0].rmse);
 }
 
 TEST_CASE("sequence: real time reports every frame of the repeated sequence, and ordered lateness",
@@ -84,11 +87,15 @@ TEST_CASE("sequence: real time reports every frame of the repeated sequence, and
   CHECK(p.late_p95_ms <= p.late_p99_ms);
   CHECK(p.late_p99_ms <= p.late_max_ms);
   CHECK((p.on_time == 1) == (p.late_max_ms <= 0));
-  CHECK(p.rmse > 0);
-  CHECK(p.rmse < 0.1);
+  CHECK(p.errors.rmse > 0);
+  CHECK(p.errors.rmse < 0.1);
+  CHECK(p.errors.flip > 0);
+  CHECK(p.errors.flip < 0.2);
   CHECK(p.samples > 0.1);
   CHECK(p.fewest_samples > 0);
-  CHECK(uniform_rmse_in(0.0003, sequence) > 1.5 * p.uniform_rmse);
+  const MeanErrors in_less = uniform_errors_in(0.0003, sequence);
+  CHECK(in_less.rmse > 1.5 * p.uniform.rmse);
+  CHECK(in_less.flip > 1.5 * p.uniform.flip);
 }
 
 TEST_CASE("uniform method: more time makes a better picture") {
