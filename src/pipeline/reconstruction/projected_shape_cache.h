@@ -3,8 +3,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -85,7 +87,7 @@ class ProjectedShapeCache {
 
   // Removes all shapes, because the eye has moved; keeps the storage.
   void forget() {
-    for (const std::uint32_t primitive : primitives_) places_[primitive] = kNotAsked;
+    for (const std::uint32_t primitive : primitives_) place_of(primitive) = kNotAsked;
     primitives_.clear();
     shapes_.resize(1);
     facets_.clear();
@@ -95,15 +97,17 @@ class ProjectedShapeCache {
   // Returns where the shape of a primitive is kept, which a sample at this image point has hit. Primitives
   // from other ranks may have any number: unknown ones take no storage.
   Place find(std::uint32_t primitive, const Vec2d& point) {
-    if (primitive < places_.size() && places_[primitive] != kNotAsked) return places_[primitive];
+    const std::size_t page = primitive / kPage;
+    const bool has_page = page < pages_.size() && pages_[page] != nullptr;
+    if (has_page && place_of(primitive) != kNotAsked) return place_of(primitive);
     view_(primitive, asked_);
     const bool is_known = asked_.kind != ImageShape::Kind::kUnknown;
-    if (primitive >= places_.size()) {
+    if (!has_page) {
       if (!is_known) return kUnknown;
-      places_.resize(std::size_t{primitive} + 1, kNotAsked);
+      make_page(page);
     }
     primitives_.push_back(primitive);
-    return places_[primitive] = is_known ? keep_asked(point) : kUnknown;
+    return place_of(primitive) = is_known ? keep_asked(point) : kUnknown;
   }
 
   const Shape& shape(Place place) const { return shapes_[place]; }
@@ -128,6 +132,17 @@ class ProjectedShapeCache {
  private:
   static constexpr Place kNotAsked = ~Place{0}, kUnknown = 0;
 
+  // The places of primitives whose numbers follow each other. A region sees few primitives of a large scene.
+  static constexpr std::size_t kPage = 1024;
+  using Page = std::array<Place, kPage>;
+
+  Place& place_of(std::uint32_t primitive) { return (*pages_[primitive / kPage])[primitive % kPage]; }
+  void make_page(std::size_t page) {
+    if (page >= pages_.size()) pages_.resize(page + 1);
+    pages_[page] = std::make_unique<Page>();
+    pages_[page]->fill(kNotAsked);
+  }
+
   // The bounds of four facets, one a lane.
   struct FourBounds {
     float x0[kLanes], y0[kLanes], x1[kLanes], y1[kLanes];
@@ -150,8 +165,8 @@ class ProjectedShapeCache {
   }
 
   View view_;
-  std::vector<Place> places_;                          // by primitive
-  std::vector<std::uint32_t> primitives_;              // those in places_
+  std::vector<std::unique_ptr<Page>> pages_;           // null: none of its primitives was asked for
+  std::vector<std::uint32_t> primitives_;              // those with a place
   std::vector<Shape> shapes_ = std::vector<Shape>(1);  // the first is kUnknown
   std::vector<ProjectedFacet> facets_;
   std::vector<FourBounds> bounds_;  // of the facets: for most of them only these are read
