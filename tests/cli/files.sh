@@ -102,4 +102,12 @@ done
 run bash -c 'ulimit -v 3000000; exec pprt-render ball.nff -s 16384x16384 --samples 500 -o large.png'; expect_code 1
 expect_text err 'pprt-render: error: pictures of 16384x16384 pixels take at least 7.2 GB of memory; 3.1 GB are available'
 expect_no_file large.png
+# An EXR of a frame in real time is compressed by run lengths (1), any other by ZIP (3).
+compression_of() { grep -aPo 'compression\x00compression\x00\x01\x00\x00\x00\K.' "$1" | head -c1 | od -An -tu1 | tr -d ' \n'; }
+run pprt-render ball.anim --fps 200 --frames 1-1 -o hurried/#.exr; expect_code 0
+run pprt-render ball.anim --fps 200 --frames 1-1 --clock work -o worked/#.exr; expect_code 0
+run pprt-render ball.nff --samples 500 -o still.exr; expect_code 0
+[[ $(compression_of hurried/1.exr)$(compression_of worked/1.exr)$(compression_of still.exr) == 133 ]] ||
+  complain "compressions are not run lengths, ZIP and ZIP: $(compression_of hurried/1.exr)$(compression_of worked/1.exr)$(compression_of still.exr)"
+
 finish

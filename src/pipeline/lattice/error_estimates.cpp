@@ -22,7 +22,7 @@ float expected(NodeClass c) {
 const std::array<float, 512> kDetails = [] {
   std::array<float, 512> details{};
   for (std::uint32_t i = 0; i < details.size(); ++i) {
-    const float least = std::bit_cast<float>(i << 21), middle = std::min(1.1F * least, 4.0F);
+    const float least = std::bit_cast<float>(i << 21), middle = 1.1F * least;
     details[i] = std::sqrt(std::log(1.03F + 500 * middle));
   }
   return details;

@@ -22,11 +22,11 @@ inline NodeClass class_of(int primitives, float variance, int error_level) {
       ((std::min(primitives, kPrimitiveCounts) - 1) * kVarianceLevels + level) * kErrorLevels + error_level);
 }
 
-// detail_of() of the floats that share their sign, their exponent and the first two bits after the point.
+// detail_of() of floats in [0, 2), by exponent and the first two bits after the point.
 extern const std::array<float, 512> kDetails;
 
-// Returns sqrt(log(1.03 + 500 variance)), to an eighth of an octave of the variance: the refinement weight of
-// the paper for a difference instead of its square (refinement_weight.h).
+// Returns sqrt(log(1.03 + 500 variance)) of a variance in [0, 2), to an eighth of an octave of the variance:
+// the refinement weight of the paper for a difference instead of its square (refinement_weight.h).
 inline float detail_of(float variance) {
   return kDetails[std::bit_cast<std::uint32_t>(variance) >> 21];
 }

@@ -15,6 +15,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "base/vector.h"
 #include "pipeline/simd.h"
@@ -99,5 +100,12 @@ class NodeValue {
  private:
   float4 lanes_;
 };
+
+// Whether all values, one at least, lie on the same primitive.
+inline bool is_on_one_primitive(std::span<const NodeValue> values) {
+  for (const NodeValue& value : values.subspan(1))
+    if (value.primitive() != values.front().primitive()) return false;
+  return true;
+}
 
 }  // namespace pprt

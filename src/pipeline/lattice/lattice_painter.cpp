@@ -14,12 +14,6 @@ constexpr PerPoint kRows = {0.4375F, 0.8125F, 0.0625F, 0.6875F, 0.1875F, 0.5625F
 
 constexpr int kBasePixels = kBaseSide / kPixelSide;
 
-bool is_on_one_primitive(const SquareCorners& corners) {
-  const std::uint32_t primitive = corners[0].primitive();
-  return std::all_of(corners.begin() + 1, corners.end(),
-                     [&](const NodeValue& v) { return v.primitive() == primitive; });
-}
-
 float4 weighted_mean(const SquareCorners& corners, const std::array<float, 4>& weights) {
   float4 sum{};
   for (std::size_t i = 0; i < corners.size(); ++i) sum += corners[i].channels() * weights[i];

@@ -26,18 +26,18 @@ void for_each_corner(const LatticeNode& corner, int side, const Visit& visit) {
   visit(corner.x, corner.y + side), visit(corner.x + side, corner.y + side);
 }
 
-// Returns the tiles in bands of two rows. Bands beside each other are far apart: steps of the golden section
-// fall evenly.
+// Returns the tiles in bands of two rows. Bands follow each other by steps of the golden section, which fall
+// evenly over the picture.
 std::vector<int> in_scattered_bands(int columns, int rows) {
   constexpr int kBand = 2;
-  constexpr double kGolden = 0.618;
-  const int bands = (rows + kBand - 1) / kBand;
-  int step = std::max(1, static_cast<int>(kGolden * bands));
-  while (std::gcd(step, bands) != 1) ++step;
+  constexpr double kGolden = 0.6180339887;
+  std::vector<int> bands(static_cast<std::size_t>((rows + kBand - 1) / kBand));
+  std::iota(bands.begin(), bands.end(), 0);
+  const auto turn = [](int band) { return std::fmod(kGolden * band, 1.0); };
+  std::sort(bands.begin(), bands.end(), [&](int a, int b) { return turn(a) < turn(b); });
   std::vector<int> tiles;
-  for (int i = 0; i < bands; ++i) {
-    const int first = i * step % bands * kBand;
-    for (int row = first; row < std::min(first + kBand, rows); ++row)
+  for (const int band : bands) {
+    for (int row = kBand * band; row < std::min(kBand * (band + 1), rows); ++row)
       for (int column = 0; column < columns; ++column) tiles.push_back(row * columns + column);
   }
   return tiles;

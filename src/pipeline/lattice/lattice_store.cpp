@@ -214,11 +214,11 @@ void LatticeStore::collect(int tile, const LatticeLevel& level, NodeState least,
   const Tile& from = tiles_[static_cast<std::size_t>(tile)];
   const LatticeNode first = corner_of(tile);
   const auto corner_in = [&](std::uint16_t pixel) -> LatticeNode {
-    return {first.x + kPixelSide * (pixel % kTilePixels), first.y + kPixelSide * (pixel / kTilePixels)};
+    return pixel_corner(first, pixel % kTilePixels, pixel / kTilePixels);
   };
-  const auto add = [&](int x, int y, std::size_t slot, int step) {
+  const auto add = [&](const LatticeNode& corner, std::size_t slot, int step) {
     const auto s = static_cast<int>(slot);
-    nodes.push_back({x + s % kCells * step, y + s / kCells * step});
+    nodes.push_back({corner.x + s % kCells * step, corner.y + s / kCells * step});
   };
   if (level.side > kPixelSide) {
     collect_corners(tile, level, least, nodes);
@@ -228,15 +228,14 @@ void LatticeStore::collect(int tile, const LatticeLevel& level, NodeState least,
     for (int row = 0; row < kTilePixels; ++row) {
       const NodeState* states = &from.center_states[static_cast<std::size_t>(row) * kTilePixels];
       for (std::uint32_t bits = at_least(states, least); bits != 0; bits &= bits - 1)
-        add(first.x + kPixelSide * std::countr_zero(bits), first.y + kPixelSide * row, kCenterSlot,
-            kCellSide);
+        add(pixel_corner(first, std::countr_zero(bits), row), kCenterSlot, kCellSide);
     }
     return;
   }
   const std::span<const std::uint8_t> slots = slots_of(level);
   const auto add_slots = [&](const auto& block, const LatticeNode& corner, int step) {
     for (const std::uint8_t slot : slots)
-      if (block.states[slot] >= least) add(corner.x, corner.y, slot, step);
+      if (block.states[slot] >= least) add(corner, slot, step);
   };
   const auto t = static_cast<std::size_t>(tile);
   if (level.side > kCellSide) {
@@ -254,21 +253,21 @@ void LatticeStore::collect(int tile, const LatticeLevel& level, NodeState least,
 void LatticeStore::collect_corners(int tile, const LatticeLevel& level, NodeState least,
                                    std::vector<LatticeNode>& nodes) const {
   const Tile& from = tiles_[static_cast<std::size_t>(tile)];
-  const auto [left, top] = corner_of(tile);
+  const LatticeNode first = corner_of(tile);
   for_each_row(level, [&](int row, std::uint32_t pixels) {
     const NodeState* states = &from.corner_states[static_cast<std::size_t>(row) * kTilePixels];
     for (std::uint32_t bits = pixels & at_least(states, least); bits != 0; bits &= bits - 1)
-      nodes.push_back({left + kPixelSide * std::countr_zero(bits), top + kPixelSide * row});
+      nodes.push_back(pixel_corner(first, std::countr_zero(bits), row));
   });
 }
 
 void LatticeStore::collect_all(int tile, const LatticeLevel& level, std::vector<LatticeNode>& nodes) const {
   nodes.clear();
   if (level.side <= kPixelSide) return collect_all_between_corners(tile, level, nodes);
-  const auto [left, top] = corner_of(tile);
+  const LatticeNode first = corner_of(tile);
   for_each_row(level, [&](int row, std::uint32_t pixels) {
     for (std::uint32_t bits = pixels; bits != 0; bits &= bits - 1) {
-      const LatticeNode node{left + kPixelSide * std::countr_zero(bits), top + kPixelSide * row};
+      const LatticeNode node = pixel_corner(first, std::countr_zero(bits), row);
       if (has(node)) nodes.push_back(node);
     }
   });

@@ -246,6 +246,10 @@ class LatticeStore {
     const auto x = static_cast<unsigned>(node.x) % kCellSide, y = static_cast<unsigned>(node.y) % kCellSide;
     return std::size_t{y} * kCellSide + x;
   }
+  // The upper left corner of a pixel, from that of its tile.
+  static LatticeNode pixel_corner(const LatticeNode& of_tile, int column, int row) {
+    return {of_tile.x + kPixelSide * column, of_tile.y + kPixelSide * row};
+  }
   static constexpr std::size_t kCenterSlot = 10;
   static std::size_t place_of(std::size_t slot) {
     constexpr std::array<std::uint8_t, kSlots> kPlaces = {0, 7,  1, 8,  9,  3, 10, 4,

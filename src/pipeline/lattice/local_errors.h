@@ -29,7 +29,7 @@ class LocalErrors {
 
   void clear();
 
-  // Lets what is known count as this share of it: for a picture much like the last.
+  // Multiplies the weight of all samples noted so far, so that a picture much like the last begins with them.
   void fade(float share);
 
   // Means are computed anew when they are asked for next.

@@ -52,8 +52,6 @@ class Surroundings {
   // The number of different primitives.
   int primitives() const;
 
-  bool is_on_one_primitive() const;
-
   // Whether value i is the first on its primitive.
   bool is_first(std::size_t i) const;
 
@@ -139,14 +137,8 @@ inline bool Surroundings::is_first(std::size_t i) const {
   return true;
 }
 
-inline bool Surroundings::is_on_one_primitive() const {
-  for (std::size_t i = 1; i < count_; ++i)
-    if (values_[i].primitive() != values_[0].primitive()) return false;
-  return true;
-}
-
 inline int Surroundings::primitives() const {
-  if (is_on_one_primitive()) return 1;
+  if (is_on_one_primitive({values_.data(), count_})) return 1;
   int count = 0;
   for (std::size_t i = 0; i < count_; ++i) count += is_first(i) ? 1 : 0;
   return count;

@@ -95,7 +95,7 @@ class ProjectedShapeCache {
   }
 
   // Returns where the shape of a primitive is kept, which a sample at this image point has hit. Primitives
-  // from other ranks may have any number: unknown ones take no storage.
+  // from other ranks may have any number: unknown ones make no page.
   Place find(std::uint32_t primitive, const Vec2d& point) {
     const std::size_t page = primitive / kPage;
     const bool has_page = page < pages_.size() && pages_[page] != nullptr;

@@ -43,8 +43,16 @@ const Effort kQuick = {.size = 96,
                        .script_frames_planned = 20,
                        .orbit_frames_planned = 12,
                        .rates = {60, 120, 240}};
-constexpr std::array kEveryCast = {CastChoice::kOff, CastChoice::kPaper, CastChoice::kVerified,
-                                   CastChoice::kAuto};
+
+// What differs by sampler: on a lattice samples are cast in one way.
+std::span<const CastChoice> casts_of(SamplerChoice sampler) {
+  static constexpr std::array kOfTriangles = {CastChoice::kOff, CastChoice::kPaper, CastChoice::kVerified,
+                                              CastChoice::kAuto};
+  static constexpr std::array kOfLattice = {CastChoice::kOff, CastChoice::kAuto};
+  if (sampler == SamplerChoice::kDelaunay) return kOfTriangles;
+  return kOfLattice;
+}
+
 constexpr int kPlannedSize = 128;  // of pictures where only the planner is asked, pixels square
 
 const Effort& effort_of(const AccuracyOptions& options) {
@@ -133,12 +141,14 @@ Sequence sequence_at(double fps, const StudiedScene& studied) {
 std::string rates_setup(const StudiedScene& studied, const char* without_script) {
   const int ranks = studied.options.ranks;
   return fmt::format(
-      "{0} of {1} x {1} pixels on {2} under the work clock, which counts work instead of seconds: a second "
+      "{0} of {1} x {1} pixels on {2}, by the sampler '{3}', under the work clock, which counts work instead "
+      "of seconds: a second "
       "is what a core of this machine does in a second, measured on each scene.",
       studied.script         ? "The frames of " + studied.script->name
       : studied.has_frames() ? "The first frames of the scene's own animation,"
                              : without_script,
-      studied.sequence_size(), ranks == 1 ? "one rank" : fmt::format("{} ranks", ranks));
+      studied.sequence_size(), ranks == 1 ? "one rank" : fmt::format("{} ranks", ranks),
+      word_for(studied.options.sampler));
 }
 
 // Names of what is played without a script.
@@ -219,7 +229,7 @@ void measure(const StudiedScene& studied, AccuracyResults& results) {
   append(results.pictures,
          figure_pictures(name, studied.subject(std::min(options.size, kFigureSize)), options.seed));
   const Sequence sequence = short_sequence(studied);
-  append(results.rates, measure_rates(sequence, studied.effort.rates, kEveryCast));
+  append(results.rates, measure_rates(sequence, studied.effort.rates, casts_of(sequence.sampler)));
   steps.done("frame rates");
   append(results.real_time, measure_in_real_time(sequence, studied.effort.rates));
   steps.done("deadlines");

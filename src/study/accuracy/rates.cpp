@@ -82,12 +82,16 @@ std::vector<FrameRequest> repeated(const std::vector<FrameRequest>& frames, doub
   return all;
 }
 
-// The pictures are those of the references, once or again and again.
+// The pictures are those of the references, once or again and again. Throws std::invalid_argument if they are
+// not.
 MeanErrors mean_errors(std::span<const Image> pictures, std::span<const Image> references) {
+  if (pictures.empty() || references.empty() || pictures.size() % references.size() != 0)
+    throw std::invalid_argument("a sequence needs a picture and a reference for every frame");
+  const std::vector<FlipReference> seen(references.begin(), references.end());
   std::vector<double> rmse(pictures.size()), flip(pictures.size());
   run_concurrently(pictures.size(), [&](std::size_t i) {
-    const Image& reference = references[i % references.size()];
-    rmse[i] = rmse_of(pictures[i], reference), flip[i] = FlipReference(reference).mean(pictures[i]);
+    const std::size_t frame = i % references.size();
+    rmse[i] = rmse_of(pictures[i], references[frame]), flip[i] = seen[frame].mean(pictures[i]);
   });
   return {mean_of(rmse), mean_of(flip)};
 }

@@ -7,11 +7,12 @@
 namespace pprt {
 
 TEST_CASE("projected shapes: each is computed once, whatever its primitive's number") {
-  constexpr std::uint32_t kHidden = 7;  // without a shape
+  constexpr std::uint32_t kHidden = 7, kForeign = 4'000'000'000;  // without a shape
   std::vector<std::uint32_t> asked;
   ProjectedShapeCache cache([&](std::uint32_t primitive, ImageShape& shape) {
     asked.push_back(primitive);
-    shape.kind = primitive == kHidden ? ImageShape::Kind::kUnknown : ImageShape::Kind::kQuadric;
+    const bool is_known = primitive != kHidden && primitive != kForeign;
+    shape.kind = is_known ? ImageShape::Kind::kQuadric : ImageShape::Kind::kUnknown;
     shape.quadric.height = primitive;
   });
   const std::vector<std::uint32_t> primitives = {3, 1023, 1024, 5'000'000, 2, 1025};
@@ -28,9 +29,14 @@ TEST_CASE("projected shapes: each is computed once, whatever its primitive's num
   CHECK(cache.find(kHidden, {0, 0}) == 0);
   CHECK(asked.size() == primitives.size() + 1);
 
+  // A number of no known scene is asked for again rather than kept.
+  CHECK(cache.find(kForeign, {0, 0}) == 0);
+  CHECK(cache.find(kForeign, {0, 0}) == 0);
+  CHECK(asked.size() == primitives.size() + 3);
+
   cache.forget();
   cache.find(1024, {0, 0});
-  CHECK(asked.size() == primitives.size() + 2);  // anew
+  CHECK(asked.size() == primitives.size() + 4);  // anew
 }
 
 }  // namespace pprt
