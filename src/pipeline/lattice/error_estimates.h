@@ -1,8 +1,11 @@
 // Learns how wrong the picture is at nodes that hold no sample yet: the expected error by class of node.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 
 #include "pipeline/lattice/local_errors.h"
 
@@ -25,8 +28,8 @@ inline NodeClass class_of(int primitives, float variance, int error_level) {
 // detail_of() of floats in [0, 2), by exponent and the first two bits after the point.
 extern const std::array<float, 512> kDetails;
 
-// Returns sqrt(log(1.03 + 500 variance)) of a variance in [0, 2), to an eighth of an octave of the variance:
-// the refinement weight of the paper for a difference instead of its square (refinement_weight.h).
+// Returns sqrt(log(1.03 + 500 variance)): the paper's refinement weight (refinement_weight.h), for a
+// difference instead of its square. The variance lies in [0, 2). It counts to an eighth of an octave.
 inline float detail_of(float variance) {
   return kDetails[std::bit_cast<std::uint32_t>(variance) >> 21];
 }

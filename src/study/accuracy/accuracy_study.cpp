@@ -7,11 +7,13 @@
 #include <filesystem>
 #include <future>
 #include <iterator>
+#include <span>
 #include <sstream>
 #include <utility>
 
 #include "base/diagnostics.h"
 #include "cli/scene_source.h"
+#include "parallel/session_words.h"
 #include "parser/anim_parser.h"
 #include "scene/nff_writer.h"
 #include "scene/resting_nodes.h"
@@ -44,7 +46,7 @@ const Effort kQuick = {.size = 96,
                        .orbit_frames_planned = 12,
                        .rates = {60, 120, 240}};
 
-// What differs by sampler: on a lattice samples are cast in one way.
+// Returns the ways of casting that differ. On a lattice there is one.
 std::span<const CastChoice> casts_of(SamplerChoice sampler) {
   static constexpr std::array kOfTriangles = {CastChoice::kOff, CastChoice::kPaper, CastChoice::kVerified,
                                               CastChoice::kAuto};
@@ -142,8 +144,7 @@ std::string rates_setup(const StudiedScene& studied, const char* without_script)
   const int ranks = studied.options.ranks;
   return fmt::format(
       "{0} of {1} x {1} pixels on {2}, by the sampler '{3}', under the work clock, which counts work instead "
-      "of seconds: a second "
-      "is what a core of this machine does in a second, measured on each scene.",
+      "of seconds: a second is what a core of this machine does in a second, measured on each scene.",
       studied.script         ? "The frames of " + studied.script->name
       : studied.has_frames() ? "The first frames of the scene's own animation,"
                              : without_script,

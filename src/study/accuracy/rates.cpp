@@ -82,8 +82,8 @@ std::vector<FrameRequest> repeated(const std::vector<FrameRequest>& frames, doub
   return all;
 }
 
-// The pictures are those of the references, once or again and again. Throws std::invalid_argument if they are
-// not.
+// Returns the errors of a sequence's pictures, played once or more often, one reference a frame. Throws
+// std::invalid_argument if a round is not whole.
 MeanErrors mean_errors(std::span<const Image> pictures, std::span<const Image> references) {
   if (pictures.empty() || references.empty() || pictures.size() % references.size() != 0)
     throw std::invalid_argument("a sequence needs a picture and a reference for every frame");
