@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Balancing traces: pprt-render --trace writes them, pprt-study balance replays them.
+# Balancing traces: pprt-render --trace writes them, pprt-study balance shows them.
 source "$(dirname "$0")/check.sh"
 
 work=(--clock work --budget 400000 --size 96x64)
@@ -14,18 +14,32 @@ expect_same a.trace b.trace
 run pprt-render ball.anim "${work[@]}" --threads 4 -o c/%02d.png; expect_code 0
 for frame in a/*.png; do expect_same "$frame" "c/${frame#a/}"; done
 
-# The policy that ran is exact, another one is not.
-run pprt-study balance a.trace --policy combined,none; expect_code 0; expect_text err ''
-expect_line out 'policy  *frame  *deviation  *max_over_mean  *tiles_moved  *repartitioned  *tiles_differing'
-[[ $(grep -cE '^combined +[0-9]+ .* 0$' out) -eq 12 ]] || complain "combined is not replayed exactly: $(cat out)"
-expect_line out 'none  *[0-9.]*  *[0-9.]*  *0  *0  *[1-9][0-9]*'
-run pprt-study balance a.trace --json; expect_code 0
-[[ $(grep -c '^{"record":"round","policy":"[a-z]*","frame":[0-9]*,"deviation":.*}$' out) -eq 48 ]] || complain "not 48 rounds: $(cat out)"
-[[ $(grep -c '^{"record":"policy",.*}$' out) -eq 4 ]] || complain "not 4 policies: $(cat out)"
-run pprt-study balance a.trace -o study --policy local,none --frames 2,7; expect_code 0
-for file in index.html rounds.csv policies.csv provenance.json regions-{local,none}-{2,7}.png; do expect_file "study/$file"; done
-[[ $(grep -vc '^#' study/rounds.csv) -eq 25 ]] || complain "rounds.csv has not 25 lines: $(cat study/rounds.csv)"
+# One trace: a row for each frame and one for the trace.
+run pprt-study balance a.trace; expect_code 0; expect_text err ''
+expect_line out 'trace  *balance  *frame  *deviation  *max_over_mean  *tiles_moved  *tiles_given  *repartitioned'
+[[ $(grep -cE '^a +combined +[0-9]+( +[0-9]+\.[0-9]{3}){2}( +[0-9]+){3}$' out) -eq 13 ]] || complain "not 12 frames and a sum: $(cat out)"
+expect_line out 'a  *combined  *12  *[0-9.]*  *[0-9.]*  *[1-9][0-9]*  *[0-9]*  *[0-9]*'
+
+# Several: the deviations side by side, and a row for each.
+for balance in none local; do
+  run pprt-render ball.anim "${work[@]}" --threads 4 --balance $balance -o $balance/%02d.png --trace $balance.trace; expect_code 0
+done
+run pprt-study balance none.trace a.trace; expect_code 0; expect_text err ''
+expect_line out 'frame  *none  *a'
+[[ $(grep -cE '^[0-9]+( +[0-9]\.[0-9]{3}){2}$' out) -eq 12 ]] || complain "not 12 frames: $(cat out)"
+expect_line out 'none  *none  *12  *[0-9.]*  *[0-9.]*  *0  *0  *0'
+run pprt-study balance none.trace a.trace --json; expect_code 0
+[[ $(grep -c '^{"record":"frame","trace":"[a-z]*","balance":"[a-z]*","frame":[0-9]*,"deviation":.*}$' out) -eq 24 ]] || complain "not 24 frames: $(cat out)"
+[[ $(grep -c '^{"record":"trace",.*}$' out) -eq 2 ]] || complain "not 2 traces: $(cat out)"
+run pprt-study balance local.trace none.trace -o study --frames 2,7; expect_code 0
+for file in index.html frames.csv traces.csv provenance.json regions-{local,none}-{2,7}.png; do expect_file "study/$file"; done
+[[ $(grep -vc '^#' study/frames.csv) -eq 25 ]] || complain "frames.csv has not 25 lines: $(cat study/frames.csv)"
 if command -v gnuplot >/dev/null; then expect_file study/balance.svg; fi
+run pprt-render ball.anim "${work[@]}" --threads 3 --frames 1-6 -o e/%02d.png --trace e.trace; expect_code 0
+run pprt-study balance a.trace e.trace; expect_code 0
+expect_text err "warning: a.trace and e.trace are runs of different numbers of ranks"
+run pprt-study balance a.trace ./a.trace; expect_code 2
+expect_line err "pprt-study: error: a.trace and ./a.trace have the same name; give each trace a name of its own"
 
 # A trace is an output as the ledger is.
 there="is there already; --overwrite replaces it, --resume goes on after it"
@@ -46,20 +60,18 @@ expect_text err "pprt-render: error: cannot write 'a/01.png/x': Not a directory"
 run pprt-render ball.anim "${work[@]}" --threads 4 --frames 1-6 -o r/%02d.png --trace r.trace; expect_code 0
 printf '{"record":"fra' >>r.trace
 run pprt-render ball.anim "${work[@]}" --threads 4 -o r/%02d.png --trace r.trace --resume; expect_code 0
-run pprt-study balance r.trace --policy combined; expect_code 0
+run pprt-study balance r.trace; expect_code 0
 expect_text err "r.trace:8: warning: the line is incomplete and left out"
-expect_line out 'combined  *12 .* 0'
+expect_line out 'r  *combined  *12  *[0-9.]*  *[0-9.]*  *[0-9]*  *[0-9]*  *[0-9]*'
 
 # Refused.
-run pprt-study balance none.trace; expect_code 3; expect_text err "cannot read 'none.trace': No such file or directory"
+run pprt-study balance missing; expect_code 3; expect_text err "cannot read 'missing': No such file or directory"
 run pprt-study balance ball.nff; expect_code 3; expect_text err "ball.nff:1: error: the line is no JSON"
 sed '3s/"owner":\[0/"owner":[9/' b.trace >bad.trace
 run pprt-study balance bad.trace; expect_code 3; expect_text err 'bad.trace:3: error: "owner" holds a value out of range'
 head -1 b.trace >head.trace
 run pprt-study balance head.trace; expect_code 3; expect_text err "head.trace:1: error: the trace holds no frame"
-run pprt-study balance b.trace --policy globl; expect_code 2
-expect_line err "pprt-study: error: --policy globl: 'globl' is none of none, local, global, combined; did you mean 'global'?"
 run pprt-study balance b.trace --frames 13; expect_code 2
-expect_line err "pprt-study: error: --frames 13: the trace has no such frame"
+expect_line err "pprt-study: error: --frames 13: b.trace has no such frame"
 run pprt-study balance; expect_code 2
 finish

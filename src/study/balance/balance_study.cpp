@@ -5,82 +5,121 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <iostream>
+#include <cstdint>
+#include <filesystem>
+#include <iterator>
 #include <limits>
 #include <utility>
 
 #include "base/diagnostics.h"
+#include "base/printable.h"
 #include "cli/exit.h"
 #include "cli/scene_source.h"
 #include "image/contact_sheet.h"
 #include "image/image_io.h"
 #include "layers/pictures.h"
-#include "parallel/balance/global_balance.h"
 #include "parser/text_input.h"
 #include "study/balance/figures.h"
 #include "study/balance/results.h"
 #include "study/report/output.h"
-#include "study/word_list.h"
 
 namespace pprt {
 namespace {
 
-std::vector<BalanceMode> policies_in(const std::string& list) {
-  std::vector<std::string_view> known;
-  for (const Word<BalanceMode>& entry : kWords<BalanceMode>) known.push_back(entry.word);
-  std::vector<BalanceMode> policies;
-  for (const std::string_view word : list.empty() ? known : words_in_list("--policy", list, known)) {
-    const BalanceMode policy = find_word<BalanceMode>(word).value();
-    if (std::find(policies.begin(), policies.end(), policy) == policies.end()) policies.push_back(policy);
-  }
-  return policies;
-}
+// The runs of one file, of which there are several where a run was resumed.
+struct Trace {
+  std::string path;
+  std::vector<BalanceTrace> runs;
+  TraceResult result;
 
-BalanceTraces read_traces(const std::string& path) {
+  const TraceHeader& header() const { return runs.front().header; }
+};
+
+Trace read_trace(const std::string& path) {
   require_file(path);
   BalanceTraces traces =
       parse_balance_trace(read_text(path, std::numeric_limits<std::uint32_t>::max()), path);
+  print_message(traces.warnings);
   std::erase_if(traces.runs, [](const BalanceTrace& run) { return run.frames.empty(); });
   if (traces.runs.empty()) throw InputError(path + ":1: error: the trace holds no frame");
+  Trace trace{.path = path, .runs = std::move(traces.runs), .result = {}};
+  trace.result.name = printable(std::filesystem::path(path).stem().string());
+  trace.result.balance = trace.header().settings.balance;
+  for (const BalanceTrace& run : trace.runs) {
+    std::vector<FrameFigures> figures = figures_of(run);
+    std::move(figures.begin(), figures.end(), std::back_inserter(trace.result.frames));
+  }
+  return trace;
+}
+
+std::vector<Trace> read_traces(const std::vector<std::string>& paths) {
+  std::vector<Trace> traces;
+  for (const std::string& path : paths) {
+    Trace trace = read_trace(path);
+    for (const Trace& other : traces) {
+      if (other.result.name == trace.result.name)
+        throw UsageError(
+            fmt::format("{} and {} have the same name; give each trace a name of its own", other.path, path));
+    }
+    traces.push_back(std::move(trace));
+  }
   return traces;
 }
 
-// A frame by its place in all rounds, with its run.
+// Returns what else than their balancing differs between the runs; empty: nothing.
+std::string unlikeness(const Trace& a, const Trace& b) {
+  if (a.header().scene != b.header().scene) return "scenes";
+  if (a.header().ranks != b.header().ranks) return "numbers of ranks";
+  if (!(a.header().grid == b.header().grid)) return "sizes";
+  const auto same_frame = [](const FrameFigures& x, const FrameFigures& y) { return x.frame == y.frame; };
+  const bool same = std::equal(a.result.frames.begin(), a.result.frames.end(), b.result.frames.begin(),
+                               b.result.frames.end(), same_frame);
+  return same ? "" : "frames";
+}
+
+// A frame in its run.
 struct Place {
-  std::size_t round;
-  const TraceHeader* header;
+  const std::string* trace;  // its name
+  const TileGrid* grid;
   const TracedFrame* frame;
+  const FrameFigures* figures;
 };
 
-std::vector<Place> places_of(const std::vector<BalanceTrace>& runs) {
+std::vector<Place> places_of(const Trace& trace) {
   std::vector<Place> places;
-  for (const BalanceTrace& run : runs) {
-    for (const TracedFrame& frame : run.frames) places.push_back({places.size(), &run.header, &frame});
+  for (const BalanceTrace& run : trace.runs) {
+    for (const TracedFrame& frame : run.frames)
+      places.push_back({&trace.result.name, &run.header.grid, &frame, &trace.result.frames[places.size()]});
   }
   return places;
 }
 
-std::vector<Place> drawn_places(const BalanceOptions& options, const std::vector<BalanceTrace>& runs) {
-  const std::vector<Place> all = places_of(runs);
-  std::vector<Place> drawn;
-  if (options.frames.empty()) {
-    for (const std::size_t i : {std::size_t{0}, all.size() / 2, all.size() - 1}) {
-      if (drawn.empty() || drawn.back().round < i) drawn.push_back(all[i]);
+// Returns the places to draw, per trace.
+std::vector<std::vector<Place>> drawn_places(const std::vector<int>& asked,
+                                             const std::vector<Trace>& traces) {
+  const std::vector<FrameFigures>& frames = traces.front().result.frames;
+  std::vector<int> numbers = asked;
+  if (asked.empty()) numbers = {frames.front().frame, frames[frames.size() / 2].frame, frames.back().frame};
+  std::vector<std::vector<Place>> drawn;
+  for (const Trace& trace : traces) {
+    const std::vector<Place> all = places_of(trace);
+    std::vector<Place>& of_trace = drawn.emplace_back();
+    for (const int number : numbers) {
+      const auto found = std::find_if(all.begin(), all.end(),
+                                      [&](const Place& place) { return place.frame->number == number; });
+      if (found == all.end() && !asked.empty())
+        throw UsageError(fmt::format("--frames {}: {} has no such frame", number, trace.path));
+      const bool is_new = found != all.end() && (of_trace.empty() || of_trace.back().frame->number != number);
+      if (is_new) of_trace.push_back(*found);
     }
-  }
-  for (const int number : options.frames) {
-    const auto found = std::find_if(all.begin(), all.end(),
-                                    [&](const Place& place) { return place.frame->number == number; });
-    if (found == all.end()) throw UsageError(fmt::format("--frames {}: the trace has no such frame", number));
-    drawn.push_back(*found);
   }
   return drawn;
 }
 
-// Where a frame costs much: light is the most costly tile, each halving of the cost a step darker.
+// Shows where a frame costs much: light is the most costly tile, each halving of the cost a step darker.
 Image cost_map(const Place& place) {
-  const TileGrid& grid = place.header->grid;
-  const std::vector<double> costs = predicted_costs(grid, figures_under(*place.frame, place.frame->owners));
+  const TileGrid& grid = *place.grid;
+  const std::vector<double> costs = tile_costs(grid, *place.frame);
   const double most = *std::max_element(costs.begin(), costs.end());
   Image image(grid.width, grid.height);
   for (int tile = 0; tile < grid.tile_count(); ++tile) {
@@ -95,89 +134,87 @@ Image cost_map(const Place& place) {
   return image;
 }
 
-std::vector<Picture> region_maps(const std::vector<Place>& places, const std::vector<PolicyResult>& results) {
+std::vector<Picture> region_maps(const std::vector<Place>& places) {
   constexpr int kWidth = 384;  // pixels
   std::vector<Picture> pictures;
-  for (const PolicyResult& result : results) {
-    for (const Place& place : places) {
-      const Image map =
-          region_picture(cost_map(place), place.header->grid, result.rounds[place.round].owners);
-      pictures.push_back(
-          {.caption = fmt::format("{}, frame {}", word_for(result.policy), place.frame->number),
-           .png = encode_png(thumbnail(map, kWidth), {}, PictureKind::kDrawn),
-           .file = fmt::format("regions-{}-{}.png", word_for(result.policy), place.frame->number)});
-    }
+  for (const Place& place : places) {
+    const Image map = region_picture(cost_map(place), *place.grid, place.figures->owners);
+    pictures.push_back({.caption = fmt::format("{}, frame {}", *place.trace, place.frame->number),
+                        .png = encode_png(thumbnail(map, kWidth), {}, PictureKind::kDrawn),
+                        .file = fmt::format("regions-{}-{}.png", *place.trace, place.frame->number)});
   }
   return pictures;
 }
 
-Panel panel_over_rounds(const std::vector<PolicyResult>& results, const std::string& title,
-                        const std::string& unit, double from, double (*value)(const ReplayedRound&)) {
+Panel panel_over_frames(const std::vector<TraceResult>& results, const std::string& title,
+                        const std::string& unit, double from, double (*value)(const FrameFigures&)) {
   Panel panel{.title = title, .x = {.label = "frame"}, .y = {.label = unit, .log_base = 0, .from = from}};
-  for (const PolicyResult& result : results) {
-    panel.curves.push_back(
-        curve_over(std::string(word_for(result.policy)), result.rounds, &ReplayedRound::frame, value));
-  }
+  for (const TraceResult& result : results)
+    panel.curves.push_back(curve_over(result.name, result.frames, &FrameFigures::frame, value));
   return panel;
 }
 
-Plot plot_of(const std::vector<PolicyResult>& results) {
+Plot plot_of(const std::vector<TraceResult>& results) {
   return {"balance",
-          {panel_over_rounds(results, "(a) Deviation of the loads", "% of the mean", 0,
-                             [](const ReplayedRound& r) { return 100 * r.deviation; }),
-           panel_over_rounds(results, "(b) Largest load", "of the mean", 1,
-                             [](const ReplayedRound& r) { return r.worst; }),
-           panel_over_rounds(results, "(c) Tiles moved", "tiles per frame", 0,
-                             [](const ReplayedRound& r) { return static_cast<double>(r.moved); })}};
+          {panel_over_frames(results, "(a) Deviation of the loads", "% of the mean", 0,
+                             [](const FrameFigures& f) { return 100 * f.deviation; }),
+           panel_over_frames(results, "(b) Largest load", "of the mean", 1,
+                             [](const FrameFigures& f) { return f.worst; }),
+           panel_over_frames(results, "(c) Tiles moved", "tiles per frame", 0,
+                             [](const FrameFigures& f) { return static_cast<double>(f.moved); })}};
+}
+
+Provenance provenance_of(const std::vector<Trace>& traces, const std::string& command_line) {
+  Provenance facts{{"command", command_line}};
+  for (const Trace& trace : traces) facts.emplace_back(trace.path, "recorded by " + trace.header().version);
+  return facts;
 }
 
 void write_page(const BalanceOptions& options, const std::string& command_line,
-                const std::vector<BalanceTrace>& runs, const std::vector<Place>& drawn,
-                const std::vector<PolicyResult>& results) {
-  const TraceHeader& header = runs.front().header;
-  StudyOutput output(options.directory, "Balancing replayed",
-                     {{"command", command_line}, {"trace", options.file}, {"recorded by", header.version}});
-  output.paragraph(
-      fmt::format("{} on {} ranks, {}x{} pixels in tiles of {}, recorded under '{}'. A rank's load is the "
-                  "time until its tiles have the mean weight of the whole image.",
-                  header.scene, header.ranks, header.grid.width, header.grid.height, header.grid.tile_size,
-                  word_for(header.settings.balance)));
-  output.heading("Policies, mean over the frames");
-  output.add_table("policies", policies_table(results));
-  output.heading("Loads over the frames");
-  output.add_figure(plot_of(results), "The policies, frame by frame.");
-  output.write_table("rounds", rounds_table(results));
-  output.heading("Who owns each tile");
+                const std::vector<Trace>& traces, const std::vector<TraceResult>& results,
+                const std::vector<std::vector<Place>>& drawn) {
+  StudyOutput output(options.directory, "Balancing of recorded runs", provenance_of(traces, command_line));
+  for (const Trace& trace : traces) {
+    const TraceHeader& header = trace.header();
+    output.paragraph(fmt::format("{}: {} on {} ranks, {}x{} pixels in tiles of {}, --balance {}.",
+                                 trace.result.name, header.scene, header.ranks, header.grid.width,
+                                 header.grid.height, header.grid.tile_size, word_for(trace.result.balance)));
+  }
+  output.heading("Mean over the frames; tiles and repartitions in all");
+  output.add_table("traces", traces_table(results));
+  output.paragraph("A rank's load is the time until its tiles have the mean weight of the whole image.");
+  output.heading("Frame by frame");
+  output.add_figure(plot_of(results), "The loads of the ranks, and the tiles that changed hands.");
+  output.write_table("frames", frames_table(results));
+  output.heading("Who owned each tile");
   output.paragraph(
       "A hue is a rank. Light tiles are costly; six halvings of the cost lie between the most "
       "costly tile and the darkest.");
-  output.add_gallery(region_maps(drawn, results));
+  for (const std::vector<Place>& of_trace : drawn) output.add_gallery(region_maps(of_trace));
   output.finish();
 }
 
 }  // namespace
 
-std::vector<std::string> policy_words() {
-  std::vector<std::string> words;
-  for (const Word<BalanceMode>& entry : kWords<BalanceMode>) words.emplace_back(entry.word);
-  return words;
-}
-
 void study_balance(const BalanceOptions& options, const std::string& command_line) {
-  const std::vector<BalanceMode> policies = policies_in(options.policies);
-  const BalanceTraces traces = read_traces(options.file);
-  print_message(traces.warnings);
-  const std::vector<Place> drawn = drawn_places(options, traces.runs);
-  std::vector<PolicyResult> results;
-  for (const BalanceMode policy : policies) results.push_back(replay_all(traces.runs, policy));
-  const Table rounds = rounds_table(results), summary = policies_table(results);
-  if (options.json) {
-    print_output(json_lines(rounds, "round") + json_lines(summary, "policy"));
-  } else {
-    print_output(fmt::format("{}\nMean over the frames; tiles and repartitions in all:\n{}", aligned(rounds),
-                             aligned(summary)));
+  const std::vector<Trace> traces = read_traces(options.files);
+  const std::vector<std::vector<Place>> drawn = drawn_places(options.frames, traces);
+  std::vector<TraceResult> results;
+  for (const Trace& trace : traces) {
+    results.push_back(trace.result);
+    if (const std::string what = unlikeness(traces.front(), trace); !what.empty())
+      print_message(fmt::format("warning: {} and {} are runs of different {}\n", traces.front().path,
+                                trace.path, what));
   }
-  if (!options.directory.empty()) write_page(options, command_line, traces.runs, drawn, results);
+  const Table summary = traces_table(results);
+  if (options.json) {
+    print_output(json_lines(frames_table(results), "frame") + json_lines(summary, "trace"));
+  } else {
+    print_output(results.size() == 1 ? aligned(frames_table(results))
+                                     : "Deviation of the loads:\n" + aligned(deviations_table(results)));
+    print_output("\nMean over the frames; tiles and repartitions in all:\n" + aligned(summary));
+  }
+  if (!options.directory.empty()) write_page(options, command_line, traces, results, drawn);
 }
 
 }  // namespace pprt

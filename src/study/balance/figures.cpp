@@ -4,53 +4,66 @@
 #include <cmath>
 #include <cstddef>
 
+#include "parallel/balance/global_balance.h"
+#include "parallel/session.h"
+
 namespace pprt {
+namespace {
 
-double RankWork::quality() const {
-  // Preparation is estimated: it must leave some of the time.
-  constexpr double kLeastShare = 0.05;
-  const double sampling = std::max(spent - preparation, kLeastShare * spent);
-  return sampling > 0 ? needed / sampling : 0;
+void add_loads(const TileGrid& grid, const TracedFrame& frame, FrameFigures& figures) {
+  double sum = 0, squares = 0, most = 0;
+  const std::vector<double> of_ranks = loads(grid, frame, figures.owners);
+  for (const double load : of_ranks) sum += load, squares += load * load, most = std::max(most, load);
+  const auto ranks = static_cast<double>(of_ranks.size());
+  const double mean = sum / ranks;
+  if (!(mean > 0)) return;
+  figures.deviation = std::sqrt(std::max(0.0, squares / ranks - mean * mean)) / mean;
+  figures.worst = most / mean;
 }
 
-double work_at_weight_1(const TileReport& tile) {
-  return tile.triangles > 0 ? tile.cost * tile.total_weight / tile.triangles : 0;
-}
+}  // namespace
 
-std::vector<RankWork> work_under(const TracedFrame& frame, const std::vector<std::int32_t>& owners) {
-  std::vector<RankWork> ranks(frame.ranks.size());
-  for (std::size_t t = 0; t < frame.tiles.size(); ++t) {
-    if (frame.owners[t] < 0) continue;
-    const TileReport& tile = frame.tiles[t];
-    RankWork& recorded = ranks[static_cast<std::size_t>(frame.owners[t])];
-    RankWork& owner = ranks[static_cast<std::size_t>(owners[t])];
-    recorded.spent += tile.cost + tile.preparation;
-    owner.needed += work_at_weight_1(tile);
-    owner.preparation += tile.preparation;
-    owner.triangles += tile.triangles;
-    if (&owner != &recorded) owner.as_recorded = recorded.as_recorded = false;
+std::vector<double> tile_costs(const TileGrid& grid, const TracedFrame& frame) {
+  std::vector<std::vector<TileReport>> of_rank(frame.ranks.size());
+  for (std::size_t tile = 0; tile < frame.tiles.size(); ++tile) {
+    if (frame.owners[tile] >= 0)
+      of_rank[static_cast<std::size_t>(frame.owners[tile])].push_back(frame.tiles[tile]);
   }
-  return ranks;
+  return predicted_costs(grid, of_rank);
 }
 
-std::vector<std::vector<TileReport>> figures_under(const TracedFrame& frame,
-                                                   const std::vector<std::int32_t>& owners) {
-  const std::vector<RankWork> ranks = work_under(frame, owners);
-  std::vector<std::vector<TileReport>> figures(ranks.size());
-  for (std::size_t t = 0; t < frame.tiles.size(); ++t) {
-    if (frame.owners[t] < 0) continue;
-    const auto owner = static_cast<std::size_t>(owners[t]);
-    TileReport tile = frame.tiles[t];
-    tile.tile = static_cast<std::int32_t>(t);
-    const double quality = ranks[owner].quality();
-    if (!ranks[owner].as_recorded && tile.cost > 0 && quality > 0) {
-      const double cost = work_at_weight_1(tile) / quality;
-      const double triangles = std::min(std::round(tile.triangles * cost / tile.cost), 1e9);
-      tile.cost = cost;
-      tile.triangles = static_cast<std::int32_t>(triangles);
-      tile.total_weight = triangles * quality;
+std::vector<double> loads(const TileGrid& grid, const TracedFrame& frame,
+                          const std::vector<std::int32_t>& owners) {
+  const std::vector<double> costs = tile_costs(grid, frame);
+  std::vector<double> of_rank(frame.ranks.size(), 0);
+  for (std::size_t tile = 0; tile < costs.size(); ++tile) {
+    const auto owner = static_cast<std::size_t>(owners[tile]);
+    of_rank[owner] += frame.ranks[owner].pace * costs[tile];
+  }
+  std::vector<double> loads;
+  for (std::size_t rank = 0; rank < of_rank.size(); ++rank) {
+    const auto& lost = frame.lost_ranks;
+    if (std::find(lost.begin(), lost.end(), static_cast<std::int32_t>(rank)) == lost.end())
+      loads.push_back(of_rank[rank]);
+  }
+  return loads;
+}
+
+std::vector<FrameFigures> figures_of(const BalanceTrace& run) {
+  std::vector<FrameFigures> figures;
+  std::vector<std::int32_t> owners = equal_areas(run.header.grid, run.header.ranks).owner;
+  for (const TracedFrame& frame : run.frames) {
+    FrameFigures& of_frame = figures.emplace_back(
+        FrameFigures{.frame = frame.number, .owners = owners, .repartitioned = frame.repartitioned});
+    for (std::size_t tile = 0; tile < owners.size(); ++tile) {
+      if (frame.owners[tile] < 0 || frame.owners[tile] == owners[tile]) continue;
+      of_frame.owners[tile] = frame.owners[tile];
+      ++of_frame.moved;
     }
-    figures[owner].push_back(tile);
+    for (const TransferChoice& choice : frame.transfers)
+      of_frame.given += static_cast<int>(choice.given.size());
+    owners = of_frame.owners;
+    add_loads(run.header.grid, frame, of_frame);
   }
   return figures;
 }

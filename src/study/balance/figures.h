@@ -1,35 +1,33 @@
-// What ranks would have reported of a recorded frame if they had owned other tiles.
+// Figures of a recorded run: who owned which tile in each frame, and how even the loads were.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "parallel/balance/tile_cost.h"
 #include "render/balance_trace.h"
 
 namespace pprt {
 
-// Work of one rank in a frame. It sampled for as long with other tiles, but to another mean weight.
-struct RankWork {
-  double spent = 0;   // on sampling and preparation: work units
-  double needed = 0;  // for sampling its tiles to a mean weight of 1: work units
-  double preparation = 0;
-  double triangles = 0;
-  bool as_recorded = true;  // it owns the tiles that it reported
-
-  // Mean weight at the frame's end; 0 where it has nothing to refine.
-  double quality() const;
+struct FrameFigures {
+  int frame = 1;                     // its number
+  std::vector<std::int32_t> owners;  // per tile, at the frame's end
+  bool repartitioned = false;        // by the master, before the frame
+  int moved = 0;                     // tiles that had another owner at the end of the frame before
+  int given = 0;                     // times that a rank gave a tile to a neighbour during the frame
+  double deviation = 0;              // standard deviation of the ranks' loads by their mean
+  double worst = 0;                  // largest load by the mean
 };
 
-// Cost of sampling a tile to a mean weight of 1, work units: what an owner spends does not change it.
-double work_at_weight_1(const TileReport& tile);
+// Returns the cost of bringing each tile of the grid to the mean weight of the whole image, work units.
+std::vector<double> tile_costs(const TileGrid& grid, const TracedFrame& frame);
 
-// Per rank. `owners`: per tile.
-std::vector<RankWork> work_under(const TracedFrame& frame, const std::vector<std::int32_t>& owners);
+// Returns the load of each rank that is not lost (paper s. 4.4): the cost of its tiles by its pace. `owners`:
+// per tile.
+std::vector<double> loads(const TileGrid& grid, const TracedFrame& frame,
+                          const std::vector<std::int32_t>& owners);
 
-// Returns reports per rank, as GlobalBalancer takes them. Ranks whose tiles are those that they reported get
-// their own reports. Tiles that nobody reported are left out.
-std::vector<std::vector<TileReport>> figures_under(const TracedFrame& frame,
-                                                   const std::vector<std::int32_t>& owners);
+// Returns the figures of each frame. Before the first frame, ranks own equal areas. A tile that nobody
+// reported keeps its owner of the frame before.
+std::vector<FrameFigures> figures_of(const BalanceTrace& run);
 
 }  // namespace pprt

@@ -3,74 +3,85 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
-#include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
+
+#include "study/report/plot.h"
 
 namespace pprt {
 namespace {
 
 template <typename Value>
-Value sum(const std::vector<ReplayedRound>& rounds, Value ReplayedRound::*member) {
+Value sum(const std::vector<FrameFigures>& frames, Value FrameFigures::*member) {
   Value sum = 0;
-  for (const ReplayedRound& round : rounds) sum += round.*member;
+  for (const FrameFigures& frame : frames) sum += frame.*member;
   return sum;
 }
 
-double mean(const std::vector<ReplayedRound>& rounds, double ReplayedRound::*member) {
-  return rounds.empty() ? 0 : sum(rounds, member) / static_cast<double>(rounds.size());
+double mean(const std::vector<FrameFigures>& frames, double FrameFigures::*member) {
+  return frames.empty() ? 0 : sum(frames, member) / static_cast<double>(frames.size());
 }
 
 }  // namespace
 
-double PolicyResult::mean_deviation() const {
-  return mean(rounds, &ReplayedRound::deviation);
+double TraceResult::mean_deviation() const {
+  return mean(frames, &FrameFigures::deviation);
 }
 
-double PolicyResult::mean_worst() const {
-  return mean(rounds, &ReplayedRound::worst);
+double TraceResult::mean_worst() const {
+  return mean(frames, &FrameFigures::worst);
 }
 
-int PolicyResult::moved() const {
-  return sum(rounds, &ReplayedRound::moved);
+int TraceResult::moved() const {
+  return sum(frames, &FrameFigures::moved);
 }
 
-int PolicyResult::repartitions() const {
-  return static_cast<int>(std::count_if(rounds.begin(), rounds.end(),
-                                        [](const ReplayedRound& round) { return round.repartitioned; }));
+int TraceResult::given() const {
+  return sum(frames, &FrameFigures::given);
 }
 
-int PolicyResult::differing() const {
-  return sum(rounds, &ReplayedRound::differing);
+int TraceResult::repartitions() const {
+  return static_cast<int>(std::count_if(frames.begin(), frames.end(),
+                                        [](const FrameFigures& frame) { return frame.repartitioned; }));
 }
 
-PolicyResult replay_all(const std::vector<BalanceTrace>& runs, BalanceMode policy) {
-  PolicyResult result{.policy = policy};
-  for (const BalanceTrace& run : runs) {
-    std::vector<ReplayedRound> rounds = replay(run, policy);
-    std::move(rounds.begin(), rounds.end(), std::back_inserter(result.rounds));
+Table frames_table(const std::vector<TraceResult>& results) {
+  return table_of_parts<TraceResult, FrameFigures>(
+      results, &TraceResult::frames, {{"trace", &TraceResult::name}, {"balance", &TraceResult::balance}},
+      {{"frame", &FrameFigures::frame},
+       {"deviation", &FrameFigures::deviation},
+       {"max_over_mean", &FrameFigures::worst},
+       {"tiles_moved", &FrameFigures::moved},
+       {"tiles_given", &FrameFigures::given},
+       {"repartitioned", &FrameFigures::repartitioned}});
+}
+
+Table traces_table(const std::vector<TraceResult>& results) {
+  return table_of<TraceResult>(results, {{"trace", &TraceResult::name},
+                                         {"balance", &TraceResult::balance},
+                                         {"frames", [](const TraceResult& r) { return r.frames.size(); }},
+                                         {"deviation", &TraceResult::mean_deviation},
+                                         {"max_over_mean", &TraceResult::mean_worst},
+                                         {"tiles_moved", &TraceResult::moved},
+                                         {"tiles_given", &TraceResult::given},
+                                         {"repartitions", &TraceResult::repartitions}});
+}
+
+Table deviations_table(const std::vector<TraceResult>& results) {
+  Table table{.columns = {"frame"}};
+  std::map<int, std::vector<Cell>> rows;
+  for (std::size_t r = 0; r < results.size(); ++r) {
+    table.columns.push_back(results[r].name);
+    for (const FrameFigures& frame : results[r].frames) {
+      std::vector<Cell>& row = rows[frame.frame];
+      if (row.empty()) row.assign(1 + results.size(), kNoValue), row[0] = cell_of(frame.frame);
+      row[1 + r] = frame.deviation;
+    }
   }
-  return result;
-}
-
-Table rounds_table(const std::vector<PolicyResult>& results) {
-  return table_of_parts<PolicyResult, ReplayedRound>(results, &PolicyResult::rounds,
-                                                     {{"policy", &PolicyResult::policy}},
-                                                     {{"frame", &ReplayedRound::frame},
-                                                      {"deviation", &ReplayedRound::deviation},
-                                                      {"max_over_mean", &ReplayedRound::worst},
-                                                      {"tiles_moved", &ReplayedRound::moved},
-                                                      {"repartitioned", &ReplayedRound::repartitioned},
-                                                      {"tiles_differing", &ReplayedRound::differing}});
-}
-
-Table policies_table(const std::vector<PolicyResult>& results) {
-  return table_of<PolicyResult>(results, {{"policy", &PolicyResult::policy},
-                                          {"deviation", &PolicyResult::mean_deviation},
-                                          {"max_over_mean", &PolicyResult::mean_worst},
-                                          {"tiles_moved", &PolicyResult::moved},
-                                          {"repartitions", &PolicyResult::repartitions},
-                                          {"tiles_differing", &PolicyResult::differing}});
+  for (auto& [number, row] : rows) table.rows.push_back(std::move(row));
+  return table;
 }
 
 std::string aligned(const Table& table) {
@@ -79,7 +90,8 @@ std::string aligned(const Table& table) {
     std::vector<std::string>& line = lines.emplace_back();
     for (const Cell& cell : row) {
       const auto* number = std::get_if<double>(&cell);
-      line.push_back(number != nullptr ? fmt::format("{:.3f}", *number) : to_text(cell));
+      const bool is_measured = number != nullptr && !std::isnan(*number);
+      line.push_back(is_measured ? fmt::format("{:.3f}", *number) : to_text(cell));
     }
   }
   std::vector<std::size_t> widths(table.columns.size(), 0);

@@ -1,33 +1,34 @@
-// What a replay of several policies is judged by.
+// Tables of the figures of recorded runs.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "parallel/session_words.h"
-#include "render/balance_trace.h"
-#include "study/balance/replay.h"
+#include "study/balance/figures.h"
 #include "study/report/table.h"
 
 namespace pprt {
 
-// A policy over all runs of a file.
-struct PolicyResult {
-  BalanceMode policy = BalanceMode::kNone;
-  std::vector<ReplayedRound> rounds = {};
+// The figures of one trace, over all its runs.
+struct TraceResult {
+  std::string name;  // of the file, without folder and extension
+  BalanceMode balance = BalanceMode::kNone;
+  std::vector<FrameFigures> frames = {};
 
   double mean_deviation() const;
   double mean_worst() const;
-  int moved() const;         // tiles, in all rounds
-  int repartitions() const;  // rounds with a new partition
-  int differing() const;     // tiles with another owner than recorded, in all rounds
+  int moved() const;         // tiles, in all frames
+  int given() const;         // likewise
+  int repartitions() const;  // frames with a new partition
 };
 
-PolicyResult replay_all(const std::vector<BalanceTrace>& runs, BalanceMode policy);
+// A row for each trace and frame; a row for each trace.
+Table frames_table(const std::vector<TraceResult>& results);
+Table traces_table(const std::vector<TraceResult>& results);
 
-// A row for each policy and round; a row for each policy.
-Table rounds_table(const std::vector<PolicyResult>& results);
-Table policies_table(const std::vector<PolicyResult>& results);
+// A row for each frame, with the deviation of each trace. A trace that lacks the frame has an empty cell.
+Table deviations_table(const std::vector<TraceResult>& results);
 
 // Returns the table with its columns aligned, names first; a line each.
 std::string aligned(const Table& table);
