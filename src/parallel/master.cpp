@@ -68,7 +68,7 @@ void Master::order_next() {
     return;
   }
   FrameOrder order = make_order(*request);
-  PendingFrame frame{.assembly = FrameAssembly(order, grid_, network_.size()), .frames_known = delivered_};
+  PendingFrame frame{.assembly = FrameAssembly(order, grid_, network_.size())};
   // Rank 0 was away for so long that nobody can carry this order out in time.
   if (clock_->keeps_deadlines() && clock_->now_s() >= order.deadline_s + kGraceSeconds)
     frame.overdue_since_s = order.deadline_s;
@@ -247,8 +247,6 @@ FinishedFrame Master::finish(PendingFrame& pending) {
   frame.samples = std::move(assembly.samples);
   frame.tiles = std::move(assembly.tiles);
   frame.transfers = std::move(assembly.transfers);
-  frame.units_per_frame = clock_->units_per_frame();
-  frame.frames_known = pending.frames_known;
   frame.late_ranks = assembly.late_ranks();
   frame.overdue_pixels = std::exchange(overdue_pixels_, 0);
   frame.global_balance = !frame.order.owners.empty();

@@ -52,10 +52,8 @@ struct FinishedFrame {
   std::vector<Sample> samples;                 // of all ranks, each once; empty unless they are asked for
   std::vector<std::vector<TileReport>> tiles;  // per rank: what its tiles took
   std::vector<TransferChoice> transfers;       // of all ranks, each rank's in order; empty unless asked for
-  double units_per_frame = 0;                  // work units that a rank can do in a period; 0 without a rate
-  int frames_known = 0;                  // whose reports balancing had considered when this frame was ordered
-  std::vector<std::int32_t> late_ranks;  // whose pixels had not come: ascending
-  int stale_tiles = 0;                   // tiles that show an earlier frame, for nobody has sent them
+  std::vector<std::int32_t> late_ranks;        // whose pixels had not come: ascending
+  int stale_tiles = 0;                         // tiles that show an earlier frame, for nobody has sent them
   int overdue_pixels = 0;       // messages of earlier frames that came after those had been delivered
   double finished_s = 0;        // delivered, since the start of the sequence (work clock: virtual)
   bool global_balance = false;  // a new partition was in force from this frame on
@@ -107,7 +105,6 @@ class Master {
   // A frame that was ordered and is not delivered.
   struct PendingFrame {
     FrameAssembly assembly;
-    int frames_known = 0;                        // when it was ordered: delivered
     double after_sampling_s = 0;                 // the longest of those whose pixels have come
     std::optional<double> overdue_since_s = {};  // seen by rank 0, which may have been away at the deadline
   };

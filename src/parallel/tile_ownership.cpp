@@ -31,7 +31,7 @@ TileOwnership::TileOwnership(const SessionSettings& settings, int rank, int rank
 
 void TileOwnership::begin_frame() {
   given_.clear();
-  record_ = {};
+  choices_.clear();
   partition_bytes_ = 0;
   balancer_.begin_frame(clock_.pace());
 }
@@ -73,9 +73,12 @@ std::vector<TileTransfer> TileOwnership::give_tiles(bool fresh_mesh, int round) 
   const double elapsed = clock_.sampling_share();
   handshake_.set_giving(
       balancer_.wants_to_give(refined, samples.neighbours(), elapsed, handshake_.is_giving()));
-  record_.round = round;
-  const std::vector<TileTransfer> transfers = balancer_.choose_transfers(
-      refined, samples, handshake_, elapsed, most_samples, settings_.report_transfers ? &record_ : nullptr);
+  const std::vector<TileTransfer> transfers =
+      balancer_.choose_transfers(refined, samples, handshake_, elapsed, most_samples);
+  if (settings_.report_transfers && !transfers.empty()) {
+    TransferChoice& choice = choices_.emplace_back(TransferChoice{.giver = rank_, .round = round});
+    for (const TileTransfer& transfer : transfers) choice.given.push_back({transfer.tile, transfer.owner});
+  }
   for (auto first = transfers.begin(); first != transfers.end();) {
     const int taker = first->owner;
     std::vector<int> tiles;

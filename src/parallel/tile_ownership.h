@@ -43,8 +43,8 @@ class TileOwnership {
   // `round`: of the frame's exchanges.
   std::vector<TileTransfer> give_tiles(bool fresh_mesh, int round);
 
-  // How this frame's transfers were chosen, where the settings ask for it.
-  std::vector<TransferChoice> take_choices() { return std::exchange(record_.choices, {}); }
+  // This frame's transfers, where the settings ask for them.
+  std::vector<TransferChoice> take_choices() { return std::exchange(choices_, {}); }
 
   // Tiles that this rank has taken and has still, for all ranks, once a frame when tiles hardly change hands
   // any more; else none. Those that are far from them need not be told of every transfer on the way.
@@ -99,8 +99,8 @@ class TileOwnership {
   StageTimer& timer_;
   Balancer balancer_;
   std::vector<std::int32_t> given_;
-  std::vector<std::int32_t> gained_;  // and not told to all
-  TransferRecord record_;
+  std::vector<std::int32_t> gained_;     // and not told to all
+  std::vector<TransferChoice> choices_;  // of this frame, where the settings ask for them
   std::uint64_t partition_bytes_ = 0;
   MissedFrames missed_;
 };

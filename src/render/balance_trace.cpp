@@ -1,7 +1,6 @@
 #include "render/balance_trace.h"
 
 #include <charconv>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -30,37 +29,9 @@ Json column(const Rows& rows, const Value& value) {
   return column;
 }
 
-Json taker_record(const PossibleTaker& taker) {
-  return {{"rank", taker.rank},
-          {"quality", taker.progress.quality},
-          {"target", taker.progress.target},
-          {"future_cost", taker.progress.future_cost},
-          {"pace", taker.progress.pace},
-          {"giver_cost", taker.giver_cost}};
-}
-
-Json run_record(const TileRun& run) {
-  return {run.first, run.count};
-}
-
-Json view_record(const RecordedTaker& taker) {
-  return {{"rank", taker.rank},
-          {"tiles", column(taker.tiles, run_record)},
-          {"offers", column(taker.offers, [](const RecordedOffer& o) {
-             return Json{o.tile, o.offer.future_cost, o.offer.samples, o.offer.known_to_taker};
-           })}};
-}
-
 Json transfer_record(const TransferChoice& choice) {
-  const TransferInputs& inputs = choice.inputs;
   return {{"round", choice.round},
           {"giver", choice.giver},
-          {"tiles", column(choice.tiles, run_record)},
-          {"quality", inputs.quality},
-          {"noise", inputs.noise},
-          {"most_samples", std::isfinite(inputs.most_samples) ? Json(inputs.most_samples) : Json()},
-          {"takers", column(inputs.takers, taker_record)},
-          {"ahead", column(choice.takers, view_record)},
           {"given", column(choice.given, [](const GivenTile& g) {
              return Json{g.tile, g.taker};
            })}};
@@ -74,8 +45,6 @@ TracedFrame traced(FinishedFrame& frame, const TileGrid& grid) {
                      .carry = frame.order.carry,
                      .generation = frame.order.generation,
                      .repartitioned = frame.global_balance,
-                     .frames_known = frame.frames_known,
-                     .units_per_frame = frame.units_per_frame,
                      .late_ranks = frame.late_ranks,
                      .lost_ranks = frame.order.lost,
                      .owners = std::vector<std::int32_t>(tiles, -1),
@@ -121,8 +90,6 @@ std::string trace_line(const TracedFrame& frame) {
                        {"carry", word_for(frame.carry)},
                        {"generation", frame.generation},
                        {"repartitioned", frame.repartitioned},
-                       {"frames_known", frame.frames_known},
-                       {"units_per_frame", frame.units_per_frame},
                        {"late_ranks", frame.late_ranks},
                        {"lost_ranks", frame.lost_ranks},
                        {"pace", column(frame.ranks, &TracedRank::pace)},

@@ -1,5 +1,5 @@
-// The balancing trace (--trace): who owned which tile in each frame, what it cost, and what balancing decided
-// by. One JSON object a line; docs/balancing-traces.md describes the members.
+// The balancing trace (--trace): who owned which tile in each frame, what it cost, and which tiles changed
+// hands. One JSON object a line; docs/balancing-traces.md describes the members.
 #pragma once
 
 #include <condition_variable>
@@ -20,11 +20,10 @@
 
 namespace pprt {
 
-// The version of the trace's format.
-inline constexpr int kBalanceTraceFormat = 1;
+// The version of the trace's format. Traces of older formats are read, too.
+inline constexpr int kBalanceTraceFormat = 2;
 
-// First line of a run: what its balancing depends on. Settings that a trace does not hold have their
-// defaults.
+// First line of a run. Settings that a trace does not hold have their defaults.
 struct TraceHeader {
   std::string version;  // of pprt-render
   std::string scene;
@@ -45,8 +44,6 @@ struct TracedFrame {
   Carry carry = Carry::kNothing;
   std::uint32_t generation = 0;  // of the partition
   bool repartitioned = false;    // that partition was new
-  int frames_known = 0;          // of the run, from its first: considered when this frame was ordered
-  double units_per_frame = 0;    // work units; 0 without a rate
   std::vector<std::int32_t> late_ranks = {};
   std::vector<std::int32_t> lost_ranks = {};
   std::vector<TracedRank> ranks = {};

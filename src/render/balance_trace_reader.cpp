@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -25,7 +24,6 @@ class BadLine : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-constexpr double kLargest = 1e300;  // of a figure
 constexpr int kMost = std::numeric_limits<int>::max();
 
 // A number from `low` to `high`; a whole one where T is.
@@ -113,13 +111,12 @@ class Object {
   const Json& json_;
 };
 
-constexpr Range<double> kPace{1e-6, 1e6}, kPositive{std::numeric_limits<double>::min(), kLargest},
-    kNotNegative{0, kLargest}, kAny{-kLargest, kLargest};
+constexpr Range<double> kPace{1e-6, 1e6}, kRate{0, 1e300};
 
 TraceHeader header_in(const Object& line) {
   const int format = line.number<int>("format", {1, kMost});
-  if (format != kBalanceTraceFormat) {
-    throw BadLine(fmt::format("the trace has format {}, but this program reads format {}", format,
+  if (format > kBalanceTraceFormat) {
+    throw BadLine(fmt::format("the trace has format {}, but this program reads formats up to {}", format,
                               kBalanceTraceFormat));
   }
   constexpr int kLongestSide = 65535;
@@ -133,7 +130,7 @@ TraceHeader header_in(const Object& line) {
   s.sampler = line.word<SamplerChoice>("sampler");
   s.keep_samples = line.word<bool>("keep_samples");
   s.clock = line.word<ClockKind>("clock");
-  s.frames_per_second = line.number("fps", kNotNegative);
+  s.frames_per_second = line.number("fps", kRate);
   s.seed = line.number<std::uint64_t>("seed", {0, std::numeric_limits<std::uint64_t>::max()});
   return header;
 }
@@ -147,14 +144,11 @@ class FrameReader {
         ranks_(static_cast<std::size_t>(header.ranks)),
         tiles_(static_cast<std::size_t>(header.grid.tile_count())) {}
 
-  // `before`: frames of the run that have been read.
-  TracedFrame frame_in(const Object& line, std::size_t before) const {
+  TracedFrame frame_in(const Object& line) const {
     TracedFrame frame{.number = line.number<int>("frame", {1, kMost}),
                       .carry = line.word<Carry>("carry"),
                       .generation = line.number<std::uint32_t>("generation", {0, ~0U}),
                       .repartitioned = line.flag("repartitioned"),
-                      .frames_known = line.number<int>("frames_known", {0, static_cast<int>(before)}),
-                      .units_per_frame = line.number("units_per_frame", kNotNegative),
                       .late_ranks = line.numbers("late_ranks", rank_, std::nullopt),
                       .lost_ranks = line.numbers("lost_ranks", rank_, std::nullopt),
                       .ranks = ranks_in(line),
@@ -195,63 +189,13 @@ class FrameReader {
     return tiles;
   }
 
-  PossibleTaker taker_in(const Object& taker) const {
-    return {.rank = taker.number("rank", rank_),
-            .progress = {.quality = taker.number("quality", kPositive),
-                         .target = taker.number("target", kPositive),
-                         .future_cost = taker.number("future_cost", kAny),
-                         .pace = taker.number("pace", kPace)},
-            .giver_cost = taker.number("giver_cost", kAny)};
-  }
-
-  // A list of so many numbers, the first of which is a tile.
-  std::vector<double> about_tile(const Json& list, std::size_t count) const {
-    if (!list.is_array() || list.size() != count || !tile_.holds(list[0]))
-      throw BadLine("\"transfers\" holds a tile that is none");
-    std::vector<double> numbers;
-    for (const Json& value : list) {
-      if (!kAny.holds(value)) throw BadLine("\"transfers\" holds a value out of range");
-      numbers.push_back(value.get<double>());
-    }
-    return numbers;
-  }
-
-  std::vector<TileRun> runs_in(const Json& list) const {
-    std::vector<TileRun> runs;
-    for (const Json& run : list) {
-      const std::vector<double> numbers = about_tile(run, 2);
-      if (!(numbers[1] >= 1 && numbers[0] + numbers[1] <= tile_.high + 1.0))
-        throw BadLine("\"tiles\" reach beyond the image");
-      runs.push_back({static_cast<int>(numbers[0]), static_cast<int>(numbers[1])});
-    }
-    return runs;
-  }
-
-  RecordedTaker view_in(const Object& view) const {
-    RecordedTaker taker{.rank = view.number("rank", rank_), .tiles = runs_in(view.list("tiles"))};
-    for (const Json& offer : view.list("offers")) {
-      const std::vector<double> numbers = about_tile(offer, 4);
-      taker.offers.push_back({static_cast<int>(numbers[0]), {numbers[1], numbers[2], numbers[3]}});
-    }
-    return taker;
-  }
-
   TransferChoice choice_in(const Object& choice) const {
-    const bool is_bounded = !choice.member("most_samples").is_null();
-    TransferChoice transfer{
-        .giver = choice.number("giver", rank_),
-        .round = choice.number<int>("round", {0, kMost}),
-        .tiles = runs_in(choice.list("tiles")),
-        .inputs = {.quality = choice.number("quality", kNotNegative),
-                   .noise = choice.number("noise", kNotNegative),
-                   .most_samples = is_bounded ? choice.number("most_samples", kNotNegative)
-                                              : std::numeric_limits<double>::infinity()}};
-    for (const Json& taker : choice.list("takers")) transfer.inputs.takers.push_back(taker_in(Object(taker)));
-    for (const Json& view : choice.list("ahead")) transfer.takers.push_back(view_in(Object(view)));
+    TransferChoice transfer{.giver = choice.number("giver", rank_),
+                            .round = choice.number<int>("round", {0, kMost})};
     for (const Json& given : choice.list("given")) {
-      const std::vector<double> numbers = about_tile(given, 2);
-      if (!rank_.holds(given[1])) throw BadLine("\"given\" names a rank that is none");
-      transfer.given.push_back({static_cast<int>(numbers[0]), static_cast<int>(numbers[1])});
+      if (!given.is_array() || given.size() != 2 || !tile_.holds(given[0]) || !rank_.holds(given[1]))
+        throw BadLine("\"given\" holds what is no tile with its taker");
+      transfer.given.push_back({given[0].get<int>(), given[1].get<int>()});
     }
     return transfer;
   }
@@ -270,7 +214,7 @@ void add_line(const Json& json, std::vector<BalanceTrace>& runs) {
     throw BadLine("this is no balancing trace");
   } else if (record == "frame") {
     BalanceTrace& run = runs.back();
-    run.frames.push_back(FrameReader(run.header).frame_in(line, run.frames.size()));
+    run.frames.push_back(FrameReader(run.header).frame_in(line));
   }
 }
 

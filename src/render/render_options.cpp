@@ -215,7 +215,7 @@ void add_report_options(CLI::App& app, RenderOptions& o) {
       ->type_name("FILE")
       ->group(group);
   app.add_option("--trace", o.trace,
-                 "Write the balancing trace, one JSON object a line, which pprt-study balance replays")
+                 "Write the balancing trace, one JSON object a line, which pprt-study balance shows")
       ->type_name("FILE")
       ->group(group);
   const auto parse_reference = [](const std::string& text) {

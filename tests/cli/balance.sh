@@ -5,7 +5,7 @@ source "$(dirname "$0")/check.sh"
 work=(--clock work --budget 400000 --size 96x64)
 run pprt-render ball.anim "${work[@]}" -np 4 -o a/%02d.png --trace a.trace; expect_code 0
 [[ $(wc -l <a.trace) -eq 13 ]] || complain "the trace has not 13 lines"
-expect_line a.trace '{"record":"trace","format":1,"version":"[^"]*",.*"ranks":4,"size":\[96,64\],.*'
+expect_line a.trace '{"record":"trace","format":2,"version":"[^"]*",.*"ranks":4,"size":\[96,64\],.*'
 expect_line a.trace '{"record":"frame","frame":12,.*'
 
 # The same decisions on threads, and the same pictures without a trace.

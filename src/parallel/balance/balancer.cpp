@@ -71,16 +71,13 @@ TileOffers Balancer::offers_to(const PossibleTaker& taker, const RegionQuality& 
 std::vector<TileTransfer> Balancer::choose_transfers(const RegionQuality& refined,
                                                      const RegionSamples& samples,
                                                      const TransferHandshake& handshake, double elapsed,
-                                                     double most_samples, TransferRecord* record) const {
+                                                     double most_samples) const {
   std::vector<TileTransfer> transfers;
   if (!handshake.may_transfer()) return transfers;
   const Partition& partition = samples.partition();
   const TransferInputs going_by = inputs(refined, samples.neighbours(), elapsed, handshake, most_samples);
   const auto offers = [&](const PossibleTaker& taker) { return offers_to(taker, refined, samples); };
-  const std::vector<GivenTile> given = record != nullptr
-                                           ? record->choose(settings_, partition, rank_, going_by, offers)
-                                           : choose_tiles(settings_, partition, rank_, going_by, offers);
-  for (const auto& [tile, taker] : given) {
+  for (const auto& [tile, taker] : choose_tiles(settings_, partition, rank_, going_by, offers)) {
     transfers.push_back({.tile = tile,
                          .owner = taker,
                          .version = partition.version[static_cast<std::size_t>(tile)] + 1,

@@ -41,11 +41,10 @@ class Balancer {
                      bool is_giving) const;
 
   // The tiles to give to neighbours that accept tiles and are ahead, all of one neighbour's together. A
-  // neighbour need not take in more than `most_samples`. Empty while the handshake forbids transfers. Unless
-  // null, `record` gets the choice made, where a neighbour is ahead.
+  // neighbour need not take in more than `most_samples`. Empty while the handshake forbids transfers.
   std::vector<TileTransfer> choose_transfers(const RegionQuality& refined, const RegionSamples& samples,
                                              const TransferHandshake& handshake, double elapsed,
-                                             double most_samples, TransferRecord* record) const;
+                                             double most_samples) const;
 
  private:
   double own_future_cost(const RegionQuality& refined, double quality) const;

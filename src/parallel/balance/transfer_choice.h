@@ -1,5 +1,4 @@
-// Which tiles a rank gives to which neighbours (paper s. 3.6, 4.3). The choice is a function of plain values,
-// so that it can be recorded and made again.
+// Which tiles a rank gives to which neighbours (paper s. 3.6, 4.3). The choice is a function of plain values.
 #pragma once
 
 #include <cstdint>
@@ -46,49 +45,11 @@ std::vector<PossibleTaker> takers_ahead(const LocalBalanceSettings& settings, co
 std::vector<GivenTile> choose_tiles(const LocalBalanceSettings& settings, Partition partition, int giver,
                                     const TransferInputs& inputs, const OffersTo& offers_to);
 
-// --- Recording
-
-// Tiles `first` to `first + count - 1`.
-struct TileRun {
-  std::int32_t first = 0;
-  std::int32_t count = 0;
-};
-
-struct RecordedOffer {
-  std::int32_t tile = 0;
-  TileOffer offer = {};
-};
-
-// What the giver knew of one neighbour's region, and of its own tiles beside it.
-struct RecordedTaker {
-  std::int32_t rank = 0;
-  std::vector<TileRun> tiles = {};  // the neighbour's, ascending
-  std::vector<RecordedOffer> offers = {};
-};
-
-// A choice with all that it depends on.
+// A rank's choice of tiles to give, as --trace records it.
 struct TransferChoice {
   std::int32_t giver = 0;
-  std::int32_t round = 0;           // of the frame's exchanges
-  std::vector<TileRun> tiles = {};  // the giver's, ascending
-  TransferInputs inputs = {};
-  std::vector<RecordedTaker> takers = {};  // those that were ahead
-  std::vector<GivenTile> given = {};       // the result
+  std::int32_t round = 0;  // of the frame's exchanges
+  std::vector<GivenTile> given = {};
 };
-
-// The choices of one rank in one frame. One in which no neighbour was ahead is not kept.
-struct TransferRecord {
-  std::int32_t round = 0;  // now
-  std::vector<TransferChoice> choices = {};
-
-  // Chooses as choose_tiles() does.
-  std::vector<GivenTile> choose(const LocalBalanceSettings& settings, const Partition& partition, int giver,
-                                const TransferInputs& inputs, const OffersTo& offers_to);
-};
-
-// Makes a recorded choice again, of `ranks` ranks on that grid. A tile of which nothing was recorded is not
-// given.
-std::vector<GivenTile> choose_again(const LocalBalanceSettings& settings, const TileGrid& grid, int ranks,
-                                    const TransferChoice& recorded);
 
 }  // namespace pprt

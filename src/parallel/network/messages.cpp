@@ -322,13 +322,7 @@ Bytes encode(const TransferMessage& transfers) {
   WireWriter out;
   out.put(transfers.frame_index), out.put(static_cast<std::uint32_t>(transfers.choices.size()));
   for (const TransferChoice& choice : transfers.choices) {
-    out.put(choice.giver), out.put(choice.round), out.put_all(std::span(choice.tiles));
-    out.put(choice.inputs.quality), out.put(choice.inputs.noise), out.put(choice.inputs.most_samples);
-    out.put_all(std::span(choice.inputs.takers)), out.put_all(std::span(choice.given));
-    out.put(static_cast<std::uint32_t>(choice.takers.size()));
-    for (const RecordedTaker& taker : choice.takers) {
-      out.put(taker.rank), out.put_all(std::span(taker.tiles)), out.put_all(std::span(taker.offers));
-    }
+    out.put(choice.giver), out.put(choice.round), out.put_all(std::span(choice.given));
   }
   return out.take();
 }
@@ -340,15 +334,7 @@ TransferMessage decode_transfers(std::span<const std::byte> bytes) {
   in.get(transfers.frame_index), in.get(choices);
   for (std::uint32_t c = 0; c < choices; ++c) {
     TransferChoice& choice = transfers.choices.emplace_back();
-    in.get(choice.giver), in.get(choice.round), in.get_all(choice.tiles);
-    in.get(choice.inputs.quality), in.get(choice.inputs.noise), in.get(choice.inputs.most_samples);
-    in.get_all(choice.inputs.takers), in.get_all(choice.given);
-    std::uint32_t takers = 0;
-    in.get(takers);
-    for (std::uint32_t t = 0; t < takers; ++t) {
-      RecordedTaker& taker = choice.takers.emplace_back();
-      in.get(taker.rank), in.get_all(taker.tiles), in.get_all(taker.offers);
-    }
+    in.get(choice.giver), in.get(choice.round), in.get_all(choice.given);
   }
   in.expect_end();
   return transfers;

@@ -44,29 +44,4 @@ TEST_CASE(
   CHECK(takers_ahead({}, level).empty());
 }
 
-TEST_CASE("transfer choice: what is recorded is chosen again, and no other tile") {
-  TransferRecord record{.round = 7};
-  const std::vector<GivenTile> given = record.choose({}, thirds(), 1, inputs(), hundred_each);
-  CHECK(given == choose_tiles({}, thirds(), 1, inputs(), hundred_each));
-  REQUIRE(record.choices.size() == 1);
-  TransferChoice choice = record.choices[0];
-  CHECK((choice.giver == 1 && choice.round == 7 && choice.given == given));
-  CHECK(choice.tiles.size() == 3);  // a run each row
-  CHECK((choice.tiles[1].first == 12 && choice.tiles[1].count == 3));
-  CHECK(choose_again({}, thirds().grid, 3, choice) == given);
-  for (RecordedTaker& taker : choice.takers) taker.offers.clear();
-  CHECK(choose_again({}, thirds().grid, 3, choice).empty());
-  choice = record.choices[0];
-  choice.tiles.pop_back();
-  CHECK(choose_again({}, thirds().grid, 3, choice) != given);
-}
-
-TEST_CASE("transfer choice: nothing is recorded where no neighbour is ahead") {
-  TransferRecord record;
-  TransferInputs level = inputs();
-  level.quality = 0.05;
-  CHECK(record.choose({}, thirds(), 1, level, hundred_each).empty());
-  CHECK(record.choices.empty());
-}
-
 }  // namespace pprt

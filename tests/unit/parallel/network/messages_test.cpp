@@ -58,12 +58,7 @@ FrameOrder some_order() {
 TransferMessage some_transfers() {
   TransferMessage transfers{.frame_index = 3, .choices = {}};
   transfers.choices.resize(2);
-  TransferChoice& choice = transfers.choices[1];
-  choice.giver = 4, choice.round = 12, choice.tiles = {{0, 3}};
-  choice.inputs = {.quality = 0.5, .noise = 0.01, .most_samples = 7, .takers = {{5, {0.5, 0.25, 8, 1}, 9}}};
-  choice.takers = {{.rank = 5, .tiles = {}, .offers = {{8, {1, 2, 3}}}},
-                   {.rank = 2, .tiles = {{4, 6}}, .offers = {}}};
-  choice.given = {{8, 5}};
+  transfers.choices[1] = {.giver = 4, .round = 12, .given = {{8, 5}}};
   return transfers;
 }
 
@@ -244,11 +239,7 @@ TEST_CASE("messages: choices of transfers are decoded as they were encoded") {
   REQUIRE(got.choices.size() == 2);
   CHECK(encode(got) == encode(sent));
   const TransferChoice& choice = got.choices[1];
-  CHECK((choice.tiles.at(0).count == 3 && choice.giver == 4 && choice.round == 12 &&
-         choice.inputs.noise == 0.01));
-  CHECK((choice.inputs.takers.at(0).giver_cost == 9 && choice.inputs.takers[0].progress.target == 0.25));
-  CHECK((choice.takers.at(1).rank == 2 && choice.takers[1].tiles.at(0).count == 6));
-  CHECK((choice.takers[0].offers.at(0).tile == 8 && choice.takers[0].offers[0].offer.samples == 2));
+  CHECK((choice.giver == 4 && choice.round == 12));
   CHECK(choice.given == std::vector<GivenTile>{{8, 5}});
 }
 
