@@ -3,6 +3,7 @@
 # the other, with the programs built on the PATH; every command must succeed. There must be LEAST commands of pprt.
 # A block marked "```sh live" is one command that runs until Ctrl-C: it gets that once it has printed its address.
 # Blocks marked "```sh building" are run by tests/package/builds.sh, and there are no others.
+# A script "tables" beside the README prints all of its tables from what the commands have made in the folder "study".
 set -euo pipefail
 readme=$1 source=$2 least=$3
 scratch=$(mktemp -d)
@@ -37,3 +38,32 @@ awk '/^```/ { inside = ($0 == "```sh runnable"); live = ($0 == "```sh live"); ne
 [[ $(grep -cE '^ *(until_address )?pprt-' "$scratch/commands.sh") -ge $least ]] || { echo "hardly a command to run in $readme"; exit 1; }
 set -x
 source "$scratch/commands.sh"
+set +x
+
+# A number may differ by a tenth, or by two of its last digit: another make of processor may take a sample more, and then
+# other tiles change hands. Everything else is the same.
+compare_tables() {
+  awk -F '|' '
+    function is_number(cell) { return cell ~ /^ *[0-9]*\.?[0-9]+ *$/ }
+    function allowed(cell) {
+      gsub(/ /, "", cell)
+      least = 2 / 10 ^ (index(cell, ".") ? length(cell) - index(cell, ".") : 0)
+      return (cell / 10 > least ? cell / 10 : least) + 1e-9
+    }
+    NR == FNR { made[FNR] = $0; lines = FNR; next }
+    {
+      cells = split(made[FNR], cell, "|")
+      bad = FNR > lines || cells != NF
+      for (i = 1; i <= NF && !bad; ++i) {
+        if (is_number($i) && is_number(cell[i])) bad = (cell[i] - $i)^2 > allowed($i)^2
+        else bad = $i != cell[i]
+      }
+      if (bad) { print "in the README: " $0 "\nmade:          " made[FNR]; failed = 1 }
+    }
+    END { exit failed || FNR != lines }' "$1" "$2"
+}
+if [[ -f tables ]]; then
+  bash tables study | grep '^|' >"$scratch/made"
+  grep '^|' "$readme" >"$scratch/told"
+  compare_tables "$scratch/made" "$scratch/told" || { echo "the tables of $readme are not those of its commands"; exit 1; }
+fi
