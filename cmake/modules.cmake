@@ -68,6 +68,12 @@ function(pprt_module name)
   endif()
 endfunction()
 
+# pprt_compile_as(ROOM a.cpp ...): in a unity build of this module, one translation unit for these sources. scripts/rooms.awk
+# finds by its name what a room costs. Sources of such a module that are not named are compiled alone.
+function(pprt_compile_as room)
+  set_source_files_properties(${ARGN} PROPERTIES UNITY_GROUP ${room})
+endfunction()
+
 # pprt_program(NAME MAIN_SOURCE MODULE): a program that is installed.
 function(pprt_program name source module)
   add_executable(${name} ${source})

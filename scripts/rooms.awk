@@ -9,6 +9,8 @@
 
 # The room of an object file, or "".
 function room_of(path) {
+  if (match(path, /\/Unity\/unity_(sampling|reconstruction|preparation|left-out|exchange)_cxx/))
+    return substr(path, RSTART + 13, RLENGTH - 17)
   if (path ~ /\/lattice\/node_prediction\.cpp/) return ""
   if (path ~ /pipeline.*\/sampling\/|\/lattice\/lattice_(sampler|store)\.cpp|\/lattice\/.*errors?/) return "sampling"
   if (path ~ /pipeline.*\/reconstruction\/|\/lattice\/lattice_painter\.cpp/) return "reconstruction"

@@ -1,10 +1,12 @@
 // Vectors and maps as Assimp has them.
 #pragma once
 
+#include <assimp/color4.h>
 #include <assimp/matrix4x4.h>
 #include <assimp/vector3.h>
 
 #include "base/affine.h"
+#include "scene/scene_description.h"
 
 namespace pprt {
 
@@ -14,6 +16,10 @@ inline Vec3d to_vector(const aiVector3D& v) {
 
 inline aiVector3D to_assimp(const Vec3d& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+inline aiColor3D to_color(const Rgb& c) {
+  return {static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)};
 }
 
 inline Affine to_affine(const aiMatrix4x4& m) {

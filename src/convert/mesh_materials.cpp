@@ -18,12 +18,8 @@ double unit_interval(double v) {
   return std::isfinite(v) ? std::clamp(v, 0.0, 1.0) : 0;
 }
 
-Rgb to_color(const aiColor3D& c) {
+Rgb to_rgb(const aiColor3D& c) {
   return {unit_interval(c.r), unit_interval(c.g), unit_interval(c.b)};
-}
-
-aiColor3D to_color(const Rgb& c) {
-  return {static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)};
 }
 
 }  // namespace
@@ -35,9 +31,9 @@ Material to_material(const aiMaterial& from) {
   aiColor3D color(1, 1, 1);
   aiColor4D base;
   if (from.Get(AI_MATKEY_COLOR_DIFFUSE, color) == aiReturn_SUCCESS) {
-    material.color = to_color(color);
+    material.color = to_rgb(color);
   } else if (from.Get(AI_MATKEY_BASE_COLOR, base) == aiReturn_SUCCESS) {
-    material.color = to_color(aiColor3D(base.r, base.g, base.b));
+    material.color = to_rgb(aiColor3D(base.r, base.g, base.b));
   }
   float value = 0;
   // The PLY reader invents a highlight without a size.

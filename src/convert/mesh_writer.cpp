@@ -60,10 +60,6 @@ const Format& format_of(std::string_view extension) {
   return *format;
 }
 
-aiColor3D to_color(const Rgb& c) {
-  return {static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)};
-}
-
 std::unique_ptr<aiMesh> to_mesh(const MaterialMesh& from, unsigned material) {
   auto mesh = std::make_unique<aiMesh>();
   mesh->mPrimitiveTypes = aiPrimitiveType_TRIANGLE;

@@ -7,14 +7,6 @@
 namespace pprt {
 namespace {
 
-// Each pixel becomes a square.
-Image enlarged(const Image& image, int scale) {
-  Image large(image.width * scale, image.height * scale);
-  for (int y = 0; y < large.height; ++y)
-    for (int x = 0; x < large.width; ++x) large.at(x, y) = image.at(x / scale, y / scale);
-  return large;
-}
-
 Image with_marks(const Image& frame, const CoverageMask& marks) {
   const Color kYellow(1, 0.85f, 0.1f);
   Image image = enlarged(frame, marks.width / frame.width);

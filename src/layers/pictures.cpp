@@ -10,14 +10,6 @@ namespace {
 
 constexpr int kDrawingSide = 1024;  // least length of a drawing's longer side, pixels
 
-Image enlarged(const Image& image, int scale) {
-  Image result(image.width * scale, image.height * scale);
-  for (int y = 0; y < result.height; ++y) {
-    for (int x = 0; x < result.width; ++x) result.at(x, y) = image.at(x / scale, y / scale);
-  }
-  return result;
-}
-
 Color mix(const Color& a, const Color& b, float share) {
   return a + (b - a) * share;
 }
@@ -91,6 +83,14 @@ CoverageMask region_borders(const TileGrid& grid, std::span<const std::int32_t> 
 }
 
 }  // namespace
+
+Image enlarged(const Image& image, int scale) {
+  Image result(image.width * scale, image.height * scale);
+  for (int y = 0; y < result.height; ++y) {
+    for (int x = 0; x < result.width; ++x) result.at(x, y) = image.at(x / scale, y / scale);
+  }
+  return result;
+}
 
 int drawing_scale(int width, int height) {
   const int longer = std::max(width, height);

@@ -17,6 +17,9 @@ namespace pprt {
 // pixels, so that single samples can be told apart.
 int drawing_scale(int width, int height);
 
+// Returns the image with a square of `scale` pixels a side for each pixel.
+Image enlarged(const Image& image, int scale);
+
 // Draw a dot per sample (paper fig. 1c), and the triangles' edges (fig. 1d), at that scale.
 CoverageMask sample_dots(const Triangulation& frame);
 CoverageMask triangle_edges(const Triangulation& frame);

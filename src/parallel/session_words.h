@@ -11,7 +11,7 @@ namespace pprt {
 template <>
 inline constexpr std::array<Word<ClockKind>, 2> kWords<ClockKind>{{
     {ClockKind::kWall, "wall", "real time"},
-    {ClockKind::kWork, "work", "counted work, the same result on any machine"},
+    {ClockKind::kWork, "work", "counted work, the same result under any load"},
 }};
 
 template <>

@@ -20,7 +20,7 @@ pprt-render SCENES/demo.anim --frames 1-8 -np 2 -o demo/%04d.png --film demo/dem
 # A scene that moves, at 24 frames a second
 pprt-render SCENES/carousel.aff -s 320x180 --fps 24 --frames 1-24 -o carousel/%04d.png
 
-# The same bytes on every machine and under any load: the clock counts work
+# The same pictures in every run and under any load: the clock counts work
 pprt-render SCENES/demo.anim --frames 1-2 --clock work -o same/%04d.exr
 
 # How a frame came about: its samples, their triangulation, the regions of the ranks

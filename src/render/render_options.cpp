@@ -92,7 +92,7 @@ void add_run_options(CLI::App& app, RenderOptions& o) {
       ->type_name("F")
       ->group(kRun);
   add_choice(app, "--clock", o.clock,
-             "Real time, or counted work: the same result on any machine under any load")
+             "Real time, or counted work: the same result in every run under any load")
       .group(kRun);
   app.add_option("--budget", o.budget,
                  "Work units for each rank and frame, with --clock work (default: 50000000 / fps)")

@@ -56,13 +56,13 @@ Change reaching(const KeyShape& k, const Change& before, const Change& after) {
          after * ((1 - k.tension) * (1 + k.continuity) * (1 - k.bias) / 2);
 }
 
-struct Tangents {
+struct KeyTangents {
   Vec3d out{0, 0, 0}, in{0, 0, 0};
 };
 
 // `changes`: from key j-1 to j, from j to j+1, and from j+1 to j+2, where j is the segment's first key.
 template <typename Key>
-Tangents tangents(const std::vector<Key>& keys, std::size_t j, const Vec3d& before, const Vec3d& change,
+KeyTangents key_tangents(const std::vector<Key>& keys, std::size_t j, const Vec3d& before, const Vec3d& change,
                   const Vec3d& after) {
   const double length = keys[j + 1].time - keys[j].time;
   return {
@@ -75,7 +75,7 @@ Vec3d vector_at(const std::vector<VectorKey>& keys, double time, bool in_order) 
   const Vec3d &from = keys[j].value, &to = keys[j + 1].value;
   if (u <= 0) return from;
   if (u >= 1) return to;
-  const auto [out, in] = tangents(keys, j, from - keys[j - 1].value, to - from, keys[j + 2].value - to);
+  const auto [out, in] = key_tangents(keys, j, from - keys[j - 1].value, to - from, keys[j + 2].value - to);
   const double u2 = u * u, u3 = u2 * u;  // cubic Hermite
   return from * (2 * u3 - 3 * u2 + 1) + to * (3 * u2 - 2 * u3) + out * (u3 - 2 * u2 + u) + in * (u3 - u2);
 }
@@ -114,7 +114,7 @@ Quaternion rotation_at(const std::vector<RotationKey>& keys, double time, bool i
   if (u <= 0) return q[1];
   if (u >= 1) return q[2];
   const Vec3d change = turn_between(q[1], q[2]);
-  const auto [out, in] = tangents(keys, j, turn_between(q[0], q[1]), change, turn_between(q[2], q[3]));
+  const auto [out, in] = key_tangents(keys, j, turn_between(q[0], q[1]), change, turn_between(q[2], q[3]));
   const Quaternion a = q[1] * exponential((out - change) / 2), b = q[2] * exponential((change - in) / 2);
   return Imath::slerp(Imath::slerp(q[1], q[2], u), Imath::slerp(a, b, u), 2 * u * (1 - u)).normalized();
 }

@@ -30,7 +30,7 @@ std::vector<VectorKey> curve(const ObjectMotion& object, const FrameTimes& times
 }
 
 // A turn about three axes as one: about x first.
-RotationKey turn(const Vec3d& degrees, double time) {
+RotationKey rotation_key(const Vec3d& degrees, double time) {
   const Affine map =
       rotation({0, 0, 1}, degrees.z) * rotation({0, 1, 0}, degrees.y) * rotation({1, 0, 0}, degrees.x);
   return rotation_key(time, map);
@@ -49,7 +49,7 @@ std::vector<RotationKey> turns(const ObjectMotion& object, const FrameTimes& tim
     const double time = times.start + (frame - 1) * step;
     const int counted = std::clamp(frame - 1, 0, times.frames - 1);
     const double exact = counted == frame - 1 ? time_of_frame(times, counted) : time;
-    keys.push_back(turn(placement_at(angles, time_of_frame(times, counted)).to_parent.origin, exact));
+    keys.push_back(rotation_key(placement_at(angles, time_of_frame(times, counted)).to_parent.origin, exact));
   }
   if (keys.size() < kLeastCurveKeys)
     keys.push_back({keys.back().time + step, keys.back().axis, keys.back().degrees, {}});

@@ -21,10 +21,6 @@ Color to_color(const Rgb& rgb) {
   return Color(rgb);
 }
 
-bool finite(const Vec3d& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 [[noreturn]] void reject(const std::string& name, SourceLocation at, const std::string& problem) {
   const std::string place =
       at.line > 0 ? name + ":" + std::to_string(at.line) + ":" + std::to_string(at.column) : name;
@@ -203,7 +199,7 @@ void add_materials(const SceneDescription& scene, CompiledScene::Impl& impl) {
 void add_lights(const SceneDescription& scene, CompiledScene::Impl& impl) {
   const double weight = scene.ambient ? 1 : light_weight(scene.lights.size());
   for (const Light& l : scene.lights) {
-    if (!finite(l.position)) reject(scene.name, l.location, "the position of a light is not finite");
+    if (!is_finite(l.position)) reject(scene.name, l.location, "the position of a light is not finite");
     impl.lights.push_back(
         {impl.normalisation.point(l.position), to_color(l.color.value_or(Rgb(1, 1, 1)) * weight), {}});
     impl.light_positions.push_back(l.position);
@@ -296,7 +292,7 @@ CompiledScene compile(const SceneDescription& scene, const CompileOptions& optio
   if (scene.primitive_count() == 0 || box.isEmpty()) {
     reject(scene.name, {}, "the scene has no objects: there is nothing in it to see");
   }
-  if (!finite(box.max - box.min)) reject(scene.name, {}, "the scene is too large to be measured");
+  if (!is_finite(box.max - box.min)) reject(scene.name, {}, "the scene is too large to be measured");
 
   auto impl = std::make_unique<CompiledScene::Impl>();
   impl->name = scene.name;

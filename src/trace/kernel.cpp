@@ -88,22 +88,29 @@ SurfaceOf<kExtended> surface_at(const Pose& pose, const RTCRayHit& found, const 
   const BodyPlace* body = kExtended ? pose.place_of(part) : nullptr;
   const std::uint32_t primitive = found.hit.primID;
   const Vec3d direction = kExtended && body ? body->from_world.vector(along) : along;
-  const auto near = [&] {
-    Vec3d origin(found.ray.org_x, found.ray.org_y, found.ray.org_z);
-    if (kExtended && body) origin = body->from_world.point(origin);
-    return origin + direction * static_cast<double>(found.ray.tfar);
+  const auto origin = [&] {
+    const Vec3d world(found.ray.org_x, found.ray.org_y, found.ray.org_z);
+    return kExtended && body ? body->from_world.point(world) : world;
+  };
+  // A ray that Embree took into a body's space was rounded there, and not alike by all processors.
+  const auto near = [&](const auto& record) {
+    const Vec3d from = origin();
+    const auto t = static_cast<double>(found.ray.tfar);
+    return from + direction * (kExtended && body ? refined(record, from, direction, t) : t);
   };
 
   SurfaceOf<kExtended> surface;
   SurfacePoint point;
+  Barycentric at;
   const Mesh* mesh = nullptr;
   if (const auto* spheres = std::get_if<std::vector<SphereRecord>>(&part.shape)) {
-    point = on_surface((*spheres)[primitive], near());
+    point = on_surface((*spheres)[primitive], near((*spheres)[primitive]));
   } else if (const auto* cones = std::get_if<std::vector<ConeRecord>>(&part.shape)) {
-    point = on_surface((*cones)[primitive], near());
+    point = on_surface((*cones)[primitive], near((*cones)[primitive]));
   } else {
     mesh = std::get_if<Mesh>(&part.shape);
-    point = on_surface(*mesh, primitive, found.hit.u, found.hit.v);
+    at = crossing_of(*mesh, primitive, origin(), direction);
+    point = on_surface(*mesh, primitive, at.u, at.v);
     surface.offset = mesh->facets[primitive].offset;
   }
   surface.position = point.position;
@@ -113,7 +120,7 @@ SurfaceOf<kExtended> surface_at(const Pose& pose, const RTCRayHit& found, const 
   surface.shading = surface.normal;
   if constexpr (kSmooth) {
     if (part.smooth) {
-      const Vec3d normal = shading_normal(*mesh, primitive, found.hit.u, found.hit.v);
+      const Vec3d normal = shading_normal(*mesh, primitive, at.u, at.v);
       surface.shading = normal.dot(surface.normal) < 0 ? -normal : normal;
     }
   }
@@ -121,7 +128,7 @@ SurfaceOf<kExtended> surface_at(const Pose& pose, const RTCRayHit& found, const 
   if constexpr (kExtended) {
     const TextureImage* texture = surface.material->texture;
     if (texture != nullptr && mesh != nullptr && !mesh->texture_points.empty())
-      surface.tint = texture->at(texture_point(*mesh, primitive, found.hit.u, found.hit.v));
+      surface.tint = texture->at(texture_point(*mesh, primitive, at.u, at.v));
     if (body) place(*body, along, surface);
   }
   return surface;

@@ -68,6 +68,22 @@ std::size_t Mesh::add(std::span<const Vec3d> polygon, std::span<const Vec3f> ver
   return added;
 }
 
+Barycentric crossing_of(const Mesh& mesh, std::uint32_t triangle, const Vec3d& origin,
+                        const Vec3d& direction) {
+  const TriangleIndices& index = mesh.triangles[triangle];
+  const Vec3d a(mesh.vertices[index[0]]);
+  const Vec3d ab = Vec3d(mesh.vertices[index[1]]) - a;
+  const Vec3d ac = Vec3d(mesh.vertices[index[2]]) - a;
+  const Vec3d across = direction.cross(ac);
+  const double inverse = 1 / ab.dot(across);
+  const Vec3d from_a = origin - a;
+  // Edge on, the quotients are infinite or not numbers: every comparison puts them on the triangle.
+  const auto within = [](double x, double most) { return x > 0 ? (x < most ? x : most) : 0; };
+  const double u = within(from_a.dot(across) * inverse, 1);
+  const double v = within(direction.dot(from_a.cross(ab)) * inverse, 1 - u);
+  return {u, v};
+}
+
 SurfacePoint on_surface(const Mesh& mesh, std::uint32_t triangle, double u, double v) {
   const TriangleIndices& index = mesh.triangles[triangle];
   const Vec3d a(mesh.vertices[index[0]]);

@@ -17,6 +17,10 @@ inline constexpr double kFloatRounding = 0x1p-24;
 // each moved by at most 2^-25; sqrt(3) times that. Test: leaving_rays_test.cpp.
 inline constexpr double kOriginRounding = 1.7321 * 0x1p-25;
 
+inline bool is_finite(const Vec3d& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
 // Returns |x| + |y| + |z|: an upper bound of the length, cheaper to compute.
 inline double sum_of_coordinates(const Vec3d& p) {
   return std::abs(p.x) + std::abs(p.y) + std::abs(p.z);

@@ -13,10 +13,6 @@
 namespace pprt {
 namespace {
 
-bool finite(const Vec3d& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 class PartsBuilder {
  public:
   PartsBuilder(const SceneDescription& scene, CompiledScene::Impl& impl) : scene_(scene), impl_(impl) {}
@@ -68,7 +64,7 @@ class PartsBuilder {
     Box3d box;
     for (const std::uint32_t place : places_[body_]) {
       const Box3d own = bounds(scene_, scene_.order[place]);
-      require(own.isEmpty() || (finite(own.min) && finite(own.max)),
+      require(own.isEmpty() || (is_finite(own.min) && is_finite(own.max)),
               location_of(scene_, scene_.order[place]));
       box.extendBy(own);
     }
@@ -125,7 +121,7 @@ class PartsBuilder {
   }
 
   void add(const Sphere& s) {
-    require(finite(s.center) && std::isfinite(s.radius), s.location);
+    require(is_finite(s.center) && std::isfinite(s.radius), s.location);
     if (s.radius == 0) return drop();
     auto [to, shape] =
         part<std::vector<SphereRecord>>({PrimitiveKind::kSphere, faces(s.material, s.radius < 0)});
@@ -134,7 +130,8 @@ class PartsBuilder {
   }
 
   void add(const Cone& c) {
-    require(finite(c.base) && finite(c.apex) && std::isfinite(c.base_radius + c.apex_radius), c.location);
+    require(is_finite(c.base) && is_finite(c.apex) && std::isfinite(c.base_radius + c.apex_radius),
+            c.location);
     const double base_radius = space().length(std::abs(c.base_radius));
     const double apex_radius = space().length(std::abs(c.apex_radius));
     const Vec3d axis = (c.apex - c.base) * space().scale;
@@ -148,7 +145,7 @@ class PartsBuilder {
   void add(const Polygon& p) {
     positions_.clear();
     for (const Vec3d& v : scene_.vertices(p)) {
-      require(finite(v), p.location);
+      require(is_finite(v), p.location);
       positions_.push_back(space().point(v));
     }
     auto [to, mesh] = part<Mesh>({PrimitiveKind::kPolygon, faces(p.material, false)});
@@ -159,7 +156,7 @@ class PartsBuilder {
     positions_.clear();
     normals_.clear();
     for (const PatchVertex& v : scene_.vertices(p)) {
-      require(finite(v.position) && finite(v.normal), p.location);
+      require(is_finite(v.position) && is_finite(v.normal), p.location);
       positions_.push_back(space().point(v.position));
       normals_.emplace_back(v.normal.normalized());  // a zero normal stays zero
     }
@@ -174,11 +171,11 @@ class PartsBuilder {
     normals_.clear();
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec3d& position = from.positions[t.corners.position[i]];
-      require(finite(position), from.location);
+      require(is_finite(position), from.location);
       positions_.push_back(space().point(position));
       if (!smooth) continue;
       const Vec3d& normal = from.normals[t.corners.normal[i]];
-      require(finite(normal), from.location);
+      require(is_finite(normal), from.location);
       normals_.emplace_back(normal.normalized());
     }
     auto [to, mesh] = part<Mesh>({PrimitiveKind::kTriangle, faces(from.material, false), smooth, textured});
@@ -195,7 +192,7 @@ class PartsBuilder {
     MovingTriangle shape = t;
     for (MovingTriangle::Key& key : shape.keys) {
       for (std::size_t i = 0; i < 3; ++i) {
-        require(finite(key.positions[i]) && finite(key.normals[i]), t.location);
+        require(is_finite(key.positions[i]) && is_finite(key.normals[i]), t.location);
         key.positions[i] = space().point(key.positions[i]);
       }
     }
@@ -221,8 +218,8 @@ class PartsBuilder {
     impl_.figures.triangles += triangles;
   }
 
-  void require(bool is_finite, SourceLocation at) const {
-    if (is_finite) return;
+  void require(bool finite, SourceLocation at) const {
+    if (finite) return;
     const std::string place =
         at.line > 0 ? scene_.name + ":" + std::to_string(at.line) + ":" + std::to_string(at.column)
                     : scene_.name;

@@ -102,6 +102,18 @@ inline Crossings crossings(const ConeRecord& cone, const Vec3d& origin, const Ve
   return result;
 }
 
+// Returns the ray parameter of the crossing nearest to `t`, which was found in float; `t` itself where the
+// line passes beside the surface by that rounding. The direction may have any length.
+template <class Record>
+double refined(const Record& record, const Vec3d& origin, const Vec3d& direction, double t) {
+  const double length = std::sqrt(direction.dot(direction));
+  const Crossings exact = crossings(record, origin, direction * (1 / length));
+  const double front = exact.front / length, back = exact.back / length;
+  if (std::isnan(front) && std::isnan(back)) return t;
+  const bool is_back = std::isnan(front) || std::abs(back - t) < std::abs(front - t);
+  return is_back ? back : front;
+}
+
 // Projects a point that lies on the surface up to rounding onto it. Returns the point and its normal.
 inline SurfacePoint on_surface(const SphereRecord& sphere, const Vec3d& near) {
   const Vec3d normal = unit(near - sphere.center);

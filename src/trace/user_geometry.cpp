@@ -2,18 +2,19 @@
 
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace pprt {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNoEnd = std::numeric_limits<float>::infinity();
 
 // Round to the next float outwards, so that a box in float encloses the one in double.
 float below(double x) {
-  return std::nextafterf(static_cast<float>(x), -kInfinity);
+  return std::nextafterf(static_cast<float>(x), -kNoEnd);
 }
 float above(double x) {
-  return std::nextafterf(static_cast<float>(x), kInfinity);
+  return std::nextafterf(static_cast<float>(x), kNoEnd);
 }
 
 template <class Record>
@@ -28,14 +29,13 @@ void bound(const RTCBoundsFunctionArguments* args) {
   out.upper_z = above(box.max.z);
 }
 
-// Returns the first crossing of a visible face strictly between two ray parameters; NaN when there is none.
+// Returns the first crossing of a visible face after a ray parameter; infinity when there is none.
 template <VisibleFaces kFaces>
-double first_within(const Crossings& crossings, double near, double far) {
-  double first = std::numeric_limits<double>::quiet_NaN();
-  if (kFaces != VisibleFaces::kBack && crossings.front > near && crossings.front < far) {
-    first = far = crossings.front;
-  }
-  if (kFaces != VisibleFaces::kFront && crossings.back > near && crossings.back < far) first = crossings.back;
+double first_after(const Crossings& crossings, double near) {
+  double first = std::numeric_limits<double>::infinity();
+  if (kFaces != VisibleFaces::kBack && crossings.front > near) first = crossings.front;
+  if (kFaces != VisibleFaces::kFront && crossings.back > near && crossings.back < first)
+    first = crossings.back;
   return first;
 }
 
@@ -46,25 +46,34 @@ double first_hit(const Record& record, RTCRayN* ray, unsigned lanes, unsigned i)
                      RTCRayN_org_z(ray, lanes, i));
   const Vec3d direction(RTCRayN_dir_x(ray, lanes, i), RTCRayN_dir_y(ray, lanes, i),
                         RTCRayN_dir_z(ray, lanes, i));
-  const double near = RTCRayN_tnear(ray, lanes, i), far = RTCRayN_tfar(ray, lanes, i);
+  const double near = RTCRayN_tnear(ray, lanes, i);
   if constexpr (kRays == RayLength::kAny) {
     const double length = std::sqrt(direction.dot(direction));
-    return first_within<kFaces>(crossings(record, origin, direction * (1 / length)), near * length,
-                                far * length) /
-           length;
+    return first_after<kFaces>(crossings(record, origin, direction * (1 / length)), near * length) / length;
   } else {
-    return first_within<kFaces>(crossings(record, origin, direction), near, far);
+    return first_after<kFaces>(crossings(record, origin, direction), near);
   }
 }
 
+// Where surfaces touch, their crossings are equal in float: a sphere that closes a cylinder. Then the lower
+// number wins, for the order in which Embree finds them depends on the processor.
 template <class Record, VisibleFaces kFaces, RayLength kRays>
 void intersect_lane(const Record& record, const RTCIntersectFunctionNArguments* args, unsigned lanes,
                     unsigned i) {
   RTCRayN* ray = RTCRayHitN_RayN(args->rayhit, lanes);
-  const double t = first_hit<Record, kFaces, kRays>(record, ray, lanes, i);
-  if (std::isnan(t)) return;
   RTCHitN* hit = RTCRayHitN_HitN(args->rayhit, lanes);
-  RTCRayN_tfar(ray, lanes, i) = static_cast<float>(t);
+  const double t = first_hit<Record, kFaces, kRays>(record, ray, lanes, i);
+  float& far = RTCRayN_tfar(ray, lanes, i);
+  const float rounded = static_cast<float>(t);
+  if (!(rounded < far)) {
+    if (rounded != far || t == std::numeric_limits<double>::infinity()) return;
+    const unsigned found = RTCHitN_geomID(hit, lanes, i);
+    const bool wins = found == RTC_INVALID_GEOMETRY_ID ? t < static_cast<double>(far)
+                                                       : std::tie(args->geomID, args->primID) <
+                                                             std::tie(found, RTCHitN_primID(hit, lanes, i));
+    if (!wins) return;
+  }
+  far = rounded;
   RTCHitN_primID(hit, lanes, i) = args->primID;
   RTCHitN_geomID(hit, lanes, i) = args->geomID;
   RTCHitN_instID(hit, lanes, i, 0) = args->context->instID[0];
@@ -74,7 +83,7 @@ template <class Record, VisibleFaces kFaces, RayLength kRays>
 void occlude_lane(const Record& record, const RTCOccludedFunctionNArguments* args, unsigned lanes,
                   unsigned i) {
   const double t = first_hit<Record, kFaces, kRays>(record, args->ray, lanes, i);
-  if (!std::isnan(t)) RTCRayN_tfar(args->ray, lanes, i) = -kInfinity;
+  if (t < static_cast<double>(RTCRayN_tfar(args->ray, lanes, i))) RTCRayN_tfar(args->ray, lanes, i) = -kNoEnd;
 }
 
 // Embree callback. It writes no normal: shading recomputes it from the primitive, in double.
