@@ -54,8 +54,7 @@ void check_exact(const BalanceTrace& run) {
 TEST_CASE("balancing replay: the policy that ran owns the recorded tiles, every other one others") {
   for (const BalanceMode ran : kAll) {
     for (const SamplerChoice sampler : {SamplerChoice::kDelaunay, SamplerChoice::kAuto}) {
-      SessionSettings settings = uneven_settings(ran);
-      settings.sampler = sampler;
+      const SessionSettings settings = uneven_settings(sampler, ran);
       INFO(word_for(ran) << ", " << word_for(sampler));
       const BalanceTrace run = recorded_run(settings);
       check_exact(run);
@@ -71,12 +70,12 @@ TEST_CASE("balancing replay: the policy that ran owns the recorded tiles, every 
 
 TEST_CASE("balancing replay: carried samples, a slow network and no rate change nothing of that") {
   for (const BalanceMode ran : {BalanceMode::kLocal, BalanceMode::kCombined}) {
-    SessionSettings settings = uneven_settings(ran);
+    SessionSettings settings = uneven_settings(SamplerChoice::kDelaunay, ran);
     settings.cast = CastChoice::kVerified;
     check_exact(recorded_run(settings));
     settings.machine.latency_s = 1e-3;
     check_exact(recorded_run(settings, 7, 5));
-    settings = uneven_settings(ran);
+    settings = uneven_settings(SamplerChoice::kDelaunay, ran);
     settings.frames_per_second = 0;
     settings.budget_units = 0;
     settings.stop.weight = 0.05;
@@ -85,7 +84,7 @@ TEST_CASE("balancing replay: carried samples, a slow network and no rate change 
 }
 
 TEST_CASE("balancing replay: decisions are made again, not copied: other constants make others") {
-  const BalanceTrace run = recorded_run(uneven_settings(BalanceMode::kLocal));
+  const BalanceTrace run = recorded_run(uneven_settings(SamplerChoice::kDelaunay, BalanceMode::kLocal));
   LocalBalanceSettings changed;
   changed.share = 0.1;
   CHECK(differing(run, BalanceMode::kLocal, changed) > 0);
@@ -95,7 +94,7 @@ TEST_CASE("balancing replay: decisions are made again, not copied: other constan
 }
 
 TEST_CASE("balancing replay: a change of the recorded figures changes the decisions") {
-  BalanceTrace run = recorded_run(uneven_settings(BalanceMode::kGlobal));
+  BalanceTrace run = recorded_run(uneven_settings(SamplerChoice::kDelaunay, BalanceMode::kGlobal));
   for (TracedFrame& frame : run.frames) {
     for (std::size_t t = 0; t < frame.tiles.size() / 2; ++t) frame.tiles[t].cost *= 4;
   }
@@ -103,7 +102,7 @@ TEST_CASE("balancing replay: a change of the recorded figures changes the decisi
 }
 
 TEST_CASE("balancing replay: policies that balance lower the deviation of the loads") {
-  const BalanceTrace run = recorded_run(uneven_settings(BalanceMode::kNone));
+  const BalanceTrace run = recorded_run(uneven_settings(SamplerChoice::kDelaunay, BalanceMode::kNone));
   const double unbalanced = replay(run, BalanceMode::kNone).back().deviation;
   CHECK(unbalanced > 0.3);
   for (const BalanceMode policy : {BalanceMode::kLocal, BalanceMode::kGlobal, BalanceMode::kCombined}) {
@@ -117,7 +116,8 @@ TEST_CASE("balancing replay: policies that balance lower the deviation of the lo
 }
 
 TEST_CASE("balancing replay: figures that make no sense are borne") {
-  const BalanceTrace run = recorded_run(uneven_settings(BalanceMode::kCombined), 4, 4);
+  const BalanceTrace run =
+      recorded_run(uneven_settings(SamplerChoice::kDelaunay, BalanceMode::kCombined), 4, 4);
   std::string text = trace_line(run.header);
   for (const TracedFrame& frame : run.frames) text += trace_line(frame);
   std::mt19937 random(3);
