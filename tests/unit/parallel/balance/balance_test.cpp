@@ -3,11 +3,14 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numeric>
+#include <random>
+#include <set>
 
 #include "parallel/balance/balancer.h"
 #include "parallel/balance/global_balance.h"
 #include "parallel/balance/local_balance.h"
 #include "unit/parallel/both_samplers.h"
+#include "unit/parallel/exchange_ranks.h"
 #include "unit/parallel/virtual_run.h"
 
 namespace pprt {
@@ -129,6 +132,63 @@ TEST_CASE("local balancing: tiles that the taker knows go first") {
   const std::vector<int> tiles = tiles_to_give({}, halves(), 0, 1, {400, 1, kUnlimited}, offer);
   REQUIRE(tiles.size() == 1);
   CHECK(tiles[0] == 19);
+}
+
+// The eight tiles around one, in every pattern. The giver has others elsewhere, so that nothing else connects
+// them.
+TEST_CASE("local balancing: a tile goes if those of its giver around it hang together by their sides") {
+  const TileGrid grid(80, 50, 10);
+  constexpr int kMiddle = 2 * 8 + 2;
+  constexpr std::array kAround = {-9, -8, -7, -1, 1, 7, 8, 9};
+  const auto offer = [](int tile) { return TileOffer{tile == kMiddle ? 100.0 : 1e9, 10, 0}; };
+  int kept = 0;
+  for (unsigned pattern = 0; pattern < 256; ++pattern) {
+    Partition partition{grid, 2, std::vector<std::int32_t>(40, 1), std::vector<std::uint64_t>(40, 0)};
+    for (const int tile : {6, 7, 14, 15, kMiddle}) partition.owner[static_cast<std::size_t>(tile)] = 0;
+    for (std::size_t place = 0; place < kAround.size(); ++place)
+      if ((pattern >> place & 1U) != 0)
+        partition.owner[static_cast<std::size_t>(kMiddle + kAround[place])] = 0;
+    const std::vector<int> sides = tiles_beside(grid, kMiddle);
+    const auto is_givers = [&](int tile) { return partition.owner[static_cast<std::size_t>(tile)] == 0; };
+    if (std::all_of(sides.begin(), sides.end(), is_givers)) continue;  // not beside the taker
+    const std::vector<int> tiles = tiles_to_give({}, partition, 0, 1, {1000, 1, kUnlimited}, offer);
+    // Spreads from one side over what is around: the others must be reached.
+    std::set<int> reached;
+    const auto first = std::find_if(sides.begin(), sides.end(), is_givers);
+    std::vector<int> next(first, first == sides.end() ? first : first + 1);
+    while (!next.empty()) {
+      const int tile = next.back();
+      next.pop_back();
+      if (tile == kMiddle || !is_givers(tile) || !reached.insert(tile).second) continue;
+      for (const int beside : tiles_beside(grid, tile)) next.push_back(beside);
+    }
+    const bool is_whole = std::all_of(sides.begin(), sides.end(),
+                                      [&](int tile) { return !is_givers(tile) || reached.count(tile) != 0; });
+    INFO("pattern " << pattern);
+    CHECK(tiles == (is_whole ? std::vector{kMiddle} : std::vector<int>()));
+    kept += is_whole ? 0 : 1;
+  }
+  CHECK(kept > 50);
+}
+
+TEST_CASE("local balancing: over random regions every transfer leaves the giver connected") {
+  std::mt19937 random(7);
+  int transfers = 0;
+  for (unsigned seed = 1; seed <= 30; ++seed) {
+    Partition partition = random_growths(TileGrid(96, 80, 8), 5, seed);
+    for (int round = 0; round < 20; ++round) {
+      const int giver = static_cast<int>(random() % 5), taker = static_cast<int>(random() % 5);
+      if (giver == taker) continue;
+      const auto cost = [&](int tile) { return 20.0 + (37 * tile + 11 * round) % 80; };
+      const auto offer = [&](int tile) { return TileOffer{cost(tile), 10, 0}; };
+      const std::vector<int> tiles = tiles_to_give({}, partition, giver, taker, {1000, 1, kUnlimited}, offer);
+      for (const int tile : tiles) partition.owner[static_cast<std::size_t>(tile)] = taker;
+      INFO("seed " << seed << ", round " << round);
+      REQUIRE(is_connected(partition, giver));
+      transfers += tiles.empty() ? 0 : 1;
+    }
+  }
+  CHECK(transfers > 100);
 }
 
 TEST_CASE("local balancing: regions that touch at a corner only transfer nothing") {
