@@ -139,15 +139,14 @@ TEST_CASE("local balancing: tiles that the taker knows go first") {
 TEST_CASE("local balancing: a tile goes if those of its giver around it hang together by their sides") {
   const TileGrid grid(80, 50, 10);
   constexpr int kMiddle = 2 * 8 + 2;
-  constexpr std::array kAround = {-9, -8, -7, -1, 1, 7, 8, 9};
+  constexpr std::array<std::size_t, 8> kAround = {9, 10, 11, 17, 19, 25, 26, 27};
   const auto offer = [](int tile) { return TileOffer{tile == kMiddle ? 100.0 : 1e9, 10, 0}; };
   int kept = 0;
   for (unsigned pattern = 0; pattern < 256; ++pattern) {
     Partition partition{grid, 2, std::vector<std::int32_t>(40, 1), std::vector<std::uint64_t>(40, 0)};
     for (const int tile : {6, 7, 14, 15, kMiddle}) partition.owner[static_cast<std::size_t>(tile)] = 0;
     for (std::size_t place = 0; place < kAround.size(); ++place)
-      if ((pattern >> place & 1U) != 0)
-        partition.owner[static_cast<std::size_t>(kMiddle + kAround[place])] = 0;
+      if ((pattern >> place & 1U) != 0) partition.owner[kAround[place]] = 0;
     const std::vector<int> sides = tiles_beside(grid, kMiddle);
     const auto is_givers = [&](int tile) { return partition.owner[static_cast<std::size_t>(tile)] == 0; };
     if (std::all_of(sides.begin(), sides.end(), is_givers)) continue;  // not beside the taker
