@@ -40,7 +40,7 @@ Probe grey_probe() {
 }
 
 SessionSettings settings_without_time() {
-  SessionSettings settings;
+  SessionSettings settings{.sampler = SamplerChoice::kDelaunay};
   settings.width = settings.height = kSize;
   settings.clock = ClockKind::kWork;
   settings.frames_per_second = 25;
@@ -139,7 +139,7 @@ void rank_0(benchmark::State& state, bool partition) {
     }
     messages.push_back(encode(message));
   }
-  SessionSettings settings;
+  SessionSettings settings{.sampler = SamplerChoice::kDelaunay};
   settings.balance = BalanceMode::kGlobal;
   GlobalBalancer balancer(settings, grid, ranks, 0);
   FrameOrder order;

@@ -44,13 +44,12 @@ std::size_t samples_near_borders(std::span<const Sample> samples, const TileGrid
 
 FinishedFrame serial_frame(const SessionSettings& settings, const Camera& camera, std::uint64_t count,
                            const Probe& probe) {
-  SessionSettings serial;
+  SessionSettings serial{.sampler = settings.sampler};
   serial.width = settings.width;
   serial.height = settings.height;
   serial.seed = settings.seed;
   serial.learned_weights = settings.learned_weights;
   serial.pixel_rule = settings.pixel_rule;
-  serial.sampler = settings.sampler;
   serial.clock = ClockKind::kWork;
   serial.stop.samples = count;
   serial.cast = CastChoice::kOff;

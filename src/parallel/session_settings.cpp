@@ -20,17 +20,19 @@ Bytes encode(const SessionSettings& settings) {
 }
 
 SessionSettings decode_settings(const Bytes& bytes) {
-  SessionSettings settings;
+  SamplerChoice sampler{};
+  SessionSettings settings{.sampler = sampler};
   WireReader in(bytes);
   in.get(settings.width), in.get(settings.height), in.get(settings.clock, ClockKind::kWork);
   in.get(settings.frames_per_second), in.get(settings.budget_units), in.get(settings.stop);
   in.get(settings.balance, BalanceMode::kCombined), in.get(settings.cast, CastChoice::kAuto);
   in.get(settings.keep_samples), in.get(settings.pixel_rule, PixelRule::kEdges);
-  in.get(settings.sampler, SamplerChoice::kGrid), in.get(settings.learned_weights), in.get(settings.seed);
+  in.get(sampler, SamplerChoice::kGrid), in.get(settings.learned_weights), in.get(settings.seed);
   in.get(settings.is_still), in.get(settings.report_samples), in.get(settings.report_transfers);
   in.get(settings.late_orders);
   in.get(settings.machine);
   in.expect_end();
+  settings.sampler = sampler;
   return settings;
 }
 

@@ -26,6 +26,17 @@ enum class SamplerChoice : std::uint8_t {
   kGrid       // all nodes of the lattice, level by level
 };
 
+// A sampler that must be named: SessionSettings without one do not compile. The samplers keep different
+// promises, so a default would hide which of them a run or a test is about.
+class NamedSampler {
+ public:
+  constexpr NamedSampler(SamplerChoice choice) : choice_(choice) {}
+  constexpr operator SamplerChoice() const { return choice_; }
+
+ private:
+  SamplerChoice choice_;
+};
+
 // How load is shared among ranks (paper s. 3.6, 4.4, 4.5).
 enum class BalanceMode : std::uint8_t {
   kNone,
@@ -50,13 +61,13 @@ struct SessionSettings {
   ClockKind clock = ClockKind::kWall;
   double frames_per_second = 0;    // 0: no rate, the stop rules end a frame
   std::uint64_t budget_units = 0;  // work clock, with a rate: per rank and frame
-  StopRules stop;
+  StopRules stop = {};
   BalanceMode balance = BalanceMode::kCombined;
   CastChoice cast = CastChoice::kAuto;
   bool keep_samples =
       true;  // on a repartition: hand samples over, instead of dropping them as the paper does
   PixelRule pixel_rule = PixelRule::kEdges;
-  SamplerChoice sampler = SamplerChoice::kDelaunay;
+  NamedSampler sampler;         // has no default
   bool learned_weights = true;  // refinement corrects the paper's weights by what it learns
   std::uint64_t seed = 1;
   bool is_still = false;          // there is one frame
@@ -65,7 +76,7 @@ struct SessionSettings {
   // A frame's camera is asked for when rank 0 has done its part of the frame before, not a frame ahead. Then
   // the picture follows the camera at once, and ranks may have to wait for rank 0.
   bool late_orders = false;
-  Machine machine;  // of the work clock
+  Machine machine = {};  // of the work clock
 
   friend bool operator==(const SessionSettings&, const SessionSettings&) = default;
 };

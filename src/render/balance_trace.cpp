@@ -73,7 +73,7 @@ std::string trace_line(const TraceHeader& header) {
                        {"size", {s.width, s.height}},
                        {"tile", header.grid.tile_size},
                        {"balance", word_for(s.balance)},
-                       {"sampler", word_for(s.sampler)},
+                       {"sampler", word_for<SamplerChoice>(s.sampler)},
                        {"keep_samples", word_for(s.keep_samples)},
                        {"clock", word_for(s.clock)},
                        {"fps", s.frames_per_second},

@@ -29,7 +29,7 @@ struct TraceHeader {
   std::string scene;
   int ranks = 1;
   TileGrid grid{1, 1, 1};
-  SessionSettings settings = {};
+  SessionSettings settings{.sampler = SamplerChoice::kAuto};
 };
 
 struct TracedRank {

@@ -11,7 +11,7 @@ namespace pprt {
 struct RenderJob {
   bool go = false;     // false: there is nothing to render, or an error; the ranks leave
   bool again = false;  // another job follows when this one is done
-  SessionSettings settings;
+  SessionSettings settings{.sampler = SamplerChoice::kAuto};
   CompileOptions compile;
   Bytes scene;  // see scene_bytes.h; empty: that of the job before
 };

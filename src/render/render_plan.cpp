@@ -212,7 +212,9 @@ void settle_ends(const RenderOptions& options, double fps, SessionSettings& sett
 }
 
 SessionSettings session_settings(const RenderOptions& options, const View& view, double fps) {
-  SessionSettings settings;
+  SessionSettings settings{.sampler = options.sampler == SamplerChoice::kAuto && needs_triangulation(options)
+                                          ? SamplerChoice::kDelaunay
+                                          : options.sampler};
   settings.width = view.width;
   settings.height = view.height;
   settings.clock = options.clock;
@@ -220,9 +222,6 @@ SessionSettings session_settings(const RenderOptions& options, const View& view,
   settings.cast = options.cast;
   settings.keep_samples = options.keep_samples;
   settings.pixel_rule = options.pixels;
-  settings.sampler = options.sampler == SamplerChoice::kAuto && needs_triangulation(options)
-                         ? SamplerChoice::kDelaunay
-                         : options.sampler;
   settings.learned_weights = options.weights == WeightRule::kLearned;
   settings.seed = options.seed;
   settings.report_transfers = !options.trace.empty();

@@ -57,7 +57,7 @@ struct RenderPlan {
   std::vector<NamedFile> inputs;            // files that are read, without --reference's
   OutputPlan output;
   ReportPlan report;
-  SessionSettings settings;
+  SessionSettings settings{.sampler = SamplerChoice::kAuto};
   std::optional<LiveAddress> live;
   CompileOptions compile;
   std::string warnings;  // about scene and script, for people

@@ -29,7 +29,7 @@ Json options_record(const RenderPlan& plan) {
                   {"balance", word_for(s.balance)},
                   {"cast", word_for(s.cast)},
                   {"keep_samples", word_for(s.keep_samples)},
-                  {"sampler", word_for(s.sampler)},
+                  {"sampler", word_for<SamplerChoice>(s.sampler)},
                   {"weights", word_for(weight_rule(s))},
                   {"pixels", word_for(s.pixel_rule)},
                   {"seed", s.seed},
@@ -53,8 +53,8 @@ std::string run_key(const RunIdentity& run) {
                                  s.height, word_for(s.clock), s.frames_per_second, s.budget_units,
                                  s.stop.seconds, s.stop.samples, s.stop.flip);
   text += fmt::format(" {}{}{}{}{} {} {} {} {}{}", word_for(s.balance), word_for(s.keep_samples),
-                      word_for(s.sampler), word_for(s.pixel_rule), word_for(weight_rule(s)), word_for(s.cast),
-                      s.seed, c.max_depth, effects_word(c), c.cull ? " cull" : "");
+                      word_for<SamplerChoice>(s.sampler), word_for(s.pixel_rule), word_for(weight_rule(s)),
+                      word_for(s.cast), s.seed, c.max_depth, effects_word(c), c.cull ? " cull" : "");
   for (const PlannedFrame& f : run.plan.script_frames) {
     const View& v = f.view;
     text += fmt::format("\n{} {} {} {} {} {} {} {} {} {} {} {}", f.number, f.cut, v.from.x, v.from.y,

@@ -33,5 +33,5 @@ int main(int argc, char** argv) {
   pixels.tiles.resize(1), pixels.given = {5}, pixels.colors = {pprt::Color(1, 0.5f, 0)},
                           pixels.samples.resize(2);
   write(directory / "pixels", 2, encode(pixels));
-  write(directory / "settings", 3, encode(pprt::SessionSettings()));
+  write(directory / "settings", 3, encode(pprt::SessionSettings{.sampler = pprt::SamplerChoice::kAuto}));
 }

@@ -90,7 +90,7 @@ void LatticeSampler::forget_samples() {
   store_.clear();
   samples_ = 0;
   expected_ = 0;
-  has_base_ = has_grid_ = false;
+  has_base_ = has_grid_ = is_region_new_ = false;
   grid_levels_ = 0;
   last_threshold_ = 0;
   pass_ = {};
@@ -114,6 +114,7 @@ void LatticeSampler::set_region(const Region& region) {
     }
   });
   has_base_ = false;
+  is_region_new_ = true;
   if (order_ == LatticeOrder::kLevels) grid_levels_ = 0;
 }
 
@@ -178,6 +179,7 @@ std::optional<Vec2d> LatticeSampler::next_point() {
 bool LatticeSampler::next_nodes() {
   next_ = 0;
   nodes_.clear();
+  if (std::exchange(is_region_new_, false) && !knows_base()) return leave_pass();
   if (level_ == pass_.end_level && !next_tile()) return start_pass();
   const std::size_t level = level_++;
   if (pass_.takes_base) {
@@ -202,6 +204,20 @@ bool LatticeSampler::next_tile() {
     return true;
   }
   return false;
+}
+
+// Squares without their corners are black. Samples usually come with the tiles of a new region, but those of
+// a late rank do not.
+bool LatticeSampler::knows_base() const {
+  const std::vector<LatticeNode> corners = own_.base_nodes();
+  return std::all_of(corners.begin(), corners.end(),
+                     [this](const LatticeNode& corner) { return store_.is_sampled(corner); });
+}
+
+// Begins another pass before this one has ended.
+bool LatticeSampler::leave_pass() {
+  if (pass_.takes_all && !pass_.takes_base) grid_levels_ = std::min(grid_levels_, pass_.first_level);
+  return start_pass();
 }
 
 void LatticeSampler::collect_base(int tile) {

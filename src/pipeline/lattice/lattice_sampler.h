@@ -122,6 +122,8 @@ class LatticeSampler {
 
   bool next_nodes();
   bool next_tile();
+  bool knows_base() const;
+  bool leave_pass();
   bool start_pass();
   bool start_grid_pass();
   bool start_refinement_pass();
@@ -157,7 +159,8 @@ class LatticeSampler {
   Pass pass_;
   std::size_t grid_levels_ = 0;  // taken whole, the base not counted
   bool has_base_ = false, has_grid_ = false;
-  double growth_ = 0;  // samples that a pass takes, for each that its candidates promise
+  bool is_region_new_ = false;  // its base may be unknown
+  double growth_ = 0;           // samples that a pass takes, for each that its candidates promise
   float last_threshold_ = 0;
   int tile_ = 0;                     // of the pass
   std::span<const int> tiles_left_;  // for the pass after this one

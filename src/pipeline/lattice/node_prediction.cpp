@@ -47,6 +47,13 @@ Seen seen_at(const Vec2d& point, const Surroundings& around, ProjectedShapeCache
 
 }  // namespace
 
+// Whether all corners of the base square around a node are known. Those of another rank's need not be.
+bool NodePredictor::knows_base(const LatticeNode& node) const {
+  const int x = node.x / kBaseSide * kBaseSide, y = node.y / kBaseSide * kBaseSide;
+  return store_.is_sampled({x, y}) && store_.is_sampled({x + kBaseSide, y}) &&
+         store_.is_sampled({x, y + kBaseSide}) && store_.is_sampled({x + kBaseSide, y + kBaseSide});
+}
+
 Surroundings NodePredictor::around(const LatticeNode& node, const LatticeLevel& level) {
   const int half = level.side / 2;
   const auto [x, y] = node;
@@ -68,7 +75,12 @@ Surroundings NodePredictor::around(const LatticeNode& node, const LatticeLevel& 
   const LatticeNode before{x - dy, y - dx}, after{x + dy, y + dx};  // the centres
   const bool is_on_border =
       before.x < 0 || before.y < 0 || after.x > store_.right() || after.y > store_.bottom();
-  if (!is_on_border && (store_.is_sampled(before) || store_.is_sampled(after))) {
+  const bool is_on_base_line = (dx != 0 ? y : x) % kBaseSide == 0;
+  const auto is_known = [&](const LatticeNode& center) {
+    return !is_on_base_line || store_.is_sampled(center) || knows_base(center);
+  };
+  if (!is_on_border && (store_.is_sampled(before) || store_.is_sampled(after)) && is_known(before) &&
+      is_known(after)) {
     around.add(value(before));
     around.add(value(after));
   }

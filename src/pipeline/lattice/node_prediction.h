@@ -96,6 +96,7 @@ class NodePredictor {
  private:
   NodeValue kept_prediction(const LatticeNode& corner);
   NodeValue predicted(const LatticeNode& node);
+  bool knows_base(const LatticeNode& node) const;
 
   LatticeStore& store_;
   ProjectedShapeCache& shapes_;

@@ -47,7 +47,7 @@ Image complexity_map(const Subject& subject) {
 }  // namespace
 
 std::vector<Picture> figure_pictures(const std::string& scene, const Subject& subject, std::uint64_t seed) {
-  SessionSettings settings;
+  SessionSettings settings{.sampler = SamplerChoice::kDelaunay};
   settings.width = subject.camera.width, settings.height = subject.camera.height, settings.seed = seed;
   Tracer tracer = tracer_of(subject);
   const FinishedFrame frame = serial_frame(settings, subject.camera, kFigureSamples, probe_of(tracer));

@@ -15,7 +15,7 @@ namespace pprt {
 namespace {
 
 SessionSettings settings_of(const Sequence& sequence, CastChoice cast, double fps, ClockKind clock) {
-  SessionSettings s;
+  SessionSettings s{.sampler = sequence.sampler};
   s.width = sequence.frames.front().camera.width;
   s.height = sequence.frames.front().camera.height;
   s.clock = clock;
@@ -24,7 +24,6 @@ SessionSettings settings_of(const Sequence& sequence, CastChoice cast, double fp
   s.frames_per_second = fps;
   s.budget_units = static_cast<std::uint64_t>(sequence.units_per_second / fps);
   s.cast = cast;
-  s.sampler = sequence.sampler;
   s.seed = sequence.seed;
   return s;
 }

@@ -36,7 +36,7 @@ struct Turn {
 
   void render(CastChoice cast, const std::vector<FrameRequest>& requests, double budget_units,
               const FrameSink& sink) const {
-    SessionSettings settings;
+    SessionSettings settings{.sampler = SamplerChoice::kDelaunay};
     settings.width = settings.height = trial.side;
     settings.clock = ClockKind::kWork;
     settings.budget_units = static_cast<std::uint64_t>(budget_units);

@@ -40,7 +40,7 @@ double budget(double total_units, const PaperRun& run) {
 }
 
 SessionSettings settings_of(const PaperRun& run, double total_units, const PaperOptions& options) {
-  SessionSettings s;
+  SessionSettings s{.sampler = SamplerChoice::kDelaunay};
   s.width = s.height = run.side;
   s.clock = ClockKind::kWork;
   s.budget_units = static_cast<std::uint64_t>(budget(total_units, run));

@@ -66,6 +66,22 @@ TEST_CASE("exchange: each rank is sent the seeds that its triangles need") {
   }
 }
 
+TEST_CASE("exchange: after a repartition each rank is sent the seeds that its triangles need") {
+  const TileGrid grid(200, 150, 10);
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    INFO("seed " << seed);
+    ExchangingRanks run(random_rectangles(grid, 7, seed), seed);
+    run.seed();
+    const Partition next = random_rectangles(grid, 7, seed + 100);
+    run.begin_frame({2.0 * grid.width, 0}, &next, false);  // no sample stays in view
+    const Findings findings = compare_with_serial(run);
+    CHECK(findings.unknown == 0);
+    CHECK(findings.wrong == 0);
+    for (const ExchangingRank& r : run.ranks())
+      CHECK(r.exchange.seed_peers() == SampleExchange(next, r.rank, r.exchange.seeds()).seed_peers());
+  }
+}
+
 TEST_CASE("exchange: seed peers are mutual, and no rank is its own") {
   const Partition partition = random_growths(TileGrid(400, 300, 10), 20, 5);
   std::vector<std::vector<int>> peers;

@@ -12,11 +12,10 @@ namespace pprt {
 namespace {
 
 SessionSettings settings_for(SamplerChoice sampler, const StopRules& stop) {
-  SessionSettings settings;
+  SessionSettings settings{.sampler = sampler};
   settings.width = 192, settings.height = 128;
   settings.clock = ClockKind::kWork;
   settings.cast = CastChoice::kOff;
-  settings.sampler = sampler;
   settings.stop = stop;
   return settings;
 }

@@ -24,9 +24,8 @@ Sample sample_at(double x, double y) {
 }
 
 LatticeSamples samples_of(int rank) {
-  SessionSettings settings;
+  SessionSettings settings{.sampler = SamplerChoice::kAuto};
   settings.width = 3 * kSide, settings.height = 4 * kSide;
-  settings.sampler = SamplerChoice::kAuto;
   return {settings, columns(), rank, Probe()};
 }
 

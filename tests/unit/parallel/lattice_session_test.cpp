@@ -17,13 +17,12 @@ namespace {
 
 // A few thousand samples a frame and rank.
 SessionSettings lattice_settings(SamplerChoice sampler) {
-  SessionSettings settings;
+  SessionSettings settings{.sampler = sampler};
   settings.width = 160, settings.height = 96;
   settings.clock = ClockKind::kWork;
   settings.frames_per_second = 4;
   settings.budget_units = 1'500'000;
   settings.cast = CastChoice::kOff;
-  settings.sampler = sampler;
   return settings;
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "parallel/network/local_communicator.h"
+#include "unit/parallel/both_samplers.h"
 #include "unit/parallel/virtual_run.h"
 
 namespace pprt {
@@ -14,13 +15,14 @@ constexpr int kRanks = 3;
 constexpr double kPeriod = 0.25;
 constexpr double kMoment = 0.001;  // less than the grace
 
-// Three ranks whose regions are two tiles each; what they send is one value per frame and rank.
+// Three ranks whose regions are two tiles each; what they send is one value per frame and rank. The sampler
+// matters to new partitions alone.
 class Stage {
  public:
-  explicit Stage(ClockKind clock = ClockKind::kWall, double frames_per_second = 1 / kPeriod,
-                 double ranks_per_core = 16, BalanceMode balance = BalanceMode::kLocal,
-                 bool late_orders = false)
-      : settings_(settings_for(clock, frames_per_second, balance, late_orders)),
+  explicit Stage(SamplerChoice sampler = SamplerChoice::kAuto, ClockKind clock = ClockKind::kWall,
+                 double frames_per_second = 1 / kPeriod, double ranks_per_core = 16,
+                 BalanceMode balance = BalanceMode::kLocal, bool late_orders = false)
+      : settings_(settings_for(sampler, clock, frames_per_second, balance, late_orders)),
         master_(
             communicator_, settings_, partition_, ranks_per_core, still_or_pan(settings_, 40, 1),
             [this](FinishedFrame&& frame) { delivered.push_back(std::move(frame)); },
@@ -107,9 +109,9 @@ class Stage {
   std::vector<FinishedFrame> delivered;
 
  private:
-  static SessionSettings settings_for(ClockKind clock, double frames_per_second, BalanceMode balance,
-                                      bool late_orders) {
-    SessionSettings settings;
+  static SessionSettings settings_for(SamplerChoice sampler, ClockKind clock, double frames_per_second,
+                                      BalanceMode balance, bool late_orders) {
+    SessionSettings settings{.sampler = sampler};
     settings.width = 24, settings.height = 16;
     settings.clock = clock;
     settings.frames_per_second = frames_per_second;
@@ -132,7 +134,7 @@ class Stage {
 
 TEST_CASE("master: an order goes out a frame ahead, a late one when rank 0 has done its part") {
   const bool late = GENERATE(false, true);
-  Stage stage(ClockKind::kWall, 1 / kPeriod, 16, BalanceMode::kLocal, late);
+  Stage stage(SamplerChoice::kAuto, ClockKind::kWall, 1 / kPeriod, 16, BalanceMode::kLocal, late);
   CHECK(stage.orders().size() == 1);
   stage.begin();
   CHECK(stage.orders().size() == (late ? 0 : 1));
@@ -152,8 +154,8 @@ TEST_CASE("master: a whole frame is delivered at once") {
   CHECK(stage.delivered[0].late_ms == Approx(-50));
 }
 
-TEST_CASE("master: goes on without lost ranks, and lets the others take over their tiles") {
-  Stage stage;
+BOTH_SAMPLERS_TEST_CASE("master: goes on without lost ranks, and lets the others take over their tiles") {
+  Stage stage(sampler);
   CHECK_THROWS(stage.master().give_up({2}));  // nothing has been shown yet
   stage.begin();
   stage.send_all(0);
@@ -290,7 +292,7 @@ TEST_CASE("master: pixels of a frame that was not ordered are refused, and pixel
   CHECK_THROWS_AS(stage.send(1, -1), ProtocolError);
   stage.send(1, 0);
   CHECK_THROWS_AS(stage.send(1, 0), ProtocolError);
-  Stage counted(ClockKind::kWork);
+  Stage counted(SamplerChoice::kAuto, ClockKind::kWork);
   counted.send_all(0);
   CHECK_THROWS_AS(counted.send(1, 0), ProtocolError);  // nobody can be late there
 }
@@ -316,7 +318,7 @@ TEST_CASE("master: a rank 0 that was away takes in all messages before it calls 
 
 TEST_CASE("master: without a rate, and on the work clock, every frame waits for all ranks") {
   for (const ClockKind clock : {ClockKind::kWall, ClockKind::kWork}) {
-    Stage stage(clock, clock == ClockKind::kWall ? 0 : 1 / kPeriod);
+    Stage stage(SamplerChoice::kAuto, clock, clock == ClockKind::kWall ? 0 : 1 / kPeriod);
     stage.begin();
     stage.send_all(0);
     stage.send(0, 1), stage.send(1, 1);
@@ -330,23 +332,23 @@ TEST_CASE("master: without a rate, and on the work clock, every frame waits for 
 }
 
 TEST_CASE("master: rank 0 does not begin a frame while it must still deliver the one before") {
-  Stage shared(ClockKind::kWall, 1 / kPeriod, 2);
+  Stage shared(SamplerChoice::kAuto, ClockKind::kWall, 1 / kPeriod, 2);
   shared.begin();
   CHECK(shared.master().may_begin(0));
   CHECK_FALSE(shared.master().may_begin(1));
   shared.send_all(0);
   CHECK(shared.master().may_begin(1));
 
-  Stage alone(ClockKind::kWall, 1 / kPeriod, 1);
+  Stage alone(SamplerChoice::kAuto, ClockKind::kWall, 1 / kPeriod, 1);
   alone.begin();
   CHECK(alone.master().may_begin(1));
   alone.at(kPeriod);
   CHECK_FALSE(alone.master().may_begin(1));
 }
 
-TEST_CASE("master: a frame that lacks a rank's report leads to no new partition") {
+BOTH_SAMPLERS_TEST_CASE("master: a frame that lacks a rank's report leads to no new partition") {
   for (const bool late : {false, true}) {
-    Stage stage(ClockKind::kWall, 1 / kPeriod, 1, BalanceMode::kCombined);
+    Stage stage(sampler, ClockKind::kWall, 1 / kPeriod, 1, BalanceMode::kCombined);
     stage.begin();
     stage.send_all(0);
     stage.orders();
@@ -360,8 +362,9 @@ TEST_CASE("master: a frame that lacks a rank's report leads to no new partition"
   }
 }
 
-TEST_CASE("master: the two frames after a picture of which nothing is known are ordered with its partition") {
-  Stage stage(ClockKind::kWall, 1 / kPeriod, 1, BalanceMode::kCombined);
+BOTH_SAMPLERS_TEST_CASE(
+    "master: the two frames after a picture of which nothing is known are ordered with its partition") {
+  Stage stage(sampler, ClockKind::kWall, 1 / kPeriod, 1, BalanceMode::kCombined);
   stage.orders();
   for (const int frame : {0, 1}) {
     stage.begin();
@@ -375,14 +378,14 @@ TEST_CASE("master: the two frames after a picture of which nothing is known are 
   stage.begin();
   CHECK(stage.orders().size() == 1);  // goes ahead
   // Where nobody repartitions there is nothing to wait for.
-  Stage local(ClockKind::kWall, 1 / kPeriod, 1, BalanceMode::kLocal);
+  Stage local(sampler, ClockKind::kWall, 1 / kPeriod, 1, BalanceMode::kLocal);
   local.orders();
   local.begin();
   CHECK(local.orders().size() == 1);
 }
 
-TEST_CASE("master: an order that waits for reports goes out when its frame ends without them") {
-  Stage stage(ClockKind::kWall, 1 / kPeriod, 1, BalanceMode::kCombined);
+BOTH_SAMPLERS_TEST_CASE("master: an order that waits for reports goes out when its frame ends without them") {
+  Stage stage(sampler, ClockKind::kWall, 1 / kPeriod, 1, BalanceMode::kCombined);
   stage.begin();
   stage.send_all(0);
   stage.begin();

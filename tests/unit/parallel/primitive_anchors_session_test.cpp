@@ -25,8 +25,8 @@ CastEvidence evidence_against_casting() {
 // A worker alone, what it sees, and the samples of its last frame.
 class Session {
  public:
-  explicit Session(const Probe& probe) {
-    worker_ = std::make_unique<Worker>(communicator_, inbox_, settings(), partition(), probe,
+  Session(SamplerChoice sampler, const Probe& probe) {
+    worker_ = std::make_unique<Worker>(communicator_, inbox_, settings(sampler), partition(), probe,
                                        std::make_unique<SetClock>(50, kPeriod, kNow));
   }
 
@@ -48,8 +48,8 @@ class Session {
   }
 
  private:
-  static SessionSettings settings() {
-    SessionSettings settings;
+  static SessionSettings settings(SamplerChoice sampler) {
+    SessionSettings settings{.sampler = sampler};
     settings.width = settings.height = kSize;
     settings.frames_per_second = 1 / kPeriod;
     return settings;
@@ -73,7 +73,8 @@ class Session {
 class Scene {
  public:
   // Whether the thing's colour depends on the eye.
-  explicit Scene(bool shines) : shines_(shines) {}
+  explicit Scene(bool shines, SamplerChoice sampler = SamplerChoice::kDelaunay)
+      : shines_(shines), session_(sampler, probe()) {}
 
   // In its plane the thing is a disc. Returns the samples on it.
   std::vector<Sample> render(Carry carry, const Vec2d& center, double radius) {
@@ -109,7 +110,7 @@ class Scene {
   Camera camera_;
   Vec2d center_{0, 0};
   double radius_ = 0;
-  Session session_{probe()};
+  Session session_;
 };
 
 // On the plane, that of some samples which is nearest to their middle.
@@ -157,7 +158,7 @@ class Squares {
 
   Camera camera_;
   bool is_bare_ = false;
-  Session session_{probe()};
+  Session session_{SamplerChoice::kDelaunay, probe()};
 };
 
 }  // namespace
@@ -170,6 +171,12 @@ TEST_CASE("primitive anchors: what the frame before has shown is found again, ho
     REQUIRE(found.size() == 1);
     CHECK(found[0].frame == 1);
   }
+}
+
+TEST_CASE("primitive anchors: a lattice holds nodes alone, and no anchors") {
+  Scene scene(false, SamplerChoice::kAuto);
+  const Vec2d anchor = middle_one(scene.render(Carry::kNothing, kCenter, kLarge));
+  CHECK(scene.render(Carry::kCastWherePaying, anchor, kTiny).empty());
 }
 
 TEST_CASE("primitive anchors: hidden samples are not reinserted, nor those with a stale colour") {

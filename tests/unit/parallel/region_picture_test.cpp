@@ -3,10 +3,12 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "parallel/lattice_samples.h"
 #include "parallel/mesh_samples.h"
+#include "unit/parallel/both_samplers.h"
 
 namespace pprt {
 namespace {
@@ -21,9 +23,8 @@ Partition partition_of(int ranks) {
 }
 
 SessionSettings settings_for(SamplerChoice sampler) {
-  SessionSettings settings;
+  SessionSettings settings{.sampler = sampler};
   settings.width = kTiles * kSide, settings.height = kSide;
-  settings.sampler = sampler;
   return settings;
 }
 
@@ -38,6 +39,22 @@ void refine(RegionSamples& samples, int count) {
     sample.ray.color = Color(waves, 1 - waves, 0.25F * waves);
     sample.ray.primitive = 1;
     REQUIRE(samples.insert(sample, 0));
+  }
+}
+
+// Rank 0's samples.
+std::unique_ptr<RegionSamples> samples_of(SamplerChoice sampler, int ranks) {
+  const SessionSettings settings = settings_for(sampler);
+  if (sampler == SamplerChoice::kDelaunay)
+    return std::make_unique<MeshSamples>(settings, partition_of(ranks), 0, Probe());
+  return std::make_unique<LatticeSamples>(settings, partition_of(ranks), 0, Probe());
+}
+
+void seed(RegionSamples& samples) {
+  for (const SeedPoint& seed : samples.seeds()) {
+    Sample sample;
+    sample.x = seed.at.x, sample.y = seed.at.y;
+    samples.insert_seed(sample, seed.number);
   }
 }
 
@@ -102,8 +119,10 @@ TEST_CASE("region picture: without new samples each tile has one turn") {
   CHECK(tiles_that_differ(picture, whole_picture(samples)).empty());
 }
 
-TEST_CASE("region picture: a region that has changed is reconstructed as a whole") {
-  LatticeSamples samples(settings_for(SamplerChoice::kAuto), partition_of(2), 0, Probe());
+BOTH_SAMPLERS_TEST_CASE("region picture: a region that has changed is reconstructed as a whole") {
+  const std::unique_ptr<RegionSamples> made = samples_of(sampler, 2);
+  RegionSamples& samples = *made;
+  seed(samples);
   refine(samples, 200);
   RegionPicture picture = whole_picture(samples);
   Partition other = partition_of(2);
@@ -115,12 +134,7 @@ TEST_CASE("region picture: a region that has changed is reconstructed as a whole
 
 TEST_CASE("region picture: a mesh is reconstructed as a whole or not at all") {
   MeshSamples samples(settings_for(SamplerChoice::kDelaunay), partition_of(1), 0, Probe());
-  std::uint32_t number = 0;
-  for (const SeedPoint& seed : samples.seeds()) {
-    Sample sample;
-    sample.x = seed.at.x, sample.y = seed.at.y;
-    samples.insert_seed(sample, number++);
-  }
+  seed(samples);
   RegionPicture picture = whole_picture(samples);
   refine(samples, 100);
   CHECK(picture.refresh(samples, [] { return true; }) == 0);

@@ -18,7 +18,7 @@ constexpr double kPeriod = 0.8;
 constexpr double kReach = 4;  // pixels
 
 SessionSettings settings(std::uint64_t seed) {
-  SessionSettings s;
+  SessionSettings s{.sampler = SamplerChoice::kDelaunay};
   s.seed = seed;
   s.width = kWidth, s.height = kHeight;
   s.clock = ClockKind::kWork;

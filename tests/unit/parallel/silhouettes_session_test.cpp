@@ -11,7 +11,7 @@ constexpr int kFrames = 3;
 constexpr double kShift = 2.5;  // pixels a frame
 
 SessionSettings settings_of(PixelRule rule) {
-  SessionSettings settings;
+  SessionSettings settings{.sampler = SamplerChoice::kDelaunay};
   settings.width = 128, settings.height = 96;
   settings.clock = ClockKind::kWork;
   settings.frames_per_second = 4;

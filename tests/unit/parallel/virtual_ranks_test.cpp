@@ -6,13 +6,14 @@
 #include <set>
 #include <stdexcept>
 
+#include "unit/parallel/both_samplers.h"
 #include "unit/parallel/virtual_run.h"
 
 namespace pprt {
 namespace {
 
-SessionSettings settings() {
-  SessionSettings s;
+SessionSettings settings(SamplerChoice sampler) {
+  SessionSettings s{.sampler = sampler};
   s.width = 96, s.height = 64;
   s.clock = ClockKind::kWork;
   s.frames_per_second = 4;
@@ -33,8 +34,8 @@ Probe grey_probe() {
 
 }  // namespace
 
-TEST_CASE("virtual ranks: a frame reports every sample once, and the owner of each tile") {
-  const SessionSettings s = settings();
+BOTH_SAMPLERS_TEST_CASE("virtual ranks: a frame reports every sample once, and the owner of each tile") {
+  const SessionSettings s = settings(sampler);
   std::vector<FinishedFrame> frames;
   run_virtual_ranks(
       5, s, [](int) { return grey_probe(); }, still_or_pan(s, 3),
@@ -54,8 +55,8 @@ TEST_CASE("virtual ranks: a frame reports every sample once, and the owner of ea
   }
 }
 
-TEST_CASE("virtual ranks: samples stay with their ranks unless the settings ask for them") {
-  SessionSettings s = settings();
+BOTH_SAMPLERS_TEST_CASE("virtual ranks: samples stay with their ranks unless the settings ask for them") {
+  SessionSettings s = settings(sampler);
   s.report_samples = false;
   bool empty = false;
   run_virtual_ranks(
@@ -64,8 +65,8 @@ TEST_CASE("virtual ranks: samples stay with their ranks unless the settings ask 
   CHECK(empty);
 }
 
-TEST_CASE("virtual ranks: a rank that fails ends the run of all") {
-  const SessionSettings s = settings();
+BOTH_SAMPLERS_TEST_CASE("virtual ranks: a rank that fails ends the run of all") {
+  const SessionSettings s = settings(sampler);
   const auto failing = [](int rank) {
     Probe probe = grey_probe();
     if (rank == 2) probe.trace = [](double, double) -> RaySample { throw std::runtime_error("no such ray"); };

@@ -29,12 +29,11 @@ k box { rot 4 0 0 1 0 0 0 0 0 1 0 1 0 0 0 0 0 2 0 1 0 90 0 0 0 3 0 1 0 90 0 0 0
 )";
 
 SessionSettings settings_for(SamplerChoice sampler, CastChoice cast) {
-  SessionSettings settings;
+  SessionSettings settings{.sampler = sampler};
   settings.width = settings.height = kSize;
   settings.clock = ClockKind::kWork;
   settings.frames_per_second = 10;
   settings.budget_units = 12'000'000;
-  settings.sampler = sampler;
   settings.cast = cast;
   return settings;
 }

@@ -31,7 +31,7 @@ struct Network {
 };
 
 std::unique_ptr<ExchangePolicy> policy(ClockKind clock, double frames_per_second = 10) {
-  SessionSettings settings;
+  SessionSettings settings{.sampler = SamplerChoice::kAuto};
   settings.clock = clock;
   settings.frames_per_second = frames_per_second;
   settings.budget_units = 24'000'000;  // a megaunit a round

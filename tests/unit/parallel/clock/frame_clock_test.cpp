@@ -21,7 +21,7 @@ const SequenceClock& sequence_of_now() {
 // A clock of a sequence that began now, in its frame 0, whose deadline is a second away.
 std::unique_ptr<FrameClock> clock_in_a_frame(double reserve_s, Carry carry = Carry::kNothing,
                                              double ranks_per_core = 1) {
-  SessionSettings settings;
+  SessionSettings settings{.sampler = SamplerChoice::kDelaunay};
   settings.clock = ClockKind::kWall;
   settings.frames_per_second = 1 / kPeriod;
   std::unique_ptr<FrameClock> clock =
@@ -118,10 +118,9 @@ TEST_CASE("wall clock: a resting frame whose time is over already traces nothing
 
 TEST_CASE("wall clock: a resting picture on a lattice is reconstructed in parts, up to the reserve",
           "[realtime]") {
-  SessionSettings settings;
+  SessionSettings settings{.sampler = SamplerChoice::kAuto};
   settings.clock = ClockKind::kWall;
   settings.frames_per_second = 1 / kPeriod;
-  settings.sampler = SamplerChoice::kAuto;
   for (const bool rests : {true, false}) {
     const double began_s = monotonic_seconds();
     const auto clock = make_frame_clock(settings, 0, sequence_of_now(), 0, 1);
@@ -172,7 +171,7 @@ TEST_CASE("wall clock: the pace is the time of sampling, without rest, by the wo
 }
 
 TEST_CASE("wall clock: a new picture that began late ends in time all the same", "[realtime]") {
-  SessionSettings settings;
+  SessionSettings settings{.sampler = SamplerChoice::kDelaunay};
   settings.clock = ClockKind::kWall;
   settings.frames_per_second = 1 / kPeriod;
   for (const double ranks_per_core : {1.0, 2.0}) {

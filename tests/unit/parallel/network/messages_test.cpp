@@ -75,7 +75,7 @@ PixelMessage some_pixels() {
 }
 
 SessionSettings some_settings() {
-  SessionSettings settings;
+  SessionSettings settings{.sampler = SamplerChoice::kGrid};
   settings.width = 123, settings.height = 45, settings.clock = ClockKind::kWork;
   settings.frames_per_second = 4, settings.budget_units = 12345;
   settings.stop = {1.5, 678, 0.01};

@@ -297,6 +297,38 @@ TEST_CASE("lattice sampler: two regions that tell each other of their border sho
     REQUIRE((whole.colors[i] - reference.colors[i]).length() < 0.03F);  // edges learn different shares
 }
 
+// Nothing has come from beyond the border yet: the neighbour may be late.
+TEST_CASE("lattice sampler: one colour stays one colour up to a border beyond which nothing is known") {
+  constexpr int kColumn = 48;
+  for (int samples = 63; samples < 600; samples += 50) {
+    LatticeSampler left(part_of_image(kColumn, true), no_shape);
+    for (int i = 0; i < samples; ++i) {
+      const auto point = left.next_point();
+      REQUIRE(point);
+      left.insert(kFlat(point->x, point->y));
+    }
+    INFO(samples << " samples");
+    for (const Color& color : painted(left, {0, 0, kColumn, kHeight}).colors)
+      REQUIRE((color - Color(0.25F, 0.5F, 0.75F)).length() < 1e-5F);
+  }
+}
+
+// Squares are black without their corners.
+TEST_CASE("lattice sampler: a region that grows samples the corners of its new squares before it goes on") {
+  constexpr int kGoesOn = 100;  // with the level that it is at, in one tile
+  const Scene scene = disc(true);
+  for (int before = 100; before < 900; before += 100) {
+    LatticeSampler sampler(part_of_image(48, true), shapes_of_disc(0));
+    sample(sampler, scene, before);
+    sampler.set_region(Region::whole({kWidth, kHeight, kTileSide}));
+    sample(sampler, scene, kBase - 7 * 9 + kGoesOn);
+    for (const Color& color : painted(sampler).colors) REQUIRE(color.length() > 0.05F);
+    INFO(before << " samples");
+    for (const Vec2d& corner : sampler.base_points())
+      CHECK_FALSE(sampler.insert_at(corner, scene(corner.x, corner.y)));
+  }
+}
+
 TEST_CASE("lattice sampler: a sample at no node, or at one that has a sample, is refused") {
   LatticeSampler sampler(part_of_image(48, true), no_shape);
   CHECK(sampler.insert_at({8, 8}, kFlat(8, 8)));

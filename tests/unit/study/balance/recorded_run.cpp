@@ -23,8 +23,8 @@ Probe uneven_probe(int width) {
 
 }  // namespace
 
-SessionSettings uneven_settings(BalanceMode balance) {
-  SessionSettings settings;
+SessionSettings uneven_settings(SamplerChoice sampler, BalanceMode balance) {
+  SessionSettings settings{.sampler = sampler};
   settings.width = 160, settings.height = 112;
   settings.clock = ClockKind::kWork;
   settings.frames_per_second = 10;
