@@ -115,13 +115,6 @@ void encode(const std::filesystem::path& film, const Words& encoding, const std:
 
 }  // namespace
 
-void require_film_name(const std::filesystem::path& film) {
-  for (const char* known : {".mp4", ".mkv", ".gif"}) {
-    if (film.extension() == known) return;
-  }
-  throw UsageError("--film " + film.string() + ": want a name that ends in .mp4, .mkv or .gif");
-}
-
 void require_ffmpeg() {
   // Prints its version and ends, which shows that it can be run.
   Subprocess ffmpeg = start_encoder({"ffmpeg", "-loglevel", "quiet", "-version"}, StreamTo::kSame);

@@ -6,9 +6,6 @@
 
 namespace pprt {
 
-// Throws UsageError unless the name ends in .mp4, .mkv or .gif.
-void require_film_name(const std::filesystem::path& film);
-
 // Throws std::runtime_error with the package to install when there is no ffmpeg on the PATH.
 void require_ffmpeg();
 

@@ -18,6 +18,7 @@
 #include "live/live_view.h"
 #include "parallel/session.h"
 #include "render/memory_check.h"
+#include "render/session_plan.h"
 
 namespace pprt {
 namespace {

@@ -8,7 +8,7 @@
 #include "cli/launch.h"
 #include "render/examples.h"
 #include "render/render.h"
-#include "render/render_plan.h"
+#include "render/usage_check.h"
 
 namespace {
 

@@ -44,11 +44,11 @@ constexpr const char* kRun = "Run";
 
 void add_positionals(CLI::App& app, RenderOptions& o) {
   auto* scene = app.add_option(
-      "SCENE", o.input,
+      "SCENE", o.source.input,
       "FILE.nff, FILE.aff, - (NFF on standard input), spd:NAME[:SIZE], or a script that names its scene");
   scene->required()->type_name("");
   take_path_or(*scene, generated_scenes());
-  app.add_option("SCRIPT", o.script,
+  app.add_option("SCRIPT", o.source.script,
                  "Animation script, FILE.anim; without one: a still from the scene's own view")
       ->type_name("FILE");
 }
@@ -62,7 +62,7 @@ void add_threads_option(CLI::App& app, RenderOptions& o) {
     return problem.empty() ? problem : problem + ", nor auto";
   };
   const auto set = [&o](const std::string& text) {
-    o.threads = text == "auto" ? std::nullopt : std::optional(std::stoi(text));
+    o.ranks.threads = text == "auto" ? std::nullopt : std::optional(std::stoi(text));
   };
   app.add_option_function<std::string>(
          "--threads", set,
@@ -74,27 +74,28 @@ void add_threads_option(CLI::App& app, RenderOptions& o) {
 }
 
 void add_run_options(CLI::App& app, RenderOptions& o) {
-  app.add_option("--np", o.processes,
+  app.add_option("--np", o.ranks.processes,
                  "Number of processes (also -np N, as in mpirun); starts mpirun if more than one")
       ->check(count_from(1, 4096))
       ->capture_default_str()
       ->type_name("N")
       ->group(kRun);
   add_threads_option(app, o);
-  app.add_option("--hostfile", o.hostfile, "Hosts to run on, passed to mpirun")
+  app.add_option("--hostfile", o.ranks.hostfile, "Hosts to run on, passed to mpirun")
       ->type_name("FILE")
       ->group(kRun);
-  app.add_flag("--go-on", o.go_on, "With a rate in real time: when a rank answers no more, go on without it")
+  app.add_flag("--go-on", o.ranks.go_on,
+               "With a rate in real time: when a rank answers no more, go on without it")
       ->group(kRun);
-  app.add_option("--fps", o.fps,
+  app.add_option("--fps", o.end.fps,
                  "Frame rate, which gives every frame a deadline; 0: none (default: the script's)")
       ->check(number_between(0, 1000))
       ->type_name("F")
       ->group(kRun);
-  add_choice(app, "--clock", o.clock,
+  add_choice(app, "--clock", o.method.clock,
              "Real time, or counted work: the same result on any machine under any load")
       .group(kRun);
-  app.add_option("--budget", o.budget,
+  app.add_option("--budget", o.end.budget,
                  "Work units for each rank and frame, with --clock work (default: 50000000 / fps)")
       ->check(count_from(1))
       ->type_name("N")
@@ -102,15 +103,15 @@ void add_run_options(CLI::App& app, RenderOptions& o) {
 }
 
 void add_stop_rules(CLI::App& app, RenderOptions& o) {
-  app.add_option("--time", o.time, "Without a rate: stop a frame after S seconds")
+  app.add_option("--time", o.end.time, "Without a rate: stop a frame after S seconds")
       ->check(number_between(1e-3, 1e9))
       ->type_name("S")
       ->group(kRun);
-  app.add_option("--samples", o.samples, "Without a rate: stop a frame at N samples")
+  app.add_option("--samples", o.end.samples, "Without a rate: stop a frame at N samples")
       ->check(count_from(1))
       ->type_name("N")
       ->group(kRun);
-  app.add_option("--quality", o.quality,
+  app.add_option("--quality", o.end.quality,
                  "Without a rate: stop a frame at an estimated FLIP of Q (default: when it looks converged)")
       ->check(number_between(1e-6, 1))
       ->type_name("Q")
@@ -119,12 +120,13 @@ void add_stop_rules(CLI::App& app, RenderOptions& o) {
 
 void add_method_options(CLI::App& app, RenderOptions& o) {
   const std::string group = "Method";
-  add_choice(app, "--sampler", o.sampler, "What chooses a frame's samples").group(group);
-  add_choice(app, "--balance", o.balance, "How ranks share the load").group(group);
-  add_choice(app, "--cast", o.cast, "Which samples are carried to the next frame").group(group);
-  add_choice(app, "--keep-samples", o.keep_samples, "Keep carried samples at a repartition").group(group);
+  add_choice(app, "--sampler", o.method.sampler, "What chooses a frame's samples").group(group);
+  add_choice(app, "--balance", o.method.balance, "How ranks share the load").group(group);
+  add_choice(app, "--cast", o.method.cast, "Which samples are carried to the next frame").group(group);
+  add_choice(app, "--keep-samples", o.method.keep_samples, "Keep carried samples at a repartition")
+      .group(group);
   add_choice(app, "--weights", o.weights, "Rule that chooses the next triangle to refine").group(group);
-  app.add_option("--seed", o.seed, "Seed of the pattern that every frame starts from")
+  app.add_option("--seed", o.method.seed, "Seed of the pattern that every frame starts from")
       ->check(count_from(0))
       ->capture_default_str()
       ->type_name("N")
@@ -138,8 +140,9 @@ void add_image_options(CLI::App& app, RenderOptions& o) {
       .type_name("WxH")
       ->group(group);
   const auto set_outputs = [&o](const std::vector<std::string>& names) {
-    o.outputs.clear();
-    for (const std::string& name : names) o.outputs.push_back(parse_frame_pattern(name, FrameCount::kOne));
+    o.output.pictures.clear();
+    for (const std::string& name : names)
+      o.output.pictures.push_back(parse_frame_pattern(name, FrameCount::kOne));
   };
   app.add_option_function<std::vector<std::string>>(
          "-o,--output", set_outputs,
@@ -152,12 +155,13 @@ void add_image_options(CLI::App& app, RenderOptions& o) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->allow_extra_args(false)
       ->group(group);
-  add_choice(app, "--pixels", o.pixels, "Colour of a pixel with several samples or an edge").group(group);
+  add_choice(app, "--pixels", o.method.pixel_rule, "Colour of a pixel with several samples or an edge")
+      .group(group);
   add_parsed(app, "--frames", parse_frame_range, o.frames, "Render only frames A to B")
       .type_name("A-B")
       ->group(group);
   const auto set_layers = [&o](const std::string& list) {
-    o.layers = list.empty() ? std::vector<Layer>() : parse_layers(list);
+    o.output.layers = list.empty() ? std::vector<Layer>() : parse_layers(list);
   };
   auto* layers = app.add_option_function<std::string>(
       "--layers", set_layers,
@@ -165,11 +169,12 @@ void add_image_options(CLI::App& app, RenderOptions& o) {
           list_of(every_layer()));
   layers->type_name("LIST")->group(group);
   take_some_of(*layers, and_also({"all"}, every_layer()));
-  app.add_option("--contact-sheet", o.contact_sheet,
+  app.add_option("--contact-sheet", o.output.contact_sheet,
                  "Write thumbnails of the finished frames to one picture, .exr or .png")
       ->type_name("FILE")
       ->group(group);
-  app.add_option("--film", o.film, "Make a film of the finished frames, .mp4, .mkv or .gif (needs ffmpeg)")
+  app.add_option("--film", o.output.film,
+                 "Make a film of the finished frames, .mp4, .mkv or .gif (needs ffmpeg)")
       ->type_name("FILE")
       ->group(group);
   auto* overwrite = app.add_flag("--overwrite", o.overwrite, "Replace existing files")->group(group);
@@ -188,13 +193,13 @@ void add_live_options(CLI::App& app, RenderOptions& o) {
 
 void add_effect_options(CLI::App& app, RenderOptions& o) {
   const std::string group = "Effects";
-  app.add_option("--max-depth", o.max_depth, "Longest chain of rays; an eye ray has depth 1")
+  app.add_option("--max-depth", o.compile.max_depth, "Longest chain of rays; an eye ray has depth 1")
       ->check(count_from(1, 64))
       ->capture_default_str()
       ->type_name("N")
       ->group(group);
   const auto set_effects = [&o](const std::string& list) {
-    o.effects = list == "auto" ? std::nullopt : std::optional(parse_effects(list));
+    o.compile.effects = list == "auto" ? std::nullopt : std::optional(parse_effects(list));
   };
   auto* effects = app.add_option_function<std::string>(
       "--effects", set_effects,
@@ -202,29 +207,30 @@ void add_effect_options(CLI::App& app, RenderOptions& o) {
           list_of(every_effect_word()));
   effects->default_str("auto")->type_name("LIST")->group(group);
   take_some_of(*effects, and_also({"auto", "all", "none"}, every_effect_word()));
-  app.add_flag("--cull", o.cull, "Show opaque surfaces from the front only")->group(group);
-  app.add_flag("--census", o.census,
+  app.add_flag("--cull", o.compile.cull, "Show opaque surfaces from the front only")->group(group);
+  app.add_flag("--census", o.report.census,
                "Print which effects the scene calls for and why; with -o also the rays of each kind")
       ->group(group);
-  app.add_flag("--strict", o.strict, "Reject what the NFF specification does not allow")->group(group);
+  app.add_flag("--strict", o.source.strict, "Reject what the NFF specification does not allow")->group(group);
 }
 
 void add_report_options(CLI::App& app, RenderOptions& o) {
   const std::string group = "Reports and settings";
-  app.add_option("--stats", o.stats, "Write the ledger, one JSON object a line; - is standard output")
+  app.add_option("--stats", o.report.ledger, "Write the ledger, one JSON object a line; - is standard output")
       ->type_name("FILE")
       ->group(group);
-  app.add_option("--trace", o.trace,
+  app.add_option("--trace", o.report.trace,
                  "Write the balancing trace, one JSON object a line, which pprt-study balance replays")
       ->type_name("FILE")
       ->group(group);
   const auto parse_reference = [](const std::string& text) {
     return parse_frame_pattern(text, FrameCount::kOne, "--reference");
   };
-  add_parsed(app, "--reference", parse_reference, o.reference, "Reference pictures for the frames' errors")
+  add_parsed(app, "--reference", parse_reference, o.report.reference,
+             "Reference pictures for the frames' errors")
       .type_name("PATTERN")
       ->group(group);
-  app.add_flag("--compare-serial", o.compare_serial,
+  app.add_flag("--compare-serial", o.report.compare_serial,
                "Compare each frame's sample pattern with the serial one of as many samples")
       ->group(group);
   add_choice(app, "--progress", o.progress,

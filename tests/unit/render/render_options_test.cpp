@@ -25,25 +25,25 @@ RenderOptions parse(std::vector<std::string> words) {
 }  // namespace
 
 TEST_CASE("mpirun's -np is accepted anywhere on the command line") {
-  CHECK(parse({"-np", "32", "spd:tree"}).processes == 32);
-  CHECK(parse({"spd:tree", "a.anim", "-np", "3", "--fps", "4"}).processes == 3);
-  CHECK(parse({"spd:tree", "--np", "3"}).processes == 3);
-  CHECK(parse({"spd:tree"}).processes == 1);
+  CHECK(parse({"-np", "32", "spd:tree"}).ranks.processes == 32);
+  CHECK(parse({"spd:tree", "a.anim", "-np", "3", "--fps", "4"}).ranks.processes == 3);
+  CHECK(parse({"spd:tree", "--np", "3"}).ranks.processes == 3);
+  CHECK(parse({"spd:tree"}).ranks.processes == 1);
 }
 
 TEST_CASE("scene and script may stand among the options, in their order") {
   const RenderOptions options = parse({"-s", "8x8", "spd:tree", "--cast", "paper", "a.anim", "-o", "%d.png"});
-  CHECK((options.input == "spd:tree" && options.script == "a.anim"));
+  CHECK((options.source.input == "spd:tree" && options.source.script == "a.anim"));
   REQUIRE(options.size);
   CHECK((options.size->width == 8 && options.size->height == 8));
-  CHECK(options.cast == CastChoice::kPaper);
+  CHECK(options.method.cast == CastChoice::kPaper);
 }
 
 TEST_CASE("the option --output may be given twice and takes one word each time") {
   const RenderOptions options = parse({"-o", "%d.png", "spd:tree", "-o", "%d.exr"});
-  REQUIRE(options.outputs.size() == 2);
-  CHECK((options.outputs[0].text == "%d.png" && options.outputs[1].text == "%d.exr"));
-  CHECK(options.input == "spd:tree");
+  REQUIRE(options.output.pictures.size() == 2);
+  CHECK((options.output.pictures[0].text == "%d.png" && options.output.pictures[1].text == "%d.exr"));
+  CHECK(options.source.input == "spd:tree");
 }
 
 TEST_CASE("numbers outside their range and unknown words are refused") {
@@ -63,16 +63,18 @@ TEST_CASE("numbers outside their range and unknown words are refused") {
 }
 
 TEST_CASE("every word of an option stands for its own value") {
-  const auto clock = [](const std::string& word) { return parse({"spd:tree", "--clock", word}).clock; };
+  const auto clock = [](const std::string& word) {
+    return parse({"spd:tree", "--clock", word}).method.clock;
+  };
   CHECK((clock("wall") == ClockKind::kWall && clock("work") == ClockKind::kWork));
   for (const Word<BalanceMode>& entry : kWords<BalanceMode>) {
-    CHECK(parse({"spd:tree", "--balance", std::string(entry.word)}).balance == entry.value);
+    CHECK(parse({"spd:tree", "--balance", std::string(entry.word)}).method.balance == entry.value);
   }
   for (const Word<CastChoice>& entry : kWords<CastChoice>) {
-    CHECK(parse({"spd:tree", "--cast", std::string(entry.word)}).cast == entry.value);
+    CHECK(parse({"spd:tree", "--cast", std::string(entry.word)}).method.cast == entry.value);
   }
   for (const Word<PixelRule>& entry : kWords<PixelRule>) {
-    CHECK(parse({"spd:tree", "--pixels", std::string(entry.word)}).pixels == entry.value);
+    CHECK(parse({"spd:tree", "--pixels", std::string(entry.word)}).method.pixel_rule == entry.value);
   }
   for (const Word<ProgressKind>& entry : kWords<ProgressKind>) {
     CHECK(parse({"spd:tree", "--progress", std::string(entry.word)}).progress == entry.value);
@@ -81,7 +83,7 @@ TEST_CASE("every word of an option stands for its own value") {
     CHECK(parse({"spd:tree", "--log", std::string(entry.word)}).log == entry.value);
   }
   CHECK(parse({"spd:tree", "--weights", "paper"}).weights == WeightRule::kPaper);
-  CHECK_FALSE(parse({"spd:tree", "--keep-samples", "off"}).keep_samples);
+  CHECK_FALSE(parse({"spd:tree", "--keep-samples", "off"}).method.keep_samples);
 }
 
 TEST_CASE("a mistyped word of an option is refused with the nearest one") {
@@ -121,10 +123,10 @@ TEST_CASE("file names, layers and effects that do not exist are usage errors") {
 }
 
 TEST_CASE("effects are all that the scene calls for unless some are listed") {
-  CHECK_FALSE(parse({"spd:tree"}).effects);
-  CHECK_FALSE(parse({"spd:tree", "--effects", "auto"}).effects);
-  CHECK(parse({"spd:tree", "--effects", "none"}).effects == EffectSet());
-  CHECK(parse({"spd:tree", "--effects", "all"}).effects == EffectSet::all());
+  CHECK_FALSE(parse({"spd:tree"}).compile.effects);
+  CHECK_FALSE(parse({"spd:tree", "--effects", "auto"}).compile.effects);
+  CHECK(parse({"spd:tree", "--effects", "none"}).compile.effects == EffectSet());
+  CHECK(parse({"spd:tree", "--effects", "all"}).compile.effects == EffectSet::all());
 }
 
 }  // namespace pprt

@@ -4,6 +4,8 @@
 #include <fstream>
 
 #include "base/diagnostics.h"
+#include "render/session_plan.h"
+#include "render/usage_check.h"
 #include "unit/image/temporary_directory.h"
 
 namespace pprt {
@@ -35,7 +37,7 @@ FramePattern pattern(const char* text) {
 
 RenderOptions options_for(const std::string& input, const std::string& script = "") {
   RenderOptions options;
-  options.input = input, options.script = script;
+  options.source.input = input, options.source.script = script;
   return options;
 }
 
@@ -46,7 +48,7 @@ RenderPlan checked_plan(const RenderOptions& options) {
 
 RenderOptions scripted(const Files& files) {
   RenderOptions options = options_for("spd:tree:1", files.add("a.anim", kScript));
-  options.outputs = {pattern("out/%04d.png")};
+  options.output.pictures = {pattern("out/%04d.png")};
   return options;
 }
 
@@ -68,12 +70,12 @@ TEST_CASE("a still has the scene's view and ends at the weight for stills") {
 TEST_CASE("samples are sent to the master only for layers and reports made of them") {
   RenderOptions options = options_for("spd:tree:1");
   CHECK_FALSE(plan_render(options).settings.report_samples);
-  options.layers = {Layer::kDepth, Layer::kRegions, Layer::kNormal, Layer::kId};
+  options.output.layers = {Layer::kDepth, Layer::kRegions, Layer::kNormal, Layer::kId};
   CHECK_FALSE(plan_render(options).settings.report_samples);
-  options.layers.push_back(Layer::kAge);
+  options.output.layers.push_back(Layer::kAge);
   CHECK(plan_render(options).settings.report_samples);
-  options.layers.clear();
-  options.compare_serial = true, options.stats = "-";
+  options.output.layers.clear();
+  options.report.compare_serial = true, options.report.ledger = "-";
   CHECK(plan_render(options).settings.report_samples);
 }
 
@@ -86,8 +88,8 @@ TEST_CASE("weights are learned unless the paper's are asked for") {
 
 TEST_CASE("layers become pictures beside PNG outputs, and none beside EXR outputs") {
   RenderOptions options = options_for("spd:tree:1");
-  options.outputs = {pattern("a_%04d.exr"), pattern("b_%04d.png")};
-  options.layers = {Layer::kAge, Layer::kId};
+  options.output.pictures = {pattern("a_%04d.exr"), pattern("b_%04d.png")};
+  options.output.layers = {Layer::kAge, Layer::kId};
   std::vector<std::string> names;
   for (const FramePattern& file : files_of_a_frame(plan_render(options).output))
     names.push_back(file_name(file, 2));
@@ -109,11 +111,11 @@ TEST_CASE("the frame rate of the options precedes the script's, and 0 turns it o
   RenderOptions options = scripted(files);
   CHECK(plan_render(options).settings.frames_per_second == 4);
   CHECK(plan_render(options).settings.budget_units == 12'500'000);
-  options.fps = 10;
+  options.end.fps = 10;
   CHECK(plan_render(options).settings.budget_units == 5'000'000);
-  options.clock = ClockKind::kWork, options.budget = 123;
+  options.method.clock = ClockKind::kWork, options.end.budget = 123;
   CHECK(plan_render(options).settings.budget_units == 123);
-  options.budget.reset(), options.fps = 0;
+  options.end.budget.reset(), options.end.fps = 0;
   CHECK(plan_render(options).settings.stop.weight == kLatticeStillWeight);
 }
 
@@ -127,22 +129,24 @@ TEST_CASE("the triangulation is taken where an option asks for what it alone kno
     check_usage(changed);
     return plan_render(changed).settings;
   };
-  CHECK(with([](RenderOptions& o) { o.cast = CastChoice::kPaper; }).sampler == SamplerChoice::kDelaunay);
+  CHECK(with([](RenderOptions& o) { o.method.cast = CastChoice::kPaper; }).sampler ==
+        SamplerChoice::kDelaunay);
   CHECK(with([](RenderOptions& o) { o.weights = WeightRule::kPaper; }).sampler == SamplerChoice::kDelaunay);
-  CHECK(with([](RenderOptions& o) { o.pixels = PixelRule::kMean; }).sampler == SamplerChoice::kDelaunay);
-  CHECK(with([](RenderOptions& o) { o.pixels = PixelRule::kMean; }).stop.weight == kStillWeight);
-  options.sampler = SamplerChoice::kGrid;
+  CHECK(with([](RenderOptions& o) { o.method.pixel_rule = PixelRule::kMean; }).sampler ==
+        SamplerChoice::kDelaunay);
+  CHECK(with([](RenderOptions& o) { o.method.pixel_rule = PixelRule::kMean; }).stop.weight == kStillWeight);
+  options.method.sampler = SamplerChoice::kGrid;
   CHECK(with([](RenderOptions&) {}).stop.weight == 0);
-  options.cast = CastChoice::kPaper;
+  options.method.cast = CastChoice::kPaper;
   CHECK_THROWS_WITH(check_usage(options), Catch::Contains("--sampler grid has no triangles"));
 }
 
 TEST_CASE("a stop rule that is given replaces the weight for stills") {
   RenderOptions options = options_for("spd:tree:1");
-  options.samples = 500;
+  options.end.samples = 500;
   CHECK(plan_render(options).settings.stop.samples == 500);
   CHECK(plan_render(options).settings.stop.weight == 0);
-  options.quality = 0.5;
+  options.end.quality = 0.5;
   CHECK((plan_render(options).settings.stop.flip == 0.5 && plan_render(options).settings.stop.weight == 0));
 }
 
@@ -173,7 +177,7 @@ TEST_CASE("a script may name its scene, relative to its own directory") {
   const std::string script =
       files.add("b.anim", "animation { scene \"ball.nff\" frames 3 camera { key 1 { from <0, 0, 4> } } }\n");
   RenderOptions options = options_for(script);
-  options.outputs = {pattern("%d.exr")};
+  options.output.pictures = {pattern("%d.exr")};
   const RenderPlan plan = plan_render(options);
   CHECK((plan.frames.size() == 3 && plan.settings.width == 8));
   CHECK(plan.script_name == script);
@@ -191,19 +195,19 @@ TEST_CASE("options that contradict each other are usage errors that say why") {
     CHECK_THROWS_WITH(checked_plan(options), Contains(message));
   };
   refuse([](RenderOptions& o) { o.frames = {3, 11}; }, "the last frame is 10");
-  refuse([](RenderOptions& o) { o.samples = 10; }, "--fps 0 turns it off");
-  refuse([](RenderOptions& o) { o.budget = 10; }, "--clock work");
-  refuse([](RenderOptions& o) { o.budget = 10, o.clock = ClockKind::kWork, o.fps = 0; },
+  refuse([](RenderOptions& o) { o.end.samples = 10; }, "--fps 0 turns it off");
+  refuse([](RenderOptions& o) { o.end.budget = 10; }, "--clock work");
+  refuse([](RenderOptions& o) { o.end.budget = 10, o.method.clock = ClockKind::kWork, o.end.fps = 0; },
          "--budget needs a frame rate");
-  refuse([](RenderOptions& o) { o.outputs = {pattern("one.png")}; }, "one.png");
-  refuse([](RenderOptions& o) { o.compare_serial = true; },
+  refuse([](RenderOptions& o) { o.output.pictures = {pattern("one.png")}; }, "one.png");
+  refuse([](RenderOptions& o) { o.report.compare_serial = true; },
          "--compare-serial tells the ledger: it needs --stats");
 }
 
 TEST_CASE("a degenerate camera is reported with its place in the script") {
   const Files files;
   RenderOptions options = scripted(files);
-  options.script =
+  options.source.script =
       files.add("d.anim", "animation { frames 2\n  camera { key 1 { from <1, 1, 1> at <1, 1, 1> } } }\n");
   CHECK_THROWS_AS(plan_render(options), InputError);
   CHECK_THROWS_WITH(plan_render(options), Contains("d.anim:2:"));
@@ -214,7 +218,7 @@ TEST_CASE("a scene without a view needs a script that gives one") {
   const std::string scene = files.add("blind.nff", "f 1 1 1 1 0 0 0 0\ns 0 0 0 1\n");
   CHECK_THROWS_AS(plan_render(options_for(scene)), InputError);
   RenderOptions options = options_for(scene, files.add("a.anim", kScript));
-  options.outputs = {pattern("%d.png")};
+  options.output.pictures = {pattern("%d.png")};
   CHECK(plan_render(options).frames.size() == 10);
 }
 
