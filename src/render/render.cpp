@@ -4,7 +4,7 @@
 #include "cli/launch.h"
 #include "cli/rank_limits.h"
 #include "parallel/network/mpi_communicator.h"
-#include "render/run_process.h"
+#include "render/run/run_process.h"
 
 namespace pprt {
 namespace {

@@ -6,9 +6,9 @@
 #include "cli/config_text.h"
 #include "cli/exit.h"
 #include "cli/launch.h"
-#include "render/examples.h"
+#include "render/options/examples.h"
+#include "render/options/usage_check.h"
 #include "render/render.h"
-#include "render/usage_check.h"
 
 namespace {
 

@@ -17,7 +17,7 @@
 #include "cli/command_line.h"
 #include "cli/config_text.h"
 #include "cli/scene_source.h"
-#include "render/render_options.h"
+#include "render/options/render_options.h"
 
 // Stands for that of cli/scene_source.cpp, which needs all readers of scenes.
 std::vector<std::string> pprt::generated_scenes() {

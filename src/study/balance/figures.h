@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "parallel/balance/tile_cost.h"
-#include "render/balance_trace.h"
+#include "render/trace/balance_trace.h"
 
 namespace pprt {
 

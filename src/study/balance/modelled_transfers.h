@@ -3,7 +3,7 @@
 
 #include "parallel/balance/local_balance.h"
 #include "parallel/balance/partition.h"
-#include "render/balance_trace.h"
+#include "render/trace/balance_trace.h"
 
 namespace pprt {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "parallel/session_words.h"
-#include "render/balance_trace.h"
+#include "render/trace/balance_trace.h"
 #include "study/balance/replay.h"
 #include "study/report/table.h"
 
