@@ -14,8 +14,8 @@
 #include "cli/texture_files.h"
 #include "parser/aff_parser.h"
 #include "parser/text_input.h"
-#include "scene/object_motion.h"
-#include "scene/resting_nodes.h"
+#include "scene/animation/object_motion.h"
+#include "scene/animation/resting_nodes.h"
 #include "spd/spd.h"
 
 namespace pprt {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "parser/nff_parser.h"
-#include "scene/animation.h"
+#include "scene/animation/animation.h"
 
 namespace pprt {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "image/image.h"
-#include "scene/scene_description.h"
+#include "scene/description/scene_description.h"
 
 namespace pprt {
 

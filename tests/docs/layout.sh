@@ -20,6 +20,11 @@ declare -A besides=([study]="render/trace/balance_trace.h render/records/frame_s
 # circle. Files beside the rooms may include them all.
 declare -A within
 for line in \
+  "scene/movement:" \
+  "scene/description: scene/movement" \
+  "scene/animation: scene/description scene/movement" \
+  "scene/polygons:" \
+  "scene/writers: scene/description scene/animation" \
   "render/records:" \
   "render/options: render/records" \
   "render/plan: render/options" \

@@ -14,7 +14,7 @@
 
 #include "cli/scene_source.h"
 #include "image/image_io.h"
-#include "scene/resting_nodes.h"
+#include "scene/animation/resting_nodes.h"
 #include "trace/compiled_scene.h"
 
 namespace {

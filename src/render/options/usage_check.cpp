@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 
 #include "base/diagnostics.h"
-#include "scene/animation.h"
+#include "scene/animation/animation.h"
 
 namespace pprt {
 namespace {

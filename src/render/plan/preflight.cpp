@@ -10,7 +10,7 @@
 
 #include "base/diagnostics.h"
 #include "image/display_bytes.h"
-#include "scene/view_frame.h"
+#include "scene/description/view_frame.h"
 
 namespace pprt {
 namespace {

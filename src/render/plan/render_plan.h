@@ -8,8 +8,8 @@
 #include "live/address.h"
 #include "parallel/session_settings.h"
 #include "render/options/render_options.h"
-#include "scene/animation.h"
-#include "scene/scene_description.h"
+#include "scene/animation/animation.h"
+#include "scene/description/scene_description.h"
 #include "trace/compiled_scene.h"
 
 namespace pprt {

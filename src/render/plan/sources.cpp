@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "cli/scene_source.h"
-#include "scene/resting_nodes.h"
+#include "scene/animation/resting_nodes.h"
 #include "spd/spd.h"
 
 namespace pprt {

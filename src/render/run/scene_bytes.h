@@ -5,7 +5,7 @@
 #include <string>
 
 #include "parallel/network/communicator.h"
-#include "scene/scene_description.h"
+#include "scene/description/scene_description.h"
 
 namespace pprt {
 

@@ -7,7 +7,7 @@
 
 #include "image/metrics.h"
 #include "render/records/frame_summary.h"
-#include "scene/camera_path.h"
+#include "scene/animation/camera_path.h"
 #include "study/accuracy/methods.h"
 #include "study/accuracy/statistics.h"
 
