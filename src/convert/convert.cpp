@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "base/diagnostics.h"
-#include "cli/scene_source.h"
+#include "cli/scenes/scene_source.h"
 #include "convert/extension.h"
 #include "convert/losses.h"
 #include "convert/mesh_reader.h"

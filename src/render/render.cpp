@@ -1,8 +1,8 @@
 #include "render/render.h"
 
-#include "cli/exit.h"
-#include "cli/launch.h"
-#include "cli/rank_limits.h"
+#include "cli/process/exit.h"
+#include "cli/process/launch.h"
+#include "cli/process/rank_limits.h"
 #include "parallel/network/mpi_communicator.h"
 #include "render/run/run_process.h"
 

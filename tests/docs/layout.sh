@@ -25,6 +25,9 @@ for line in \
   "scene/animation: scene/description scene/movement" \
   "scene/polygons:" \
   "scene/writers: scene/description scene/animation" \
+  "cli/process:" \
+  "cli/options: cli/process" \
+  "cli/scenes:" \
   "render/records:" \
   "render/options: render/records" \
   "render/plan: render/options" \

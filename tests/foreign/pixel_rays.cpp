@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/scene_source.h"
+#include "cli/scenes/scene_source.h"
 #include "image/image_io.h"
 #include "scene/animation/resting_nodes.h"
 #include "trace/compiled_scene.h"

@@ -7,11 +7,11 @@
 #include <cstdio>
 #include <sstream>
 
-#include "cli/command_line.h"
-#include "cli/config_file.h"
-#include "cli/number_checks.h"
-#include "cli/scene_source.h"
-#include "cli/typed_options.h"
+#include "cli/options/command_line.h"
+#include "cli/options/config_file.h"
+#include "cli/options/number_checks.h"
+#include "cli/options/typed_options.h"
+#include "cli/scenes/scene_source.h"
 #include "layers/layer.h"
 #include "trace/effects.h"
 

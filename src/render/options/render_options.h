@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "cli/log.h"
-#include "cli/number_pair.h"
+#include "cli/options/number_pair.h"
+#include "cli/process/log.h"
 #include "live/address.h"
 #include "parallel/session_words.h"
 #include "render/options/outputs.h"

@@ -4,7 +4,7 @@
 #include <future>
 #include <utility>
 
-#include "cli/version.h"
+#include "cli/options/version.h"
 #include "image/contact_sheet.h"
 #include "image/metrics.h"
 #include "layers/frame_layers.h"

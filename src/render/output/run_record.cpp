@@ -4,7 +4,7 @@
 #include <unistd.h>
 
 #include "base/content_hash.h"
-#include "cli/version.h"
+#include "cli/options/version.h"
 #include "parallel/clock/make_clocks.h"
 #include "parallel/session_words.h"
 #include "render/records/json_names.h"

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "cli/scene_source.h"
+#include "cli/scenes/scene_source.h"
 #include "scene/animation/resting_nodes.h"
 #include "spd/spd.h"
 

@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include "cli/exit.h"
+#include "cli/process/exit.h"
 
 namespace pprt {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "cli/exit.h"
-#include "cli/launch.h"
+#include "cli/process/exit.h"
+#include "cli/process/launch.h"
 #include "render/records/ledger.h"
 
 namespace pprt {

@@ -12,8 +12,8 @@
 
 #include "base/diagnostics.h"
 #include "base/host_networks.h"
-#include "cli/exit.h"
-#include "cli/stop_signals.h"
+#include "cli/process/exit.h"
+#include "cli/process/stop_signals.h"
 #include "layers/overlay.h"
 #include "live/live_view.h"
 #include "parallel/session.h"

@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-#include "cli/log.h"
+#include "cli/process/log.h"
 #include "render/plan/render_plan.h"
 #include "render/records/progress.h"
 

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "base/diagnostics.h"
-#include "cli/scene_source.h"
+#include "cli/scenes/scene_source.h"
 #include "parallel/session_words.h"
 #include "parser/anim_parser.h"
 #include "scene/animation/resting_nodes.h"

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "base/diagnostics.h"
-#include "cli/exit.h"
-#include "cli/scene_source.h"
+#include "cli/process/exit.h"
+#include "cli/scenes/scene_source.h"
 #include "image/contact_sheet.h"
 #include "image/image_io.h"
 #include "layers/pictures.h"

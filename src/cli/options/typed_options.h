@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/words.h"
-#include "cli/option_words.h"
+#include "cli/options/option_words.h"
 
 namespace pprt {
 

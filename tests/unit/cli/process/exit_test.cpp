@@ -1,4 +1,4 @@
-#include "cli/exit.h"
+#include "cli/process/exit.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "cli/option_words.h"
+#include "cli/options/option_words.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

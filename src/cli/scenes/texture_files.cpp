@@ -1,4 +1,4 @@
-#include "cli/texture_files.h"
+#include "cli/scenes/texture_files.h"
 
 #include <algorithm>
 #include <cmath>

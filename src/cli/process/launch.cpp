@@ -1,4 +1,4 @@
-#include "cli/launch.h"
+#include "cli/process/launch.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -13,8 +13,8 @@
 #include <utility>
 
 #include "base/subprocess.h"
-#include "cli/exit.h"
-#include "cli/mpirun_messages.h"
+#include "cli/process/exit.h"
+#include "cli/process/mpirun_messages.h"
 
 namespace pprt {
 namespace {

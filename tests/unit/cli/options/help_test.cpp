@@ -1,9 +1,9 @@
-#include "cli/help.h"
+#include "cli/options/help.h"
 
 #include <CLI/CLI.hpp>
 #include <catch2/catch.hpp>
 
-#include "cli/option_words.h"
+#include "cli/options/option_words.h"
 
 namespace pprt {
 namespace {

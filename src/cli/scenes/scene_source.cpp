@@ -1,4 +1,4 @@
-#include "cli/scene_source.h"
+#include "cli/scenes/scene_source.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -11,7 +11,7 @@
 #include "base/diagnostics.h"
 #include "base/nearest_word.h"
 #include "base/printable.h"
-#include "cli/texture_files.h"
+#include "cli/scenes/texture_files.h"
 #include "parser/aff_parser.h"
 #include "parser/text_input.h"
 #include "scene/animation/object_motion.h"

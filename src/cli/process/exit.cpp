@@ -1,4 +1,4 @@
-#include "cli/exit.h"
+#include "cli/process/exit.h"
 
 #include <fmt/core.h>
 
@@ -13,7 +13,7 @@
 
 #include "base/diagnostics.h"
 #include "base/printable.h"
-#include "cli/launch.h"
+#include "cli/process/launch.h"
 
 namespace pprt {
 namespace {

@@ -1,4 +1,4 @@
-#include "cli/completion.h"
+#include "cli/options/completion.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

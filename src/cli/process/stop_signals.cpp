@@ -1,4 +1,4 @@
-#include "cli/stop_signals.h"
+#include "cli/process/stop_signals.h"
 
 #include <semaphore.h>
 

@@ -1,4 +1,4 @@
-#include "cli/mpirun_messages.h"
+#include "cli/process/mpirun_messages.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "cli/launch.h"
+#include "cli/process/launch.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-#include "cli/mpirun_messages.h"
+#include "cli/process/mpirun_messages.h"
 
 namespace pprt {
 namespace {

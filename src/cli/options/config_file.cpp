@@ -1,4 +1,4 @@
-#include "cli/config_file.h"
+#include "cli/options/config_file.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "base/diagnostics.h"
-#include "cli/config_text.h"
+#include "cli/options/config_text.h"
 
 namespace pprt {
 namespace {

@@ -1,4 +1,4 @@
-#include "cli/number_pair.h"
+#include "cli/options/number_pair.h"
 
 #include <charconv>
 #include <optional>

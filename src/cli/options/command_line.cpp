@@ -1,4 +1,4 @@
-#include "cli/command_line.h"
+#include "cli/options/command_line.h"
 
 #include <fmt/format.h>
 
@@ -10,14 +10,14 @@
 
 #include "base/diagnostics.h"
 #include "base/nearest_word.h"
-#include "cli/completion.h"
-#include "cli/config_file.h"
-#include "cli/exit.h"
-#include "cli/help.h"
-#include "cli/launch.h"
-#include "cli/option_table.h"
-#include "cli/typed_options.h"
-#include "cli/version.h"
+#include "cli/options/completion.h"
+#include "cli/options/config_file.h"
+#include "cli/options/help.h"
+#include "cli/options/option_table.h"
+#include "cli/options/typed_options.h"
+#include "cli/options/version.h"
+#include "cli/process/exit.h"
+#include "cli/process/launch.h"
 #include "parser/text_input.h"
 
 namespace pprt {

@@ -1,4 +1,4 @@
-#include "cli/rank_limits.h"
+#include "cli/process/rank_limits.h"
 
 #include <fmt/core.h>
 #include <sys/resource.h>

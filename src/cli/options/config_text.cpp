@@ -1,4 +1,4 @@
-#include "cli/config_text.h"
+#include "cli/options/config_text.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,4 +1,4 @@
-#include "cli/rank_limits.h"
+#include "cli/process/rank_limits.h"
 
 #include <catch2/catch.hpp>
 
