@@ -7,7 +7,6 @@
 #include "cli/process/exit.h"
 #include "cli/process/launch.h"
 #include "render/options/examples.h"
-#include "render/options/usage_check.h"
 #include "render/render.h"
 
 namespace {

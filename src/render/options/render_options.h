@@ -70,6 +70,12 @@ struct RenderOptions {
 
 inline constexpr const char* kDefaultOutput = "frame_%04d.png";
 
+// Throws UsageError with the first contradiction that can be found in the options alone.
+void check_usage(const RenderOptions& options);
+
+// Whether something is asked for that only the triangulation knows.
+bool needs_triangulation(const SessionSettings& method, WeightRule weights);
+
 // Binds the options to their names, with the help text in groups. While `app` parses, a value that cannot be
 // parsed throws UsageError or CLI::ParseError.
 void add_render_options(CLI::App& app, RenderOptions& options);

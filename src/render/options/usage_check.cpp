@@ -1,8 +1,7 @@
-#include "render/options/usage_check.h"
-
 #include <fmt/core.h>
 
 #include "base/diagnostics.h"
+#include "render/options/render_options.h"
 #include "scene/animation/animation.h"
 
 namespace pprt {

@@ -77,23 +77,22 @@ std::unique_ptr<BalanceTraceWriter> trace_of(const RenderPlan& plan, int ranks) 
 
 }  // namespace
 
-FrameRecorder::FrameRecorder(const RenderPlan& plan, const CompiledScene& scene, int ranks,
-                             const std::string& key, const Json& run, ProgressReporter& progress)
-    : plan_(plan),
+FrameRecorder::FrameRecorder(const RunIdentity& run, const CompiledScene& scene, ProgressReporter& progress)
+    : plan_(run.plan),
       scene_(scene),
-      ledger_(plan.report.ledger, plan.output.existing),
-      trace_(trace_of(plan, ranks)),
-      manifest_(manifest_path(plan.output.pictures.front()), key, plan.output.existing,
-                rewritten_files(plan)),
-      finished_before_(frames_in(manifest_, plan)),
+      ledger_(plan_.report.ledger, plan_.output.existing),
+      trace_(trace_of(plan_, run.ranks)),
+      manifest_(manifest_path(plan_.output.pictures.front()), run_key(run), plan_.output.existing,
+                rewritten_files(plan_)),
+      finished_before_(frames_in(manifest_, plan_)),
       written_(finished_before_),
-      writer_(plan.output.pictures, {.overwrite = true, .is_hurried = is_hurried(plan.settings)}),
+      writer_(plan_.output.pictures, {.overwrite = true, .is_hurried = is_hurried(plan_.settings)}),
       progress_(progress) {
-  progress_.begin({.frames = static_cast<int>(plan.frames.size()),
+  progress_.begin({.frames = static_cast<int>(plan_.frames.size()),
                    .finished_before = static_cast<int>(finished_before_.size()),
-                   .frames_per_second = plan.settings.frames_per_second});
-  if (plan.report.compare_serial) serial_.emplace(scene, plan.settings);
-  ledger_.write(run);
+                   .frames_per_second = plan_.settings.frames_per_second});
+  if (plan_.report.compare_serial) serial_.emplace(scene, plan_.settings);
+  ledger_.write(run_record(run, scene.effects()));
 }
 
 void FrameRecorder::record(FinishedFrame&& frame) {

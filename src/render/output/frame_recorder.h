@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "image/frame_writer.h"
+#include "render/output/run_record.h"
 #include "render/output/serial_comparison.h"
-#include "render/plan/render_plan.h"
 #include "render/records/ledger.h"
 #include "render/records/manifest.h"
 #include "render/records/progress.h"
@@ -21,10 +21,8 @@ namespace pprt {
 
 class FrameRecorder {
  public:
-  // `key` stands for scene and options in the manifest (run_key()); `run` is the ledger's first record. Plan,
-  // scene and progress must outlive the recorder.
-  FrameRecorder(const RenderPlan& plan, const CompiledScene& scene, int ranks, const std::string& key,
-                const Json& run, ProgressReporter& progress);
+  // The plan, scene and progress must outlive the recorder.
+  FrameRecorder(const RunIdentity& run, const CompiledScene& scene, ProgressReporter& progress);
 
   // Whether an earlier run has finished the frame (--resume).
   bool finished_before(int frame) const { return finished_before_.count(frame) != 0; }

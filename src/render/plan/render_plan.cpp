@@ -9,6 +9,7 @@
 #include "image/atomic_file.h"
 #include "image/frame_writer.h"
 #include "live/command.h"
+#include "render/options/render_options.h"
 #include "render/plan/session_plan.h"
 #include "render/plan/sources.h"
 #include "spd/spd.h"
@@ -39,14 +40,9 @@ View base_view(const std::optional<ImageSize>& size, const Sources& sources) {
         "OUT.nff' adds a view of the whole scene",
         scene.name, from_stdin ? "-" : scene.name));
   }
-  if (sources.script && sources.script->animation.width) {
-    view.width = *sources.script->animation.width;
-    view.height = *sources.script->animation.height;
-  }
-  if (size) {
-    view.width = size->width;
-    view.height = size->height;
-  }
+  if (sources.script && sources.script->animation.width)
+    view.width = *sources.script->animation.width, view.height = *sources.script->animation.height;
+  if (size) view.width = size->width, view.height = size->height;
   if (view.width < 1 || view.height < 1 || view.width > kLongestSide || view.height > kLongestSide) {
     throw InputError(fmt::format(
         "{}: error: the view's resolution {}x{} is not between 1x1 and {} a side; --size sets another",

@@ -7,12 +7,14 @@
 
 #include "live/address.h"
 #include "parallel/session_settings.h"
-#include "render/options/render_options.h"
+#include "render/options/outputs.h"
 #include "scene/animation/animation.h"
 #include "scene/description/scene_description.h"
 #include "trace/compiled_scene.h"
 
 namespace pprt {
+
+struct RenderOptions;
 
 // One frame of the script or of the scene's own animation: its view, in scene space and of the image's size.
 struct PlannedFrame {

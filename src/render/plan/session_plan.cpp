@@ -4,7 +4,7 @@
 
 #include "base/diagnostics.h"
 #include "parallel/session.h"
-#include "render/options/usage_check.h"
+#include "render/options/render_options.h"
 
 namespace pprt {
 namespace {

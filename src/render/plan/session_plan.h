@@ -1,9 +1,11 @@
 // How the ranks make the frames of a run.
 #pragma once
 
-#include "render/options/render_options.h"
+#include "parallel/session_words.h"
 
 namespace pprt {
+
+struct FrameEnd;
 
 // Mean triangle weight at which a still looks converged: the structural similarity to a converged picture is
 // at least 0.99 on every SPD scene tried (docs/decisions/0007-still-quality.md).

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "cli/scenes/scene_source.h"
+#include "render/options/render_options.h"
 #include "scene/animation/resting_nodes.h"
 #include "spd/spd.h"
 
@@ -54,9 +55,8 @@ double film_rate(double fps, const Sources& sources) {
   if (fps > 0) return fps;
   if (sources.script)
     return sources.script->animation.fps > 0 ? sources.script->animation.fps : kCustomaryRate;
-  const std::optional<FrameTimes>& own = sources.scene.scene.movement.times;
-  return own && own->frames > 1 && own->end > own->start ? (own->frames - 1) / (own->end - own->start)
-                                                         : kCustomaryRate;
+  const FrameTimes own = frame_times(sources);
+  return own.frames > 1 && own.end > own.start ? (own.frames - 1) / (own.end - own.start) : kCustomaryRate;
 }
 
 std::optional<std::string> absolute_scene_name(const std::string& path) {

@@ -8,9 +8,11 @@
 
 #include "parser/anim_parser.h"
 #include "parser/parsed_scene.h"
-#include "render/options/render_options.h"
+#include "scene/animation/animation.h"
 
 namespace pprt {
+
+struct SourceOptions;
 
 struct Sources {
   std::string script_path;  // as it was given; empty: there is no script

@@ -56,20 +56,11 @@ std::string where_to_look(const LiveView& view, const LiveAddress& address) {
   return text + "pprt-render: Ctrl-C ends it\n";
 }
 
+// An overlay bears the name of its layer.
 std::optional<Layer> layer_of(Overlay overlay) {
-  switch (overlay) {
-    case Overlay::kSamples:
-      return Layer::kSamples;
-    case Overlay::kTriangulation:
-      return Layer::kTriangulation;
-    case Overlay::kRegions:
-      return Layer::kRegions;
-    case Overlay::kAge:
-      return Layer::kAge;
-    case Overlay::kNone:
-      break;
-  }
-  return std::nullopt;
+  const auto is_it = [&](Layer layer) { return name_of(layer) == word_for(overlay); };
+  const auto found = std::find_if(kAllLayers.begin(), kAllLayers.end(), is_it);
+  return found == kAllLayers.end() ? std::nullopt : std::optional(*found);
 }
 
 // Tells when a picture at rest is finished. It is when nothing in it is worth a sample, by the rule of a

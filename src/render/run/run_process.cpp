@@ -19,7 +19,6 @@
 #include "parallel/session.h"
 #include "render/output/frame_recorder.h"
 #include "render/output/output_check.h"
-#include "render/output/run_record.h"
 #include "render/plan/frame_requests.h"
 #include "render/plan/memory_check.h"
 #include "render/plan/preflight.h"
@@ -181,9 +180,7 @@ int run_live_view(ProcessRanks& ranks, const PreparedRun& run, const SessionEven
   const int size = ranks.ranks().size;
   std::optional<FrameRecorder> recorder;
   if (!run.plan.output.pictures.empty()) {
-    const RunIdentity identity{run.plan, size, hash_of(run.plan.scene)};
-    recorder.emplace(run.plan, run.scene, size, run_key(identity), run_record(identity, run.scene.effects()),
-                     progress);
+    recorder.emplace(RunIdentity{run.plan, size, hash_of(run.plan.scene)}, run.scene, progress);
   }
   watch_signals();
   const auto status = [&recorder] {
@@ -208,9 +205,7 @@ int run_frames(ProcessRanks& ranks, const PreparedRun& run, const SessionEvents&
                ProgressReporter& progress, JobBroadcast& broadcast) {
   // Open the outputs, which may fail, while the other processes wait.
   const int size = ranks.ranks().size;
-  const RunIdentity identity{run.plan, size, hash_of(run.plan.scene)};
-  FrameRecorder recorder(run.plan, run.scene, size, run_key(identity),
-                         run_record(identity, run.scene.effects()), progress);
+  FrameRecorder recorder({run.plan, size, hash_of(run.plan.scene)}, run.scene, progress);
   const auto finished_before = [&](int frame) { return recorder.finished_before(frame); };
   const CameraSource source =
       camera_source(frame_requests(run.plan, run.scene, size, finished_before), recorder);

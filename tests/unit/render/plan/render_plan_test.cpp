@@ -4,7 +4,7 @@
 #include <fstream>
 
 #include "base/diagnostics.h"
-#include "render/options/usage_check.h"
+#include "render/options/render_options.h"
 #include "render/plan/session_plan.h"
 #include "unit/image/temporary_directory.h"
 
