@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "cli/number_pair.h"
+#include "cli/options/number_pair.h"
 #include "image/metrics.h"
 
 namespace pprt {

@@ -2,10 +2,10 @@
 
 #include <iostream>
 
-#include "cli/command_line.h"
-#include "cli/exit.h"
-#include "cli/number_checks.h"
-#include "cli/typed_options.h"
+#include "cli/options/command_line.h"
+#include "cli/options/number_checks.h"
+#include "cli/options/typed_options.h"
+#include "cli/process/exit.h"
 
 namespace {
 

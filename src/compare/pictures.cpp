@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/diagnostics.h"
-#include "cli/number_pair.h"
+#include "cli/options/number_pair.h"
 #include "image/frame_pattern.h"
 #include "image/image_io.h"
 

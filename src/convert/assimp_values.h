@@ -6,7 +6,7 @@
 #include <assimp/vector3.h>
 
 #include "base/affine.h"
-#include "scene/scene_description.h"
+#include "scene/description/scene_description.h"
 
 namespace pprt {
 

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "base/diagnostics.h"
-#include "cli/scene_source.h"
+#include "cli/scenes/scene_source.h"
 #include "convert/extension.h"
 #include "convert/losses.h"
 #include "convert/mesh_reader.h"
@@ -21,9 +21,9 @@
 #include "convert/tessellate.h"
 #include "image/atomic_file.h"
 #include "image/image_io.h"
-#include "scene/aff_writer.h"
-#include "scene/nff_writer.h"
-#include "scene/resting_nodes.h"
+#include "scene/animation/resting_nodes.h"
+#include "scene/writers/aff_writer.h"
+#include "scene/writers/nff_writer.h"
 #include "spd/spd.h"
 
 namespace pprt {

@@ -1,11 +1,11 @@
 #include <string>
 
-#include "cli/command_line.h"
-#include "cli/exit.h"
-#include "cli/number_checks.h"
-#include "cli/option_words.h"
-#include "cli/scene_source.h"
-#include "cli/typed_options.h"
+#include "cli/options/command_line.h"
+#include "cli/options/number_checks.h"
+#include "cli/options/option_words.h"
+#include "cli/options/typed_options.h"
+#include "cli/process/exit.h"
+#include "cli/scenes/scene_source.h"
 #include "convert/convert.h"
 #include "convert/tessellate.h"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "scene/view_frame.h"
+#include "scene/description/view_frame.h"
 
 namespace pprt {
 namespace {

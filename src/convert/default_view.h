@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/words.h"
-#include "scene/scene_description.h"
+#include "scene/description/scene_description.h"
 
 namespace pprt {
 

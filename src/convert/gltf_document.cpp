@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/resting_nodes.h"
-#include "scene/view_frame.h"
+#include "scene/animation/resting_nodes.h"
+#include "scene/description/view_frame.h"
 
 namespace pprt {
 namespace {

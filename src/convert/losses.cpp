@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "scene/shading_rules.h"
+#include "scene/description/shading_rules.h"
 
 namespace pprt {
 namespace {

@@ -3,7 +3,7 @@
 #include <array>
 #include <span>
 
-#include "scene/triangulate.h"
+#include "scene/polygons/triangulate.h"
 
 namespace pprt {
 namespace {

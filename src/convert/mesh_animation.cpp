@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "convert/assimp_values.h"
-#include "scene/straight_track.h"
+#include "scene/movement/straight_track.h"
 
 namespace pprt {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/movement.h"
+#include "scene/movement/movement.h"
 
 struct aiAnimation;
 struct aiNodeAnim;

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "scene/shading_rules.h"
+#include "scene/description/shading_rules.h"
 
 namespace pprt {
 namespace {

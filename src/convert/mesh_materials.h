@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "scene/scene_description.h"
+#include "scene/description/scene_description.h"
 
 struct aiMaterial;
 

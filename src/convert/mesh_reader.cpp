@@ -32,10 +32,10 @@
 #include "convert/mesh_materials.h"
 #include "convert/mesh_textures.h"
 #include "parser/text_input.h"
-#include "scene/animation.h"
-#include "scene/resting_nodes.h"
-#include "scene/straight_track.h"
-#include "scene/triangulate.h"
+#include "scene/animation/animation.h"
+#include "scene/animation/resting_nodes.h"
+#include "scene/movement/straight_track.h"
+#include "scene/polygons/triangulate.h"
 
 namespace pprt {
 namespace {

@@ -9,7 +9,7 @@
 #include <system_error>
 
 #include "base/printable.h"
-#include "cli/texture_files.h"
+#include "cli/scenes/texture_files.h"
 #include "image/image_io.h"
 
 namespace pprt {

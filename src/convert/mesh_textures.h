@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "image/image.h"
-#include "scene/texture.h"
+#include "scene/description/texture.h"
 
 struct aiScene;
 

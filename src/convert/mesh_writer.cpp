@@ -32,8 +32,8 @@
 #include "convert/picture_names.h"
 #include "convert/pov_material.h"
 #include "image/image_io.h"
-#include "scene/straight_track.h"
-#include "scene/view_frame.h"
+#include "scene/description/view_frame.h"
+#include "scene/movement/straight_track.h"
 
 namespace pprt {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "convert/tessellate.h"
-#include "scene/scene_description.h"
+#include "scene/description/scene_description.h"
 
 namespace pprt {
 

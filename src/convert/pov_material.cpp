@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "convert/picture_names.h"
-#include "scene/shading_rules.h"
+#include "scene/description/shading_rules.h"
 
 namespace pprt {
 namespace {

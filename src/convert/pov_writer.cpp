@@ -10,10 +10,10 @@
 #include "base/affine.h"
 #include "base/diagnostics.h"
 #include "convert/pov_material.h"
-#include "scene/shading_rules.h"
-#include "scene/text_output.h"
-#include "scene/triangulate.h"
-#include "scene/view_frame.h"
+#include "scene/description/shading_rules.h"
+#include "scene/description/view_frame.h"
+#include "scene/polygons/triangulate.h"
+#include "scene/writers/text_output.h"
 
 namespace pprt {
 namespace {

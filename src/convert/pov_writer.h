@@ -5,7 +5,7 @@
 #include <iosfwd>
 #include <string>
 
-#include "scene/scene_description.h"
+#include "scene/description/scene_description.h"
 
 namespace pprt {
 

@@ -9,7 +9,7 @@
 
 #include "base/affine.h"
 #include "base/diagnostics.h"
-#include "scene/resting_nodes.h"
+#include "scene/animation/resting_nodes.h"
 
 namespace pprt {
 namespace {

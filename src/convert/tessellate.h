@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "scene/scene_description.h"
-#include "scene/triangulate.h"
+#include "scene/description/scene_description.h"
+#include "scene/polygons/triangulate.h"
 
 namespace pprt {
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "scene/animation.h"
+#include "scene/animation/animation.h"
 
 namespace pprt {
 namespace {

@@ -16,7 +16,7 @@
 #include <variant>
 
 #include "base/words.h"
-#include "scene/scene_description.h"
+#include "scene/description/scene_description.h"
 
 namespace pprt {
 

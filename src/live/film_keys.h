@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "scene/animation.h"
-#include "scene/scene_description.h"
+#include "scene/animation/animation.h"
+#include "scene/description/scene_description.h"
 
 namespace pprt {
 

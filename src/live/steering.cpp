@@ -9,7 +9,7 @@
 #include <variant>
 
 #include "live/frame_header.h"
-#include "scene/anim_writer.h"
+#include "scene/writers/anim_writer.h"
 
 namespace pprt {
 namespace {

@@ -17,8 +17,8 @@
 
 #include "live/command.h"
 #include "live/film_keys.h"
-#include "scene/animation.h"
-#include "scene/scene_description.h"
+#include "scene/animation/animation.h"
+#include "scene/description/scene_description.h"
 
 namespace pprt {
 

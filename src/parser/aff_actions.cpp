@@ -7,9 +7,9 @@
 #include <limits>
 #include <utility>
 
-#include "scene/animation.h"
-#include "scene/shading_rules.h"
-#include "scene/triangulate.h"
+#include "scene/animation/animation.h"
+#include "scene/description/shading_rules.h"
+#include "scene/polygons/triangulate.h"
 
 namespace pprt::aff {
 namespace {

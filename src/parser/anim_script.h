@@ -10,7 +10,7 @@
 
 #include "parser/anim_problems.h"
 #include "parser/anim_value.h"
-#include "scene/animation.h"
+#include "scene/animation/animation.h"
 
 namespace pprt::anim {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "scene/scene_description.h"
+#include "scene/description/scene_description.h"
 
 namespace pprt {
 

@@ -14,7 +14,7 @@
 #include "parser/nff_parser.h"
 #include "parser/parser_input.h"
 #include "parser/text_input.h"
-#include "scene/scene_description.h"
+#include "scene/description/scene_description.h"
 
 namespace pprt::nff {
 

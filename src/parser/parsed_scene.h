@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "scene/scene_description.h"
+#include "scene/description/scene_description.h"
 
 namespace pprt {
 

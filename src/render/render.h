@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "render/render_options.h"
+#include "render/options/render_options.h"
 
 namespace pprt {
 

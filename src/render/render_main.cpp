@@ -2,13 +2,12 @@
 #include <vector>
 
 #include "base/diagnostics.h"
-#include "cli/command_line.h"
-#include "cli/config_text.h"
-#include "cli/exit.h"
-#include "cli/launch.h"
-#include "render/examples.h"
+#include "cli/options/command_line.h"
+#include "cli/options/config_text.h"
+#include "cli/process/exit.h"
+#include "cli/process/launch.h"
+#include "render/options/examples.h"
 #include "render/render.h"
-#include "render/render_plan.h"
 
 namespace {
 

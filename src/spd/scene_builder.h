@@ -7,7 +7,7 @@
 #include <numbers>
 #include <span>
 
-#include "scene/scene_description.h"
+#include "scene/description/scene_description.h"
 
 namespace pprt::spd {
 

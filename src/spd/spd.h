@@ -8,7 +8,7 @@
 #include <span>
 #include <string_view>
 
-#include "scene/scene_description.h"
+#include "scene/description/scene_description.h"
 
 namespace pprt {
 

@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "base/diagnostics.h"
-#include "cli/scene_source.h"
+#include "cli/scenes/scene_source.h"
 #include "study/frame_series.h"
 
 namespace pprt {

@@ -7,7 +7,7 @@
 
 #include "parallel/master.h"
 #include "parallel/session_words.h"
-#include "scene/animation.h"
+#include "scene/animation/animation.h"
 #include "trace/compiled_scene.h"
 
 namespace pprt {

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "base/diagnostics.h"
-#include "scene/shading_rules.h"
-#include "scene/view_frame.h"
+#include "scene/description/shading_rules.h"
+#include "scene/description/view_frame.h"
 #include "trace/numerics.h"
 #include "trace/parts_builder.h"
 #include "trace/scene_impl.h"

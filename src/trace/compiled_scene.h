@@ -13,7 +13,7 @@
 #include "base/ray_counts.h"
 #include "base/ray_sample.h"
 #include "base/vector.h"
-#include "scene/scene_description.h"
+#include "scene/description/scene_description.h"
 #include "trace/effects.h"
 
 namespace pprt {

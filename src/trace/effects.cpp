@@ -5,7 +5,7 @@
 
 #include "base/diagnostics.h"
 #include "base/nearest_word.h"
-#include "scene/shading_rules.h"
+#include "scene/description/shading_rules.h"
 #include "trace/inventory.h"
 
 namespace pprt {

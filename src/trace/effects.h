@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/scene_description.h"
+#include "scene/description/scene_description.h"
 
 namespace pprt {
 

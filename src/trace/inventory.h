@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "scene/scene_description.h"
+#include "scene/description/scene_description.h"
 #include "trace/effects.h"
 
 namespace pprt {

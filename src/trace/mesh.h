@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/vector.h"
-#include "scene/triangulate.h"
+#include "scene/polygons/triangulate.h"
 #include "trace/embree.h"
 #include "trace/quadrics.h"
 #include "trace/user_geometry.h"

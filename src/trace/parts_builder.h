@@ -1,7 +1,7 @@
 // Sorts a scene's primitives into parts: those of one body and kind with the same visible faces.
 #pragma once
 
-#include "scene/scene_description.h"
+#include "scene/description/scene_description.h"
 #include "trace/scene_impl.h"
 
 namespace pprt {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/vector.h"
-#include "scene/texture.h"
+#include "scene/description/texture.h"
 
 namespace pprt {
 

@@ -15,7 +15,30 @@ declare -A allowed=(
   [convert]="base scene spd parser image cli convert" [compare]="base image cli compare"
   [study]="base scene spd parser trace image pipeline layers parallel cli convert study")
 # Single headers of other rooms.
-declare -A besides=([study]="render/balance_trace.h render/frame_summary.h")
+declare -A besides=([study]="render/trace/balance_trace.h render/records/frame_summary.h")
+# Rooms within a module, and which others of it each may include: only such as stand above it here, so that there is no
+# circle. Files beside the rooms may include them all.
+declare -A within
+for line in \
+  "scene/movement:" \
+  "scene/description: scene/movement" \
+  "scene/animation: scene/description scene/movement" \
+  "scene/polygons:" \
+  "scene/writers: scene/description scene/animation" \
+  "cli/process:" \
+  "cli/options: cli/process" \
+  "cli/scenes:" \
+  "render/records:" \
+  "render/options: render/records" \
+  "render/plan: render/options" \
+  "render/trace: render/records" \
+  "render/output: render/records render/plan render/trace" \
+  "render/run: render/records render/plan render/output"; do
+  within[${line%%:*}]=${line#*:}
+  for lower in ${line#*:}; do
+    [[ -n ${within[$lower]+known} ]] || complain "layout.sh: $lower does not stand before ${line%%:*}"
+  done
+done
 # Stages of the pipeline: sampling knows of none of those that follow it.
 declare -A closed=([pipeline/sampling]="pipeline/(reconstruction|preparation|lattice)/"
   [pipeline/reconstruction]="pipeline/(preparation|lattice)/" [pipeline/preparation]="pipeline/(reconstruction|lattice)/"
@@ -34,6 +57,9 @@ while IFS=: read -r file include; do
     [[ " ${allowed[$module]} ${besides[$module]:-} " == *" $first "* || " ${besides[$module]:-} " == *" $name "* ]] ||
       complain "$file: $module may not include $name"
     stage=$(dirname "${file#src/}")
+    if [[ $first == "$module" && $stage != "$module" && " ${!within[*]} " == *" $module/"* ]]; then
+      [[ " $stage ${within[$stage]-} " == *" $(dirname "$name") "* ]] || complain "$file: $stage may not include $name"
+    fi
     [[ -z ${closed[$stage]:-} || ! $name =~ ^${closed[$stage]} ]] || complain "$file: $stage may not include $name"
   elif [[ -n ${home[$first]:-} ]]; then
     [[ " ${home[$first]} " == *" $module "* ]] || complain "$file: <$name> belongs to ${home[$first]}"

@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "cli/scene_source.h"
+#include "cli/scenes/scene_source.h"
 #include "image/image_io.h"
-#include "scene/resting_nodes.h"
+#include "scene/animation/resting_nodes.h"
 #include "trace/compiled_scene.h"
 
 namespace {

@@ -8,7 +8,7 @@
 
 #include "base/diagnostics.h"
 #include "parser/aff_parser.h"
-#include "scene/resting_nodes.h"
+#include "scene/animation/resting_nodes.h"
 
 namespace {
 

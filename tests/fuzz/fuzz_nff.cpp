@@ -10,7 +10,7 @@
 
 #include "base/diagnostics.h"
 #include "parser/nff_parser.h"
-#include "scene/nff_writer.h"
+#include "scene/writers/nff_writer.h"
 
 namespace {
 

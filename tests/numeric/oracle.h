@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "scene/scene_description.h"
+#include "scene/description/scene_description.h"
 
 namespace pprt::test {
 

@@ -12,11 +12,11 @@
 #include <utility>
 
 #include "base/diagnostics.h"
-#include "cli/scene_source.h"
+#include "cli/scenes/scene_source.h"
 #include "parallel/session_words.h"
 #include "parser/anim_parser.h"
-#include "scene/nff_writer.h"
-#include "scene/resting_nodes.h"
+#include "scene/animation/resting_nodes.h"
+#include "scene/writers/nff_writer.h"
 #include "study/accuracy/page.h"
 #include "study/accuracy/pictures.h"
 #include "study/accuracy/planner.h"

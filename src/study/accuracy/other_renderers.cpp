@@ -15,7 +15,7 @@
 #include "image/atomic_file.h"
 #include "image/contact_sheet.h"
 #include "image/image_io.h"
-#include "scene/nff_writer.h"
+#include "scene/writers/nff_writer.h"
 #include "study/reference.h"
 
 namespace pprt {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene_description.h"
+#include "scene/description/scene_description.h"
 #include "study/report/plot.h"
 #include "study/report/table.h"
 

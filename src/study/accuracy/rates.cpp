@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "image/metrics.h"
-#include "render/frame_summary.h"
-#include "scene/camera_path.h"
+#include "render/records/frame_summary.h"
+#include "scene/animation/camera_path.h"
 #include "study/accuracy/methods.h"
 #include "study/accuracy/statistics.h"
 

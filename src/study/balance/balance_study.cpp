@@ -13,8 +13,8 @@
 
 #include "base/diagnostics.h"
 #include "base/printable.h"
-#include "cli/exit.h"
-#include "cli/scene_source.h"
+#include "cli/process/exit.h"
+#include "cli/scenes/scene_source.h"
 #include "image/contact_sheet.h"
 #include "image/image_io.h"
 #include "layers/pictures.h"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/balance_trace.h"
+#include "render/trace/balance_trace.h"
 
 namespace pprt {
 

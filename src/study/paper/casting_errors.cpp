@@ -9,7 +9,7 @@
 
 #include "parallel/clock/work_units.h"
 #include "parser/anim_parser.h"
-#include "render/frame_summary.h"
+#include "render/records/frame_summary.h"
 #include "spd/spd.h"
 #include "study/frame_series.h"
 #include "study/reference.h"

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "render/frame_summary.h"
+#include "render/records/frame_summary.h"
 #include "study/frame_series.h"
 #include "study/paper/casting_errors.h"
 #include "study/paper/paper_study.h"

@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "base/subprocess.h"
-#include "cli/version.h"
+#include "cli/options/version.h"
 #include "image/atomic_file.h"
 
 namespace pprt {

@@ -7,10 +7,10 @@
 #include <string>
 
 #include "base/diagnostics.h"
-#include "cli/scene_source.h"
+#include "cli/scenes/scene_source.h"
 #include "image/atomic_file.h"
 #include "image/image_io.h"
-#include "scene/nff_writer.h"
+#include "scene/writers/nff_writer.h"
 #include "spd/spd.h"
 #include "unit/image/temporary_directory.h"
 

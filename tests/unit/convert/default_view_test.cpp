@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "scene/view_frame.h"
+#include "scene/description/view_frame.h"
 #include "spd/spd.h"
 
 using namespace pprt;

@@ -10,7 +10,7 @@
 #include "convert/mesh_writer.h"
 #include "image/image_io.h"
 #include "parser/aff_parser.h"
-#include "scene/resting_nodes.h"
+#include "scene/animation/resting_nodes.h"
 #include "unit/image/temporary_directory.h"
 
 using namespace pprt;

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "parser/aff_parser.h"
-#include "scene/resting_nodes.h"
+#include "scene/animation/resting_nodes.h"
 #include "study/frame_series.h"
 #include "study/reference.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "parser/aff_parser.h"
-#include "scene/resting_nodes.h"
+#include "scene/animation/resting_nodes.h"
 #include "unit/trace/test_scenes.h"
 
 using namespace pprt;

@@ -3,7 +3,7 @@
 
 #include <initializer_list>
 
-#include "scene/scene_description.h"
+#include "scene/description/scene_description.h"
 #include "trace/compiled_scene.h"
 
 namespace pprt::test {

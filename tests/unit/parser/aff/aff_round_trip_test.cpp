@@ -3,9 +3,9 @@
 #include <sstream>
 
 #include "parser/aff_parser.h"
-#include "scene/aff_writer.h"
-#include "scene/resting_nodes.h"
-#include "scene/shading_rules.h"
+#include "scene/animation/resting_nodes.h"
+#include "scene/description/shading_rules.h"
+#include "scene/writers/aff_writer.h"
 
 using namespace pprt;
 

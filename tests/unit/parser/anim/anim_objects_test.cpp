@@ -1,7 +1,7 @@
 // Objects in scripts.
 #include <catch2/catch.hpp>
 
-#include "scene/anim_writer.h"
+#include "scene/writers/anim_writer.h"
 #include "unit/parser/anim/script.h"
 
 namespace pprt {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "parser/anim_parser.h"
-#include "scene/anim_writer.h"
+#include "scene/writers/anim_writer.h"
 
 using namespace pprt;
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "scene/nff_writer.h"
+#include "scene/writers/nff_writer.h"
 #include "spd/spd.h"
 #include "study/accuracy/methods.h"
 #include "study/reference.h"

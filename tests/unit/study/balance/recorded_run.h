@@ -1,7 +1,7 @@
 // Runs of virtual ranks whose balancing is traced.
 #pragma once
 
-#include "render/balance_trace.h"
+#include "render/trace/balance_trace.h"
 
 namespace pprt {
 

@@ -1,0 +1,86 @@
+// The command line of pprt-render as plain values.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/options/number_pair.h"
+#include "cli/process/log.h"
+#include "live/address.h"
+#include "parallel/session_words.h"
+#include "render/options/outputs.h"
+#include "render/records/progress.h"
+#include "trace/compiled_scene.h"
+
+namespace CLI {
+class App;
+}
+
+namespace pprt {
+
+// What is read.
+struct SourceOptions {
+  std::string input;   // scene, or script that names its scene
+  std::string script;  // empty: none, or `input` is one
+  bool strict = false;
+};
+
+// Where the run takes place.
+struct RankOptions {
+  int processes = 1;
+  std::optional<int> threads = 1;  // ranks in each process; empty: as many as it has cores
+  std::string hostfile;            // empty: none
+  bool go_on = false;              // without ranks that do not answer
+};
+
+// What ends a frame: the deadline of a rate, or the first stop rule that holds.
+struct FrameEnd {
+  std::optional<double> fps;             // frames/s; 0: no rate; empty: the script's
+  std::optional<std::uint64_t> budget;   // work units for each rank and frame
+  std::optional<double> time;            // seconds
+  std::optional<std::uint64_t> samples;  // in the image
+  std::optional<double> quality;         // mean FLIP
+
+  bool has_stop_rule() const { return time || samples || quality; }
+};
+
+// What the user asked for, each value parsed; plan_render() settles what the values mean together. Options
+// that need no settling are bound to their places in parts of the plan.
+struct RenderOptions {
+  SourceOptions source;
+  RankOptions ranks;
+  std::string config;  // the file that options were read from; empty: none
+  FrameEnd end;
+  SessionSettings method{.stop = {}, .sampler = SamplerChoice::kAuto, .machine = {}};
+  WeightRule weights = WeightRule::kLearned;
+  std::optional<ImageSize> size;     // empty: the script's or the scene's
+  std::optional<FrameRange> frames;  // empty: all
+  OutputFiles output;                // no pictures: kDefaultOutput
+  bool overwrite = false;
+  bool resume = false;
+  CompileOptions compile;
+  std::optional<LiveAddress> live;  // empty: nobody watches
+  Reports report;
+  ProgressKind progress = ProgressKind::kAuto;
+  LogLevel log = LogLevel::kWarning;
+  bool write_config = false;
+};
+
+inline constexpr const char* kDefaultOutput = "frame_%04d.png";
+
+// Throws UsageError with the first contradiction that can be found in the options alone.
+void check_usage(const RenderOptions& options);
+
+// Whether something is asked for that only the triangulation knows.
+bool needs_triangulation(const SessionSettings& method, WeightRule weights);
+
+// Binds the options to their names, with the help text in groups. While `app` parses, a value that cannot be
+// parsed throws UsageError or CLI::ParseError.
+void add_render_options(CLI::App& app, RenderOptions& options);
+
+// Returns the words with mpirun's spelling "-np" as "--np".
+std::vector<std::string> with_long_np(std::vector<std::string> words);
+
+}  // namespace pprt

@@ -1,0 +1,64 @@
+#include <fmt/core.h>
+
+#include "base/diagnostics.h"
+#include "render/options/render_options.h"
+#include "scene/animation/animation.h"
+
+namespace pprt {
+namespace {
+
+void require_picture_name(const std::filesystem::path& sheet) {
+  if (sheet.empty() || sheet.extension() == ".png" || sheet.extension() == ".exr") return;
+  throw UsageError("--contact-sheet " + sheet.string() + ": want a name that ends in .png or .exr");
+}
+
+void require_film_name(const std::filesystem::path& film) {
+  const std::filesystem::path end = film.extension();
+  if (film.empty() || end == ".mp4" || end == ".mkv" || end == ".gif") return;
+  throw UsageError("--film " + film.string() + ": want a name that ends in .mp4, .mkv or .gif");
+}
+
+void require_live_usage(const RenderOptions& options) {
+  const OutputFiles& output = options.output;
+  const Reports& report = options.report;
+  if (options.method.clock == ClockKind::kWork) throw UsageError("--live needs real time, not --clock work");
+  if (options.ranks.go_on) throw UsageError("--live needs all ranks: it cannot be used with --go-on");
+  if (!report.trace.empty()) throw UsageError("--live changes its settings on the way: it takes no --trace");
+  if (!output.pictures.empty()) return;
+  const bool writes = !output.layers.empty() || !report.ledger.empty() || !output.film.empty() ||
+                      !output.contact_sheet.empty() || report.reference || report.compare_serial ||
+                      options.resume;
+  if (writes) throw UsageError("with --live, files beside the frames need the frames: name them by --output");
+}
+
+}  // namespace
+
+bool needs_triangulation(const SessionSettings& method, WeightRule weights) {
+  return method.cast == CastChoice::kPaper || weights == WeightRule::kPaper ||
+         method.pixel_rule != PixelRule::kEdges;
+}
+
+void check_usage(const RenderOptions& options) {
+  const bool counts_work = options.method.clock == ClockKind::kWork;
+  require_picture_name(options.output.contact_sheet);
+  require_film_name(options.output.film);
+  if (options.report.trace == "-") throw UsageError("--trace -: want the name of a file");
+  if (options.report.compare_serial && options.report.ledger.empty())
+    throw UsageError("--compare-serial tells the ledger: it needs --stats");
+  if (const double fps = options.end.fps.value_or(0); fps > 0 && fps < kLeastFramesPerSecond) {
+    throw UsageError(
+        fmt::format("--fps {:g}: want 0, for no rate, or at least {:g}", fps, kLeastFramesPerSecond));
+  }
+  if (options.method.sampler == SamplerChoice::kGrid &&
+      needs_triangulation(options.method, options.weights)) {
+    throw UsageError(
+        "--sampler grid has no triangles: --cast paper, --weights paper and --pixels other than "
+        "edges need --sampler delaunay");
+  }
+  if (options.end.budget && !counts_work) throw UsageError("--budget counts work: it needs --clock work");
+  if (options.live) require_live_usage(options);
+  if (options.ranks.go_on && counts_work)
+    throw UsageError("--go-on needs real time: with --clock work all ranks wait for each other");
+}
+
+}  // namespace pprt

@@ -1,0 +1,139 @@
+#include "render/output/film.h"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "base/diagnostics.h"
+#include "base/subprocess.h"
+#include "image/atomic_file.h"
+#include "image/display_bytes.h"
+#include "image/image_io.h"
+
+namespace pprt {
+namespace {
+
+constexpr const char* kMissing = "--film needs ffmpeg, which is not on the PATH (package ffmpeg)";
+
+[[noreturn]] void fail(const std::filesystem::path& film, const std::string& reason) {
+  throw std::runtime_error("cannot write '" + film.string() + "': " + reason);
+}
+
+// Starts ffmpeg in a process group of its own. A terminal's Ctrl-C then reaches this process alone, which
+// lets ffmpeg finish the film.
+Subprocess start_encoder(std::vector<std::string> command, StreamTo input) {
+  try {
+    return Subprocess(std::move(command),
+                      {.input = input, .output = StreamTo::kNothing, .own_process_group = true});
+  } catch (const ProgramNotFound&) {
+    throw std::runtime_error(kMissing);
+  }
+}
+
+using Words = std::vector<std::string>;
+
+// H.264 with chroma at half resolution, in the colours of high definition (BT.709).
+Words video(const std::string& container) {
+  return {"-vf",
+          "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709",
+          "-c:v",
+          "libx264",
+          "-crf",
+          "18",
+          "-pix_fmt",
+          "yuv420p",
+          "-colorspace",
+          "bt709",
+          "-color_primaries",
+          "bt709",
+          "-color_trc",
+          "bt709",
+          "-f",
+          container};
+}
+
+// The palette of 256 colours that suits all frames best, as a picture.
+Words palette() {
+  return {"-vf", "palettegen", "-frames:v", "1", "-c:v", "png", "-f", "image2", "-update", "1"};
+}
+
+// A GIF of such a palette that repeats for ever. Dots that a frame shares with the one before take no bytes.
+// Its clock counts hundredths of a second, and players want two at least.
+Words animated_gif(const std::string& palette) {
+  return {"-i",     "file:" + palette,
+          "-lavfi", "fps=fps='min(source_fps,50)'[a];[a][1:v]paletteuse=dither=bayer:bayer_scale=4",
+          "-loop",  "0",
+          "-f",     "gif"};
+}
+
+// Without -xerror ffmpeg 5.1 ends with code 0 although the disk had no room for the end of the film.
+Words ffmpeg_command(const Image& first, double frames_per_second, const Words& encoding,
+                     const std::string& output) {
+  Words command = {"ffmpeg",
+                   "-hide_banner",
+                   "-loglevel",
+                   "error",
+                   "-xerror",
+                   "-f",
+                   "rawvideo",
+                   "-pix_fmt",
+                   "rgb24",
+                   "-video_size",
+                   fmt::format("{}x{}", first.width, first.height),
+                   "-framerate",
+                   fmt::format("{}", frames_per_second),
+                   "-i",
+                   "pipe:0"};
+  command.insert(command.end(), encoding.begin(), encoding.end());
+  // Whatever the name looks like, it is no option and no URL.
+  command.insert(command.end(), {"-y", "file:" + output});
+  return command;
+}
+
+// Passes all pictures to ffmpeg.
+void encode(const std::filesystem::path& film, const Words& encoding, const std::filesystem::path& output,
+            const std::vector<std::filesystem::path>& pictures, double frames_per_second) {
+  const Image first = read_image(pictures.front());
+  Subprocess encoder =
+      start_encoder(ffmpeg_command(first, frames_per_second, encoding, output.string()), StreamTo::kPipe);
+  for (const std::filesystem::path& picture : pictures) {
+    const Image image = read_image(picture);
+    if (image.width != first.width || image.height != first.height) {
+      throw std::runtime_error("'" + picture.string() + "' has another size than '" +
+                               pictures.front().string() + "'");
+    }
+    const std::vector<std::uint8_t> bytes = display_bytes(image);
+    if (!encoder.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()})) break;
+  }
+  if (const int code = encoder.wait().code; code != 0) {
+    fail(film, fmt::format("ffmpeg ended with code {}", code));
+  }
+}
+
+}  // namespace
+
+void require_ffmpeg() {
+  // Prints its version and ends, which shows that it can be run.
+  Subprocess ffmpeg = start_encoder({"ffmpeg", "-loglevel", "quiet", "-version"}, StreamTo::kSame);
+  if (ffmpeg.wait().code != 0) throw std::runtime_error(kMissing);
+}
+
+void write_film(const std::filesystem::path& film, const std::vector<std::filesystem::path>& pictures,
+                double frames_per_second) {
+  AtomicFile file(film);
+  if (film.extension() == ".gif") {
+    // Twice over the pictures: else ffmpeg would hold them all.
+    AtomicFile colors(film.string() + ".palette");
+    encode(film, palette(), colors.temporary(), pictures, frames_per_second);
+    encode(film, animated_gif(colors.temporary().string()), file.temporary(), pictures, frames_per_second);
+  } else {
+    encode(film, video(film.extension() == ".mkv" ? "matroska" : "mp4"), file.temporary(), pictures,
+           frames_per_second);
+  }
+  file.commit();
+}
+
+}  // namespace pprt

@@ -1,0 +1,183 @@
+#include "render/plan/render_plan.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "base/diagnostics.h"
+#include "image/atomic_file.h"
+#include "image/frame_writer.h"
+#include "live/command.h"
+#include "render/options/render_options.h"
+#include "render/plan/session_plan.h"
+#include "render/plan/sources.h"
+#include "spd/spd.h"
+
+namespace pprt {
+namespace {
+
+// Returns the files that the run reads. A scene that is generated has none.
+std::vector<NamedFile> input_files(const std::string& script, const std::string& scene,
+                                   const std::string& config, const std::string& hostfile) {
+  std::vector<NamedFile> files = {{"the script", script}, {"--config", config}, {"--hostfile", hostfile}};
+  if (!is_spd_name(scene)) files.push_back({"the scene", scene == "-" ? "/dev/stdin" : scene});
+  std::erase_if(files, [](const NamedFile& file) { return file.path.empty(); });
+  return files;
+}
+
+// Returns the scene's own view at the size that is asked for, or else that of script or scene, in this order.
+View base_view(const std::optional<ImageSize>& size, const Sources& sources) {
+  const SceneDescription& scene = sources.scene.scene;
+  View view;
+  const bool script_has_camera = sources.script && !sources.script->animation.keys.empty();
+  if (scene.view) {
+    view = *scene.view;
+  } else if (!script_has_camera) {
+    const bool from_stdin = sources.scene_path == "-";
+    throw InputError(fmt::format(
+        "{}: error: the scene has no view ('v' ...) and no script gives a camera; 'pprt-convert {} "
+        "OUT.nff' adds a view of the whole scene",
+        scene.name, from_stdin ? "-" : scene.name));
+  }
+  if (sources.script && sources.script->animation.width)
+    view.width = *sources.script->animation.width, view.height = *sources.script->animation.height;
+  if (size) view.width = size->width, view.height = size->height;
+  if (view.width < 1 || view.height < 1 || view.width > kLongestSide || view.height > kLongestSide) {
+    throw InputError(fmt::format(
+        "{}: error: the view's resolution {}x{} is not between 1x1 and {} a side; --size sets another",
+        scene.name, view.width, view.height, kLongestSide));
+  }
+  return view;
+}
+
+void require_sound_cameras(const Sources& sources, const View& base) {
+  if (!sources.script) return;
+  const Animation& animation = sources.script->animation;
+  Diagnostics problems;
+  check_cameras(animation, base, problems);
+  if (!problems.has_errors()) return;
+  std::string report = format(problems, animation.name, read_whole_file(sources.script_path));
+  while (!report.empty() && report.back() == '\n') report.pop_back();
+  throw InputError(report);
+}
+
+std::vector<PlannedFrame> script_frames(const Sources& sources, const View& base) {
+  const FrameTimes times = frame_times(sources);
+  std::vector<PlannedFrame> frames;
+  for (int n = 1; n <= times.frames; ++n) {
+    PlannedFrame& frame = frames.emplace_back(
+        PlannedFrame{.number = n, .view = base, .time = time_of_frame(times, n - 1), .cut = false});
+    if (const std::optional<View> moved = view_at(sources.scene.scene, frame.time)) {
+      frame.view = *moved;
+      frame.view.width = base.width, frame.view.height = base.height;
+    }
+    if (!sources.script) continue;
+    frame.view = view_at(sources.script->animation, n, frame.view);
+    frame.cut = cut_before(sources.script->animation, n);
+  }
+  return frames;
+}
+
+std::vector<PlannedFrame> frames_to_render(const std::optional<FrameRange>& range,
+                                           const std::vector<PlannedFrame>& all) {
+  if (!range) return all;
+  if (range->last > static_cast<int>(all.size()))
+    throw UsageError(fmt::format("--frames {}: the last frame is {}", to_string(*range), all.size()));
+  return {all.begin() + (range->first - 1), all.begin() + range->last};
+}
+
+double frame_rate(const std::optional<double>& fps, const std::optional<ParsedAnimation>& script,
+                  bool is_live) {
+  constexpr double kOfALiveView = 24;
+  if (fps) return *fps;
+  const double of_script = script ? script->animation.fps : 0;
+  return is_live && of_script == 0 ? kOfALiveView : of_script;
+}
+
+void require_live_rate(double fps, bool has_stop_rule) {
+  if (!(fps >= kSlowestRate && fps <= kFastestRate)) {
+    throw UsageError(fmt::format("--live needs a rate from {:g} to {:g} frames/s, not {:g}; --fps sets it",
+                                 kSlowestRate, kFastestRate, fps));
+  }
+  if (has_stop_rule) throw UsageError("--live has a rate: it takes no --time, --samples or --quality");
+}
+
+// `is_live`: nothing is written unless it is named.
+OutputFiles named_files(OutputFiles output, bool is_live, std::size_t frame_count) {
+  if (output.pictures.empty() && !is_live)
+    output.pictures.push_back(parse_frame_pattern(kDefaultOutput, FrameCount::kOne));
+  if (frame_count > 1) {
+    for (const FramePattern& picture : output.pictures) require_field(picture);
+  }
+  return output;
+}
+
+RenderPlan plan_of(const RenderOptions& options, Sources& sources) {
+  const bool is_live = options.live.has_value();
+  const bool names_pictures = !options.output.pictures.empty();
+
+  // Frames, at their rate.
+  const View base = base_view(options.size, sources);
+  require_sound_cameras(sources, base);
+  const double fps = frame_rate(options.end.fps, sources.script, is_live);
+  if (is_live) require_live_rate(fps, options.end.has_stop_rule());
+  if (is_live && names_pictures && !sources.script)
+    throw UsageError("with --live, --output writes the frames of a script, and there is none");
+  std::vector<PlannedFrame> all = script_frames(sources, base);
+  std::vector<PlannedFrame> frames = frames_to_render(options.frames, all);
+
+  // Their files, and how the ranks make them.
+  OutputFiles output = named_files(options.output, is_live, frames.size());
+  output.film_rate = film_rate(fps, sources);
+  if (options.overwrite) output.existing = ExistingFiles::kReplace;
+  if (options.resume) output.existing = ExistingFiles::kResume;
+  SessionSettings settings = settled_method(options.method, options.weights);
+  settings.width = base.width, settings.height = base.height;
+  settings.is_still = frames.size() == 1 && !is_live;
+  settings.late_orders = is_live;
+  settings.report_transfers = !options.report.trace.empty();
+  settings.report_samples =
+      options.report.compare_serial || std::any_of(output.layers.begin(), output.layers.end(), needs_samples);
+  settle_end(options.end, fps, options.ranks.go_on, settings);
+
+  return {
+      .scene_name = absolute_scene_name(sources.scene_path),
+      .objects = absolute_objects(sources),
+      .script_name = sources.script ? sources.script->animation.name : "",
+      .script_frames = std::move(all),
+      .frames = std::move(frames),
+      .renders = !options.report.census || names_pictures,
+      .inputs = input_files(sources.script_path, sources.scene_path, options.config, options.ranks.hostfile),
+      .output = std::move(output),
+      .report = options.report,
+      .settings = settings,
+      .goes_on = options.ranks.go_on,
+      .live = options.live,
+      .compile = options.compile,
+      .warnings = sources.warnings(),
+      .scene = std::move(sources.scene.scene)};
+}
+
+}  // namespace
+
+std::vector<FramePattern> files_of_a_frame(const OutputFiles& output) {
+  std::vector<FramePattern> files = output.pictures;
+  for (const FramePattern& picture : output.pictures) {
+    if (holds_channels(picture)) continue;
+    for (const Layer layer : output.layers) files.push_back(beside(picture, name_of(layer)));
+  }
+  return files;
+}
+
+RenderPlan plan_render(const RenderOptions& options) {
+  Sources sources = read_sources(options.source);
+  try {
+    add_objects(sources, options.source.strict);
+    return plan_of(options, sources);
+  } catch (const InputError& e) {
+    throw InputError(sources.warnings() + e.what());  // a warning may tell why
+  }
+}
+
+}  // namespace pprt

@@ -1,0 +1,79 @@
+#include "render/plan/sources.h"
+
+#include <filesystem>
+#include <utility>
+
+#include "cli/scenes/scene_source.h"
+#include "render/options/render_options.h"
+#include "scene/animation/resting_nodes.h"
+#include "spd/spd.h"
+
+namespace pprt {
+namespace {
+
+constexpr double kCustomaryRate = 25;  // frames/s
+
+}  // namespace
+
+Sources read_sources(const SourceOptions& options) {
+  const NffOptions reading{.strict = options.strict};
+  const bool only_script = options.script.empty() && is_script_name(options.input);
+  const std::string& script_path = only_script ? options.input : options.script;
+  std::optional<ParsedAnimation> script;
+  if (!script_path.empty()) {
+    require_file(script_path);
+    script = read_animation(script_path);
+  }
+  if (!only_script) return Sources{script_path, script, options.input, load_scene(options.input, reading)};
+  return Sources{script_path, script, scene_of_script(script->animation, script_path),
+                 load_scene_of_script(script->animation, script_path, reading)};
+}
+
+void add_objects(Sources& sources, bool strict) {
+  if (!sources.script) return;
+  SceneDescription& scene = sources.scene.scene;
+  const FrameTimes times = frame_times(sources);
+  const std::size_t own_nodes = scene.movement.nodes.size();
+  for (const SceneNode& node : scene.movement.nodes) sources.own_names.insert(node.track);
+  sources.scene.warnings +=
+      add_objects(scene, sources.script->animation, sources.script_path, times, {.strict = strict});
+  if (scene.movement.nodes.size() > own_nodes) scene = without_resting_nodes(std::move(scene));
+  if (scene.movement.nodes.size() > 1) scene.movement.times = times;
+}
+
+FrameTimes frame_times(const Sources& sources) {
+  const std::optional<FrameTimes>& own = sources.scene.scene.movement.times;
+  if (!sources.script) return own.value_or(FrameTimes());
+  const Animation& script = sources.script->animation;
+  const double fps = script.fps > 0 ? script.fps : kCustomaryRate;
+  FrameTimes times{.start = 0, .end = (script.frames - 1) / fps, .frames = script.frames};
+  if (own && own->frames > 1 && own->end > own->start) times.start = own->start, times.end = own->end;
+  return times;
+}
+
+double film_rate(double fps, const Sources& sources) {
+  if (fps > 0) return fps;
+  if (sources.script)
+    return sources.script->animation.fps > 0 ? sources.script->animation.fps : kCustomaryRate;
+  const FrameTimes own = frame_times(sources);
+  return own.frames > 1 && own.end > own.start ? (own.frames - 1) / (own.end - own.start) : kCustomaryRate;
+}
+
+std::optional<std::string> absolute_scene_name(const std::string& path) {
+  if (is_spd_name(path)) return path;
+  if (path == "-") return std::nullopt;
+  return std::filesystem::absolute(path).lexically_normal().string();
+}
+
+std::vector<ObjectMotion> absolute_objects(const Sources& sources) {
+  if (!sources.script) return {};
+  std::vector<ObjectMotion> objects = sources.script->animation.objects;
+  const std::filesystem::path folder = std::filesystem::path(sources.script_path).parent_path();
+  for (ObjectMotion& object : objects) {
+    if (sources.own_names.contains(object.name) || is_spd_name(object.name)) continue;
+    object.name = absolute_scene_name((folder / object.name).string()).value_or(object.name);
+  }
+  return objects;
+}
+
+}  // namespace pprt

@@ -1,0 +1,170 @@
+#include "render/records/progress.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "cli/process/exit.h"
+#include "cli/process/launch.h"
+#include "render/records/ledger.h"
+
+namespace pprt {
+namespace {
+
+// Switches off line wrap: "\r" would not return to the start of a line that wraps.
+constexpr std::string_view kOverLine = "\r\033[?7l";
+constexpr std::string_view kLineEnd = "\033[K\033[?7h";
+
+// 19034.4 -> "19,034"
+std::string grouped(double value) {
+  std::string digits = std::to_string(std::llround(value));
+  for (int at = static_cast<int>(digits.size()) - 3; at > 0; at -= 3)
+    digits.insert(static_cast<std::size_t>(at), ",");
+  return digits;
+}
+
+std::string lateness(double late_ms) {
+  return late_ms <= 0 ? fmt::format("{:.0f} ms before its deadline", -late_ms)
+                      : fmt::format("{:.0f} ms after its deadline", late_ms);
+}
+
+// 75.2 -> "1:15"
+std::string minutes(double seconds) {
+  const long long whole = std::llround(seconds);
+  if (whole < 3600) return fmt::format("{}:{:02}", whole / 60, whole % 60);
+  return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+}
+
+// Returns how the JSON object for the end begins.
+std::string head_of(RunEnd end) {
+  return fmt::format("{{\"event\":\"{}\"", word_for(end));
+}
+
+}  // namespace
+
+void Pace::frame(Time when) {
+  last_ = when;
+  if (++frames_ == 1) first_ = when;
+}
+
+double Pace::frames_per_second() const {
+  const bool several = frames_ > 1;
+  const double seconds = std::chrono::duration<double>(last_ - (several ? first_ : begin_)).count();
+  return seconds > 0 ? (several ? frames_ - 1 : frames_) / seconds : 0;
+}
+
+double Pace::seconds_for(int frames) const {
+  const double rate = frames_per_second();
+  return rate > 0 ? frames / rate : 0;
+}
+
+ProgressReporter::ProgressReporter(ProgressKind kind) : kind_(kind) {
+  if (kind == ProgressKind::kAuto && on_terminal()) kind_ = ProgressKind::kTty;
+  if (launcher_rank() != 0) kind_ = ProgressKind::kNone;
+}
+
+void ProgressReporter::begin(const RunScope& scope) {
+  scope_ = scope;
+  begun_ = true;
+  pace_ = Pace(std::chrono::steady_clock::now());
+}
+
+void ProgressReporter::frame_done(const FrameSummary& frame, const RunTotals& totals) {
+  done_ = totals.frames();
+  pace_.frame(std::chrono::steady_clock::now());
+  if (kind_ == ProgressKind::kTty) print_message(fmt::format("{}{}{}", kOverLine, line(totals), kLineEnd));
+  if (kind_ != ProgressKind::kJson) return;
+  const Json record = {{"event", "frame"},
+                       {"frame", frame.number},
+                       {"done", done_},
+                       {"there", scope_.finished_before},
+                       {"frames", scope_.frames},
+                       {"on_time", totals.on_time()},
+                       {"late_ms", frame.late_ms},
+                       {"worst_late_ms", totals.worst_late_ms()},
+                       {"samples_per_frame", totals.samples_per_frame()},
+                       {"frames_per_second", pace_.frames_per_second()},
+                       {"seconds_left", pace_.seconds_for(frames_left())}};
+  print_message(fmt::format("{}\n", record.dump()));
+}
+
+void ProgressReporter::status(const RunTotals& totals) const {
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
+  const char* over_line = kind_ == ProgressKind::kTty ? "\r\033[K" : "";
+  print_message(fmt::format("{}{}  {:.1f} s elapsed\n", over_line, line(totals), elapsed.count()));
+}
+
+void ProgressReporter::stopping() const {
+  if (kind_ == ProgressKind::kNone || kind_ == ProgressKind::kJson) return;
+  print_message(
+      fmt::format("{}pprt-render: the run ends after the frame at hand; a second signal ends it at once\n",
+                  kind_ == ProgressKind::kTty ? "\r\033[K" : ""));
+}
+
+void ProgressReporter::finish(RunEnd end, int written, const RunTotals& totals, const std::string& where) {
+  done_ = written;
+  if (kind_ == ProgressKind::kTty && totals.frames() > 0) print_message("\r\033[K");
+  if (kind_ == ProgressKind::kNone || kind_ == ProgressKind::kJson) return;
+  const std::string there =
+      scope_.finished_before > 0 ? fmt::format(" ({} were there already)", scope_.finished_before) : "";
+  std::string text = fmt::format("{}: {} of {} frame{}{} in {}", word_for(end), written, scope_.frames,
+                                 scope_.frames == 1 ? "" : "s", there, where);
+  if (totals.frames() > 0) {
+    if (scope_.frames_per_second > 0) {
+      text += fmt::format("; {} on time at {:g} frames/s, the slowest {}", totals.on_time(),
+                          scope_.frames_per_second, lateness(totals.worst_late_ms()));
+    }
+    text += fmt::format("; {} samples a frame", grouped(totals.samples_per_frame()));
+  }
+  print_message(fmt::format("{}\n", text));
+}
+
+void ProgressReporter::fail(const std::string& why) {
+  print_end(RunEnd::kFailed, why);
+}
+
+void ProgressReporter::close(int exit_code) {
+  const bool by_signal = exit_code > 128;
+  print_end(exit_code == kExitDone ? RunEnd::kDone : by_signal ? RunEnd::kStopped : RunEnd::kFailed, "");
+}
+
+void ProgressReporter::print_end(RunEnd end, const std::string& why) {
+  if (kind_ != ProgressKind::kJson || end_printed_) return;
+  end_printed_ = true;
+  Json record = {{"event", word_for(end)}};
+  if (begun_) {
+    record["done"] = done_;
+    record["there"] = scope_.finished_before;
+    record["frames"] = scope_.frames;
+  }
+  if (!why.empty()) record["error"] = why;
+  print_message(fmt::format("{}\n", record.dump(-1, ' ', false, Json::error_handler_t::replace)));
+}
+
+void ProgressReporter::overhear(std::string_view text) {
+  if (kind_ != ProgressKind::kJson || end_printed_) return;
+  overheard_ += text;
+  for (const Word<RunEnd>& end : kWords<RunEnd>) {
+    if (overheard_.find(head_of(end.value)) != std::string::npos) end_printed_ = true;
+  }
+  constexpr std::size_t kLongestHead = 32;
+  if (overheard_.size() > kLongestHead) overheard_.erase(0, overheard_.size() - kLongestHead);
+}
+
+std::string ProgressReporter::line(const RunTotals& totals) const {
+  std::string text = fmt::format("frame {} of {}", scope_.finished_before + totals.frames(), scope_.frames);
+  if (totals.frames() == 0) return text;
+  const double per_second = pace_.frames_per_second();
+  const std::string rate = fmt::format("{:.{}f}", per_second, per_second < 10 ? 2 : per_second < 100 ? 1 : 0);
+  if (scope_.frames_per_second > 0) {
+    const double worst = totals.worst_late_ms();
+    text += fmt::format("  {} of {:g}/s", rate, scope_.frames_per_second);
+    text += fmt::format("  worst {:.0f} ms {}", std::abs(worst), worst > 0 ? "late" : "early");
+  } else {
+    text += fmt::format("  {}/s", rate);
+  }
+  text += fmt::format("  {} samples a frame", grouped(totals.samples_per_frame()));
+  return text + fmt::format("  {} left", minutes(pace_.seconds_for(frames_left())));
+}
+
+}  // namespace pprt

@@ -1,0 +1,94 @@
+#include "cli/process/mpirun_messages.h"
+
+#include <catch2/catch.hpp>
+
+namespace pprt {
+namespace {
+
+const std::string kRule = std::string(74, '-') + "\n";
+
+std::string framed(const std::string& text) {
+  return kRule + text + kRule;
+}
+
+const std::string kExitCode =
+    framed("Primary job  terminated normally, but 1 process returned\na non-zero exit code.\n") +
+    framed("mpirun detected that one or more processes exited with non-zero status, thus causing\n\n");
+const std::string kKilled =
+    framed("mpirun noticed that process rank 12 with PID 0 on node vm-1 exited on signal 9 (Killed).\n");
+
+// What is shown of a text that comes in pieces of this size.
+std::string shown(MpirunMessages& messages, const std::string& text, std::size_t piece) {
+  std::string all;
+  for (std::size_t i = 0; i < text.size(); i += piece) all += messages.take(text.substr(i, piece));
+  return all + messages.finish();
+}
+
+}  // namespace
+
+TEST_CASE("messages of ranks are passed on, and mpirun's that repeat an exit code are dropped") {
+  for (const std::size_t piece : {1, 7, 4096}) {
+    MpirunMessages messages;
+    CHECK(shown(messages, "a.nff:1:2: error\n-- \n" + kExitCode + "\rframe 2 of 3", piece) ==
+          "a.nff:1:2: error\n-- \n\rframe 2 of 3");
+    CHECK_FALSE(messages.loss());
+  }
+}
+
+TEST_CASE("a host out of reach is named, and what mpirun says of it is dropped") {
+  const std::string lost = framed(
+      "ORTE has lost communication with a remote daemon.\n\n  HNP daemon   : [[1,0],0] on node host1\n"
+      "  Remote daemon: [[1,0],2] on node 10.77.0.3\n\nThis is usually due to\n");
+  const std::string start = framed("ORTE was unable to reliably start one or more daemons.\n");
+  for (const std::size_t piece : {1, 7, 4096}) {
+    MpirunMessages messages;
+    CHECK(shown(messages, lost, piece).empty());
+    CHECK(messages.loss() == "host 10.77.0.3 does not answer");
+    CHECK(messages.has_lost_host());
+    // A daemon that could not be started is a reason of its own; one that was, is lost.
+    MpirunMessages before, after;
+    CHECK(shown(before, start, piece) == start);
+    CHECK(shown(after, begin_line() + start + "frame 2\n", piece) == "frame 2\n");
+  }
+}
+
+TEST_CASE("the end of a run is told by a line that is not shown") {
+  for (const std::size_t piece : {1, 7, 4096}) {
+    MpirunMessages messages;
+    CHECK(shown(messages, "done\n" + begin_line(), piece) == "done\n");
+    CHECK_FALSE(messages.end_code());
+    CHECK(shown(messages, end_line(130) + "pprt: the road\n", piece) == "pprt: the road\n");
+    CHECK(messages.end_code() == 130);
+  }
+}
+
+TEST_CASE("an incomplete line of a rank is passed on at once") {
+  MpirunMessages messages;
+  CHECK(messages.take("\rframe 1") == "\rframe 1");
+  CHECK(messages.take(" of 3") == " of 3");
+  CHECK(messages.take("\n--").substr(0, 1) == "\n");
+  CHECK(messages.take("x") == "--x");
+}
+
+TEST_CASE("the first rank that a signal ended is named") {
+  for (const std::size_t piece : {1, 7, 4096}) {
+    MpirunMessages messages;
+    CHECK(shown(messages, kExitCode + kKilled, piece).empty());
+    CHECK(messages.loss() == "rank 12 on vm-1 was ended by signal 9 (Killed)");
+  }
+}
+
+TEST_CASE("other messages of mpirun are passed on whole, also incomplete ones") {
+  const std::string slots = framed("There are not enough slots available in the system\n");
+  for (const std::string& text : {slots, kRule + "Open RTE was unable to open the hostfile:\n"}) {
+    MpirunMessages messages;
+    CHECK(shown(messages, text, 5) == text);
+  }
+}
+
+TEST_CASE("mpirun's message about a forwarded signal is dropped") {
+  MpirunMessages messages;
+  CHECK(shown(messages, "mpirun: Forwarding signal 12 to job\nmpirun: x\n", 3) == "mpirun: x\n");
+}
+
+}  // namespace pprt

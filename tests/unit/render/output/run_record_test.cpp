@@ -1,0 +1,63 @@
+#include "render/output/run_record.h"
+
+#include <catch2/catch.hpp>
+#include <functional>
+
+namespace pprt {
+namespace {
+
+std::string key_with(const std::function<void(RenderPlan&)>& change) {
+  RenderPlan plan;
+  plan.script_frames = {{.number = 1, .view = {}, .cut = false}};
+  change(plan);
+  return run_key({plan, 4, "hash"});
+}
+
+const std::string kPlain = key_with([](RenderPlan&) {});
+
+}  // namespace
+
+TEST_CASE("a run's key changes with every setting that decides its pictures") {
+  const std::vector<std::function<void(RenderPlan&)>> changes = {
+      [](RenderPlan& p) { p.settings.width = 7; },
+      [](RenderPlan& p) { p.settings.clock = ClockKind::kWork; },
+      [](RenderPlan& p) { p.settings.frames_per_second = 3; },
+      [](RenderPlan& p) { p.settings.budget_units = 3; },
+      [](RenderPlan& p) { p.settings.stop.flip = 3; },
+      [](RenderPlan& p) { p.settings.balance = BalanceMode::kLocal; },
+      [](RenderPlan& p) { p.settings.keep_samples = false; },
+      [](RenderPlan& p) { p.settings.pixel_rule = PixelRule::kMean; },
+      [](RenderPlan& p) { p.settings.learned_weights = false; },
+      [](RenderPlan& p) { p.settings.cast = CastChoice::kOff; },
+      [](RenderPlan& p) { p.settings.seed = 2; },
+      [](RenderPlan& p) { p.compile.max_depth = 2; },
+      [](RenderPlan& p) { p.compile.effects = EffectSet(); },
+      [](RenderPlan& p) { p.compile.cull = true; },
+      [](RenderPlan& p) { p.script_frames[0].cut = true; },
+      [](RenderPlan& p) { p.script_frames[0].view.from.x = 2; }};
+  std::set<std::string> keys = {kPlain};
+  for (const auto& change : changes) keys.insert(key_with(change));
+  CHECK(keys.size() == changes.size() + 1);
+}
+
+TEST_CASE("a run's key does not depend on which frames are rendered, nor on reports") {
+  CHECK(key_with([](RenderPlan& p) { p.frames = p.script_frames; }) == kPlain);
+  CHECK(key_with([](RenderPlan& p) { p.report.ledger = "-"; }) == kPlain);
+  CHECK(key_with([](RenderPlan& p) { p.output.existing = ExistingFiles::kResume; }) == kPlain);
+}
+
+TEST_CASE("the ledger's first record spells choices as the options do") {
+  RenderPlan plan;
+  plan.settings.clock = ClockKind::kWork;
+  plan.settings.balance = BalanceMode::kNone;
+  plan.settings.keep_samples = false;
+  plan.settings.learned_weights = false;
+  plan.settings.pixel_rule = PixelRule::kCenter;
+  const Json record = run_record({plan, 4, "hash"}, parse_effects("shadows"));
+  CHECK((record["clock"] == "work" && record["effects"] == "shadows" && record["ranks"] == 4));
+  const Json& options = record["options"];
+  CHECK((options["balance"] == "none" && options["cast"] == "auto" && options["keep_samples"] == "off"));
+  CHECK((options["weights"] == "paper" && options["pixels"] == "center" && options["max_depth"] == 5));
+}
+
+}  // namespace pprt

@@ -1,0 +1,203 @@
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <thread>
+
+#include "render/records/ledger.h"
+#include "unit/image/temporary_directory.h"
+
+namespace pprt {
+namespace {
+
+FinishedFrame frame_with(double late_ms) {
+  FinishedFrame frame;
+  frame.late_ms = late_ms;
+  frame.ranks.resize(1);
+  return frame;
+}
+
+RankReport report_with(double refinement, std::uint64_t triangles) {
+  RankReport report;
+  report.refinement = refinement, report.triangles_in_region = triangles;
+  return report;
+}
+
+std::vector<Json> records_of(const std::filesystem::path& path) {
+  std::ifstream in(path);
+  std::vector<Json> records;
+  for (std::string line; std::getline(in, line);) records.push_back(Json::parse(line));
+  return records;
+}
+
+Measurement error(std::future<double> value) {
+  return {"rmse", "--reference", false, std::move(value)};
+}
+
+// Futures are not copied, as an initializer list would.
+std::vector<Measurement> one(Measurement measurement) {
+  std::vector<Measurement> result;
+  result.push_back(std::move(measurement));
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("lateness is summarised by nearest-rank percentiles") {
+  RunTotals totals;
+  for (int i = 100; i >= 1; --i) totals.add(summarize(frame_with(i - 98)));  // -97 ... 2: 98 of them on time
+  const Json summary = summary_record(totals, true);
+  CHECK(summary["frames"] == 100);
+  CHECK(summary["on_time"] == 98);
+  CHECK(summary["late_ms"]["p50"] == -48);
+  CHECK(summary["late_ms"]["p95"] == -3);
+  CHECK(summary["late_ms"]["p99"] == 1);
+  CHECK(summary["late_ms"]["max"] == 2);
+}
+
+TEST_CASE("a frame's record lists the ranks that were late") {
+  FinishedFrame frame = frame_with(3);
+  CHECK(frame_record(summarize(frame))["late_ranks"] == Json::array());
+  frame.late_ranks = {1, 4};
+  frame.stale_tiles = 7, frame.overdue_pixels = 2;
+  const Json record = frame_record(summarize(frame));
+  CHECK(record["late_ranks"] == Json::array({1, 4}));
+  CHECK(record["stale_tiles"] == 7);
+  CHECK(record["overdue_pixels"] == 2);
+  RunTotals totals;
+  totals.add(summarize(frame)), totals.add(summarize(frame_with(-3)));
+  CHECK(summary_record(totals, true)["with_late_ranks"] == 1);
+}
+
+TEST_CASE("percentiles of few frames are values of frames that exist") {
+  RunTotals totals;
+  CHECK(summary_record(totals, true)["late_ms"]["p99"] == 0);  // of none
+  totals.add(summarize(frame_with(-5)));
+  CHECK(summary_record(totals, true)["late_ms"]["p50"] == -5);
+  totals.add(summarize(frame_with(3)));
+  CHECK(summary_record(totals, true)["late_ms"]["p50"] == -5);
+  CHECK(summary_record(totals, true)["late_ms"]["p95"] == 3);
+}
+
+TEST_CASE("without a frame rate the summary has no lateness") {
+  RunTotals totals;
+  totals.add(summarize(frame_with(0)));
+  const Json summary = summary_record(totals, false);
+  CHECK_FALSE(summary.contains("late_ms"));
+  CHECK_FALSE(summary.contains("on_time"));
+}
+
+TEST_CASE("refinement is the mean and standard deviation over the ranks that have triangles") {
+  FinishedFrame frame;
+  frame.ranks = {report_with(2, 10), report_with(4, 1), report_with(99, 0), report_with(6, 3)};
+  const Json record = frame_record(summarize(frame));
+  CHECK(record["refinement"].get<double>() == Approx(4));
+  CHECK(record["refinement_dev"].get<double>() == Approx(std::sqrt(8.0 / 3)));
+  frame.ranks = {report_with(99, 0)};
+  CHECK(frame_record(summarize(frame))["refinement"] == 0);
+  frame.ranks = {report_with(0.1, 1), report_with(0.1, 1), report_with(0.1, 1)};
+  CHECK(frame_record(summarize(frame))["refinement_dev"].get<double>() == Approx(0).margin(1e-8));
+}
+
+TEST_CASE("a frame's counts and times are sums over its ranks") {
+  FinishedFrame frame;
+  frame.order.number = 7, frame.order.cut = true, frame.order.deadline_s = 2;
+  frame.ranks.resize(2);
+  for (RankReport& r : frame.ranks) {
+    r.samples_new = 10, r.samples_cast = 3, r.samples_in_region = 11, r.non_finite = 1;
+    r.rays.primary = 10, r.rays.shadow = 70, r.rays.reflection = 4, r.rays.refraction = 5;
+    r.cpu_ms = {6, 1, 2, 3, 4, 5};
+    r.bytes_samples = 640, r.bytes_pixels = 1200;
+  }
+  const Json record = frame_record(summarize(frame));
+  CHECK((record["frame"] == 7 && record["cut"] == true && record["deadline_s"] == 2));
+  CHECK((record["samples_new"] == 20 && record["samples_cast"] == 6 && record["samples"] == 22));
+  CHECK(record["non_finite"] == 2);
+  CHECK((record["rays"]["primary"] == 20 && record["rays"]["shadow"] == 140));
+  CHECK((record["rays"]["reflection"] == 8 && record["rays"]["refraction"] == 10));
+  CHECK(record["cpu_ms"]["moving"] == 12);
+  CHECK((record["cpu_ms"]["sampling"] == 2 && record["cpu_ms"]["idle"] == 10));
+  CHECK((record["bytes"]["samples"] == 1280 && record["bytes"]["pixels"] == 2400));
+}
+
+TEST_CASE("frame records keep their order while measurements are pending") {
+  const TemporaryDirectory directory;
+  const auto path = directory.path() / "ledger.ndjson";
+  Ledger ledger(path.string(), ExistingFiles::kRefuse);
+  ledger.write_frame({{"frame", 1}}, one(error(std::async(std::launch::async, [] {
+                       std::this_thread::sleep_for(std::chrono::milliseconds(50));
+                       return 0.25;
+                     }))));
+  ledger.write_frame({{"frame", 2}}, {});
+  ledger.finish();
+  const std::vector<Json> records = records_of(path);
+  REQUIRE(records.size() == 2);
+  CHECK((records[0]["frame"] == 1 && records[0]["rmse"] == 0.25));
+  CHECK((records[1]["frame"] == 2 && !records[1].contains("rmse")));
+}
+
+TEST_CASE("only a few frames may wait for the error to a reference") {
+  const TemporaryDirectory directory;
+  const auto path = directory.path() / "ledger.ndjson";
+  Ledger ledger(path.string(), ExistingFiles::kRefuse);
+  for (std::size_t i = 0; i < Ledger::kMostPictures + 2; ++i) {
+    ledger.write_frame({{"frame", i}}, one(error(std::async(std::launch::deferred, [] { return 0.5; }))));
+  }
+  CHECK(records_of(path).size() == 2);  // a deferred future is never ready by itself
+  ledger.finish();
+  CHECK(records_of(path).size() == Ledger::kMostPictures + 2);
+}
+
+TEST_CASE("any number of frames may wait for measurements that may lag") {
+  const TemporaryDirectory directory;
+  const auto path = directory.path() / "ledger.ndjson";
+  Ledger ledger(path.string(), ExistingFiles::kRefuse);
+  std::promise<double> first;
+  for (std::size_t i = 0; i < 20; ++i) {
+    std::vector<Measurement> measurements = one(error(std::async(std::launch::deferred, [] { return 0.5; })));
+    measurements.push_back(
+        {"distance_to_serial", "--compare-serial", true,
+         i == 0 ? first.get_future() : std::async(std::launch::deferred, [] { return 0.1; })});
+    ledger.write_frame({{"frame", i}}, std::move(measurements));
+  }
+  CHECK(records_of(path).empty());
+  first.set_value(0.25);
+  ledger.finish();
+  const std::vector<Json> records = records_of(path);
+  REQUIRE(records.size() == 20);
+  CHECK((records[0]["rmse"] == 0.5 && records[0]["distance_to_serial"] == 0.25));
+  CHECK((records[19]["frame"] == 19 && records[19]["distance_to_serial"] == 0.1));
+}
+
+TEST_CASE("a measurement that fails is left out of its record") {
+  const TemporaryDirectory directory;
+  const auto path = directory.path() / "ledger.ndjson";
+  Ledger ledger(path.string(), ExistingFiles::kRefuse);
+  ledger.write_frame({{"frame", 1}},
+                     one(error(std::async([]() -> double { throw std::runtime_error("torn"); }))));
+  ledger.write_frame({{"frame", 2}}, one(error(std::async([] { return 0.5; }))));
+  ledger.finish();
+  const std::vector<Json> records = records_of(path);
+  REQUIRE(records.size() == 2);
+  CHECK_FALSE(records[0].contains("rmse"));
+  CHECK(records[1]["rmse"] == 0.5);
+}
+
+TEST_CASE("a ledger is replaced, or continued when a run is resumed") {
+  const TemporaryDirectory directory;
+  const std::string path = (directory.path() / "ledger.ndjson").string();
+  Ledger(path, ExistingFiles::kReplace).write({{"run", 1}});
+  Ledger(path, ExistingFiles::kResume).write({{"run", 2}});
+  CHECK(records_of(path).size() == 2);
+  Ledger(path, ExistingFiles::kReplace).write({{"run", 3}});
+  CHECK(records_of(path).size() == 1);
+}
+
+TEST_CASE("a ledger that cannot be opened is an error at once") {
+  const TemporaryDirectory directory;
+  const std::string file = (directory.path() / "file").string();
+  std::ofstream(file) << "a file is no directory";
+  CHECK_THROWS_WITH(Ledger(file + "/ledger", ExistingFiles::kRefuse),
+                    "cannot write '" + file + "/ledger': Not a directory");
+  CHECK_FALSE(Ledger("", ExistingFiles::kRefuse).enabled());
+}
+
+}  // namespace pprt

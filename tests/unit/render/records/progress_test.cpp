@@ -1,0 +1,37 @@
+#include "render/records/progress.h"
+
+#include <catch2/catch.hpp>
+
+namespace pprt {
+namespace {
+
+Pace::Time at(double seconds) {
+  return Pace::Time(std::chrono::duration_cast<Pace::Time::duration>(std::chrono::duration<double>(seconds)));
+}
+
+}  // namespace
+
+TEST_CASE("the pace is the mean rate of the frames after the first") {
+  Pace pace(at(10));
+  CHECK(pace.frames_per_second() == 0);
+  CHECK(pace.seconds_for(5) == 0);
+  pace.frame(at(12));  // there is no other to measure from
+  CHECK(pace.frames_per_second() == Approx(0.5));
+  CHECK(pace.seconds_for(5) == Approx(10));
+  pace.frame(at(12.25));
+  CHECK(pace.frames_per_second() == Approx(4));
+  pace.frame(at(13));  // two in a second
+  CHECK(pace.frames_per_second() == Approx(2));
+  CHECK(pace.seconds_for(5) == Approx(2.5));
+  CHECK(pace.seconds_for(0) == 0);
+}
+
+TEST_CASE("frames that come at the same time have no pace") {
+  Pace pace(at(1));
+  pace.frame(at(1));
+  pace.frame(at(1));
+  CHECK(pace.frames_per_second() == 0);
+  CHECK(pace.seconds_for(3) == 0);
+}
+
+}  // namespace pprt
