@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "parallel/balance/partition.h"
-#include "parallel/exchange.h"
-#include "parallel/network/messages.h"
-#include "pipeline/reconstruction/reconstruction.h"
+#include "parallel/exchange/mesh_exchange.h"
+#include "parallel/protocol/messages.h"
+#include "pipeline/mesh/reconstruction.h"
 
 namespace {
 
@@ -55,7 +55,7 @@ const std::vector<Sample>& serial_samples() {
 enum class Timed { kReceived, kUpdateRule, kReconstruction };
 
 double reconstruction_seconds(const SampleMesh& mesh) {
-  RegionPixels pixels;
+  PixelBlock pixels;
   ReconstructionBuffers buffers;
   constexpr int kRepeats = 20;
   reconstruct(mesh, mesh.region().bounds(), pixels, buffers);
@@ -74,28 +74,28 @@ void exchange_samples(benchmark::State& state, Timed timed) {
   std::size_t counted = 0;
   for (auto _ : state) {
     SampleMesh mesh(region);
-    SampleExchange exchange(partition, kRank, seeds);
+    MeshExchange exchange(mesh, seeds, partition, kRank);
     std::vector<Sample> batch;
     std::chrono::duration<double> spent(0), announcing(0);
     std::size_t triangles = 0, received = 0;
     const auto flush = [&] {
       const auto before = Clock::now();
-      triangles += exchange.announce(mesh);
+      triangles += exchange.announce();
       const auto began = Clock::now();
       announcing += began - before;
       for (const Sample& s : batch) {
-        exchange.insert(mesh, s, kRank + 1);
+        exchange.insert(s, kRank + 1);
       }
       spent += Clock::now() - began;
       received += batch.size();
       batch.clear();
     };
     for (const Vec2d& p : {Vec2d(0, 0), Vec2d(kSize, 0), Vec2d(kSize, kSize), Vec2d(0, kSize)}) {
-      exchange.insert(mesh, sample_at(p.x, p.y), kRank);
+      exchange.insert(sample_at(p.x, p.y), kRank);
     }
     for (const Sample& s : serial_samples()) {
       if (region.owns_point(s.x, s.y)) {
-        exchange.insert(mesh, s, kRank);
+        exchange.insert(s, kRank);
       } else if (s.x > own.x0 - kReach && s.x < own.x1 + kReach && s.y > own.y0 - kReach &&
                  s.y < own.y1 + kReach) {
         batch.push_back(s);

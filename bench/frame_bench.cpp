@@ -14,13 +14,14 @@
 
 #include "parallel/balance/global_balance.h"
 #include "parallel/balance/partition.h"
-#include "parallel/frame_assembly.h"
+#include "parallel/exchange/samplers.h"
+#include "parallel/master/frame_assembly.h"
 #include "parallel/network/local_communicator.h"
-#include "parallel/network/messages.h"
+#include "parallel/protocol/messages.h"
 #include "parallel/session.h"
-#include "pipeline/reconstruction/reconstruction.h"
-#include "pipeline/sampling/sample_mesh.h"
-#include "pipeline/sampling/seeds.h"
+#include "pipeline/mesh/reconstruction.h"
+#include "pipeline/mesh/sample_mesh.h"
+#include "pipeline/mesh/seeds.h"
 
 namespace {
 
@@ -62,7 +63,7 @@ double reconstruction_ms() {
     sample.x = p.x, sample.y = p.y, sample.ray = grey(p.x, p.y);
     mesh.insert(sample);
   }
-  RegionPixels pixels;
+  PixelBlock pixels;
   ReconstructionBuffers buffers;
   const double start = cpu_ms();
   for (int i = 0; i < kFrames; ++i) reconstruct(mesh, mesh.region().bounds(), pixels, buffers);
@@ -141,7 +142,7 @@ void rank_0(benchmark::State& state, bool partition) {
   }
   SessionSettings settings{.sampler = SamplerChoice::kDelaunay};
   settings.balance = BalanceMode::kGlobal;
-  GlobalBalancer balancer(settings, grid, ranks, 0);
+  GlobalBalancer balancer(settings, traits_of(settings.sampler), grid, ranks, 0);
   FrameOrder order;
   order.carry = Carry::kCastPaper;
   std::size_t ordered = 0;

@@ -10,11 +10,12 @@
 #include <optional>
 #include <vector>
 
-#include "pipeline/lattice/lattice_sampler.h"
-#include "pipeline/preparation/casting.h"
-#include "pipeline/reconstruction/reconstruction.h"
-#include "pipeline/sampling/sample_mesh.h"
-#include "pipeline/sampling/seeds.h"
+#include "pipeline/casting/casting.h"
+#include "pipeline/lattice/lattice_refiner.h"
+#include "pipeline/mesh/mesh_casting.h"
+#include "pipeline/mesh/reconstruction.h"
+#include "pipeline/mesh/sample_mesh.h"
+#include "pipeline/mesh/seeds.h"
 #include "spd/spd.h"
 #include "trace/compiled_scene.h"
 
@@ -125,7 +126,7 @@ BENCHMARK(scan_line_sample)->Unit(benchmark::kMillisecond);
 void reconstruction(benchmark::State& state) {
   SampleMesh mesh(whole());
   refine(mesh, static_cast<std::size_t>(state.range(0)), look_up);
-  RegionPixels pixels;
+  PixelBlock pixels;
   ReconstructionBuffers buffers;
   ProjectedShapeCache viewed(
       [](std::uint32_t primitive, ImageShape& shape) { tree().tracer.project(primitive, shape); });
@@ -137,32 +138,32 @@ void reconstruction(benchmark::State& state) {
 }
 BENCHMARK(reconstruction)->ArgsProduct({{4000, 16000, 64000}, {1, 2, 3}})->Unit(benchmark::kMillisecond);
 
-LatticeSampler lattice() {
+LatticeRefiner lattice() {
   return {whole(),
           [](std::uint32_t primitive, ImageShape& shape) { tree().tracer.project(primitive, shape); }};
 }
 
 template <typename Trace>
-void refine(LatticeSampler& sampler, std::size_t samples, const Trace& trace) {
+void refine(LatticeRefiner& sampler, std::size_t samples, const Trace& trace) {
   sampler.clear();
   while (sampler.samples() < samples) {
     sampler.expect(static_cast<double>(samples - sampler.samples()));
     const std::optional<Vec2d> point = sampler.next_point();
     if (!point) return;
-    sampler.insert(trace(point->x, point->y));
+    sampler.insert(*point, trace(point->x, point->y));
   }
 }
 
 void lattice_choice(benchmark::State& state) {
   look_up(0, 0);
-  LatticeSampler sampler = lattice();
+  LatticeRefiner sampler = lattice();
   for (auto _ : state) refine(sampler, static_cast<std::size_t>(state.range(0)), look_up);
   per_sample(state);
 }
 BENCHMARK(lattice_choice)->Arg(4000)->Arg(16000)->Arg(64000)->Unit(benchmark::kMillisecond);
 
 void lattice_sample(benchmark::State& state) {
-  LatticeSampler sampler = lattice();
+  LatticeRefiner sampler = lattice();
   for (auto _ : state) {
     refine(sampler, static_cast<std::size_t>(state.range(0)),
            [](double x, double y) { return tree().tracer.trace(x, y); });
@@ -173,9 +174,9 @@ BENCHMARK(lattice_sample)->Arg(16000)->Arg(64000)->Unit(benchmark::kMillisecond)
 
 // Shapes are projected once, in the first iteration.
 void lattice_painting(benchmark::State& state) {
-  LatticeSampler sampler = lattice();
+  LatticeRefiner sampler = lattice();
   refine(sampler, static_cast<std::size_t>(state.range(0)), look_up);
-  RegionPixels pixels;
+  PixelBlock pixels;
   for (auto _ : state) sampler.paint({0, 0, kSize, kSize}, pixels);
 }
 BENCHMARK(lattice_painting)->Arg(4000)->Arg(16000)->Arg(64000)->Unit(benchmark::kMillisecond);

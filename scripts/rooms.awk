@@ -9,12 +9,14 @@
 
 # The room of an object file, or "".
 function room_of(path) {
-  if (match(path, /\/Unity\/unity_(sampling|reconstruction|preparation|left-out|exchange)_cxx/))
-    return substr(path, RSTART + 13, RLENGTH - 17)
+  # Sources that are compiled as one (pprt_compile_as): unity_ROOM_cxx or unity_ROOM-PART_cxx.
+  if (match(path, /\/Unity\/unity_(sampling|reconstruction|preparation|left-out|exchange)/))
+    return substr(path, RSTART + 13, RLENGTH - 13)
   if (path ~ /\/lattice\/node_prediction\.cpp/) return ""
-  if (path ~ /pipeline.*\/sampling\/|\/lattice\/lattice_(sampler|store)\.cpp|\/lattice\/.*errors?/) return "sampling"
-  if (path ~ /pipeline.*\/reconstruction\/|\/lattice\/lattice_painter\.cpp/) return "reconstruction"
-  if (path ~ /pipeline.*\/preparation\/|\/(reprojection|anchor_search|worker_prepare)\.cpp/) return "preparation"
+  if (path ~ /\/mesh\/(delaunay|fan_weights|sample_mesh|seeds|predicates)\.cpp/) return "sampling"
+  if (path ~ /\/lattice\/lattice_(refiner|store)\.cpp|\/lattice\/.*errors?/) return "sampling"
+  if (path ~ /\/mesh\/reconstruction\.cpp|\/lattice\/lattice_painter\.cpp/) return "reconstruction"
+  if (path ~ /pipeline.*\/casting\/|\/(mesh_casting|reprojection|anchor_search|worker_prepare)\.cpp/) return "preparation"
   if (path ~ /src\/parallel\/.*\/(master|mosaic|frame_assembly)\.cpp/) return "left-out"
   if (path ~ /src\/parallel\//) return "exchange"
   if (path ~ /src\/trace\//) return "tracing"

@@ -11,7 +11,7 @@
 #include "image/image_layers.h"
 #include "layers/layer.h"
 #include "layers/triangulation.h"
-#include "pipeline/tile_grid.h"
+#include "pipeline/core/tile_grid.h"
 
 namespace pprt {
 

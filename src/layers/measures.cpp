@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "pipeline/sampling/refinement_weight.h"
+#include "pipeline/mesh/refinement_weight.h"
 
 namespace pprt {
 namespace {

@@ -9,7 +9,7 @@
 #include "image/image.h"
 #include "layers/coverage_mask.h"
 #include "layers/triangulation.h"
-#include "pipeline/tile_grid.h"
+#include "pipeline/core/tile_grid.h"
 
 namespace pprt {
 

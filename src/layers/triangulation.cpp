@@ -4,8 +4,8 @@
 #include <tuple>
 #include <utility>
 
-#include "pipeline/region.h"
-#include "pipeline/sampling/sample_mesh.h"
+#include "pipeline/core/region.h"
+#include "pipeline/mesh/sample_mesh.h"
 
 namespace pprt {
 namespace {

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "pipeline/reconstruction/reconstruction.h"
-#include "pipeline/sample.h"
-#include "pipeline/tile_grid.h"
+#include "pipeline/core/sample.h"
+#include "pipeline/core/tile_grid.h"
+#include "pipeline/mesh/reconstruction.h"
 
 namespace pprt {
 

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "base/probe.h"
-#include "parallel/master.h"
-#include "parallel/session_settings.h"
-#include "pipeline/sample.h"
-#include "pipeline/tile_grid.h"
+#include "parallel/master/master.h"
+#include "parallel/settings/session_settings.h"
+#include "pipeline/core/sample.h"
+#include "pipeline/core/tile_grid.h"
 
 namespace pprt {
 

@@ -8,13 +8,13 @@
 
 #include "parallel/clock/make_clocks.h"
 #include "parallel/clock/sequence_clock.h"
-#include "parallel/clock/work_units.h"
-#include "parallel/network/inbox.h"
+#include "parallel/exchange/samplers.h"
+#include "parallel/master/rank_clocks.h"
+#include "parallel/master/round_census.h"
 #include "parallel/network/wire.h"
-#include "parallel/rank_clocks.h"
-#include "parallel/round_census.h"
-#include "parallel/worker.h"
-#include "pipeline/lattice/lattice_node.h"
+#include "parallel/protocol/inbox.h"
+#include "parallel/rank/worker.h"
+#include "parallel/settings/work_units.h"
 
 namespace pprt {
 namespace {
@@ -93,7 +93,8 @@ Worker make_worker(Communicator& network, Inbox& inbox, const SessionSettings& s
                    const Partition& partition, const Probe& probe, const SequenceClock& clock) {
   const std::size_t pixels = region_of(partition, network.rank()).pixel_count();
   return Worker(network, inbox, settings, partition, probe,
-                make_frame_clock(settings, network.rank(), clock, pixels, ranks_per_core(network)));
+                make_frame_clock(settings, network.rank(), clock, pixels, ranks_per_core(network),
+                                 traits_of(settings.sampler).refreshes_in_parts));
 }
 
 // Empty: the sequence is over.
@@ -109,9 +110,7 @@ std::optional<FrameOrder> await_order(Inbox& inbox, int index) {
 }  // namespace
 
 TileGrid tile_grid(const SessionSettings& settings, int ranks) {
-  constexpr int kBasePixels = kBaseSide / kPixelSide;
-  return tile_grid_for(settings.width, settings.height, ranks,
-                       settings.sampler == SamplerChoice::kDelaunay ? 1 : kBasePixels);
+  return tile_grid_for(settings.width, settings.height, ranks, traits_of(settings.sampler).tile_multiple);
 }
 
 void run_as_master(Communicator& network, const SessionSettings& settings, const Probe& probe,

@@ -6,10 +6,10 @@
 
 #include "base/probe.h"
 #include "parallel/clock/host_time.h"
-#include "parallel/loss_watch.h"
-#include "parallel/master.h"
+#include "parallel/master/loss_watch.h"
+#include "parallel/master/master.h"
 #include "parallel/network/communicator.h"
-#include "parallel/session_settings.h"
+#include "parallel/settings/session_settings.h"
 
 namespace pprt {
 

@@ -8,7 +8,7 @@ namespace {
 
 // Four corners of the cube, no two of which share an edge.
 constexpr std::array<Vec3d, 4> kTetrahedron = {Vec3d(-1, -1, 1), Vec3d(-1, 1, -1), Vec3d(1, -1, -1),
-                                           Vec3d(1, 1, 1)};
+                                               Vec3d(1, 1, 1)};
 
 // Adds a tetrahedron of the given level. `half_width` is half the edge of the cube around it.
 void tetrahedron(SceneBuilder& out, const Vec3d& center, double half_width, int level) {

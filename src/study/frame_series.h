@@ -5,8 +5,8 @@
 #include <functional>
 #include <vector>
 
-#include "parallel/master.h"
-#include "parallel/session_words.h"
+#include "parallel/master/master.h"
+#include "parallel/settings/session_words.h"
 #include "scene/animation/animation.h"
 #include "trace/compiled_scene.h"
 

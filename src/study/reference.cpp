@@ -13,7 +13,8 @@
 #include "base/content_hash.h"
 #include "base/hash.h"
 #include "image/atomic_file.h"
-#include "pipeline/preparation/cast_choice.h"
+#include "pipeline/casting/cast_choice.h"
+#include "pipeline/core/display_values.h"
 #include "study/frame_series.h"
 
 namespace pprt {

@@ -20,6 +20,20 @@ declare -A besides=([study]="render/trace/balance_trace.h render/records/frame_s
 # circle. Files beside the rooms may include them all.
 declare -A within
 for line in \
+  "pipeline/core:" \
+  "pipeline/silhouettes: pipeline/core" \
+  "pipeline/casting: pipeline/core" \
+  "pipeline/sampling: pipeline/core pipeline/casting" \
+  "pipeline/mesh: pipeline/core pipeline/silhouettes pipeline/casting pipeline/sampling" \
+  "pipeline/lattice: pipeline/core pipeline/silhouettes pipeline/casting pipeline/sampling" \
+  "parallel/network:" \
+  "parallel/settings: parallel/network" \
+  "parallel/protocol: parallel/network" \
+  "parallel/clock: parallel/settings parallel/protocol" \
+  "parallel/balance: parallel/settings parallel/protocol" \
+  "parallel/exchange: parallel/settings parallel/balance" \
+  "parallel/rank: parallel/network parallel/settings parallel/protocol parallel/clock parallel/balance parallel/exchange" \
+  "parallel/master: parallel/network parallel/settings parallel/protocol parallel/clock parallel/balance parallel/exchange" \
   "scene/movement:" \
   "scene/description: scene/movement" \
   "scene/animation: scene/description scene/movement" \
@@ -39,10 +53,8 @@ for line in \
     [[ -n ${within[$lower]+known} ]] || complain "layout.sh: $lower does not stand before ${line%%:*}"
   done
 done
-# Stages of the pipeline: sampling knows of none of those that follow it.
-declare -A closed=([pipeline/sampling]="pipeline/(reconstruction|preparation|lattice)/"
-  [pipeline/reconstruction]="pipeline/(preparation|lattice)/" [pipeline/preparation]="pipeline/(reconstruction|lattice)/"
-  [pipeline/lattice]="pipeline/preparation/")
+# The triangulation is known to its exchange, to the layers that draw it and to the study of the paper.
+mesh_users='^src/(pipeline/mesh|parallel/exchange|layers|study)/'
 declare -A home=(
   [embree3]=trace [embree4]=trace [CGAL]=pipeline [mpi.h]=parallel [tao]=parser [assimp]=convert [OpenEXR]=image [png.h]=image [boost]=live
   [CLI]="cli render convert compare study" [nlohmann]="cli live render convert compare study" [spdlog]="cli render")
@@ -60,7 +72,7 @@ while IFS=: read -r file include; do
     if [[ $first == "$module" && $stage != "$module" && " ${!within[*]} " == *" $module/"* ]]; then
       [[ " $stage ${within[$stage]-} " == *" $(dirname "$name") "* ]] || complain "$file: $stage may not include $name"
     fi
-    [[ -z ${closed[$stage]:-} || ! $name =~ ^${closed[$stage]} ]] || complain "$file: $stage may not include $name"
+    [[ $name != pipeline/mesh/* || $file =~ $mesh_users ]] || complain "$file: may not include $name"
   elif [[ -n ${home[$first]:-} ]]; then
     [[ " ${home[$first]} " == *" $module "* ]] || complain "$file: <$name> belongs to ${home[$first]}"
   elif [[ $first != Imath && $first != fmt && $name =~ / && ! $name =~ ^(sys|net|netinet|arpa)/ ]]; then

@@ -15,7 +15,7 @@ while IFS=: read -r file link; do
 done < <(grep -roE '\]\([^) ]+\)' ./*.md docs --include='*.md')
 [[ $seen -gt 5 ]] || complain "only $seen links were found"
 
-# `parallel/exchange.cpp`, `parallel/exchange` or `parallel/exchange.*`: below src or the root, if that has such a room.
+# `parallel/exchange/mesh_exchange.cpp`, `parallel/exchange` or `parallel/exchange.*`: below src or the root, if that has such a room.
 seen=0
 # shellcheck disable=SC2016 # backquotes are meant
 while IFS=: read -r file name; do

@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <span>
 
-#include "parallel/network/messages.h"
-#include "parallel/session_settings.h"
+#include "parallel/protocol/messages.h"
+#include "parallel/settings/session_settings.h"
 
 namespace {
 

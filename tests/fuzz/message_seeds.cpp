@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "parallel/network/messages.h"
-#include "parallel/session_settings.h"
+#include "parallel/protocol/messages.h"
+#include "parallel/settings/session_settings.h"
 
 namespace {
 

@@ -8,8 +8,9 @@
 
 #include "numeric/pictures.h"
 #include "numeric/report.h"
-#include "pipeline/preparation/casting.h"
-#include "pipeline/sampling/seeds.h"
+#include "pipeline/casting/casting.h"
+#include "pipeline/mesh/mesh_casting.h"
+#include "pipeline/mesh/seeds.h"
 #include "unit/trace/test_scenes.h"
 
 namespace pprt {

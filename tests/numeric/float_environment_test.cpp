@@ -9,7 +9,7 @@
 
 #include "numeric/pictures.h"
 #include "numeric/report.h"
-#include "pipeline/sampling/sample_mesh.h"
+#include "pipeline/mesh/sample_mesh.h"
 #include "spd/spd.h"
 
 namespace pprt {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "numeric/report.h"
-#include "pipeline/reconstruction/reconstruction.h"
+#include "pipeline/mesh/reconstruction.h"
 #include "unit/pipeline/synthetic_image.h"
 
 namespace pprt {
@@ -68,7 +68,7 @@ TEST_CASE("a linear picture is reconstructed to rounding from 100,000 samples by
   constexpr double kUnit = 0x1p-24;
   const SampleMesh mesh = refine(Region::whole(kGrid), ramp_color, kSamples);
   REQUIRE(mesh.samples().size() > kSamples);
-  RegionPixels mean_of_samples, mean_of_area;
+  PixelBlock mean_of_samples, mean_of_area;
   ReconstructionBuffers buffers;
   reconstruct(mesh, mesh.region().bounds(), mean_of_samples, buffers, PixelRule::kMean);
   reconstruct(mesh, mesh.region().bounds(), mean_of_area, buffers, PixelRule::kArea);

@@ -10,8 +10,8 @@
 #include <random>
 
 #include "numeric/report.h"
-#include "pipeline/reconstruction/reconstruction.h"
-#include "pipeline/sampling/sample_mesh.h"
+#include "pipeline/mesh/reconstruction.h"
+#include "pipeline/mesh/sample_mesh.h"
 #include "unit/pipeline/cgal_oracle.h"
 
 namespace pprt {
@@ -226,7 +226,7 @@ TEST_CASE("a picture of one colour is reconstructed exactly from hard points, by
   for (int i = 0; i < 30'000; ++i) put(points.next());
   std::ptrdiff_t others = 0;
   for (const PixelRule rule : {PixelRule::kCenter, PixelRule::kMean, PixelRule::kArea}) {
-    RegionPixels pixels;
+    PixelBlock pixels;
     ReconstructionBuffers buffers;
     reconstruct(mesh, mesh.region().bounds(), pixels, buffers, rule);
     others +=

@@ -1,5 +1,5 @@
-// Stands before Embree: adds PPRT_HOLD_EMBREE, such as "isa=avx2", to the configuration of each device. A program under test
-// starts with this library in LD_PRELOAD. Tests only.
+// Stands before Embree: adds PPRT_HOLD_EMBREE, such as "isa=avx2", to the configuration of each device. A
+// program under test starts with this library in LD_PRELOAD. Tests only.
 #include <dlfcn.h>
 
 #include <cstdlib>

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "parallel/clock/work_units.h"
+#include "parallel/settings/work_units.h"
 
 namespace pprt {
 
@@ -57,10 +57,10 @@ TransferInputs Balancer::inputs(const RegionQuality& refined, const std::vector<
 }
 
 TileOffers Balancer::offers_to(const PossibleTaker& taker, const RegionQuality& refined,
-                               const RegionSamples& samples) const {
+                               const KnownRanks& others) const {
   const double mean_pace = 0.5 * (pace_ + taker.progress.pace), target = taker.progress.target;
-  return [this, mean_pace, target, &refined, known = samples.known_in_tiles(taker.rank),
-          all = samples.known_in_tiles(rank_)](int tile) {
+  return [this, mean_pace, target, &refined, known = others.known_in_tiles(taker.rank),
+          all = others.known_in_tiles(rank_)](int tile) {
     const auto t = static_cast<std::size_t>(tile);
     return TileOffer{.future_cost = mean_pace * costs_.future_cost(refined, tile, target),
                      .samples = static_cast<double>(all[t]),
@@ -68,15 +68,14 @@ TileOffers Balancer::offers_to(const PossibleTaker& taker, const RegionQuality& 
   };
 }
 
-std::vector<TileTransfer> Balancer::choose_transfers(const RegionQuality& refined,
-                                                     const RegionSamples& samples,
+std::vector<TileTransfer> Balancer::choose_transfers(const RegionQuality& refined, const KnownRanks& others,
                                                      const TransferHandshake& handshake, double elapsed,
                                                      double most_samples) const {
   std::vector<TileTransfer> transfers;
   if (!handshake.may_transfer()) return transfers;
-  const Partition& partition = samples.partition();
-  const TransferInputs going_by = inputs(refined, samples.neighbours(), elapsed, handshake, most_samples);
-  const auto offers = [&](const PossibleTaker& taker) { return offers_to(taker, refined, samples); };
+  const Partition& partition = others.partition;
+  const TransferInputs going_by = inputs(refined, others.ranks_beside, elapsed, handshake, most_samples);
+  const auto offers = [&](const PossibleTaker& taker) { return offers_to(taker, refined, others); };
   for (const auto& [tile, taker] : choose_tiles(settings_, partition, rank_, going_by, offers)) {
     transfers.push_back({.tile = tile,
                          .owner = taker,

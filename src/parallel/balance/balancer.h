@@ -2,17 +2,26 @@
 // s. 3.6).
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "parallel/balance/cost_estimator.h"
 #include "parallel/balance/local_balance.h"
-#include "parallel/balance/tile_cost.h"
 #include "parallel/balance/transfer_choice.h"
 #include "parallel/balance/transfer_handshake.h"
-#include "parallel/region_samples.h"
-#include "pipeline/region_quality.h"
+#include "parallel/protocol/tile_cost.h"
+#include "pipeline/core/region_quality.h"
 
 namespace pprt {
+
+// What a rank knows of the others around it.
+struct KnownRanks {
+  const Partition& partition;
+  const std::vector<int>& ranks_beside;  // own a tile beside one of the rank's; ascending
+  std::function<std::vector<std::uint32_t>(int rank)>
+      known_in_tiles;  // samples of each tile that a rank knows
+};
 
 // Decides; it neither sends tiles nor changes their owners.
 class Balancer {
@@ -42,7 +51,7 @@ class Balancer {
 
   // The tiles to give to neighbours that accept tiles and are ahead, all of one neighbour's together. A
   // neighbour need not take in more than `most_samples`. Empty while the handshake forbids transfers.
-  std::vector<TileTransfer> choose_transfers(const RegionQuality& refined, const RegionSamples& samples,
+  std::vector<TileTransfer> choose_transfers(const RegionQuality& refined, const KnownRanks& others,
                                              const TransferHandshake& handshake, double elapsed,
                                              double most_samples) const;
 
@@ -51,7 +60,7 @@ class Balancer {
   TransferInputs inputs(const RegionQuality& refined, const std::vector<int>& neighbours, double elapsed,
                         const TransferHandshake& handshake, double most_samples) const;
   TileOffers offers_to(const PossibleTaker& taker, const RegionQuality& refined,
-                       const RegionSamples& samples) const;
+                       const KnownRanks& others) const;
 
   LocalBalanceSettings settings_;
   int rank_;

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "parallel/balance/tile_cost.h"
-#include "parallel/clock/work_units.h"
-#include "pipeline/region_quality.h"
-#include "pipeline/sample.h"
+#include "parallel/protocol/tile_cost.h"
+#include "parallel/settings/work_units.h"
+#include "pipeline/core/region_quality.h"
+#include "pipeline/core/sample.h"
 
 namespace pprt {
 

@@ -7,7 +7,7 @@
 
 #include "parallel/balance/cost_estimator.h"
 #include "parallel/balance/partition.h"
-#include "parallel/clock/work_units.h"
+#include "parallel/settings/work_units.h"
 
 namespace pprt {
 namespace {
@@ -126,7 +126,7 @@ void GlobalBalancer::add_partition(FrameOrder& order) {
 
 bool GlobalBalancer::is_useful_for(const FrameOrder& order) const {
   if (order.carry == Carry::kAccumulate) return !settings_.keep_samples || can_afford_to_hand_over();
-  return !accumulated_ || settings_.sampler == SamplerChoice::kDelaunay;
+  return !accumulated_ || traits_.costs_outlast_rest;
 }
 
 // Whether every rank can take in the samples of its new tiles in a twentieth of a frame; their former owner

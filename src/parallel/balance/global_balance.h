@@ -5,10 +5,11 @@
 #include <span>
 #include <vector>
 
-#include "parallel/balance/tile_cost.h"
-#include "parallel/network/messages.h"
-#include "parallel/session_settings.h"
-#include "pipeline/tile_grid.h"
+#include "parallel/protocol/messages.h"
+#include "parallel/protocol/tile_cost.h"
+#include "parallel/settings/sampler_traits.h"
+#include "parallel/settings/session_settings.h"
+#include "pipeline/core/tile_grid.h"
 
 namespace pprt {
 
@@ -39,8 +40,9 @@ struct FrameReports {
 class GlobalBalancer {
  public:
   // `units_per_frame`: work units that a rank can do in one frame's period; with a rate only.
-  GlobalBalancer(const SessionSettings& settings, const TileGrid& grid, int ranks, double units_per_frame)
-      : settings_(settings), grid_(grid), ranks_(ranks), units_per_frame_(units_per_frame) {}
+  GlobalBalancer(const SessionSettings& settings, const SamplerTraits& traits, const TileGrid& grid,
+                 int ranks, double units_per_frame)
+      : settings_(settings), traits_(traits), grid_(grid), ranks_(ranks), units_per_frame_(units_per_frame) {}
 
   // Whether this mode of balancing makes partitions.
   bool repartitions() const {
@@ -55,8 +57,8 @@ class GlobalBalancer {
   void take_over(std::span<const std::int32_t> lost);
 
   // Puts the new partition, if there is one, into the order, and the generation in force. A partition whose
-  // samples would have to be handed over is dropped where that costs too much. On a lattice so is one that
-  // was made from the samples of many frames, where the picture begins anew: other tiles are costly then.
+  // samples would have to be handed over is dropped where that costs too much. So is one that was made from
+  // the samples of many frames, where the picture begins anew and the sampler's other tiles are costly then.
   void add_partition(FrameOrder& order);
 
   // Per rank: what the tiles that the order's new partition gives to it were found to be, ascending by tile.
@@ -68,6 +70,7 @@ class GlobalBalancer {
   bool can_afford_to_hand_over() const;
 
   SessionSettings settings_;
+  SamplerTraits traits_;
   TileGrid grid_;
   int ranks_;
   double units_per_frame_;

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "parallel/balance/partition.h"
-#include "parallel/balance/tile_cost.h"
-#include "pipeline/region_quality.h"
+#include "parallel/protocol/tile_cost.h"
+#include "pipeline/core/region_quality.h"
 
 namespace pprt {
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "pipeline/region.h"
-#include "pipeline/tile_grid.h"
+#include "pipeline/core/region.h"
+#include "pipeline/core/tile_grid.h"
 
 namespace pprt {
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "parallel/clock/work_units.h"
+#include "parallel/settings/work_units.h"
 
 namespace pprt {
 std::vector<PossibleTaker> takers_ahead(const LocalBalanceSettings& settings, const TransferInputs& inputs) {

@@ -7,7 +7,7 @@
 
 #include "parallel/balance/local_balance.h"
 #include "parallel/balance/partition.h"
-#include "parallel/balance/tile_cost.h"
+#include "parallel/protocol/tile_cost.h"
 
 namespace pprt {
 
@@ -26,13 +26,6 @@ struct TransferInputs {
   std::vector<PossibleTaker> takers = {};
 };
 
-struct GivenTile {
-  std::int32_t tile = 0;
-  std::int32_t taker = 0;
-
-  friend bool operator==(const GivenTile&, const GivenTile&) = default;
-};
-
 // Returns what the giver knows of its tiles, for transfers to one neighbour. Asked once for each neighbour
 // that should be given tiles, and then for tiles of the giver only.
 using TileOffers = std::function<TileOffer(int tile)>;
@@ -44,12 +37,5 @@ std::vector<PossibleTaker> takers_ahead(const LocalBalanceSettings& settings, co
 // Returns the tiles to give, all of one taker's together. `partition`: as the giver knows it.
 std::vector<GivenTile> choose_tiles(const LocalBalanceSettings& settings, Partition partition, int giver,
                                     const TransferInputs& inputs, const OffersTo& offers_to);
-
-// A rank's choice of tiles to give, as --trace records it.
-struct TransferChoice {
-  std::int32_t giver = 0;
-  std::int32_t round = 0;  // of the frame's exchanges
-  std::vector<GivenTile> given = {};
-};
 
 }  // namespace pprt

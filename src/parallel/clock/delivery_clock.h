@@ -5,8 +5,8 @@
 #include <span>
 #include <utility>
 
-#include "parallel/clock/work_units.h"
-#include "parallel/network/messages.h"
+#include "parallel/protocol/messages.h"
+#include "parallel/settings/work_units.h"
 
 namespace pprt {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "parallel/network/inbox.h"
+#include "parallel/protocol/inbox.h"
 
 namespace pprt {
 

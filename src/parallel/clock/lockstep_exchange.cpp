@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "parallel/clock/work_units.h"
+#include "parallel/settings/work_units.h"
 
 namespace pprt {
 namespace {

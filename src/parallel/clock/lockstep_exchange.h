@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "parallel/clock/exchange_policy.h"
-#include "parallel/clock/machine.h"
+#include "parallel/settings/machine.h"
 
 namespace pprt {
 

@@ -33,11 +33,10 @@ bool is_reproducible(const SessionSettings& settings) {
 
 std::unique_ptr<FrameClock> make_frame_clock(const SessionSettings& settings, int rank,
                                              const SequenceClock& sequence, std::size_t region_pixels,
-                                             double ranks_per_core) {
+                                             double ranks_per_core, bool refreshes_in_parts) {
   if (is_reproducible(settings)) {
     return std::make_unique<WorkClock>(budget(settings), region_pixels, slowness_of(settings.machine, rank));
   }
-  const bool refreshes_in_parts = settings.sampler != SamplerChoice::kDelaunay;
   return std::make_unique<WallClock>(sequence, period_s(settings), ranks_per_core, refreshes_in_parts);
 }
 

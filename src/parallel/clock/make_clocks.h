@@ -10,7 +10,7 @@
 #include "parallel/clock/frame_clock.h"
 #include "parallel/clock/host_time.h"
 #include "parallel/clock/sequence_clock.h"
-#include "parallel/session_settings.h"
+#include "parallel/settings/session_settings.h"
 
 namespace pprt {
 
@@ -18,10 +18,10 @@ namespace pprt {
 bool is_reproducible(const SessionSettings& settings);
 
 // A rank's clock. `sequence` must outlive it. `region_pixels`: number of pixels that the rank reconstructs.
-// `ranks_per_core`: number of ranks that share a core, at least 1.
+// `ranks_per_core`: number of ranks that share a core, at least 1. `refreshes_in_parts`: see SamplerTraits.
 std::unique_ptr<FrameClock> make_frame_clock(const SessionSettings& settings, int rank,
                                              const SequenceClock& sequence, std::size_t region_pixels,
-                                             double ranks_per_core);
+                                             double ranks_per_core, bool refreshes_in_parts);
 
 // How a rank exchanges bundles with the others.
 std::unique_ptr<ExchangePolicy> make_exchange_policy(const SessionSettings& settings, int ranks);

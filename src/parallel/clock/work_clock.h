@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "parallel/clock/frame_clock.h"
-#include "parallel/clock/work_units.h"
+#include "parallel/settings/work_units.h"
 
 namespace pprt {
 

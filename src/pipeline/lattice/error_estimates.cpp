@@ -1,7 +1,6 @@
 #include "pipeline/lattice/error_estimates.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -21,8 +20,8 @@ float expected(NodeClass c) {
 
 const std::array<float, 512> kDetails = [] {
   std::array<float, 512> details{};
-  for (std::uint32_t i = 0; i < details.size(); ++i) {
-    const float least = std::bit_cast<float>(i << 21), middle = 1.1F * least;
+  for (std::size_t i = 0; i < details.size(); ++i) {
+    const float least = least_of_step<kDetailFine>(static_cast<std::int32_t>(i)), middle = 1.1F * least;
     details[i] = std::sqrt(std::log(1.03F + 500 * middle));
   }
   return details;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -13,25 +12,25 @@ namespace pprt {
 
 // A class of nodes whose errors are alike. It has three parts: the number of primitives at the nodes around
 // (1 to 4), the variance of their colours (two octaves each), and the level of the errors near them.
-inline constexpr int kPrimitiveCounts = 4, kVarianceLevels = 8;
+inline constexpr int kPrimitiveCounts = 4;
 using NodeClass = std::size_t;
 inline constexpr std::size_t kNodeClasses = std::size_t{kPrimitiveCounts} * kVarianceLevels * kErrorLevels;
 
-inline NodeClass class_of(int primitives, float variance, int error_level) {
-  constexpr int kLeast = 55;  // half the exponent of a float of 2^-17
-  const int level = std::clamp(static_cast<int>(std::bit_cast<std::uint32_t>(variance) >> 24) - kLeast, 0,
-                               kVarianceLevels - 1);
-  return static_cast<std::size_t>(
-      ((std::min(primitives, kPrimitiveCounts) - 1) * kVarianceLevels + level) * kErrorLevels + error_level);
+inline NodeClass class_of(int primitives, float variance, int level_of_errors) {
+  const int level = std::min(variance_level(variance), kVarianceLevels - 1);
+  return static_cast<std::size_t>(((std::min(primitives, kPrimitiveCounts) - 1) * kVarianceLevels + level) *
+                                      kErrorLevels +
+                                  level_of_errors);
 }
 
-// detail_of() of floats in [0, 2), by exponent and the first two bits after the point.
+// detail_of() of floats in [0, 2), four an octave.
+inline constexpr int kDetailFine = 2;
 extern const std::array<float, 512> kDetails;
 
 // Returns sqrt(log(1.03 + 500 variance)): the paper's refinement weight (refinement_weight.h), for a
 // difference instead of its square. The variance lies in [0, 2). It counts to an eighth of an octave.
 inline float detail_of(float variance) {
-  return kDetails[std::bit_cast<std::uint32_t>(variance) >> 21];
+  return kDetails[static_cast<std::size_t>(octave_step<kDetailFine>(variance))];
 }
 
 class ErrorEstimates {

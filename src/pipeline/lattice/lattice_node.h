@@ -18,7 +18,7 @@
 #include <span>
 
 #include "base/vector.h"
-#include "pipeline/simd.h"
+#include "pipeline/core/simd.h"
 
 namespace pprt {
 

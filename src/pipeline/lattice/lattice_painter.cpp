@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "pipeline/reconstruction/shape_nearness.h"
+#include "pipeline/silhouettes/shape_nearness.h"
 
 namespace pprt {
 namespace {
@@ -70,7 +70,7 @@ Coverage coverage(const ProjectedShapeCache& shapes,
 
 }  // namespace
 
-void LatticePainter::paint(const PixelRect& part, RegionPixels& pixels) {
+void LatticePainter::paint(const PixelRect& part, PixelBlock& pixels) {
   part_ = part;
   pixels_ = &pixels;
   const auto first = [](int pixel) { return pixel / kBasePixels * kBasePixels; };

@@ -4,8 +4,8 @@
 
 #include <array>
 
+#include "pipeline/core/pixel_block.h"
 #include "pipeline/lattice/node_prediction.h"
-#include "pipeline/reconstruction/reconstruction.h"
 
 namespace pprt {
 
@@ -20,7 +20,7 @@ class LatticePainter {
       : store_(store), predictor_(predictor), shapes_(shapes), errors_(errors), share_(share) {}
 
   // Replaces the pixels of a part of `pixels`, a rectangle of the image within their bounds.
-  void paint(const PixelRect& part, RegionPixels& pixels);
+  void paint(const PixelRect& part, PixelBlock& pixels);
 
  private:
   void paint_square(const LatticeNode& corner, int side, const SquareCorners& corners);
@@ -56,7 +56,7 @@ class LatticePainter {
   LocalErrors& errors_;
   const EdgeShare& share_;
   PixelRect part_;
-  RegionPixels* pixels_ = nullptr;
+  PixelBlock* pixels_ = nullptr;
   int finest_side_ = 1;  // of the pixel that is painted
 };
 

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "pipeline/core/region.h"
 #include "pipeline/lattice/lattice_store.h"
-#include "pipeline/region.h"
 
 namespace pprt {
 

@@ -12,6 +12,7 @@
 #include <memory>
 #include <vector>
 
+#include "pipeline/core/octaves.h"
 #include "pipeline/lattice/lattice_node.h"
 
 namespace pprt {
@@ -21,10 +22,11 @@ namespace pprt {
 using NodeState = std::uint8_t;
 inline constexpr NodeState kNotWanted = 0, kSampled = 1, kLeastCandidate = 2, kGreatestCandidate = 254;
 
-// Four priorities an octave of worth.
+// Four priorities an octave of worth, from 2^-40 on.
+inline constexpr int kPriorityFine = 2;
+inline constexpr std::int32_t kLeastPriorityStep = step_of_power<kPriorityFine>(-40);
 inline NodeState priority_of(float worth) {
-  constexpr int kPerOctave = 4, kLeastExponent = 127 - 40;
-  const int steps = static_cast<int>(std::bit_cast<std::uint32_t>(worth) >> 21) - kLeastExponent * kPerOctave;
+  const int steps = octave_step<kPriorityFine>(worth) - kLeastPriorityStep;
   return static_cast<NodeState>(steps < 0                                      ? int{kLeastCandidate}
                                 : steps > kGreatestCandidate - kLeastCandidate ? int{kGreatestCandidate}
                                                                                : kLeastCandidate + steps);
@@ -32,8 +34,7 @@ inline NodeState priority_of(float worth) {
 
 // Returns the least worth with this priority.
 inline float least_worth(NodeState priority) {
-  constexpr std::uint32_t kLeast = (127 - 40) * 4;
-  return std::bit_cast<float>((priority - std::uint32_t{kLeastCandidate} + kLeast) << 21);
+  return least_of_step<kPriorityFine>(priority - kLeastCandidate + kLeastPriorityStep);
 }
 
 // Numbered blocks that never move. Numbers start at 1.

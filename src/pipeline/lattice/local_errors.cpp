@@ -29,7 +29,7 @@ void LocalErrors::note(const LatticeNode& node, float squared_error, float rays,
   const std::size_t cell = cell_of(node);
   Sums& sums = sums_[cell];
   sums.error += weight * squared_error, sums.rays += weight * rays, sums.samples += weight;
-  if (error_level_of(squared_error) <= means_[cell].level) return;
+  if (error_level(squared_error) <= means_[cell].level) return;
   const auto columns = static_cast<std::size_t>(columns_);
   for (const std::size_t row : {cell - columns, cell, cell + columns})
     for (const std::size_t i : {row - 1, row, row + 1}) means_[i].round = 0;
@@ -46,7 +46,7 @@ void LocalErrors::compute(std::size_t cell, Mean& mean) const {
           0.5F;
   const bool is_known = all[2] > 0;
   mean.rays = is_known ? all[1] / all[2] : kUnknownRays;
-  mean.level = static_cast<std::uint8_t>(error_level_of(is_known ? all[0] / all[2] : kUnknownError));
+  mean.level = static_cast<std::uint8_t>(error_level(is_known ? all[0] / all[2] : kUnknownError));
   mean.round = round_;
 }
 

@@ -3,22 +3,14 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "pipeline/core/octaves.h"
 #include "pipeline/lattice/lattice_node.h"
 
 namespace pprt {
-
-// The squared errors near a point: the octave of their mean. The lowest: below 2^-14. The highest: 1.
-inline constexpr int kErrorLevels = 16;
-inline int error_level_of(float squared_error) {
-  constexpr int kLeast = 127 - (kErrorLevels - 1);  // as a float's exponent
-  return std::clamp(static_cast<int>(std::bit_cast<std::uint32_t>(squared_error) >> 23) - kLeast, 0,
-                    kErrorLevels - 1);
-}
 
 // Sums in cells of 4x4 pixels. What is asked of a cell is the mean over it and its eight neighbours, kept
 // until start_round() or until a larger error is found there.
@@ -37,7 +29,7 @@ class LocalErrors {
 
   struct Mean {
     float rays = 0;          // a sample
-    std::uint8_t level = 0;  // of the squared errors
+    std::uint8_t level = 0;  // of the squared errors: error_level() of their mean
     std::uint8_t round = 0;  // in which it was computed; 0: none
   };
   const Mean& near(const LatticeNode& node) {

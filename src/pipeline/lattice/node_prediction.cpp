@@ -1,7 +1,7 @@
 #include "pipeline/lattice/node_prediction.h"
 
-#include "pipeline/reconstruction/shape_nearness.h"
-#include "pipeline/sampling/refinement_weight.h"
+#include "pipeline/core/display_values.h"
+#include "pipeline/silhouettes/shape_nearness.h"
 
 namespace pprt {
 namespace {

@@ -11,11 +11,11 @@
 #include <array>
 #include <cstdint>
 
+#include "pipeline/core/display_values.h"
 #include "pipeline/lattice/edge_share.h"
 #include "pipeline/lattice/lattice_store.h"
 #include "pipeline/lattice/local_errors.h"
-#include "pipeline/reconstruction/projected_shape_cache.h"
-#include "pipeline/sampling/refinement_weight.h"
+#include "pipeline/silhouettes/projected_shape_cache.h"
 
 namespace pprt {
 

@@ -120,7 +120,7 @@ void add_stop_rules(CLI::App& app, RenderOptions& o) {
 
 void add_method_options(CLI::App& app, RenderOptions& o) {
   const std::string group = "Method";
-  add_choice(app, "--sampler", o.method.sampler, "What chooses a frame's samples").group(group);
+  add_choice(app, "--sampler", o.method.sampler.choice(), "What chooses a frame's samples").group(group);
   add_choice(app, "--balance", o.method.balance, "How ranks share the load").group(group);
   add_choice(app, "--cast", o.method.cast, "Which samples are carried to the next frame").group(group);
   add_choice(app, "--keep-samples", o.method.keep_samples, "Keep carried samples at a repartition")

@@ -9,7 +9,7 @@
 #include "cli/options/number_pair.h"
 #include "cli/process/log.h"
 #include "live/address.h"
-#include "parallel/session_words.h"
+#include "parallel/settings/session_words.h"
 #include "render/options/outputs.h"
 #include "render/records/progress.h"
 #include "trace/compiled_scene.h"

@@ -6,7 +6,7 @@
 #include "base/content_hash.h"
 #include "cli/options/version.h"
 #include "parallel/clock/make_clocks.h"
-#include "parallel/session_words.h"
+#include "parallel/settings/session_words.h"
 #include "render/records/json_names.h"
 
 namespace pprt {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "base/camera.h"
-#include "parallel/session_settings.h"
-#include "pipeline/sample.h"
+#include "parallel/settings/session_settings.h"
+#include "pipeline/core/sample.h"
 #include "trace/compiled_scene.h"
 
 namespace pprt {

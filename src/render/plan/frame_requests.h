@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "parallel/master.h"
+#include "parallel/master/master.h"
 #include "render/plan/render_plan.h"
 
 namespace pprt {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "live/address.h"
-#include "parallel/session_settings.h"
+#include "parallel/settings/session_settings.h"
 #include "render/options/outputs.h"
 #include "scene/animation/animation.h"
 #include "scene/description/scene_description.h"

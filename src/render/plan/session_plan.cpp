@@ -3,26 +3,11 @@
 #include <fmt/core.h>
 
 #include "base/diagnostics.h"
+#include "parallel/exchange/samplers.h"
 #include "parallel/session.h"
 #include "render/options/render_options.h"
 
 namespace pprt {
-namespace {
-
-double still_weight(SamplerChoice sampler) {
-  switch (sampler) {
-    case SamplerChoice::kDelaunay:
-      return kStillWeight;
-    case SamplerChoice::kAuto:
-      return kLatticeStillWeight;
-    case SamplerChoice::kGrid:
-      break;
-  }
-  return 0;  // it ends when every node has its sample
-}
-
-}  // namespace
-
 SessionSettings settled_method(SessionSettings method, WeightRule weights) {
   if (method.sampler == SamplerChoice::kAuto && needs_triangulation(method, weights))
     method.sampler = SamplerChoice::kDelaunay;
@@ -51,7 +36,7 @@ void settle_end(const FrameEnd& end, double fps, bool goes_on, SessionSettings& 
   settings.stop = {.seconds = end.time.value_or(0),
                    .samples = end.samples.value_or(0),
                    .flip = end.quality.value_or(0),
-                   .weight = end.has_stop_rule() ? 0 : still_weight(settings.sampler)};
+                   .weight = end.has_stop_rule() ? 0 : traits_of(settings.sampler).still_weight};
 }
 
 SessionSettings photo_settings(const SessionSettings& live) {
@@ -59,7 +44,8 @@ SessionSettings photo_settings(const SessionSettings& live) {
   SessionSettings photo = live;
   photo.frames_per_second = 0;
   photo.budget_units = 0;
-  photo.stop = {.seconds = kLongest_s, .samples = 0, .flip = 0, .weight = still_weight(live.sampler)};
+  photo.stop = {
+      .seconds = kLongest_s, .samples = 0, .flip = 0, .weight = traits_of(live.sampler).still_weight};
   photo.is_still = true;
   photo.late_orders = false;
   return photo;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/ray_counts.h"
-#include "parallel/master.h"
+#include "parallel/master/master.h"
 
 namespace pprt {
 

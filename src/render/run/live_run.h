@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "parallel/master.h"
+#include "parallel/master/master.h"
 #include "render/output/frame_recorder.h"
 #include "render/plan/render_plan.h"
 #include "trace/compiled_scene.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "parallel/network/communicator.h"
-#include "parallel/session_settings.h"
+#include "parallel/settings/session_settings.h"
 #include "trace/compiled_scene.h"
 
 namespace pprt {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/thread_priority.h"
-#include "parallel/session_words.h"
+#include "parallel/settings/session_words.h"
 #include "render/records/json_names.h"
 #include "render/records/ledger.h"
 #include "render/trace/balance_trace_words.h"

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "image/atomic_file.h"
-#include "parallel/master.h"
-#include "parallel/session_settings.h"
+#include "parallel/master/master.h"
+#include "parallel/settings/session_settings.h"
 #include "render/records/existing_files.h"
 
 namespace pprt {

@@ -8,7 +8,7 @@
 
 #include "base/diagnostics.h"
 #include "base/printable.h"
-#include "parallel/session_words.h"
+#include "parallel/settings/session_words.h"
 #include "render/records/json_names.h"
 #include "render/trace/balance_trace.h"
 #include "render/trace/balance_trace_words.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/words.h"
-#include "parallel/network/messages.h"
+#include "parallel/protocol/messages.h"
 
 namespace pprt {
 

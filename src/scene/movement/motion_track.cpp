@@ -62,8 +62,8 @@ struct KeyTangents {
 
 // `changes`: from key j-1 to j, from j to j+1, and from j+1 to j+2, where j is the segment's first key.
 template <typename Key>
-KeyTangents key_tangents(const std::vector<Key>& keys, std::size_t j, const Vec3d& before, const Vec3d& change,
-                  const Vec3d& after) {
+KeyTangents key_tangents(const std::vector<Key>& keys, std::size_t j, const Vec3d& before,
+                         const Vec3d& change, const Vec3d& after) {
   const double length = keys[j + 1].time - keys[j].time;
   return {
       .out = leaving(keys[j].shape, before, change) * share_of(length, keys[j + 1].time - keys[j - 1].time),

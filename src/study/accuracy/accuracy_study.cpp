@@ -13,7 +13,7 @@
 
 #include "base/diagnostics.h"
 #include "cli/scenes/scene_source.h"
-#include "parallel/session_words.h"
+#include "parallel/settings/session_words.h"
 #include "parser/anim_parser.h"
 #include "scene/animation/resting_nodes.h"
 #include "scene/writers/nff_writer.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "parallel/session_settings.h"
+#include "parallel/settings/session_settings.h"
 
 namespace pprt {
 

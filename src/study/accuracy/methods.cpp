@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "image/contact_sheet.h"
-#include "pipeline/lattice/lattice_sampler.h"
-#include "pipeline/reconstruction/reconstruction.h"
-#include "pipeline/sampling/sample_mesh.h"
-#include "pipeline/sampling/seeds.h"
+#include "pipeline/lattice/lattice_refiner.h"
+#include "pipeline/mesh/reconstruction.h"
+#include "pipeline/mesh/sample_mesh.h"
+#include "pipeline/mesh/seeds.h"
 #include "study/word_list.h"
 
 namespace pprt {
@@ -169,7 +169,7 @@ class MeshPainter {
   SampleMesh mesh_;
   PixelRule rule_;
   ProjectedShapeCache projected_shapes_;
-  RegionPixels pixels_;
+  PixelBlock pixels_;
   ReconstructionBuffers buffers_;
 };
 
@@ -257,7 +257,7 @@ class LatticePicture {
       sampler_.expect(samples - static_cast<double>(sampler_.samples()));
       const std::optional<Vec2d> point = sampler_.next_point();
       is_exhausted = !point;
-      if (point) sampler_.insert(tracer_.trace(point->x, point->y));
+      if (point) sampler_.insert(*point, tracer_.trace(point->x, point->y));
     }
     sampler_.paint({0, 0, camera_.width, camera_.height}, pixels_);
     Image image;
@@ -270,8 +270,8 @@ class LatticePicture {
  private:
   Camera camera_;
   Tracer tracer_;
-  LatticeSampler sampler_;
-  RegionPixels pixels_;
+  LatticeRefiner sampler_;
+  PixelBlock pixels_;
 };
 
 // The first picture is made twice: the frames of a sequence, too, find the storage of those before them.

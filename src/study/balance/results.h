@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "parallel/session_words.h"
+#include "parallel/settings/session_words.h"
 #include "study/balance/figures.h"
 #include "study/report/table.h"
 

@@ -7,7 +7,7 @@
 #include <map>
 #include <mutex>
 
-#include "parallel/clock/work_units.h"
+#include "parallel/settings/work_units.h"
 #include "parser/anim_parser.h"
 #include "render/records/frame_summary.h"
 #include "spd/spd.h"

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "parallel/session_words.h"
+#include "parallel/settings/session_words.h"
 #include "study/paper/paper_study.h"
 #include "study/report/table.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/words.h"
-#include "parallel/session_words.h"
+#include "parallel/settings/session_words.h"
 #include "study/report/plot.h"
 
 namespace pprt {

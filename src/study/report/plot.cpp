@@ -31,7 +31,7 @@ std::string in_quotes(const std::string& text) {
   return q + "'";
 }
 
-std::string number(double value, const char* otherwise = "NaN") {
+std::string gnuplot_number(double value, const char* otherwise = "NaN") {
   return std::isfinite(value) ? fmt::format("{}", value) : otherwise;
 }
 
@@ -39,7 +39,7 @@ std::string axis_commands(const char* name, const Axis& axis) {
   const std::string scale = axis.log_base > 0 ? fmt::format("set logscale {} {}", name, axis.log_base)
                                               : fmt::format("unset logscale {}", name);
   return fmt::format("set {0}label {1}\nset {0}range [{2}:*]\n{3}\n", name, in_quotes(axis.label),
-                     number(axis.from, "*"), scale);
+                     gnuplot_number(axis.from, "*"), scale);
 }
 
 bool has_spread(const Curve& curve) {
@@ -62,7 +62,8 @@ std::string block_name(std::size_t panel, std::size_t curve) {
 std::string curve_block(const Curve& curve, const std::string& name) {
   std::string text = name + " << EOD\n";
   for (const PlotPoint& p : curve.points) {
-    text += fmt::format("{} {} {} {}\n", number(p.x), number(p.y), number(p.low), number(p.high));
+    text += fmt::format("{} {} {} {}\n", gnuplot_number(p.x), gnuplot_number(p.y), gnuplot_number(p.low),
+                        gnuplot_number(p.high));
   }
   return text + "EOD\n";
 }

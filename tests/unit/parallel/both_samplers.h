@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "parallel/session_settings.h"
+#include "parallel/settings/session_settings.h"
 
 #define PPRT_JOINED_(a, b) a##b
 #define PPRT_JOINED(a, b) PPRT_JOINED_(a, b)

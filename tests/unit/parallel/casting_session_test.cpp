@@ -4,7 +4,7 @@
 #include <set>
 
 #include "parallel/balance/partition.h"
-#include "parallel/clock/work_units.h"
+#include "parallel/settings/work_units.h"
 #include "unit/parallel/both_samplers.h"
 #include "unit/parallel/virtual_run.h"
 
@@ -129,7 +129,8 @@ TEST_CASE("casting: ranks measure what samples cost in real time, and on no othe
 }
 
 BOTH_SAMPLERS_TEST_CASE(
-    "casting: where the eye rests and the view turns no ray checks samples, and they live for four frames") {
+    "casting: where the eye rests and the view turns no ray checks samples, and they live for four frames or "
+    "two") {
   const SessionSettings settings = casting_settings(sampler, CastChoice::kAuto);
   const CameraSource turning = [&](int index) -> std::optional<FrameRequest> {
     if (index >= 7) return std::nullopt;

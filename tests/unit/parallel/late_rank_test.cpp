@@ -5,7 +5,7 @@
 #include <set>
 
 #include "parallel/network/local_communicator.h"
-#include "parallel/worker.h"
+#include "parallel/rank/worker.h"
 #include "unit/parallel/both_samplers.h"
 #include "unit/parallel/clock/set_clock.h"
 #include "unit/parallel/virtual_run.h"

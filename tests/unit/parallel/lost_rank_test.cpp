@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "image/metrics.h"
-#include "parallel/loss_watch.h"
+#include "parallel/master/loss_watch.h"
 #include "parallel/network/local_communicator.h"
 #include "unit/parallel/both_samplers.h"
 #include "unit/parallel/virtual_run.h"

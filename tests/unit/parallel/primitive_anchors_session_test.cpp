@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "parallel/network/local_communicator.h"
-#include "parallel/worker.h"
+#include "parallel/rank/worker.h"
 #include "unit/parallel/clock/set_clock.h"
 
 namespace pprt {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "parallel/clock/work_units.h"
+#include "parallel/settings/work_units.h"
 #include "unit/parallel/both_samplers.h"
 #include "unit/parallel/virtual_run.h"
 

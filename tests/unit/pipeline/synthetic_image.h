@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <functional>
 
-#include "pipeline/sampling/sample_mesh.h"
-#include "pipeline/sampling/seeds.h"
+#include "pipeline/mesh/sample_mesh.h"
+#include "pipeline/mesh/seeds.h"
 
 namespace pprt {
 

@@ -9,8 +9,9 @@
 #include "parallel/balance/balancer.h"
 #include "parallel/balance/global_balance.h"
 #include "parallel/balance/local_balance.h"
+#include "parallel/exchange/samplers.h"
 #include "unit/parallel/both_samplers.h"
-#include "unit/parallel/exchange_ranks.h"
+#include "unit/parallel/exchange/exchange_ranks.h"
 #include "unit/parallel/virtual_run.h"
 
 namespace pprt {
@@ -42,7 +43,7 @@ FrameReports reports_of_two(int triangles, double first) {
 }
 
 GlobalBalancer balancer_of_two(const SessionSettings& settings) {
-  return GlobalBalancer(settings, TileGrid(40, 10, 10), 2, 0);
+  return GlobalBalancer(settings, traits_of(settings.sampler), TileGrid(40, 10, 10), 2, 0);
 }
 
 // Whether the order after this frame has a new partition.
@@ -227,7 +228,7 @@ TEST_CASE("local balancing: a rank's future cost is a time, by its pace") {
   const std::array<TileWeights, 2> weights{
       {{.total_weight = 4, .count = 1}, {.total_weight = 2, .count = 1}}};
   const RegionQuality refined{region, weights, 3};
-  CostEstimator costs(grid, kMeshWork);
+  CostEstimator costs(grid, traits_of(SamplerChoice::kDelaunay).work);
   costs.begin_frame(true, FrameLikeness::kUnknown);
   Sample sample;
   sample.x = 4, sample.y = 5, sample.ray.rays = 20;

@@ -3,6 +3,8 @@
 #include <array>
 #include <catch2/catch.hpp>
 
+#include "parallel/exchange/samplers.h"
+
 namespace pprt {
 namespace {
 
@@ -20,7 +22,8 @@ TEST_CASE("cost estimator: a sample costs its tile its rays, and what its sample
   const std::array<TileWeights, 2> weights{
       {{.total_weight = 4, .count = 1}, {.total_weight = 2, .count = 1}}};
   const auto [work, own, received] = GENERATE(table<SampleWork, double, double>(
-      {{kMeshWork, 705, 580}, {kLatticeWork, 370, 200}}));  // docs/decisions/0006-work-clock.md
+      {{traits_of(SamplerChoice::kDelaunay).work, 705, 580},
+       {traits_of(SamplerChoice::kAuto).work, 370, 200}}));  // docs/decisions/0006-work-clock.md
   CostEstimator costs(grid, work);
   costs.begin_frame(true, FrameLikeness::kUnknown);
   costs.add_own(sample_at(2, 3));

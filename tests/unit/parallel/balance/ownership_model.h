@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "parallel/balance/partition.h"
-#include "parallel/balance/tile_cost.h"
 #include "parallel/balance/transfer_handshake.h"
+#include "parallel/protocol/tile_cost.h"
 
 namespace pprt {
 

@@ -1,4 +1,5 @@
 #include "parallel/clock/make_clocks.h"
+#include "parallel/exchange/samplers.h"
 
 #include <catch2/catch.hpp>
 #include <chrono>
@@ -25,7 +26,8 @@ std::unique_ptr<FrameClock> clock_in_a_frame(double reserve_s, Carry carry = Car
   settings.clock = ClockKind::kWall;
   settings.frames_per_second = 1 / kPeriod;
   std::unique_ptr<FrameClock> clock =
-      make_frame_clock(settings, 0, sequence_of_now(), kPixels, ranks_per_core);
+      make_frame_clock(settings, 0, sequence_of_now(), kPixels, ranks_per_core,
+                       traits_of(settings.sampler).refreshes_in_parts);
   clock->region_changed(kPixels);
   FrameOrder order;
   order.deadline_s = 1;
@@ -123,7 +125,8 @@ TEST_CASE("wall clock: a resting picture on a lattice is reconstructed in parts,
   settings.frames_per_second = 1 / kPeriod;
   for (const bool rests : {true, false}) {
     const double began_s = monotonic_seconds();
-    const auto clock = make_frame_clock(settings, 0, sequence_of_now(), 0, 1);
+    const auto clock = make_frame_clock(settings, 0, sequence_of_now(), 0, 1,
+                                        traits_of(settings.sampler).refreshes_in_parts);
     FrameOrder order;
     order.carry = rests ? Carry::kAccumulate : Carry::kNothing;
     order.deadline_s = 1;
@@ -175,7 +178,8 @@ TEST_CASE("wall clock: a new picture that began late ends in time all the same",
   settings.clock = ClockKind::kWall;
   settings.frames_per_second = 1 / kPeriod;
   for (const double ranks_per_core : {1.0, 2.0}) {
-    const auto clock = make_frame_clock(settings, 0, sequence_of_now(), 0, ranks_per_core);
+    const auto clock = make_frame_clock(settings, 0, sequence_of_now(), 0, ranks_per_core,
+                                        traits_of(settings.sampler).refreshes_in_parts);
     FrameOrder order;
     order.reserve_s = 0.5 * kPeriod;
     for (const double stops_in_s : {100.0, -0.001}) {

@@ -5,7 +5,7 @@
 #include <regex>
 #include <string>
 
-#include "parallel/network/messages.h"
+#include "parallel/protocol/messages.h"
 
 namespace pprt {
 namespace {

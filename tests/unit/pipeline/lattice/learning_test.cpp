@@ -31,20 +31,20 @@ TEST_CASE("local errors: what is kept of the last picture gives way to what this
   for (LocalErrors* errors : {&faded, &kept})
     for (int i = 0; i < kNoted; ++i) errors->note(here, kWrong, 20);
   faded.fade(0.1F);
-  CHECK(faded.near(here).level == error_level_of(kWrong));
+  CHECK(faded.near(here).level == error_level(kWrong));
   CHECK(faded.near(here).rays == Approx(20));
   for (LocalErrors* errors : {&faded, &kept}) {
     for (int i = 0; i < kNoted; ++i) errors->note(here, kRight, 2);
     errors->start_round();
   }
-  CHECK(faded.near(here).level == error_level_of(kWrong / 11));
-  CHECK(kept.near(here).level == error_level_of(kWrong / 2));
+  CHECK(faded.near(here).level == error_level(kWrong / 11));
+  CHECK(kept.near(here).level == error_level(kWrong / 2));
 }
 
 TEST_CASE("local errors: levels are octaves of the squared error") {
-  CHECK(error_level_of(0) == 0);
-  CHECK(error_level_of(0.25F) == error_level_of(0.125F) + 1);
-  CHECK(error_level_of(1) == kErrorLevels - 1);
+  CHECK(error_level(0) == 0);
+  CHECK(error_level(0.25F) == error_level(0.125F) + 1);
+  CHECK(error_level(1) == kErrorLevels - 1);
 }
 
 TEST_CASE("error estimates: a class that proves worse than expected is expected to be worse") {

@@ -27,6 +27,7 @@ TEST_CASE("a run's key changes with every setting that decides its pictures") {
       [](RenderPlan& p) { p.settings.balance = BalanceMode::kLocal; },
       [](RenderPlan& p) { p.settings.keep_samples = false; },
       [](RenderPlan& p) { p.settings.pixel_rule = PixelRule::kMean; },
+      [](RenderPlan& p) { p.settings.sampler = SamplerChoice::kGrid; },
       [](RenderPlan& p) { p.settings.learned_weights = false; },
       [](RenderPlan& p) { p.settings.cast = CastChoice::kOff; },
       [](RenderPlan& p) { p.settings.seed = 2; },

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "base/diagnostics.h"
+#include "parallel/exchange/samplers.h"
 #include "render/options/render_options.h"
 #include "render/plan/session_plan.h"
 #include "unit/image/temporary_directory.h"
@@ -61,7 +62,7 @@ TEST_CASE("a still has the scene's view and ends at the weight for stills") {
   CHECK((plan.settings.width == 512 && plan.settings.height == 512));
   CHECK((plan.frames[0].view.width == 512 && plan.frames[0].view.height == 512));
   CHECK(plan.settings.frames_per_second == 0);
-  CHECK(plan.settings.stop.weight == kLatticeStillWeight);
+  CHECK(plan.settings.stop.weight == traits_of(SamplerChoice::kAuto).still_weight);
   CHECK((plan.settings.stop.samples == 0 && plan.settings.stop.seconds == 0));
   REQUIRE(plan.output.pictures.size() == 1);
   CHECK(file_name(plan.output.pictures[0], 1) == "frame_0001.png");
@@ -116,7 +117,7 @@ TEST_CASE("the frame rate of the options precedes the script's, and 0 turns it o
   options.method.clock = ClockKind::kWork, options.end.budget = 123;
   CHECK(plan_render(options).settings.budget_units == 123);
   options.end.budget.reset(), options.end.fps = 0;
-  CHECK(plan_render(options).settings.stop.weight == kLatticeStillWeight);
+  CHECK(plan_render(options).settings.stop.weight == traits_of(SamplerChoice::kAuto).still_weight);
 }
 
 TEST_CASE("the triangulation is taken where an option asks for what it alone knows") {
@@ -134,7 +135,8 @@ TEST_CASE("the triangulation is taken where an option asks for what it alone kno
   CHECK(with([](RenderOptions& o) { o.weights = WeightRule::kPaper; }).sampler == SamplerChoice::kDelaunay);
   CHECK(with([](RenderOptions& o) { o.method.pixel_rule = PixelRule::kMean; }).sampler ==
         SamplerChoice::kDelaunay);
-  CHECK(with([](RenderOptions& o) { o.method.pixel_rule = PixelRule::kMean; }).stop.weight == kStillWeight);
+  CHECK(with([](RenderOptions& o) { o.method.pixel_rule = PixelRule::kMean; }).stop.weight ==
+        traits_of(SamplerChoice::kDelaunay).still_weight);
   options.method.sampler = SamplerChoice::kGrid;
   CHECK(with([](RenderOptions&) {}).stop.weight == 0);
   options.method.cast = CastChoice::kPaper;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "parallel/session_words.h"
+#include "parallel/settings/session_words.h"
 
 using namespace pprt;
 

@@ -1,0 +1,28 @@
+// The samplers that there are: what each states of itself, and how it is made. docs/extending.md shows how to
+// add one.
+#pragma once
+
+#include <memory>
+
+#include "base/probe.h"
+#include "parallel/balance/partition.h"
+#include "parallel/exchange/sample_exchange.h"
+#include "parallel/settings/sampler_traits.h"
+#include "parallel/settings/session_settings.h"
+#include "pipeline/sampling/sampler.h"
+
+namespace pprt {
+
+const SamplerTraits& traits_of(SamplerChoice choice);
+
+// A sampler with its exchange, which refers to it.
+struct SamplerWithExchange {
+  std::unique_ptr<Sampler> sampler;
+  std::unique_ptr<SampleExchange> exchange;
+};
+
+// Makes the sampler that the settings choose, for the rank's region. `view`: Probe::project.
+SamplerWithExchange make_sampler(const SessionSettings& settings, const Partition& partition, int rank,
+                                 const decltype(Probe::project)& view);
+
+}  // namespace pprt

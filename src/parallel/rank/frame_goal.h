@@ -1,0 +1,41 @@
+// When a frame without a rate is good enough, on this rank and on all others.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "parallel/clock/frame_clock.h"
+#include "parallel/rank/flip_estimate.h"
+#include "parallel/rank/rank_sampling.h"
+#include "parallel/settings/session_settings.h"
+
+namespace pprt {
+
+// Every bundle says whether its sender has reached its goal. The frame ends when all ranks have.
+class FrameGoal {
+ public:
+  FrameGoal(const SessionSettings& settings, int ranks);
+
+  // `has_new_picture`: no sample of the frame before is left.
+  void begin_frame(bool has_new_picture);
+
+  // Whether a stop rule is reached in this rank's region. Of a number of samples a rank takes the share of
+  // its pixels. May reconstruct `picture`, to estimate how good it is.
+  bool is_reached(RankSampling& sampler, PictureRefresh& picture, FrameClock& clock);
+
+  // Records whether this rank has reached its goal after a round, and what another rank says of its own.
+  void set_done(bool done) { done_ = done; }
+  void receive(int from, bool done) { peer_done_[static_cast<std::size_t>(from)] = done; }
+
+  bool is_done() const { return done_; }
+  bool all_done() const;
+
+ private:
+  const StopRules stop_;
+  std::uint64_t image_pixels_;
+  FlipEstimate flip_;
+  bool done_ = false;
+  std::vector<std::uint8_t> peer_done_;  // per rank
+};
+
+}  // namespace pprt

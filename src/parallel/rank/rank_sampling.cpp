@@ -1,0 +1,131 @@
+#include "parallel/rank/rank_sampling.h"
+#include "pipeline/core/display_values.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+namespace pprt {
+
+RankSampling::RankSampling(const SessionSettings& settings, const Partition& partition, int rank,
+                           SampleTracer& tracer, CostEstimator& costs, FrameClock& clock,
+                           std::function<void()> poll)
+    : rank_(rank),
+      tracer_(tracer),
+      costs_(costs),
+      clock_(clock),
+      poll_(std::move(poll)),
+      traits_(traits_of(settings.sampler)) {
+  SamplerWithExchange made = make_sampler(settings, partition, rank, tracer.probe().project);
+  sampler_ = std::move(made.sampler);
+  exchange_ = std::move(made.exchange);
+  clock_.region_changed(region().pixel_count());
+}
+
+void RankSampling::begin_picture(bool keep_learned) {
+  sampler_->clear(keep_learned);
+  exchange_->clear();
+  if (!keep_learned) tracer_.restart_ids();
+  in_region_ = 0;
+}
+
+void RankSampling::trace_seeds() {
+  for (const SeedPoint& seed : sampler_->seeds()) {
+    const Sample sample = trace(seed.at);
+    clock_.spend(seed.own ? traits_.work.own : traits_.work.received, 1);
+    if (!seed.own) costs_.add_received();
+    if (exchange_->insert_seed(sample, seed.number)) in_region_ += seed.own;
+    counts_.traced += seed.own;
+  }
+}
+
+// A sample for which other frames' shadow rays were enough is as old as they are.
+Sample RankSampling::trace(const Vec2d& point) {
+  const std::span<const KnownLights> known = sampler_->known_lights(point);
+  Sample sample = tracer_.trace(point.x, point.y, known);
+  for (const KnownLights& at : known) {
+    if (at.primitive != sample.ray.primitive) continue;
+    sample.frame = at.frame;
+    break;
+  }
+  return sample;
+}
+
+bool RankSampling::is_full() const {
+  return in_region_ >= kMostSamplesPerPixel * region().pixel_count();
+}
+
+bool RankSampling::refine(CastEvidence* evidence) {
+  if (is_full()) return false;
+  const std::optional<Vec2d> point = sampler_->next_point();
+  if (!point) return false;
+  const Sample sample = trace(*point);
+  if (evidence != nullptr) {
+    const PictureGuess guess = sampler_->guess(sample.ray.primitive);
+    ++evidence->fresh;
+    evidence->fresh_error += guess.area * display_error(sample.ray.color, guess.color);
+    evidence->fresh_area += guess.area;
+    evidence->fresh_rays += sample.ray.rays;
+  }
+  insert(sample, rank_, traits_.work.own);
+  ++(sample.frame == tracer_.frame_number() ? counts_.traced : counts_.cast);
+  return true;
+}
+
+void RankSampling::reinsert(const Sample& sample) {
+  note_reinserted(sample, exchange_->insert(sample, rank_));
+}
+
+void RankSampling::reinsert_all(std::span<const Sample> samples) {
+  exchange_->insert_cast(samples, [this](const Sample& s, bool is_new) { note_reinserted(s, is_new); });
+}
+
+// A cast sample counts like one traced here: a tile's quality is that of all its samples, and so is its cost.
+void RankSampling::note_reinserted(const Sample& sample, bool is_new) {
+  poll_();
+  clock_.spend(traits_.work.kept, 1);
+  if (!is_new) return;
+  in_region_ += owns(sample);
+  costs_.add_own(sample);
+  counts_.cast += sample.frame != tracer_.frame_number();
+}
+
+void RankSampling::insert_received(std::span<const Sample> samples, int from) {
+  for (const Sample& s : samples) {
+    costs_.add_received();
+    ++(insert(s, from, traits_.work.received) ? counts_.received : counts_.known);
+  }
+}
+
+void RankSampling::insert_late(std::span<const Sample> samples) {
+  for (const Sample& s : samples) {
+    const bool inserted = insert(s, rank_, traits_.work.own);
+    ++(inserted ? counts_.received : counts_.known);
+    counts_.cast += inserted && owns(s);
+  }
+}
+
+bool RankSampling::insert(const Sample& sample, int from, Work work) {
+  clock_.spend(work, 1);
+  if (!exchange_->insert(sample, from)) return false;
+  in_region_ += owns(sample);
+  return true;
+}
+
+void RankSampling::repartition(const Partition& partition) {
+  exchange_->repartition(partition);
+  region_changed();
+}
+
+void RankSampling::transfer(const Partition& partition) {
+  if (exchange_->transfer(partition)) region_changed();
+}
+
+void RankSampling::region_changed() {
+  const std::span<const Sample> samples = sampler_->samples();
+  in_region_ = static_cast<std::uint64_t>(
+      std::count_if(samples.begin(), samples.end(), [this](const Sample& s) { return owns(s); }));
+  clock_.region_changed(region().pixel_count());
+}
+
+}  // namespace pprt

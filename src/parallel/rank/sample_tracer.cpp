@@ -1,0 +1,47 @@
+#include "parallel/rank/sample_tracer.h"
+
+#include <cmath>
+
+namespace pprt {
+namespace {
+
+bool is_finite(const Color& c) {
+  return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
+}
+
+}  // namespace
+
+void SampleTracer::begin_frame(const FrameOrder& order) {
+  rays_before_ = probe_.counts();
+  non_finite_ = 0;
+  frame_number_ = order.number;
+  probe_.set_camera(order.camera);
+  moves_ = probe_.set_time && time_ != order.time && probe_.set_time(order.time);
+  time_ = order.time;
+}
+
+Sample SampleTracer::trace(double x, double y, std::span<const KnownLights> known) {
+  Sample sample;
+  sample.x = x;
+  sample.y = y;
+  sample.frame = frame_number_;
+  sample.id = (static_cast<SampleId>(rank_) << 40) | next_id_++;
+  sample.ray =
+      known.empty() || !probe_.trace_knowing ? probe_.trace(x, y) : probe_.trace_knowing(x, y, known);
+  if (!is_finite(sample.ray.color)) {
+    ++non_finite_;
+    sample.ray.color = Color(0, 0, 0);
+  }
+  clock_.spend(Work::kRay, sample.ray.rays);
+  costs_.add_own(sample);
+  poll_(sample.ray.rays);
+  return sample;
+}
+
+bool SampleTracer::is_visible(const Vec3f& hit, bool at_infinity) {
+  poll_(1);
+  clock_.spend(Work::kRay, 1);
+  return probe_.visible(hit, at_infinity);
+}
+
+}  // namespace pprt

@@ -1,0 +1,63 @@
+// Traces samples for one rank, at the clock's price.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "base/probe.h"
+#include "parallel/balance/cost_estimator.h"
+#include "parallel/clock/frame_clock.h"
+#include "pipeline/core/sample.h"
+
+namespace pprt {
+
+// Asks the probe, and makes of its answer a sample with an id and a time stamp. Every ray is charged to the
+// clock and to its tile's cost.
+class SampleTracer {
+ public:
+  // `poll` is called after each sample with the rays that it took, so that messages do not wait for long. The
+  // references must outlive the tracer.
+  SampleTracer(Probe probe, int rank, FrameClock& clock, CostEstimator& costs,
+               std::function<void(std::uint64_t rays)> poll)
+      : probe_(std::move(probe)), rank_(rank), clock_(clock), costs_(costs), poll_(std::move(poll)) {}
+
+  // Looks from the order's camera at the order's time, and counts rays anew.
+  void begin_frame(const FrameOrder& order);
+
+  // Numbers samples from 0 again: which of them casting draws must not depend on frames before.
+  void restart_ids() { next_id_ = 0; }
+
+  // Traces the eye ray through an image point. The one gate for colours that are no finite numbers: they are
+  // counted, and black from here on.
+  // `known`: lights that need no shadow rays where the eye ray hits their primitives.
+  Sample trace(double x, double y, std::span<const KnownLights> known = {});
+
+  // Whether nothing hides a hit point from the eye.
+  bool is_visible(const Vec3f& hit, bool at_infinity);
+
+  // Whether something stands elsewhere than in the frame before.
+  bool moves() const { return moves_; }
+
+  const Probe& probe() const { return probe_; }
+  RayCounts rays() const { return probe_.counts() - rays_before_; }  // in this frame
+  std::uint64_t non_finite() const { return non_finite_; }           // colours in this frame
+  int frame_number() const { return frame_number_; }
+
+ private:
+  Probe probe_;
+  int rank_;
+  FrameClock& clock_;
+  CostEstimator& costs_;
+  std::function<void(std::uint64_t rays)> poll_;
+  int frame_number_ = 0;
+  std::optional<double> time_;  // of what moves, in the frame before
+  bool moves_ = false;
+  std::uint64_t next_id_ = 0;
+  std::uint64_t non_finite_ = 0;
+  RayCounts rays_before_;
+};
+
+}  // namespace pprt

@@ -1,0 +1,119 @@
+// How a rank's frame begins: what it takes over from the frame before, its seeds, and the others'.
+#include <algorithm>
+#include <utility>
+
+#include "parallel/rank/worker.h"
+
+namespace pprt {
+
+void Worker::prepare(const FrameOrder& order) {
+  // How far an eye at rest may move, in a scene of size 1: what interpolating equal positions leaves.
+  constexpr double kAtRest = 1e-9;
+  tracer_.begin_frame(order);
+  if (tracer_.moves()) timer_.end_stage(&StageTimes::moving);
+  const MissedFrames missed = ownership_.take_missed();
+  const Carry carry = ownership_.carry_into(order);
+  costs_.begin_frame(carry != Carry::kAccumulate || missed.triangulation, likeness_to_last(order, missed));
+  const bool eye_rests =
+      last_camera_ && !tracer_.moves() && (order.camera.eye - last_camera_->eye).length() <= kAtRest;
+  if (last_camera_ != order.camera || tracer_.moves()) sampler_.sampler().camera_changed();
+  last_camera_ = order.camera;
+
+  if (carry != Carry::kAccumulate) {
+    begin_anew(order, carry != Carry::kNothing && !missed.cut, eye_rests);
+  } else if (missed.triangulation) {
+    rejoin(order, missed);
+  } else {
+    if (!order.owners.empty()) {
+      ownership_.repartition(order, true);
+      exchange_bundles(false);
+    }
+    sampler_.carry_on();
+  }
+}
+
+FrameLikeness Worker::likeness_to_last(const FrameOrder& order, const MissedFrames& missed) const {
+  if (order.cut || missed.cut || !last_camera_) return FrameLikeness::kUnknown;
+  return order.camera == *last_camera_ && !tracer_.moves() ? FrameLikeness::kSame : FrameLikeness::kSimilar;
+}
+
+// The others accumulate in a triangulation that they have begun without this rank: makes its part of it, from
+// the seeds of that frame and from what they have sent since.
+void Worker::rejoin(const FrameOrder& order, const MissedFrames& missed) {
+  if (!order.owners.empty()) ownership_.repartition(order, false);
+  if (tracer_.moves()) anchors_.forget();
+  begin_picture(missed.epoch, !missed.cut);
+  sampler_.trace_seeds();
+  take_in(bundles_.receive());
+}
+
+// Begins a triangulation, with samples cast from the frame before or with seeds alone.
+void Worker::begin_anew(const FrameOrder& order, bool keeps_samples, bool eye_rests) {
+  std::vector<Sample> cast;
+  if (keeps_samples) cast = reprojection_.cast(order, eye_rests);
+  const bool seeks_anchors = keeps_samples && order.carry == Carry::kCastWherePaying &&
+                             sampler_.traits().cast_use == CastUse::kSamples;
+  if (seeks_anchors) {
+    anchors_.note(sampler_.sampler().samples());
+    if (tracer_.moves()) anchors_.carry(tracer_.probe().carry);
+  } else {
+    anchors_.forget();
+  }
+  timer_.end_stage(&StageTimes::casting);
+  if (!order.owners.empty()) ownership_.repartition(order, false);
+  if (seeks_anchors) anchors_.allow(sampler_.in_region());
+  begin_picture(order.index, keeps_samples);
+  sampler_.trace_seeds();
+  distribute(order, cast);
+}
+
+void Worker::begin_picture(int epoch, bool keep_learned) {
+  bundles_.begin_triangulation(epoch);
+  sampler_.begin_picture(keep_learned);
+}
+
+// Sends seeds to the ranks that they concern and each cast sample to the rank whose tile it landed in; then
+// inserts what landed here.
+void Worker::distribute(const FrameOrder& order, const std::vector<Sample>& cast) {
+  const SampleExchange& known = sampler_.exchange();
+  std::vector<std::vector<Sample>> landed(static_cast<std::size_t>(network_.size()));
+  for (const Sample& s : cast)
+    landed[static_cast<std::size_t>(known.partition().owner_at(s.x, s.y))].push_back(s);
+  const std::vector<int>& peers = known.seed_peers();
+  for (int rank = 0; rank < network_.size(); ++rank) {
+    if (rank == network_.rank()) continue;
+    std::vector<Sample> samples = sampler_.take_outbox(rank);
+    const std::vector<Sample>& there = landed[static_cast<std::size_t>(rank)];
+    samples.insert(samples.end(), there.begin(), there.end());
+    const bool concerns = !samples.empty() || std::binary_search(peers.begin(), peers.end(), rank);
+    bundles_.send(rank, concerns, {.samples = std::move(samples)});
+  }
+  std::vector<Sample> own = std::move(landed[static_cast<std::size_t>(network_.rank())]);
+  const std::vector<Sample> arrived = receive_seeds();
+  own.insert(own.end(), arrived.begin(), arrived.end());
+  timer_.end_stage(&StageTimes::sampling);
+
+  reprojection_.keep_affordable(order, own);
+  sampler_.reinsert_all(own);
+  CastEvidence& evidence = reprojection_.evidence();
+  evidence.reinserted += static_cast<double>(own.size());
+  evidence.reinserted_ms += timer_.end_stage(&StageTimes::casting);
+}
+
+// Inserts the seeds of other ranks: what comes before a triangulation's first round and lies elsewhere.
+// Returns what lies in the own region: cast samples that landed here. Their sender keeps none of them, so
+// they are this rank's to announce, to the sender too.
+std::vector<Sample> Worker::receive_seeds() {
+  bundles_.await_seeds(sampler_.exchange().seed_peers());
+  // What was sent before is taken in before: a handshake counts on the transfers that were sent ahead of it.
+  take_in(bundles_.take_earlier());
+  std::vector<Sample> landed;
+  for (const auto& [from, bundle] : bundles_.take_of_round()) {
+    std::vector<Sample> seeds;
+    for (const Sample& s : bundle.samples) (sampler_.owns(s) ? landed : seeds).push_back(s);
+    sampler_.insert_received(seeds, from);
+  }
+  return landed;
+}
+
+}  // namespace pprt

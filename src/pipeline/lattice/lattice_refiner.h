@@ -1,0 +1,175 @@
+// Chooses the samples of a picture on a lattice: a coarse grid first, then nodes where the picture is
+// expected to be most wrong, tile by tile (docs/decisions/0021-lattice.md).
+//
+// Sampling goes over the picture in passes. The first ones take all nodes of the coarsest levels. Each later
+// one takes the candidates above a threshold that falls from pass to pass; what a sample finds makes new
+// candidates around it, which the same pass may take. So rays go in neighbouring order, and what is read and
+// written stays in the caches.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/ray_sample.h"
+#include "base/vector.h"
+#include "pipeline/core/region_quality.h"
+#include "pipeline/lattice/edge_share.h"
+#include "pipeline/lattice/error_estimates.h"
+#include "pipeline/lattice/lattice_painter.h"
+#include "pipeline/lattice/lattice_region.h"
+#include "pipeline/lattice/lattice_store.h"
+#include "pipeline/lattice/local_errors.h"
+#include "pipeline/lattice/node_prediction.h"
+
+namespace pprt {
+
+// What is sampled after the coarsest nodes.
+enum class LatticeOrder : std::uint8_t {
+  kAdaptive,  // what is worth most for its time
+  kLevels     // all nodes of a level, then those of the next: each doubles the density
+};
+
+class LatticeRefiner {
+ public:
+  // For a region of an image; its tiles are whole base squares. `view` computes a primitive's shape as
+  // Probe::project does.
+  LatticeRefiner(const Region& region, ProjectedShapeCache::View view,
+                 LatticeOrder order = LatticeOrder::kAdaptive);
+  LatticeRefiner(const LatticeRefiner&) = delete;
+  LatticeRefiner& operator=(const LatticeRefiner&) = delete;
+
+  // Removes all samples, and what was learned from them.
+  void clear();
+
+  // Removes all samples, but keeps what was learned from them: for a picture much like this one.
+  void restart();
+
+  // Changes which nodes are wanted; keeps all samples.
+  void set_region(const Region& region);
+  const Region& region() const { return own_.region(); }
+
+  // Projected shapes are of another camera from now on.
+  void camera_changed() { shapes_.forget(); }
+
+  // Tells how many samples more there will be, about. Thresholds are set by it: too few or too many make the
+  // picture coarser in one part than in another. Repeat the call on the way. Where it is not repeated as many
+  // samples again are expected as there are.
+  void expect(double samples_left) { expected_ = static_cast<double>(samples_) + samples_left; }
+
+  // Returns the nodes at the corners of the region's base squares, some of which belong to other regions.
+  std::vector<Vec2d> base_points() const;
+
+  // Returns the image point of the next sample, pixels. It may lie up to eight pixels beyond the right and
+  // lower border. Empty when nothing is worth a sample.
+  std::optional<Vec2d> next_point();
+
+  // Takes in a sample. False if the lattice has no node at the point, or one that holds a sample. What was
+  // predicted for the last next_point() is compared with the sample taken there; of other samples less is
+  // learned.
+  bool insert(const Vec2d& point, const RaySample& sample);
+
+  std::size_t samples() const { return samples_; }  // other regions' included
+
+  // Returns how many samples the coarsest grid has. They come first.
+  std::size_t least_samples() const { return base_points().size(); }
+
+  // Returns what a sample is worth at the candidates, their mean; 0 without any. Replaces `weights` by the
+  // sums over the candidates of each tile: the square roots of their worth, whose mean falls as the
+  // reciprocal of the samples. A sample's error and its area both halve with the area of a node, so its worth
+  // is a quarter.
+  double weigh(std::vector<TileWeights>& weights) const;
+
+  // Replaces the pixels of parts of the image, within `bounds`. Each pixel is the mean over its area. Parts
+  // are black while there are fewer than least_samples(). Pixels of the same bounds keep their colours
+  // elsewhere. After each part asks whether time is over, and returns how many parts it has painted.
+  std::size_t paint(const PixelRect& bounds, std::span<const PixelRect> parts, PixelBlock& pixels,
+                    const std::function<bool()>& is_over);
+  void paint(const PixelRect& bounds, PixelBlock& pixels) {
+    paint(bounds, {&bounds, 1}, pixels, [] { return false; });
+  }
+
+ private:
+  // A node whose sample is wanted, and what is known of it.
+  struct Wanted {
+    LatticeNode node;
+    LatticeLevel level;
+    Surroundings around;
+    float variance = 0;
+    int primitives = 1;
+    bool is_base = false;  // a corner of a base square: nothing predicts it
+  };
+
+  // A pass over all tiles, through some levels in each. In the first passes `takes_all` nodes of one level.
+  struct Pass {
+    std::size_t first_level = 0, end_level = 0;
+    bool takes_base = false, takes_all = false;
+    NodeState least = kLeastCandidate;  // priority taken
+    float threshold = 0;                // worth taken
+    std::int64_t begun_with = 0;        // samples
+    double promised = 0;                // samples that its candidates were expected to lead to
+  };
+
+  void insert_wanted(const RaySample& sample);
+  void forget_samples();
+  void begin_square(const LatticeNode& corner);
+  void leave_square(const LatticeNode& corner);
+  double samples_left() const;
+
+  bool next_nodes();
+  bool next_tile();
+  bool knows_base() const;
+  bool leave_pass();
+  bool start_pass();
+  bool start_grid_pass();
+  bool start_refinement_pass();
+  void start(const Pass& pass);
+  void learn_growth();
+  void collect_base(int tile);
+  NodeState& greatest_in(int tile, std::size_t level) {
+    return greatest_[static_cast<std::size_t>(tile) * kLatticeLevels.size() + level];
+  }
+  Surroundings known_around(const LatticeNode& node, const LatticeLevel& level) const;
+  bool is_wanted(const LatticeNode& node, const LatticeLevel& level);
+  float worth_of(const LatticeNode& node, const LatticeLevel& level);
+  float worth_around(const Wanted& at, float squared_error, int primitives);
+  void learn_edge(const Wanted& at, const float4& seen, const Prediction& predicted);
+  void make_candidates(const LatticeNode& node, const LatticeLevel& level, float worth_per_area);
+  void look_beyond(const LatticeNode& middle, int side, float worth_per_area);
+  void make_candidate(const LatticeNode& node, const LatticeLevel& level, NodeState priority);
+
+  LatticeOrder order_;
+  LatticeStore store_;
+  LatticeRegion own_;
+  std::vector<int> tiles_;  // in the order of passes
+  ProjectedShapeCache shapes_;
+  LocalErrors errors_;
+  ErrorEstimates estimates_;
+  EdgeShare share_;
+  NodePredictor predictor_;
+  LatticePainter painter_;
+
+  std::size_t samples_ = 0;
+  double expected_ = 0;  // samples in the end
+
+  Pass pass_;
+  std::size_t grid_levels_ = 0;  // taken whole, the base not counted
+  bool has_base_ = false, has_grid_ = false;
+  bool is_region_new_ = false;  // its base may be unknown
+  double growth_ = 0;           // samples that a pass takes, for each that its candidates promise
+  float last_threshold_ = 0;
+  int tile_ = 0;                     // of the pass
+  std::span<const int> tiles_left_;  // for the pass after this one
+  std::size_t level_ = 0;            // of the pass, in the tile
+  std::vector<LatticeNode> nodes_;   // of the level in the tile
+  std::size_t next_ = 0;
+  std::vector<NodeState> greatest_;  // per tile and level: no candidate has a greater priority
+  Wanted wanted_;
+  bool has_wanted_ = false;  // next_point() has returned it
+};
+
+}  // namespace pprt

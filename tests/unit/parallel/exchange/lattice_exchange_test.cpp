@@ -1,0 +1,92 @@
+// What one rank tells the others of its lattice, tile by tile.
+#include "parallel/exchange/lattice_exchange.h"
+
+#include <catch2/catch.hpp>
+
+namespace pprt {
+namespace {
+
+constexpr int kSide = 16;  // of the tiles
+
+// Three columns of four tiles, each column a rank's.
+Partition columns() {
+  const TileGrid grid{3 * kSide, 4 * kSide, kSide};
+  Partition partition{grid, 3, {}, std::vector<std::uint64_t>(12, 0)};
+  for (int tile = 0; tile < grid.tile_count(); ++tile) partition.owner.push_back(tile % 3);
+  return partition;
+}
+
+Sample sample_at(double x, double y) {
+  Sample sample;
+  sample.x = x, sample.y = y;
+  sample.ray.primitive = 1;
+  return sample;
+}
+
+struct Rank {
+  explicit Rank(int rank)
+      : sampler(region_of(columns(), rank), LatticeOrder::kAdaptive, {}, {}),
+        exchange(sampler, true, columns(), rank) {}
+
+  LatticeSampler sampler;
+  LatticeExchange exchange;
+};
+
+}  // namespace
+
+TEST_CASE("lattice exchange: a sample on a border goes to the rank beyond, one elsewhere to nobody") {
+  Rank rank_1(1);
+  LatticeExchange& middle = rank_1.exchange;
+  CHECK(middle.neighbours() == std::vector{0, 2});
+  CHECK(middle.insert(sample_at(kSide, 4), 1));          // on the left border
+  CHECK(middle.insert(sample_at(2 * kSide - 4, 4), 1));  // the centre of a square that ends at the right one
+  CHECK(middle.insert(sample_at(kSide + 4, 8), 1));      // the middle of a side, away from both
+  CHECK_FALSE(middle.insert(sample_at(kSide, 4), 1));
+  CHECK(middle.take_outbox(0).size() == 1);
+  CHECK(middle.take_outbox(2).size() == 1);
+  CHECK(middle.take_outbox(0).empty());
+  CHECK(middle.insert(sample_at(2 * kSide, 4), 2));  // another's is told by itself
+  CHECK((middle.take_outbox(0).empty() && middle.take_outbox(2).empty()));
+}
+
+TEST_CASE("lattice exchange: what comes for a tile that was given away is forwarded to its owner") {
+  Rank rank_1(1);
+  LatticeExchange& middle = rank_1.exchange;
+  Partition given = columns();
+  given.owner[1] = 0;  // the uppermost tile of the middle
+  CHECK(middle.transfer(given));
+  CHECK_FALSE(rank_1.sampler.region().owns_tile(1));
+  CHECK(middle.insert(sample_at(2 * kSide, 4), 2));
+  REQUIRE(middle.take_outbox(0).size() == 1);
+  CHECK(middle.insert(sample_at(2 * kSide, kSide + 4), 2));  // its tile is still the rank's own
+  CHECK(middle.take_outbox(0).empty());
+  CHECK(middle.take_outbox(2).empty());
+
+  // After clear() everybody knows.
+  rank_1.sampler.clear(true);
+  middle.clear();
+  CHECK(middle.insert(sample_at(2 * kSide, 4), 2));
+  CHECK(middle.take_outbox(0).empty());
+}
+
+TEST_CASE("lattice exchange: a tile's samples and those on its border are handed over with it") {
+  Rank rank_1(1);
+  LatticeExchange& middle = rank_1.exchange;
+  for (int y = 0; y <= 2 * kSide; y += 4) {
+    for (int x = kSide; x <= 2 * kSide; x += 4) middle.insert(sample_at(x, y), 1);
+  }
+  for (int rank = 0; rank < 3; ++rank) middle.take_outbox(rank);
+  const std::array tile = {1};
+  middle.introduce(tile, 2);
+  CHECK(middle.take_outbox(2).size() == 5 * 5 + 2);  // and the centres of the two squares below
+  CHECK(middle.take_outbox(0).empty());
+
+  // The same for one that this rank was to have, and that another one has by now.
+  Partition elsewhere = columns();
+  elsewhere.owner[1] = 0;
+  middle.transfer(elsewhere);
+  middle.forward_tile(1);
+  CHECK(middle.take_outbox(0).size() == 5 * 5 + 2);  // and the centres of the two squares below
+}
+
+}  // namespace pprt

@@ -1,0 +1,113 @@
+// The update rule against brute force: virtual ranks in one thread, messages delivered at will.
+#include "parallel/exchange/mesh_exchange.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "unit/parallel/exchange/exchange_ranks.h"
+
+namespace pprt {
+namespace {
+
+void check_invariant(const Partition& partition, unsigned seed) {
+  ExchangingRanks run(partition, seed);
+  run.seed();
+  run.quieten();
+  for (int round = 0; round < 12; ++round) run.sample_round(25);
+  run.quieten();
+  const Findings findings = compare_with_serial(run);
+  INFO(partition.ranks << " ranks, seed " << seed << ": " << findings.expected << " triangles expected");
+  CHECK(findings.expected > 300);
+  CHECK(findings.unknown == 0);
+  CHECK(findings.wrong == 0);
+}
+
+std::vector<int> seed_peers_of(const Partition& partition, int rank, const SeedPattern& seeds) {
+  SampleMesh mesh(region_of(partition, rank));
+  return MeshExchange(mesh, seeds, partition, rank).seed_peers();
+}
+
+}  // namespace
+
+TEST_CASE("exchange: all ranks have the triangles that meet their rectangular regions") {
+  for (const int ranks : {2, 3, 5, 9, 16}) {
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+      check_invariant(random_rectangles(TileGrid(128, 96, 8), ranks, seed), seed);
+    }
+  }
+}
+
+TEST_CASE("exchange: all ranks have the triangles that meet their ragged regions") {
+  for (const int ranks : {2, 4, 9}) {
+    for (unsigned seed = 11; seed <= 14; ++seed) {
+      check_invariant(random_growths(TileGrid(120, 100, 10), ranks, seed), seed);
+    }
+  }
+}
+
+TEST_CASE("exchange: all ranks have the triangles that meet regions smaller than the seeds' spacing") {
+  for (unsigned seed = 21; seed <= 23; ++seed) {
+    check_invariant(random_rectangles(TileGrid(64, 64, 4), 30, seed), seed);
+    check_invariant(random_growths(TileGrid(64, 64, 4), 30, seed), seed);
+  }
+}
+
+TEST_CASE("control: without the exchange many triangles at borders are missing") {
+  const Partition partition = random_rectangles(TileGrid(128, 96, 8), 9, 1);
+  ExchangingRanks run(partition, 1);
+  run.seed();
+  for (int round = 0; round < 6; ++round) run.refine(25);  // what is under way stays there
+  const Findings findings = compare_with_serial(run);
+  CHECK(findings.unknown > 20);
+}
+
+TEST_CASE("exchange: each rank is sent the seeds that its triangles need") {
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    ExchangingRanks run(random_rectangles(TileGrid(200, 150, 10), 7, seed), seed);
+    run.seed();
+    const Findings findings = compare_with_serial(run);
+    CHECK(findings.unknown == 0);
+    CHECK(findings.wrong == 0);
+  }
+}
+
+TEST_CASE("exchange: after a repartition each rank is sent the seeds that its triangles need") {
+  const TileGrid grid(200, 150, 10);
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    INFO("seed " << seed);
+    ExchangingRanks run(random_rectangles(grid, 7, seed), seed);
+    run.seed();
+    const Partition next = random_rectangles(grid, 7, seed + 100);
+    run.begin_frame({2.0 * grid.width, 0}, &next, false);  // no sample stays in view
+    const Findings findings = compare_with_serial(run);
+    CHECK(findings.unknown == 0);
+    CHECK(findings.wrong == 0);
+    for (const ExchangingRank& r : run.ranks())
+      CHECK(r.exchange.seed_peers() == seed_peers_of(next, r.rank, r.seeds));
+  }
+}
+
+TEST_CASE("exchange: seed peers are mutual, and no rank is its own") {
+  const Partition partition = random_growths(TileGrid(400, 300, 10), 20, 5);
+  std::vector<std::vector<int>> peers;
+  for (int rank = 0; rank < 20; ++rank)
+    peers.push_back(seed_peers_of(partition, rank, seed_pattern(400, 300, 1)));
+  for (int i = 0; i < 20; ++i) {
+    for (const int j : peers[static_cast<std::size_t>(i)]) {
+      CHECK(i != j);
+      const auto& back = peers[static_cast<std::size_t>(j)];
+      CHECK(std::find(back.begin(), back.end(), i) != back.end());
+    }
+  }
+}
+
+TEST_CASE("exchange: a sample is sent to a rank once") {
+  ExchangingRanks run(random_rectangles(TileGrid(128, 96, 8), 5, 3), 3);
+  run.seed();
+  for (int round = 0; round < 8; ++round) run.sample_round(25);
+  run.quieten();
+  CHECK(run.repeats() == 0);
+  CHECK(run.quieten() == 1);  // nothing is left to say
+}
+
+}  // namespace pprt

@@ -1,0 +1,274 @@
+// One worker among ranks whose messages the test chooses: what comes late is neither lost nor misunderstood.
+#include "parallel/rank/worker.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "parallel/network/local_communicator.h"
+#include "unit/parallel/both_samplers.h"
+#include "unit/parallel/clock/set_clock.h"
+#include "unit/parallel/virtual_run.h"
+
+namespace pprt {
+namespace {
+
+constexpr double kPeriod = 0.25;
+constexpr double kNow = 0;  // all the time
+
+// Three ranks; the middle third of the image is rank 1's, which is real.
+class Scene {
+ public:
+  explicit Scene(SamplerChoice sampler, BalanceMode balance = BalanceMode::kLocal)
+      : settings_(make_settings(sampler, balance)) {
+    for (int rank = 0; rank < 3; ++rank) {
+      communicators_.push_back(std::make_unique<LocalCommunicator>(network_, rank));
+    }
+    inbox_ = std::make_unique<Inbox>(
+        *communicators_[1], 0.1, [](const Message&) {}, [this] { ++looks_; });
+    auto clock = std::make_unique<SetClock>(20, kPeriod, kNow);
+    clock_ = clock.get();
+    worker_ = std::make_unique<Worker>(*communicators_[1], *inbox_, settings_, partition_, probe(),
+                                       std::move(clock));
+  }
+
+  void render(Carry carry, const std::vector<std::int32_t>& owners = {}) {
+    FrameOrder order;
+    order.index = ++index_;
+    order.number = index_ + 1;
+    order.carry = carry;
+    order.camera = camera_before_disc(settings_.width, settings_.height);
+    order.deadline_s = (index_ + 1) * kPeriod;
+    order.owners = owners;
+    if (!owners.empty()) order.columns = partition().grid.columns();
+    order.generation = owners.empty() ? 0 : 1;
+    worker_->render(order);
+  }
+
+  void send(int from, const Bundle& bundle) {
+    communicators_[static_cast<std::size_t>(from)]->send(1, Tag::kBundle, encode(bundle));
+  }
+
+  // Sent while rank 1 traces its next ray: seen when it looks next.
+  void send_while_tracing(int from, const Bundle& bundle) { pending_.emplace_back(from, bundle); }
+
+  // Bundles that rank 1 has sent to a rank since the last call.
+  std::vector<Bundle> sent_to(int rank) {
+    std::vector<Bundle> bundles;
+    while (const std::optional<Message> m = communicators_[static_cast<std::size_t>(rank)]->receive()) {
+      if (m->tag == Tag::kBundle) bundles.push_back(decode_bundle(m->payload));
+    }
+    return bundles;
+  }
+
+  // Rank 1's report of the frame rendered last.
+  RankReport report() {
+    std::optional<RankReport> report;
+    while (const std::optional<Message> m = communicators_[0]->receive()) {
+      if (m->tag == Tag::kPixels) report = decode_pixels(m->payload).report;
+    }
+    REQUIRE(report);
+    return *report;
+  }
+
+  void set_rays(std::uint32_t of_a_sample) { rays_ = of_a_sample; }
+
+  // How often rank 1 has looked for messages since the last call.
+  int looks() { return std::exchange(looks_, 0); }
+
+  const SetClock& clock() const { return *clock_; }
+  const Partition& partition() const { return partition_; }
+
+  // A sample in the middle of a tile.
+  Sample sample_in(int tile, SampleId id) const {
+    const PixelRect r = partition_.grid.pixels(tile);
+    Sample s;
+    s.x = 0.5 * (r.x0 + r.x1) + 0.125, s.y = 0.5 * (r.y0 + r.y1) + 0.25;
+    s.id = id;
+    return s;
+  }
+
+ private:
+  Probe probe() {
+    return {[](const Camera&) {},
+            [this](double x, double y) {
+              for (const auto& [from, bundle] : std::exchange(pending_, {})) send(from, bundle);
+              RaySample sample;
+              const bool inside = std::hypot(x - 48, y - 32) < 20;
+              sample.color = inside ? Color(0.9f, 0.7f, 0.2f) : Color(0.1f, 0.1f, 0.3f);
+              sample.rays = rays_;
+              return sample;
+            },
+            [](const Vec3f&, bool) { return true; }, [] { return RayCounts(); }};
+  }
+  static SessionSettings make_settings(SamplerChoice sampler, BalanceMode balance) {
+    SessionSettings settings{.sampler = sampler};
+    settings.width = 96, settings.height = 64;
+    settings.frames_per_second = 1 / kPeriod;
+    settings.balance = balance;
+    return settings;
+  }
+  static Partition thirds() {
+    const TileGrid grid(96, 64, 8);
+    Partition partition =
+        bisect(grid, std::vector<double>(static_cast<std::size_t>(grid.tile_count()), 1), 3);
+    for (int tile = 0; tile < grid.tile_count(); ++tile) {
+      partition.owner[static_cast<std::size_t>(tile)] = tile % 12 / 4;
+    }
+    return partition;
+  }
+
+  SessionSettings settings_;
+  Partition partition_ = thirds();
+  LocalNetwork network_{3};
+  std::vector<std::unique_ptr<LocalCommunicator>> communicators_;
+  std::unique_ptr<Inbox> inbox_;
+  std::unique_ptr<Worker> worker_;
+  const SetClock* clock_ = nullptr;  // the worker's
+  std::vector<std::pair<int, Bundle>> pending_;
+  int index_ = -1;
+  std::uint32_t rays_ = 1;  // of a sample
+  int looks_ = 0;
+};
+
+bool contain(const std::vector<Bundle>& bundles, SampleId id) {
+  return std::any_of(bundles.begin(), bundles.end(), [id](const Bundle& b) {
+    return std::any_of(b.samples.begin(), b.samples.end(), [id](const Sample& s) { return s.id == id; });
+  });
+}
+
+constexpr SampleId kMarked = 4711;
+
+}  // namespace
+
+BOTH_SAMPLERS_TEST_CASE(
+    "worker: bundles of the frame before are read before this frame's seeds that came with them") {
+  Scene scene(sampler);
+  scene.render(Carry::kNothing);
+  scene.sent_to(0);
+  // Rank 0 took while it sent its last bundle of frame 0, and gives when it sends its seeds of frame 1.
+  scene.send_while_tracing(0, {.frame_index = 0, .epoch = 0, .round = 24, .handshake = {.phase = 0}});
+  scene.send_while_tracing(0, {.frame_index = 1, .epoch = 1, .round = kSeedRound, .handshake = {.phase = 1}});
+  scene.render(Carry::kNothing);
+  std::uint32_t acknowledged = 0;
+  for (const Bundle& b : scene.sent_to(0)) {
+    CHECK(b.handshake.acknowledged >= acknowledged);
+    acknowledged = b.handshake.acknowledged;
+  }
+  CHECK(acknowledged == 1);
+}
+
+BOTH_SAMPLERS_TEST_CASE(
+    "worker: samples that come with a tile that has another owner by now reach that owner") {
+  Scene scene(sampler);
+  const int tile = 2 * 12 + 3;  // rank 0's, beside rank 1's
+  scene.render(Carry::kNothing);
+  scene.sent_to(2);
+  // After a repartition the tile is rank 2's. Rank 0 gave it to rank 1 before it learned of that.
+  std::vector<std::int32_t> owners = scene.partition().owner;
+  owners[static_cast<std::size_t>(tile)] = 2;
+  scene.send_while_tracing(0, {.round = 5,
+                               .tiles = {.given = {{.tile = tile, .owner = 1, .version = 1}}},
+                               .samples = {scene.sample_in(tile, kMarked)}});
+  scene.render(Carry::kAccumulate, owners);
+  CHECK(contain(scene.sent_to(2), kMarked));
+}
+
+BOTH_SAMPLERS_TEST_CASE(
+    "worker: all ranks are told once of a tile that this one has taken, and of none that it has lost") {
+  const int taken = 2 * 12 + 3, lost = 3 * 12 + 3;  // rank 0's, beside rank 1's
+  const auto times_told = [](const std::vector<Bundle>& bundles, int tile) {
+    int times = 0;
+    for (const Bundle& bundle : bundles) {
+      for (const OwnerChange& change : bundle.tiles.changes)
+        times += change.tile == tile && change.owner == 1 && change.version == 1;
+    }
+    return times;
+  };
+  // In the frame itself, or late: then bundles of that frame are looked at twice in the next one.
+  for (const bool late : {false, true}) {
+    Scene scene(sampler);
+    const Bundle gives{.round = 5,
+                       .tiles = {.given = {{.tile = taken, .owner = 1, .version = 1},
+                                           {.tile = lost, .owner = 1, .version = 1}},
+                                 .changes = {{.tile = lost, .owner = 0, .version = 2}}}};
+    if (late) {
+      scene.render(Carry::kNothing);
+      scene.send(0, gives);
+    } else {
+      scene.send_while_tracing(0, gives);
+    }
+    for (const int rank : {0, 2}) scene.sent_to(rank);
+    scene.render(Carry::kNothing);
+    for (const int rank : {0, 2}) {
+      const std::vector<Bundle> bundles = scene.sent_to(rank);
+      CHECK(times_told(bundles, taken) == 1);
+      CHECK(times_told(bundles, lost) == 0);
+    }
+  }
+}
+
+BOTH_SAMPLERS_TEST_CASE(
+    "worker: a cast sample that comes late reaches the owner of its tile, even the rank that sent it") {
+  for (const int taker : {0, 2}) {
+    Scene scene(sampler);
+    const int tile = 2 * 12 + 5;  // rank 1's
+    scene.render(Carry::kNothing);
+    std::vector<std::int32_t> owners = scene.partition().owner;
+    owners[static_cast<std::size_t>(tile)] = taker;
+    scene.render(Carry::kAccumulate, owners);
+    scene.sent_to(taker);
+    scene.send(0, {.round = kSeedRound, .samples = {scene.sample_in(tile, kMarked)}});
+    scene.render(Carry::kAccumulate);
+    // On a lattice it would tell the owner which lights are seen, too late.
+    CHECK(contain(scene.sent_to(taker), kMarked) == (sampler == SamplerChoice::kDelaunay));
+  }
+}
+
+BOTH_SAMPLERS_TEST_CASE(
+    "worker: balancing takes CPU time where tiles are given away, none without, and the stages add up") {
+  for (const BalanceMode mode : {BalanceMode::kLocal, BalanceMode::kNone}) {
+    Scene scene(sampler, mode);
+    // Both neighbours accept tiles, have hardly anything left to do, and know already that rank 1 gives.
+    for (const int from : {0, 2}) {
+      scene.send(from, {.round = 1,
+                        .progress = {.quality = 1e-6, .target = 1e-6, .future_cost = 1},
+                        .handshake = {.phase = 0, .acknowledged = 1}});
+    }
+    scene.render(Carry::kNothing);
+    const RankReport report = scene.report();
+    const StageTimes& ms = report.cpu_ms;
+    const bool balances = mode == BalanceMode::kLocal;
+    CHECK((report.tiles_given > 0) == balances);
+    CHECK((ms.balancing > 0) == balances);
+    CHECK(ms.sampling > 0);
+    // Every reading of the clock is a millisecond after the one before.
+    CHECK(ms.sampling + ms.casting + ms.reconstruction + ms.balancing ==
+          Approx(scene.clock().readings() - 1));
+  }
+}
+
+// The frame before may become whole on rank 0, or due.
+BOTH_SAMPLERS_TEST_CASE("worker: messages do not wait for long while samples take many rays") {
+  Scene scene(sampler);
+  scene.render(Carry::kNothing);
+  scene.report();
+  const int usual = scene.looks();
+  scene.set_rays(1024);
+  scene.render(Carry::kNothing);
+  const auto samples = static_cast<int>(scene.report().samples_new);
+  REQUIRE(samples > 100);
+  CHECK(scene.looks() >= usual + samples);
+}
+
+BOTH_SAMPLERS_TEST_CASE("worker: a new partition is charged to balancing") {
+  Scene scene(sampler, BalanceMode::kGlobal);
+  scene.render(Carry::kNothing);
+  CHECK(scene.report().cpu_ms.balancing == 0);
+  std::vector<std::int32_t> owners = scene.partition().owner;
+  owners[2 * 12 + 5] = 0;
+  scene.render(Carry::kAccumulate, owners);
+  CHECK(scene.report().cpu_ms.balancing > 0);
+}
+
+}  // namespace pprt
