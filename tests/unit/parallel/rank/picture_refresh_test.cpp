@@ -28,16 +28,16 @@ SessionSettings settings_for(SamplerChoice sampler) {
 }
 
 // Takes so many samples: where one is wanted most.
-void refine(Sampler& sampler, int count) {
+void refine(const SamplerWithExchange& made, int count) {
   for (int i = 0; i < count; ++i) {
-    const std::optional<Vec2d> at = sampler.next_point();
+    const std::optional<Vec2d> at = made.sampler->next_point();
     REQUIRE(at);
     Sample sample;
     sample.x = at->x, sample.y = at->y;
     const float waves = 0.5F + 0.5F * std::sin(static_cast<float>(at->x * (1 + at->y)));
     sample.ray.color = Color(waves, 1 - waves, 0.25F * waves);
     sample.ray.primitive = 1;
-    REQUIRE(sampler.insert(sample));
+    REQUIRE(made.exchange->insert(sample, 0));
   }
 }
 
@@ -46,11 +46,11 @@ SamplerWithExchange rank_0(SamplerChoice sampler, int ranks) {
   return make_sampler(settings_for(sampler), partition_of(ranks), 0, {});
 }
 
-void seed(Sampler& sampler, SampleExchange& exchange) {
-  for (const SeedPoint& seed : sampler.seeds()) {
+void seed(const SamplerWithExchange& made) {
+  for (const SeedPoint& seed : made.sampler->seeds()) {
     Sample sample;
     sample.x = seed.at.x, sample.y = seed.at.y;
-    exchange.insert_seed(sample, seed.number);
+    made.exchange->insert_seed(sample, seed.number);
   }
 }
 
@@ -80,10 +80,10 @@ const auto never = [] { return false; };
 TEST_CASE("picture refresh: tiles are brought up to date in turn, the others show what they showed") {
   const SamplerWithExchange made = rank_0(SamplerChoice::kAuto, 1);
   Sampler& samples = *made.sampler;
-  refine(samples, 200);
+  refine(made, 200);
   PictureRefresh picture = whole_picture(samples);
   const PictureRefresh before = picture;
-  refine(samples, 1200);
+  refine(made, 1200);
   const PictureRefresh after = whole_picture(samples);
   REQUIRE(tiles_that_differ(before, after).size() == kTiles);
 
@@ -94,7 +94,7 @@ TEST_CASE("picture refresh: tiles are brought up to date in turn, the others sho
   CHECK(tiles_that_differ(picture, before) == std::vector{0, 1});
 
   // New samples: whoever has waited longest is next, and those of the first turn come again.
-  refine(samples, 600);
+  refine(made, 600);
   const PictureRefresh newest = whole_picture(samples);
   CHECK(picture.refresh(samples, never) == 1);
   CHECK(tiles_that_differ(picture, newest).empty());
@@ -104,10 +104,10 @@ TEST_CASE("picture refresh: tiles are brought up to date in turn, the others sho
 TEST_CASE("picture refresh: without new samples each tile has one turn") {
   const SamplerWithExchange made = rank_0(SamplerChoice::kAuto, 1);
   Sampler& samples = *made.sampler;
-  refine(samples, 200);
+  refine(made, 200);
   PictureRefresh picture = whole_picture(samples);
   CHECK(picture.refresh(samples, never) == 0);
-  refine(samples, 1200);
+  refine(made, 1200);
   CHECK(picture.refresh(samples, [] { return true; }) == 0);
   for (int turn = 0; turn < kTiles; ++turn) {
     int asked = 0;
@@ -120,8 +120,8 @@ TEST_CASE("picture refresh: without new samples each tile has one turn") {
 BOTH_SAMPLERS_TEST_CASE("picture refresh: a region that has changed is reconstructed as a whole") {
   const SamplerWithExchange made = rank_0(sampler, 2);
   Sampler& samples = *made.sampler;
-  seed(samples, *made.exchange);
-  refine(samples, 200);
+  seed(made);
+  refine(made, 200);
   PictureRefresh picture = whole_picture(samples);
   Partition other = partition_of(2);
   std::swap(other.owner[0], other.owner[1]);
@@ -133,9 +133,9 @@ BOTH_SAMPLERS_TEST_CASE("picture refresh: a region that has changed is reconstru
 TEST_CASE("picture refresh: a mesh is reconstructed as a whole or not at all") {
   const SamplerWithExchange made = rank_0(SamplerChoice::kDelaunay, 1);
   Sampler& samples = *made.sampler;
-  seed(samples, *made.exchange);
+  seed(made);
   PictureRefresh picture = whole_picture(samples);
-  refine(samples, 100);
+  refine(made, 100);
   CHECK(picture.refresh(samples, [] { return true; }) == 0);
   int asked = 0;
   CHECK(picture.refresh(samples, [&] { return asked++ > 0; }) == 1);
