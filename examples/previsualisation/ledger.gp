@@ -15,4 +15,4 @@ plot figure("samples_new") with lines linewidth 2 title "new", \
 set title "mean weight of what is left to refine: smaller is finer"
 set xlabel "frame"
 unset key
-plot figure("refinement") with lines linewidth 2
+plot figure("mean_weight") with lines linewidth 2

@@ -29,7 +29,7 @@ using boost::asio::ip::tcp;
 using boost::beast::error_code;
 
 constexpr std::size_t kMostHeaderBytes = 8192;
-constexpr std::size_t kMostSayings = 256;
+constexpr std::size_t kMostQueued = 256;
 constexpr int kMostInFlight = 2;
 
 std::chrono::nanoseconds nanoseconds(double seconds) {
@@ -164,26 +164,26 @@ class LiveServer::Impl::Client : public std::enable_shared_from_this<Client> {
   }
 
   // What must arrive.
-  struct Saying {
+  struct QueuedMessage {
     LiveFrame content;
     bool is_file = false;  // else a text: its header
   };
 
   void say(LiveFrame content, bool is_file) {
-    if (sayings_.size() >= kMostSayings) return close();
-    sayings_.push_back({std::move(content), is_file});
+    if (queue_.size() >= kMostQueued) return close();
+    queue_.push_back({std::move(content), is_file});
     write();
   }
 
   // Texts go before frames: they are small, and say what a frame is seen with.
   void write() {
     if (writing_ || closed_ || number_ == 0) return;
-    if (!sayings_.empty()) {
-      saying_ = std::move(sayings_.front());
-      sayings_.pop_front();
-      if (saying_.is_file) return write_binary(saying_.content);
+    if (!queue_.empty()) {
+      sent_message_ = std::move(queue_.front());
+      queue_.pop_front();
+      if (sent_message_.is_file) return write_binary(sent_message_.content);
       socket_.text(true);
-      start_write({asio::buffer(saying_.content.header), {}, {}});
+      start_write({asio::buffer(sent_message_.content.header), {}, {}});
     } else if (ends_) {
       socket_.async_close(websocket::close_code::going_away,
                           [self = shared_from_this()](error_code) { self->close(); });
@@ -219,8 +219,8 @@ class LiveServer::Impl::Client : public std::enable_shared_from_this<Client> {
   bool closed_ = false;
   bool ends_ = false;
   bool writing_ = false;
-  std::deque<Saying> sayings_;                   // not sent yet
-  Saying saying_;                                // being written, or the last one
+  std::deque<QueuedMessage> queue_;                   // not sent yet
+  QueuedMessage sent_message_;                                // being written, or the last one
   std::shared_ptr<const LiveFrame> next_frame_;  // not sent yet
   std::shared_ptr<const LiveFrame> frame_;       // being written, or the last one
   int in_flight_ = 0;                            // frames without an acknowledgement

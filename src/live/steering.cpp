@@ -59,7 +59,7 @@ Steering::Steering(LiveShow show, LiveVoice voice)
 void Steering::joined(int client) {
   const std::lock_guard lock(mutex_);
   clients_.insert(client);
-  wished_.notify_all();
+  changed_.notify_all();
   Json hello = {{"you", client},
                 {"title", show_.title},
                 {"home", json_of(show_.home)},
@@ -105,9 +105,9 @@ bool Steering::is_watched() const {
 // --- Commands
 
 // Something changes the picture.
-void Steering::wish() {
-  ++wish_;
-  wished_.notify_all();
+void Steering::note_change() {
+  ++change_;
+  changed_.notify_all();
 }
 
 void Steering::obey(int client, const TakeCamera&) {
@@ -132,7 +132,7 @@ void Steering::give_back() {
   plays_ = position_ < frames();
   if (!plays_) return;
   if (is_by_hand_) jumps_ = true;
-  wish();
+  note_change();
 }
 
 void Steering::obey(int, const PassCamera& command) {
@@ -150,7 +150,7 @@ void Steering::obey(int, const LookFrom& command) {
   plays_ = false;
   is_by_hand_ = true;
   look_ = command.number;
-  wish();
+  note_change();
 }
 
 void Steering::obey(int, const PlayScript& command) {
@@ -159,7 +159,7 @@ void Steering::obey(int, const PlayScript& command) {
   if (!plays_) return;
   if (is_by_hand_) jumps_ = true;
   if (position_ >= frames()) jump_to(0);
-  wish();
+  note_change();
 }
 
 void Steering::obey(int, const StepScript& command) {
@@ -173,7 +173,7 @@ void Steering::obey(int, const SeekScript& command) {
 
 void Steering::obey(int, const SetRate& command) {
   run_.frames_per_second = command.frames_per_second;
-  wish();
+  note_change();
 }
 
 void Steering::obey(int, const SetSize& command) {
@@ -181,12 +181,12 @@ void Steering::obey(int, const SetSize& command) {
   require(show_.require_size, command.width, command.height);
   run_.width = command.width;
   run_.height = command.height;
-  wish();
+  note_change();
 }
 
 void Steering::obey(int, const ShowOverlay& command) {
   overlay_ = command.overlay;
-  wish();
+  note_change();
 }
 
 void Steering::obey(int, const SetKey& command) {
@@ -220,7 +220,7 @@ void Steering::obey(int, const PlayFilm& command) {
 void Steering::obey(int client, const TakePhoto& command) {
   run_.photo = command.format;
   run_.photo_for = client;
-  wish();
+  note_change();
 }
 
 void Steering::obey(int client, const SendScript&) {
@@ -241,7 +241,7 @@ void Steering::show_position(int position) {
   jumps_ = jumps_ || position != position_ + 1;
   position_ = position;
   set_camera(view_, frame_at(position_).view);
-  wish();
+  note_change();
 }
 
 void Steering::keys_changed() {
@@ -285,18 +285,18 @@ Animation Steering::film() const {
 // --- Frames
 
 bool Steering::wants_frames() const {
-  return wish_ != finished_wish_ && (show_.records || !clients_.empty());
+  return change_ != finished_change_ && (show_.records || !clients_.empty());
 }
 
-bool Steering::wait_for_wish(double at_most_s) {
+bool Steering::wait_for_change(double at_most_s) {
   std::unique_lock lock(mutex_);
-  return wished_.wait_for(lock, std::chrono::duration<double>(at_most_s), [this] { return wants_frames(); });
+  return changed_.wait_for(lock, std::chrono::duration<double>(at_most_s), [this] { return wants_frames(); });
 }
 
 // A script whose camera stands still goes on.
-void Steering::rest(std::uint64_t wish) {
+void Steering::rest(std::uint64_t change) {
   const std::lock_guard lock(mutex_);
-  if (!plays_) finished_wish_ = wish;
+  if (!plays_) finished_change_ = change;
 }
 
 LiveRun Steering::next_run() {
@@ -336,7 +336,7 @@ std::optional<LiveShot> Steering::next_shot() {
   shot.look = look_;
   shot.pilot = pilot_;
   shot.overlay = overlay_;
-  shot.wish = wish_;
+  shot.change = change_;
   if (plays_ && position_ >= frames()) {
     const std::optional<int> unseen = plays_film_ ? std::nullopt : first_unseen();
     if (unseen) {

@@ -54,7 +54,7 @@ struct LiveShot {
   std::uint32_t look = 0;    // the number of the pilot's last LookFrom
   int pilot = 0;             // client; 0: nobody
   Overlay overlay = Overlay::kNone;
-  std::uint64_t wish = 0;  // counts what changed the picture, for rest()
+  std::uint64_t change = 0;  // counts what changed the picture, for rest()
 };
 
 // Settings that hold for a run of frames; others need a new one.
@@ -100,7 +100,7 @@ class Steering {
 
   // Waits until a frame is wanted, at most so many seconds. None is while a picture is finished, or while
   // nobody watches, unless frames are recorded.
-  bool wait_for_wish(double at_most_s);
+  bool wait_for_change(double at_most_s);
 
   // What the next run of frames is like. A photo is over when this is asked again.
   LiveRun next_run();
@@ -108,8 +108,8 @@ class Steering {
   // The next frame's camera; empty: another run is wanted, or none.
   std::optional<LiveShot> next_shot();
 
-  // The picture of a shot with this `wish` is finished. Frames are wanted again once something changes it.
-  void rest(std::uint64_t wish);
+  // The picture of a shot with this `change` is finished. Frames are wanted again once something changes it.
+  void rest(std::uint64_t change);
 
   // Whether nothing plays and nobody has the camera.
   bool is_played_out() const;
@@ -131,7 +131,7 @@ class Steering {
   void obey(int client, const PlayFilm& command);
   void obey(int client, const TakePhoto& command);
   void obey(int client, const SendScript&);
-  void wish();
+  void note_change();
   void give_back();
   void jump_to(int position);
   void show_position(int position);
@@ -146,14 +146,14 @@ class Steering {
   const LiveShow show_;
   const LiveVoice voice_;
 
-  std::condition_variable wished_;  // frames may be wanted
+  std::condition_variable changed_;  // frames may be wanted
   mutable std::mutex mutex_;        // guards what follows
   std::set<int> clients_;
   int pilot_ = 0;
   LiveRun run_;                      // as wanted
   LiveRun run_now_;                  // as it is
-  std::uint64_t wish_ = 1;           // counts what changed the picture
-  std::uint64_t finished_wish_ = 0;  // whose picture is finished
+  std::uint64_t change_ = 1;           // counts what changed the picture
+  std::uint64_t finished_change_ = 0;  // whose picture is finished
   bool plays_ = false;               // the script or the film
   bool plays_film_ = false;          // the film takes the script's place
   int position_ = 0;                 // in what plays: shown last, from 1; 0: nothing yet

@@ -159,7 +159,8 @@ bool refracted(const Vec3d& direction, const Vec3d& normal, double index_ratio, 
 }
 
 // The ray tree of one eye ray. `kEffects` are the bits of an EffectSet; code for other effects is not
-// compiled in.
+// compiled in. `kPublished`: rays are those that the SPD's tables count (CompileOptions::count_as_published):
+// lights and mirrored rays of surfaces that they do not change, too.
 template <unsigned kEffects, bool kPublished, bool kExtended>
 class RayTree {
  public:

@@ -5,7 +5,7 @@ source "$(dirname "$0")/check.sh"
 # The ledger: a line for the run, one a frame, one for the sum.
 run pprt-render ball.anim --clock work --budget 400000 --frames 1-2 --stats -; expect_code 0
 [[ $(wc -l <out) -eq 4 ]] || complain "the ledger has not four lines: $(cat out)"
-expect_line out '{"record":"run","format":1,"version":.*"ranks":1,"size":\[32,24\],"clock":"work".*}'
+expect_line out '{"record":"run","format":2,"version":.*"ranks":1,"size":\[32,24\],"clock":"work".*}'
 expect_line out '{"record":"frame","frame":1,"cut":false,"deadline_s":0.25,.*,"non_finite":0}'
 expect_line out '{"record":"frame","frame":2,"cut":false,"deadline_s":0.5,.*,"non_finite":0}'
 expect_line out '{"record":"summary","frames":2,"on_time":2,"late_ms":{.*},.*,"non_finite":0}'
@@ -14,7 +14,7 @@ expect_line err 'done: 2 of 2 frames in frame_%04d.png; .*'
 # The same ledger on ranks of their own; only the master speaks.
 run pprt-render ball.anim --clock work --budget 400000 --frames 1-2 --overwrite -np 3 --stats -; expect_code 0
 [[ $(wc -l <out) -eq 4 ]] || complain "the ledger of three ranks has not four lines: $(cat out)"
-expect_line out '{"record":"run","format":1,"version":.*"ranks":3,.*}'
+expect_line out '{"record":"run","format":2,"version":.*"ranks":3,.*}'
 
 # The error against a reference; of a picture to itself it is the rounding of its file.
 run pprt-render ball.nff --clock work -o ref.exr; expect_code 0

@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
   order.owners = {1, 1, 1, 0, 0, 1}, order.columns = 3, order.tiles = {{1, 2}, {3, 4}};
   write(directory / "order", 0, encode(order));
   pprt::Bundle bundle;
-  bundle.progress.quality = 0.5, bundle.samples.resize(3);
+  bundle.progress.mean_weight = 0.5, bundle.samples.resize(3);
   bundle.tiles.given.resize(2), bundle.tiles.changes.resize(1);
   write(directory / "bundle", 1, encode(bundle));
   pprt::PixelMessage pixels;

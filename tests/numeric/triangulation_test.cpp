@@ -197,7 +197,7 @@ TEST_CASE("refinement among slivers asks for distinct points of the image and le
   }
   CHECK(outside == 0);
   CHECK(refused == 0);
-  CHECK(std::isfinite(mesh.refinement()));
+  CHECK(std::isfinite(mesh.mean_weight()));
   // Circumcentres are no multiples of the step, so areas are summed in long double.
   long double area = 0;
   for (const auto& t : triangles(mesh)) {

@@ -18,17 +18,19 @@ void Balancer::begin_frame(double pace) {
 }
 
 RankProgress Balancer::progress(const RegionQuality& refined, double elapsed) const {
-  const double quality = refined.mean_weight;
-  if (quality <= 0) return {};
+  const double weight = refined.mean_weight;
+  if (weight <= 0) return {};
   // The mean weight falls as the reciprocal of the samples: what it will be when the frame ends.
-  const double target = target_quality(quality * elapsed);
-  return {
-      .quality = quality, .target = target, .future_cost = own_future_cost(refined, target), .pace = pace_};
+  const double target = target_weight_for(weight * elapsed);
+  return {.mean_weight = weight,
+          .target_weight = target,
+          .future_cost = own_future_cost(refined, target),
+          .pace = pace_};
 }
 
 // In time.
-double Balancer::own_future_cost(const RegionQuality& refined, double quality) const {
-  return pace_ * costs_.future_cost_of_region(refined, quality);
+double Balancer::own_future_cost(const RegionQuality& refined, double weight) const {
+  return pace_ * costs_.future_cost_of_region(refined, weight);
 }
 
 bool Balancer::wants_to_give(const RegionQuality& refined, const std::vector<int>& neighbours, double elapsed,
@@ -45,20 +47,21 @@ bool Balancer::wants_to_give(const RegionQuality& refined, const std::vector<int
 TransferInputs Balancer::inputs(const RegionQuality& refined, const std::vector<int>& neighbours,
                                 double elapsed, const TransferHandshake& handshake,
                                 double most_samples) const {
-  TransferInputs inputs{.quality = refined.mean_weight,
+  TransferInputs inputs{.mean_weight = refined.mean_weight,
                         .noise = relative_noise(refined, elapsed),
                         .most_samples = most_samples};
   for (const int rank : neighbours) {
     const RankProgress& theirs = theirs_[static_cast<std::size_t>(rank)];
-    if (!handshake.accepts(rank) || !handshake.has_confirmed_transfers(rank) || theirs.quality <= 0) continue;
-    inputs.takers.push_back({rank, theirs, own_future_cost(refined, theirs.target)});
+    if (!handshake.accepts(rank) || !handshake.has_confirmed_transfers(rank) || theirs.mean_weight <= 0)
+      continue;
+    inputs.takers.push_back({rank, theirs, own_future_cost(refined, theirs.target_weight)});
   }
   return inputs;
 }
 
 TileOffers Balancer::offers_to(const PossibleTaker& taker, const RegionQuality& refined,
                                const KnownRanks& others) const {
-  const double mean_pace = 0.5 * (pace_ + taker.progress.pace), target = taker.progress.target;
+  const double mean_pace = 0.5 * (pace_ + taker.progress.pace), target = taker.progress.target_weight;
   return [this, mean_pace, target, &refined, known = others.known_in_tiles(taker.rank),
           all = others.known_in_tiles(rank_)](int tile) {
     const auto t = static_cast<std::size_t>(tile);

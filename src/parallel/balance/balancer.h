@@ -34,7 +34,7 @@ class Balancer {
 
   void receive(int from, const RankProgress& progress) { theirs_[static_cast<std::size_t>(from)] = progress; }
 
-  // This rank's own progress, towards the target that its quality names. `elapsed`: share of the frame's
+  // This rank's own progress, towards the target that its mean weight names. `elapsed`: share of the frame's
   // sampling time that has passed, in (0, 1].
   RankProgress progress(const RegionQuality& refined, double elapsed) const;
 
@@ -56,7 +56,7 @@ class Balancer {
                                              double most_samples) const;
 
  private:
-  double own_future_cost(const RegionQuality& refined, double quality) const;
+  double own_future_cost(const RegionQuality& refined, double weight) const;
   TransferInputs inputs(const RegionQuality& refined, const std::vector<int>& neighbours, double elapsed,
                         const TransferHandshake& handshake, double most_samples) const;
   TileOffers offers_to(const PossibleTaker& taker, const RegionQuality& refined,

@@ -71,7 +71,7 @@ void CostEstimator::learn_cost_per_triangle(const RegionQuality& refined) {
     cost += now(tile).cost;
     triangles += refined.tile(tile).count;
   }
-  cost_per_triangle_ = triangles > 0 ? cost / triangles : 0;
+  cost_per_candidate_ = triangles > 0 ? cost / triangles : 0;
 }
 
 // What a tile's refinement so far has cost; at least the region's mean for its triangles. A tile with hardly
@@ -79,20 +79,20 @@ void CostEstimator::learn_cost_per_triangle(const RegionQuality& refined) {
 // into a small tile.
 double CostEstimator::cost_of(const RegionQuality& refined, int tile) const {
   const TileWeights& weights = refined.tile(tile);
-  return std::max(now(tile).cost, static_cast<double>(weights.count) * cost_per_triangle_);
+  return std::max(now(tile).cost, static_cast<double>(weights.count) * cost_per_candidate_);
 }
 
-double CostEstimator::future_cost(const RegionQuality& refined, int tile, double quality) const {
+double CostEstimator::future_cost(const RegionQuality& refined, int tile, double target) const {
   const double weight = mean_weight(refined.tile(tile));
   const double paid = now(tile).cost;
   const double cost_at_1 = (1 - share_of_now_) * last(tile).cost * last(tile).average_weight +
                            share_of_now_ * cost_of(refined, tile) * weight;
-  return cost_at_1 / quality - paid + reconstruction_cost(grid_, tile);
+  return cost_at_1 / target - paid + reconstruction_cost(grid_, tile);
 }
 
-double CostEstimator::future_cost_of_region(const RegionQuality& refined, double quality) const {
+double CostEstimator::future_cost_of_region(const RegionQuality& refined, double target) const {
   double sum = likeness_ == FrameLikeness::kUnknown ? 0 : std::max(0.0, received_last_ - received_now_);
-  for (const int tile : refined.region.tiles()) sum += future_cost(refined, tile, quality);
+  for (const int tile : refined.region.tiles()) sum += future_cost(refined, tile, target);
   return sum;
 }
 

@@ -1,4 +1,4 @@
-// What one rank's tiles have cost, and what they will cost until they are refined to a given quality
+// What one rank's tiles have cost, and what they will cost until they are refined to a given mean weight
 // (paper s. 3.6, 4.3).
 #pragma once
 
@@ -44,13 +44,13 @@ class CostEstimator {
   // passed, in (0, 1].
   void update(const RegionQuality& refined, double elapsed);
 
-  // Fcost(i, Q): work units until the tile's mean weight has fallen to `quality` > 0, reconstruction
+  // Fcost(i, Q): work units until the tile's mean weight has fallen to `target` > 0, reconstruction
   // included. The mean weight falls as the reciprocal of the samples. Negative where more has been paid than
   // needed.
-  double future_cost(const RegionQuality& refined, int tile, double quality) const;
+  double future_cost(const RegionQuality& refined, int tile, double target) const;
 
   // The same for the region, with what other ranks' samples are expected to cost until the frame's end.
-  double future_cost_of_region(const RegionQuality& refined, double quality) const;
+  double future_cost_of_region(const RegionQuality& refined, double target) const;
 
   // A tile's figures in this frame and the one before. Right for own tiles only.
   const TileEstimate& now(int tile) const { return now_[static_cast<std::size_t>(tile)]; }
@@ -72,7 +72,7 @@ class CostEstimator {
   TileGrid grid_;
   double own_sample_, received_sample_;   // work units, without rays
   std::vector<TileEstimate> now_, last_;  // per tile
-  double cost_per_triangle_ = 0;          // of this region in this frame, mean
+  double cost_per_candidate_ = 0;         // of this region in this frame, mean
   double counted_ = 0;
   double received_now_ = 0;   // work units spent on other ranks' samples
   double received_last_ = 0;  // the same in the frame before

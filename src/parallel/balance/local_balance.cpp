@@ -101,17 +101,6 @@ struct Candidate {
   TileOffer offer;
 };
 
-// The giver's tiles beside the taker's.
-std::vector<Candidate> candidates_of(const Partition& partition, const std::vector<int>& own, int giver,
-                                     int taker, const std::function<TileOffer(int tile)>& offer) {
-  std::vector<Candidate> candidates;
-  for (const int tile : own) {
-    const Sides sides = owners_beside(partition, tile, giver, taker);
-    if (sides.taker > 0) candidates.push_back({tile, sides, offer(tile)});
-  }
-  return candidates;
-}
-
 }  // namespace
 
 double relative_noise(const RegionQuality& refined, double elapsed) {
@@ -126,12 +115,13 @@ double relative_noise(std::int64_t triangles, double elapsed) {
 
 double load_by_neighbours(std::span<const RankProgress> neighbours,
                           const std::function<double(double target)>& own_future_cost) {
-  constexpr double kOneSample = 1300;  // time at pace 1; costs below are all the same
+  // Nanoseconds of one sample on the machine of the prices: ratios of smaller costs say nothing.
+  constexpr double kOneSample = 1300;
   double sum = 0;
   int count = 0;
   for (const RankProgress& theirs : neighbours) {
-    if (theirs.quality <= 0) continue;
-    const double own = own_future_cost(theirs.target);
+    if (theirs.mean_weight <= 0) continue;
+    const double own = own_future_cost(theirs.target_weight);
     sum += std::log(std::max(own, kOneSample) / std::max(theirs.future_cost, kOneSample));
     ++count;
   }
@@ -142,66 +132,112 @@ bool should_begin_to_give(const LocalBalanceSettings& settings, double load, dou
   return load > (is_giving ? 1 : settings.giving_ratio + settings.giving_noise * noise);
 }
 
-bool should_give(const LocalBalanceSettings& settings, double own_quality, double own_future_cost,
+bool should_give(const LocalBalanceSettings& settings, double own_weight, double own_future_cost,
                  double noise, const RankProgress& theirs) {
-  return theirs.quality > 0 && own_quality > settings.quality_ratio * theirs.quality &&
+  return theirs.mean_weight > 0 && own_weight > settings.weight_ratio * theirs.mean_weight &&
          own_future_cost > (settings.cost_ratio + settings.cost_noise * noise) * theirs.future_cost;
 }
 
-double target_quality(double quality) {
-  return std::exp2(std::floor(std::log2(quality)));
+double target_weight_for(double mean_weight) {
+  return std::exp2(std::floor(std::log2(mean_weight)));
 }
 
 namespace {
 
-// The best of the candidates by the paper's three terms and the regions' shapes; null if none may be given.
-// `to_move`: time; `room`: samples that the taker may still take in.
-const Candidate* best_candidate(const LocalBalanceSettings& settings, Partition& partition, int giver,
-                                int taker, const std::vector<Candidate>& candidates, const Shape& shape,
-                                double to_move, double insertion_cost, double room) {
-  double most_relief = 0;
-  for (const Candidate& c : candidates) most_relief = std::max(most_relief, c.offer.future_cost);
-  const Candidate* best = nullptr;
-  double best_grade = 0;
-  for (const Candidate& c : candidates) {
-    const double unknown = c.offer.samples - c.offer.known_to_taker;
-    // More than what is left to move would only turn the imbalance round.
-    if (c.offer.future_cost > 1.5 * to_move || unknown > room) continue;
-    const double relief = c.offer.future_cost - insertion_cost * unknown;
+// Moves tiles from one rank to another, one after the other, in a partition of its own.
+class Transfer {
+ public:
+  Transfer(const LocalBalanceSettings& settings, const Partition& before, int giver, int taker,
+           const TransferBounds& bounds, const std::function<TileOffer(int tile)>& offer)
+      : settings_(settings),
+        partition_(before),
+        giver_(giver),
+        taker_(taker),
+        insertion_cost_(bounds.insertion_cost),
+        offer_(offer),
+        own_(tiles_of(before, giver)),
+        shape_(before, giver, taker),
+        to_move_(settings.share * bounds.difference),
+        room_(bounds.most_samples) {}
+
+  // At most a share of the region at once, for the estimates are no better.
+  std::vector<int> tiles() {
+    std::vector<int> chosen;
+    for (std::size_t left = own_.size() / kMostOfRegion; to_move_ > 0 && left > 0; --left) {
+      const std::vector<Candidate> candidates = candidates_now();
+      const Candidate* best = best_of(candidates);
+      if (best == nullptr) break;
+      move(*best);
+      chosen.push_back(best->tile);
+    }
+    return chosen;
+  }
+
+ private:
+  static constexpr std::size_t kMostOfRegion = 4;  // a quarter
+  // Of what is left to move: a tile that costs more would only turn the imbalance round.
+  static constexpr double kMostAtOnce = 1.5;
+
+  // The giver's tiles beside the taker's.
+  std::vector<Candidate> candidates_now() const {
+    std::vector<Candidate> candidates;
+    for (const int tile : own_) {
+      const Sides sides = owners_beside(partition_, tile, giver_, taker_);
+      if (sides.taker > 0) candidates.push_back({tile, sides, offer_(tile)});
+    }
+    return candidates;
+  }
+
+  // The best of the candidates; null if none may be given.
+  const Candidate* best_of(const std::vector<Candidate>& candidates) {
+    double most_relief = 0;
+    for (const Candidate& c : candidates) most_relief = std::max(most_relief, c.offer.future_cost);
+    const Candidate* best = nullptr;
+    double best_grade = 0;
+    for (const Candidate& c : candidates) {
+      if (c.offer.future_cost > kMostAtOnce * to_move_ || c.offer.unknown_to_taker() > room_) continue;
+      const double grade = grade_of(c, most_relief);
+      if ((best == nullptr || grade > best_grade) && can_spare(partition_, c.tile, giver_, taker_))
+        best = &c, best_grade = grade;
+    }
+    return best;
+  }
+
+  // The paper's three terms (s. 3.6), and the shapes of both regions.
+  double grade_of(const Candidate& c, double most_relief) const {
+    constexpr double kPerSide = 0.25;
+    const double relief = c.offer.future_cost - insertion_cost_ * c.offer.unknown_to_taker();
     const double balance = most_relief > 0 ? relief / most_relief : 0;
     const double known = c.offer.samples > 0 ? c.offer.known_to_taker / c.offer.samples : 1;
-    const double longer_border = 0.25 * (c.sides.giver - c.sides.taker);
-    const double grade = settings.balance_weight * balance + settings.communication_weight * known -
-                         settings.border_weight * longer_border -
-                         settings.shape_weight * shape.detour(c.tile);
-    if ((best == nullptr || grade > best_grade) && can_spare(partition, c.tile, giver, taker))
-      best = &c, best_grade = grade;
+    const double longer_border = kPerSide * (c.sides.giver - c.sides.taker);
+    return settings_.balance_weight * balance + settings_.communication_weight * known -
+           settings_.border_weight * longer_border - settings_.shape_weight * shape_.detour(c.tile);
   }
-  return best;
-}
+
+  void move(const Candidate& c) {
+    partition_.owner[static_cast<std::size_t>(c.tile)] = taker_;
+    to_move_ -= c.offer.future_cost;
+    room_ -= c.offer.unknown_to_taker();
+    own_.erase(std::find(own_.begin(), own_.end(), c.tile));
+  }
+
+  const LocalBalanceSettings& settings_;
+  Partition partition_;
+  int giver_, taker_;
+  double insertion_cost_;
+  const std::function<TileOffer(int tile)>& offer_;
+  std::vector<int> own_;  // the giver's
+  Shape shape_;
+  double to_move_;  // time
+  double room_;     // samples that the taker may still take in
+};
 
 }  // namespace
 
 std::vector<int> tiles_to_give(const LocalBalanceSettings& settings, const Partition& before, int giver,
                                int taker, const TransferBounds& bounds,
                                const std::function<TileOffer(int tile)>& offer) {
-  Partition partition = before;
-  std::vector<int> chosen, own = tiles_of(before, giver);
-  const Shape shape(before, giver, taker);
-  double to_move = settings.share * bounds.difference, room = bounds.most_samples;
-  // At most a quarter of the region at once, for the estimates are no better.
-  for (std::size_t left = own.size() / 4; to_move > 0 && left > 0; --left) {
-    const std::vector<Candidate> candidates = candidates_of(partition, own, giver, taker, offer);
-    const Candidate* best = best_candidate(settings, partition, giver, taker, candidates, shape, to_move,
-                                           bounds.insertion_cost, room);
-    if (best == nullptr) break;
-    partition.owner[static_cast<std::size_t>(best->tile)] = taker;
-    chosen.push_back(best->tile);
-    to_move -= best->offer.future_cost;
-    room -= best->offer.samples - best->offer.known_to_taker;
-    own.erase(std::find(own.begin(), own.end(), best->tile));
-  }
-  return chosen;
+  return Transfer(settings, before, giver, taker, bounds, offer).tiles();
 }
 
 }  // namespace pprt

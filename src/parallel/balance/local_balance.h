@@ -16,7 +16,7 @@ namespace pprt {
 struct LocalBalanceSettings {
   double giving_ratio = 1.0;    // a rank gives once its future cost is this multiple of its neighbours',
   double giving_noise = 3.5;    // and this much of its relative noise more,
-  double quality_ratio = 1.0;   // to those whose quality is better by this factor
+  double weight_ratio = 1.0;    // to those whose mean weight is lower by this factor
   double cost_ratio = 1.0;      // and whose future cost is lower by this one
   double cost_noise = 14;       // and by this much of the noise
   double share = 0.3;           // of the difference in future cost that moves at once
@@ -33,7 +33,7 @@ double relative_noise(const RegionQuality& refined, double elapsed);
 double relative_noise(std::int64_t triangles, double elapsed);
 
 // Returns how much more a rank has to pay than its neighbours for what they aim at. It is the geometric mean
-// of the ratios; 1 where no neighbour has reported. `own_future_cost`: at a target quality, by its pace.
+// of the ratios; 1 where no neighbour has reported. `own_future_cost`: at a target weight, by its pace.
 double load_by_neighbours(std::span<const RankProgress> neighbours,
                           const std::function<double(double target)>& own_future_cost);
 
@@ -41,19 +41,21 @@ double load_by_neighbours(std::span<const RankProgress> neighbours,
 bool should_begin_to_give(const LocalBalanceSettings& settings, double load, double noise, bool is_giving);
 
 // Whether a rank should give tiles to the neighbour that sent `theirs`. `own_future_cost`: by its pace, at
-// theirs.target. `noise`: relative_noise() of its region.
-bool should_give(const LocalBalanceSettings& settings, double own_quality, double own_future_cost,
+// theirs.target_weight. `noise`: relative_noise() of its region.
+bool should_give(const LocalBalanceSettings& settings, double own_weight, double own_future_cost,
                  double noise, const RankProgress& theirs);
 
-// A target quality that a rank at `quality` > 0 names: the power of two at or below it, so that estimates are
+// The target that a rank at `mean_weight` > 0 names: the power of two at or below it, so that estimates are
 // comparable.
-double target_quality(double quality);
+double target_weight_for(double mean_weight);
 
 // What the giver knows of one of its tiles.
 struct TileOffer {
   double future_cost = 0;     // Fcost(s, Q') by the mean of both ranks' paces: what one saves and one pays
   double samples = 0;         // N_s
   double known_to_taker = 0;  // U(j, s)
+
+  double unknown_to_taker() const { return samples - known_to_taker; }
 };
 
 // What bounds one transfer.

@@ -10,7 +10,7 @@ namespace pprt {
 std::vector<PossibleTaker> takers_ahead(const LocalBalanceSettings& settings, const TransferInputs& inputs) {
   std::vector<PossibleTaker> ahead;
   for (const PossibleTaker& taker : inputs.takers) {
-    if (should_give(settings, inputs.quality, taker.giver_cost, inputs.noise, taker.progress))
+    if (should_give(settings, inputs.mean_weight, taker.giver_cost, inputs.noise, taker.progress))
       ahead.push_back(taker);
   }
   const auto order = [](const PossibleTaker& taker) {

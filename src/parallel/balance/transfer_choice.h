@@ -15,12 +15,12 @@ namespace pprt {
 struct PossibleTaker {
   std::int32_t rank = 0;
   RankProgress progress = {};  // its own
-  double giver_cost = 0;       // the giver's future cost at progress.target: time
+  double giver_cost = 0;       // the giver's future cost at progress.target_weight: time
 };
 
 // What a rank goes by when it chooses transfers.
 struct TransferInputs {
-  double quality = 0;       // Q_k of the giver
+  double mean_weight = 0;   // Q_k of the giver
   double noise = 0;         // relative_noise() of its region
   double most_samples = 0;  // that a taker need take in
   std::vector<PossibleTaker> takers = {};

@@ -14,7 +14,7 @@ namespace pprt {
 // A place in a rank's sequence of exchanges.
 struct ExchangeRound {
   int frame_index = 0;
-  int epoch = 0;  // index of the frame in which this rank's triangulation began
+  int begun_in = 0;  // index of the frame in which this rank's triangulation began
   int round = 0;  // kSeedRound, then one after each packet
 
   friend bool operator==(const ExchangeRound&, const ExchangeRound&) = default;
@@ -66,7 +66,7 @@ class ExchangePolicy {
                                     double frame_s) const = 0;
 
   // A triangulation begins: what is still under way to the one before is dropped.
-  virtual void begin_triangulation() = 0;
+  virtual void begin_picture() = 0;
 
   // Whether a rank without anything to refine rests before it looks for messages again. In lockstep the next
   // round waits anyway.

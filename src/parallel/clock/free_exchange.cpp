@@ -8,7 +8,7 @@ namespace pprt {
 // too: their transfers and handshakes still count.
 std::vector<Inbox::Arrived> FreeExchange::take_due(Inbox& inbox, const ExchangeRound& at) {
   return inbox.take_bundles([&](const Inbox::Arrived& a) {
-    return a.bundle.epoch <= at.epoch && a.bundle.frame_index <= at.frame_index;
+    return a.bundle.begun_in <= at.begun_in && a.bundle.frame_index <= at.frame_index;
   });
 }
 

@@ -26,7 +26,7 @@ class FreeExchange final : public ExchangePolicy {
   std::vector<Inbox::Arrived> take_due(Inbox& inbox, const ExchangeRound& at) override;
   std::size_t missing_seeds(const Inbox& inbox, const ExchangeRound& at, std::span<const int> peers,
                             double frame_s) const override;
-  void begin_triangulation() override {}
+  void begin_picture() override {}
   bool rests_when_idle() const override { return true; }
 
  private:

@@ -32,7 +32,7 @@ class LockstepExchange final : public ExchangePolicy {
                             double) const override {
     return missing(inbox, at);
   }
-  void begin_triangulation() override {
+  void begin_picture() override {
     under_way_.clear();
     owed_.clear();
   }

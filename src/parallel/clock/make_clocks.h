@@ -1,4 +1,5 @@
-// The only place that asks which clock a run is on. It answers with objects that behave accordingly.
+// The only place of a rank that asks which clock a run is on. It answers with objects that behave
+// accordingly.
 #pragma once
 
 #include <cstddef>

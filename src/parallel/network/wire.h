@@ -17,6 +17,10 @@
 
 namespace pprt {
 
+// The last value of an enumeration that travels. Each specialises it beside its message.
+template <typename E>
+inline constexpr E kLast = E::has_no_last_value;
+
 class WireWriter {
  public:
   template <typename T>
@@ -75,13 +79,13 @@ class WireReader {
     if (byte > 1) throw ProtocolError("a message holds neither yes nor no");
     value = byte != 0;
   }
-  // One of an enumeration that ends with `last`.
+  // One of an enumeration; see kLast.
   template <typename E>
   requires std::is_enum_v<E>
-  void get(E& value, E last) {
+  void get(E& value) {
     std::underlying_type_t<E> number = 0;
     get(number);
-    if (number > static_cast<std::underlying_type_t<E>>(last))
+    if (number > static_cast<std::underlying_type_t<E>>(kLast<E>))
       throw ProtocolError("a message holds a choice that there is not");
     value = static_cast<E>(number);
   }
@@ -128,5 +132,55 @@ class WireReader {
 
   std::span<const std::byte> rest_;
 };
+
+// --- Values whose fields are listed once, for both directions: fields_of(code, value) calls code(field, ...)
+
+class FieldWriter {
+ public:
+  explicit FieldWriter(WireWriter& out) : out_(out) {}
+  template <typename... Field>
+  void operator()(const Field&... fields) {
+    (put(fields), ...);
+  }
+  WireWriter& wire() { return out_; }
+
+ private:
+  template <typename T>
+  void put(const T& value) {
+    out_.put(value);
+  }
+  template <typename T>
+  void put(const std::vector<T>& values) {
+    out_.put_all(std::span<const T>(values));
+  }
+
+  WireWriter& out_;
+};
+
+class FieldReader {
+ public:
+  explicit FieldReader(WireReader& in) : in_(in) {}
+  template <typename... Field>
+  void operator()(Field&... fields) {
+    (get(fields), ...);
+  }
+  WireReader& wire() { return in_; }
+
+ private:
+  template <typename T>
+  void get(T& value) {
+    in_.get(value);
+  }
+  template <typename T>
+  void get(std::vector<T>& values) {
+    in_.get_all(values);
+  }
+
+  WireReader& in_;
+};
+
+// Whether a value is a T, constant or not.
+template <typename Value, typename T>
+concept Either = std::is_same_v<std::remove_const_t<Value>, T>;
 
 }  // namespace pprt

@@ -85,7 +85,7 @@ TileReport from_wire(const WireReport& w) {
 }
 
 struct WireProgress {
-  float quality, target, future_cost, pace;
+  float mean_weight, target_weight, future_cost, pace;
 };
 
 // Versions without their generation, which a bundle tells once.
@@ -174,6 +174,88 @@ void get_owners(WireReader& in, FrameOrder& order) {
 // What a bundle holds besides what all hold.
 constexpr std::uint8_t kDone = 1, kHasProgress = 2, kHasNews = 4, kAllFlags = 7;
 
+// Lists of values that travel in another form.
+struct MessageWriter : FieldWriter {
+  using FieldWriter::FieldWriter;
+  template <typename Wire, typename Value>
+  void as(const std::vector<Value>& values) {
+    put_as<Wire>(wire(), values);
+  }
+};
+struct MessageReader : FieldReader {
+  using FieldReader::FieldReader;
+  template <typename Wire, typename Value>
+  void as(std::vector<Value>& values) {
+    get_as<Wire>(wire(), values);
+  }
+};
+
+template <typename Code>
+void fields_of(Code& code, Either<ClockPing> auto& ping) {
+  code(ping.sent_s, ping.line);
+}
+
+template <typename Code>
+void fields_of(Code& code, Either<ClockPong> auto& pong) {
+  code(pong.sent_s, pong.answered_s);
+}
+
+template <typename Code>
+void fields_of(Code& code, Either<RoundSent> auto& sent) {
+  code(sent.frame_index, sent.round, sent.receivers);
+}
+
+template <typename Code>
+void fields_of(Code& code, Either<RoundDue> auto& due) {
+  code(due.frame_index, due.round, due.bundles);
+}
+
+template <typename Code>
+void fields_of(Code& code, Either<PixelMessage> auto& pixels) {
+  code(pixels.frame_index, pixels.is_last, pixels.report);
+  code.template as<WireReport>(pixels.tiles);
+  code(pixels.given, pixels.colors);
+  code.template as<WireSample>(pixels.samples);
+}
+
+// All but the owners, the ranks lost and the tiles.
+template <typename Code>
+void fields_of(Code& code, Either<FrameOrder> auto& order) {
+  code(order.end, order.index, order.number, order.cut, order.carry, order.report_samples, order.time,
+       order.camera, order.evidence, order.deadline_s, order.reserve_s, order.generation);
+}
+
+// All but the flags, and what they announce.
+template <typename Code>
+void fields_of(Code& code, Either<Bundle> auto& bundle) {
+  code(bundle.frame_index, bundle.begun_in, bundle.round, bundle.rounds_under_way, bundle.handshake);
+}
+
+template <typename Message>
+Bytes encode_fields(const Message& message) {
+  WireWriter out;
+  MessageWriter code(out);
+  fields_of(code, message);
+  return out.take();
+}
+
+template <typename Message>
+Message decode_fields(std::span<const std::byte> bytes) {
+  WireReader in(bytes);
+  MessageReader code(in);
+  Message message;
+  fields_of(code, message);
+  in.expect_end();
+  return message;
+}
+
+void put_common(WireWriter& out, const FrameOrder& order) {
+  MessageWriter code(out);
+  fields_of(code, order);
+  put_owners(out, order);
+  code(order.lost);
+}
+
 }  // namespace
 
 std::size_t news_bytes(const TileNews& tiles) {
@@ -181,46 +263,36 @@ std::size_t news_bytes(const TileNews& tiles) {
 }
 
 Bytes encode(const ClockPing& ping) {
-  WireWriter out;
-  out.put(ping.sent_s), out.put(ping.line);
-  return out.take();
+  return encode_fields(ping);
+}
+Bytes encode(const ClockPong& pong) {
+  return encode_fields(pong);
+}
+Bytes encode(const PixelMessage& pixels) {
+  return encode_fields(pixels);
+}
+Bytes encode(const RoundSent& sent) {
+  return encode_fields(sent);
+}
+Bytes encode(const RoundDue& due) {
+  return encode_fields(due);
 }
 
 ClockPing decode_clock_ping(std::span<const std::byte> bytes) {
-  WireReader in(bytes);
-  ClockPing ping;
-  in.get(ping.sent_s), in.get(ping.line);
-  in.expect_end();
-  return ping;
+  return decode_fields<ClockPing>(bytes);
 }
-
-Bytes encode(const ClockPong& pong) {
-  WireWriter out;
-  out.put(pong.sent_s), out.put(pong.answered_s);
-  return out.take();
-}
-
 ClockPong decode_clock_pong(std::span<const std::byte> bytes) {
-  WireReader in(bytes);
-  ClockPong pong;
-  in.get(pong.sent_s), in.get(pong.answered_s);
-  in.expect_end();
-  return pong;
+  return decode_fields<ClockPong>(bytes);
 }
-
-namespace {
-
-// All but the tiles.
-void put_common(WireWriter& out, const FrameOrder& order) {
-  out.put(order.end), out.put(order.index), out.put(order.number), out.put(order.cut), out.put(order.carry);
-  out.put(order.report_samples), out.put(order.time);
-  out.put(order.camera), out.put(order.evidence), out.put(order.deadline_s), out.put(order.reserve_s),
-      out.put(order.generation);
-  put_owners(out, order);
-  out.put_all(std::span<const std::int32_t>(order.lost));
+PixelMessage decode_pixels(std::span<const std::byte> bytes) {
+  return decode_fields<PixelMessage>(bytes);
 }
-
-}  // namespace
+RoundSent decode_round_sent(std::span<const std::byte> bytes) {
+  return decode_fields<RoundSent>(bytes);
+}
+RoundDue decode_round_due(std::span<const std::byte> bytes) {
+  return decode_fields<RoundDue>(bytes);
+}
 
 Bytes encode(const FrameOrder& order) {
   WireWriter out;
@@ -245,15 +317,12 @@ std::vector<Bytes> encode_for_ranks(const FrameOrder& order,
 
 FrameOrder decode_frame_order(std::span<const std::byte> bytes) {
   WireReader in(bytes);
+  MessageReader code(in);
   FrameOrder order;
-  in.get(order.end), in.get(order.index), in.get(order.number), in.get(order.cut),
-      in.get(order.carry, Carry::kCastWherePaying);
-  in.get(order.report_samples), in.get(order.time);
-  in.get(order.camera), in.get(order.evidence), in.get(order.deadline_s), in.get(order.reserve_s),
-      in.get(order.generation);
+  fields_of(code, order);
   get_owners(in, order);
-  in.get_all(order.lost);
-  get_as<WireEstimate>(in, order.tiles);
+  code(order.lost);
+  code.as<WireEstimate>(order.tiles);
   order.partition_bytes += order.tiles.size() * sizeof(WireEstimate);
   in.expect_end();
   return order;
@@ -261,14 +330,14 @@ FrameOrder decode_frame_order(std::span<const std::byte> bytes) {
 
 Bytes encode(const Bundle& bundle) {
   WireWriter out;
-  const bool has_progress = bundle.progress.quality > 0, has_news = !bundle.tiles.empty();
+  const bool has_progress = bundle.progress.mean_weight > 0, has_news = !bundle.tiles.empty();
   out.put(static_cast<std::uint8_t>((bundle.done ? kDone : 0) | (has_progress ? kHasProgress : 0) |
                                     (has_news ? kHasNews : 0)));
-  out.put(bundle.frame_index), out.put(bundle.epoch), out.put(bundle.round);
-  out.put(bundle.rounds_under_way), out.put(bundle.handshake);
+  MessageWriter code(out);
+  fields_of(code, bundle);
   if (has_progress) {
     const RankProgress& p = bundle.progress;
-    out.put(WireProgress{static_cast<float>(p.quality), static_cast<float>(p.target),
+    out.put(WireProgress{static_cast<float>(p.mean_weight), static_cast<float>(p.target_weight),
                          static_cast<float>(p.future_cost), static_cast<float>(p.pace)});
   }
   if (has_news) put_news(out, bundle.tiles);
@@ -283,39 +352,17 @@ Bundle decode_bundle(std::span<const std::byte> bytes) {
   in.get(flags);
   if (flags > kAllFlags) throw ProtocolError("a bundle holds what there is not");
   bundle.done = (flags & kDone) != 0;
-  in.get(bundle.frame_index), in.get(bundle.epoch), in.get(bundle.round);
-  in.get(bundle.rounds_under_way), in.get(bundle.handshake);
+  MessageReader code(in);
+  fields_of(code, bundle);
   if ((flags & kHasProgress) != 0) {
     WireProgress p{};
     in.get(p);
-    bundle.progress = {p.quality, p.target, p.future_cost, p.pace};
+    bundle.progress = {p.mean_weight, p.target_weight, p.future_cost, p.pace};
   }
   if ((flags & kHasNews) != 0) bundle.tiles = get_news(in);
   get_as<WireSample>(in, bundle.samples);
   in.expect_end();
   return bundle;
-}
-
-Bytes encode(const PixelMessage& pixels) {
-  WireWriter out;
-  out.put(pixels.frame_index), out.put(pixels.is_last), out.put(pixels.report);
-  put_as<WireReport>(out, pixels.tiles);
-  out.put_all(std::span<const std::int32_t>(pixels.given));
-  out.put_all(std::span<const Color>(pixels.colors));
-  put_as<WireSample>(out, pixels.samples);
-  return out.take();
-}
-
-PixelMessage decode_pixels(std::span<const std::byte> bytes) {
-  WireReader in(bytes);
-  PixelMessage pixels;
-  in.get(pixels.frame_index), in.get(pixels.is_last), in.get(pixels.report);
-  get_as<WireReport>(in, pixels.tiles);
-  in.get_all(pixels.given);
-  in.get_all(pixels.colors);
-  get_as<WireSample>(in, pixels.samples);
-  in.expect_end();
-  return pixels;
 }
 
 Bytes encode(const TransferMessage& transfers) {
@@ -338,36 +385,6 @@ TransferMessage decode_transfers(std::span<const std::byte> bytes) {
   }
   in.expect_end();
   return transfers;
-}
-
-Bytes encode(const RoundSent& sent) {
-  WireWriter out;
-  out.put(sent.frame_index), out.put(sent.round);
-  out.put_all(std::span<const std::int32_t>(sent.receivers));
-  return out.take();
-}
-
-RoundSent decode_round_sent(std::span<const std::byte> bytes) {
-  WireReader in(bytes);
-  RoundSent sent;
-  in.get(sent.frame_index), in.get(sent.round);
-  in.get_all(sent.receivers);
-  in.expect_end();
-  return sent;
-}
-
-Bytes encode(const RoundDue& due) {
-  WireWriter out;
-  out.put(due.frame_index), out.put(due.round), out.put(due.bundles);
-  return out.take();
-}
-
-RoundDue decode_round_due(std::span<const std::byte> bytes) {
-  WireReader in(bytes);
-  RoundDue due;
-  in.get(due.frame_index), in.get(due.round), in.get(due.bundles);
-  in.expect_end();
-  return due;
 }
 
 }  // namespace pprt

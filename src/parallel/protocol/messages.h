@@ -9,6 +9,7 @@
 #include "base/ray_counts.h"
 #include "base/vector.h"
 #include "parallel/network/communicator.h"
+#include "parallel/network/wire.h"
 #include "parallel/protocol/clock_line.h"
 #include "parallel/protocol/handshake_state.h"
 #include "parallel/protocol/tile_cost.h"
@@ -25,6 +26,9 @@ enum class Carry : std::uint8_t {
   kCastVerified,    // samples cast, hidden ones found by rays
   kCastWherePaying  // the same, of those samples that the evidence speaks for
 };
+
+template <>
+inline constexpr Carry kLast<Carry> = Carry::kCastWherePaying;
 
 // Master to every rank, one frame ahead.
 struct FrameOrder {
@@ -62,7 +66,7 @@ struct ClockPong {
 // Rank to rank: samples whose triangles touch the receiver's region.
 struct Bundle {
   std::int32_t frame_index = 0;
-  std::int32_t epoch = 0;  // index of the frame in which the sender's triangulation began
+  std::int32_t begun_in = 0;  // index of the frame in which the sender's triangulation began
   std::int32_t round = 0;
   bool done = false;                  // the sender has reached its goal (frames without a rate)
   std::int32_t rounds_under_way = 0;  // work clock: rounds until the receiver gets the samples
@@ -104,9 +108,9 @@ struct RankReport {
   std::uint64_t samples_known = 0;      // received although already known
   std::uint64_t samples_in_region = 0;  // at the end
   std::uint64_t non_finite = 0;         // colours that were no numbers
-  double refinement = 0;                // Q_k
+  double mean_weight = 0;               // Q_k
   double pace = 1;                      // frame_clock.h
-  std::uint64_t triangles_in_region = 0;
+  std::uint64_t candidates_in_region = 0;
   RayCounts rays;
   CastEvidence evidence;
   StageTimes cpu_ms;

@@ -17,10 +17,10 @@ struct TileEstimate {
 // Rank to neighbours, every few samples: how far the sender is, and what it has still to pay for a common
 // goal.
 struct RankProgress {
-  double quality = 0;      // Q_k; 0: nothing is known yet
-  double target = 0;       // Q'
-  double future_cost = 0;  // Fcost_k(Q') by the sender's pace: time, where a work unit is one at pace 1
-  double pace = 1;         // of the sender
+  double mean_weight = 0;    // Q_k: smaller is better; 0: nothing is known yet
+  double target_weight = 0;  // Q'
+  double future_cost = 0;    // Fcost_k(Q') by the sender's pace: time, where a work unit is one at pace 1
+  double pace = 1;           // of the sender
 };
 
 // A tile has changed hands.

@@ -15,7 +15,7 @@ BundleExchange::BundleExchange(Communicator& network, Inbox& inbox, std::unique_
       clock_(clock),
       timer_(timer),
       handshake_(network.size()),
-      at_{.frame_index = -1, .epoch = -1, .round = kSeedRound} {}
+      at_{.frame_index = -1, .begun_in = -1, .round = kSeedRound} {}
 
 void BundleExchange::begin_frame(int index) {
   at_.frame_index = index;
@@ -23,9 +23,9 @@ void BundleExchange::begin_frame(int index) {
   bytes_ = {};
 }
 
-void BundleExchange::begin_triangulation(int epoch) {
-  at_.epoch = epoch;
-  policy_->begin_triangulation();
+void BundleExchange::begin_picture(int begun_in) {
+  at_.begun_in = begun_in;
+  policy_->begin_picture();
 }
 
 void BundleExchange::give_up(int rank) {
@@ -41,7 +41,7 @@ void BundleExchange::send(int rank, bool concerns, Content content) {
   const std::size_t sample_bytes = content.samples.size() * kSampleBytes;
   clock_.spend(Work::kSentSample, content.samples.size());
   const Bundle bundle{.frame_index = at_.frame_index,
-                      .epoch = at_.epoch,
+                      .begun_in = at_.begun_in,
                       .round = at_.round,
                       .done = content.done,
                       .rounds_under_way = policy_->delivery_delay(rank, at_, sample_bytes),

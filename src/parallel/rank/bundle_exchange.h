@@ -40,7 +40,7 @@ class BundleExchange {
                  FrameClock& clock, StageTimer& timer);
 
   void begin_frame(int index);
-  void begin_triangulation(int epoch);
+  void begin_picture(int begun_in);
   void begin_round(int round) { at_.round = round; }
 
   // Where this rank stands in the sequence.

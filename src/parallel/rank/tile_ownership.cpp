@@ -89,7 +89,7 @@ std::vector<TileTransfer> TileOwnership::give_tiles(bool fresh_mesh, int round) 
     handshake_.transfer_sent(taker);
     given_.insert(given_.end(), tiles.begin(), tiles.end());
   }
-  make_true(changes_of(transfers));
+  apply_changes(changes_of(transfers));
   return transfers;
 }
 
@@ -119,7 +119,7 @@ void TileOwnership::apply(const TileNews& news) {
   const StageTimer::Balancing timed(timer_);
   std::vector<OwnerChange> changes = changes_of(news.given);
   changes.insert(changes.end(), news.changes.begin(), news.changes.end());
-  const std::vector<OwnerChange> made = make_true(changes);
+  const std::vector<OwnerChange> made = apply_changes(changes);
   // Bundles of frames before are looked at more than once: only the first time gains a tile.
   for (const TileTransfer& transfer : news.given) {
     const bool is_gained =
@@ -132,7 +132,7 @@ void TileOwnership::apply(const TileNews& news) {
   }
 }
 
-std::vector<OwnerChange> TileOwnership::make_true(std::span<const OwnerChange> changes) {
+std::vector<OwnerChange> TileOwnership::apply_changes(std::span<const OwnerChange> changes) {
   Partition next = sampler_.exchange().partition();
   std::vector<OwnerChange> made;
   for (const OwnerChange& change : changes) {
@@ -191,7 +191,7 @@ void TileOwnership::leave_out(const FrameOrder& order) {
   if (!order.owners.empty()) repartition(order, false);
   const Carry carry = carry_into(order);
   if (carry == Carry::kAccumulate) return;
-  missed_ = {.triangulation = true, .epoch = order.index, .cut = missed_.cut || carry == Carry::kNothing};
+  missed_ = {.picture = true, .begun_in = order.index, .cut = missed_.cut || carry == Carry::kNothing};
 }
 
 MissedFrames TileOwnership::take_missed() {

@@ -18,9 +18,9 @@ namespace pprt {
 
 // What the frames that a late rank left out have changed for those after them.
 struct MissedFrames {
-  bool triangulation = false;  // the others have begun one without this rank
-  int epoch = -1;              // index of the frame in which they did
-  bool cut = false;            // what this rank holds is of no use any more
+  bool picture = false;  // the others have begun one without this rank
+  int begun_in = -1;        // index of the frame in which they did
+  bool cut = false;      // what this rank holds is of no use any more
 };
 
 // All that it does is charged to balancing.
@@ -54,7 +54,7 @@ class TileOwnership {
   RankProgress progress();
   void receive_progress(int from, const RankProgress& theirs) { balancer_.receive(from, theirs); }
 
-  // Makes news true here, except where a newer owner is known. Throws ProtocolError for tiles or ranks that
+  // Applies received ownership changes, except where a newer owner is known. Throws ProtocolError for tiles or ranks that
   // do not exist.
   void apply(const TileNews& news);
 
@@ -88,7 +88,7 @@ class TileOwnership {
  private:
   bool may_give(bool fresh_mesh) const;
   // Returns the changes that were newer than what was known.
-  std::vector<OwnerChange> make_true(std::span<const OwnerChange> changes);
+  std::vector<OwnerChange> apply_changes(std::span<const OwnerChange> changes);
 
   const SessionSettings& settings_;
   int rank_;

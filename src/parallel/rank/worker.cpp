@@ -74,27 +74,14 @@ void Worker::render(const FrameOrder& order) {
 // --- Sample
 
 void Worker::sample(const FrameOrder& order) {
-  // Evidence is taken from the last part of the sampling time, of what refinement itself wants then.
-  constexpr double kEvidenceAfter = 0.75;
   const bool has_rate = order.deadline_s > 0;
   const std::size_t begin = sampler_.sampler().size();
   const double counted_before = costs_.counted();
-  const bool gives_evidence = sampler_.traits().cast_use == CastUse::kSamples;
-  bool takes_evidence = false;
+  takes_evidence_ = false;
   for (int round = kSeedRound + 1;; ++round) {
-    bundles_.begin_round(round);
-    clock_->begin_packet(sampler_.in_region());
-    anchors_.plan(order, sampler_, samples_new(), clock_->sampling_share());
-    const bool took_evidence =
-        std::exchange(takes_evidence, gives_evidence && clock_->sampling_share() > kEvidenceAfter);
-    if (takes_evidence && !took_evidence) timer_.end_stage(&StageTimes::sampling);
-
-    const Packet packet = sample_packet(has_rate, takes_evidence ? &reprojection_.evidence() : nullptr);
-
-    // A goal counts when it still holds after what the others have sent: not in the round that reached it.
-    const bool was_done = goal_.is_done();
-    goal_.set_done(!has_rate && packet.idle && !packet.traced);
-    exchange_bundles(goal_.is_done() != was_done);
+    begin_packet(order, round);
+    const Packet packet = sample_packet(has_rate);
+    exchange_and_set_goal(!has_rate && packet.idle && !packet.traced);
     if (clock_->sampling_over() || (!has_rate && goal_.all_done())) break;
     if (const auto growth = clock_->expected_growth(begin, sampler_.sampler().size()))
       sampler_.expect_growth(*growth);
@@ -102,23 +89,41 @@ void Worker::sample(const FrameOrder& order) {
   }
   clock_->end_sampling(costs_.counted() - counted_before);
   const double last_ms = timer_.end_stage(&StageTimes::sampling);
-  if (takes_evidence) reprojection_.evidence().fresh_ms = clock_->as_evidence_ms(last_ms);
+  if (takes_evidence_) reprojection_.evidence().fresh_ms = clock_->as_evidence_ms(last_ms);
 }
 
-Worker::Packet Worker::sample_packet(bool has_rate, CastEvidence* evidence) {
+void Worker::begin_packet(const FrameOrder& order, int round) {
+  bundles_.begin_round(round);
+  clock_->begin_packet(sampler_.in_region());
+  anchors_.plan(order, sampler_, samples_new(), clock_->sampling_share());
+  // Evidence is taken from the last part of the sampling time, of what refinement itself wants then.
+  constexpr double kEvidenceAfter = 0.75;
+  if (takes_evidence_ || sampler_.traits().cast_use != CastUse::kSamples) return;
+  takes_evidence_ = clock_->sampling_share() > kEvidenceAfter;
+  if (takes_evidence_) timer_.end_stage(&StageTimes::sampling);
+}
+
+Worker::Packet Worker::sample_packet(bool has_rate) {
   Packet packet;
   while (!packet.idle && !clock_->packet_over()) {
-    packet.idle = (!has_rate && goal_.is_reached(sampler_, picture_, *clock_)) || !sample_once(evidence);
+    packet.idle = (!has_rate && goal_.is_reached(sampler_, picture_, *clock_)) || !sample_once();
     packet.traced = packet.traced || !packet.idle;
   }
   return packet;
 }
 
+// A goal counts when it still holds after what the others have sent: not in the round that reached it.
+void Worker::exchange_and_set_goal(bool is_done) {
+  const bool changes = goal_.is_done() != is_done;
+  goal_.set_done(is_done);
+  exchange_bundles(changes);
+}
+
 // Anchors come first, but not while evidence is taken. False when there is nothing to sample.
-bool Worker::sample_once(CastEvidence* evidence) {
+bool Worker::sample_once() {
   if (sampler_.is_full() || clock_->is_fine_enough()) return false;
-  const std::optional<Sample> anchor = evidence == nullptr ? anchors_.next() : std::nullopt;
-  if (!anchor) return sampler_.refine(evidence);
+  const std::optional<Sample> anchor = takes_evidence_ ? std::nullopt : anchors_.next();
+  if (!anchor) return sampler_.refine(takes_evidence_ ? &reprojection_.evidence() : nullptr);
   if (tracer_.is_visible(anchor->ray.hit, anchor->ray.at_infinity)) sampler_.reinsert(*anchor);
   return true;
 }
@@ -166,9 +171,9 @@ void Worker::take_in(const std::vector<Inbox::Arrived>& bundles) {
   }
   ownership_.apply(news);
   for (const auto& [from, bundle] : bundles) {
-    if (bundle.epoch != now.epoch) continue;
+    if (bundle.begun_in != now.begun_in) continue;
     ownership_.forward_lost_tiles(bundle.tiles.given);
-    if (bundle.round == kSeedRound && bundle.frame_index == now.epoch) {
+    if (bundle.round == kSeedRound && bundle.frame_index == now.begun_in) {
       sampler_.insert_late(bundle.samples);
     } else {
       sampler_.insert_received(bundle.samples, from);
@@ -256,9 +261,9 @@ RankReport Worker::make_report(double sampling_ended_s) {
           .samples_known = counts.known,
           .samples_in_region = sampler_.in_region(),
           .non_finite = tracer_.non_finite(),
-          .refinement = refined.mean_weight,
+          .mean_weight = refined.mean_weight,
           .pace = clock_->pace(),
-          .triangles_in_region = static_cast<std::uint64_t>(triangles),
+          .candidates_in_region = static_cast<std::uint64_t>(triangles),
           .rays = tracer_.rays(),
           .evidence = reprojection_.evidence(),
           .cpu_ms = timer_.times(),

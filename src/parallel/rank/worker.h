@@ -67,7 +67,7 @@ class Worker {
   FrameLikeness likeness_to_last(const FrameOrder& order, const MissedFrames& missed) const;
   void rejoin(const FrameOrder& order, const MissedFrames& missed);
   void begin_anew(const FrameOrder& order, bool keeps_samples, bool eye_rests);
-  void begin_picture(int epoch, bool keep_learned);
+  void begin_picture(int begun_in, bool keep_learned);
   void distribute(const FrameOrder& order, const std::vector<Sample>& cast);
   std::vector<Sample> receive_seeds();
 
@@ -77,8 +77,10 @@ class Worker {
     bool idle = false;    // there was nothing more to trace
   };
   void sample(const FrameOrder& order);
-  Packet sample_packet(bool has_rate, CastEvidence* evidence);
-  bool sample_once(CastEvidence* evidence);
+  void begin_packet(const FrameOrder& order, int round);
+  Packet sample_packet(bool has_rate);
+  bool sample_once();
+  void exchange_and_set_goal(bool is_done);
   void exchange_bundles(bool concerns_all);
   void send_bundles(bool concerns_all);
   void take_in(const std::vector<Inbox::Arrived>& bundles);
@@ -90,7 +92,7 @@ class Worker {
   std::size_t send_part(PixelMessage& message);
   RankReport make_report(double sampling_ended_s);
 
-  bool is_fresh() const { return bundles_.at().epoch == bundles_.at().frame_index; }
+  bool is_fresh() const { return bundles_.at().begun_in == bundles_.at().frame_index; }
   std::uint64_t samples_new() const { return sampler_.counts().traced + reprojection_.retraced(); }
 
   Communicator& network_;
@@ -106,6 +108,7 @@ class Worker {
   AnchorSearch anchors_;
   FrameGoal goal_;
   PictureRefresh picture_;
+  bool takes_evidence_ = false;        // samples tell how far the picture was from them
   double reconstructed_ = 1;           // share of the region in this frame
   std::optional<Camera> last_camera_;  // of the last frame that was not left out
 };

@@ -13,7 +13,7 @@ void Worker::prepare(const FrameOrder& order) {
   if (tracer_.moves()) timer_.end_stage(&StageTimes::moving);
   const MissedFrames missed = ownership_.take_missed();
   const Carry carry = ownership_.carry_into(order);
-  costs_.begin_frame(carry != Carry::kAccumulate || missed.triangulation, likeness_to_last(order, missed));
+  costs_.begin_frame(carry != Carry::kAccumulate || missed.picture, likeness_to_last(order, missed));
   const bool eye_rests =
       last_camera_ && !tracer_.moves() && (order.camera.eye - last_camera_->eye).length() <= kAtRest;
   if (last_camera_ != order.camera || tracer_.moves()) sampler_.sampler().camera_changed();
@@ -21,7 +21,7 @@ void Worker::prepare(const FrameOrder& order) {
 
   if (carry != Carry::kAccumulate) {
     begin_anew(order, carry != Carry::kNothing && !missed.cut, eye_rests);
-  } else if (missed.triangulation) {
+  } else if (missed.picture) {
     rejoin(order, missed);
   } else {
     if (!order.owners.empty()) {
@@ -42,7 +42,7 @@ FrameLikeness Worker::likeness_to_last(const FrameOrder& order, const MissedFram
 void Worker::rejoin(const FrameOrder& order, const MissedFrames& missed) {
   if (!order.owners.empty()) ownership_.repartition(order, false);
   if (tracer_.moves()) anchors_.forget();
-  begin_picture(missed.epoch, !missed.cut);
+  begin_picture(missed.begun_in, !missed.cut);
   sampler_.trace_seeds();
   take_in(bundles_.receive());
 }
@@ -67,8 +67,8 @@ void Worker::begin_anew(const FrameOrder& order, bool keeps_samples, bool eye_re
   distribute(order, cast);
 }
 
-void Worker::begin_picture(int epoch, bool keep_learned) {
-  bundles_.begin_triangulation(epoch);
+void Worker::begin_picture(int begun_in, bool keep_learned) {
+  bundles_.begin_picture(begun_in);
   sampler_.begin_picture(keep_learned);
 }
 

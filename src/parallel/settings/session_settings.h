@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "parallel/network/communicator.h"
+#include "parallel/network/wire.h"
 #include "parallel/settings/machine.h"
 #include "parallel/settings/work_units.h"
 #include "pipeline/core/pixel_block.h"
@@ -33,6 +33,7 @@ class NamedSampler {
   constexpr NamedSampler(SamplerChoice choice) : choice_(choice) {}
   constexpr operator SamplerChoice() const { return choice_; }
   SamplerChoice& choice() { return choice_; }
+  const SamplerChoice& choice() const { return choice_; }
 
  private:
   SamplerChoice choice_;
@@ -81,6 +82,17 @@ struct SessionSettings {
 
   friend bool operator==(const SessionSettings&, const SessionSettings&) = default;
 };
+
+template <>
+inline constexpr ClockKind kLast<ClockKind> = ClockKind::kWork;
+template <>
+inline constexpr CastChoice kLast<CastChoice> = CastChoice::kAuto;
+template <>
+inline constexpr SamplerChoice kLast<SamplerChoice> = SamplerChoice::kGrid;
+template <>
+inline constexpr BalanceMode kLast<BalanceMode> = BalanceMode::kCombined;
+template <>
+inline constexpr PixelRule kLast<PixelRule> = PixelRule::kEdges;
 
 // For the master's broadcast.
 Bytes encode(const SessionSettings& settings);

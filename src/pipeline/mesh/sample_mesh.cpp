@@ -242,7 +242,7 @@ void SampleMesh::count(const TriangleRecord& record, int sign) {
   all_weights_.total_weight += sign * record.weight;
 }
 
-double SampleMesh::refinement() const {
+double SampleMesh::mean_weight() const {
   TileWeights all;
   for (const TileWeights& tile : tile_weights_) {
     all.count += tile.count;
@@ -251,11 +251,11 @@ double SampleMesh::refinement() const {
   return all.count > 0 ? all.total_weight / static_cast<double>(all.count) : 0;
 }
 
-bool SampleMesh::is_refined_to(double quality) const {
+bool SampleMesh::is_refined_to(double weight) const {
   constexpr double kRounding = 1e-6;  // far above that of the running sum
   const double about =
       all_weights_.total_weight / static_cast<double>(std::max<std::int64_t>(all_weights_.count, 1));
-  return about <= quality * (1 + kRounding) && refinement() <= quality;
+  return about <= weight * (1 + kRounding) && mean_weight() <= weight;
 }
 
 void SampleMesh::enqueue_all_again() {

@@ -114,13 +114,13 @@ class SampleMesh {
   // One entry per tile of the grid; zero outside the region.
   std::span<const TileWeights> tile_weights() const { return tile_weights_; }
 
-  // Returns the region's quality Q_k: the mean weight of its triangles (paper s. 3.6), 0 without any. Smaller
+  // Returns Q_k of the region: the mean weight of its triangles (paper s. 3.6), 0 without any. Smaller
   // is better.
-  double refinement() const;
-  RegionQuality quality() const { return {region_, tile_weights_, refinement()}; }
+  double mean_weight() const;
+  RegionQuality quality() const { return {region_, tile_weights_, mean_weight()}; }
 
-  // Whether that is at most `quality`. O(1) unless they are nearly equal.
-  bool is_refined_to(double quality) const;
+  // Whether that is at most `weight`. O(1) unless they are nearly equal.
+  bool is_refined_to(double weight) const;
 
  private:
   using Index = Delaunay::Index;

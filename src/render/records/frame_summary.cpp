@@ -34,13 +34,13 @@ void add(const RankReport& rank, FrameSummary& sum) {
 }
 
 // Mean and standard deviation over the ranks that have triangles.
-std::pair<double, double> refinement_over_ranks(const std::vector<RankReport>& ranks) {
+std::pair<double, double> mean_weight_over_ranks(const std::vector<RankReport>& ranks) {
   double sum = 0, squares = 0;
   int count = 0;
   for (const RankReport& r : ranks) {
-    if (r.triangles_in_region == 0) continue;
-    sum += r.refinement;
-    squares += r.refinement * r.refinement;
+    if (r.candidates_in_region == 0) continue;
+    sum += r.mean_weight;
+    squares += r.mean_weight * r.mean_weight;
     ++count;
   }
   if (count == 0) return {0, 0};
@@ -63,7 +63,7 @@ FrameSummary summarize(const FinishedFrame& frame) {
   summary.overdue_pixels = frame.overdue_pixels;
   summary.repartitioned = frame.global_balance;
   for (const RankReport& rank : frame.ranks) add(rank, summary);
-  std::tie(summary.refinement, summary.refinement_deviation) = refinement_over_ranks(frame.ranks);
+  std::tie(summary.mean_weight, summary.mean_weight_deviation) = mean_weight_over_ranks(frame.ranks);
   return summary;
 }
 

@@ -33,9 +33,9 @@ struct FrameSummary {
   std::uint64_t samples = 0;             // in the image
   std::uint64_t samples_received = 0;
   std::uint64_t samples_received_twice = 0;
-  std::uint64_t non_finite = 0;     // samples whose colour was no number
-  double refinement = 0;            // mean over the ranks that have triangles of Q_k (paper s. 6.2)
-  double refinement_deviation = 0;  // standard deviation of the same
+  std::uint64_t non_finite = 0;      // samples whose colour was no number
+  double mean_weight = 0;            // mean over the ranks that have triangles of Q_k (paper s. 6.2)
+  double mean_weight_deviation = 0;  // standard deviation of the same
   RayCounts rays;
   StageTimes cpu_ms;
   BytesSent bytes;

@@ -18,7 +18,7 @@ namespace pprt {
 using Json = nlohmann::ordered_json;
 
 // The version of the ledger's format.
-inline constexpr int kLedgerFormat = 1;
+inline constexpr int kLedgerFormat = 2;
 
 // Returns a frame's record, without what is measured later: see Measurement.
 Json frame_record(const FrameSummary& frame);

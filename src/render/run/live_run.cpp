@@ -79,7 +79,7 @@ class StillWatch {
     for (const RankReport& rank : frame.ranks) {
       samples += rank.samples_in_region;
       fresh += rank.samples_new;
-      looks_finished = looks_finished && rank.refinement <= still_weight_;
+      looks_finished = looks_finished && rank.mean_weight <= still_weight_;
     }
     constexpr std::uint64_t kLeastGain = 200;  // one sample in so many
     in_a_row_ = looks_finished || fresh * kLeastGain < samples ? in_a_row_ + 1 : 0;
@@ -113,7 +113,7 @@ class LiveRunner {
     print_message(where_to_look(view_, *plan_.live));
     while (!is_over()) {
       constexpr double kLongestWait_s = 0.1;  // for a signal
-      if (!view_.steering().wait_for_wish(kLongestWait_s)) continue;
+      if (!view_.steering().wait_for_change(kLongestWait_s)) continue;
       const LiveRun wanted = view_.steering().next_run();
       if (wanted.photo) {
         take_photo(wanted);
@@ -170,7 +170,7 @@ class LiveRunner {
     run_sequence_(settings, source, [&](FinishedFrame&& frame) {
       const LiveShot shot = shots.front();
       shots.pop_front();
-      if (finish.is_finished(frame)) view_.steering().rest(shot.wish);
+      if (finish.is_finished(frame)) view_.steering().rest(shot.change);
       deliver(std::move(frame), shot, grid);
     });
   }

@@ -11,6 +11,9 @@
 #include "parallel/network/wire.h"
 
 namespace pprt {
+
+template <>
+inline constexpr PrimitiveKind kLast<PrimitiveKind> = PrimitiveKind::kMovingTriangle;
 namespace {
 
 // Both archives take the fields of a value in the same order; fields_of() below names them once.
@@ -90,7 +93,7 @@ class Reader {
       fields_of(*this, v);
     }
   }
-  void value(PrimitiveKind& kind) { in_.get(kind, PrimitiveKind::kMovingTriangle); }
+  void value(PrimitiveKind& kind) { in_.get(kind); }
   void value(std::string& text) { in_.get(text); }
   void value(std::vector<std::uint8_t>& bytes) { in_.get_all(bytes); }
   // A broken count ends with the bytes, before it takes the memory.

@@ -283,7 +283,7 @@ Finding auto_casting(const std::vector<CastingErrors>& errors) {
 // A control must show that a network can be too slow: without one that makes refinement 10 % worse, the
 // finding is open.
 Finding network(const Runs& runs, const NetworkProperty& property) {
-  const auto level = [](const MeasuredRun& run) { return mean(run, kStill, &F::refinement); };
+  const auto level = [](const MeasuredRun& run) { return mean(run, kStill, &F::mean_weight); };
   const std::vector<const MeasuredRun*> tried = runs.all(property.experiment);  // the best network first
   const int ranks = tried.empty() ? 0 : tried.back()->ranks;
   const double best = tried.empty() ? kNoValue : level(*tried.front());

@@ -6,7 +6,7 @@
 namespace pprt {
 
 double relative_deviation(const FrameMeasures& m) {
-  return m.refinement_deviation / m.refinement;
+  return m.mean_weight_deviation / m.mean_weight;
 }
 
 double received_per_sample(const FrameMeasures& m) {
@@ -89,7 +89,7 @@ std::vector<int> Runs::distinct(std::string_view experiment, int PaperRun::*memb
 std::vector<Speedup> speedups(const Runs& runs) {
   std::vector<Speedup> values;
   const auto refinement = [](const MeasuredRun& run) {
-    return mean(run, kStill, &FrameMeasures::refinement);
+    return mean(run, kStill, &FrameMeasures::mean_weight);
   };
   for (const int side : runs.distinct(kScaling, &PaperRun::side)) {
     for (const int ranks : runs.distinct(kScaling, &PaperRun::ranks)) {
@@ -128,8 +128,8 @@ Table frames_table(const PaperResults& results) {
     return [kind](const F& m) { return m.bytes.*kind; };
   };
   const Columns<F> of_frame = {{"frame", &F::number},
-                               {"refinement", &F::refinement},
-                               {"deviation", &F::refinement_deviation},
+                               {"mean_weight", &F::mean_weight},
+                               {"deviation", &F::mean_weight_deviation},
                                {"distance to serial", &F::distance},
                                {"density at borders", &F::border_density},
                                {"samples", &F::samples},

@@ -33,8 +33,8 @@ struct Quantity {
 
 // The paper's four measures, and two of ours. The last is one of two.
 const std::vector<Quantity> kOverFrames = {
-    {"(a) Refinement, mean over ranks", "weight", &F::refinement},
-    {"(b) Deviation of refinement over ranks", "weight", &F::refinement_deviation},
+    {"(a) Refinement, mean over ranks", "weight", &F::mean_weight},
+    {"(b) Deviation of refinement over ranks", "weight", &F::mean_weight_deviation},
     {"(c) Distance to the serial pattern", "share of samples", &F::distance},
     {"(d) Samples", "samples per frame", &F::samples},
     {"Deviation / mean of refinement", "ratio", relative_deviation}};
@@ -166,7 +166,7 @@ Panel growth_panel(const Runs& runs) {
 
 Panel network_panel(const Runs& runs, const NetworkProperty& property) {
   RunPointers tried = runs.all(property.experiment);
-  const auto refinement = mean_over(kStill, &F::refinement);
+  const auto refinement = mean_over(kStill, &F::mean_weight);
   const double best = tried.empty() ? kNoValue : refinement(tried.front());
   const auto value = [&](const MeasuredRun* run) { return property.of(run->machine); };
   std::erase_if(tried, [&](const MeasuredRun* run) { return value(run) <= 0; });

@@ -280,17 +280,17 @@ TEST_CASE("steering: a picture is finished until something changes it, but not w
   Stage stage(3);
   stage.steering.joined(1);
   const LiveShot first = stage.shot();
-  stage.steering.rest(first.wish);
+  stage.steering.rest(first.change);
   CHECK(stage.shot().position == 2);
   stage.say(1, R"({"do":"take"})");
   const LiveShot still = stage.shot();
-  stage.steering.rest(still.wish);
+  stage.steering.rest(still.change);
   CHECK_FALSE(stage.steering.next_shot());
   stage.say(1, R"({"do":"key","frame":1})");
-  CHECK_FALSE(stage.steering.wait_for_wish(0));
+  CHECK_FALSE(stage.steering.wait_for_change(0));
   stage.look(1, 1, 8);
-  stage.steering.rest(still.wish);  // of a frame ordered before
-  CHECK(stage.steering.wait_for_wish(0));
+  stage.steering.rest(still.change);  // of a frame ordered before
+  CHECK(stage.steering.wait_for_change(0));
   CHECK(stage.shot().view.from.x == 8);
 }
 
@@ -346,13 +346,13 @@ TEST_CASE("steering: a name that is no UTF-8 can be told") {
 
 TEST_CASE("steering: frames are wanted while somebody watches and the picture is not finished") {
   Stage stage;
-  CHECK_FALSE(stage.steering.wait_for_wish(0));
+  CHECK_FALSE(stage.steering.wait_for_change(0));
   CHECK_FALSE(stage.steering.next_shot());
   stage.steering.joined(1);
-  CHECK(stage.steering.wait_for_wish(0));
+  CHECK(stage.steering.wait_for_change(0));
   stage.shot();
   stage.steering.left(1);
-  CHECK_FALSE(stage.steering.wait_for_wish(0));
+  CHECK_FALSE(stage.steering.wait_for_change(0));
 }
 
 }  // namespace

@@ -106,7 +106,7 @@ BOTH_SAMPLERS_TEST_CASE("session: another seed gives another pattern, more budge
         (sampler == SamplerChoice::kAuto));
   settings.budget_units *= 2;
   const VirtualRun finer = run_session(2, settings, still_or_pan(settings, 1));
-  CHECK(finer.frames.at(0).ranks[1].refinement < one.frames.at(0).ranks[1].refinement);
+  CHECK(finer.frames.at(0).ranks[1].mean_weight < one.frames.at(0).ranks[1].mean_weight);
 }
 
 BOTH_SAMPLERS_TEST_CASE("session: samples accumulate while the camera rests, unless casting is off") {
@@ -162,8 +162,8 @@ BOTH_SAMPLERS_TEST_CASE("session: a stop rule on weight holds in every region") 
     const VirtualRun run = run_session(ranks, settings, still_or_pan(settings, 1));
     REQUIRE(run.frames.size() == 1);
     for (const RankReport& r : run.frames[0].ranks) {
-      CHECK(r.refinement > 0);
-      const double reached = is_lattice ? r.refinement * r.refinement : r.refinement;
+      CHECK(r.mean_weight > 0);
+      const double reached = is_lattice ? r.mean_weight * r.mean_weight : r.mean_weight;
       CHECK(reached <= 1.05 * rule);  // what neighbours send after a rank is done may disturb it a little
     }
   }

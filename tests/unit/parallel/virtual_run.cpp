@@ -268,7 +268,7 @@ VirtualRun run_session(int ranks, const SessionSettings& settings, const CameraS
 
 double unevenness(const FinishedFrame& frame) {
   double sum = 0, squares = 0;
-  for (const RankReport& r : frame.ranks) sum += r.refinement, squares += r.refinement * r.refinement;
+  for (const RankReport& r : frame.ranks) sum += r.mean_weight, squares += r.mean_weight * r.mean_weight;
   const auto n = static_cast<double>(frame.ranks.size());
   return std::sqrt(std::max(0.0, squares / n - sum * sum / n / n)) / (sum / n);
 }

@@ -70,7 +70,7 @@ SessionSettings without_carrying(SamplerChoice sampler, BalanceMode mode) {
 
 TEST_CASE("local balancing: a rank gives only when it is behind in quality and in cost") {
   LocalBalanceSettings settings;
-  settings.quality_ratio = settings.cost_ratio = 1.1;
+  settings.weight_ratio = settings.cost_ratio = 1.1;
   settings.cost_noise = 2;
   CHECK(should_give(settings, 2.0, 200, 0, {1.0, 0.5, 100}));
   CHECK_FALSE(should_give(settings, 1.05, 200, 0, {1.0, 0.5, 100}));
@@ -81,9 +81,9 @@ TEST_CASE("local balancing: a rank gives only when it is behind in quality and i
 }
 
 TEST_CASE("local balancing: target qualities are powers of two, at most the quality") {
-  CHECK(target_quality(1.0) == 1.0);
-  CHECK(target_quality(0.9) == 0.5);
-  CHECK(target_quality(3.0) == 2.0);
+  CHECK(target_weight_for(1.0) == 1.0);
+  CHECK(target_weight_for(0.9) == 0.5);
+  CHECK(target_weight_for(3.0) == 2.0);
 }
 
 TEST_CASE(

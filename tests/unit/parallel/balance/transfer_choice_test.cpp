@@ -16,11 +16,12 @@ Partition thirds() {
 // Rank 1 is behind both others, rank 2 is farthest ahead.
 TransferInputs inputs() {
   const auto taker = [](std::int32_t rank, double future_cost) {
-    return PossibleTaker{.rank = rank,
-                         .progress = {.quality = 0.1, .target = 0.0625, .future_cost = future_cost},
-                         .giver_cost = 1000};
+    return PossibleTaker{
+        .rank = rank,
+        .progress = {.mean_weight = 0.1, .target_weight = 0.0625, .future_cost = future_cost},
+        .giver_cost = 1000};
   };
-  return {.quality = 1, .noise = 0, .most_samples = 1e9, .takers = {taker(0, 500), taker(2, 100)}};
+  return {.mean_weight = 1, .noise = 0, .most_samples = 1e9, .takers = {taker(0, 500), taker(2, 100)}};
 }
 
 TileOffers hundred_each(const PossibleTaker&) {
@@ -40,7 +41,7 @@ TEST_CASE(
   CHECK((given.front().taker == 2 && given.back().taker == 0));
   for (const GivenTile& g : given) CHECK(g.tile % 9 == (g.taker == 2 ? 5 : 3));  // at the borders
   TransferInputs level = inputs();
-  level.quality = 0.05;
+  level.mean_weight = 0.05;
   CHECK(takers_ahead({}, level).empty());
 }
 

@@ -54,7 +54,7 @@ std::size_t samples_in(const std::vector<Inbox::Arrived>& bundles) {
 TEST_CASE("exchange policy: on the work clock a round is ready when all bundles that were counted are here") {
   Network network;
   const auto lockstep = policy(ClockKind::kWork), free = policy(ClockKind::kWall);
-  const ExchangeRound at{.frame_index = 0, .epoch = 0, .round = 3};
+  const ExchangeRound at{.frame_index = 0, .begun_in = 0, .round = 3};
   CHECK(lockstep->missing(network.inbox, at) == kUnknownNumber);
   CHECK(free->missing(network.inbox, at) == 0);
   network.send(1, {.round = 3});
@@ -73,17 +73,17 @@ TEST_CASE("exchange policy: on the work clock a round is ready when all bundles 
 TEST_CASE("exchange policy: on the wall clock bundles of later frames and triangulations wait") {
   Network network;
   const auto free = policy(ClockKind::kWall);
-  network.send(1, {.frame_index = 1, .epoch = 0, .round = 9});
-  network.send(1, {.frame_index = 2, .epoch = 2, .round = 0});
-  network.send(2, {.frame_index = 2, .epoch = 1, .round = 5});
-  CHECK(free->take_due(network.inbox, {.frame_index = 2, .epoch = 1, .round = 1}).size() == 2);
+  network.send(1, {.frame_index = 1, .begun_in = 0, .round = 9});
+  network.send(1, {.frame_index = 2, .begun_in = 2, .round = 0});
+  network.send(2, {.frame_index = 2, .begun_in = 1, .round = 5});
+  CHECK(free->take_due(network.inbox, {.frame_index = 2, .begun_in = 1, .round = 1}).size() == 2);
   CHECK(network.inbox.bundles().size() == 1);
 }
 
 TEST_CASE(
     "exchange policy: seeds are awaited from peers for a tenth of a period, without a rate without end") {
   Network network;
-  const ExchangeRound at{.frame_index = 0, .epoch = 0, .round = kSeedRound};
+  const ExchangeRound at{.frame_index = 0, .begun_in = 0, .round = kSeedRound};
   const std::vector<int> peers = {2};
   const auto with_rate = policy(ClockKind::kWall), without = policy(ClockKind::kWall, 0);
   CHECK(with_rate->missing_seeds(network.inbox, at, peers, 0.009) > 0);
@@ -99,7 +99,7 @@ TEST_CASE(
 TEST_CASE(
     "exchange policy: the work clock delays samples by latency and by the bytes of a round, no other clock") {
   const auto lockstep = policy(ClockKind::kWork);  // a round takes a millisecond
-  const ExchangeRound first{.frame_index = 0, .epoch = 0, .round = 1}, next{.frame_index = 0, .round = 2};
+  const ExchangeRound first{.frame_index = 0, .begun_in = 0, .round = 1}, next{.frame_index = 0, .round = 2};
   CHECK(lockstep->delivery_delay(1, first, 0) == 0);
   CHECK(lockstep->delivery_delay(1, first, 1000) ==
         1);  // half a millisecond of latency and one for the bytes
@@ -117,7 +117,7 @@ TEST_CASE("exchange policy: the round in which delayed samples arrive has a bund
   CHECK(lockstep->owes_bundle(2, at(1, 1)));
   CHECK_FALSE(lockstep->owes_bundle(2, at(1, 1)));  // once
   CHECK(lockstep->delivery_delay(2, at(1, 1), 2000) == 2);
-  lockstep->begin_triangulation();
+  lockstep->begin_picture();
   CHECK_FALSE(lockstep->owes_bundle(2, at(1, 3)));
 }
 
@@ -132,7 +132,7 @@ TEST_CASE("exchange policy: delayed samples arrive in their round, in the next f
     };
     CHECK(take(0, 23, {.round = 23, .rounds_under_way = 2, .samples = {sample_with(1)}}) == 0);
     CHECK(take(0, 24, {.round = 24, .samples = {sample_with(2)}}) == 1);
-    if (new_triangulation) lockstep->begin_triangulation();
+    if (new_triangulation) lockstep->begin_picture();
     CHECK(take(1, 1, {.frame_index = 1, .round = 1}) == (new_triangulation ? 0 : 1));
   }
 }

@@ -118,7 +118,7 @@ void ExchangingRanks::begin_frame(const Vec2d& shift, const Partition* partition
     if (partition != nullptr) set_partition(r, partitions_.back()), ++r.frame;
     r.mesh.clear();
     r.exchange.clear();
-    ++r.epoch;
+    ++r.begun_in;
     trace_seeds(r);
     std::vector<std::vector<Sample>> by_owner(ranks_.size());
     for (const Sample& s : cast)
@@ -160,14 +160,14 @@ void ExchangingRanks::post(ExchangingRank& r, const std::vector<MovedTile>& tran
   for (ExchangingRank& to : ranks_) {
     if (to.rank == r.rank) continue;
     std::vector<Sample> samples = r.exchange.take_outbox(to.rank);
-    for (const Sample& s : samples) repeats_ += !sent_.insert({r.epoch, r.rank, to.rank, s.x, s.y}).second;
+    for (const Sample& s : samples) repeats_ += !sent_.insert({r.begun_in, r.rank, to.rank, s.x, s.y}).second;
     if (!guests.empty()) {
       const auto& landed = guests[static_cast<std::size_t>(to.rank)];
       samples.insert(samples.end(), landed.begin(), landed.end());
     }
     if (samples.empty() && transfers.empty()) continue;
     to.inbox[static_cast<std::size_t>(r.rank)].push_back(
-        {r.frame, r.epoch, seeds, transfers, std::move(samples)});
+        {r.frame, r.begun_in, seeds, transfers, std::move(samples)});
   }
 }
 
@@ -177,7 +177,7 @@ bool ExchangingRanks::take_in_one(ExchangingRank& r, int from) {
   const ExchangeMessage message = std::move(messages.front());
   messages.pop_front();
   apply(r, message);
-  if (message.epoch != r.epoch) return true;
+  if (message.begun_in != r.begun_in) return true;
   for (const MovedTile& transfer : message.transfers) {
     if (transfer.owner == r.rank) r.exchange.forward_tile(transfer.tile);
   }

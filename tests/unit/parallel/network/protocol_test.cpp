@@ -26,7 +26,7 @@ std::size_t order_bytes(std::size_t rects, std::size_t tiles) {
 
 std::size_t bundle_bytes(std::size_t progress, std::size_t given, std::size_t changes, std::size_t samples) {
   Bundle bundle;
-  bundle.progress.quality = static_cast<double>(progress);
+  bundle.progress.mean_weight = static_cast<double>(progress);
   bundle.tiles.given.resize(given);
   bundle.tiles.changes.resize(changes);
   bundle.samples.resize(samples);

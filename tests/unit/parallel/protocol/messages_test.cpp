@@ -31,11 +31,11 @@ constexpr std::uint64_t kVersion = std::uint64_t{6} << 32;  // of generation 6
 Bundle some_bundle() {
   Bundle bundle{
       .frame_index = 3,
-      .epoch = 2,
+      .begun_in = 2,
       .round = 19,
       .done = true,
       .rounds_under_way = 4,
-      .progress = {.quality = 0.5, .target = 0.25, .future_cost = 1e6},
+      .progress = {.mean_weight = 0.5, .target_weight = 0.25, .future_cost = 1e6},
       .handshake = {.phase = 5, .acknowledged = 8, .transfers_received = 2},
       .tiles = {.given = {{.tile = 4, .owner = 2, .version = kVersion + 7, .now = {1, 2}, .last = {3, 4}}},
                 .changes = {{.tile = 5, .owner = 3, .version = kVersion}}}};
@@ -66,7 +66,7 @@ PixelMessage some_pixels() {
   PixelMessage pixels;
   pixels.frame_index = 9;
   pixels.report.samples_new = 1, pixels.report.samples_known = 2, pixels.report.non_finite = 3;
-  pixels.report.refinement = 0.125, pixels.report.rays.shadow = 77, pixels.report.cpu_ms.idle = 4.5;
+  pixels.report.mean_weight = 0.125, pixels.report.rays.shadow = 77, pixels.report.cpu_ms.idle = 4.5;
   pixels.report.finished_s = 6.5;
   pixels.tiles = {{4, 12, 0.5, 100, 3}, {1, 0, 0, 0, 0}};
   pixels.given = {7};
@@ -182,17 +182,18 @@ TEST_CASE("messages: a bundle holds progress and news of tiles only where there 
   CHECK(all == with_progress + news_bytes(some_bundle().tiles) + 3 * sizeof(std::uint32_t));
   bundle.progress = {};
   CHECK(encode(bundle).size() == with_progress - 4 * sizeof(float));
-  CHECK(decode_bundle(encode(bundle)).progress.quality == 0);
+  CHECK(decode_bundle(encode(bundle)).progress.mean_weight == 0);
   CHECK(decode_bundle(encode(bundle)).tiles.empty());
 }
 
 TEST_CASE("messages: a bundle is decoded as it was encoded") {
   const Bundle bundle = some_bundle(), back = decode_bundle(encode(bundle));
   CHECK(back.frame_index == 3);
-  CHECK(back.epoch == 2);
+  CHECK(back.begun_in == 2);
   CHECK(back.round == 19);
   CHECK(back.done);
-  CHECK((back.progress.quality == 0.5 && back.progress.target == 0.25 && back.progress.future_cost == 1e6));
+  CHECK((back.progress.mean_weight == 0.5 && back.progress.target_weight == 0.25 &&
+         back.progress.future_cost == 1e6));
   REQUIRE((back.tiles.given.size() == 1 && back.tiles.changes.size() == 1));
   CHECK(back.rounds_under_way == 4);
   CHECK((back.handshake.phase == 5 && back.handshake.acknowledged == 8 &&
@@ -225,7 +226,7 @@ TEST_CASE("messages: pixels and their report are decoded as they were encoded") 
   CHECK(back.report.samples_new == 1);
   CHECK(back.report.samples_known == 2);
   CHECK(back.report.non_finite == 3);
-  CHECK(back.report.refinement == 0.125);
+  CHECK(back.report.mean_weight == 0.125);
   CHECK(back.report.rays.shadow == 77);
   CHECK(back.report.cpu_ms.idle == 4.5);
   CHECK(back.report.finished_s == 6.5);

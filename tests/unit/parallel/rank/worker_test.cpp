@@ -147,8 +147,8 @@ BOTH_SAMPLERS_TEST_CASE(
   scene.render(Carry::kNothing);
   scene.sent_to(0);
   // Rank 0 took while it sent its last bundle of frame 0, and gives when it sends its seeds of frame 1.
-  scene.send_while_tracing(0, {.frame_index = 0, .epoch = 0, .round = 24, .handshake = {.phase = 0}});
-  scene.send_while_tracing(0, {.frame_index = 1, .epoch = 1, .round = kSeedRound, .handshake = {.phase = 1}});
+  scene.send_while_tracing(0, {.frame_index = 0, .begun_in = 0, .round = 24, .handshake = {.phase = 0}});
+  scene.send_while_tracing(0, {.frame_index = 1, .begun_in = 1, .round = kSeedRound, .handshake = {.phase = 1}});
   scene.render(Carry::kNothing);
   std::uint32_t acknowledged = 0;
   for (const Bundle& b : scene.sent_to(0)) {
@@ -232,7 +232,7 @@ BOTH_SAMPLERS_TEST_CASE(
     // Both neighbours accept tiles, have hardly anything left to do, and know already that rank 1 gives.
     for (const int from : {0, 2}) {
       scene.send(from, {.round = 1,
-                        .progress = {.quality = 1e-6, .target = 1e-6, .future_cost = 1},
+                        .progress = {.mean_weight = 1e-6, .target_weight = 1e-6, .future_cost = 1},
                         .handshake = {.phase = 0, .acknowledged = 1}});
     }
     scene.render(Carry::kNothing);

@@ -110,7 +110,7 @@ TEST_CASE("sample mesh: only points of the own region are wanted") {
 TEST_CASE("sample mesh: running statistics equal a fresh count") {
   SampleMesh mesh = refine(Region::whole(kGrid), disc(kGrid), 2000);
   const std::vector<TileWeights> running(mesh.tile_weights().begin(), mesh.tile_weights().end());
-  const double quality = mesh.refinement();
+  const double quality = mesh.mean_weight();
   mesh.set_region(Region::whole(kGrid));  // scans every triangle anew
   std::int64_t all = 0;
   for (std::size_t i = 0; i < running.size(); ++i) {
@@ -119,13 +119,13 @@ TEST_CASE("sample mesh: running statistics equal a fresh count") {
     all += running[i].count;
   }
   CHECK(static_cast<std::size_t>(all) == triangles(mesh).size());
-  CHECK(quality == Approx(mesh.refinement()).epsilon(1e-6));
+  CHECK(quality == Approx(mesh.mean_weight()).epsilon(1e-6));
 }
 
 TEST_CASE("sample mesh: the mean weight falls as samples come") {
   const SampleMesh few = refine(Region::whole(kGrid), disc(kGrid), 200);
   const SampleMesh many = refine(Region::whole(kGrid), disc(kGrid), 2000);
-  CHECK(many.refinement() < 0.25 * few.refinement());
+  CHECK(many.mean_weight() < 0.25 * few.mean_weight());
 }
 
 // Mean over the heaviest twentieth of the triangles.
@@ -266,7 +266,7 @@ TEST_CASE("sample mesh: samples inserted all at once make the mesh that they mak
   struct Result {
     std::set<std::array<std::uint32_t, 3>> triangles, reported;
     std::vector<TileWeights> weights;
-    double refinement;
+    double mean_weight;
     std::set<std::pair<double, double>> wanted;
   };
   const auto result_of = [&](bool at_once) {
@@ -286,7 +286,7 @@ TEST_CASE("sample mesh: samples inserted all at once make the mesh that they mak
     mesh.take_new_at_border(reported);
     for (const BorderTriangle& t : reported) result.reported.insert(in_order(t.corners));
     result.weights.assign(mesh.tile_weights().begin(), mesh.tile_weights().end());
-    result.refinement = mesh.refinement();
+    result.mean_weight = mesh.mean_weight();
     while (const auto next = mesh.next_point()) result.wanted.insert({next->point.x, next->point.y});
     return result;
   };
@@ -295,7 +295,7 @@ TEST_CASE("sample mesh: samples inserted all at once make the mesh that they mak
   CHECK(at_once.reported == singly.reported);
   CHECK(at_once.wanted == singly.wanted);
   CHECK(singly.wanted.size() > 100);
-  CHECK(at_once.refinement == Approx(singly.refinement));
+  CHECK(at_once.mean_weight == Approx(singly.mean_weight));
   for (std::size_t i = 0; i < singly.weights.size(); ++i) {
     CHECK(at_once.weights[i].count == singly.weights[i].count);
     CHECK(at_once.weights[i].total_weight == Approx(singly.weights[i].total_weight).margin(1e-6));

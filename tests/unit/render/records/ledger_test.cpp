@@ -17,7 +17,7 @@ FinishedFrame frame_with(double late_ms) {
 
 RankReport report_with(double refinement, std::uint64_t triangles) {
   RankReport report;
-  report.refinement = refinement, report.triangles_in_region = triangles;
+  report.mean_weight = refinement, report.candidates_in_region = triangles;
   return report;
 }
 
@@ -89,12 +89,12 @@ TEST_CASE("refinement is the mean and standard deviation over the ranks that hav
   FinishedFrame frame;
   frame.ranks = {report_with(2, 10), report_with(4, 1), report_with(99, 0), report_with(6, 3)};
   const Json record = frame_record(summarize(frame));
-  CHECK(record["refinement"].get<double>() == Approx(4));
-  CHECK(record["refinement_dev"].get<double>() == Approx(std::sqrt(8.0 / 3)));
+  CHECK(record["mean_weight"].get<double>() == Approx(4));
+  CHECK(record["mean_weight_dev"].get<double>() == Approx(std::sqrt(8.0 / 3)));
   frame.ranks = {report_with(99, 0)};
-  CHECK(frame_record(summarize(frame))["refinement"] == 0);
+  CHECK(frame_record(summarize(frame))["mean_weight"] == 0);
   frame.ranks = {report_with(0.1, 1), report_with(0.1, 1), report_with(0.1, 1)};
-  CHECK(frame_record(summarize(frame))["refinement_dev"].get<double>() == Approx(0).margin(1e-8));
+  CHECK(frame_record(summarize(frame))["mean_weight_dev"].get<double>() == Approx(0).margin(1e-8));
 }
 
 TEST_CASE("a frame's counts and times are sums over its ranks") {

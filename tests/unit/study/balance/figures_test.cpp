@@ -104,7 +104,8 @@ TEST_CASE("balancing figures: runs that balance have a lower deviation of the lo
 }
 
 TEST_CASE("balancing figures: figures that make no sense are borne") {
-  const BalanceTrace run = recorded_run(uneven_settings(SamplerChoice::kDelaunay, BalanceMode::kCombined), 4, 4);
+  const BalanceTrace run =
+      recorded_run(uneven_settings(SamplerChoice::kDelaunay, BalanceMode::kCombined), 4, 4);
   std::string text = trace_line(run.header);
   for (const TracedFrame& frame : run.frames) text += trace_line(frame);
   std::mt19937 random(3);

@@ -18,7 +18,7 @@ void add(PaperResults& results, PaperRun run, int frames, const Change& change =
   for (int frame = 1; frame <= frames; ++frame) {
     FrameMeasures m;
     m.number = frame;
-    m.refinement = 1;
+    m.mean_weight = 1;
     m.samples = 19'000;
     if (change) change(m);
     measured.frames.push_back(m);
@@ -36,19 +36,19 @@ PaperRun run_of(std::string_view experiment, int ranks, BalanceMode mode) {
 PaperResults as_in_the_paper() {
   PaperResults results;
   add(results, run_of(kSimple, 32, BalanceMode::kNone), 40, [](FrameMeasures& m) {
-    m.refinement_deviation = 1.2, m.distance = 0.42, m.border_density = 0.7, m.samples = 20'000;
+    m.mean_weight_deviation = 1.2, m.distance = 0.42, m.border_density = 0.7, m.samples = 20'000;
   });
   add(results, run_of(kSimple, 32, BalanceMode::kLocal), 40, [](FrameMeasures& m) {
-    m.refinement_deviation = m.number % 30 <= 8 ? 0.8 : 0.3, m.distance = 0.2, m.border_density = 1;
+    m.mean_weight_deviation = m.number % 30 <= 8 ? 0.8 : 0.3, m.distance = 0.2, m.border_density = 1;
   });
   add(results, run_of(kSimple, 32, BalanceMode::kGlobal), 40, [](FrameMeasures& m) {
-    m.refinement_deviation = m.number == 31 || m.number == 32 ? 1.4 : 0.1, m.distance = 0.09,
+    m.mean_weight_deviation = m.number == 31 || m.number == 32 ? 1.4 : 0.1, m.distance = 0.09,
     m.border_density = 1;
     m.repartitioned = true;
   });
   add(results, run_of(kSimple, 32, BalanceMode::kCombined), 40, [](FrameMeasures& m) {
     const bool unsettled = m.number <= 2 || m.number == 31 || m.number == 32;
-    m.refinement_deviation = unsettled ? 0.9 : 0.15, m.distance = 0.095, m.border_density = 1.02;
+    m.mean_weight_deviation = unsettled ? 0.9 : 0.15, m.distance = 0.095, m.border_density = 1.02;
     m.repartitioned = unsettled;
   });
   return results;
@@ -95,17 +95,18 @@ TEST_CASE("findings: one that the measures contradict does not hold") {
   };
   const std::vector<Contradiction> contradictions = {
       {"Any load balancing", BalanceMode::kLocal, [](FrameMeasures& m) { m.distance = 0.5; }},
-      {"Any load balancing", BalanceMode::kGlobal, [](FrameMeasures& m) { m.refinement_deviation = 1.3; }},
+      {"Any load balancing", BalanceMode::kGlobal, [](FrameMeasures& m) { m.mean_weight_deviation = 1.3; }},
       {"With combined balancing", BalanceMode::kCombined,
-       [](FrameMeasures& m) { m.refinement_deviation = m.number >= 25 && m.number <= 30 ? 0.21 : 0.1; }},
-      {"With combined balancing", BalanceMode::kNone, [](FrameMeasures& m) { m.refinement_deviation = 0.5; }},
-      {"Control", BalanceMode::kNone, [](FrameMeasures& m) { m.refinement_deviation = 0.2; }},
+       [](FrameMeasures& m) { m.mean_weight_deviation = m.number >= 25 && m.number <= 30 ? 0.21 : 0.1; }},
+      {"With combined balancing", BalanceMode::kNone,
+       [](FrameMeasures& m) { m.mean_weight_deviation = 0.5; }},
+      {"Control", BalanceMode::kNone, [](FrameMeasures& m) { m.mean_weight_deviation = 0.2; }},
       {"Control", BalanceMode::kNone, [](FrameMeasures& m) { m.distance = 0.1; }},
       {"Combined settles faster than local at the start", BalanceMode::kLocal,
-       [](FrameMeasures& m) { m.refinement_deviation = 0.1; }},
+       [](FrameMeasures& m) { m.mean_weight_deviation = 0.1; }},
       {"Combined settles faster than local after the camera cut", BalanceMode::kCombined,
-       [](FrameMeasures& m) { m.refinement_deviation = m.number >= 31 && m.number <= 34 ? 0.9 : 0.15; }},
-      {"Global answers", BalanceMode::kGlobal, [](FrameMeasures& m) { m.refinement_deviation = 0.1; }},
+       [](FrameMeasures& m) { m.mean_weight_deviation = m.number >= 31 && m.number <= 34 ? 0.9 : 0.15; }},
+      {"Global answers", BalanceMode::kGlobal, [](FrameMeasures& m) { m.mean_weight_deviation = 0.1; }},
       {"Combined is almost", BalanceMode::kCombined, [](FrameMeasures& m) { m.repartitioned = true; }},
       {"Combined is almost", BalanceMode::kCombined, [](FrameMeasures& m) { m.distance = 0.15; }},
       {"Combined is almost", BalanceMode::kLocal, [](FrameMeasures& m) { m.samples = 25'000; }},
@@ -138,10 +139,10 @@ TEST_CASE("findings: speedup is measured against one rank with p times the time"
   PaperResults results;
   for (const int ranks : {1, 2, 4}) {
     add(results, run_of(kScaling, ranks, BalanceMode::kCombined), 10,
-        [ranks](FrameMeasures& m) { m.refinement = ranks == 4 ? 0.125 : 0.1; });
+        [ranks](FrameMeasures& m) { m.mean_weight = ranks == 4 ? 0.125 : 0.1; });
     PaperRun alone = run_of(kShortFrame, 1, BalanceMode::kCombined);
     alone.share = 1.0 / ranks;
-    add(results, alone, 10, [ranks](FrameMeasures& m) { m.refinement = 0.1 * ranks; });
+    add(results, alone, 10, [ranks](FrameMeasures& m) { m.mean_weight = 0.1 * ranks; });
   }
   const std::vector<Speedup> values = speedups(Runs(results));
   REQUIRE(values.size() == 3);
@@ -150,7 +151,7 @@ TEST_CASE("findings: speedup is measured against one rank with p times the time"
   CHECK(values[2].same_frame == Approx(3.2));
   CHECK(verdict(results, "A further rank") == std::optional(false));
   CHECK(find(findings(results), "A further rank").why_not() == "p = 4: 0.800");
-  const Change better = [](FrameMeasures& m) { m.refinement = 0.1; };
+  const Change better = [](FrameMeasures& m) { m.mean_weight = 0.1; };
   CHECK(verdict(with(results, kScaling, BalanceMode::kCombined, better), "A further rank") ==
         std::optional(true));
 }
@@ -192,7 +193,7 @@ TEST_CASE("findings: balance while casting, samples kept and dropped") {
   const auto add_mode = [&](BalanceMode mode, bool keep, double level) {
     PaperRun run = run_of(kCasting, 62, mode);
     run.keep_samples = keep;
-    add(results, run, 40, [level](FrameMeasures& m) { m.refinement_deviation = level, m.distance = level; });
+    add(results, run, 40, [level](FrameMeasures& m) { m.mean_weight_deviation = level, m.distance = level; });
   };
   add_mode(BalanceMode::kNone, false, 0.5);
   add_mode(BalanceMode::kLocal, false, 0.3);
@@ -202,7 +203,7 @@ TEST_CASE("findings: balance while casting, samples kept and dropped") {
   CHECK(verdict(results, "Where samples are handed over") == std::optional(true));
   for (FrameMeasures& m : results.runs[3].frames) m.distance = 0.4;
   CHECK(find(findings(results), "Where samples are handed over").why_not() == "distance to serial: 0.400");
-  for (FrameMeasures& m : results.runs[1].frames) m.refinement_deviation = 0.6;
+  for (FrameMeasures& m : results.runs[1].frames) m.mean_weight_deviation = 0.6;
   CHECK(find(findings(results), "With casting too").why_not() == "local's: 0.600");
 }
 
@@ -238,17 +239,17 @@ TEST_CASE("findings: a network is judged only where a slower one makes a differe
   for (const double microseconds : {0.0, 1.0, 10.0, 100.0}) {
     PaperRun run = run_of(kLatency, 62, BalanceMode::kCombined);
     run.machine.latency_s = 1e-6 * microseconds;
-    add(results, run, 10, [=](FrameMeasures& m) { m.refinement = microseconds >= 10 ? 1.2 : 1.0; });
+    add(results, run, 10, [=](FrameMeasures& m) { m.mean_weight = microseconds >= 10 ? 1.2 : 1.0; });
   }
   const std::string claim = "The machine's network is good enough in latency";
   CHECK(verdict(results, claim) == std::optional(true));
   CHECK(find(findings(results), claim).measured() == "own: 1; above 1.1 first at, microseconds: 10");
   PaperResults harmless = results;
   for (MeasuredRun& r : harmless.runs) {
-    for (FrameMeasures& m : r.frames) m.refinement = 1;
+    for (FrameMeasures& m : r.frames) m.mean_weight = 1;
   }
   CHECK(verdict(harmless, claim) == std::nullopt);  // what makes no difference shows nothing
-  const Change worse = [](FrameMeasures& m) { m.refinement = 1.06; };
+  const Change worse = [](FrameMeasures& m) { m.mean_weight = 1.06; };
   CHECK(verdict(with(results, kSimple, BalanceMode::kCombined, worse), claim) == std::optional(false));
 }
 
