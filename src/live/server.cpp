@@ -219,8 +219,8 @@ class LiveServer::Impl::Client : public std::enable_shared_from_this<Client> {
   bool closed_ = false;
   bool ends_ = false;
   bool writing_ = false;
-  std::deque<QueuedMessage> queue_;                   // not sent yet
-  QueuedMessage sent_message_;                                // being written, or the last one
+  std::deque<QueuedMessage> queue_;              // not sent yet
+  QueuedMessage sent_message_;                   // being written, or the last one
   std::shared_ptr<const LiveFrame> next_frame_;  // not sent yet
   std::shared_ptr<const LiveFrame> frame_;       // being written, or the last one
   int in_flight_ = 0;                            // frames without an acknowledgement

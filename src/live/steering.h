@@ -147,22 +147,22 @@ class Steering {
   const LiveVoice voice_;
 
   std::condition_variable changed_;  // frames may be wanted
-  mutable std::mutex mutex_;        // guards what follows
+  mutable std::mutex mutex_;         // guards what follows
   std::set<int> clients_;
   int pilot_ = 0;
-  LiveRun run_;                      // as wanted
-  LiveRun run_now_;                  // as it is
+  LiveRun run_;                        // as wanted
+  LiveRun run_now_;                    // as it is
   std::uint64_t change_ = 1;           // counts what changed the picture
   std::uint64_t finished_change_ = 0;  // whose picture is finished
-  bool plays_ = false;               // the script or the film
-  bool plays_film_ = false;          // the film takes the script's place
-  int position_ = 0;                 // in what plays: shown last, from 1; 0: nothing yet
-  int script_position_ = 0;          // while the film takes its place
-  std::vector<bool> seen_;           // frames of the script
-  bool is_by_hand_ = false;          // the view is the pilot's
-  bool jumps_ = true;                // the next shot does not follow the one before
-  View view_;                        // wanted next, unless something plays
-  View shown_;                       // last
+  bool plays_ = false;                 // the script or the film
+  bool plays_film_ = false;            // the film takes the script's place
+  int position_ = 0;                   // in what plays: shown last, from 1; 0: nothing yet
+  int script_position_ = 0;            // while the film takes its place
+  std::vector<bool> seen_;             // frames of the script
+  bool is_by_hand_ = false;            // the view is the pilot's
+  bool jumps_ = true;                  // the next shot does not follow the one before
+  View view_;                          // wanted next, unless something plays
+  View shown_;                         // last
   std::uint32_t camera_ = 0, look_ = 0;
   Overlay overlay_ = Overlay::kNone;
   FilmKeys keys_;

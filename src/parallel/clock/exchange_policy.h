@@ -15,7 +15,7 @@ namespace pprt {
 struct ExchangeRound {
   int frame_index = 0;
   int begun_in = 0;  // index of the frame in which this rank's triangulation began
-  int round = 0;  // kSeedRound, then one after each packet
+  int round = 0;     // kSeedRound, then one after each packet
 
   friend bool operator==(const ExchangeRound&, const ExchangeRound&) = default;
 };

@@ -19,7 +19,7 @@ namespace pprt {
 // What the frames that a late rank left out have changed for those after them.
 struct MissedFrames {
   bool picture = false;  // the others have begun one without this rank
-  int begun_in = -1;        // index of the frame in which they did
+  int begun_in = -1;     // index of the frame in which they did
   bool cut = false;      // what this rank holds is of no use any more
 };
 
@@ -54,8 +54,8 @@ class TileOwnership {
   RankProgress progress();
   void receive_progress(int from, const RankProgress& theirs) { balancer_.receive(from, theirs); }
 
-  // Applies received ownership changes, except where a newer owner is known. Throws ProtocolError for tiles or ranks that
-  // do not exist.
+  // Applies received ownership changes, except where a newer owner is known. Throws ProtocolError for tiles
+  // or ranks that do not exist.
   void apply(const TileNews& news);
 
   // Forwards what came with transfers to this rank of tiles that have another owner by now.

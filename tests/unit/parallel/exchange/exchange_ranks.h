@@ -23,7 +23,7 @@ struct MovedTile {
 // What one rank sends another at a time, as a bundle does.
 struct ExchangeMessage {
   int frame = 0;       // orders that the sender had carried out; the receiver must have, too
-  int begun_in = 0;       // triangulations that it had begun
+  int begun_in = 0;    // triangulations that it had begun
   bool seeds = false;  // and cast that landed with the receiver
   std::vector<MovedTile> transfers;
   std::vector<Sample> samples;

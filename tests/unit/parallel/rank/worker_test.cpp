@@ -148,7 +148,8 @@ BOTH_SAMPLERS_TEST_CASE(
   scene.sent_to(0);
   // Rank 0 took while it sent its last bundle of frame 0, and gives when it sends its seeds of frame 1.
   scene.send_while_tracing(0, {.frame_index = 0, .begun_in = 0, .round = 24, .handshake = {.phase = 0}});
-  scene.send_while_tracing(0, {.frame_index = 1, .begun_in = 1, .round = kSeedRound, .handshake = {.phase = 1}});
+  scene.send_while_tracing(0,
+                           {.frame_index = 1, .begun_in = 1, .round = kSeedRound, .handshake = {.phase = 1}});
   scene.render(Carry::kNothing);
   std::uint32_t acknowledged = 0;
   for (const Bundle& b : scene.sent_to(0)) {
