@@ -100,8 +100,8 @@ SurfaceOf<kExtended> surface_at(const Pose& pose, const RTCRayHit& found, const 
   };
 
   SurfaceOf<kExtended> surface;
+  TrianglePoint at;  // of a triangle
   SurfacePoint point;
-  Barycentric at;
   const Mesh* mesh = nullptr;
   if (const auto* spheres = std::get_if<std::vector<SphereRecord>>(&part.shape)) {
     point = on_surface((*spheres)[primitive], near((*spheres)[primitive]));
@@ -109,8 +109,8 @@ SurfaceOf<kExtended> surface_at(const Pose& pose, const RTCRayHit& found, const 
     point = on_surface((*cones)[primitive], near((*cones)[primitive]));
   } else {
     mesh = std::get_if<Mesh>(&part.shape);
-    at = crossing_of(*mesh, primitive, origin(), direction);
-    point = on_surface(*mesh, primitive, at.u, at.v);
+    at = on_surface(*mesh, primitive, origin(), direction);
+    point = at;
     surface.offset = mesh->facets[primitive].offset;
   }
   surface.position = point.position;

@@ -68,8 +68,8 @@ std::size_t Mesh::add(std::span<const Vec3d> polygon, std::span<const Vec3f> ver
   return added;
 }
 
-Barycentric crossing_of(const Mesh& mesh, std::uint32_t triangle, const Vec3d& origin,
-                        const Vec3d& direction) {
+TrianglePoint on_surface(const Mesh& mesh, std::uint32_t triangle, const Vec3d& origin,
+                         const Vec3d& direction) {
   const TriangleIndices& index = mesh.triangles[triangle];
   const Vec3d a(mesh.vertices[index[0]]);
   const Vec3d ab = Vec3d(mesh.vertices[index[1]]) - a;
@@ -81,15 +81,7 @@ Barycentric crossing_of(const Mesh& mesh, std::uint32_t triangle, const Vec3d& o
   const auto within = [](double x, double most) { return x > 0 ? (x < most ? x : most) : 0; };
   const double u = within(from_a.dot(across) * inverse, 1);
   const double v = within(direction.dot(from_a.cross(ab)) * inverse, 1 - u);
-  return {u, v};
-}
-
-SurfacePoint on_surface(const Mesh& mesh, std::uint32_t triangle, double u, double v) {
-  const TriangleIndices& index = mesh.triangles[triangle];
-  const Vec3d a(mesh.vertices[index[0]]);
-  const Vec3d b(mesh.vertices[index[1]]);
-  const Vec3d c(mesh.vertices[index[2]]);
-  return {a + (b - a) * u + (c - a) * v, Vec3d(mesh.facets[triangle].normal)};
+  return {{a + ab * u + ac * v, Vec3d(mesh.facets[triangle].normal)}, u, v};
 }
 
 Vec3d shading_normal(const Mesh& mesh, std::uint32_t triangle, double u, double v) {

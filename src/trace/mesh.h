@@ -38,20 +38,17 @@ struct Mesh {
                  const std::array<Vec3f, 3>& corner_normals);
 };
 
-// Weights of a triangle's second and third corner.
-struct Barycentric {
-  double u = 0, v = 0;  // >= 0, and u + v <= 1
+// A point of a triangle, and the weights of its second and third corner: >= 0, and u + v <= 1.
+struct TrianglePoint : SurfacePoint {
+  double u = 0, v = 0;
 };
 
 // Returns where a ray that Embree found to hit the triangle crosses its plane, moved onto the triangle if it
 // passes beside it by Embree's rounding. In double and without approximate reciprocals, for these differ
 // between makes of processors. Source: Moeller and Trumbore, Fast, minimum storage ray/triangle intersection,
 // 1997.
-Barycentric crossing_of(const Mesh& mesh, std::uint32_t triangle, const Vec3d& origin,
-                        const Vec3d& direction);
-
-// Returns the point of a triangle at these coordinates, and the facet's normal.
-SurfacePoint on_surface(const Mesh& mesh, std::uint32_t triangle, double u, double v);
+TrianglePoint on_surface(const Mesh& mesh, std::uint32_t triangle, const Vec3d& origin,
+                         const Vec3d& direction);
 
 // Returns the interpolated unit normal, or the facet's where interpolation gives none. The mesh must have
 // normals.

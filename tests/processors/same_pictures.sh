@@ -17,7 +17,7 @@ render() {
         done
       done ;;
     frames)
-      pprt-render "$scenes/tree-casting.anim" --frames 1-6 -np 4 -s 256x256 --clock work --progress none -o "$1/%d.exr" ;;
+      pprt-render "$scenes/tree-casting.anim" --frames 1-4 -np 4 -s 256x256 --clock work --progress none -o "$1/%d.exr" ;;
     moving)
       for name in carousel.aff cloth.aff rolling-ball.aff turning-pyramid.anim; do
         pprt-render "$scenes/$name" --frames 1-4 -s 160x120 --clock work --samples 8000 --progress none \
@@ -37,8 +37,8 @@ pictures_of() {
 # A set that the processor lacks falls back to the best that it has.
 render plain
 pictures_of plain >plain.sums
-[[ $(wc -l <plain.sums) -ge 6 ]] || fail 'no pictures'
-for set in sse4.2 avx avx2 avx512; do
+[[ $(wc -l <plain.sums) -ge 4 ]] || fail 'no pictures'
+for set in sse4.2 avx2 avx512; do
   LD_PRELOAD=$library PPRT_HOLD_EMBREE=isa=$set render "embree-$set"
   pictures_of "embree-$set" | diff plain.sums - || fail "Embree held to $set shows something else"
 done

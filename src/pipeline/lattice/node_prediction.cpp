@@ -75,12 +75,12 @@ Surroundings NodePredictor::around(const LatticeNode& node, const LatticeLevel& 
   const LatticeNode before{x - dy, y - dx}, after{x + dy, y + dx};  // the centres
   const bool is_on_border =
       before.x < 0 || before.y < 0 || after.x > store_.right() || after.y > store_.bottom();
+  if (is_on_border) return around;
+  const bool has_before = store_.is_sampled(before), has_after = store_.is_sampled(after);
+  if (!has_before && !has_after) return around;
+  // Beyond a base line may lie squares of another rank.
   const bool is_on_base_line = (dx != 0 ? y : x) % kBaseSide == 0;
-  const auto is_known = [&](const LatticeNode& center) {
-    return !is_on_base_line || store_.is_sampled(center) || knows_base(center);
-  };
-  if (!is_on_border && (store_.is_sampled(before) || store_.is_sampled(after)) && is_known(before) &&
-      is_known(after)) {
+  if (!is_on_base_line || ((has_before || knows_base(before)) && (has_after || knows_base(after)))) {
     around.add(value(before));
     around.add(value(after));
   }
