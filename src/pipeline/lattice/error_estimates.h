@@ -18,9 +18,9 @@ inline constexpr std::size_t kNodeClasses = std::size_t{kPrimitiveCounts} * kVar
 
 inline NodeClass class_of(int primitives, float variance, int level_of_errors) {
   const int level = std::min(variance_level(variance), kVarianceLevels - 1);
-  return static_cast<std::size_t>(((std::min(primitives, kPrimitiveCounts) - 1) * kVarianceLevels + level) *
-                                      kErrorLevels +
-                                  level_of_errors);
+  const int number = ((std::min(primitives, kPrimitiveCounts) - 1) * kVarianceLevels + level) * kErrorLevels +
+                     level_of_errors;
+  return static_cast<NodeClass>(number);
 }
 
 // detail_of() of floats in [0, 2), four an octave.

@@ -13,6 +13,7 @@
 
 #include "base/diagnostics.h"
 #include "cli/scenes/scene_source.h"
+#include "parallel/exchange/samplers.h"
 #include "parallel/settings/session_words.h"
 #include "parser/anim_parser.h"
 #include "scene/animation/resting_nodes.h"
@@ -46,13 +47,13 @@ const Effort kQuick = {.size = 96,
                        .orbit_frames_planned = 12,
                        .rates = {60, 120, 240}};
 
-// Returns the ways of casting that differ. On a lattice there is one.
+// Returns the ways of casting that differ. Where only lights are carried there is one.
 std::span<const CastChoice> casts_of(SamplerChoice sampler) {
-  static constexpr std::array kOfTriangles = {CastChoice::kOff, CastChoice::kPaper, CastChoice::kVerified,
-                                              CastChoice::kAuto};
-  static constexpr std::array kOfLattice = {CastChoice::kOff, CastChoice::kAuto};
-  if (sampler == SamplerChoice::kDelaunay) return kOfTriangles;
-  return kOfLattice;
+  static constexpr std::array kOfSamples = {CastChoice::kOff, CastChoice::kPaper, CastChoice::kVerified,
+                                            CastChoice::kAuto};
+  static constexpr std::array kOfLights = {CastChoice::kOff, CastChoice::kAuto};
+  return traits_of(sampler).cast_use == CastUse::kSamples ? std::span<const CastChoice>(kOfSamples)
+                                                          : kOfLights;
 }
 
 constexpr int kPlannedSize = 128;  // of pictures where only the planner is asked, pixels square
