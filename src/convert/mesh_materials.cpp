@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "convert/assimp_values.h"
 #include "scene/description/shading_rules.h"
 
 namespace pprt {
