@@ -175,7 +175,8 @@ class Transfer {
 
  private:
   static constexpr std::size_t kMostOfRegion = 4;  // a quarter
-  // Of what is left to move: a tile that costs more would only turn the imbalance round.
+  // Largest cost of a tile, as a multiple of what is left to move. A costlier one would turn the imbalance
+  // round.
   static constexpr double kMostAtOnce = 1.5;
 
   // The giver's tiles beside the taker's.

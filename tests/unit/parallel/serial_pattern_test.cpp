@@ -82,7 +82,8 @@ BOTH_SAMPLERS_TEST_CASE(
   CHECK(samples.size() == 1500);
   std::size_t near_edge = 0;
   for (const Sample& sample : samples) near_edge += std::abs(sample.x - sample.y) < 10;
-  // Of a fifth of the area. More than a third of the samples on a lattice are a grid over all of it.
+  // A fifth of the area lies near the edge. More than a third of the samples on a lattice are a grid over all
+  // of it.
   CHECK(near_edge > (sampler == SamplerChoice::kDelaunay ? 750 : 500));
 }
 
