@@ -59,14 +59,14 @@ std::vector<int> members(std::span<const std::uint8_t> marked, int except) {
 
 }  // namespace
 
-MeshExchange::MeshExchange(SampleMesh& mesh, SeedPattern seeds, const Partition& partition, int rank)
+MeshExchange::MeshExchange(SampleMesh& mesh, const SeedPattern& seeds, const Partition& partition, int rank)
     : mesh_(mesh),
       partition_(partition),
       rank_(rank),
       known_by_(partition.ranks),
       outbox_(static_cast<std::size_t>(partition.ranks)),
       was_own_(partition.owner.size(), 0),
-      seeds_(std::move(seeds)),
+      seeds_(seeds),
       neighbours_(ranks_beside(partition, rank)),
       touch_stamp_(static_cast<std::size_t>(partition.ranks), 0) {
   plan_seeds();

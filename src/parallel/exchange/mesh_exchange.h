@@ -21,8 +21,8 @@ namespace pprt {
 // in both their triangulations (docs/decisions/0012-owners-tell.md has the proof).
 class MeshExchange final : public SampleExchange {
  public:
-  // `mesh` must outlive the exchange.
-  MeshExchange(SampleMesh& mesh, SeedPattern seeds, const Partition& partition, int rank);
+  // `mesh` and `seeds` must outlive the exchange.
+  MeshExchange(SampleMesh& mesh, const SeedPattern& seeds, const Partition& partition, int rank);
 
   // Call it after every SampleMesh::clear() and restart().
   void clear() override;
@@ -70,7 +70,7 @@ class MeshExchange final : public SampleExchange {
   std::size_t looked_at_ = 0;                // triangles since the last announce()
   std::vector<std::uint8_t> was_own_;        // per tile: given away since clear()
   bool forwards_ = false;                    // whether there are such tiles
-  SeedPattern seeds_;
+  const SeedPattern& seeds_;
   std::vector<std::vector<int>> seed_receivers_;  // per seed of the own region: ranks to send it to
   bool seeds_are_planned_ = false;                // for this partition
   std::vector<int> seed_peers_;

@@ -42,7 +42,7 @@ struct ExchangingRank {
       : rank(its_rank),
         seeds(pattern),
         mesh(region_of(partition, its_rank)),
-        exchange(mesh, pattern, partition, its_rank),
+        exchange(mesh, seeds, partition, its_rank),
         inbox(static_cast<std::size_t>(partition.ranks)) {}
 };
 
