@@ -7,7 +7,7 @@
 #include "cli/process/exit.h"
 #include "cli/scenes/scene_source.h"
 #include "convert/convert.h"
-#include "convert/tessellate.h"
+#include "convert/surfaces/tessellate.h"
 
 namespace {
 

@@ -42,6 +42,10 @@ for line in \
   "cli/process:" \
   "cli/options: cli/process" \
   "cli/scenes:" \
+  "convert/names:" \
+  "convert/surfaces:" \
+  "convert/pov: convert/names" \
+  "convert/mesh: convert/names convert/surfaces convert/pov" \
   "render/records:" \
   "render/options: render/records" \
   "render/plan: render/options" \

@@ -10,8 +10,8 @@
 #include <stdexcept>
 
 #include "base/subprocess.h"
-#include "convert/pov_material.h"
-#include "convert/pov_writer.h"
+#include "convert/pov/pov_material.h"
+#include "convert/pov/pov_writer.h"
 #include "image/atomic_file.h"
 #include "image/contact_sheet.h"
 #include "image/image_io.h"

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "base/diagnostics.h"
-#include "convert/mesh_reader.h"
-#include "convert/mesh_writer.h"
+#include "convert/mesh/mesh_reader.h"
+#include "convert/mesh/mesh_writer.h"
 #include "spd/spd.h"
 #include "unit/image/temporary_directory.h"
 

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "base/diagnostics.h"
-#include "convert/mesh_reader.h"
-#include "convert/mesh_writer.h"
+#include "convert/mesh/mesh_reader.h"
+#include "convert/mesh/mesh_writer.h"
 #include "image/image_io.h"
 #include "parser/aff_parser.h"
 #include "scene/animation/resting_nodes.h"

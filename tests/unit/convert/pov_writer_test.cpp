@@ -1,4 +1,4 @@
-#include "convert/pov_writer.h"
+#include "convert/pov/pov_writer.h"
 
 #include <catch2/catch.hpp>
 
@@ -8,7 +8,7 @@
 #include <string>
 
 #include "base/diagnostics.h"
-#include "convert/pov_material.h"
+#include "convert/pov/pov_material.h"
 
 using namespace pprt;
 

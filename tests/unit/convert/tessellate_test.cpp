@@ -1,4 +1,4 @@
-#include "convert/tessellate.h"
+#include "convert/surfaces/tessellate.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "convert/mesh_reader.h"
+#include "convert/mesh/mesh_reader.h"
 
 #include <assimp/camera.h>
 #include <assimp/light.h>
@@ -25,12 +25,12 @@
 
 #include "base/diagnostics.h"
 #include "base/printable.h"
-#include "convert/assimp_values.h"
-#include "convert/extension.h"
-#include "convert/gltf_document.h"
-#include "convert/mesh_animation.h"
-#include "convert/mesh_materials.h"
-#include "convert/mesh_textures.h"
+#include "convert/mesh/assimp_values.h"
+#include "convert/mesh/gltf_document.h"
+#include "convert/mesh/mesh_animation.h"
+#include "convert/mesh/mesh_materials.h"
+#include "convert/mesh/mesh_textures.h"
+#include "convert/names/extension.h"
 #include "parser/text_input.h"
 #include "scene/animation/animation.h"
 #include "scene/animation/resting_nodes.h"

@@ -1,8 +1,8 @@
-#include "convert/pov_material.h"
+#include "convert/pov/pov_material.h"
 
 #include <algorithm>
 
-#include "convert/picture_names.h"
+#include "convert/names/picture_names.h"
 #include "scene/description/shading_rules.h"
 
 namespace pprt {

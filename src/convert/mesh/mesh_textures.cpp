@@ -1,4 +1,4 @@
-#include "convert/mesh_textures.h"
+#include "convert/mesh/mesh_textures.h"
 
 #include <assimp/scene.h>
 #include <assimp/texture.h>

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "convert/tessellate.h"
+#include "convert/surfaces/tessellate.h"
 #include "scene/description/scene_description.h"
 
 namespace pprt {

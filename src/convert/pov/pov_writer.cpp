@@ -1,4 +1,4 @@
-#include "convert/pov_writer.h"
+#include "convert/pov/pov_writer.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 
 #include "base/affine.h"
 #include "base/diagnostics.h"
-#include "convert/pov_material.h"
+#include "convert/pov/pov_material.h"
 #include "scene/description/shading_rules.h"
 #include "scene/description/view_frame.h"
 #include "scene/polygons/triangulate.h"

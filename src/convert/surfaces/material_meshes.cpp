@@ -1,4 +1,4 @@
-#include "convert/material_meshes.h"
+#include "convert/surfaces/material_meshes.h"
 
 #include <array>
 #include <span>

@@ -1,4 +1,4 @@
-#include "convert/mesh_materials.h"
+#include "convert/mesh/mesh_materials.h"
 
 #include <assimp/GltfMaterial.h>
 #include <assimp/material.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "convert/assimp_values.h"
+#include "convert/mesh/assimp_values.h"
 #include "scene/description/shading_rules.h"
 
 namespace pprt {

@@ -1,4 +1,4 @@
-#include "convert/mesh_animation.h"
+#include "convert/mesh/mesh_animation.h"
 
 #include <assimp/anim.h>
 #include <assimp/scene.h>
@@ -9,7 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "convert/assimp_values.h"
+#include "convert/mesh/assimp_values.h"
 #include "scene/movement/straight_track.h"
 
 namespace pprt {

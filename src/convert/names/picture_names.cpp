@@ -1,4 +1,4 @@
-#include "convert/picture_names.h"
+#include "convert/names/picture_names.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,4 +1,4 @@
-#include "convert/gltf_document.h"
+#include "convert/mesh/gltf_document.h"
 
 #include <algorithm>
 #include <cctype>

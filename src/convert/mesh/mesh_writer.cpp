@@ -1,4 +1,4 @@
-#include "convert/mesh_writer.h"
+#include "convert/mesh/mesh_writer.h"
 
 #include <assimp/anim.h>
 #include <assimp/camera.h>
@@ -24,13 +24,13 @@
 #include <stdexcept>
 
 #include "base/diagnostics.h"
-#include "convert/assimp_values.h"
-#include "convert/gltf_document.h"
-#include "convert/material_meshes.h"
-#include "convert/mesh_animation.h"
-#include "convert/mesh_materials.h"
-#include "convert/picture_names.h"
-#include "convert/pov_material.h"
+#include "convert/mesh/assimp_values.h"
+#include "convert/mesh/gltf_document.h"
+#include "convert/mesh/mesh_animation.h"
+#include "convert/mesh/mesh_materials.h"
+#include "convert/names/picture_names.h"
+#include "convert/pov/pov_material.h"
+#include "convert/surfaces/material_meshes.h"
 #include "image/image_io.h"
 #include "scene/description/view_frame.h"
 #include "scene/movement/straight_track.h"

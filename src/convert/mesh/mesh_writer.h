@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "convert/tessellate.h"
+#include "convert/surfaces/tessellate.h"
 #include "scene/description/scene_description.h"
 
 namespace pprt {
