@@ -15,7 +15,8 @@
 #include "spd/spd.h"
 #include "unit/trace/test_scenes.h"
 
-using namespace pprt;
+namespace pprt::agreement_test {
+
 using namespace pprt::test;
 
 namespace {
@@ -126,3 +127,5 @@ TEST_CASE("pictures of random heaps of everything are those of the oracle") {
   report("30 random heaps of all primitives and materials, likewise at 48 x 48", "0.1 %", "as above",
          fmt::format("{:.2g} %", 100 * sum / kHeaps));
 }
+
+}  // namespace pprt::agreement_test

@@ -13,7 +13,7 @@
 #include "pipeline/mesh/seeds.h"
 #include "unit/trace/test_scenes.h"
 
-namespace pprt {
+namespace pprt::casting_test {
 namespace {
 
 const TileGrid kGrid{96, 72, 16};
@@ -103,4 +103,4 @@ TEST_CASE("samples cast into any view are finite points of its image, and none i
       "behind the eye and at it nothing is projected", wrong == 0 ? "so" : fmt::format("{}", wrong));
 }
 
-}  // namespace pprt
+}  // namespace pprt::casting_test

@@ -10,7 +10,8 @@
 #include "numeric/report.h"
 #include "unit/trace/test_scenes.h"
 
-using namespace pprt;
+namespace pprt::extreme_shading_test {
+
 using namespace pprt::test;
 
 namespace {
@@ -123,3 +124,5 @@ TEST_CASE("shading at its limits is that of the oracle") {
       "long double",
       "0.1 %", "as above", worst.percent());
 }
+
+}  // namespace pprt::extreme_shading_test

@@ -10,7 +10,8 @@
 #include "numeric/report.h"
 #include "unit/trace/test_scenes.h"
 
-using namespace pprt;
+namespace pprt::far_scenes_test {
+
 using namespace pprt::test;
 
 namespace {
@@ -130,3 +131,5 @@ TEST_CASE("a scene that is turned gives the same picture, a mirrored one the mir
   report("turned, along the axes and askew", kBound, "other roundings of every coordinate", turns.percent());
   report("mirrored, likewise, against the mirrored picture", kBound, "as above", mirrors.percent());
 }
+
+}  // namespace pprt::far_scenes_test

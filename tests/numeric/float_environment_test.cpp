@@ -12,7 +12,7 @@
 #include "pipeline/mesh/sample_mesh.h"
 #include "spd/spd.h"
 
-namespace pprt {
+namespace pprt::float_environment_test {
 namespace {
 
 constexpr double kTiniest = std::numeric_limits<double>::denorm_min();
@@ -74,4 +74,4 @@ TEST_CASE("samples a denormal apart are kept apart right after tracing") {
                tiny == 2u * (kSide - 1) * (kSide - 1) ? "exact" : "not");
 }
 
-}  // namespace pprt
+}  // namespace pprt::float_environment_test

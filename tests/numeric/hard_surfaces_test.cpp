@@ -11,7 +11,8 @@
 #include "numeric/report.h"
 #include "unit/trace/test_scenes.h"
 
-using namespace pprt;
+namespace pprt::hard_surfaces_test {
+
 using namespace pprt::test;
 
 namespace {
@@ -175,3 +176,5 @@ TEST_CASE("a huge sphere seen from near is rendered as the oracle renders it") {
                  all({sphere({0, r + 4, 0}, r, 1), sphere({0, 1, 0}, 1)})},
             });
 }
+
+}  // namespace pprt::hard_surfaces_test

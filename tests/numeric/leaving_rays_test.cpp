@@ -10,7 +10,8 @@
 #include "numeric/report.h"
 #include "unit/trace/test_scenes.h"
 
-using namespace pprt;
+namespace pprt::leaving_rays_test {
+
 using namespace pprt::test;
 
 namespace {
@@ -173,3 +174,5 @@ TEST_CASE("rays leave a patch and never meet it again") {
   add_patch(scene, corners, 0);
   report_leaving("a patch", check_around(scene, 4));
 }
+
+}  // namespace pprt::leaving_rays_test

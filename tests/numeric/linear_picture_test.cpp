@@ -11,7 +11,7 @@
 #include "pipeline/mesh/reconstruction.h"
 #include "unit/pipeline/synthetic_image.h"
 
-namespace pprt {
+namespace pprt::linear_picture_test {
 namespace {
 
 constexpr int kSamples = 100'000;
@@ -106,4 +106,4 @@ TEST_CASE("a linear picture is reconstructed to rounding from 100,000 samples by
                            averaged / kUnit, most_samples, by_area / kUnit));
 }
 
-}  // namespace pprt
+}  // namespace pprt::linear_picture_test

@@ -15,7 +15,7 @@
 #include "trace/compiled_scene.h"
 #include "unit/trace/test_scenes.h"
 
-namespace pprt {
+namespace pprt::reader_bounds_test {
 namespace {
 
 // Coordinates are decimals with six digits after the point: exact as integers, rounded as doubles.
@@ -136,4 +136,4 @@ TEST_CASE("where up is that close to the line of sight the image is turned by le
   CHECK(worst < 4e-7);
 }
 
-}  // namespace pprt
+}  // namespace pprt::reader_bounds_test

@@ -14,7 +14,7 @@
 #include "pipeline/mesh/sample_mesh.h"
 #include "unit/pipeline/cgal_oracle.h"
 
-namespace pprt {
+namespace pprt::triangulation_test {
 namespace {
 
 const TileGrid kGrid{256, 192, 4};
@@ -237,4 +237,4 @@ TEST_CASE("a picture of one colour is reconstructed exactly from hard points, by
                "differences are 0", others == 0 ? "exact" : fmt::format("{} pixels", others));
 }
 
-}  // namespace pprt
+}  // namespace pprt::triangulation_test

@@ -13,7 +13,8 @@
 #include "trace/compiled_scene.h"
 #include "unit/trace/test_scenes.h"
 
-using namespace pprt;
+namespace pprt::watertight_test {
+
 using namespace pprt::test;
 
 namespace {
@@ -206,3 +207,5 @@ TEST_CASE("nothing from outside comes into a closed mesh of mirrors") {
   report(fmt::format("light from outside closed mirrors, {} rays of five bounces each", kRays),
          "none comes in", "offsets above", all == 0 ? "none" : fmt::format("{}", all));
 }
+
+}  // namespace pprt::watertight_test

@@ -51,12 +51,12 @@ ByMode by_mode(const Runs& runs, int ranks, const Figure& figure) {
   return {of(kNone), of(kLocal), of(kGlobal), of(kCombined)};
 }
 
-ByMode mean_by_mode(const Runs& runs, int ranks, Frames frames, const Measure& measure) {
+ByMode mean_by_mode(const Runs& runs, int ranks, Frames frames, const FrameMeasure& measure) {
   return by_mode(runs, ranks, [&](const MeasuredRun& run) { return mean(run, frames, measure); });
 }
 
 // Means over the parts of kSettled that were run.
-ByMode settled_by_mode(const Runs& runs, int ranks, const Measure& measure) {
+ByMode settled_by_mode(const Runs& runs, int ranks, const FrameMeasure& measure) {
   return by_mode(runs, ranks, [&](const MeasuredRun& run) {
     double sum = 0;
     int parts = 0;

@@ -17,15 +17,15 @@ double cpu_ms(const FrameMeasures& m) {
   return m.cpu_ms.sampling + m.cpu_ms.casting + m.cpu_ms.reconstruction + m.cpu_ms.balancing;
 }
 
-Measure time_of(double StageTimes::*stage) {
+FrameMeasure time_of(double StageTimes::*stage) {
   return [stage](const FrameMeasures& m) { return m.cpu_ms.*stage; };
 }
 
-Measure kilobytes_of(std::uint64_t BytesSent::*kind) {
+FrameMeasure kilobytes_of(std::uint64_t BytesSent::*kind) {
   return [kind](const FrameMeasures& m) { return 1e-3 * static_cast<double>(m.bytes.*kind); };
 }
 
-double mean(const MeasuredRun& run, Frames frames, const Measure& measure) {
+double mean(const MeasuredRun& run, Frames frames, const FrameMeasure& measure) {
   double sum = 0;
   int count = 0;
   for (const FrameMeasures& m : run.frames) {

@@ -23,16 +23,16 @@ struct Frames {
 inline constexpr Frames kStart = {1, 10}, kStill = {5, 10}, kAfterCameraCut = {31, 40}, kWhole = {1, 40};
 
 // A member of FrameMeasures, or a function.
-using Measure = std::function<double(const FrameMeasures&)>;
+using FrameMeasure = std::function<double(const FrameMeasures&)>;
 
 double relative_deviation(const FrameMeasures& m);   // deviation / mean of refinement
 double received_per_sample(const FrameMeasures& m);  // other ranks that receive a sample, on average
 double cpu_ms(const FrameMeasures& m);               // all stages
-Measure time_of(double StageTimes::*stage);          // milliseconds
-Measure kilobytes_of(std::uint64_t BytesSent::*kind);
+FrameMeasure time_of(double StageTimes::*stage);     // milliseconds
+FrameMeasure kilobytes_of(std::uint64_t BytesSent::*kind);
 
 // Mean over the frames of the range that were run.
-double mean(const MeasuredRun& run, Frames frames, const Measure& measure);
+double mean(const MeasuredRun& run, Frames frames, const FrameMeasure& measure);
 
 // Frames of `part` until the mean relative deviation of the rest is at most `level`, counted from 1. kNever
 // when it never is; NaN when `part` was not run to its end.

@@ -28,7 +28,7 @@ constexpr const char* kPaperReference =
 struct Quantity {
   const char* title;
   const char* unit;
-  Measure measure;
+  FrameMeasure measure;
 };
 
 // The paper's four measures, and two of ours. The last is one of two.
@@ -48,7 +48,7 @@ const std::vector<Quantity> kOverRanks = {kOverFrames[0],
                                           kOverFrames[3]};
 
 // What a bar is made of, with names.
-using Parts = std::vector<std::pair<const char*, Measure>>;
+using Parts = std::vector<std::pair<const char*, FrameMeasure>>;
 const Parts kStages = {{"sampling", time_of(&StageTimes::sampling)},
                        {"casting", time_of(&StageTimes::casting)},
                        {"reconstruction", time_of(&StageTimes::reconstruction)},
@@ -62,7 +62,7 @@ Axis from_zero(const char* label) {
   return {label, 0, 0};
 }
 
-auto mean_over(Frames frames, const Measure& measure) {
+auto mean_over(Frames frames, const FrameMeasure& measure) {
   return [=](const MeasuredRun* run) { return mean(*run, frames, measure); };
 }
 
@@ -72,7 +72,7 @@ struct Series {
   const MeasuredRun* run;
   int colour;
 
-  Curve over_frames(const Measure& measure) const {
+  Curve over_frames(const FrameMeasure& measure) const {
     return curve_over(name, run->frames, &F::number, measure, CurveStyle::kLine, colour);
   }
 };

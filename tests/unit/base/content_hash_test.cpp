@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace pprt {
+namespace pprt::content_hash_test {
 
 TEST_CASE("a content hash is 64-bit FNV-1a in hexadecimal digits") {
   CHECK(content_hash("") == "cbf29ce484222325");
@@ -10,4 +10,4 @@ TEST_CASE("a content hash is 64-bit FNV-1a in hexadecimal digits") {
   CHECK(content_hash("foobar") == "85944171f73967e8");
 }
 
-}  // namespace pprt
+}  // namespace pprt::content_hash_test

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace pprt {
+namespace pprt::diagnostics_test {
 
 TEST_CASE("problems come in order of place, each with its line and a caret") {
   Diagnostics problems;
@@ -56,4 +56,4 @@ TEST_CASE("a flood of problems is counted and not kept") {
   CHECK(format(problems, "f", "x").find("f: 950 further problems not shown\n") != std::string::npos);
 }
 
-}  // namespace pprt
+}  // namespace pprt::diagnostics_test

@@ -4,7 +4,7 @@
 #include <array>
 #include <catch2/catch.hpp>
 
-using namespace pprt;
+namespace pprt::hash_test {
 
 TEST_CASE("a word is mixed as splitmix64 does it") {
   CHECK(mixed(0, 0) == 0xe220a8397b1dcdafu);  // its first number for seed 0
@@ -30,3 +30,5 @@ TEST_CASE("seed, stream and index each change a uniform number") {
   CHECK(u != uniform(1, 2, 4));
   CHECK(u != uniform(1, 3, 2));
 }
+
+}  // namespace pprt::hash_test

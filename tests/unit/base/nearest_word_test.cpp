@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <string_view>
 
-namespace pprt {
+namespace pprt::nearest_word_test {
 namespace {
 
 constexpr std::string_view kWords[] = {"from", "frames", "fps", "at", "camera", "R"};
@@ -31,4 +31,4 @@ TEST_CASE("the suggestion continues the message") {
 }
 
 }  // namespace
-}  // namespace pprt
+}  // namespace pprt::nearest_word_test

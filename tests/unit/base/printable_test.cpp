@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-using namespace pprt;
+namespace pprt::printable_test {
 
 TEST_CASE("control characters in messages are written as escapes") {
   CHECK(printable("scenes/ball (1).nff") == "scenes/ball (1).nff");
@@ -15,3 +15,5 @@ TEST_CASE("control characters in messages are written as escapes") {
   CHECK(printable_lines("a\nb\x1b") == "a\nb\\x1b");
   CHECK(printable(printable("\x1b")) == printable("\x1b"));
 }
+
+}  // namespace pprt::printable_test

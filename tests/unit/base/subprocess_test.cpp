@@ -6,7 +6,7 @@
 #include <csignal>
 #include <string>
 
-namespace pprt {
+namespace pprt::subprocess_test {
 namespace {
 
 ExitStatus run_shell(const std::string& script, const SubprocessSettings& settings = {}) {
@@ -106,4 +106,4 @@ TEST_CASE("a subprocess's CPU time is measured") {
   CHECK(run_shell("sleep 0.2").cpu_seconds < 0.15);
 }
 
-}  // namespace pprt
+}  // namespace pprt::subprocess_test

@@ -2,15 +2,17 @@
 
 #include <catch2/catch.hpp>
 
-namespace pprt {
-namespace {
+namespace pprt::words_test {
 
 enum class Axis { kX, kY, kNameless };
 
-}  // namespace
+}  // namespace pprt::words_test
 
 template <>
-inline constexpr std::array<Word<Axis>, 2> kWords<Axis>{{{Axis::kX, "x", "right"}, {Axis::kY, "y", "up"}}};
+inline constexpr std::array<pprt::Word<pprt::words_test::Axis>, 2> pprt::kWords<pprt::words_test::Axis>{
+    {{pprt::words_test::Axis::kX, "x", "right"}, {pprt::words_test::Axis::kY, "y", "up"}}};
+
+namespace pprt::words_test {
 
 TEST_CASE("a word names its value, and a value its word") {
   static_assert(find_word<Axis>("y") == Axis::kY);
@@ -26,4 +28,4 @@ TEST_CASE("a value without a word is an error of the program") {
   CHECK_THROWS_AS(word_for(Axis::kNameless), std::logic_error);
 }
 
-}  // namespace pprt
+}  // namespace pprt::words_test

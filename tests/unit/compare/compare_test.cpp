@@ -15,7 +15,7 @@
 #include "image/image_io.h"
 #include "unit/image/temporary_directory.h"
 
-using namespace pprt;
+namespace pprt::compare_test {
 
 namespace {
 
@@ -304,3 +304,5 @@ TEST_CASE("an existing file whose name looks like a pattern is a single picture"
   sequences.options.max_error = 0;
   CHECK(run(sequences.options).within);
 }
+
+}  // namespace pprt::compare_test

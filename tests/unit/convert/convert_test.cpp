@@ -14,7 +14,7 @@
 #include "spd/spd.h"
 #include "unit/image/temporary_directory.h"
 
-using namespace pprt;
+namespace pprt::convert_test {
 
 namespace {
 
@@ -205,3 +205,5 @@ TEST_CASE("a scene is loaded from a database or from a file") {
   CHECK_THROWS_AS(load_scene("spd:nothing"), InputError);
   CHECK_THROWS_AS(load_scene(folder.file("missing.nff")), InputError);
 }
+
+}  // namespace pprt::convert_test

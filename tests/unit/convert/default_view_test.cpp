@@ -7,7 +7,7 @@
 #include "scene/description/view_frame.h"
 #include "spd/spd.h"
 
-using namespace pprt;
+namespace pprt::default_view_test {
 
 TEST_CASE("a fitted view shows every corner of the scene, upright") {
   for (const UpAxis up : {UpAxis::kY, UpAxis::kZ}) {
@@ -38,3 +38,5 @@ TEST_CASE("the default light is left of the eye and above it") {
   CHECK((light.position - view.from).dot(frame.up) > 0);
   CHECK_FALSE(light.color);
 }
+
+}  // namespace pprt::default_view_test

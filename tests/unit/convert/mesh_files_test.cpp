@@ -12,7 +12,7 @@
 #include "spd/spd.h"
 #include "unit/image/temporary_directory.h"
 
-using namespace pprt;
+namespace pprt::mesh_files_test {
 
 namespace {
 
@@ -200,3 +200,5 @@ TEST_CASE("writing a mesh without triangles is an error") {
   CHECK_THROWS_WITH(write_mesh(scene, ".ply", "mesh", {}),
                     "a.nff: error: no object of the scene has any extent");
 }
+
+}  // namespace pprt::mesh_files_test

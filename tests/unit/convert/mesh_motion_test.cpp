@@ -13,7 +13,7 @@
 #include "scene/animation/resting_nodes.h"
 #include "unit/image/temporary_directory.h"
 
-using namespace pprt;
+namespace pprt::mesh_motion_test {
 
 namespace {
 
@@ -337,3 +337,5 @@ TEST_CASE("nodes without end, keys of whole numbers and cameras without perspect
   const SceneDescription scene = read_gltf(unnamed).scene;
   check_angle(scene, 0.5);
 }
+
+}  // namespace pprt::mesh_motion_test

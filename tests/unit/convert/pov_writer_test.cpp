@@ -10,7 +10,7 @@
 #include "base/diagnostics.h"
 #include "convert/pov/pov_material.h"
 
-using namespace pprt;
+namespace pprt::pov_writer_test {
 
 namespace {
 
@@ -304,3 +304,5 @@ TEST_CASE("for POV-Ray a stretched ball keeps the map that stretches it") {
   CHECK(objects(scene) ==
         "sphere { <0, 0, 0>, 1 matrix <2, 0, 0, 0, 1, 0, 0, 0, 3, 5, 6, 7> texture { Material_1 } }\n");
 }
+
+}  // namespace pprt::pov_writer_test

@@ -8,7 +8,7 @@
 #include "base/diagnostics.h"
 #include "spd/spd.h"
 
-using namespace pprt;
+namespace pprt::tessellate_test {
 
 namespace {
 
@@ -165,3 +165,5 @@ TEST_CASE("a scene of more than the largest number of triangles is refused") {
       "a.nff: error: its spheres and cones would become 36012000 triangles, more than 20000000: cut "
       "them less finely");
 }
+
+}  // namespace pprt::tessellate_test

@@ -11,7 +11,7 @@
 #include "unit/image/temporary_directory.h"
 
 namespace fs = std::filesystem;
-using namespace pprt;
+namespace pprt::atomic_file_test {
 
 namespace {
 
@@ -185,3 +185,5 @@ TEST_CASE("a file that grows keeps what it holds, and tells when it cannot") {
   const std::string name = directory.path().string();
   CHECK_THROWS_WITH(AppendedFile(name), "cannot write '" + name + "': Is a directory");
 }
+
+}  // namespace pprt::atomic_file_test

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <stdexcept>
 
-using namespace pprt;
+namespace pprt::contact_sheet_test {
 
 TEST_CASE("resizing by a whole factor takes means of blocks") {
   Image image(4, 2);
@@ -63,3 +63,5 @@ TEST_CASE("thumbnails keep the picture's shape") {
   CHECK(small.at(9, 4) == Color(2.0f));
   CHECK(thumbnail(Image(100, 1), 10).height == 1);
 }
+
+}  // namespace pprt::contact_sheet_test

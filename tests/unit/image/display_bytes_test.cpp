@@ -6,7 +6,7 @@
 
 #include "image/image_io.h"
 
-namespace pprt {
+namespace pprt::display_bytes_test {
 
 TEST_CASE("a display value is rounded to the nearest of 256 levels") {
   for (int level = 0; level < 256; ++level) CHECK(display_byte(static_cast<float>(level) / 255) == level);
@@ -30,4 +30,4 @@ TEST_CASE("display bytes of a picture are those that its PNG holds") {
   CHECK(display_bytes(decode_png(encode_png(image))) == bytes);
 }
 
-}  // namespace pprt
+}  // namespace pprt::display_bytes_test

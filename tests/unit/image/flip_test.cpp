@@ -9,7 +9,8 @@
 
 #include "image/metrics.h"
 
-using namespace pprt;
+namespace pprt::flip_test {
+
 using namespace pprt::flip;
 
 namespace {
@@ -77,7 +78,7 @@ TEST_CASE("FLIP: white, black and grey have the expected opponent colours") {
 
 TEST_CASE("FLIP: the contrast filter has the weights of the formula") {
   struct Case {
-    Channel channel;
+    flip::Channel channel;
     double a1, b1, a2, b2;
   };
   const Case c = GENERATE(Case{kLuminance, 1, 0.0047, 0, 1e-5}, Case{kRedGreen, 1, 0.0053, 0, 1e-5},
@@ -234,3 +235,5 @@ TEST_CASE("FLIP refuses what it is not defined for") {
   CHECK(mean_flip(image, Image(2, 2, Color(1.0f)), 1) > 0.9);
   CHECK(mean_flip(image, Image(2, 2, Color(1.0f)), 1000) > 0.9);
 }
+
+}  // namespace pprt::flip_test

@@ -7,7 +7,7 @@
 #include "base/diagnostics.h"
 #include "unit/image/temporary_directory.h"
 
-using namespace pprt;
+namespace pprt::frame_pattern_test {
 
 namespace {
 
@@ -99,3 +99,5 @@ TEST_CASE("frames that are there are found by their numbers") {
   CHECK(found("none/%d.png").empty());
   CHECK(found("a0010.png").empty());
 }
+
+}  // namespace pprt::frame_pattern_test

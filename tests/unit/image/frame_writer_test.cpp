@@ -10,7 +10,7 @@
 #include "unit/image/temporary_directory.h"
 
 namespace fs = std::filesystem;
-using namespace pprt;
+namespace pprt::frame_writer_test {
 
 namespace {
 
@@ -167,3 +167,5 @@ TEST_CASE("nothing can be submitted after the end") {
   writer.finish();
   CHECK_THROWS_AS(writer.submit({1, picture_of(1), {}}), std::logic_error);
 }
+
+}  // namespace pprt::frame_writer_test

@@ -18,7 +18,7 @@
 #include "unit/image/temporary_directory.h"
 
 namespace fs = std::filesystem;
-using namespace pprt;
+namespace pprt::image_io_test {
 
 namespace {
 
@@ -405,3 +405,5 @@ TEST_CASE("damaged files are errors that name the file") {
   hostile.replace(16, 8, std::string("\x00\x0f\x00\x00\x00\x0f\x00\x00", 8));  // 983040 x 983040, wrong CRC
   CHECK_THAT(message_for(hostile), Catch::StartsWith(prefix));
 }
+
+}  // namespace pprt::image_io_test

@@ -7,7 +7,7 @@
 #include "image/display_bytes.h"
 #include "image/image_io.h"
 
-using namespace pprt;
+namespace pprt::jpeg_test {
 
 namespace {
 
@@ -60,3 +60,5 @@ TEST_CASE("no JPEG is made of an empty picture, nor of a value that is not finit
   image.at(3, 3).x = NAN;
   CHECK_THROWS_AS(encode_jpeg(image, 90), std::runtime_error);
 }
+
+}  // namespace pprt::jpeg_test

@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-using namespace pprt;
+namespace pprt::metrics_test {
 
 namespace {
 
@@ -147,3 +147,5 @@ TEST_CASE("what cannot be compared is refused") {
   bad.at(0, 0).y = std::numeric_limits<float>::quiet_NaN();
   CHECK_THROWS_AS(difference(bad, Image(1, 1), 0), std::invalid_argument);
 }
+
+}  // namespace pprt::metrics_test

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-using namespace pprt;
+namespace pprt::plane_test {
 
 TEST_CASE("a window's weights meet the pixels in their order") {
   const Plane plane{3, 2, {1, 2, 4, 8, 16, 32}};
@@ -27,3 +27,5 @@ TEST_CASE("Gaussian weights are symmetric and add up to 1") {
   CHECK(gaussian(2, 1.5) == Kernel{0.5, 0.5});
   CHECK(gaussian(1, 1.5) == Kernel{1});
 }
+
+}  // namespace pprt::plane_test

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <numeric>
 
-using namespace pprt;
+namespace pprt::coverage_mask_test {
 
 namespace {
 
@@ -69,3 +69,5 @@ TEST_CASE("mask mask: painting mixes colours by the cover") {
   CHECK(image.at(0, 0) == Color(0.75f, 1, 0.75f));
   CHECK(image.at(1, 0) == Color(1, 1, 1));
 }
+
+}  // namespace pprt::coverage_mask_test

@@ -4,7 +4,8 @@
 
 #include "unit/layers/hand_made.h"
 
-using namespace pprt;
+namespace pprt::frame_layers_test {
+
 using namespace pprt::test;
 
 namespace {
@@ -79,3 +80,5 @@ TEST_CASE("layers: the maker gives the layers asked for") {
   CHECK(maker.picture(0, frame).at(1, 1) != maker.picture(0, frame).at(0, 1));
   CHECK(maker.picture(1, frame).at(0, 0) != maker.picture(1, frame).at(1, 0));
 }
+
+}  // namespace pprt::frame_layers_test

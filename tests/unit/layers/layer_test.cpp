@@ -5,7 +5,7 @@
 
 #include "base/diagnostics.h"
 
-using namespace pprt;
+namespace pprt::layer_test {
 
 TEST_CASE("layer names: any order is accepted, and each layer comes once in the fixed order") {
   CHECK(parse_layers("id,samples,id") == std::vector<Layer>{Layer::kSamples, Layer::kId});
@@ -28,3 +28,5 @@ TEST_CASE("layers: only those made of samples need samples") {
   CHECK(needs_samples(Layer::kConfidence));
   CHECK_FALSE(needs_samples(Layer::kRegions));
 }
+
+}  // namespace pprt::layer_test

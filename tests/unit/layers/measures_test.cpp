@@ -6,7 +6,8 @@
 
 #include "unit/layers/hand_made.h"
 
-using namespace pprt;
+namespace pprt::measures_test {
+
 using namespace pprt::test;
 
 namespace {
@@ -75,3 +76,5 @@ TEST_CASE("layers: without a triangle measures are 0, and the weight is infinite
   const Triangulation nothing = triangulate_frame({}, kFourByFour);
   CHECK(densities(nothing) == std::vector<float>(16, 0));
 }
+
+}  // namespace pprt::measures_test

@@ -5,7 +5,8 @@
 
 #include "unit/layers/hand_made.h"
 
-using namespace pprt;
+namespace pprt::pictures_test {
+
 using namespace pprt::test;
 
 namespace {
@@ -96,3 +97,5 @@ TEST_CASE("layer pictures: normals are colours, and ids show materials and primi
   CHECK((ids.at(0, 0) != ids.at(1, 0) && ids.at(1, 0) != ids.at(2, 0)));
   CHECK(ids.at(3, 0) == kBlack);
 }
+
+}  // namespace pprt::pictures_test

@@ -5,7 +5,7 @@
 
 #include "base/diagnostics.h"
 
-namespace pprt {
+namespace pprt::address_test {
 namespace {
 
 TEST_CASE("live address: a port, with or without an address before it") {
@@ -26,4 +26,4 @@ TEST_CASE("live address: anything else is refused with an example") {
 }
 
 }  // namespace
-}  // namespace pprt
+}  // namespace pprt::address_test

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <string>
 
-namespace pprt {
+namespace pprt::command_test {
 namespace {
 
 template <typename Command>
@@ -66,4 +66,4 @@ TEST_CASE("live commands: what is none is refused in words") {
 }
 
 }  // namespace
-}  // namespace pprt
+}  // namespace pprt::command_test

@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace pprt {
+namespace pprt::film_keys_test {
 namespace {
 
 View view_from(double x) {
@@ -57,4 +57,4 @@ TEST_CASE("film keys: there are so many and no more, in the list and to undo") {
 }
 
 }  // namespace
-}  // namespace pprt
+}  // namespace pprt::film_keys_test

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-namespace pprt {
+namespace pprt::gate_test {
 namespace {
 
 constexpr const char* kToken = "0123456789abcdef0123456789abcdef";
@@ -90,4 +90,4 @@ TEST_CASE("gate: tokens are long and never the same") {
 }
 
 }  // namespace
-}  // namespace pprt
+}  // namespace pprt::gate_test

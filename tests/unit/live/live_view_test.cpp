@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-namespace pprt {
+namespace pprt::live_view_test {
 namespace {
 
 namespace asio = boost::asio;
@@ -130,4 +130,4 @@ TEST_CASE("live view: an overlay is drawn before the picture is sent") {
 }
 
 }  // namespace
-}  // namespace pprt
+}  // namespace pprt::live_view_test

@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace pprt {
+namespace pprt::picture_stream_test {
 namespace {
 
 // Stripes, of which `share` of 16 columns is wrong.
@@ -77,4 +77,4 @@ TEST_CASE("rest estimate: a picture of another size is another picture") {
 }
 
 }  // namespace
-}  // namespace pprt
+}  // namespace pprt::picture_stream_test

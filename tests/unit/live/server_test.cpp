@@ -16,7 +16,7 @@
 #include <thread>
 #include <vector>
 
-namespace pprt {
+namespace pprt::server_test {
 namespace {
 
 namespace asio = boost::asio;
@@ -241,4 +241,4 @@ TEST_CASE("live server: an address that is taken is an error") {
 }
 
 }  // namespace
-}  // namespace pprt
+}  // namespace pprt::server_test

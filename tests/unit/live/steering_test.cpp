@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-namespace pprt {
+namespace pprt::steering_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -356,4 +356,4 @@ TEST_CASE("steering: frames are wanted while somebody watches and the picture is
 }
 
 }  // namespace
-}  // namespace pprt
+}  // namespace pprt::steering_test

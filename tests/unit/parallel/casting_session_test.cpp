@@ -8,7 +8,7 @@
 #include "unit/parallel/both_samplers.h"
 #include "unit/parallel/virtual_run.h"
 
-namespace pprt {
+namespace pprt::casting_session_test {
 namespace {
 
 constexpr int kRanks = 4;
@@ -194,4 +194,4 @@ BOTH_SAMPLERS_TEST_CASE(
   }
 }
 
-}  // namespace pprt
+}  // namespace pprt::casting_session_test

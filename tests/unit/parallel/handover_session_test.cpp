@@ -7,7 +7,7 @@
 #include "unit/parallel/both_samplers.h"
 #include "unit/parallel/virtual_run.h"
 
-namespace pprt {
+namespace pprt::handover_session_test {
 namespace {
 
 constexpr int kRanks = 5;
@@ -162,4 +162,4 @@ BOTH_SAMPLERS_TEST_CASE(
   CHECK(cuts > 0);
 }
 
-}  // namespace pprt
+}  // namespace pprt::handover_session_test

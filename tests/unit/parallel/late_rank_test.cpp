@@ -10,7 +10,7 @@
 #include "unit/parallel/clock/set_clock.h"
 #include "unit/parallel/virtual_run.h"
 
-namespace pprt {
+namespace pprt::late_rank_test {
 namespace {
 
 constexpr double kPeriod = 0.25;
@@ -242,4 +242,4 @@ BOTH_SAMPLERS_TEST_CASE("late rank: a partition that comes with a frame left out
   }
 }
 
-}  // namespace pprt
+}  // namespace pprt::late_rank_test

@@ -12,7 +12,7 @@
 #include "pipeline/lattice/lattice_node.h"
 #include "unit/parallel/virtual_run.h"
 
-namespace pprt {
+namespace pprt::lattice_session_test {
 namespace {
 
 // A few thousand samples a frame and rank.
@@ -241,4 +241,4 @@ TEST_CASE("lattice session: balancing does not make a still of several ranks mor
   CHECK(samples_with(BalanceMode::kCombined) < 1.1 * samples_with(BalanceMode::kNone));
 }
 
-}  // namespace pprt
+}  // namespace pprt::lattice_session_test

@@ -10,7 +10,7 @@
 #include "unit/parallel/both_samplers.h"
 #include "unit/parallel/virtual_run.h"
 
-namespace pprt {
+namespace pprt::lost_rank_test {
 namespace {
 
 constexpr int kFrames = 30;
@@ -107,4 +107,4 @@ TEST_CASE("lost ranks: a rank that no frame waits for may be silent") {
 }
 
 }  // namespace
-}  // namespace pprt
+}  // namespace pprt::lost_rank_test

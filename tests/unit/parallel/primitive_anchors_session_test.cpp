@@ -8,7 +8,7 @@
 #include "parallel/rank/worker.h"
 #include "unit/parallel/clock/set_clock.h"
 
-namespace pprt {
+namespace pprt::primitive_anchors_session_test {
 namespace {
 
 constexpr int kSize = 96;
@@ -219,4 +219,4 @@ TEST_CASE("primitive anchors: a camera cut forgets them") {
   }
 }
 
-}  // namespace pprt
+}  // namespace pprt::primitive_anchors_session_test

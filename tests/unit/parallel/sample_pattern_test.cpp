@@ -8,7 +8,7 @@
 #include "parallel/balance/partition.h"
 #include "unit/parallel/virtual_run.h"
 
-namespace pprt {
+namespace pprt::sample_pattern_test {
 namespace {
 
 constexpr int kRanks = 9, kWidth = 240, kHeight = 240;
@@ -152,4 +152,4 @@ TEST_CASE(
   CHECK(c.to_other_seed > 1.5 * 0.13);
 }
 
-}  // namespace pprt
+}  // namespace pprt::sample_pattern_test

@@ -8,7 +8,7 @@
 #include "unit/parallel/both_samplers.h"
 #include "unit/parallel/virtual_run.h"
 
-namespace pprt {
+namespace pprt::serial_pattern_test {
 namespace {
 
 std::vector<Sample> at(std::initializer_list<std::pair<double, double>> points) {
@@ -104,4 +104,4 @@ BOTH_SAMPLERS_TEST_CASE("serial pattern: one rank has it, many without balancing
   CHECK(nine < 0.6);
 }
 
-}  // namespace pprt
+}  // namespace pprt::serial_pattern_test

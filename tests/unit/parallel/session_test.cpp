@@ -9,7 +9,7 @@
 #include "unit/parallel/both_samplers.h"
 #include "unit/parallel/virtual_run.h"
 
-namespace pprt {
+namespace pprt::session_test {
 namespace {
 
 // 4 frames a second of counted work, a megaunit and a half a rank: about a thousand samples each.
@@ -376,4 +376,4 @@ BOTH_SAMPLERS_TEST_CASE("session: a picture of more pixels than one message hold
   CHECK(total(run.frames[0], &RankReport::bytes_pixels) == 12 * pixels);
 }
 
-}  // namespace pprt
+}  // namespace pprt::session_test

@@ -4,7 +4,7 @@
 
 #include "unit/parallel/virtual_run.h"
 
-namespace pprt {
+namespace pprt::silhouettes_session_test {
 namespace {
 
 constexpr int kFrames = 3;
@@ -67,4 +67,4 @@ TEST_CASE("silhouettes: moving frames of several ranks show edges where their ow
   }
 }
 
-}  // namespace pprt
+}  // namespace pprt::silhouettes_session_test

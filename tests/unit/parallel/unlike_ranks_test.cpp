@@ -5,7 +5,7 @@
 #include "unit/parallel/both_samplers.h"
 #include "unit/parallel/virtual_run.h"
 
-namespace pprt {
+namespace pprt::unlike_ranks_test {
 namespace {
 
 constexpr int kRanks = 8, kSlow = 4, kFrames = 16;
@@ -69,4 +69,4 @@ BOTH_SAMPLERS_TEST_CASE("unlike ranks: a rank's report tells its pace") {
   }
 }
 
-}  // namespace pprt
+}  // namespace pprt::unlike_ranks_test

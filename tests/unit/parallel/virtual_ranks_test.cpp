@@ -9,7 +9,7 @@
 #include "unit/parallel/both_samplers.h"
 #include "unit/parallel/virtual_run.h"
 
-namespace pprt {
+namespace pprt::virtual_ranks_test {
 namespace {
 
 SessionSettings settings(SamplerChoice sampler) {
@@ -76,4 +76,4 @@ BOTH_SAMPLERS_TEST_CASE("virtual ranks: a rank that fails ends the run of all") 
                     "no such ray");
 }
 
-}  // namespace pprt
+}  // namespace pprt::virtual_ranks_test

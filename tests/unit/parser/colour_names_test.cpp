@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace pprt {
+namespace pprt::colour_names_test {
 namespace {
 
 Rgb bytes(int r, int g, int b) {
@@ -45,4 +45,4 @@ TEST_CASE("a word that is no colour name has no colour") {
   }
 }
 
-}  // namespace pprt
+}  // namespace pprt::colour_names_test

@@ -3,11 +3,11 @@
 #include <catch2/catch.hpp>
 #include <tao/pegtl/contrib/analyze.hpp>
 
-namespace pprt::nff {
+namespace pprt::nff_grammar_test {
 
 TEST_CASE("no rule of the NFF grammar can loop without consuming") {
-  CHECK(grammar::pegtl::analyze<grammar::file>() == 0);
-  CHECK(grammar::pegtl::analyze<grammar::resume>() == 0);
+  CHECK(tao::pegtl::analyze<nff::grammar::file>() == 0);
+  CHECK(tao::pegtl::analyze<nff::grammar::resume>() == 0);
 }
 
-}  // namespace pprt::nff
+}  // namespace pprt::nff_grammar_test

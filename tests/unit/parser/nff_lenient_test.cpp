@@ -5,7 +5,7 @@
 
 #include "unit/parser/nff_sample.h"
 
-namespace pprt {
+namespace pprt::nff_lenient_test {
 namespace {
 
 const std::string kFill = "f 1 0 0 1 0 0 0 1\n";
@@ -216,4 +216,4 @@ TEST_CASE("the headers of a mailed scene are skipped") {
   CHECK(scene("Subject: x\n s 0 0 0 1\n").spheres.size() == 1);
 }
 
-}  // namespace pprt
+}  // namespace pprt::nff_lenient_test

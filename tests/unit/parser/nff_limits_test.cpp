@@ -7,7 +7,7 @@
 #include "parser/text_input.h"
 #include "unit/parser/nff_sample.h"
 
-namespace pprt {
+namespace pprt::nff_limits_test {
 namespace {
 
 // Indices of a scene that was accepted are in range.
@@ -143,4 +143,4 @@ TEST_CASE("a scene with random bytes changed is read or rejected") {
   }
 }
 
-}  // namespace pprt
+}  // namespace pprt::nff_limits_test

@@ -4,7 +4,7 @@
 
 #include "unit/parser/nff_sample.h"
 
-namespace pprt {
+namespace pprt::nff_messages_test {
 namespace {
 
 std::string read_report(const std::string& path) {
@@ -158,4 +158,4 @@ TEST_CASE("a word within the colour of a fill is a mistake, not a texture") {
         "          ^");
 }
 
-}  // namespace pprt
+}  // namespace pprt::nff_messages_test

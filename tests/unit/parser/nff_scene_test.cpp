@@ -3,7 +3,7 @@
 
 #include "unit/parser/nff_sample.h"
 
-namespace pprt {
+namespace pprt::nff_scene_test {
 
 TEST_CASE("each entity of a scene is read as it stands") {
   const ParsedScene parsed = parse_nff(kSample, "sample.nff", strict());
@@ -106,4 +106,4 @@ TEST_CASE("rounding residues and negative radii of SPD's files are read") {
   CHECK(scene.cones[1].apex_radius == 2);
 }
 
-}  // namespace pprt
+}  // namespace pprt::nff_scene_test

@@ -14,7 +14,7 @@
 
 #include "base/diagnostics.h"
 
-namespace pprt {
+namespace pprt::text_input_test {
 namespace {
 
 struct Scanned {
@@ -177,4 +177,4 @@ TEST_CASE("reading a whole file fails with the reason") {
   CHECK(reading_problem("/", 100) == "cannot read '/': Is a directory");
 }
 
-}  // namespace pprt
+}  // namespace pprt::text_input_test

@@ -6,7 +6,7 @@
 #include "base/diagnostics.h"
 #include "spd/spd.h"
 
-using namespace pprt;
+namespace pprt::spd_names_test {
 
 namespace {
 
@@ -71,3 +71,5 @@ TEST_CASE("a size beyond the limit is refused before anything is made") {
     CHECK_THROWS_AS(make_spd(database.name, 2147483647), InputError);
   }
 }
+
+}  // namespace pprt::spd_names_test

@@ -10,7 +10,7 @@
 
 #include "spd/spd.h"
 
-using namespace pprt;
+namespace pprt::spd_scenes_test {
 
 namespace {
 
@@ -184,3 +184,5 @@ TEST_CASE("the glass of mount refracts, the sphereflake mirrors, the tree does n
 
   for (const Material& m : make_spd("tree", 1).materials) CHECK(m.specular + m.transmittance == 0);
 }
+
+}  // namespace pprt::spd_scenes_test

@@ -9,7 +9,7 @@
 
 #include "spd/spd.h"
 
-using namespace pprt;
+namespace pprt::spd_spots_test {
 
 namespace {
 
@@ -182,3 +182,5 @@ TEST_CASE("lattice: rods end inside the spheres they join") {
     CHECK(std::hypot(gap, rod.base_radius) < sphere_radius);
   }
 }
+
+}  // namespace pprt::spd_spots_test

@@ -6,7 +6,7 @@
 #include "study/frame_series.h"
 #include "study/reference.h"
 
-namespace pprt {
+namespace pprt::moving_series_test {
 namespace {
 
 constexpr int kSize = 64;
@@ -108,4 +108,4 @@ TEST_CASE("moving series: samples accumulate while nothing moves") {
   CHECK(rmse_of(series.pictures[4], reference) < 0.9 * rmse_of(series.pictures[3], reference));
 }
 
-}  // namespace pprt
+}  // namespace pprt::moving_series_test

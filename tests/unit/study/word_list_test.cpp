@@ -4,7 +4,7 @@
 
 #include "base/diagnostics.h"
 
-namespace pprt {
+namespace pprt::word_list_test {
 
 TEST_CASE("word lists: in the order given, and an unknown word is refused by the option's name") {
   constexpr std::string_view kKnown[] = {"red", "green"};
@@ -14,4 +14,4 @@ TEST_CASE("word lists: in the order given, and an unknown word is refused by the
   CHECK_THROWS_AS(words_in_list("--hue", "red,", kKnown), UsageError);
 }
 
-}  // namespace pprt
+}  // namespace pprt::word_list_test

@@ -8,7 +8,8 @@
 #include "trace/compiled_scene.h"
 #include "unit/trace/test_scenes.h"
 
-using namespace pprt;
+namespace pprt::camera_test {
+
 using namespace pprt::test;
 
 namespace {
@@ -108,3 +109,5 @@ TEST_CASE("an eye sees a scene from 2^40 sizes away, and is refused from farther
     CHECK_THROWS_AS(compiled.camera(view), InputError);
   }
 }
+
+}  // namespace pprt::camera_test

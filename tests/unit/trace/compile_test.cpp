@@ -7,7 +7,8 @@
 #include "trace/normalisation.h"
 #include "unit/trace/test_scenes.h"
 
-using namespace pprt;
+namespace pprt::compile_test {
+
 using namespace pprt::test;
 
 TEST_CASE("normalising fits any box into the unit cube, exactly but for the recentring") {
@@ -133,3 +134,5 @@ TEST_CASE("the census counts what is there and names nothing else") {
   CHECK_THAT(census, !Catch::Contains("sphere"));
   CHECK_THAT(census, !Catch::Contains("cone"));
 }
+
+}  // namespace pprt::compile_test

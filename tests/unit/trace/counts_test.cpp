@@ -3,7 +3,7 @@
 #include "spd/spd.h"
 #include "trace/compiled_scene.h"
 
-using namespace pprt;
+namespace pprt::counts_test {
 
 namespace {
 
@@ -46,3 +46,5 @@ TEST_CASE("counting as published, a transmitting surface reflects even with Ks =
   CHECK(counts.refraction > 0);
   CHECK(counts.reflection == counts.refraction + counts.total_internal_reflection);
 }
+
+}  // namespace pprt::counts_test

@@ -7,7 +7,8 @@
 #include "trace/compiled_scene.h"
 #include "unit/trace/test_scenes.h"
 
-using namespace pprt;
+namespace pprt::effects_test {
+
 using namespace pprt::test;
 
 namespace {
@@ -104,3 +105,5 @@ TEST_CASE("the words for effects are read and written") {
   CHECK_THROWS_WITH(parse_effects("shadows,caustics"), Catch::Contains("'caustics'"));
   CHECK_THROWS_AS(parse_effects(""), UsageError);
 }
+
+}  // namespace pprt::effects_test

@@ -3,7 +3,8 @@
 
 #include "unit/trace/test_scenes.h"
 
-using namespace pprt;
+namespace pprt::first_hit_test {
+
 using namespace pprt::test;
 
 TEST_CASE("depth is measured along the direction of view, in the scene's units") {
@@ -68,3 +69,5 @@ TEST_CASE("a miss has infinite depth and no primitive") {
   CHECK(miss.primitive == 0);
   CHECK(miss.material == 0);
 }
+
+}  // namespace pprt::first_hit_test

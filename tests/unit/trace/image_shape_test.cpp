@@ -9,7 +9,8 @@
 #include "spd/spd.h"
 #include "unit/trace/test_scenes.h"
 
-using namespace pprt;
+namespace pprt::image_shape_test {
+
 using namespace pprt::test;
 
 namespace {
@@ -144,3 +145,5 @@ TEST_CASE("where the eye is inside a sphere or cone there is no shape, nor for a
   tracer.project(4, shape);
   CHECK(shape.kind == ImageShape::Kind::kUnknown);
 }
+
+}  // namespace pprt::image_shape_test

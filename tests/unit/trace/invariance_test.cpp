@@ -4,7 +4,8 @@
 #include "spd/spd.h"
 #include "unit/trace/test_scenes.h"
 
-using namespace pprt;
+namespace pprt::invariance_test {
+
 using namespace pprt::test;
 
 namespace {
@@ -78,3 +79,5 @@ TEST_CASE("an eye a million scene sizes away sees what is there") {
   const RaySample middle = tracer.trace(50.5, 50.5);
   CHECK(middle.color.x == Approx(0.55).epsilon(1e-5));
 }
+
+}  // namespace pprt::invariance_test

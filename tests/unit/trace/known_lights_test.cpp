@@ -4,7 +4,8 @@
 
 #include "unit/trace/test_scenes.h"
 
-using namespace pprt;
+namespace pprt::known_lights_test {
+
 using namespace pprt::test;
 
 namespace {
@@ -88,3 +89,5 @@ TEST_CASE("known lights: only the first eight lights are told of") {
   CHECK(again.shadow_rays == 2);
   CHECK(again.sample.color == first.sample.color);
 }
+
+}  // namespace pprt::known_lights_test

@@ -5,7 +5,8 @@
 
 #include "unit/trace/test_scenes.h"
 
-using namespace pprt;
+namespace pprt::light_contacts_test {
+
 using namespace pprt::test;
 
 namespace {
@@ -121,3 +122,5 @@ TEST_CASE("a lamp on a ball or a pipe is hidden by it only from behind") {
     }
   }
 }
+
+}  // namespace pprt::light_contacts_test

@@ -8,7 +8,8 @@
 #include "scene/animation/resting_nodes.h"
 #include "unit/trace/test_scenes.h"
 
-using namespace pprt;
+namespace pprt::moving_bodies_test {
+
 using namespace pprt::test;
 
 namespace {
@@ -377,3 +378,5 @@ TEST_CASE("moving bodies: triangles with a texture but without area make no part
   const CompiledScene compiled = compile(scene_of(text));
   CHECK(compiled.census().find("301 triangles; 300 without extent left out") != std::string::npos);
 }
+
+}  // namespace pprt::moving_bodies_test

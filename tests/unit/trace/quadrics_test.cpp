@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-using namespace pprt;
+namespace pprt::quadrics_test {
 
 namespace {
 
@@ -195,3 +195,5 @@ TEST_CASE("bounds hold every point of a cone and touch it") {
   CHECK(box.min == Vec3d(0.25, -0.75, 0));
   CHECK(box.max == Vec3d(1.75, 0.75, 2));
 }
+
+}  // namespace pprt::quadrics_test

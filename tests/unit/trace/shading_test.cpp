@@ -5,7 +5,8 @@
 #include "spd/spd.h"
 #include "unit/trace/test_scenes.h"
 
-using namespace pprt;
+namespace pprt::shading_test {
+
 using namespace pprt::test;
 
 namespace {
@@ -246,3 +247,5 @@ TEST_CASE("only what shines, mirrors or transmits depends on the eye") {
   scene.materials[0].transmittance = 0.1;
   CHECK(look(compile(scene), *scene.view).eye_dependent);
 }
+
+}  // namespace pprt::shading_test

@@ -2,7 +2,8 @@
 
 #include "unit/trace/test_scenes.h"
 
-using namespace pprt;
+namespace pprt::sides_test {
+
 using namespace pprt::test;
 
 namespace {
@@ -120,3 +121,5 @@ TEST_CASE("a ray through the notch of a concave polygon misses it") {
   CHECK(hit_distance(scene, {0, -1.5, 10}, {0, -1.5, 0}) == Approx(10));
   CHECK(hit_distance(scene, {1.9, 1.5, 10}, {1.9, 1.5, 0}) == Approx(10));
 }
+
+}  // namespace pprt::sides_test

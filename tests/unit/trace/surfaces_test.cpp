@@ -5,7 +5,8 @@
 #include "trace/texture_image.h"
 #include "unit/trace/test_scenes.h"
 
-using namespace pprt;
+namespace pprt::surfaces_test {
+
 using namespace pprt::test;
 
 namespace {
@@ -116,3 +117,5 @@ TEST_CASE("materials: without colours for each term nothing changes in an extend
     CHECK(a.trace(x, y).color == b.trace(x, y).color);
   }
 }
+
+}  // namespace pprt::surfaces_test

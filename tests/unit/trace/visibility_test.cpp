@@ -3,7 +3,8 @@
 #include "spd/spd.h"
 #include "unit/trace/test_scenes.h"
 
-using namespace pprt;
+namespace pprt::visibility_test {
+
 using namespace pprt::test;
 
 TEST_CASE("what an eye has seen it sees again") {
@@ -56,3 +57,5 @@ TEST_CASE("hit points project back to where their rays came from") {
     REQUIRE(std::abs(point->y - y) < 1e-3);
   }
 }
+
+}  // namespace pprt::visibility_test

@@ -5,7 +5,7 @@
 
 #include "cli/options/option_words.h"
 
-namespace pprt {
+namespace pprt::help_test {
 namespace {
 
 OptionTable sample_table() {
@@ -83,4 +83,4 @@ TEST_CASE("help lists options in groups, in their order, within 79 columns") {
         "  -h,--help             Help\n");
 }
 
-}  // namespace pprt
+}  // namespace pprt::help_test

@@ -9,7 +9,7 @@
 
 #include "base/diagnostics.h"
 
-using namespace pprt;
+namespace pprt::exit_test {
 
 TEST_CASE("a program's exit code is what its body returns") {
   CHECK(run_guarded("test", [] { return 0; }) == kExitDone);
@@ -31,3 +31,5 @@ TEST_CASE("messages of the library become ones for people") {
         "'out/a.png': Permission denied");
   CHECK(message_of(std::runtime_error("torn")) == "torn");
 }
+
+}  // namespace pprt::exit_test

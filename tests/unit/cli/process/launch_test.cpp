@@ -9,7 +9,7 @@
 
 #include "cli/process/mpirun_messages.h"
 
-namespace pprt {
+namespace pprt::launch_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -98,4 +98,4 @@ TEST_CASE("words that nobody has quoted are taken as they are") {
   CHECK(user_words(0, argv.data()).empty());
 }
 
-}  // namespace pprt
+}  // namespace pprt::launch_test

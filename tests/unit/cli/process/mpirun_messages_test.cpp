@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace pprt {
+namespace pprt::mpirun_messages_test {
 namespace {
 
 const std::string kRule = std::string(74, '-') + "\n";
@@ -91,4 +91,4 @@ TEST_CASE("mpirun's message about a forwarded signal is dropped") {
   CHECK(shown(messages, "mpirun: Forwarding signal 12 to job\nmpirun: x\n", 3) == "mpirun: x\n");
 }
 
-}  // namespace pprt
+}  // namespace pprt::mpirun_messages_test

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-using namespace pprt;
+namespace pprt::rank_limits_test {
 
 TEST_CASE("ranks run where cores, memory and open files have room for them") {
   constexpr std::uint64_t kGigabyte = 1'000'000'000;
@@ -17,3 +17,5 @@ TEST_CASE("ranks run where cores, memory and open files have room for them") {
         "1000 ranks are too many: mpirun would open 4064 files, and 'ulimit -Hn' allows 1024");
   CHECK_FALSE(lack_of_room(1000, {.cores = 64, .memory_bytes = 64 * kGigabyte, .open_files = 4096}));
 }
+
+}  // namespace pprt::rank_limits_test

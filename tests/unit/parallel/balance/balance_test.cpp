@@ -14,7 +14,7 @@
 #include "unit/parallel/exchange/exchange_ranks.h"
 #include "unit/parallel/virtual_run.h"
 
-namespace pprt {
+namespace pprt::balance_test {
 namespace {
 
 // Two ranks side by side on 8 x 4 tiles of 10 pixels; the left four columns are rank 0's.
@@ -336,4 +336,4 @@ BOTH_SAMPLERS_TEST_CASE(
   CHECK(is_made(1, false));  // nothing is handed over
 }
 
-}  // namespace pprt
+}  // namespace pprt::balance_test

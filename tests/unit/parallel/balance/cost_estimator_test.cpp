@@ -5,7 +5,7 @@
 
 #include "parallel/exchange/samplers.h"
 
-namespace pprt {
+namespace pprt::cost_estimator_test {
 namespace {
 
 Sample sample_at(double x, std::uint32_t rays) {
@@ -38,4 +38,4 @@ TEST_CASE("cost estimator: a sample costs its tile its rays, and what its sample
 }
 
 }  // namespace
-}  // namespace pprt
+}  // namespace pprt::cost_estimator_test

@@ -9,7 +9,7 @@
 #include <string>
 #include <unordered_set>
 
-namespace pprt {
+namespace pprt::ownership_model_test {
 namespace {
 
 struct Exploration {
@@ -173,4 +173,4 @@ TEST_CASE("control: the ownership model finds each rule of the protocol that is 
   CHECK(fault_found({.acknowledges = false}) == "a rank can never give again");
 }
 
-}  // namespace pprt
+}  // namespace pprt::ownership_model_test

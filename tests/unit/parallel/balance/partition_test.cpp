@@ -6,7 +6,7 @@
 #include <random>
 #include <set>
 
-namespace pprt {
+namespace pprt::partition_test {
 namespace {
 
 std::vector<double> uniform_costs(const TileGrid& grid) {
@@ -196,4 +196,4 @@ TEST_CASE("partition: regions that touch at a corner only are not connected") {
   CHECK(is_connected(partition, 1));  // an empty region
 }
 
-}  // namespace pprt
+}  // namespace pprt::partition_test

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace pprt {
+namespace pprt::transfer_choice_test {
 namespace {
 
 // Three ranks side by side on 9 x 3 tiles, three columns each.
@@ -45,4 +45,4 @@ TEST_CASE(
   CHECK(takers_ahead({}, level).empty());
 }
 
-}  // namespace pprt
+}  // namespace pprt::transfer_choice_test

@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace pprt {
+namespace pprt::transfer_handshake_test {
 namespace {
 
 // Two ranks whose messages are delivered at once.
@@ -101,4 +101,4 @@ TEST_CASE("transfer handshake: a rank is sent further tiles only after it has co
   CHECK(talk.a.has_confirmed_transfers(1));
 }
 
-}  // namespace pprt
+}  // namespace pprt::transfer_handshake_test

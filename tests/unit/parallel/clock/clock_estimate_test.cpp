@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-namespace pprt {
+namespace pprt::clock_estimate_test {
 namespace {
 
 constexpr double kHour = 3600, kHostsApart = 1e5;
@@ -90,4 +90,4 @@ TEST_CASE("clock estimate: a jump is told once, and known at once") {
 }
 
 }  // namespace
-}  // namespace pprt
+}  // namespace pprt::clock_estimate_test

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-using namespace pprt;
+namespace pprt::delivery_clock_test {
 
 TEST_CASE("without a rate time begins with the first frame, not at the common start") {
   double now = 10;
@@ -23,3 +23,5 @@ TEST_CASE("with a rate time begins at the common start") {
   CHECK(clock.delivery_time(order, {}).finished_s == Approx(0.25));
   CHECK(clock.delivery_time(order, {}).late_ms == Approx(0).margin(1e-6));
 }
+
+}  // namespace pprt::delivery_clock_test

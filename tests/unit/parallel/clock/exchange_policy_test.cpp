@@ -6,7 +6,7 @@
 #include "parallel/clock/make_clocks.h"
 #include "parallel/network/local_communicator.h"
 
-namespace pprt {
+namespace pprt::exchange_policy_test {
 namespace {
 
 constexpr int kRanks = 3;
@@ -138,4 +138,4 @@ TEST_CASE("exchange policy: delayed samples arrive in their round, in the next f
 }
 
 }  // namespace
-}  // namespace pprt
+}  // namespace pprt::exchange_policy_test

@@ -6,7 +6,7 @@
 #include <deque>
 #include <thread>
 
-namespace pprt {
+namespace pprt::frame_clock_test {
 namespace {
 
 constexpr double kPeriod = 0.1;
@@ -224,4 +224,4 @@ TEST_CASE("work clock: a cast sample is priced with its visibility ray, a fresh 
 }
 
 }  // namespace
-}  // namespace pprt
+}  // namespace pprt::frame_clock_test

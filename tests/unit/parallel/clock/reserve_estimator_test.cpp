@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace pprt {
+namespace pprt::reserve_estimator_test {
 namespace {
 
 constexpr double kPeriod = 0.25;
@@ -36,4 +36,4 @@ TEST_CASE("reserve: reconstruction of all ranks of a core does not count") {
 }
 
 }  // namespace
-}  // namespace pprt
+}  // namespace pprt::reserve_estimator_test

@@ -4,7 +4,7 @@
 
 #include "unit/parallel/clock/set_clock.h"
 
-namespace pprt {
+namespace pprt::stage_timer_test {
 namespace {
 
 // Every reading of this clock is a millisecond after the one before.
@@ -48,4 +48,4 @@ TEST_CASE("stage timer: a frame begins with nothing, whatever was charged before
 }
 
 }  // namespace
-}  // namespace pprt
+}  // namespace pprt::stage_timer_test

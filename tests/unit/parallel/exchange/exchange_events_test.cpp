@@ -5,7 +5,7 @@
 
 #include "unit/parallel/exchange/exchange_ranks.h"
 
-namespace pprt {
+namespace pprt::exchange_events_test {
 namespace {
 
 // Runs the same with many more seeds, found for the asking: PPRT_EXCHANGE_SEEDS=1000 test_parallel
@@ -107,4 +107,4 @@ TEST_CASE("exchange: both sides know the triangles at borders when seeds come la
   check_events({.transfers = true, .cuts = true, .frames = true, .late_seeds = true});
 }
 
-}  // namespace pprt
+}  // namespace pprt::exchange_events_test

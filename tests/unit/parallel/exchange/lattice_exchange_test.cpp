@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace pprt {
+namespace pprt::lattice_exchange_test {
 namespace {
 
 constexpr int kSide = 16;  // of the tiles
@@ -89,4 +89,4 @@ TEST_CASE("lattice exchange: a tile's samples and those on its border are handed
   CHECK(middle.take_outbox(0).size() == 5 * 5 + 2);  // and the centres of the two squares below
 }
 
-}  // namespace pprt
+}  // namespace pprt::lattice_exchange_test

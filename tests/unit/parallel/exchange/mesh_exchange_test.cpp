@@ -6,7 +6,7 @@
 
 #include "unit/parallel/exchange/exchange_ranks.h"
 
-namespace pprt {
+namespace pprt::mesh_exchange_test {
 namespace {
 
 void check_invariant(const Partition& partition, unsigned seed) {
@@ -110,4 +110,4 @@ TEST_CASE("exchange: a sample is sent to a rank once") {
   CHECK(run.quieten() == 1);  // nothing is left to say
 }
 
-}  // namespace pprt
+}  // namespace pprt::mesh_exchange_test

@@ -8,7 +8,7 @@
 #include "unit/parallel/both_samplers.h"
 #include "unit/parallel/virtual_run.h"
 
-namespace pprt {
+namespace pprt::master_test {
 namespace {
 
 constexpr int kRanks = 3;
@@ -436,4 +436,4 @@ TEST_CASE("master: the reserve excludes reconstruction, for which each rank leav
   CHECK(reserve_after(2) == Approx(1.7 * (0.04 - 16 * 0.002) + 0.001));  // sixteen ranks share a core
 }
 
-}  // namespace pprt
+}  // namespace pprt::master_test

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace pprt {
+namespace pprt::mosaic_test {
 namespace {
 
 // Four tiles of 4x4 pixels in a row.
@@ -72,4 +72,4 @@ TEST_CASE("mosaic: pixels that are not those of their tiles are refused") {
   CHECK_THROWS_AS(mosaic.paste(0, message), ProtocolError);
 }
 
-}  // namespace pprt
+}  // namespace pprt::mosaic_test

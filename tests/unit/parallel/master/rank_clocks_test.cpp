@@ -5,7 +5,7 @@
 #include "parallel/network/local_communicator.h"
 #include "parallel/protocol/messages.h"
 
-namespace pprt {
+namespace pprt::rank_clocks_test {
 namespace {
 
 // Rank 0 and two others, whose clocks are 100 s and 200 s ahead.
@@ -81,4 +81,4 @@ TEST_CASE("rank clocks: nobody is asked before the watch begins, nor answers una
 }
 
 }  // namespace
-}  // namespace pprt
+}  // namespace pprt::rank_clocks_test

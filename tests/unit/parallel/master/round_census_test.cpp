@@ -8,7 +8,7 @@
 #include "parallel/protocol/inbox.h"
 #include "parallel/protocol/messages.h"
 
-namespace pprt {
+namespace pprt::round_census_test {
 namespace {
 
 constexpr int kRanks = 3;
@@ -58,4 +58,4 @@ TEST_CASE("round census: a bundle to nobody is an error") {
 }
 
 }  // namespace
-}  // namespace pprt
+}  // namespace pprt::round_census_test

@@ -12,7 +12,7 @@
 
 #include "parallel/clock/host_time.h"
 
-namespace pprt {
+namespace pprt::local_communicator_test {
 namespace {
 
 constexpr double kLong = 30;  // seconds: a test that waits so long has failed
@@ -128,4 +128,4 @@ TEST_CASE("local ranks: a rank that fails ends those that wait, and its reason i
   CHECK(monotonic_seconds() - began < kLong / 2);
 }
 
-}  // namespace pprt
+}  // namespace pprt::local_communicator_test

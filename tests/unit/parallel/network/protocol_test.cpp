@@ -7,7 +7,7 @@
 
 #include "parallel/protocol/messages.h"
 
-namespace pprt {
+namespace pprt::protocol_test {
 namespace {
 
 std::string page() {
@@ -128,4 +128,4 @@ TEST_CASE("docs/protocol.md: its tags are those of the communicator") {
   }
 }
 
-}  // namespace pprt
+}  // namespace pprt::protocol_test

@@ -4,7 +4,7 @@
 
 #include "parallel/network/local_communicator.h"
 
-namespace pprt {
+namespace pprt::inbox_test {
 namespace {
 
 const auto kNoMaster = [](const Message&) { FAIL("pixels came to a worker"); };
@@ -67,4 +67,4 @@ TEST_CASE("inbox: messages that do not belong into a sequence are refused") {
   CHECK_THROWS_AS(inbox.pump(), ProtocolError);
 }
 
-}  // namespace pprt
+}  // namespace pprt::inbox_test

@@ -7,7 +7,7 @@
 #include "parallel/network/wire.h"
 #include "parallel/settings/session_settings.h"
 
-namespace pprt {
+namespace pprt::messages_test {
 namespace {
 
 Sample some_sample(int i) {
@@ -352,4 +352,4 @@ TEST_CASE("messages: texts are encoded with their length") {
   CHECK_NOTHROW(in.expect_end());
 }
 
-}  // namespace pprt
+}  // namespace pprt::messages_test

@@ -8,7 +8,7 @@
 #include "parallel/session.h"
 #include "unit/parallel/virtual_run.h"
 
-namespace pprt {
+namespace pprt::flip_estimate_test {
 namespace {
 
 SessionSettings settings_for(SamplerChoice sampler, const StopRules& stop) {
@@ -96,4 +96,4 @@ TEST_CASE("estimated FLIP: looking costs work, and the frame is the same each ti
   CHECK(first.ranks[0].finished_s > 1.02 * counted.ranks[0].finished_s);
 }
 
-}  // namespace pprt
+}  // namespace pprt::flip_estimate_test

@@ -9,7 +9,7 @@
 #include "parallel/exchange/samplers.h"
 #include "unit/parallel/both_samplers.h"
 
-namespace pprt {
+namespace pprt::picture_refresh_test {
 namespace {
 
 constexpr int kSide = 16, kTiles = 6;
@@ -142,4 +142,4 @@ TEST_CASE("picture refresh: a mesh is reconstructed as a whole or not at all") {
   CHECK(tiles_that_differ(picture, whole_picture(samples)).empty());
 }
 
-}  // namespace pprt
+}  // namespace pprt::picture_refresh_test

@@ -10,7 +10,7 @@
 #include "unit/parallel/clock/set_clock.h"
 #include "unit/parallel/virtual_run.h"
 
-namespace pprt {
+namespace pprt::worker_test {
 namespace {
 
 constexpr double kPeriod = 0.25;
@@ -272,4 +272,4 @@ BOTH_SAMPLERS_TEST_CASE("worker: a new partition is charged to balancing") {
   CHECK(scene.report().cpu_ms.balancing > 0);
 }
 
-}  // namespace pprt
+}  // namespace pprt::worker_test

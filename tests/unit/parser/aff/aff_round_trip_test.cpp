@@ -7,7 +7,7 @@
 #include "scene/description/shading_rules.h"
 #include "scene/writers/aff_writer.h"
 
-using namespace pprt;
+namespace pprt::aff_round_trip_test {
 
 namespace {
 
@@ -141,3 +141,5 @@ TEST_CASE("names that AFF cannot hold are changed, and stay apart") {
   CHECK(back.movement.tracks.size() == 3);
   CHECK(placements_at(back.movement, 1)[back.nodes[2]].visible == false);
 }
+
+}  // namespace pprt::aff_round_trip_test

@@ -7,7 +7,7 @@
 #include "parser/aff_parser.h"
 #include "unit/image/temporary_directory.h"
 
-using namespace pprt;
+namespace pprt::aff_scene_test {
 
 namespace {
 
@@ -337,3 +337,5 @@ k a { rot 4 0 0 0 1 0 0 0 0 1 0 0 1 0 0 0 0 2 0 0 1 0 0 0 0 3 0 0 1 0 0 0 0 visi
   }
   CHECK(parsed(whole).meshes.size() == 1);
 }
+
+}  // namespace pprt::aff_scene_test

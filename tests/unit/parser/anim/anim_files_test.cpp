@@ -6,7 +6,7 @@
 
 #include "unit/parser/anim/script.h"
 
-namespace pprt {
+namespace pprt::anim_files_test {
 namespace {
 
 const std::string kSource = PPRT_SOURCE_DIR;
@@ -89,7 +89,7 @@ TEST_CASE("the manual page's examples are scripts") {
       inside = false;
       if (text.find("animation {") == std::string::npos) continue;
       ++examples;
-      CHECK(report(text).empty());
+      CHECK(script_report(text).empty());
     } else if (inside && line != ".") {
       text += line + '\n';
     }
@@ -98,4 +98,4 @@ TEST_CASE("the manual page's examples are scripts") {
 }
 
 }  // namespace
-}  // namespace pprt
+}  // namespace pprt::anim_files_test

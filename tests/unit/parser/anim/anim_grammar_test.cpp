@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <tao/pegtl/contrib/analyze.hpp>
 
-namespace pprt {
+namespace pprt::anim_grammar_test {
 namespace {
 
 TEST_CASE("the grammar has no loop that consumes nothing and no left recursion") {
@@ -11,4 +11,4 @@ TEST_CASE("the grammar has no loop that consumes nothing and no left recursion")
 }
 
 }  // namespace
-}  // namespace pprt
+}  // namespace pprt::anim_grammar_test

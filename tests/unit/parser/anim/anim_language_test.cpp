@@ -3,7 +3,7 @@
 
 #include "unit/parser/anim/script.h"
 
-namespace pprt {
+namespace pprt::anim_language_test {
 namespace {
 
 TEST_CASE("the example script is read with all its values") {
@@ -177,4 +177,4 @@ TEST_CASE("a script may tell the version of its language") {
 }
 
 }  // namespace
-}  // namespace pprt
+}  // namespace pprt::anim_language_test

@@ -6,7 +6,7 @@
 #include "parser/text_input.h"
 #include "unit/parser/anim/script.h"
 
-namespace pprt {
+namespace pprt::anim_limits_test {
 namespace {
 
 // A hostile text is either rejected with a report or is an animation that keeps its promises.
@@ -78,13 +78,13 @@ TEST_CASE("expressions nest a hundred deep, and no deeper whatever nests") {
   // A component of a vector is one level down already, and the number itself is one.
   CHECK(value(repeated("(", 98) + "1" + repeated(")", 98)) == 1);
   const auto opening = GENERATE("(", "-", "+", "1^", "sin(", "<", "max(1,", "2^-(");
-  const std::string text = report("animation { frames " + repeated(opening, 100'000) + "1 }");
+  const std::string text = script_report("animation { frames " + repeated(opening, 100'000) + "1 }");
   CHECK(text.find("error: the expression nests deeper than 100 levels\n") != std::string::npos);
 }
 
 TEST_CASE("skipped blocks may nest to any depth") {
   const std::string text =
-      report("animation { what " + repeated("{", 100'000) + repeated("}", 100'000) + " frames 0 }");
+      script_report("animation { what " + repeated("{", 100'000) + repeated("}", 100'000) + " frames 0 }");
   CHECK(text.find("unknown word 'what'") != std::string::npos);
   CHECK(text.find("'frames' is a whole number") != std::string::npos);
 }
@@ -92,21 +92,21 @@ TEST_CASE("skipped blocks may nest to any depth") {
 TEST_CASE("keys, names and bytes are bounded") {
   std::string keys = "animation { camera { ";
   for (int i = 1; i <= 100'001; ++i) keys += "key " + std::to_string(i) + "{}";
-  CHECK(report(keys + "}}").find("error: more than 100000 keys") != std::string::npos);
+  CHECK(script_report(keys + "}}").find("error: more than 100000 keys") != std::string::npos);
 
   std::string names;
   for (int i = 0; i <= 100'001; ++i) names += "#declare a" + std::to_string(i) + "=1;";
-  CHECK(report(names).find("error: more than 100000 names") != std::string::npos);
+  CHECK(script_report(names).find("error: more than 100000 names") != std::string::npos);
 
-  CHECK(report(std::string((std::size_t{16} << 20) + 1, ' ')) ==
+  CHECK(script_report(std::string((std::size_t{16} << 20) + 1, ' ')) ==
         "a.anim: error: longer than 16777216 bytes, the most for a script");
 }
 
 TEST_CASE("any number of problems takes bounded memory and time") {
-  const std::string text = report(repeated("what {}\n", 200'000));
+  const std::string text = script_report(repeated("what {}\n", 200'000));
   CHECK(text.size() < 10'000);
   CHECK(text.ends_with("a.anim: 199950 further problems not shown"));
-  const std::string divisions = report("#declare R = " + repeated("1/0\n+", 200'000) + "1;");
+  const std::string divisions = script_report("#declare R = " + repeated("1/0\n+", 200'000) + "1;");
   CHECK(divisions.size() < 10'000);
 }
 
@@ -115,4 +115,4 @@ TEST_CASE("long sums take no stack") {
 }
 
 }  // namespace
-}  // namespace pprt
+}  // namespace pprt::anim_limits_test

@@ -3,12 +3,12 @@
 
 #include "unit/parser/anim/script.h"
 
-namespace pprt {
+namespace pprt::anim_messages_test {
 namespace {
 
 // The report of a script with a problem in its one line, without the line and the caret.
 std::string message(const std::string& text) {
-  const std::string whole = report(text);
+  const std::string whole = script_report(text);
   return whole.substr(0, whole.find('\n'));
 }
 
@@ -23,8 +23,9 @@ std::string in_key(const std::string& body) {
 }
 
 TEST_CASE("a report has file, line, column, the line and a caret, and every problem in order") {
-  CHECK(report("animation {\n  frmes 40\n  fps -4\n  camera {\n    key 1 { from <1, 2 at <0, 0> anlge 190 }\n"
-               "    key 1 { angle 1/0 }\n  }\n}\n") ==
+  CHECK(script_report(
+            "animation {\n  frmes 40\n  fps -4\n  camera {\n    key 1 { from <1, 2 at <0, 0> anlge 190 }\n"
+            "    key 1 { angle 1/0 }\n  }\n}\n") ==
         R"(a.anim:2:3: error: unknown word 'frmes'; did you mean 'frames'?
       frmes 40
       ^
@@ -205,7 +206,7 @@ TEST_CASE("one mistake is one problem: what depends on it is not reported again"
       "#declare R = 4.6 animation { camera { key 1 { from <R, 0, 0> at <0, 0, 0> } } }",
       "animation { camera { key 1 { from <0,0,0> at <0,0,5> up <0,0,1> } hold 2 key 3 { angle 3 } } }",
       "animation { fps 0 camera { key 1s { } key 2s { } } }");
-  const std::string whole = report(text);
+  const std::string whole = script_report(text);
   CHECK(std::count(whole.begin(), whole.end(), '\n') == 2);
 }
 
@@ -225,11 +226,11 @@ TEST_CASE("a field with an erroneous value and without effect causes both messag
   for (const char* value :
        {"X", "(X * 2)", "-X", "X - 1", "1 / 0", "abs(X)", "sqrt(-1)", "what(1)", "<X, 1>", "1e99 * 1e99"}) {
     CAPTURE(value);
-    const std::string text = report(camera + value + " } } }");
+    const std::string text = script_report(camera + value + " } } }");
     CHECK(text.starts_with("a.anim:1:"));
     CHECK(text.find("warning: 'bias' has no effect: the spline is not tcb\n") != std::string::npos);
   }
 }
 
 }  // namespace
-}  // namespace pprt
+}  // namespace pprt::anim_messages_test

@@ -4,7 +4,7 @@
 #include "scene/writers/anim_writer.h"
 #include "unit/parser/anim/script.h"
 
-namespace pprt {
+namespace pprt::anim_objects_test {
 namespace {
 
 std::string with_object(const std::string& body) {
@@ -12,7 +12,7 @@ std::string with_object(const std::string& body) {
 }
 
 bool tells(const std::string& body, const std::string& problem) {
-  const std::string told = report(with_object(body));
+  const std::string told = script_report(with_object(body));
   INFO(told);
   CHECK(told.find(problem) != std::string::npos);
   return told.find(problem) != std::string::npos;
@@ -55,13 +55,12 @@ TEST_CASE("anim: what an object's keys may not be is told with its place") {
   CHECK(tells("hold 3", "'hold' stands in camera { ... }, not in object { ... }"));
   CHECK(tells("keys 3 {}", "unknown word 'keys'; did you mean 'key'?"));
   CHECK(tells("key 1 { scale 1 scale 2 }", "'scale' is given twice in this key"));
-  CHECK(report("animation { object car {} }").find("expected the object's name in quotation marks") !=
+  CHECK(script_report("animation { object car {} }").find("expected the object's name in quotation marks") !=
         std::string::npos);
-  CHECK(
-      report("animation { camera { key 1 { scale 2 } } }").find("'scale' is an object's, not the camera's") !=
-      std::string::npos);
+  CHECK(script_report("animation { camera { key 1 { scale 2 } } }")
+            .find("'scale' is an object's, not the camera's") != std::string::npos);
   // Several at once.
-  const std::string all = report(with_object("key 1 { bias 2 } key 0 { up <1, 2, 3> }"));
+  const std::string all = script_report(with_object("key 1 { bias 2 } key 0 { up <1, 2, 3> }"));
   CHECK(all.find("'bias' is from") != std::string::npos);
   CHECK(all.find("'up' is the camera's") != std::string::npos);
   CHECK(all.find("frame 0 is before the first one") != std::string::npos);
@@ -80,4 +79,4 @@ TEST_CASE("anim: objects are written as they were read") {
   CHECK(a.shape.bias == b.shape.bias);
 }
 
-}  // namespace pprt
+}  // namespace pprt::anim_objects_test

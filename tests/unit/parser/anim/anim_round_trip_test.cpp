@@ -5,7 +5,7 @@
 #include "parser/anim_parser.h"
 #include "scene/writers/anim_writer.h"
 
-using namespace pprt;
+namespace pprt::anim_round_trip_test {
 
 namespace {
 
@@ -72,3 +72,5 @@ TEST_CASE("anim writer: what an animation does not have is not written") {
   animation.scene = "a \"quoted\" name";
   CHECK_FALSE(round_trip(animation).scene);
 }
+
+}  // namespace pprt::anim_round_trip_test

@@ -24,7 +24,7 @@ inline double value(const std::string& expression) {
 }
 
 // The whole report of a script that is rejected; empty when it is not.
-inline std::string report(std::string_view text) {
+inline std::string script_report(std::string_view text) {
   try {
     parse_animation(text, "a.anim");
   } catch (const InputError& error) {

@@ -7,7 +7,7 @@
 #include <map>
 #include <random>
 
-namespace pprt {
+namespace pprt::carried_lights_test {
 namespace {
 
 constexpr PixelRect kBounds{8, 4, 40, 30};
@@ -81,4 +81,4 @@ TEST_CASE("carried lights: at most four primitives, and nothing after clear()") 
   for (double x = 9; x < 39; ++x) CHECK(carried.near({x, 20}).empty());
 }
 
-}  // namespace pprt
+}  // namespace pprt::carried_lights_test

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <numeric>
 
-namespace pprt {
+namespace pprt::cast_choice_test {
 namespace {
 
 // A hundred fresh samples of seven rays each, in triangles of half a square pixel where the picture was wrong
@@ -175,4 +175,4 @@ TEST_CASE("cast choice: adding and halving evidence keeps its ratios") {
   CHECK(halved(sum).fresh_area == 50);
 }
 
-}  // namespace pprt
+}  // namespace pprt::cast_choice_test

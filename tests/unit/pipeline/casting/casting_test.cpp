@@ -6,7 +6,7 @@
 #include "pipeline/mesh/mesh_casting.h"
 #include "pipeline/mesh/seeds.h"
 
-namespace pprt {
+namespace pprt::casting_test {
 namespace {
 
 constexpr int kSize = 64;
@@ -248,4 +248,4 @@ TEST_CASE("casting: a sample goes where its object is, and is dropped where it i
   CHECK(cast().samples.size() == 3);
 }
 
-}  // namespace pprt
+}  // namespace pprt::casting_test

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-namespace pprt {
+namespace pprt::primitive_anchors_test {
 namespace {
 
 constexpr int kSize = 64;
@@ -111,4 +111,4 @@ TEST_CASE("anchors: they move with their primitives, and end with them") {
   CHECK(anchors.unseen(std::vector{seen_at(1, 1, 3)}, camera_at(0), kWhole, kAll).size() == 1);
 }
 
-}  // namespace pprt
+}  // namespace pprt::primitive_anchors_test

@@ -8,7 +8,7 @@
 
 #include "pipeline/mesh/refinement_weight.h"
 
-namespace pprt {
+namespace pprt::simd_test {
 namespace {
 
 float4 random_lanes(std::mt19937& random) {
@@ -71,4 +71,4 @@ TEST_CASE("vectors of four: clamping a colour to the display scale is clamping e
   }
 }
 
-}  // namespace pprt
+}  // namespace pprt::simd_test

@@ -8,7 +8,7 @@
 #include <functional>
 #include <set>
 
-namespace pprt {
+namespace pprt::lattice_refiner_test {
 namespace {
 
 constexpr int kWidth = 100, kHeight = 60;
@@ -464,4 +464,4 @@ TEST_CASE("lattice sampler: what changes evenly is predicted exactly, whichever 
   }
 }
 
-}  // namespace pprt
+}  // namespace pprt::lattice_refiner_test

@@ -9,7 +9,7 @@
 #include <set>
 #include <utility>
 
-namespace pprt {
+namespace pprt::lattice_store_test {
 namespace {
 
 constexpr int kWidth = 70, kHeight = 41;
@@ -212,4 +212,4 @@ TEST_CASE("lattice store: the sums of each square are those of a count, whatever
   store.for_each_square([](int, int, std::int64_t, double) { FAIL("candidates are left"); });
 }
 
-}  // namespace pprt
+}  // namespace pprt::lattice_store_test

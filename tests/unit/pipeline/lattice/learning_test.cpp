@@ -5,7 +5,7 @@
 #include "pipeline/lattice/error_estimates.h"
 #include "pipeline/lattice/local_errors.h"
 
-namespace pprt {
+namespace pprt::learning_test {
 
 TEST_CASE("local errors: an error counts near its point and nowhere else") {
   LocalErrors errors(64 * kPixelSide, 64 * kPixelSide);
@@ -90,4 +90,4 @@ TEST_CASE("edge share: the share is the one with which predictions would have be
   CHECK(share.of(3, 5) == 1);
 }
 
-}  // namespace pprt
+}  // namespace pprt::learning_test

@@ -7,7 +7,7 @@
 #include "pipeline/mesh/predicates.h"
 #include "unit/pipeline/cgal_oracle.h"
 
-namespace pprt {
+namespace pprt::delaunay_test {
 namespace {
 
 bool insert(Delaunay& delaunay, const Vec2d& point) {
@@ -216,4 +216,4 @@ TEST_CASE("delaunay: predicates are exact where rounding would decide") {
   CHECK(in_circle({0, 0}, {2 * tiny, 0}, {0, 2 * tiny}, {2 * tiny, 2 * tiny}) == 0);
 }
 
-}  // namespace pprt
+}  // namespace pprt::delaunay_test

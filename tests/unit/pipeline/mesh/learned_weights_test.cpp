@@ -12,7 +12,7 @@
 
 #include "unit/pipeline/synthetic_image.h"
 
-namespace pprt {
+namespace pprt::learned_weights_test {
 namespace {
 
 constexpr Bin kOne = 1, kOther = 2;
@@ -178,4 +178,4 @@ TEST_CASE(
   CHECK(learned_blind < 1.1 * paper_blind);
 }
 
-}  // namespace pprt
+}  // namespace pprt::learned_weights_test

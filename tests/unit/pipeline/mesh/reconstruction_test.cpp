@@ -6,7 +6,7 @@
 
 #include "unit/pipeline/synthetic_image.h"
 
-namespace pprt {
+namespace pprt::reconstruction_test {
 namespace {
 
 const TileGrid kGrid{100, 60, 16};
@@ -182,4 +182,4 @@ TEST_CASE("reconstruction: more samples reduce the error, and the rule by area h
   CHECK(error(3500, PixelRule::kArea) < 0.7 * error(3500, PixelRule::kCenter));
 }
 
-}  // namespace pprt
+}  // namespace pprt::reconstruction_test

@@ -13,7 +13,7 @@
 #include "unit/pipeline/mesh/silhouette_patch_scalar.h"
 #include "unit/pipeline/synthetic_image.h"
 
-namespace pprt {
+namespace pprt::reconstruction_twins_test {
 namespace {
 
 constexpr PixelRect kBounds = {3, 5, 61, 47};
@@ -354,4 +354,4 @@ TEST_CASE("scalar twin: a silhouette's pixels are those of one point at a time, 
   CHECK(compare(true).different > 100);  // control
 }
 
-}  // namespace pprt
+}  // namespace pprt::reconstruction_twins_test

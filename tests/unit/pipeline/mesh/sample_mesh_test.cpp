@@ -13,7 +13,7 @@
 #include "pipeline/mesh/bucket_queue.h"
 #include "unit/pipeline/synthetic_image.h"
 
-namespace pprt {
+namespace pprt::sample_mesh_test {
 namespace {
 
 double orientation(const Sample& a, const Sample& b, const Sample& c) {
@@ -429,4 +429,4 @@ TEST_CASE("bucket queue: above its floor the newest of an octave is popped, and 
   }
 }
 
-}  // namespace pprt
+}  // namespace pprt::sample_mesh_test

@@ -12,7 +12,7 @@
 #include "pipeline/mesh/fan_weights.h"
 #include "unit/pipeline/mesh/fan_weights_scalar.h"
 
-namespace pprt {
+namespace pprt::sampling_twins_test {
 namespace {
 
 // Random points with a row of nearly collinear ones among them, whose triangles have hardly any area.
@@ -146,4 +146,4 @@ TEST_CASE("scalar twin: weights and bins of a fan are those of one triangle at a
   CHECK(off.different == off.compared);
 }
 
-}  // namespace pprt
+}  // namespace pprt::sampling_twins_test

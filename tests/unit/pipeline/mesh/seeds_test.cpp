@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-namespace pprt {
+namespace pprt::seeds_test {
 
 TEST_CASE("seeds: one in 16 x 16 pixels up to 4096 x 4096, and no more in larger pictures") {
   CHECK(seed_points(256, 256, 1).size() == 17 * 17);
@@ -37,4 +37,4 @@ TEST_CASE("seeds: they cover every part of a picture, its corners first") {
   }
 }
 
-}  // namespace pprt
+}  // namespace pprt::seeds_test

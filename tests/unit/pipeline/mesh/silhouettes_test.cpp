@@ -10,7 +10,7 @@
 #include "pipeline/mesh/reconstruction.h"
 #include "unit/pipeline/synthetic_image.h"
 
-namespace pprt {
+namespace pprt::silhouettes_test {
 namespace {
 
 const TileGrid kGrid{100, 60, 16};
@@ -324,4 +324,4 @@ TEST_CASE("projected shapes: an outline far from the shape's origin is in place"
   CHECK(farthest < std::ldexp(4 * kRadius, -21));
 }
 
-}  // namespace pprt
+}  // namespace pprt::silhouettes_test

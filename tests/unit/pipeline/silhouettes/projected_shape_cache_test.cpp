@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pprt {
+namespace pprt::projected_shape_cache_test {
 
 TEST_CASE("projected shapes: each is computed once, whatever its primitive's number") {
   constexpr std::uint32_t kHidden = 7, kForeign = 4'000'000'000;  // without a shape
@@ -39,4 +39,4 @@ TEST_CASE("projected shapes: each is computed once, whatever its primitive's num
   CHECK(asked.size() == primitives.size() + 4);  // anew
 }
 
-}  // namespace pprt
+}  // namespace pprt::projected_shape_cache_test

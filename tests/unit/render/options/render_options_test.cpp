@@ -7,7 +7,7 @@
 
 #include "base/diagnostics.h"
 
-namespace pprt {
+namespace pprt::render_options_test {
 namespace {
 
 using Catch::Contains;
@@ -129,4 +129,4 @@ TEST_CASE("effects are all that the scene calls for unless some are listed") {
   CHECK(parse({"spd:tree", "--effects", "all"}).compile.effects == EffectSet::all());
 }
 
-}  // namespace pprt
+}  // namespace pprt::render_options_test

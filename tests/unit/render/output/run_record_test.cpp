@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <functional>
 
-namespace pprt {
+namespace pprt::run_record_test {
 namespace {
 
 std::string key_with(const std::function<void(RenderPlan&)>& change) {
@@ -61,4 +61,4 @@ TEST_CASE("the ledger's first record spells choices as the options do") {
   CHECK((options["weights"] == "paper" && options["pixels"] == "center" && options["max_depth"] == 5));
 }
 
-}  // namespace pprt
+}  // namespace pprt::run_record_test

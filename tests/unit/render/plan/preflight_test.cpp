@@ -6,7 +6,7 @@
 #include "base/diagnostics.h"
 #include "parser/nff_parser.h"
 
-namespace pprt {
+namespace pprt::preflight_test {
 namespace {
 
 using Catch::Matchers::Equals;
@@ -177,4 +177,4 @@ TEST_CASE("preflight accepts colours that are not finite") {
   CHECK_THAT(outcome(plan), !Catch::Contains("error"));
 }
 
-}  // namespace pprt
+}  // namespace pprt::preflight_test

@@ -9,7 +9,7 @@
 #include "render/plan/session_plan.h"
 #include "unit/image/temporary_directory.h"
 
-namespace pprt {
+namespace pprt::render_plan_test {
 namespace {
 
 using Catch::Contains;
@@ -224,4 +224,4 @@ TEST_CASE("a scene without a view needs a script that gives one") {
   CHECK(plan_render(options).frames.size() == 10);
 }
 
-}  // namespace pprt
+}  // namespace pprt::render_plan_test

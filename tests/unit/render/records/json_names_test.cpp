@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace pprt {
+namespace pprt::json_names_test {
 
 TEST_CASE("a name that is UTF-8 is a string in JSON") {
   for (const std::string name : {"a.png", "", "K\u00e4se", "\U0001F600", "a\"b\\c\n"}) {
@@ -29,4 +29,4 @@ TEST_CASE("what holds no name in JSON gives none") {
   }
 }
 
-}  // namespace pprt
+}  // namespace pprt::json_names_test

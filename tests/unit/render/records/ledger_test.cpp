@@ -5,7 +5,7 @@
 #include "render/records/ledger.h"
 #include "unit/image/temporary_directory.h"
 
-namespace pprt {
+namespace pprt::ledger_test {
 namespace {
 
 FinishedFrame frame_with(double late_ms) {
@@ -200,4 +200,4 @@ TEST_CASE("a ledger that cannot be opened is an error at once") {
   CHECK_FALSE(Ledger("", ExistingFiles::kRefuse).enabled());
 }
 
-}  // namespace pprt
+}  // namespace pprt::ledger_test

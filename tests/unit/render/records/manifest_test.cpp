@@ -6,7 +6,7 @@
 #include "render/records/manifest.h"
 #include "unit/image/temporary_directory.h"
 
-namespace pprt {
+namespace pprt::manifest_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -221,4 +221,4 @@ TEST_CASE("resuming without a manifest begins a new run") {
   CHECK(text_of(path) == kFirstLine);
 }
 
-}  // namespace pprt
+}  // namespace pprt::manifest_test

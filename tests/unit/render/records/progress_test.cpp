@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace pprt {
+namespace pprt::progress_test {
 namespace {
 
 Pace::Time at(double seconds) {
@@ -34,4 +34,4 @@ TEST_CASE("frames that come at the same time have no pace") {
   CHECK(pace.seconds_for(3) == 0);
 }
 
-}  // namespace pprt
+}  // namespace pprt::progress_test

@@ -5,7 +5,7 @@
 #include "parser/nff_parser.h"
 #include "render/run/scene_bytes.h"
 
-namespace pprt {
+namespace pprt::render_job_test {
 namespace {
 
 constexpr const char* kScene =
@@ -78,4 +78,4 @@ TEST_CASE("a render job with an unknown effect is refused") {
   CHECK_THROWS_AS(decode_job(encode(job)), ProtocolError);
 }
 
-}  // namespace pprt
+}  // namespace pprt::render_job_test

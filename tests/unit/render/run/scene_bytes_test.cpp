@@ -4,7 +4,7 @@
 
 #include "parser/aff_parser.h"
 
-namespace pprt {
+namespace pprt::scene_bytes_test {
 namespace {
 
 // Something of every kind.
@@ -63,4 +63,4 @@ TEST_CASE("scene bytes: the hash is that of the content, not of names and places
   CHECK(hash_of(other) != hash_of(scene));
 }
 
-}  // namespace pprt
+}  // namespace pprt::scene_bytes_test

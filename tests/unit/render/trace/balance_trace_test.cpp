@@ -14,7 +14,7 @@
 #include "base/diagnostics.h"
 #include "unit/image/temporary_directory.h"
 
-namespace pprt {
+namespace pprt::balance_trace_test {
 namespace {
 
 TraceHeader some_header() {
@@ -226,4 +226,4 @@ TEST_CASE("balancing trace: what kept a line from being written is told") {
   std::signal(SIGPIPE, SIG_DFL);
 }
 
-}  // namespace pprt
+}  // namespace pprt::balance_trace_test

@@ -4,7 +4,7 @@
 
 #include "unit/scene/animation/keys.h"
 
-namespace pprt {
+namespace pprt::animation_test {
 namespace {
 
 View base_view() {
@@ -128,4 +128,4 @@ TEST_CASE("keys are checked with the scene's view filled in, and holds with the 
 }
 
 }  // namespace
-}  // namespace pprt
+}  // namespace pprt::animation_test

@@ -5,7 +5,7 @@
 
 #include "unit/scene/animation/keys.h"
 
-namespace pprt {
+namespace pprt::camera_path_test {
 namespace {
 
 View at(const Animation& animation, double frame) {
@@ -328,4 +328,4 @@ TEST_CASE("easing shapes the way to its key") {
 }
 
 }  // namespace
-}  // namespace pprt
+}  // namespace pprt::camera_path_test

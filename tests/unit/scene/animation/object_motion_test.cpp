@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-using namespace pprt;
+namespace pprt::object_motion_test {
 
 namespace {
 
@@ -119,3 +119,5 @@ TEST_CASE("object motion: the objects of another scene keep their materials, tex
   CHECK((material_of(scene, scene.order[4]) == 3 && scene.triangles[1].mesh == 1));
   CHECK(location_of(scene, scene.order[1]).line == 0);
 }
+
+}  // namespace pprt::object_motion_test

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-using namespace pprt;
+namespace pprt::resting_nodes_test {
 
 namespace {
 
@@ -103,3 +103,5 @@ TEST_CASE("resting nodes: a mirror keeps fronts in front") {
   const auto v = settled.vertices(settled.polygons[0]);
   CHECK(front(v[0], v[1], v[2]) > 0);
 }
+
+}  // namespace pprt::resting_nodes_test

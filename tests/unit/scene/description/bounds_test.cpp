@@ -4,7 +4,7 @@
 
 #include "scene/description/scene_description.h"
 
-using namespace pprt;
+namespace pprt::bounds_test {
 
 TEST_CASE("a scene without objects has an empty box") {
   CHECK(bounds(SceneDescription{}).isEmpty());
@@ -54,3 +54,5 @@ TEST_CASE("objects keep their order across kinds, and polygons their vertices") 
   REQUIRE(scene.vertices(scene.polygons[1]).size() == 4);
   CHECK(scene.vertices(scene.polygons[1])[3] == Vec3d(2, 1, 0));
 }
+
+}  // namespace pprt::bounds_test

@@ -2,7 +2,7 @@
 
 #include "scene/description/scene_description.h"
 
-using namespace pprt;
+namespace pprt::material_table_test {
 
 namespace {
 
@@ -67,3 +67,5 @@ TEST_CASE("a fresh table takes up materials that are there already") {
   CHECK(table.intern(materials, with_diffuse(77)) == 77);
   CHECK(table.intern(materials, with_diffuse(1000)) == 100);
 }
+
+}  // namespace pprt::material_table_test

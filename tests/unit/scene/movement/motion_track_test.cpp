@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-using namespace pprt;
+namespace pprt::motion_track_test {
 
 namespace {
 
@@ -217,3 +217,5 @@ TEST_CASE("affine: normals stay normal to their surface, also where it is mirror
   CHECK(map.determinant() == Approx(-1));
   check_near((map * map).point(a), map.point(map.point(a)), 1e-12);
 }
+
+}  // namespace pprt::motion_track_test

@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-using namespace pprt;
+namespace pprt::straight_track_test {
 
 namespace {
 
@@ -121,3 +121,5 @@ TEST_CASE("a turn is found from its map, also half a turn about any axis") {
     }
   }
 }
+
+}  // namespace pprt::straight_track_test

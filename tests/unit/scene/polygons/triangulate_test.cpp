@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-using namespace pprt;
+namespace pprt::triangulate_test {
 
 namespace {
 
@@ -209,3 +209,5 @@ TEST_CASE("polygons of 200,000 vertices end within a minute") {
   CHECK(triangulate(scribble(200'000, 1)).size() <= 199'998);
   CHECK(std::chrono::steady_clock::now() - start < std::chrono::minutes(1));
 }
+
+}  // namespace pprt::triangulate_test

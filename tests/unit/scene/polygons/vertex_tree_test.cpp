@@ -7,7 +7,7 @@
 #include "scene/polygons/ear_ranking.h"
 #include "scene/polygons/turn.h"
 
-using namespace pprt;
+namespace pprt::vertex_tree_test {
 
 TEST_CASE("the tree finds vertices in a triangle as a search through all of them does") {
   std::mt19937 engine(5);
@@ -63,3 +63,5 @@ TEST_CASE("the best ear is the first of the largest quality from a vertex on") {
     }
   }
 }
+
+}  // namespace pprt::vertex_tree_test

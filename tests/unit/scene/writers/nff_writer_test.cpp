@@ -9,7 +9,7 @@
 #include <sstream>
 #include <string>
 
-using namespace pprt;
+namespace pprt::nff_writer_test {
 
 namespace {
 
@@ -128,3 +128,5 @@ TEST_CASE("a stream that fails is left failed") {
   CHECK(out.bad());
   CHECK(out.str().empty());
 }
+
+}  // namespace pprt::nff_writer_test

@@ -15,7 +15,7 @@
 #include "study/report/plot.h"
 #include "tree_setup.h"
 
-using namespace pprt;
+namespace pprt::comparison_test {
 
 namespace {
 
@@ -354,3 +354,5 @@ TEST_CASE("converged frames: the cache distinguishes scene, view and number of s
   CHECK(cached_reference(tree.nff(), tree.subject(), 2, cache).image.pixels == made.image.pixels);
   std::filesystem::remove_all(cache);
 }
+
+}  // namespace pprt::comparison_test

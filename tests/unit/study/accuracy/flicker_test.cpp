@@ -9,7 +9,7 @@
 #include "study/accuracy/rates.h"
 #include "tree_setup.h"
 
-using namespace pprt;
+namespace pprt::flicker_test {
 
 namespace {
 
@@ -79,3 +79,5 @@ TEST_CASE("flicker: a method that has no picture in so little time has no value"
   CHECK(std::isnan(points.at(1).ratio));
   CHECK(points.at(0).ratio == 1);
 }
+
+}  // namespace pprt::flicker_test

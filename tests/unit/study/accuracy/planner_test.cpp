@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-using namespace pprt;
+namespace pprt::planner_test {
 
 namespace {
 
@@ -61,3 +61,5 @@ TEST_CASE("planner: summarises real time by medians over the turns") {
       "sampling's.");
   CHECK_THROWS_AS(real_time_summary({}), std::invalid_argument);
 }
+
+}  // namespace pprt::planner_test

@@ -14,7 +14,7 @@
 #include "study/accuracy/other_renderers.h"
 #include "study/accuracy/pictures.h"
 
-using namespace pprt;
+namespace pprt::rates_test {
 
 namespace {
 
@@ -184,3 +184,5 @@ TEST_CASE("Tachyon: scenes that it shows wrongly are named") {
     CHECK(tachyon_defect(make_spd(name, 2)).empty());
   }
 }
+
+}  // namespace pprt::rates_test

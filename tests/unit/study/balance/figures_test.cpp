@@ -9,7 +9,7 @@
 #include "parallel/settings/session_words.h"
 #include "unit/study/balance/recorded_run.h"
 
-namespace pprt {
+namespace pprt::figures_test {
 namespace {
 
 // Two ranks, the second one at half speed, on two tiles. `cost`: of the second tile, work units.
@@ -131,4 +131,4 @@ TEST_CASE("balancing figures: figures that make no sense are borne") {
   CHECK(read > 20);
 }
 
-}  // namespace pprt
+}  // namespace pprt::figures_test

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace pprt {
+namespace pprt::results_test {
 namespace {
 
 std::vector<TraceResult> some_results() {
@@ -49,4 +49,4 @@ TEST_CASE("balance study: the table for programs is a JSON object a line") {
       "\n");
 }
 
-}  // namespace pprt
+}  // namespace pprt::results_test

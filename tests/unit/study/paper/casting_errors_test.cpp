@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-using namespace pprt;
+namespace pprt::casting_errors_test {
 
 namespace {
 
@@ -78,3 +78,5 @@ TEST_CASE("casting trial: an exception of the progress report reaches the caller
   CHECK_THROWS_AS(run_casting_trial(trial, [](const std::string&) { throw std::runtime_error("full"); }),
                   std::runtime_error);
 }
+
+}  // namespace pprt::casting_errors_test

@@ -7,7 +7,7 @@
 
 #include "study/paper/measures.h"
 
-using namespace pprt;
+namespace pprt::findings_test {
 
 namespace {
 
@@ -274,3 +274,5 @@ TEST_CASE("findings: two runs are the same when every picture is") {
   results.runs[1].frames[4].picture_hash = "another";
   CHECK(verdict(results, "Two runs") == std::optional(false));
 }
+
+}  // namespace pprt::findings_test

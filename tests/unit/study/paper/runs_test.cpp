@@ -7,7 +7,7 @@
 
 #include "study/paper/measures.h"
 
-using namespace pprt;
+namespace pprt::runs_test {
 
 namespace {
 
@@ -112,3 +112,5 @@ TEST_CASE("paper study: a quick study measures every frame of every run") {
   CHECK(results.pattern_pictures.size() == 7);
   CHECK(results.sequence_pictures.size() == 9);
 }
+
+}  // namespace pprt::runs_test

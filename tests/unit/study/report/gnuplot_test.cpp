@@ -5,7 +5,7 @@
 #include "base/subprocess.h"
 #include "study/report/plot.h"
 
-using namespace pprt;
+namespace pprt::gnuplot_test {
 
 namespace {
 
@@ -57,3 +57,5 @@ TEST_CASE("gnuplot: where it is missing the exception names it") {
   CHECK_THROWS_AS(draw_svg(two_panels(), "no-such-gnuplot"), ProgramNotFound);
   CHECK_THROWS_WITH(draw_svg(two_panels(), "no-such-gnuplot"), "no-such-gnuplot is not installed");
 }
+
+}  // namespace pprt::gnuplot_test

@@ -7,7 +7,7 @@
 #include "image/atomic_file.h"
 #include "unit/image/temporary_directory.h"
 
-using namespace pprt;
+namespace pprt::page_test {
 
 namespace {
 
@@ -80,3 +80,5 @@ TEST_CASE("provenance: it stands above a CSV as comments of one line each, and e
   CHECK(read_whole_file(directory.path() / "provenance.json").find("\"seed\": \"a <1>\"") !=
         std::string::npos);
 }
+
+}  // namespace pprt::page_test

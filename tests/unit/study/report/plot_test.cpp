@@ -4,7 +4,7 @@
 #include <cmath>
 #include <sstream>
 
-using namespace pprt;
+namespace pprt::plot_test {
 
 namespace {
 
@@ -62,3 +62,5 @@ TEST_CASE("plot: text cannot leave its quotes") {
   plot.panels[0].curves[0].name = "'; system('touch x');'\nEOD";
   CHECK(contains(gnuplot_script(plot), "title '''; system(''touch x'');'' EOD'"));
 }
+
+}  // namespace pprt::plot_test

@@ -8,7 +8,7 @@
 
 #include "parallel/settings/session_words.h"
 
-using namespace pprt;
+namespace pprt::table_test {
 
 TEST_CASE("table: CSV has names, rows, and quotes where needed") {
   Table table{{"mode", "Q, mean"}};
@@ -62,3 +62,5 @@ TEST_CASE("table: a part stands in a row with the whole that it belongs to, an e
                                                  {{"frame", &Frame::number}});
   CHECK(to_csv(table) == "kept,cast,frame\n1,auto,1\n1,auto,2\n0,off,1\n");
 }
+
+}  // namespace pprt::table_test
