@@ -9,7 +9,7 @@ for file in index.html provenance.json curves.csv comparisons.csv ratios.csv rat
 grep -q '"command": "pprt-study accuracy spd:tree:4 spd:balls:1 -o all' all/provenance.json ||
   complain "provenance.json does not tell the command: $(cat all/provenance.json)"
 grep -q '^# cpu: .' all/curves.csv || complain "curves.csv does not tell the processor"
-for method in progressive uniform control lattice 'paper weights' 'area only' 'variance only' 'no pixel rule' 'mean of samples' 'pixel centers' 'stratified random'; do
+for method in delaunay uniform control auto 'paper weights' 'area only' 'variance only' 'no pixel rule' 'mean of samples' 'pixel centers' 'stratified random'; do
   for scene in spd:tree:4 spd:balls:1; do
     [[ $(grep -c "^$scene,$method,2," all/curves.csv) -ge 3 ]] || complain "curves.csv lacks the $method of $scene"
   done
@@ -41,13 +41,13 @@ for table in ratios ratios-flip ratios-ssim; do
   grep -q '^scene,ms for one sample a pixel,10 %,25 %,50 %,100 %,200 %,400 %,break-even$' all/$table.csv ||
     complain "$table.csv has other columns"
 done
-[[ $(grep -cE '^spd:tree:4,(progressive|uniform),(0.25|0.5|1),' all/flicker.csv) -eq 6 ]] || complain "flicker.csv lacks rows of the tree"
+[[ $(grep -cE '^spd:tree:4,(delaunay|uniform),(0.25|0.5|1),' all/flicker.csv) -eq 6 ]] || complain "flicker.csv lacks rows of the tree"
 grep -q '"busy": "no threads beside the measured one (--busy 0)"' all/provenance.json || complain "provenance.json does not tell that nothing was busy"
 
 # Some methods, the curves alone, beside busy threads.
-run pprt-study accuracy spd:tree:4 -o some --quick --size 48 --repeats 1 --cache kept --only-curves --methods progressive --busy 2; expect_code 0
-[[ $(grep -v '^#' some/curves.csv | cut -d, -f2 | tail -n +2 | sort -u | paste -sd,) == control,progressive,uniform ]] ||
-  complain "--methods progressive gave others: $(cut -d, -f2 some/curves.csv | sort -u)"
+run pprt-study accuracy spd:tree:4 -o some --quick --size 48 --repeats 1 --cache kept --only-curves --methods delaunay --busy 2; expect_code 0
+[[ $(grep -v '^#' some/curves.csv | cut -d, -f2 | tail -n +2 | sort -u | paste -sd,) == control,delaunay,uniform ]] ||
+  complain "--methods delaunay gave others: $(cut -d, -f2 some/curves.csv | sort -u)"
 for file in ratios.csv ratios-flip.csv ratios-ssim.csv flicker.csv index.html; do expect_file "some/$file"; done
 for file in renderers.csv effects.csv rates.csv punctuality.csv spd-tree-4-complexity.png; do expect_no_file "some/$file"; done
 grep -q '^# busy: 2 threads rendered the same scene beside the measured one (--busy 2)' some/curves.csv || complain "curves.csv does not tell --busy 2"
@@ -92,7 +92,7 @@ run pprt-study accuracy turn.anim --quick --size 32 --want-fps 100 --repeats 1; 
 
 # Refused.
 run pprt-study accuracy spd:tree:4 -o x --methods unifrom,control; expect_code 2
-expect_text err "pprt-study: error: --methods unifrom,control: 'unifrom' is none of progressive, uniform, control, lattice, paper-weights, area-only, variance-only, no-pixel-rule, pixel-area, mean-of-samples, pixel-centers, stratified-random; did you mean 'uniform'?"$'\n'"try 'pprt-study --help'"
+expect_text err "pprt-study: error: --methods unifrom,control: 'unifrom' is none of delaunay, uniform, control, auto, paper-weights, area-only, variance-only, no-pixel-rule, pixel-area, mean-of-samples, pixel-centers, stratified-random; did you mean 'uniform'?"$'\n'"try 'pprt-study --help'"
 run pprt-study accuracy spd:tree:4 -o x --busy -1; expect_code 2; expect_line err '.*--busy.*'; expect_no_file x
 run pprt-study accuracy spd:tree:4; expect_code 2; expect_line err '.*--output is required.*'
 run pprt-study accuracy spd:bush -o x; expect_code 3; expect_no_file x/index.html

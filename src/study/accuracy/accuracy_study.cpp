@@ -219,7 +219,7 @@ void measure(const StudiedScene& studied, AccuracyResults& results) {
   const Reference converged = measure_methods(studied, steps, results);
   if (options.only_curves) return;
   const Subject large = studied.subject(options.size), small = studied.subject(options.size / 2);
-  const std::vector<Method> methods = {progressive_method(), uniform_method()};
+  const std::vector<Method> methods = {delaunay_method(), uniform_method()};
   results.small_curves.push_back(measure_curves(name, small,
                                                 reference_of(studied, small, options.reference_cells),
                                                 {methods, 1, options.seed, options.busy_threads}));

@@ -66,7 +66,7 @@ std::string to_sentence(const std::vector<BudgetRange>& ranges, const std::strin
 // Returns the methods in the order of their first points, without the uniform one.
 std::vector<std::string> rivals(const SceneCurves& curves);
 
-// Returns one row per scene: progressive over uniform at 10 to 400 %, and the break-even points. With several
+// Returns one row per scene: delaunay over uniform at 10 to 400 %, and the break-even points. With several
 // scenes two rows follow, at each budget over the scenes that have a picture: the geometric mean, and the
 // worst ratio, which is the largest.
 Table ratio_table(const std::vector<SceneCurves>& scenes, Measure measure);

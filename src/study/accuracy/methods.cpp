@@ -289,8 +289,8 @@ void run_lattice(const CurveTask& task) {
 
 }  // namespace
 
-Method progressive_method() {
-  return refinement(kProgressive, "this renderer on one rank: the heaviest triangle is refined", {});
+Method delaunay_method() {
+  return refinement(kDelaunay, "this renderer on one rank: the heaviest triangle is refined", {});
 }
 
 Method uniform_method() {
@@ -312,28 +312,27 @@ Image uniform_picture_in(double seconds, const Subject& subject) {
 }
 
 std::vector<Method> accuracy_methods() {
-  return {
-      progressive_method(),
-      uniform_method(),
-      {kControl, "the uniform method again: its difference to the first is noise", run_uniform},
-      {"lattice", "nodes of a lattice by learned errors: a grid first, then where it is wrong", run_lattice},
-      refinement("paper weights", "progressive with the paper's weights, nothing learned from errors found",
-                 {.learned = false}),
-      refinement("area only", "paper weights without the variance of colours",
-                 {.variance = false, .pixel_rule = false, .learned = false}),
-      refinement("variance only", "paper weights without the area", {.area = false, .learned = false}),
-      refinement("no pixel rule", "paper weights; flat triangles below a pixel are refined like others",
-                 {.pixel_rule = false, .learned = false}),
-      refinement("pixel area",
-                 "progressive; a pixel with several samples shows the interpolation's mean over its area", {},
-                 PixelRule::kArea),
-      refinement("mean of samples",
-                 "progressive; a pixel with several samples shows their mean, as in the paper", {},
-                 PixelRule::kMean),
-      refinement("pixel centers", "progressive; every pixel shows the interpolation at its centre", {},
-                 PixelRule::kCenter),
-      {"stratified random", "no queue: a jittered grid, triangulated and reconstructed alike",
-       run_stratified}};
+  return {delaunay_method(),
+          uniform_method(),
+          {kControl, "the uniform method again: its difference to the first is noise", run_uniform},
+          {"auto", "nodes of a lattice by learned errors: a grid first, then where it is wrong", run_lattice},
+          refinement("paper weights", "delaunay with the paper's weights, nothing learned from errors found",
+                     {.learned = false}),
+          refinement("area only", "paper weights without the variance of colours",
+                     {.variance = false, .pixel_rule = false, .learned = false}),
+          refinement("variance only", "paper weights without the area", {.area = false, .learned = false}),
+          refinement("no pixel rule", "paper weights; flat triangles below a pixel are refined like others",
+                     {.pixel_rule = false, .learned = false}),
+          refinement("pixel area",
+                     "delaunay; a pixel with several samples shows the interpolation's mean over its area",
+                     {}, PixelRule::kArea),
+          refinement("mean of samples",
+                     "delaunay; a pixel with several samples shows their mean, as in the paper", {},
+                     PixelRule::kMean),
+          refinement("pixel centers", "delaunay; every pixel shows the interpolation at its centre", {},
+                     PixelRule::kCenter),
+          {"stratified random", "no queue: a jittered grid, triangulated and reconstructed alike",
+           run_stratified}};
 }
 
 std::vector<std::string> method_words() {

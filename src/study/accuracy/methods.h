@@ -42,13 +42,13 @@ struct Method {
   std::function<void(const CurveTask&)> run;
 };
 
-// Names in tables and legends.
-inline constexpr const char* kProgressive = "progressive";
+// Names in tables and legends. Samplers of pprt-render have the words of --sampler.
+inline constexpr const char* kDelaunay = "delaunay";
 inline constexpr const char* kUniform = "uniform";
 inline constexpr const char* kControl = "control";
 
 // This renderer on one rank: seeds, then the heaviest triangle again and again, then reconstruction.
-Method progressive_method();
+Method delaunay_method();
 
 // A grid of m x n samples at the centres of its cells. With fewer samples than pixels the picture is bilinear
 // between them; with more, each pixel is the mean over its area.
@@ -57,7 +57,7 @@ Method uniform_method();
 // Returns the picture of a uniform grid that takes about so much CPU time.
 Image uniform_picture_in(double seconds, const Subject& subject);
 
-// Returns both, the uniform method again as a control, the lattice sampler, and the progressive method
+// Returns both, the uniform method again as a control, the default sampler, and the triangulation
 // without one of its parts.
 std::vector<Method> accuracy_methods();
 
