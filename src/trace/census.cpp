@@ -93,8 +93,8 @@ std::string census_text(const CompiledScene::Impl& scene) {
   }
   text += "effects\n";
   for (Effect effect : every_effect()) text += effect_line(effect, scene);
-  text += fmt::format("kernel      {} (one of {}){}\n", to_string(scene.effects), EffectSet::all().bits() + 1,
-                      scene.options.count_as_published ? ", counting as published" : "");
+  text += fmt::format("simulated   {}{}\n", to_string(scene.effects),
+                      scene.options.count_as_published ? "; rays are counted as published" : "");
   text += fmt::format("depth       {}\n", scene.options.max_depth);
   text += fmt::format("hierarchy   built in {:.1f} ms; {:.2f} MB, primitives {:.2f} MB\n",
                       1e3 * scene.figures.seconds, 1e-6 * static_cast<double>(scene.figures.hierarchy_bytes),

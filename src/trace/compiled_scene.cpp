@@ -192,7 +192,6 @@ void add_materials(const SceneDescription& scene, CompiledScene::Impl& impl) {
         impl.materials.emplace_back(shading_material(m, ambient, ambient * (kAmbientReflectance * weight)));
     if (has_textures && m.texture && *m.texture < impl.textures.size())
       material.texture = &impl.textures[*m.texture];
-    impl.extended = impl.extended || m.terms || material.texture != nullptr;
   }
 }
 
@@ -311,11 +310,8 @@ CompiledScene compile(const SceneDescription& scene, const CompileOptions& optio
   std::erase_if(impl->parts, [](const ScenePart& part) { return part.materials.empty(); });
   if (impl->parts.empty()) reject(scene.name, {}, "no object of the scene has any extent");
   impl->moves = impl->bodies.size() > 1 || !impl->light_nodes.empty();
-  impl->extended = impl->extended || impl->moves;
   if (impl->moves) number_parts(scene.order.size(), *impl);
   find_light_contacts(*impl);
-  impl->kernel = kernel_for(options.general_kernel ? EffectSet::all() : impl->effects,
-                            options.count_as_published, impl->extended || options.general_kernel);
   build_hierarchy(*impl);
   return CompiledScene(std::move(impl));
 }

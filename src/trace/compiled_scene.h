@@ -25,9 +25,6 @@ struct CompileOptions {
   // Count rays as Haines' tables do. Every hit on T > 0 spawns a reflection ray, even where Ks = 0. Rays are
   // followed to the full depth whatever their weight.
   bool count_as_published = false;
-  // Use the kernel for all effects, whatever the scene calls for. Pictures are the same; this measures what
-  // the specialised kernels gain.
-  bool general_kernel = false;
 };
 
 // Distance in sizes of the scene from which an eye still sees it. At 2^40 the rounding of a double, 2^-53 of
@@ -67,7 +64,7 @@ class CompiledScene {
   // eye beyond kFarthestEye.
   Camera camera(const View& view) const;
 
-  // Returns a report for people: primitives by kind, materials, lights, effects with reasons, kernel, memory.
+  // Returns a report for people: primitives by kind, materials, lights, effects with reasons, memory.
   std::string census() const;
 
   const Impl& impl() const { return *impl_; }

@@ -11,7 +11,6 @@
 #include "trace/compiled_scene.h"
 #include "trace/embree.h"
 #include "trace/inventory.h"
-#include "trace/kernel.h"
 #include "trace/light_contacts.h"
 #include "trace/mesh.h"
 #include "trace/normalisation.h"
@@ -29,7 +28,7 @@ struct ShadingMaterial {
   float transmittance = 0;
   double refractive_index = 1;  // > 0
   bool lit = false;             // whether lights contribute to it at all
-  // What kernels for NFF do not know.
+  // What NFF has not.
   bool reflects_totally = false;          // follows the mirrored ray where none is refracted
   Color specular_color{0, 0, 0};          // in place of `specular`, its largest component
   const TextureImage* texture = nullptr;  // times ambient and diffuse
@@ -82,7 +81,6 @@ class CompiledScene::Impl {
   CompileOptions options;
   Inventory inventory;
   EffectSet effects;
-  Kernel kernel = nullptr;
 
   EmbreeDevice device;
   Normalisation normalisation;
@@ -92,7 +90,6 @@ class CompiledScene::Impl {
   std::vector<ShadingMaterial> materials;
   std::vector<ShadingLight> lights;
   std::vector<ScenePart> parts;  // by Embree's geometry number; not moved once Embree reads them
-  bool extended = false;         // whether only an extended kernel knows all that is in the scene
 
   // What moves.
   bool moves = false;  // more than the camera

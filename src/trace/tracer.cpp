@@ -53,9 +53,7 @@ Carried Tracer::carry(RaySample& sample) const {
 RaySample Tracer::trace(double x, double y, std::span<const KnownLights> known) {
   const Vec3d direction = unit(ray_direction(camera_, x, y));
   const Vec3d origin = camera_.eye + direction * distance_to_scene(scene_.impl(), camera_.eye, direction);
-  RaySample sample;
-  scene_.impl().kernel(*pose_, Vec3f(origin), Vec3f(direction), known, sample, counts_);
-  return sample;
+  return trace_ray_tree(*pose_, Vec3f(origin), Vec3f(direction), known, counts_);
 }
 
 FirstHit Tracer::first_hit(double x, double y) const {

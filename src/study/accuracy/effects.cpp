@@ -28,7 +28,6 @@ std::vector<Variant> variants_of(const SceneDescription& description) {
     if (effects.has(effect)) add("without " + std::string(name(effect)), {.effects = others});
   }
   add("without any", {.effects = EffectSet()});
-  add("the general kernel", {.effects = {}, .general_kernel = true});
   return variants;
 }
 

@@ -1,5 +1,4 @@
-// What each effect costs in time, what its absence costs in error, and the special kernels against the
-// general one.
+// What each effect costs in time, and what its absence costs in error.
 #pragma once
 
 #include <string>
@@ -10,7 +9,7 @@
 
 namespace pprt {
 
-// A scene without one of its effects, without all, or with the general kernel.
+// A scene without one of its effects, or without all.
 struct EffectCost {
   std::string scene;
   std::string variant;

@@ -228,8 +228,7 @@ void write_effects(const AccuracyResults& results, StudyOutput& output) {
       "What effects cost, and what their absence costs",
       "CPU time of one sample per pixel over that of the whole scene, and the error of a picture with eight "
       "samples per pixel against the converged frame. The first row's error is that of so few samples alone. "
-      "Only effects that a scene calls for are simulated. The general kernel traces the same rays with code "
-      "for all effects.");
+      "Only effects that a scene calls for are simulated.");
   output.add_table("effects", effects_table(results.effects));
   output.paragraph("Effects that the scenes call for:");
   for (const std::string& census : results.censuses) output.listing(census);

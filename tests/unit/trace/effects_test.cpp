@@ -47,7 +47,7 @@ TEST_CASE("each database calls for its own effects, and no ray is traced for ano
     CHECK(to_string(effects) == e.effects);
     const CompiledScene compiled = compile(scene);
     CHECK(compiled.effects() == effects);
-    CHECK_THAT(compiled.census(), Catch::Contains("kernel      " + std::string(e.effects) + " "));
+    CHECK_THAT(compiled.census(), Catch::Contains("simulated   " + std::string(e.effects) + "\n"));
     const RayCounts counts = picture_counts(scene);
     CHECK((counts.shadow > 0) == effects.has(Effect::kShadows));
     CHECK((counts.reflection > 0) == effects.has(Effect::kReflection));

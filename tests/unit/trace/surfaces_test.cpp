@@ -102,20 +102,4 @@ TEST_CASE("textures: an effect that can be left out") {
   CHECK_FALSE(compile(plain).effects().has(Effect::kTextures));
 }
 
-TEST_CASE("materials: without colours for each term nothing changes in an extended kernel") {
-  Material mirror;
-  mirror.color = {.3, .6, .9}, mirror.diffuse = .5, mirror.specular = .4, mirror.shine = 12;
-  SceneDescription scene = scene_with(mirror, {{3, 4, 20}, {-5, 2, 9}});
-  add_square(scene, 2, 0);
-  add_sphere(scene, {{0.5, 0.2, 1}, 0.7, 0, {}});
-  CompileOptions general;
-  general.general_kernel = true;
-  const CompiledScene plain = compile(scene), extended = compile(scene, general);
-  Tracer a(plain, plain.camera(*scene.view)), b(extended, extended.camera(*scene.view));
-  for (int i = 0; i < 64 * 64; i += 5) {
-    const double x = i % 64 + 0.5, y = i / 64 + 0.5;
-    CHECK(a.trace(x, y).color == b.trace(x, y).color);
-  }
-}
-
 }  // namespace pprt::surfaces_test

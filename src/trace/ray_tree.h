@@ -1,4 +1,4 @@
-// The shading kernels: one per set of effects, chosen once per scene.
+// Ray trees: what an eye ray sees, by NFF's model, and single rays.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +13,10 @@ namespace pprt {
 
 class Pose;
 
-// Traces the ray tree of an eye ray: fills the sample, adds to the counts. Origin and unit direction are in
-// the compiled space. `known`: lights that need no shadow rays from the first hit.
-using Kernel = void (*)(const Pose& pose, const Vec3f& origin, const Vec3f& direction,
-                        std::span<const KnownLights> known, RaySample& sample, RayCounts& counts);
-
-// Returns the kernel that simulates exactly `effects`. `published` is CompileOptions::count_as_published.
-// `extended`: the kernel also knows bodies that move, textures, and materials with a colour for each term.
-Kernel kernel_for(EffectSet effects, bool published, bool extended);
+// Traces the ray tree of an eye ray, with the scene's effects and no others. Adds to the counts. Origin and
+// unit direction are in the compiled space. `known`: lights that need no shadow rays from the first hit.
+RaySample trace_ray_tree(const Pose& pose, const Vec3f& origin, const Vec3f& direction,
+                         std::span<const KnownLights> known, RayCounts& counts);
 
 // The surface that an eye ray hits first, in the compiled space. Indices count from 0.
 struct VisibleSurface {

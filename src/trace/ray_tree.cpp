@@ -1,10 +1,8 @@
-#include "trace/kernel.h"
+#include "trace/ray_tree.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <type_traits>
 #include <utility>
 
 #include "trace/numerics.h"
@@ -15,9 +13,6 @@ namespace pprt {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-// Effects with kernels of their own; textures are the extended kernels' matter.
-constexpr unsigned kEffectSets = 32;
-static_assert(static_cast<unsigned>(Effect::kTextures) == kEffectSets);
 
 void set_ray(RTCRay& ray, const Vec3f& origin, const Vec3f& direction, float length) {
   ray.org_x = origin.x;
@@ -52,14 +47,8 @@ struct Surface {
   double offset = 0;       // distance from the surface at which a leaving ray starts
   bool entering = true;    // whether the ray comes from outside
   const ShadingMaterial* material = nullptr;
-};
-
-// The same in an extended kernel.
-struct TexturedSurface : Surface {
   Color tint{1, 1, 1};  // of ambient and diffuse reflection
 };
-template <bool kExtended>
-using SurfaceOf = std::conditional_t<kExtended, TexturedSurface, Surface>;
 
 // Takes a surface of a body's compiled space to the world's, where `direction` is the ray's.
 void place(const BodyPlace& at, const Vec3d& direction, Surface& surface) {
@@ -79,27 +68,25 @@ void place(const BodyPlace& at, const Vec3d& direction, Surface& surface) {
   if (surface.shading.dot(surface.normal) < 0) surface.shading = -surface.shading;
 }
 
-// Recomputes a hit from its primitive. `along` is the ray's direction, unit. kSmooth: patches have
-// interpolated normals.
-template <bool kSmooth, bool kExtended>
-SurfaceOf<kExtended> surface_at(const Pose& pose, const RTCRayHit& found, const Vec3d& along) {
+// Recomputes a hit from its primitive. `along` is the ray's direction, unit.
+Surface surface_at(const Pose& pose, const RTCRayHit& found, const Vec3d& along) {
   const CompiledScene::Impl& scene = pose.scene();
-  const ScenePart& part = kExtended ? pose.part(found.hit.geomID) : scene.parts[found.hit.geomID];
-  const BodyPlace* body = kExtended ? pose.place_of(part) : nullptr;
+  const ScenePart& part = pose.part(found.hit.geomID);
+  const BodyPlace* body = pose.place_of(part);
   const std::uint32_t primitive = found.hit.primID;
-  const Vec3d direction = kExtended && body ? body->from_world.vector(along) : along;
+  const Vec3d direction = body ? body->from_world.vector(along) : along;
   const auto origin = [&] {
     const Vec3d world(found.ray.org_x, found.ray.org_y, found.ray.org_z);
-    return kExtended && body ? body->from_world.point(world) : world;
+    return body ? body->from_world.point(world) : world;
   };
   // A ray that Embree took into a body's space was rounded there, and not alike by all processors.
   const auto near = [&](const auto& record) {
     const Vec3d from = origin();
     const auto t = static_cast<double>(found.ray.tfar);
-    return from + direction * (kExtended && body ? refined(record, from, direction, t) : t);
+    return from + direction * (body ? refined(record, from, direction, t) : t);
   };
 
-  SurfaceOf<kExtended> surface;
+  Surface surface;
   TrianglePoint at;  // of a triangle
   SurfacePoint point;
   const Mesh* mesh = nullptr;
@@ -118,19 +105,15 @@ SurfaceOf<kExtended> surface_at(const Pose& pose, const RTCRayHit& found, const 
   surface.entering = point.normal.dot(direction) < 0;
   surface.normal = surface.entering ? point.normal : -point.normal;
   surface.shading = surface.normal;
-  if constexpr (kSmooth) {
-    if (part.smooth) {
-      const Vec3d normal = shading_normal(*mesh, primitive, at.u, at.v);
-      surface.shading = normal.dot(surface.normal) < 0 ? -normal : normal;
-    }
+  if (part.smooth && scene.effects.has(Effect::kSmoothNormals)) {
+    const Vec3d normal = shading_normal(*mesh, primitive, at.u, at.v);
+    surface.shading = normal.dot(surface.normal) < 0 ? -normal : normal;
   }
   surface.material = &scene.materials[part.materials[primitive]];
-  if constexpr (kExtended) {
-    const TextureImage* texture = surface.material->texture;
-    if (texture != nullptr && mesh != nullptr && !mesh->texture_points.empty())
-      surface.tint = texture->at(texture_point(*mesh, primitive, at.u, at.v));
-    if (body) place(*body, along, surface);
-  }
+  const TextureImage* texture = surface.material->texture;
+  if (texture != nullptr && mesh != nullptr && !mesh->texture_points.empty())
+    surface.tint = texture->at(texture_point(*mesh, primitive, at.u, at.v));
+  if (body) place(*body, along, surface);
   return surface;
 }
 
@@ -158,14 +141,19 @@ bool refracted(const Vec3d& direction, const Vec3d& normal, double index_ratio, 
   return true;
 }
 
-// The ray tree of one eye ray. `kEffects` are the bits of an EffectSet; code for other effects is not
-// compiled in. `kPublished`: rays are those that the SPD's tables count (CompileOptions::count_as_published):
-// lights and mirrored rays of surfaces that they do not change, too.
-template <unsigned kEffects, bool kPublished, bool kExtended>
+// The ray tree of one eye ray, with the effects that the scene calls for and no others. `published_`: rays
+// are those that the SPD's tables count (CompileOptions::count_as_published): lights and mirrored rays of
+// surfaces that they do not change, too.
 class RayTree {
  public:
   RayTree(const Pose& pose, RayCounts& counts)
-      : pose_(pose), scene_(pose.scene()), embree_(pose.embree()), lights_(pose.lights()), counts_(counts) {}
+      : pose_(pose),
+        scene_(pose.scene()),
+        embree_(pose.embree()),
+        lights_(pose.lights()),
+        counts_(counts),
+        effects_(scene_.effects),
+        published_(scene_.options.count_as_published) {}
 
   void follow_eye_ray(const Vec3f& origin, const Vec3f& direction, std::span<const KnownLights> known,
                       RaySample& sample) {
@@ -179,22 +167,21 @@ class RayTree {
     }
     ++counts_.eye_hits;
     const Vec3d d(direction);
-    const Hit surface = surface_at<kSmooth, kExtended>(pose_, found, d);
+    const Surface surface = surface_at(pose_, found, d);
     const ShadingMaterial& material = *surface.material;
     sample.hit = Vec3f(surface.position);
     sample.primitive = scene_.parts[found.hit.geomID].primitives[found.hit.primID] + 1;
-    sample.eye_dependent = ((kHighlights || kReflection) && material.specular > 0) ||
-                           (kRefraction && material.transmittance > 0);
+    sample.eye_dependent =
+        ((has(Effect::kHighlights) || has(Effect::kReflection)) && material.specular > 0) ||
+        (has(Effect::kRefraction) && material.transmittance > 0);
     const SeenLights lights = lights_known(known, sample.primitive);
     sample.color = ambient(surface) + from_lights<true>(surface, d, lights, sample.lights);
-    if constexpr (kReflection || kRefraction) {
+    if (has_secondary_rays()) {
       if (1 < scene_.options.max_depth) sample.color += from_secondary_rays(surface, d, 2);
     }
   }
 
  private:
-  using Hit = SurfaceOf<kExtended>;
-
   static SeenLights lights_known(std::span<const KnownLights> known, std::uint32_t primitive) {
     for (const KnownLights& at : known) {
       if (at.primitive == primitive) return at.lights;
@@ -202,12 +189,8 @@ class RayTree {
     return {};
   }
 
-  static constexpr bool has(Effect effect) { return EffectSet(kEffects).has(effect); }
-  static constexpr bool kShadows = has(Effect::kShadows);
-  static constexpr bool kHighlights = has(Effect::kHighlights);
-  static constexpr bool kReflection = has(Effect::kReflection);
-  static constexpr bool kRefraction = has(Effect::kRefraction);
-  static constexpr bool kSmooth = has(Effect::kSmoothNormals);
+  bool has(Effect effect) const { return effects_.has(effect); }
+  bool has_secondary_rays() const { return has(Effect::kReflection) || has(Effect::kRefraction); }
 
   bool in_shadow(const ShadingLight& light, const Vec3f& origin, const Vec3d& direction, double length) {
     ++counts_.shadow;
@@ -238,15 +221,15 @@ class RayTree {
     RTCRayHit found;
     if (!intersect(embree_, sender_, Vec3f(origin), d, kInfinity, found)) return scene_.background;
     const Vec3d exact(d);
-    return shade(surface_at<kSmooth, kExtended>(pose_, found, exact), exact, depth);
+    return shade(surface_at(pose_, found, exact), exact, depth);
   }
 
   // Returns the colour of a surface seen along `direction`, by NFF's model: ambient light, direct light, and
   // the secondary rays that `depth` allows. An eye ray has depth 1.
-  Color shade(const Hit& surface, const Vec3d& direction, int depth) {
+  Color shade(const Surface& surface, const Vec3d& direction, int depth) {
     SeenLights unused;
     Color color = ambient(surface) + from_lights<false>(surface, direction, {}, unused);
-    if constexpr (kReflection || kRefraction) {
+    if (has_secondary_rays()) {
       if (depth < scene_.options.max_depth) color += from_secondary_rays(surface, direction, depth + 1);
     }
     return color;
@@ -255,10 +238,11 @@ class RayTree {
   // Lambert's diffuse reflection and Phong's highlight, summed over the lights that are not in shadow.
   // kNotes: lights that are `known` are not asked again, and what is found of the others is noted.
   template <bool kNotes>
-  Color from_lights(const Hit& surface, const Vec3d& direction, const SeenLights& known, SeenLights& found) {
+  Color from_lights(const Surface& surface, const Vec3d& direction, const SeenLights& known,
+                    SeenLights& found) {
     const ShadingMaterial& material = *surface.material;
     Color color(0, 0, 0);
-    if (!kPublished && !material.lit) return color;
+    if (!published_ && !material.lit) return color;
     const Vec3d position = surface.position + surface.normal * surface.offset;
     const Vec3f origin(position);
     unsigned bit = 1;  // of the light; 0 after the first eight
@@ -269,7 +253,7 @@ class RayTree {
       if (!(cosine_length > 0)) continue;
       const double length = std::sqrt(to_light.dot(to_light));
       const Vec3d unit_to_light = to_light * (1 / length);
-      if constexpr (kShadows) {
+      if (has(Effect::kShadows)) {
         const bool is_hidden = kNotes && (known.asked & own_bit) != 0
                                    ? (known.seen & own_bit) == 0
                                    : in_shadow(light, origin, unit_to_light, length);
@@ -279,33 +263,14 @@ class RayTree {
         }
         if (is_hidden) continue;
       }
-      color += light.color * tinted(material.diffuse, surface) * static_cast<float>(cosine_length / length);
-      if constexpr (kHighlights) {
-        if (material.shine > 0)
-          color += light.color * (specular(material) * highlight(surface, direction, unit_to_light));
-      }
+      color += light.color * (material.diffuse * surface.tint) * static_cast<float>(cosine_length / length);
+      if (has(Effect::kHighlights) && material.shine > 0)
+        color += light.color * (material.specular_color * highlight(surface, direction, unit_to_light));
     }
     return color;
   }
 
-  static Color ambient(const Hit& surface) { return tinted(surface.material->ambient, surface); }
-
-  static Color tinted(const Color& color, const Hit& surface) {
-    if constexpr (kExtended) {
-      return color * surface.tint;
-    } else {
-      return color;
-    }
-  }
-
-  // Ks, or a colour in its place.
-  static auto specular(const ShadingMaterial& material) {
-    if constexpr (kExtended) {
-      return material.specular_color;
-    } else {
-      return material.specular;
-    }
-  }
+  static Color ambient(const Surface& surface) { return surface.material->ambient * surface.tint; }
 
   // Phong: cos(angle)^shine, with the angle between the mirrored ray and the light.
   static float highlight(const Surface& surface, const Vec3d& direction, const Vec3d& unit_to_light) {
@@ -318,16 +283,15 @@ class RayTree {
   Color from_secondary_rays(const Surface& surface, const Vec3d& direction, int depth) {
     const ShadingMaterial& material = *surface.material;
     Color color(0, 0, 0);
-    if constexpr (kReflection || kPublished) {
-      if (material.specular > 0 || (kPublished && material.transmittance > 0)) {
-        ++counts_.reflection;
-        const Vec3d away = lifted(mirrored(direction, surface.shading), surface.normal);
-        color += follow(surface.position + surface.normal * surface.offset, away, depth) * specular(material);
-      }
+    const bool mirrors = has(Effect::kReflection) && material.specular > 0;
+    if (mirrors || (published_ && (material.specular > 0 || material.transmittance > 0))) {
+      ++counts_.reflection;
+      const Vec3d away = lifted(mirrored(direction, surface.shading), surface.normal);
+      color +=
+          follow(surface.position + surface.normal * surface.offset, away, depth) * material.specular_color;
     }
-    if constexpr (kRefraction) {
-      if (material.transmittance > 0) color += refraction(surface, direction, depth);
-    }
+    if (has(Effect::kRefraction) && material.transmittance > 0)
+      color += refraction(surface, direction, depth);
     return color;
   }
 
@@ -337,7 +301,7 @@ class RayTree {
     Vec3d through;
     if (!refracted(direction, surface.shading, ratio, through)) {
       ++counts_.total_internal_reflection;
-      if (!kExtended || !material.reflects_totally) return Color(0, 0, 0);
+      if (!material.reflects_totally) return Color(0, 0, 0);
       ++counts_.reflection;
       const Vec3d inwards = lifted(mirrored(direction, surface.shading), surface.normal);
       return follow(surface.position + surface.normal * surface.offset, inwards, depth) *
@@ -354,43 +318,27 @@ class RayTree {
   RTCScene embree_;
   std::span<const ShadingLight> lights_;
   RayCounts& counts_;
+  EffectSet effects_;
+  bool published_;
   RaySender sender_;
 };
 
-// The kernel of one set of effects.
-template <unsigned kEffects, bool kPublished, bool kExtended>
-void run(const Pose& pose, const Vec3f& origin, const Vec3f& direction, std::span<const KnownLights> known,
-         RaySample& sample, RayCounts& counts) {
-  const std::uint64_t before = counts.traced();
-  RayTree<kEffects, kPublished, kExtended>(pose, counts).follow_eye_ray(origin, direction, known, sample);
-  sample.rays = static_cast<std::uint32_t>(counts.traced() - before);
-}
-
-// Kernels of all sets of effects, indexed by EffectSet::bits().
-template <bool kPublished, bool kExtended, unsigned... kSets>
-constexpr std::array<Kernel, sizeof...(kSets)> table(std::integer_sequence<unsigned, kSets...>) {
-  return {run<kSets, kPublished, kExtended>...};
-}
-
 }  // namespace
 
-Kernel kernel_for(EffectSet effects, bool published, bool extended) {
-  constexpr auto kSets = std::make_integer_sequence<unsigned, kEffectSets>();
-  static constexpr auto kRendering = table<false, false>(kSets);
-  static constexpr auto kExtended = table<false, true>(kSets);
-  static constexpr auto kCounting = table<true, true>(kSets);
-  const unsigned set = effects.bits() % kEffectSets;
-  if (published) return kCounting[set];
-  return extended ? kExtended[set] : kRendering[set];
+RaySample trace_ray_tree(const Pose& pose, const Vec3f& origin, const Vec3f& direction,
+                         std::span<const KnownLights> known, RayCounts& counts) {
+  const std::uint64_t before = counts.traced();
+  RaySample sample;
+  RayTree(pose, counts).follow_eye_ray(origin, direction, known, sample);
+  sample.rays = static_cast<std::uint32_t>(counts.traced() - before);
+  return sample;
 }
 
 std::optional<VisibleSurface> visible_surface(const Pose& pose, const Vec3f& origin, const Vec3f& direction) {
   RaySender sender;
   RTCRayHit found;
   if (!intersect(pose.embree(), sender, origin, direction, kInfinity, found)) return std::nullopt;
-  const bool smooth = pose.scene().effects.has(Effect::kSmoothNormals);
-  const Surface surface = smooth ? surface_at<true, true>(pose, found, Vec3d(direction))
-                                 : surface_at<false, true>(pose, found, Vec3d(direction));
+  const Surface surface = surface_at(pose, found, Vec3d(direction));
   const ScenePart& part = pose.scene().parts[found.hit.geomID];
   return VisibleSurface{surface.position,
                         surface.shading,
