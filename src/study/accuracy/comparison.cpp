@@ -183,15 +183,16 @@ Table ratio_table(const std::vector<SceneCurves>& scenes, Measure measure) {
       {"ms for one sample a pixel", [](const SceneCurves& s) { return 1e3 * s.one_sample_s; }}};
   for (const double share : budgets_of_ratios()) {
     columns.push_back({budget_name(share), [=](const SceneCurves& s) {
-                         return with_digits(ratio_at_equal_time(s, kDelaunay, measure, share).median, 2);
+                         return with_digits(ratio_at_equal_time(s, kDelaunayMethod, measure, share).median,
+                                            2);
                        }});
   }
   columns.push_back({"break-even", [=](const SceneCurves& s) {
-                       return to_sentence(budget_ranges(s, kDelaunay, measure), kDelaunay);
+                       return to_sentence(budget_ranges(s, kDelaunayMethod, measure), kDelaunayMethod);
                      }});
   Table table = table_of(scenes, columns);
   if (scenes.size() < 2) return table;
-  const RatioRows rows = rows_of_ratios(scenes, kDelaunay, measure);
+  const RatioRows rows = rows_of_ratios(scenes, kDelaunayMethod, measure);
   for (const auto& [name, cells] :
        {std::pair("geometric mean", rows.means), std::pair("worst", rows.worst)}) {
     std::vector<Cell> row = {name, kNoValue};

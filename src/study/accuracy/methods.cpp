@@ -290,7 +290,7 @@ void run_lattice(const CurveTask& task) {
 }  // namespace
 
 Method delaunay_method() {
-  return refinement(kDelaunay, "this renderer on one rank: the heaviest triangle is refined", {});
+  return refinement(kDelaunayMethod, "this renderer on one rank: the heaviest triangle is refined", {});
 }
 
 Method uniform_method() {

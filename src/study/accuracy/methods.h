@@ -43,7 +43,7 @@ struct Method {
 };
 
 // Names in tables and legends. Samplers of pprt-render have the words of --sampler.
-inline constexpr const char* kDelaunay = "delaunay";
+inline constexpr const char* kDelaunayMethod = "delaunay";
 inline constexpr const char* kUniform = "uniform";
 inline constexpr const char* kControl = "control";
 

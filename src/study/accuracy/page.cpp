@@ -63,7 +63,7 @@ Panel curves_panel(const SceneCurves& scene, const Abscissa& x, const std::vecto
 Panel ratio_panel(const SceneCurves& scene) {
   constexpr double kStep = 1.1;
   Panel panel{scene.scene, {kTime.label, 10}, {"error of delaunay / uniform at equal time"}};
-  for (const char* method : {kDelaunay, kControl}) {
+  for (const char* method : {kDelaunayMethod, kControl}) {
     Curve curve{method};
     for (const double share : shares_by(kStep)) {
       const Spread s = ratio_at_equal_time(scene, method, Measure::kRmse, share);
@@ -78,7 +78,7 @@ Panel ratio_panel(const SceneCurves& scene) {
 Panel perceived_panel(const SceneCurves& scene) {
   Panel panel = log_panel(scene.scene, kTime.label, "FLIP, 1 - SSIM");
   int colour = 0;
-  for (const std::string method : {kDelaunay, kUniform}) {
+  for (const std::string method : {kDelaunayMethod, kUniform}) {
     for (const auto& [measure, style] :
          {std::pair(Measure::kFlip, CurveStyle::kLine), std::pair(Measure::kSsim, CurveStyle::kMarkedLine)}) {
       Curve curve = median_curve(scene, method, kTime, measure);
@@ -113,7 +113,7 @@ Table references_table(const std::vector<SceneCurves>& scenes) {
 std::string losses(const SceneCurves& scene) {
   std::string text;
   for (const double share : kBudgets) {
-    const double ratio = ratio_at_equal_time(scene, kDelaunay, Measure::kRmse, share).median;
+    const double ratio = ratio_at_equal_time(scene, kDelaunayMethod, Measure::kRmse, share).median;
     if (ratio > 1) text += fmt::format("{}{:g} % ({:.2f})", text.empty() ? "" : ", ", 100 * share, ratio);
   }
   return text.empty() ? "It loses at none of the budgets." : "It loses at " + text + ".";
@@ -139,7 +139,7 @@ void write_ratios(const std::vector<SceneCurves>& scenes, StudyOutput& output) {
   output.paragraph("Budgets by RMSE:");
   for (const SceneCurves& s : scenes) {
     output.paragraph(fmt::format("{}: {} {}", s.scene,
-                                 to_sentence(budget_ranges(s, kDelaunay, Measure::kRmse), "delaunay"),
+                                 to_sentence(budget_ranges(s, kDelaunayMethod, Measure::kRmse), "delaunay"),
                                  losses(s)));
   }
   add_plot("ratios",
@@ -152,7 +152,7 @@ void write_ratios(const std::vector<SceneCurves>& scenes, StudyOutput& output) {
 void write_curves(const std::vector<SceneCurves>& scenes, const std::vector<Method>& methods,
                   StudyOutput& output) {
   const auto both_over = [](const Abscissa& x) {
-    return [x](const SceneCurves& s) { return curves_panel(s, x, {kDelaunay, kUniform}); };
+    return [x](const SceneCurves& s) { return curves_panel(s, x, {kDelaunayMethod, kUniform}); };
   };
   output.heading("Error against time and against samples");
   add_plot("error-time", "Root mean square error on the display scale against CPU time of one thread.",
@@ -191,7 +191,7 @@ Panel renderers_panel(const SceneCurves& own, const std::vector<RendererPoint>& 
                           "RMSE against its own converged picture");
   const auto percent = [](const auto& point) { return 100 * point.share; };
   int colour = 0;
-  for (const char* method : {kDelaunay, kUniform}) {
+  for (const char* method : {kDelaunayMethod, kUniform}) {
     panel.curves.push_back(curve_over(method, points_of(own, method, 0), percent, &CurvePoint::rmse,
                                       CurveStyle::kLine, colour++));
   }

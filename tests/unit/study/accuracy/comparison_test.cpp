@@ -44,7 +44,7 @@ SceneCurves made_up(const std::vector<std::pair<double, double>>& delaunay, Meas
     curves.points.push_back(p);
   };
   for (const double share : {0.01, 0.1, 1.0, 10.0}) add(kUniform, share, 0.05 / std::sqrt(share), false);
-  for (const auto& [share, error] : delaunay) add(kDelaunay, share, error, exhausted);
+  for (const auto& [share, error] : delaunay) add(kDelaunayMethod, share, error, exhausted);
   return curves;
 }
 
@@ -80,7 +80,8 @@ TEST_CASE("comparison: a method shows its best picture so far, by each measure")
     CAPTURE(word_for(measure));
     const SceneCurves curves = made_up({{0.1, 0.1}, {0.2, 0.025}, {0.4, 0.05}, {1, 0.1}}, measure);
     for (const Measure other : kMeasures) {
-      CHECK(ratio_at_equal_time(curves, kDelaunay, other, 1).median == Approx(other == measure ? 0.5 : 1));
+      CHECK(ratio_at_equal_time(curves, kDelaunayMethod, other, 1).median ==
+            Approx(other == measure ? 0.5 : 1));
     }
   }
 }
@@ -89,8 +90,8 @@ TEST_CASE("comparison: a method with nothing left to refine keeps its error") {
   for (const Measure measure : kMeasures) {
     CAPTURE(word_for(measure));
     const SceneCurves curves = made_up({{0.1, 0.1}, {0.5, 0.05}}, measure, true);
-    CHECK(error_at(errors_of(points_of(curves, kDelaunay, 0), measure), 4) == Approx(0.05));
-    CHECK(ratio_at_equal_time(curves, kDelaunay, measure, 4).median == Approx(2));
+    CHECK(error_at(errors_of(points_of(curves, kDelaunayMethod, 0), measure), 4) == Approx(0.05));
+    CHECK(ratio_at_equal_time(curves, kDelaunayMethod, measure, 4).median == Approx(2));
   }
 }
 
@@ -99,7 +100,7 @@ TEST_CASE("comparison: break-even points are where the ratio of errors passes 1"
     CAPTURE(word_for(measure));
     // Twice the uniform error at 10 %, half of it at 1000 %: equal in the middle, at 100 %.
     const SceneCurves curves = made_up({{0.1, 0.1 / std::sqrt(0.1)}, {10, 0.025 / std::sqrt(10.0)}}, measure);
-    const std::vector<BudgetRange> ranges = budget_ranges(curves, kDelaunay, measure);
+    const std::vector<BudgetRange> ranges = budget_ranges(curves, kDelaunayMethod, measure);
     REQUIRE(ranges.size() == 2);
     CHECK_FALSE(ranges[0].ahead);
     CHECK(ranges[0].from == Approx(0.1).epsilon(0.03));
@@ -109,8 +110,8 @@ TEST_CASE("comparison: break-even points are where the ratio of errors passes 1"
     const std::string sentence = to_sentence(ranges, "It");
     CHECK(sentence.find("It is ahead from ") == 0);
     CHECK(sentence.find("behind from ") != std::string::npos);
-    CHECK(ratio_at_equal_error(curves, kDelaunay, measure, 1).median == Approx(1));
-    CHECK(to_sentence(budget_ranges(made_up({}, measure), kDelaunay, measure), "It") ==
+    CHECK(ratio_at_equal_error(curves, kDelaunayMethod, measure, 1).median == Approx(1));
+    CHECK(to_sentence(budget_ranges(made_up({}, measure), kDelaunayMethod, measure), "It") ==
           "There is no budget for which both have a picture.");
   }
 }
@@ -149,7 +150,7 @@ TEST_CASE("comparison: the table of means has all methods and measures") {
   SceneCurves a = made_up({{0.1, 0.1}, {10, 0.01}}, Measure::kFlip);
   const std::size_t made = a.points.size();
   for (std::size_t i = 0; i < made; ++i) {
-    if (a.points[i].method != kDelaunay) continue;
+    if (a.points[i].method != kDelaunayMethod) continue;
     a.points.push_back(a.points[i]);
     a.points.back().method = "other";
     a.points.back().flip *= 2;
@@ -167,7 +168,7 @@ TEST_CASE("comparison: the table of means has all methods and measures") {
   };
   const std::size_t at_100 = 3 + 3;
   CHECK(table.columns[at_100] == "100 %");
-  const double own = number(kDelaunay, "geometric mean", at_100);
+  const double own = number(kDelaunayMethod, "geometric mean", at_100);
   CHECK(number("other", "geometric mean", at_100) == Approx(4 * own).epsilon(0.01));  // of 2 and 8
   CHECK(number("other", "worst", at_100) == Approx(8 * own).epsilon(0.01));
   CHECK(means_table({}).rows.empty());
@@ -206,8 +207,8 @@ TEST_CASE("methods: some are chosen by their words, the uniform method and the c
 
 TEST_CASE("control: the uniform sampler under the name delaunay has ratio 1 by each measure") {
   const TreeSetup tree;
-  const SceneCurves exact =
-      curves_of(tree, {priced(uniform_method(), kDelaunay, 1), priced(uniform_method(), kUniform, 1)}, 2);
+  const SceneCurves exact = curves_of(
+      tree, {priced(uniform_method(), kDelaunayMethod, 1), priced(uniform_method(), kUniform, 1)}, 2);
   for (const CurvePoint& p : exact.points) {
     CHECK(p.flip > 0);
     CHECK(p.ssim < 1);
@@ -216,17 +217,17 @@ TEST_CASE("control: the uniform sampler under the name delaunay has ratio 1 by e
     CAPTURE(word_for(measure));
     for (const double share : kBudgets) {
       CAPTURE(share);
-      CHECK(ratio_at_equal_time(exact, kDelaunay, measure, share).median == Approx(1).epsilon(1e-9));
+      CHECK(ratio_at_equal_time(exact, kDelaunayMethod, measure, share).median == Approx(1).epsilon(1e-9));
       // Sooner, where the uniform sampler gets no better from one picture to the next.
-      CHECK(ratio_at_equal_error(exact, kDelaunay, measure, share).median <= 1 + 1e-6);
+      CHECK(ratio_at_equal_error(exact, kDelaunayMethod, measure, share).median <= 1 + 1e-6);
     }
-    CHECK(budget_ranges(exact, kDelaunay, measure).size() == 1);
+    CHECK(budget_ranges(exact, kDelaunayMethod, measure).size() == 1);
   }
 }
 
 TEST_CASE("curves: threads that keep the machine busy change no picture") {
   const TreeSetup tree(32);
-  const std::vector<Method> methods = {priced(delaunay_method(), kDelaunay, 1),
+  const std::vector<Method> methods = {priced(delaunay_method(), kDelaunayMethod, 1),
                                        priced(uniform_method(), kUniform, 1)};
   const Reference reference = converged_reference(tree.subject(), 2);
   const SceneCurves alone = measure_curves("tree", tree.subject(), reference, {methods});
@@ -262,11 +263,11 @@ TEST_CASE("busy threads: they render until they are ended", "[realtime]") {
 TEST_CASE("control: it has ratio 1 by the processor's clock, within noise", "[realtime]") {
   const TreeSetup tree(128);
   Method impostor = uniform_method();
-  impostor.name = kDelaunay;
+  impostor.name = kDelaunayMethod;
   const SceneCurves curves = curves_of(tree, {impostor, uniform_method()}, 5);
   for (const double share : {0.1, 0.25, 0.5, 1.0, 2.0}) {
     CAPTURE(share);
-    const double ratio = ratio_at_equal_time(curves, kDelaunay, Measure::kRmse, share).median;
+    const double ratio = ratio_at_equal_time(curves, kDelaunayMethod, Measure::kRmse, share).median;
     CHECK(ratio > 0.75);
     CHECK(ratio < 1.33);
   }
@@ -274,12 +275,12 @@ TEST_CASE("control: it has ratio 1 by the processor's clock, within noise", "[re
 
 TEST_CASE("control: a sampler that takes twice the time has ratios above 1", "[realtime]") {
   const TreeSetup tree;
-  const SceneCurves curves =
-      curves_of(tree, {priced(uniform_method(), kDelaunay, 2), priced(uniform_method(), kUniform, 1)}, 1);
+  const SceneCurves curves = curves_of(
+      tree, {priced(uniform_method(), kDelaunayMethod, 2), priced(uniform_method(), kUniform, 1)}, 1);
   for (const double share : {0.1, 0.5, 1.0, 2.0}) {
     CAPTURE(share);
-    CHECK(ratio_at_equal_time(curves, kDelaunay, Measure::kRmse, share).median > 1.02);
-    CHECK(ratio_at_equal_error(curves, kDelaunay, Measure::kRmse, share).median > 1.2);
+    CHECK(ratio_at_equal_time(curves, kDelaunayMethod, Measure::kRmse, share).median > 1.02);
+    CHECK(ratio_at_equal_error(curves, kDelaunayMethod, Measure::kRmse, share).median > 1.2);
   }
 }
 

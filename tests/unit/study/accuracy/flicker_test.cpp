@@ -50,7 +50,7 @@ TEST_CASE("flicker: an error that stays is none, one that comes and goes is") {
 TEST_CASE("flicker: controls, the uniform grid twice, and seeds that change") {
   const TreeSetup tree;
   const std::vector<Method> methods = {
-      priced(uniform_method(), kUniform, 1), priced(uniform_method(), kDelaunay, 1),
+      priced(uniform_method(), kUniform, 1), priced(uniform_method(), kDelaunayMethod, 1),
       priced(stratified(), "steady", 1), priced(reseeded(stratified(), ""), "reseeded", 1)};
   const std::vector<FlickerPoint> points = measure_flicker(tree_orbit(tree), methods, 1);
   REQUIRE(points.size() == kFlickerBudgets.size() * methods.size());
