@@ -22,7 +22,7 @@ std::optional<double> ClockEstimate::add(const ClockExchange& exchange) {
   std::optional<double> jump;
   if (!points_.empty()) {
     const double ahead_of_line_s = line_.to_rank_0(point.answered_s) - point.answered_s - point.ahead_s;
-    const double explained_s = 0.5 * point.round_trip_s + uncertain_s_ + kLeastJump_s;
+    const double explained_s = 0.5 * point.round_trip_s + uncertain_s(point.answered_s) + kLeastJump_s;
     if (std::abs(ahead_of_line_s) > explained_s) jump = ahead_of_line_s;
   }
   if (jump) points_.clear();
@@ -64,7 +64,13 @@ void ClockEstimate::fit(double at) {
   }
   const double faster = common / spread;
   line_ = {.at = at, .ahead = about + mean_ahead - faster * mean_time, .faster = faster};
-  uncertain_s_ = std::sqrt(1 / weights + mean_time * mean_time / spread);
+  mean_time_s_ = at + mean_time, ahead_variance_ = 1 / weights, rate_variance_ = 1 / spread;
+}
+
+// Returns what the line may be wrong by. It grows with the time since the exchanges that it was put through.
+double ClockEstimate::uncertain_s(double at) const {
+  const double since_s = at - mean_time_s_;
+  return std::sqrt(ahead_variance_ + rate_variance_ * since_s * since_s);
 }
 
 }  // namespace pprt

@@ -38,12 +38,14 @@ class ClockEstimate {
   };
   void keep(const Point& point);
   void fit(double at);
+  double uncertain_s(double at) const;
 
   std::deque<Point> points_;  // the last one may still be replaced by a shorter
   int in_last_ = 0;           // exchanges that it is the shortest of
   bool is_same_clock_ = true;
   ClockLine line_;
-  double uncertain_s_ = 0;  // what the line may be wrong by
+  // How uncertain the line is: variances at the mean time of the points, and of its rate.
+  double mean_time_s_ = 0, ahead_variance_ = 0, rate_variance_ = 0;
 };
 
 }  // namespace pprt

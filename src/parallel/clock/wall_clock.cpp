@@ -33,7 +33,6 @@ void WallClock::begin_frame(const FrameOrder& order) {
   frame_began_s_ = sequence_.now_s();
   sampling_began_s_ = frame_began_s_;
   is_sampling_ = false;
-  rested_s_ = 0;
   deadline_s_ = order.deadline_s;
   reserve_s_ = order.reserve_s;
   is_at_rest_ = order.carry == Carry::kAccumulate;

@@ -81,7 +81,7 @@ class WallClock final : public FrameClock {
   double saved_s_ = 0;        // for the next reconstruction as a whole, while the picture rests
   bool is_turn_ = true;       // of reconstruction as a whole
   bool is_sampling_ = false;  // this frame has begun to
-  double rested_s_ = 0;       // in this frame
+  double rested_s_ = 0;       // since the beginning
   double rested_before_sampling_s_ = 0;
   double pace_ = 1;
   bool knows_pace_ = false;

@@ -212,6 +212,8 @@ TEST_CASE("a modeller's glTF moves in straight lines") {
   check_near(seen(read.scene, 2.5).min, {2, 3, 0}, 1e-6);
   check_near(seen(read.scene, 7).min, {2, 4, 0}, 1e-6);
   CHECK((read.scene.movement.times->end == 3 && read.scene.movement.times->frames == 73));
+  for (const auto& [name, track] : read.scene.movement.tracks) CHECK(track.is_in_order);
+  CHECK(read.scene.movement.tracks.size() == 1);
 }
 
 TEST_CASE("a node called camera does not move the view, and one that does moves it in the world") {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <sstream>
 #include <string>
+#include <tuple>
 
 #include "base/diagnostics.h"
 #include "convert/pov/pov_material.h"
@@ -181,6 +182,16 @@ TEST_CASE("for POV-Ray degenerate objects are left out and one-sided ones are co
   CHECK(losses.degenerate == 3);
   CHECK(losses.one_sided == 1);
   CHECK(objects(scene) == "sphere { <0, 0, 0>, 2 texture { Material_1 } }\n");
+}
+
+TEST_CASE("for POV-Ray a cone is one-sided if either of its radii is negative") {
+  for (const auto& [base, apex, is_one_sided] :
+       {std::tuple(-1.0, -2.0, true), {0.0, -2.0, true}, {-1.0, 0.0, true}, {1.0, 2.0, false}}) {
+    SceneDescription scene = two_materials();
+    add_cone(scene, {{0, 0, 0}, base, {0, 0, 3}, apex, 0, {}});
+    std::ostringstream out;
+    CHECK(write_pov(scene, out).one_sided == (is_one_sided ? 1U : 0U));
+  }
 }
 
 TEST_CASE("a scene without a view or with a degenerate one cannot be written for POV-Ray") {

@@ -5,9 +5,12 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/websocket.hpp>
 #include <catch2/catch.hpp>
+#include <chrono>
+#include <future>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 
 namespace pprt::live_view_test {
 namespace {
@@ -127,6 +130,35 @@ TEST_CASE("live view: an overlay is drawn before the picture is sent") {
   viewer.hear_of("camera");
   CHECK(overlaid.size() > 2);
   CHECK(overlaid != viewer.picture);
+}
+
+// A picture that moved and was dropped for a later one has ended the rest all the same.
+TEST_CASE("live view: the camera rests only if it stood still in each frame since the last picture") {
+  LiveView view({}, show());
+  Viewer viewer(view);
+  viewer.hear_of("state");
+  std::promise<void> drawing, go_on;
+  LivePicture first = picture_of({}, 1);
+  first.rests = true;
+  first.overlaid = [&](const Image& image) {
+    drawing.set_value();
+    go_on.get_future().wait();
+    return image;
+  };
+  view.show(std::move(first));
+  drawing.get_future().wait();
+  std::this_thread::sleep_for(std::chrono::milliseconds(600));  // longer than it takes to be at rest
+  for (const bool rests : {false, true}) {
+    LivePicture next = picture_of({}, rests ? 3 : 2);
+    next.rests = rests;
+    view.show(std::move(next));
+  }
+  go_on.set_value();
+  viewer.hear_of("camera");
+  viewer.say("ack");
+  const Json header = viewer.hear_of("camera");
+  CHECK(header["frames"].size() == 2);
+  CHECK(header["type"] == "image/jpeg");
 }
 
 }  // namespace

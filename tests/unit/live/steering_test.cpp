@@ -137,6 +137,27 @@ TEST_CASE("steering: the camera by hand, and back to the script where it was lef
   CHECK((back.position == 2 && back.cut && back.pilot == 0));
 }
 
+TEST_CASE("steering: a shot names a look of the one who has the camera, not of the pilot before") {
+  Stage stage;
+  stage.steering.joined(1), stage.steering.joined(2);
+  for (const bool is_passed : {true, false}) {
+    stage.say(1, R"({"do":"take"})");
+    stage.look(1, 17, 5.5);
+    CHECK(stage.shot().look == 17);
+    if (is_passed) {
+      stage.say(1, R"({"do":"pass","to":2})");
+    } else {
+      stage.say(1, R"({"do":"give"})");
+      stage.say(2, R"({"do":"take"})");
+    }
+    const LiveShot shot = stage.shot();
+    CHECK((shot.pilot == 2 && shot.look == 0));
+    stage.look(2, 3, 6.5);
+    CHECK(stage.shot().look == 3);
+    stage.say(2, R"({"do":"give"})");
+  }
+}
+
 TEST_CASE("steering: given back at the end of the script, the picture rests") {
   Stage stage(1);
   stage.steering.joined(1);
@@ -160,9 +181,12 @@ TEST_CASE("steering: a film that becomes shorter while it plays ends") {
   for (int n = 1; n <= 5; ++n) CHECK(stage.shot().position == n);
   stage.say(1, R"({"do":"drop","frame":9})");
   CHECK(stage.state["frames"] == 1);
-  stage.shot();
+  CHECK(stage.shot().position == 1);
   CHECK_FALSE(stage.steering.is_played_out());  // there is a pilot
   CHECK(stage.state["plays"] == false);
+  stage.say(1, R"({"do":"undo"})");
+  stage.say(1, R"({"do":"play"})");
+  CHECK(stage.shot().position == 2);
 }
 
 TEST_CASE("steering: a camera that cannot be rendered is refused") {

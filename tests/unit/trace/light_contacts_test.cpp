@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "trace/numerics.h"
 #include "unit/trace/test_scenes.h"
 
 namespace pprt::light_contacts_test {
@@ -119,6 +120,65 @@ TEST_CASE("a lamp on a ball or a pipe is hidden by it only from behind") {
         const bool in_shadow = !lit(scene, askew({0.2, -2, -2.5}), askew({x, y, -3}));
         CHECK(in_shadow);
       }
+    }
+  }
+}
+
+TEST_CASE("what lies beyond a lamp on a surface's rim casts no shadow") {
+  // Half of the rays to the lamp pass the rim by rounding and go on to the screen behind.
+  for (const bool on_ball : {false, true}) {
+    CAPTURE(on_ball);
+    const Vec3d lamp = askew({0.3, -0.1, 1});
+    SceneDescription scene = scene_with(Material(), {lamp});
+    if (on_ball) {
+      add_sphere(scene, {askew({0.3, -0.1, 1.01}), 0.01, 0, {}});
+    } else {
+      const std::array<Vec3d, 3> shelf = {lamp, askew({2, -0.5, 1.4}), askew({2, 0.9, 1.4})};
+      add_polygon(scene, shelf, 0);
+    }
+    for (const double x : {-4.0, 4.0}) {
+      const std::array<Vec3d, 4> wall = {askew({x, -4, -4}), askew({x, 4, -4}), askew({x, 4, 4}),
+                                         askew({x, -4, 4})};
+      add_polygon(scene, wall, 0);
+    }
+    const CompiledScene compiled = compile(scene);
+    for (int i = 0; i < 400; ++i) {
+      const double y = -1 + 0.1 * (i % 20), z = -1 + 0.1 * (i / 20);
+      CAPTURE(y, z);
+      CHECK(look(compiled, view_from(askew({-1, y, z}), askew({-4, y, z}))).color.x > 1.0001 * 0.05);
+    }
+  }
+}
+
+// From behind, a ray crosses the ball 2 k r before the lamp, with k the cosine to the normal. It is hidden
+// where that is more than the lamp's reach.
+TEST_CASE(
+    "a lamp on a ball is hidden from where the ball is crossed before its reach, and from nowhere else") {
+  constexpr double kFar = 2;
+  for (const double radius : {0.5, 1e-2}) {
+    CAPTURE(radius);
+    const Vec3d top(0, 0, radius);
+    SceneDescription scene = scene_with(Material(), {askew(top)});
+    add_sphere(scene, {{0, 0, 0}, radius, 0, {}});
+    const std::array<Vec3d, 4> wall = {askew({kFar, -2, -2}), askew({kFar, -2, 2}), askew({kFar, 2, 2}),
+                                       askew({kFar, 2, -2})};
+    add_polygon(scene, wall, 0);
+    const CompiledScene compiled = compile(scene);
+    const auto place = [&](const Vec3d& p) { return compiled.camera(view_from(askew(p), {9, 9, 9})).eye; };
+    const double scale = (place({1, 0, 0}) - place({0, 0, 0})).length();
+    const double error = shadow_end_error((place({kFar, 0, 0}) - place(top)).length());
+    // Where rounding moves a crossing as far as the other one is away: error / k = 2 k r.
+    const double least = std::sqrt(error / (2 * radius * scale));
+    const auto is_lit = [&](double cosine) {
+      const Vec3d at(kFar, 0, radius + kFar * cosine);
+      return look(compiled, view_from(askew({kFar - 1, 0.1, radius + 0.5}), askew(at))).color.x >
+             1.0001 * 0.05;
+    };
+    for (int i = 0; i < 50; ++i) {
+      const double k = least * (1.5 + 0.1 * i);
+      CAPTURE(k / least);
+      CHECK(is_lit(k));
+      CHECK_FALSE(is_lit(-k));
     }
   }
 }

@@ -1,6 +1,7 @@
 // Textures, and materials with a colour for each term.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numbers>
 
 #include "trace/texture_image.h"
 #include "unit/trace/test_scenes.h"
@@ -100,6 +101,38 @@ TEST_CASE("textures: an effect that can be left out") {
   SceneDescription plain = scene;
   plain.materials[0].texture.reset();
   CHECK_FALSE(compile(plain).effects().has(Effect::kTextures));
+}
+
+TEST_CASE("materials: refracted and totally reflected rays count by the transmittance") {
+  // A sheet of glass over a red floor, under a blue sky.
+  const auto seen = [](bool has_terms, double transmittance, double degrees, bool from_within) {
+    Material glass;
+    glass.color = {0, 0, 0}, glass.transmittance = transmittance, glass.refractive_index = 1.5;
+    if (has_terms)
+      glass.terms = TermColors{.ambient = {0, 0, 0}, .diffuse = {0, 0, 0}, .specular = {0, 0, 0}};
+    SceneDescription scene = scene_with(glass);
+    scene.lights.clear();
+    scene.background = Rgb(0, 0, 1);
+    scene.ambient = Rgb(1, 1, 1);
+    scene.materials.emplace_back().terms =
+        TermColors{.ambient = {1, 0, 0}, .diffuse = {0, 0, 0}, .specular = {0, 0, 0}};
+    add_square(scene, 3, 0);
+    add_square(scene, 100, -20, 1);
+    const double angle = degrees * std::numbers::pi / 180, height = 10 * std::cos(angle);
+    return look(compile(scene),
+                view_from({10 * std::sin(angle), 0, from_within ? -height : height}, {0, 0, 0}))
+        .color;
+  };
+  for (const float t : {0.5F, 0.125F}) {
+    CAPTURE(t);
+    for (const bool has_terms : {true, false}) {
+      CAPTURE(has_terms);
+      CHECK(close(seen(has_terms, t, 40, false), Color(t, 0, 0)));
+      CHECK(close(seen(has_terms, t, 41.7, true), Color(0, 0, t)));  // the critical angle is 41.81 degrees
+    }
+    CHECK(close(seen(true, t, 41.9, true), Color(t, 0, 0)));
+    CHECK(close(seen(false, t, 41.9, true), Color(0, 0, 0)));  // NFF's glass shows nothing there
+  }
 }
 
 }  // namespace pprt::surfaces_test

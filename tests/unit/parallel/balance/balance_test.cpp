@@ -9,6 +9,7 @@
 #include "parallel/balance/balancer.h"
 #include "parallel/balance/global_balance.h"
 #include "parallel/balance/local_balance.h"
+#include "parallel/balance/transfer_handshake.h"
 #include "parallel/exchange/samplers.h"
 #include "unit/parallel/both_samplers.h"
 #include "unit/parallel/exchange/exchange_ranks.h"
@@ -249,6 +250,54 @@ TEST_CASE("local balancing: a rank's future cost is a time, by its pace") {
   const RankProgress slow = (balancer.begin_frame(2), balancer.progress(refined, 0.5));
   CHECK(slow.pace == 2);
   CHECK(slow.future_cost == Approx(2 * even.future_cost));
+}
+
+TEST_CASE("local balancing: what a tile costs is judged by the mean of the giver's and the taker's pace") {
+  const Partition partition = halves();
+  const Region own = region_of(partition, 0);
+  std::vector<TileWeights> weights(32);
+  CostEstimator costs(partition.grid, traits_of(SamplerChoice::kDelaunay).work);
+  costs.begin_frame(true, FrameLikeness::kUnknown);
+  for (const int tile : own.tiles()) {
+    const PixelRect rect = partition.grid.pixels(tile);
+    Sample sample;
+    sample.x = rect.x0 + 5, sample.y = rect.y0 + 5, sample.ray.rays = 20;
+    costs.add_own(sample);
+    weights[static_cast<std::size_t>(tile)] = {.total_weight = 4, .count = 1};
+  }
+  const RegionQuality refined{own, weights, 4};
+  costs.update(refined, 0.5);
+  TransferHandshake handshake(2);
+  handshake.receive(1, {});
+  handshake.set_giving(true);
+  const std::vector<int> beside = {1};
+  const KnownRanks others{partition, beside, [](int) { return std::vector<std::uint32_t>(32, 0); }};
+  // Three tenths of what 16 tiles cost are to move: four tiles at most, two of double the cost.
+  const auto given_to_rank_of = [&](double pace) {
+    Balancer balancer(0, 2, costs);
+    balancer.begin_frame(1);
+    balancer.receive(1, {.mean_weight = 1, .target_weight = 0.5, .future_cost = 0, .pace = pace});
+    return balancer.choose_transfers(refined, others, handshake, 0.5, kUnlimited).size();
+  };
+  CHECK(given_to_rank_of(1) == 4);
+  CHECK(given_to_rank_of(3) == 2);
+}
+
+BOTH_SAMPLERS_TEST_CASE("global balancing: tiles of a lost rank go to the others, whatever had accumulated") {
+  for (const Carry next : {Carry::kNothing, Carry::kCastWherePaying, Carry::kAccumulate}) {
+    SessionSettings settings{.sampler = sampler};
+    settings.balance = BalanceMode::kNone;
+    GlobalBalancer balancer = balancer_of_two(settings);
+    FrameReports frame = reports_of_two(1, 4);
+    frame.accumulates = true;
+    balancer.consider(frame);
+    constexpr std::int32_t kLost = 1;
+    balancer.take_over({&kLost, 1});
+    FrameOrder order;
+    order.carry = next;
+    balancer.add_partition(order);
+    CHECK(order.owners == std::vector<std::int32_t>(4, 0));
+  }
 }
 
 TEST_CASE("global balancing: on a lattice, a partition from accumulated samples serves no new picture") {

@@ -37,5 +37,16 @@ TEST_CASE("cost estimator: a sample costs its tile its rays, and what its sample
   for (const TileReport& tile : report) CHECK(tile.preparation == received / 2);
 }
 
+TEST_CASE("cost estimator: a tile that comes brings what it cost in this frame and in the one before") {
+  const TileGrid grid(20, 10, 10);
+  CostEstimator costs(grid, traits_of(SamplerChoice::kAuto).work);
+  costs.begin_frame(true, FrameLikeness::kSimilar);
+  costs.accept(
+      {.tile = 1, .now = {.cost = 10, .average_weight = 2}, .last = {.cost = 70, .average_weight = 3}});
+  CHECK((costs.now(1).cost == 10 && costs.now(1).average_weight == 2));
+  CHECK((costs.last(1).cost == 70 && costs.last(1).average_weight == 3));
+  CHECK((costs.now(0).cost == 0 && costs.last(0).cost == 0));
+}
+
 }  // namespace
 }  // namespace pprt::cost_estimator_test

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <random>
 #include <set>
+#include <utility>
 
 namespace pprt::partition_test {
 namespace {
@@ -140,6 +141,23 @@ TEST_CASE("partition: every rank has a tile when there are plenty") {
       const Partition partition = bisect(grid, wild_costs(grid, seed), ranks);
       const std::set<int> owners(partition.owner.begin(), partition.owner.end());
       CHECK(owners.size() == static_cast<std::size_t>(ranks));
+    }
+  }
+}
+
+TEST_CASE("partition: in a row of tiles every rank has one, wherever the costs are") {
+  constexpr int kTiles = 12;
+  for (const auto& [width, height] : {std::pair(kTiles * 10, 10), std::pair(10, kTiles * 10)}) {
+    const TileGrid grid(width, height, 10);
+    for (std::size_t dear = 0; dear < kTiles; ++dear) {
+      std::vector<double> costs = uniform_costs(grid);
+      costs[dear] = 1000;
+      for (int ranks = 2; ranks <= kTiles; ++ranks) {
+        const Partition partition = bisect(grid, costs, ranks);
+        INFO(ranks << " ranks, tile " << dear << " costs most, " << width << " pixels wide");
+        CHECK(std::set<std::int32_t>(partition.owner.begin(), partition.owner.end()).size() ==
+              static_cast<std::size_t>(ranks));
+      }
     }
   }
 }

@@ -89,5 +89,31 @@ TEST_CASE("clock estimate: a jump is told once, and known at once") {
   CHECK(shared.line().to_rank_0(8) == Approx(5).margin(0.1));
 }
 
+// A rate is not known after a few exchanges. What it may add up to until the next good one is no jump.
+TEST_CASE("clock estimate: a clock that drifts while nothing tells of it has not jumped") {
+  constexpr double kQuick_s = 1e-4, kDrift = 1.5e-4;
+  const auto exchange = [](const RankClock& clock, double true_s, double round_trip_s) {
+    return ClockExchange{true_s, clock.time(true_s + 0.5 * round_trip_s), true_s + round_trip_s};
+  };
+  for (const double faster : {kDrift, -kDrift}) {
+    RankClock clock{kHostsApart, faster};
+    for (const double silent_s : {15.0, 60.0, 600.0}) {
+      INFO("runs faster by " << faster << ", silent for " << silent_s << " s");
+      ClockEstimate silent;
+      for (int i = 0; i < 4; ++i) CHECK_FALSE(silent.add(exchange(clock, 1e-3 * i, kQuick_s)));
+      ClockEstimate slow = silent;
+      CHECK_FALSE(silent.add(exchange(clock, silent_s, kQuick_s)));
+      // Answers that took long do not tell, either.
+      for (double at_s = 1; at_s < silent_s; at_s += 5) CHECK_FALSE(slow.add(exchange(clock, at_s, 0.5)));
+      CHECK_FALSE(slow.add(exchange(clock, silent_s, kQuick_s)));
+      // What no such rate explains has.
+      RankClock jumped = clock;
+      jumped.ahead_s += 4e-4 * silent_s + 0.1;
+      CHECK(silent.add(exchange(jumped, silent_s + 1, kQuick_s)));
+      CHECK(slow.add(exchange(jumped, silent_s + 1, kQuick_s)));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace pprt::clock_estimate_test

@@ -61,6 +61,15 @@ TEST_CASE("wall clock: ranks that share a core leave time for each other's recon
   CHECK(left_with(*clock, 3000) == Approx(1.25 * 16 * 0.001));
 }
 
+TEST_CASE("wall clock: ranks that share a core afford their share of its work") {
+  for (const double ranks_per_core : {1.0, 16.0}) {
+    const auto clock = clock_in_a_frame(0, Carry::kNothing, ranks_per_core);
+    const double pixel_s = 1e-9 * static_cast<double>(price(Work::kPixel)) * ranks_per_core;
+    CHECK(static_cast<double>(clock->affordable(Work::kPixel, 0.5)) ==
+          Approx(0.5 * kPeriod / pixel_s).margin(1));
+  }
+}
+
 TEST_CASE(
     "wall clock: a resting picture whose reconstruction fills the frame gets no further samples, a new one "
     "some",

@@ -24,9 +24,9 @@ Sample sample_at(double x, double y) {
 }
 
 struct Rank {
-  explicit Rank(int rank)
-      : sampler(region_of(columns(), rank), LatticeOrder::kAdaptive, {}, {}),
-        exchange(sampler, true, columns(), rank) {}
+  explicit Rank(int rank, const Partition& partition = columns())
+      : sampler(region_of(partition, rank), LatticeOrder::kAdaptive, {}, {}),
+        exchange(sampler, true, partition, rank) {}
 
   LatticeSampler sampler;
   LatticeExchange exchange;
@@ -47,6 +47,48 @@ TEST_CASE("lattice exchange: a sample on a border goes to the rank beyond, one e
   CHECK(middle.take_outbox(0).empty());
   CHECK(middle.insert(sample_at(2 * kSide, 4), 2));  // another's is told by itself
   CHECK((middle.take_outbox(0).empty() && middle.take_outbox(2).empty()));
+}
+
+// What a node predicts lies within half a square's side of a centre, and at any other node itself.
+TEST_CASE("lattice exchange: each rank is told of the samples that touch its region, on every side") {
+  const TileGrid grid{3 * kSide, 3 * kSide, kSide};
+  Partition squares{grid, 9, {}, std::vector<std::uint64_t>(9, 0)};
+  for (int tile = 0; tile < 9; ++tile) squares.owner.push_back(tile);
+  constexpr int kMiddle = 4;
+  Rank rank(kMiddle, squares);
+  std::size_t told = 0;
+  for (double y = kSide; y < 2 * kSide; y += 0.5) {
+    for (double x = kSide; x < 2 * kSide; x += 0.5) {
+      const LatticeNode node = node_at({x, y});
+      const bool is_center = !is_base(node) && level_of(node).kind == LatticeKind::kCenter;
+      const double reach = is_center ? 0.5 * level_of(node).side / kPixelSide : 0;
+      REQUIRE(rank.exchange.insert(sample_at(x, y), kMiddle));
+      INFO("sample at " << x << ", " << y);
+      for (int other = 0; other < 9; ++other) {
+        const PixelRect rect = grid.pixels(other);
+        const bool touches =
+            x + reach >= rect.x0 && x - reach <= rect.x1 && y + reach >= rect.y0 && y - reach <= rect.y1;
+        const std::size_t count = rank.exchange.take_outbox(other).size();
+        REQUIRE(count == (touches && other != kMiddle ? 1U : 0U));
+        told += count;
+      }
+    }
+  }
+  CHECK(told > 100);
+}
+
+TEST_CASE("lattice exchange: once a tile that was given away is back nothing is forwarded any more") {
+  Rank rank_1(1);
+  Partition given = columns();
+  given.owner[1] = 0;
+  CHECK(rank_1.exchange.transfer(given));
+  CHECK(rank_1.exchange.insert(sample_at(2 * kSide, 4), 2));
+  CHECK(rank_1.exchange.take_outbox(0).size() == 1);
+  CHECK(rank_1.exchange.announce() == 1);
+  CHECK(rank_1.exchange.transfer(columns()));
+  CHECK(rank_1.exchange.insert(sample_at(2 * kSide, 8), 2));
+  CHECK(rank_1.exchange.take_outbox(0).empty());
+  CHECK(rank_1.exchange.announce() == 0);  // nor looked at
 }
 
 TEST_CASE("lattice exchange: what comes for a tile that was given away is forwarded to its owner") {

@@ -6,7 +6,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <set>
+#include <utility>
 
 namespace pprt::lattice_refiner_test {
 namespace {
@@ -447,21 +449,43 @@ TEST_CASE("lattice sampler: where the last picture was wrong, this one is expect
   CHECK(second < 0.98 * first);
 }
 
-TEST_CASE("lattice sampler: what changes evenly is predicted exactly, whichever middles are known") {
-  const auto value = [](float x, float y) { return NodeValue(float4{0.1F * x, 0.2F * y, 0.3F, 0}, 1); };
-  const std::array<NodeValue, 4> corners = {value(0, 0), value(2, 0), value(0, 2), value(2, 2)};
-  for (unsigned known = 0; known < 16; ++known) {
-    Surroundings around(corners);
-    if ((known & 1) != 0) around.add_middle(value(0, 1), 0, 2);
-    if ((known & 2) != 0) around.add_middle(value(2, 1), 1, 3);
-    if ((known & 4) != 0) around.add_middle(value(1, 0), 0, 1);
-    if ((known & 8) != 0) around.add_middle(value(1, 2), 2, 3);
-    const float4 mean = around.mean();
-    INFO("middles " << known);
-    CHECK(mean[0] == Approx(0.1F));
-    CHECK(mean[1] == Approx(0.2F));
-    CHECK(mean[2] == Approx(0.3F));
+TEST_CASE("lattice sampler: a surprise on a square's side makes the centre beyond it worth more") {
+  // Stripes up to a line of base squares, beyond which all is flat: there centres wait.
+  constexpr int kLine = 24, kBasePixels = kBaseSide / kPixelSide;
+  const Scene scene = of_color([](double x, double y) {
+    const bool is_bright = x < kLine - 1 && std::fmod(y, 2 * kBasePixels) < kBasePixels;
+    return is_bright ? Color(0.9F, 0.9F, 0.9F) : Color(0.3F, 0.3F, 0.3F);
+  });
+  const TileGrid grid{64, 64, kBasePixels};
+  LatticeRefiner sampler(Region::whole(grid), no_shape);
+  std::optional<Vec2d> middle;
+  std::set<std::pair<double, double>> sampled;
+  for (int i = 0; i < 300 && !middle; ++i) {
+    sampler.expect(300 - i);
+    const auto point = sampler.next_point();
+    REQUIRE(point);
+    if (point->x == kLine && !is_base(node_at(*point)) && level_of(node_at(*point)).side == kBaseSide) {
+      middle = point;
+      continue;
+    }
+    sampler.insert(*point, scene(point->x, point->y));
+    sampled.insert({point->x, point->y});
   }
+  REQUIRE(middle);
+  constexpr double kHalf = kBasePixels / 2.0;
+  REQUIRE(sampled.count({kLine - kHalf, middle->y}) == 1);
+  REQUIRE(sampled.count({kLine + kHalf, middle->y}) == 0);
+  std::vector<TileWeights> before, after;
+  sampler.weigh(before);
+  sampler.insert(*middle, of_color([](double, double) { return Color(1, 1, 1); })(0, 0));
+  sampler.weigh(after);
+  const auto gain = [&](double x) {
+    const auto tile = static_cast<std::size_t>(grid.tile_at(x, middle->y));
+    return after[tile].total_weight - before[tile].total_weight;
+  };
+  // Two centres of smaller squares on either side; and beyond, where none is sampled, that of the square.
+  CHECK(gain(kLine - kHalf) > 0);
+  CHECK(gain(kLine + kHalf) > 1.2 * gain(kLine - kHalf));
 }
 
 }  // namespace pprt::lattice_refiner_test

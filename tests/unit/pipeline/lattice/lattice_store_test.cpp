@@ -152,6 +152,19 @@ TEST_CASE("lattice store: predictions last until they are forgotten, more often 
   }
 }
 
+TEST_CASE("lattice store: a store that was cleared keeps no prediction, however many rounds it has gone") {
+  LatticeStore store(kWidth, kHeight);
+  const LatticeNode corner{3 * kPixelSide, 2 * kPixelSide};
+  for (int rounds = 0; rounds < 3; ++rounds) {
+    store.keep_prediction(corner, value_at(corner));
+    store.clear();
+    for (int round = 0; round <= rounds; ++round) {
+      CHECK(store.kept_at(corner) == nullptr);
+      store.forget_predictions();
+    }
+  }
+}
+
 TEST_CASE("lattice store: a priority is that of its least worth, and grows with the worth") {
   NodeState last = kLeastCandidate;
   for (float worth = 1e-15F; worth < 1e15F; worth *= 1.05F) {

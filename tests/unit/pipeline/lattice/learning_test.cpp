@@ -1,5 +1,6 @@
 // What the lattice sampler learns from its samples: errors near a point, errors by class, shares at edges.
 #include <catch2/catch.hpp>
+#include <cstdlib>
 
 #include "pipeline/lattice/edge_share.h"
 #include "pipeline/lattice/error_estimates.h"
@@ -21,6 +22,41 @@ TEST_CASE("local errors: an error counts near its point and nowhere else") {
   CHECK(errors.near(here).rays > errors.near(far).rays);
   errors.clear();
   CHECK(errors.near(here).level == errors.near(far).level);
+}
+
+TEST_CASE("local errors: a surprise reaches the cell and its eight neighbours at once, no other") {
+  constexpr int kCell = 4, kMiddle = 34;  // pixels
+  const auto node_of = [](int column, int row) {
+    return node_at({kMiddle + kCell * column + 0.0, kMiddle + kCell * row + 0.0});
+  };
+  for (int row = -2; row <= 2; ++row) {
+    for (int column = -2; column <= 2; ++column) {
+      LocalErrors errors(64 * kPixelSide, 64 * kPixelSide);
+      const LatticeNode there = node_of(column, row);
+      REQUIRE(errors.near(there).rays == 3);  // what is expected of an unknown cell
+      errors.note(node_of(0, 0), 0.25F, 20);
+      const bool is_beside = std::abs(column) <= 1 && std::abs(row) <= 1;
+      INFO("column " << column << ", row " << row);
+      CHECK(errors.near(there).rays == (is_beside ? 20 : 3));
+    }
+  }
+}
+
+TEST_CASE("local errors: all sides of a cell count alike, and all corners half as much") {
+  constexpr int kCell = 4, kMiddle = 34;  // pixels
+  for (int row = -1; row <= 1; ++row) {
+    for (int column = -1; column <= 1; ++column) {
+      LocalErrors errors(64 * kPixelSide, 64 * kPixelSide);
+      for (int y = -1; y <= 1; ++y) {
+        for (int x = -1; x <= 1; ++x)
+          errors.note(node_at({kMiddle + kCell * x + 0.0, kMiddle + kCell * y + 0.0}), 1e-6F,
+                      x == column && y == row ? 9 : 1);
+      }
+      const float share = (column == 0 && row == 0 ? 2.0F : column == 0 || row == 0 ? 1.0F : 0.5F) / 8;
+      INFO("column " << column << ", row " << row);
+      CHECK(errors.near(node_at({kMiddle, kMiddle})).rays == Approx(1 + 8 * share));
+    }
+  }
 }
 
 TEST_CASE("local errors: what is kept of the last picture gives way to what this one shows") {

@@ -6,9 +6,14 @@
 namespace pprt::run_record_test {
 namespace {
 
-std::string key_with(const std::function<void(RenderPlan&)>& change) {
+RenderPlan one_frame() {
   RenderPlan plan;
   plan.script_frames = {{.number = 1, .view = {}, .cut = false}};
+  return plan;
+}
+
+std::string key_with(const std::function<void(RenderPlan&)>& change) {
+  RenderPlan plan = one_frame();
   change(plan);
   return run_key({plan, 4, "hash"});
 }
@@ -20,9 +25,12 @@ const std::string kPlain = key_with([](RenderPlan&) {});
 TEST_CASE("a run's key changes with every setting that decides its pictures") {
   const std::vector<std::function<void(RenderPlan&)>> changes = {
       [](RenderPlan& p) { p.settings.width = 7; },
+      [](RenderPlan& p) { p.settings.height = 7; },
       [](RenderPlan& p) { p.settings.clock = ClockKind::kWork; },
       [](RenderPlan& p) { p.settings.frames_per_second = 3; },
       [](RenderPlan& p) { p.settings.budget_units = 3; },
+      [](RenderPlan& p) { p.settings.stop.seconds = 3; },
+      [](RenderPlan& p) { p.settings.stop.samples = 3; },
       [](RenderPlan& p) { p.settings.stop.flip = 3; },
       [](RenderPlan& p) { p.settings.balance = BalanceMode::kLocal; },
       [](RenderPlan& p) { p.settings.keep_samples = false; },
@@ -35,10 +43,19 @@ TEST_CASE("a run's key changes with every setting that decides its pictures") {
       [](RenderPlan& p) { p.compile.effects = EffectSet(); },
       [](RenderPlan& p) { p.compile.cull = true; },
       [](RenderPlan& p) { p.script_frames[0].cut = true; },
-      [](RenderPlan& p) { p.script_frames[0].view.from.x = 2; }};
+      [](RenderPlan& p) { p.script_frames[0].number = 2; },
+      [](RenderPlan& p) { p.script_frames[0].time = 2; },
+      [](RenderPlan& p) { p.script_frames[0].view.angle_degrees = 2; },
+      [](RenderPlan& p) { p.script_frames.push_back(p.script_frames[0]); }};
   std::set<std::string> keys = {kPlain};
   for (const auto& change : changes) keys.insert(key_with(change));
-  CHECK(keys.size() == changes.size() + 1);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (Vec3d View::*member : {&View::from, &View::at, &View::up})
+      keys.insert(key_with([&](RenderPlan& p) { (p.script_frames[0].view.*member)[axis] = 2; }));
+  }
+  keys.insert(run_key({one_frame(), 5, "hash"}));
+  keys.insert(run_key({one_frame(), 4, "another hash"}));
+  CHECK(keys.size() == 1 + changes.size() + 3 * 3 + 2);
 }
 
 TEST_CASE("a run's key does not depend on which frames are rendered, nor on reports") {

@@ -97,25 +97,42 @@ TEST_CASE("refinement is the mean and standard deviation over the ranks that hav
   CHECK(frame_record(summarize(frame))["mean_weight_dev"].get<double>() == Approx(0).margin(1e-8));
 }
 
-TEST_CASE("a frame's counts and times are sums over its ranks") {
+TEST_CASE("a frame's record has every figure once, and counts and times as sums over its ranks") {
   FinishedFrame frame;
-  frame.order.number = 7, frame.order.cut = true, frame.order.deadline_s = 2;
+  frame.order.number = 7, frame.order.cut = true, frame.order.deadline_s = 2, frame.order.lost = {3, 5};
+  frame.finished_s = 1.5, frame.late_ms = -500, frame.late_ranks = {1};
+  frame.stale_tiles = 70, frame.overdue_pixels = 72, frame.global_balance = true;
   frame.ranks.resize(2);
   for (RankReport& r : frame.ranks) {
     r.samples_new = 10, r.samples_cast = 3, r.samples_in_region = 11, r.non_finite = 1;
-    r.rays.primary = 10, r.rays.shadow = 70, r.rays.reflection = 4, r.rays.refraction = 5;
-    r.cpu_ms = {6, 1, 2, 3, 4, 5};
-    r.bytes_samples = 640, r.bytes_pixels = 1200;
+    r.samples_received = 12, r.samples_known = 13, r.tiles_given = 14;
+    r.mean_weight = 0.25, r.candidates_in_region = 1;
+    r.rays.primary = 15, r.rays.shadow = 70, r.rays.reflection = 4, r.rays.refraction = 5;
+    r.rays.visibility = 16;
+    r.cpu_ms = {.moving = 6, .sampling = 1, .casting = 2, .reconstruction = 3, .balancing = 4, .idle = 5};
+    r.bytes_samples = 640, r.bytes_progress = 17, r.bytes_balance = 18, r.bytes_pixels = 1200;
   }
-  const Json record = frame_record(summarize(frame));
-  CHECK((record["frame"] == 7 && record["cut"] == true && record["deadline_s"] == 2));
-  CHECK((record["samples_new"] == 20 && record["samples_cast"] == 6 && record["samples"] == 22));
-  CHECK(record["non_finite"] == 2);
-  CHECK((record["rays"]["primary"] == 20 && record["rays"]["shadow"] == 140));
-  CHECK((record["rays"]["reflection"] == 8 && record["rays"]["refraction"] == 10));
-  CHECK(record["cpu_ms"]["moving"] == 12);
-  CHECK((record["cpu_ms"]["sampling"] == 2 && record["cpu_ms"]["idle"] == 10));
-  CHECK((record["bytes"]["samples"] == 1280 && record["bytes"]["pixels"] == 2400));
+  CHECK(frame_record(summarize(frame)) == Json::parse(R"({
+    "record":"frame", "frame":7, "cut":true, "deadline_s":2.0, "finished_s":1.5, "late_ms":-500.0,
+    "late_ranks":[1], "lost_ranks":[3,5], "stale_tiles":70, "overdue_pixels":72,
+    "samples_new":20, "samples_cast":6, "samples":22, "samples_received":24, "samples_received_twice":26,
+    "mean_weight":0.25, "mean_weight_dev":0.0,
+    "rays":{"primary":30, "shadow":140, "reflection":8, "refraction":10, "visibility":32},
+    "cpu_ms":{"moving":12.0, "sampling":2.0, "casting":4.0, "reconstruction":6.0, "balancing":8.0, "idle":10.0},
+    "bytes":{"samples":1280, "progress":34, "balance":36, "pixels":2400},
+    "tiles_moved":28, "global_balance":true, "non_finite":2})"));
+}
+
+TEST_CASE("a run's summary sums its frames") {
+  FrameSummary frame;
+  frame.late_ms = 1, frame.samples = 5, frame.non_finite = 2;
+  frame.rays.primary = 1, frame.rays.shadow = 2, frame.rays.reflection = 3, frame.rays.refraction = 4;
+  frame.rays.visibility = 5;
+  RunTotals totals;
+  totals.add(frame), totals.add(frame);
+  CHECK(summary_record(totals, false) == Json::parse(R"({
+    "record":"summary", "frames":2, "samples":10,
+    "rays":{"primary":2, "shadow":4, "reflection":6, "refraction":8, "visibility":10}, "non_finite":4})"));
 }
 
 TEST_CASE("frame records keep their order while measurements are pending") {
