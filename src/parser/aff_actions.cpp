@@ -9,13 +9,13 @@
 
 #include "scene/animation/animation.h"
 #include "scene/description/shading_rules.h"
+#include "scene/movement/movement_limits.h"
 #include "scene/polygons/triangulate.h"
 
 namespace pprt::aff {
 namespace {
 
 constexpr int kLargestResolution = 65536;  // pixels
-constexpr int kMostFrames = 1'000'000;
 
 }  // namespace
 
@@ -369,9 +369,9 @@ void SceneBuilder::begin_animated() {
 }
 
 void SceneBuilder::begin_node(const Affine& to_parent, std::string track) {
-  if (nodes_.size() > static_cast<std::size_t>(options_.max_depth))
+  if (nodes_.size() > static_cast<std::size_t>(options_.max_transforms))
     throw ParseFailure{keyword_.data(),
-                       fmt::format("more than {} transforms in each other", options_.max_depth), true};
+                       fmt::format("more than {} transforms in each other", options_.max_transforms), true};
   const SourceLocation at = locate(keyword_.data());
   count_kept(1);
   const auto node = static_cast<NodeIndex>(scene_.movement.nodes.size());

@@ -39,6 +39,7 @@
 #include "parser/text_input.h"
 #include "scene/animation/animation.h"
 #include "scene/animation/resting_nodes.h"
+#include "scene/movement/movement_limits.h"
 #include "scene/movement/straight_track.h"
 #include "scene/polygons/triangulate.h"
 
@@ -48,12 +49,11 @@ namespace {
 constexpr std::size_t kMaxPolygons = 20'000'000;
 constexpr std::size_t kMaxBytes = std::numeric_limits<std::uint32_t>::max();  // of a .glb or a .gltf
 
+// The transforms of a node that moves: one that stretches askew is written as two.
+static_assert(3 * kMaxNodeDepth <= kMostTransforms);
+
 // Cosine from which on a vertex' normal is taken for the polygon's: half a degree.
 constexpr double kSameDirection = 0.99996;
-
-bool finite(const Vec3d& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 // Scales the brightest channel to 1, as the intensity of lights follows from a rule of NFF.
 std::optional<Rgb> light_color(const aiColor3D& c) {
@@ -129,8 +129,10 @@ class SceneReader {
   Space space_of(const aiNode& from, const Space& parent) {
     std::string name = from.mName.C_Str();
     if (name == kCameraTrack) name = kNodeCalledCamera;
-    if (!scene_.movement.tracks.contains(name))
-      return {parent.node, parent.map * to_affine(from.mTransformation)};
+    const Affine map = parent.map * to_affine(from.mTransformation);
+    if (!is_in_range(map.x) || !is_in_range(map.y) || !is_in_range(map.z) || !is_in_range(map.origin))
+      reject("a transform is not finite, or beyond 1e100");
+    if (!scene_.movement.tracks.contains(name)) return {parent.node, map};
     const NodeIndex around = add_node({.parent = parent.node, .to_parent = parent.map});
     return {add_node({.parent = around, .track = std::move(name)}), {}};
   }
@@ -163,12 +165,12 @@ class SceneReader {
   Vec3d normal_of(const aiMesh& from, unsigned vertex, const Space& space) const {
     if (from.mNormals == nullptr) return {0, 0, 0};
     const Vec3d normal = space.map.outward(to_vector(from.mNormals[vertex])).normalized();
-    return finite(normal) ? normal : Vec3d(0, 0, 0);
+    return is_in_range(normal) ? normal : Vec3d(0, 0, 0);
   }
 
   Vec3d position_of(const aiMesh& from, unsigned vertex, const Space& space) const {
     const Vec3d position = space.map.point(to_vector(from.mVertices[vertex]));
-    if (!finite(position)) reject("a coordinate is not finite");
+    if (!is_in_range(position)) reject("a coordinate is not finite, or beyond 1e100");
     return position;
   }
 
@@ -217,7 +219,7 @@ class SceneReader {
       mesh.positions.push_back(position_of(from, i, space));
       if (from.mNormals != nullptr) mesh.normals.push_back(normal_of(from, i, space));
       const Vec3d place = to_vector(from.mTextureCoords[0][i]);
-      mesh.texture_points.push_back(finite(place) ? Vec2d(place.x, 1 - place.y) : Vec2d(0, 0));
+      mesh.texture_points.push_back(is_in_range(place) ? Vec2d(place.x, 1 - place.y) : Vec2d(0, 0));
     }
     const bool mirrored = space.map.determinant() < 0;
     std::vector<TriangleCorners> triangles;
@@ -329,7 +331,8 @@ class SceneReader {
                          "' is neither a point nor a spot: left out");
         continue;
       }
-      if (!finite(space.map.point(to_vector(from.mPosition)))) reject("a light's place is not finite");
+      if (!is_in_range(space.map.point(to_vector(from.mPosition))))
+        reject("a light's place is not finite, or beyond 1e100");
       scene_.lights.push_back(
           {space.map.point(to_vector(from.mPosition)), light_color(from.mColorDiffuse), {}});
       scene_.light_nodes.push_back({.node = space.node});

@@ -305,7 +305,7 @@ TEST_CASE("aff: there are limits of everything") {
   few.max_reads = 3;
   CHECK(folder.report("deep.aff", few).find("more than 3 files are read") != std::string::npos);
   few = {};
-  few.max_depth = 2;
+  few.max_transforms = 2;
   std::string nested;
   for (int n = 0; n < 3; ++n) nested += "x a { ";
   CHECK(report(nested, few).find("more than 2 transforms in each other") != std::string::npos);
