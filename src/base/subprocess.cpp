@@ -19,57 +19,17 @@
 #include <thread>
 #include <utility>
 
+#include "base/owned_descriptor.h"
+
 namespace pprt {
 namespace {
-
-[[noreturn]] void throw_errno(const std::string& what) {
-  throw std::system_error(errno, std::generic_category(), what);
-}
-
-// Closes itself. Every descriptor here has the close-on-exec flag.
-class Descriptor {
- public:
-  Descriptor() = default;
-  Descriptor(int value, const char* what) : value_(value) {
-    if (value_ < 0) throw_errno(what);
-  }
-  Descriptor(Descriptor&& other) noexcept : value_(other.release()) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
-    std::swap(value_, other.value_);
-    return *this;
-  }
-  ~Descriptor() {
-    if (value_ >= 0) close(value_);
-  }
-
-  int get() const { return value_; }
-  int release() { return std::exchange(value_, -1); }
-
- private:
-  int value_ = -1;
-};
-
-struct Ends {
-  Descriptor ours, theirs;
-};
-
-// Read by us, written by the program.
-Ends make_pipe() {
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) throw_errno("pipe");
-  return {Descriptor(ends[0], "pipe"), Descriptor(ends[1], "pipe")};
-}
 
 // Written by us: of a socket, other than of a pipe, a write to a program that has ended can be had as an
 // error, without a signal.
 Ends make_socket() {
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) throw_errno("socketpair");
-  return {Descriptor(ends[0], "socketpair"), Descriptor(ends[1], "socketpair")};
-}
-
-Descriptor open_nothing() {
-  return Descriptor(open("/dev/null", O_RDWR | O_CLOEXEC), "/dev/null");
+  return {OwnedDescriptor(ends[0], "socketpair"), OwnedDescriptor(ends[1], "socketpair")};
 }
 
 // What becomes the program's standard streams; -1: the same as ours.
@@ -161,7 +121,7 @@ class MemoryFile {
   }
 
  private:
-  Descriptor descriptor_;
+  OwnedDescriptor descriptor_;
 };
 
 }  // namespace
@@ -170,7 +130,7 @@ Subprocess::Subprocess(std::vector<std::string> command, const SubprocessSetting
   const auto uses = [&](StreamTo to) {
     return settings.input == to || settings.output == to || settings.errors == to;
   };
-  const Descriptor nothing = uses(StreamTo::kNothing) ? open_nothing() : Descriptor();
+  const OwnedDescriptor nothing = uses(StreamTo::kNothing) ? open_nothing() : OwnedDescriptor();
   Ends input, output;
   if (settings.input == StreamTo::kPipe) input = make_socket();
   if (settings.output == StreamTo::kPipe || settings.errors == StreamTo::kPipe) output = make_pipe();

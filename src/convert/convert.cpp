@@ -12,6 +12,7 @@
 #include "base/diagnostics.h"
 #include "cli/scenes/scene_source.h"
 #include "convert/losses.h"
+#include "convert/mesh/isolated_reader.h"
 #include "convert/mesh/mesh_reader.h"
 #include "convert/mesh/mesh_writer.h"
 #include "convert/names/extension.h"
@@ -120,7 +121,7 @@ SceneDescription read(const ConvertOptions& options, InputFormat format) {
     return std::move(parsed.scene);
   }
   require_file(options.input);
-  ReadMesh mesh = read_mesh(options.input);
+  ReadMesh mesh = read_mesh_isolated(options.input, options.mesh_limits);
   for (const std::string& note : mesh.notes) say(mesh.scene, note);
   complete_view(mesh.scene, options.up);
   complete_lights(mesh.scene);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "convert/default_view.h"
+#include "convert/mesh/isolated_reader.h"
 
 namespace pprt {
 
@@ -20,6 +21,7 @@ struct ConvertOptions {
   // Time at which a scene that moves is taken, seconds. Empty: its movement, where the format has that; else
   // the start of its animation.
   std::optional<double> at = {};
+  MeshLimits mesh_limits = {};  // for reading one
 };
 
 // Reads the input and writes the output, which is left as it was on failure. Prints warnings about the scene,

@@ -35,6 +35,14 @@ void add_options(CLI::App& app, pprt::ConvertOptions& options) {
       ->type_name("E")
       ->check(pprt::number_above_zero())
       ->excludes(divisions);
+  app.add_option("--mesh-seconds", options.mesh_limits.seconds,
+                 "Processor time that reading a mesh may take (default: 120)")
+      ->type_name("SECONDS")
+      ->check(pprt::number_between(1, 1e6));
+  app.add_option("--mesh-memory", options.mesh_limits.memory_gigabytes,
+                 "Memory that reading a mesh may take (default: 8)")
+      ->type_name("GIGABYTES")
+      ->check(pprt::number_between(0.1, 1e6));
   pprt::add_choice(app, "--up", options.up, "Up axis of an added camera");
   app.add_flag("--strict", options.strict, "Reject what the format's specification does not allow");
 }

@@ -6,12 +6,12 @@
 #include <utility>
 #include <vector>
 
+#include "base/wire.h"
 #include "parallel/clock/make_clocks.h"
 #include "parallel/clock/sequence_clock.h"
 #include "parallel/exchange/samplers.h"
 #include "parallel/master/rank_clocks.h"
 #include "parallel/master/round_census.h"
-#include "parallel/network/wire.h"
 #include "parallel/protocol/inbox.h"
 #include "parallel/rank/worker.h"
 #include "parallel/settings/work_units.h"

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "parser/parsed_scene.h"
+#include "scene/movement/movement_limits.h"
 
 namespace pprt {
 
@@ -14,7 +15,8 @@ struct AffOptions {
   bool strict = false;          // every deviation is an error, also one that causes no warning
   bool files_anywhere = false;  // included files may lie outside the folder of the scene
 
-  int max_depth = 64;                            // of includes, and of transforms
+  int max_depth = 64;                            // of includes
+  int max_transforms = kMostTransforms;          // in each other
   std::size_t max_reads = 100'000;               // of files
   std::size_t max_bytes = std::size_t{1} << 30;  // read in all
   std::size_t max_rows = 20'000'000;             // of one list

@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/movement/movement_limits.h"
+
 namespace pprt::anim {
 namespace {
 
-constexpr double kMostFrames = 1e6;
 constexpr double kMostFps = 1000;
 constexpr double kLargestSide = 16384;  // pixels
 

@@ -38,6 +38,7 @@ for line in \
   "scene/description: scene/movement" \
   "scene/animation: scene/description scene/movement" \
   "scene/polygons:" \
+  "scene/bytes: scene/description scene/movement" \
   "scene/writers: scene/description scene/animation" \
   "cli/process:" \
   "cli/options: cli/process" \

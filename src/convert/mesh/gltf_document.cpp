@@ -116,6 +116,69 @@ std::string completed(std::string_view text, const SceneDescription& scene) {
 
 // --- Reading
 
+constexpr int kMaxJsonDepth = 500;  // brackets in each other: Assimp's parser takes stack for each
+
+// Returns why the JSON of a .glb does not lie where its header tells. One of glTF 1 has another header.
+std::string problem_of_header(std::string_view bytes) {
+  constexpr std::size_t kVersion = 4;
+  if (!bytes.starts_with(kMagic)) return {};
+  if (bytes.size() < kHeader + kChunkHeader) return "it ends within its header";
+  const std::size_t length = length_at(bytes, kHeader), rest = bytes.size() - kHeader - kChunkHeader;
+  if (length_at(bytes, kVersion) < 2 || length <= rest) return {};
+  return "its JSON has " + std::to_string(length) + " bytes by its header; the file has " +
+         std::to_string(rest) + " after that";
+}
+
+std::string cause_in_header(std::string_view bytes) {
+  constexpr std::size_t kTotal = 8;
+  if (!bytes.starts_with(kMagic)) return {};
+  const std::size_t total = length_at(bytes, kTotal), json_length = length_at(bytes, kHeader);
+  if (total > bytes.size())
+    return "it is cut off: it has " + std::to_string(bytes.size()) + " bytes, by its header " +
+           std::to_string(total);
+  if (json_length % 4 != 0)
+    return "the length of its JSON, " + std::to_string(json_length) + " bytes, is not a multiple of 4";
+  return {};
+}
+
+// Returns the library's text without its own names and the place.
+std::string reason_of(const json::parse_error& error) {
+  const std::string text = error.what();
+  const std::size_t place = text.find("column ");
+  const std::size_t colon = text.find(": ", place == std::string::npos ? 0 : place);
+  return colon == std::string::npos ? text : text.substr(colon + 2);
+}
+
+// Tells of broken JSON in `facts` and returns null. `begin`: where `text` begins in the file.
+json parsed(const std::string& text, std::size_t begin, GltfFacts& facts) {
+  int deepest = 0;
+  const auto keep = [&](int depth, json::parse_event_t /*event*/, json& /*value*/) {
+    deepest = std::max(deepest, depth);
+    return depth <= kMaxJsonDepth;
+  };
+  try {
+    json document = json::parse(text, keep);
+    if (deepest > kMaxJsonDepth)
+      facts.problem =
+          "its JSON has brackets more than " + std::to_string(kMaxJsonDepth) + " deep in each other";
+    return document;
+  } catch (const json::parse_error& e) {
+    const std::size_t at = e.byte > 0 ? e.byte - 1 : 0;
+    if (begin == 0) facts.broken_at = at;
+    if (!facts.likely_cause.empty()) return nullptr;
+    facts.likely_cause =
+        "its JSON is broken" + (begin > 0 ? " at byte " + std::to_string(at) : "") + ": " + reason_of(e);
+    return nullptr;
+  }
+}
+
+std::string cause_in_version(const json& document) {
+  const json asset = document.value("asset", json::object());
+  const std::string version = asset.value("version", "");
+  if (version.starts_with("2.")) return {};
+  return version.empty() ? "it does not tell its version of glTF" : "it is of glTF " + version + ", not 2";
+}
+
 std::string problem_of_nodes(const json& document) {
   const json nodes = document.value("nodes", json::array());
   const std::size_t none = nodes.size();
@@ -201,14 +264,21 @@ std::string utf8(std::string name) {
 
 GltfFacts gltf_facts(std::string_view bytes) {
   GltfFacts facts;
+  facts.problem = problem_of_header(bytes);
+  if (!facts.problem.empty()) return facts;
   try {
+    facts.likely_cause = cause_in_header(bytes);
     const auto [begin, end] = range_of_json(bytes);
-    const json document = json::parse(bytes.substr(begin, end - begin));
+    const json document = parsed(utf8(std::string(bytes.substr(begin, end - begin))), begin, facts);
+    if (!facts.problem.empty() || document.is_null()) return facts;
+    if (facts.likely_cause.empty()) facts.likely_cause = cause_in_version(document);
     facts.problem = problem_of_nodes(document);
     if (facts.problem.empty()) facts.problem = problem_of_keys(document);
     facts.camera_angles = camera_angles(document);
-  } catch (const std::exception&) {
-    // Assimp tells what is wrong.
+  } catch (const json::exception&) {
+    // A value is not of its type: Assimp tells.
+  } catch (const std::out_of_range&) {
+    // A node names what is not there: Assimp tells.
   }
   return facts;
 }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -28,15 +29,18 @@ void add_camera_and_lights(std::string& bytes, const SceneDescription& scene);
 
 // What Assimp does not tell of a file, or not rightly.
 struct GltfFacts {
-  // Why it should not be read: nodes without end, or keys of whole numbers. Empty: nothing was found.
+  // Why it should not be read: a length beyond the file, brackets or nodes without end, keys of whole
+  // numbers. Empty: nothing was found.
   std::string problem;
+  // Why Assimp may be unable to read it, which may have other reasons too. Empty: nothing was found.
+  std::string likely_cause;
+  std::optional<std::size_t> broken_at;  // the byte of the likely cause, in a .gltf
   // Vertical angles of perspective cameras, in radians, by Assimp's names of their nodes. The first of
   // namesakes counts.
   std::map<std::string, double> camera_angles;
 };
 
-// Returns what can be found; nothing where the file is broken, which Assimp tells. `bytes`: of a .glb or a
-// .gltf.
+// Returns what can be found. `bytes`: of a .glb or a .gltf.
 GltfFacts gltf_facts(std::string_view bytes);
 
 // Levels of nodes in each other that can be read.

@@ -10,14 +10,14 @@
 #include <stdexcept>
 
 #include "convert/mesh/assimp_values.h"
+#include "scene/movement/movement_limits.h"
 #include "scene/movement/straight_track.h"
 
 namespace pprt {
 namespace {
 
 constexpr double kFramesPerSecond = 24;
-constexpr double kRounding = 1e-3;  // of a frame: times are floats
-constexpr int kMostFrames = 1'000'000;
+constexpr double kRounding = 1e-3;      // of a frame: times are floats
 constexpr double kTicksPerSecond = 25;  // where a file does not tell
 
 void set_value(VectorKey& key, const aiVectorKey& from) {
@@ -30,12 +30,12 @@ void set_value(RotationKey& key, const aiQuatKey& from) {
   key.degrees = 2 * std::atan2(key.axis.length(), q.w) * (180 / std::numbers::pi);
 }
 
-bool is_finite(const VectorKey& key) {
-  return std::isfinite(key.time) && std::isfinite(key.value.x + key.value.y + key.value.z);
+bool is_usable(const VectorKey& key) {
+  return is_in_range(key.time) && is_in_range(key.value);
 }
 
-bool is_finite(const RotationKey& key) {
-  return std::isfinite(key.time) && std::isfinite(key.degrees) && std::isfinite(key.axis.length());
+bool is_usable(const RotationKey& key) {
+  return is_in_range(key.time) && is_in_range(key.degrees) && is_in_range(key.axis);
 }
 
 class AnimationReader {
@@ -56,15 +56,20 @@ class AnimationReader {
     }
     if (others > 0)
       result_.notes.push_back(std::to_string(others) + " movements that change a mesh's shape: left out");
-    if (last_ > first_) {
-      const double frames =
-          std::min(std::ceil((last_ - first_) * kFramesPerSecond - kRounding), double{kMostFrames});
-      result_.times = {.start = first_, .end = last_, .frames = static_cast<int>(frames) + 1};
-    }
+    if (last_ > first_) set_times();
     return std::move(result_);
   }
 
  private:
+  void set_times() {
+    const double wanted = std::ceil((last_ - first_) * kFramesPerSecond - kRounding) + 1;
+    const double frames = std::min(wanted, double{kMostFrames});
+    result_.times = {.start = first_, .end = last_, .frames = static_cast<int>(frames)};
+    if (frames < wanted)
+      result_.notes.push_back("it would have more than " + std::to_string(kMostFrames) +
+                              " frames at 24 a second: these are further apart");
+  }
+
   // Returns false for a node that has a track.
   bool channel(const aiNodeAnim& from) {
     const auto [found, is_new] = result_.tracks.try_emplace(from.mNodeName.C_Str());
@@ -83,7 +88,7 @@ class AnimationReader {
       Key& key = to.emplace_back();
       key.time = from[i].mTime * seconds_;
       set_value(key, from[i]);
-      if (!is_finite(key)) throw std::runtime_error("a key of its animation is not finite");
+      if (!is_usable(key)) throw std::runtime_error("a key of its animation is not finite, or beyond 1e100");
     }
     if (to.empty()) return;
     std::stable_sort(to.begin(), to.end(), [](const Key& a, const Key& b) { return a.time < b.time; });

@@ -24,7 +24,7 @@ struct MeshAnimation {
 };
 
 // Returns the movement of all of a file's animations. Where several move a node, the first counts. Throws
-// std::runtime_error for keys that are not finite.
+// std::runtime_error for keys out of range.
 MeshAnimation read_animation(const aiScene& from);
 
 // Returns keys for the node of a name that moves as `values_at` tells, as many as straight lines between them

@@ -10,10 +10,13 @@
 #include <assimp/Importer.hpp>
 #include <cerrno>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <filesystem>
+#include <exception>
 #include <fstream>
 #include <limits>
+#include <map>
+#include <new>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -30,10 +33,13 @@
 #include "convert/mesh/mesh_animation.h"
 #include "convert/mesh/mesh_materials.h"
 #include "convert/mesh/mesh_textures.h"
+#include "convert/mesh/model_files.h"
+#include "convert/mesh/model_folder.h"
 #include "convert/names/extension.h"
 #include "parser/text_input.h"
 #include "scene/animation/animation.h"
 #include "scene/animation/resting_nodes.h"
+#include "scene/movement/movement_limits.h"
 #include "scene/movement/straight_track.h"
 #include "scene/polygons/triangulate.h"
 
@@ -41,13 +47,13 @@ namespace pprt {
 namespace {
 
 constexpr std::size_t kMaxPolygons = 20'000'000;
+constexpr std::size_t kMaxBytes = std::numeric_limits<std::uint32_t>::max();  // of a .glb or a .gltf
+
+// The transforms of a node that moves: one that stretches askew is written as two.
+static_assert(3 * kMaxNodeDepth <= kMostTransforms);
 
 // Cosine from which on a vertex' normal is taken for the polygon's: half a degree.
 constexpr double kSameDirection = 0.99996;
-
-bool finite(const Vec3d& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 // Scales the brightest channel to 1, as the intensity of lights follows from a rule of NFF.
 std::optional<Rgb> light_color(const aiColor3D& c) {
@@ -69,14 +75,13 @@ class SceneReader {
  public:
   // `gltf`: of a file in glTF.
   SceneReader(const aiScene& from, const std::string& path, std::optional<GltfFacts> gltf)
-      : from_(from), gltf_(std::move(gltf)), textures_(from, std::filesystem::path(path).parent_path()) {
+      : from_(from), gltf_(std::move(gltf)), textures_(from, path) {
     scene_.name = path;
   }
 
   ReadMesh run() {
     read_movement();
     node(*from_.mRootNode, {});
-    if (scene_.primitive_count() == 0) reject("there is no polygon in it");
     note(skipped_, "points, lines and faces without extent left out");
     note(namesakes_, "nodes have the name of another: movements, cameras and lights may be mixed up");
     note(skins_, "meshes with a skin stand in the pose that they are bound in");
@@ -112,6 +117,7 @@ class SceneReader {
     namesakes_ += !names_.insert(from.mName.C_Str()).second;
     const Space space = space_of(from, parent);
     for (unsigned i = 0; i < from.mNumMeshes; ++i) {
+      if (from.mMeshes[i] >= from_.mNumMeshes) reject("a node names a mesh that is not there");
       mesh(*from_.mMeshes[from.mMeshes[i]], space);
       scene_.nodes.resize(scene_.order.size(), space.node);
     }
@@ -124,8 +130,10 @@ class SceneReader {
   Space space_of(const aiNode& from, const Space& parent) {
     std::string name = from.mName.C_Str();
     if (name == kCameraTrack) name = kNodeCalledCamera;
-    if (!scene_.movement.tracks.contains(name))
-      return {parent.node, parent.map * to_affine(from.mTransformation)};
+    const Affine map = parent.map * to_affine(from.mTransformation);
+    if (!is_in_range(map.x) || !is_in_range(map.y) || !is_in_range(map.z) || !is_in_range(map.origin))
+      reject("a transform is not finite, or beyond 1e100");
+    if (!scene_.movement.tracks.contains(name)) return {parent.node, map};
     const NodeIndex around = add_node({.parent = parent.node, .to_parent = parent.map});
     return {add_node({.parent = around, .track = std::move(name)}), {}};
   }
@@ -148,6 +156,7 @@ class SceneReader {
 
   // Not every reader of Assimp's does.
   void check_indices(const aiMesh& from) const {
+    if (from.mMaterialIndex >= from_.mNumMaterials) reject("a mesh names a material that is not there");
     for (const aiFace& face : std::span(from.mFaces, from.mNumFaces)) {
       for (const unsigned index : std::span(face.mIndices, face.mNumIndices)) {
         if (index >= from.mNumVertices) reject("a face names a vertex that is not there");
@@ -158,12 +167,12 @@ class SceneReader {
   Vec3d normal_of(const aiMesh& from, unsigned vertex, const Space& space) const {
     if (from.mNormals == nullptr) return {0, 0, 0};
     const Vec3d normal = space.map.outward(to_vector(from.mNormals[vertex])).normalized();
-    return finite(normal) ? normal : Vec3d(0, 0, 0);
+    return is_in_range(normal) ? normal : Vec3d(0, 0, 0);
   }
 
   Vec3d position_of(const aiMesh& from, unsigned vertex, const Space& space) const {
     const Vec3d position = space.map.point(to_vector(from.mVertices[vertex]));
-    if (!finite(position)) reject("a coordinate is not finite");
+    if (!is_in_range(position)) reject("a coordinate is not finite, or beyond 1e100");
     return position;
   }
 
@@ -212,7 +221,7 @@ class SceneReader {
       mesh.positions.push_back(position_of(from, i, space));
       if (from.mNormals != nullptr) mesh.normals.push_back(normal_of(from, i, space));
       const Vec3d place = to_vector(from.mTextureCoords[0][i]);
-      mesh.texture_points.push_back(finite(place) ? Vec2d(place.x, 1 - place.y) : Vec2d(0, 0));
+      mesh.texture_points.push_back(is_in_range(place) ? Vec2d(place.x, 1 - place.y) : Vec2d(0, 0));
     }
     const bool mirrored = space.map.determinant() < 0;
     std::vector<TriangleCorners> triangles;
@@ -324,7 +333,8 @@ class SceneReader {
                          "' is neither a point nor a spot: left out");
         continue;
       }
-      if (!finite(space.map.point(to_vector(from.mPosition)))) reject("a light's place is not finite");
+      if (!is_in_range(space.map.point(to_vector(from.mPosition))))
+        reject("a light's place is not finite, or beyond 1e100");
       scene_.lights.push_back(
           {space.map.point(to_vector(from.mPosition)), light_color(from.mColorDiffuse), {}});
       scene_.light_nodes.push_back({.node = space.node});
@@ -349,6 +359,60 @@ class SceneReader {
   std::vector<PatchVertex> vertices_;
 };
 
+void require_readable(const std::string& path) {
+  std::string defect = defect_of_file(path);
+  if (defect.empty() && !std::ifstream(path)) defect = std::generic_category().message(errno);
+  if (!defect.empty()) throw InputError("cannot read '" + path + "': " + defect);
+}
+
+// Assimp makes a message of every exception.
+void rethrow_lack_of_memory(const std::exception_ptr& thrown) {
+  try {
+    std::rethrow_exception(thrown);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (...) {
+  }
+}
+
+// Finds a better reason than Assimp's why a file cannot be read.
+struct Unreadable {
+  const std::string& path;
+  GltfFacts gltf;
+  const std::map<std::string, std::string>& unread;
+
+  [[noreturn]] void reject(const std::string& otherwise) const {
+    if (!unread.empty()) {
+      const auto& [name, reason] = *unread.begin();
+      fail("it needs '" + printable(name) + "': " + reason);
+    }
+    if (gltf.broken_at) fail_at(*gltf.broken_at);
+    if (!gltf.likely_cause.empty()) fail(gltf.likely_cause);
+    if (is_utf16()) fail("it is text in UTF-16, which cannot be read; save it as UTF-8");
+    fail(otherwise.empty() ? "Assimp cannot read it" : otherwise);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& problem) const { throw InputError(path + ": error: " + problem); }
+
+  [[noreturn]] void fail_at(std::size_t byte) const {
+    const std::string text = read_text(path, kMaxBytes);
+    Diagnostics problem;
+    problem.error(LineCursor(text).at(text.data() + std::min(byte, text.size())), gltf.likely_cause);
+    std::string report = format(problem, path, text);
+    report.pop_back();  // the last line end
+    throw InputError(report);
+  }
+
+  // By its mark at the beginning, or the half of its first letter that is 0.
+  bool is_utf16() const {
+    char head[2] = {'?', '?'};
+    std::ifstream(path, std::ios::binary).read(head, sizeof head);
+    const std::string_view first(head, sizeof head);
+    return first == "\xff\xfe" || first == "\xfe\xff" || ((head[0] == 0) != (head[1] == 0));
+  }
+};
+
 }  // namespace
 
 bool is_mesh_extension(const std::string& extension) {
@@ -356,20 +420,25 @@ bool is_mesh_extension(const std::string& extension) {
 }
 
 ReadMesh read_mesh(const std::string& path) {
-  // Assimp has the same message for every reason why a file cannot be read.
-  if (!std::ifstream(path))
-    throw InputError("cannot read '" + path + "': " + std::generic_category().message(errno));
+  require_readable(path);
   std::optional<GltfFacts> gltf;
   if (extension_of(path) == ".glb" || extension_of(path) == ".gltf") {
-    gltf = gltf_facts(read_text(path, std::numeric_limits<std::uint32_t>::max()));
+    gltf = gltf_facts(read_text(path, kMaxBytes));
     if (!gltf->problem.empty()) throw InputError(path + ": error: " + gltf->problem);
   }
   Assimp::Importer importer;
+  auto* const files = new ModelFiles(path);
+  importer.SetIOHandler(files);  // which takes it
   const aiScene* scene = importer.ReadFile(path, 0);
-  if (scene == nullptr || scene->mRootNode == nullptr) {
-    throw InputError(path + ": error: " + importer.GetErrorString());
-  }
-  return SceneReader(*scene, path, std::move(gltf)).run();
+  if (const std::exception_ptr thrown = importer.GetException()) rethrow_lack_of_memory(thrown);
+  const Unreadable unreadable{path, gltf.value_or(GltfFacts()), files->unread()};
+  if (scene == nullptr || scene->mRootNode == nullptr) unreadable.reject(importer.GetErrorString());
+  ReadMesh mesh = SceneReader(*scene, path, std::move(gltf)).run();
+  if (mesh.scene.primitive_count() == 0) unreadable.reject("there is no polygon in it");
+  for (const auto& [name, reason] : files->unread())
+    mesh.notes.push_back((name.ends_with(".mtl") ? "the material library '" : "the file '") +
+                         printable(name) + "' is left out: " + reason);
+  return mesh;
 }
 
 }  // namespace pprt

@@ -3,10 +3,8 @@
 #include <assimp/scene.h>
 #include <assimp/texture.h>
 
-#include <algorithm>
-#include <charconv>
-#include <stdexcept>
-#include <system_error>
+#include <exception>
+#include <filesystem>
 
 #include "base/printable.h"
 #include "cli/scenes/texture_files.h"
@@ -18,26 +16,6 @@ namespace {
 std::string name_of(const std::string& path) {
   if (path.starts_with('*')) return "texture" + path.substr(1);
   return std::filesystem::path(path).filename().string();
-}
-
-// A path as in a URI: "%20" is a blank.
-std::string decoded(const std::string& path) {
-  std::string result;
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    unsigned byte = 0;
-    const char* const digits = path.data() + i + 1;
-    const bool is_code = path[i] == '%' && i + 2 < path.size() &&
-                         std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2;
-    result += is_code ? static_cast<char>(byte) : path[i];
-    if (is_code) i += 2;
-  }
-  return result;
-}
-
-// A path as Windows spells it.
-std::string with_slashes(std::string path) {
-  std::replace(path.begin(), path.end(), '\\', '/');
-  return path;
 }
 
 // Returns a picture within the file: another file's bytes, or texels where there is a height.
@@ -71,14 +49,7 @@ std::optional<TextureIndex> MeshTextures::intern(const std::string& path, std::v
 
 Image MeshTextures::picture(const std::string& path) const {
   if (const aiTexture* texture = from_.GetEmbeddedTexture(path.c_str())) return embedded(*texture);
-  std::error_code unknown;
-  for (const std::string& spelled : {path, decoded(path), with_slashes(path)}) {
-    const std::filesystem::path file = std::filesystem::path(spelled).lexically_normal();
-    if (file.is_absolute() || file.empty() || *file.begin() == "..")
-      throw std::runtime_error("it lies outside the folder of the mesh");
-    if (std::filesystem::is_regular_file(folder_ / file, unknown)) return read_image(folder_ / file);
-  }
-  return read_image(folder_ / path);  // which is not there
+  return read_image(folder_.find(path));
 }
 
 }  // namespace pprt

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "convert/mesh/model_folder.h"
 #include "image/image.h"
 #include "scene/description/texture.h"
 
@@ -17,7 +18,8 @@ namespace pprt {
 // Reads the pictures of a file's materials, each once: those within the file, and those in its folder.
 class MeshTextures {
  public:
-  MeshTextures(const aiScene& from, std::filesystem::path folder) : from_(from), folder_(std::move(folder)) {}
+  // `model`: the path of the mesh.
+  MeshTextures(const aiScene& from, const std::filesystem::path& model) : from_(from), folder_(model) {}
 
   // Returns the place among `textures` of the picture of a path (picture_path()). Empty where it cannot be
   // read; `notes` then gets the reason.
@@ -28,7 +30,7 @@ class MeshTextures {
   Image picture(const std::string& path) const;
 
   const aiScene& from_;
-  std::filesystem::path folder_;
+  ModelFolder folder_;
   std::map<std::string, std::optional<TextureIndex>> known_;
 };
 

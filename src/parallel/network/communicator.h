@@ -1,14 +1,11 @@
 // Messages between ranks: all that the parallel logic knows of MPI.
 #pragma once
 
-#include <cstddef>
 #include <optional>
-#include <stdexcept>
-#include <vector>
+
+#include "base/bytes.h"
 
 namespace pprt {
-
-using Bytes = std::vector<std::byte>;
 
 // Kind of a message: its sender, receiver and reason. docs/protocol.md has more.
 enum class Tag : int {
@@ -32,12 +29,6 @@ struct Message {
   int from = 0;
   Tag tag{};
   Bytes payload;
-};
-
-// A message that cannot be read: a rank of another version, or a broken network.
-class ProtocolError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
 };
 
 // One rank's end of the network. Used by one thread. No call waits for another rank but rest() and

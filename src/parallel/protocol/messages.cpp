@@ -1,6 +1,6 @@
 #include "parallel/protocol/messages.h"
 
-#include "parallel/network/wire.h"
+#include "base/wire.h"
 #include "parallel/protocol/owner_rects.h"
 
 namespace pprt {

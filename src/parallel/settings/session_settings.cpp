@@ -1,6 +1,6 @@
 #include "parallel/settings/session_settings.h"
 
-#include "parallel/network/wire.h"
+#include "base/wire.h"
 
 namespace pprt {
 

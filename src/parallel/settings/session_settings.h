@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "parallel/network/wire.h"
+#include "base/wire.h"
 #include "parallel/settings/machine.h"
 #include "parallel/settings/work_units.h"
 #include "pipeline/core/pixel_block.h"

@@ -1,7 +1,7 @@
 #include "render/run/render_job.h"
 
-#include "parallel/network/wire.h"
-#include "render/run/scene_bytes.h"
+#include "base/wire.h"
+#include "scene/bytes/scene_bytes.h"
 
 namespace pprt {
 

@@ -24,7 +24,7 @@
 #include "render/plan/preflight.h"
 #include "render/run/live_run.h"
 #include "render/run/render_job.h"
-#include "render/run/scene_bytes.h"
+#include "scene/bytes/scene_bytes.h"
 #include "trace/tracer_probe.h"
 
 namespace pprt {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <sstream>
 
 #include "base/diagnostics.h"
 #include "convert/mesh/mesh_reader.h"
@@ -11,6 +12,7 @@
 #include "image/image_io.h"
 #include "parser/aff_parser.h"
 #include "scene/animation/resting_nodes.h"
+#include "scene/writers/aff_writer.h"
 #include "unit/image/temporary_directory.h"
 
 namespace pprt::mesh_motion_test {
@@ -98,6 +100,13 @@ ReadMesh read_gltf(const std::string& text, const std::string& bytes = numbers()
   std::ofstream(folder.path() / "a.gltf") << text;
   std::ofstream(folder.path() / "numbers.bin", std::ios::binary) << bytes;
   return read_mesh((folder.path() / "a.gltf").string());
+}
+
+// Writes a scene as AFF and reads that, as the renderer does.
+SceneDescription again(const SceneDescription& scene) {
+  std::ostringstream out;
+  write_aff(scene, out, std::vector<std::string>(scene.textures.size(), "t.png"));
+  return parse_aff(out.str(), "again.aff").scene;
 }
 
 // glTF's angle spans the picture, that of a view the centres of its rows.
@@ -338,6 +347,50 @@ TEST_CASE("nodes without end, keys of whole numbers and cameras without perspect
   unnamed.insert(1, kCameras);
   const SceneDescription scene = read_gltf(unnamed).scene;
   check_angle(scene, 0.5);
+}
+
+TEST_CASE("an animation of any length gets as many frames as a scene may have") {
+  std::string bytes = numbers();
+  const float last = 1e7F;
+  bytes.replace(44, 4, reinterpret_cast<const char*>(&last), 4);
+  const ReadMesh read = read_gltf(gltf(), bytes);
+  CHECK(read.scene.movement.times->end == 1e7);
+  CHECK(read.scene.movement.times->frames == 1'000'000);
+  CHECK(read.notes == std::vector<std::string>{
+                          "it would have more than 1000000 frames at 24 a second: these are further apart"});
+  CHECK(again(read.scene).movement.times->frames == 1'000'000);
+}
+
+TEST_CASE("nodes as deep in each other as they may be can be written and read") {
+  // Every other node moves; the others shear, which takes two transforms of AFF.
+  std::string nodes, channels;
+  for (int i = 0; i < 1000; ++i) {
+    const std::string n = std::to_string(i), comma = i > 0 ? "," : "";
+    nodes += comma + R"({"name":"n)" + n + "\"";
+    if (i < 999) nodes += R"(,"children":[)" + std::to_string(i + 1) + "]";
+    nodes += i % 2 == 0 ? R"(,"mesh":0})" : R"(,"matrix":[1,0,0,0,1,1,0,0,0,0,1,0,0,0,0,1]})";
+    if (i % 2 == 0)
+      channels += comma + R"({"sampler":0,"target":{"node":)" + n + R"(,"path":"translation"}})";
+  }
+  std::string text = gltf();
+  const auto put_in = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  put_in(R"({"name":"arm","mesh":0})", nodes);
+  put_in(R"({"sampler":0,"target":{"node":0,"path":"translation"}})", channels);
+  const SceneDescription scene = read_gltf(text).scene;
+  CHECK(scene.primitive_count() == 500);
+  const SceneDescription back = again(scene);
+  CHECK(back.primitive_count() == 500);
+  check_near(seen(back, 1).max, seen(scene, 1).max, 1e-6 * seen(scene, 1).max.length());
+}
+
+TEST_CASE("a mesh whose numbers no scene file can hold is refused") {
+  std::string text = gltf(R"("name":"a","mesh":0,"scale":[1e38,1,1],"children":[1])",
+                          R"(,{"name":"b","mesh":0,"scale":[1e38,1,1],"children":[2]}
+                             ,{"name":"c","mesh":0,"scale":[1e38,1,1]})");
+  text.replace(text.find("animations"), 10, "animation_");
+  CHECK_THROWS_WITH(read_gltf(text), Catch::EndsWith("a transform is not finite, or beyond 1e100"));
 }
 
 }  // namespace pprt::mesh_motion_test

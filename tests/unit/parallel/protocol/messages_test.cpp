@@ -4,7 +4,7 @@
 #include <functional>
 #include <limits>
 
-#include "parallel/network/wire.h"
+#include "base/wire.h"
 #include "parallel/settings/session_settings.h"
 
 namespace pprt::messages_test {

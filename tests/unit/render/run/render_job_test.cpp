@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "parser/nff_parser.h"
-#include "render/run/scene_bytes.h"
+#include "scene/bytes/scene_bytes.h"
 
 namespace pprt::render_job_test {
 namespace {

@@ -1,10 +1,10 @@
-// A scene as bytes, for the ranks.
+// A scene as bytes, for other processes.
 #pragma once
 
 #include <span>
 #include <string>
 
-#include "parallel/network/communicator.h"
+#include "base/bytes.h"
 #include "scene/description/scene_description.h"
 
 namespace pprt {

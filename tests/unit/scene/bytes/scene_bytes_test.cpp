@@ -1,4 +1,4 @@
-#include "render/run/scene_bytes.h"
+#include "scene/bytes/scene_bytes.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "render/run/scene_bytes.h"
+#include "scene/bytes/scene_bytes.h"
 
 #include <array>
 #include <map>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/content_hash.h"
-#include "parallel/network/wire.h"
+#include "base/wire.h"
 
 namespace pprt {
 

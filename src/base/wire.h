@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/bytes.h"
 #include "base/camera.h"
 #include "base/vector.h"
-#include "parallel/network/communicator.h"
 
 namespace pprt {
 
@@ -110,6 +110,9 @@ class WireReader {
         count(sizeof(Color)));  // leaves them as they are: most of a message must not be written twice
     for (Color& c : colors) copy_out(&c.x, sizeof(Color));
   }
+
+  // Returns what is left.
+  std::span<const std::byte> rest() const { return rest_; }
 
   // Call it after the last value.
   void expect_end() const {

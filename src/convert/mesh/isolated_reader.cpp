@@ -1,0 +1,99 @@
+#include "convert/mesh/isolated_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <exception>
+#include <new>
+#include <stdexcept>
+
+#include "base/available_memory.h"
+#include "base/diagnostics.h"
+#include "base/isolated_call.h"
+#include "base/wire.h"
+#include "scene/bytes/scene_bytes.h"
+
+namespace pprt {
+namespace {
+
+// What comes back begins with whether the mesh has been read.
+Bytes rejected(const std::string& report) {
+  WireWriter out;
+  out.put(false), out.put(report);
+  return out.take();
+}
+
+Bytes accepted(const ReadMesh& mesh) {
+  WireWriter out;
+  out.put(true), out.put(static_cast<std::uint64_t>(mesh.notes.size()));
+  for (const std::string& note : mesh.notes) out.put(note);
+  Bytes bytes = out.take();
+  const Bytes scene = encode(mesh.scene);
+  bytes.insert(bytes.end(), scene.begin(), scene.end());
+  return bytes;
+}
+
+Bytes answer(const std::string& path) {
+  try {
+    return accepted(read_mesh(path));
+  } catch (const InputError& e) {
+    return rejected(e.what());
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::length_error&) {
+    throw;
+  } catch (const std::exception& e) {
+    return rejected(path + ": error: " + e.what());
+  }
+}
+
+// Throws InputError for a rejected mesh.
+ReadMesh mesh_of(const Bytes& answer) {
+  WireReader in(answer);
+  bool is_read = false;
+  in.get(is_read);
+  if (!is_read) {
+    std::string report;
+    in.get(report);
+    throw InputError(report);
+  }
+  ReadMesh mesh;
+  std::uint64_t notes = 0;
+  in.get(notes);
+  for (; notes > 0; --notes) in.get(mesh.notes.emplace_back());
+  mesh.scene = decode_scene(in.rest());
+  return mesh;
+}
+
+std::string problem_of(const CallResult& result, const MeshLimits& limits) {
+  switch (result.end) {
+    case CallEnd::kNoTime:
+      return fmt::format("reading it takes more than {:g} seconds (--mesh-seconds allows more)",
+                         limits.seconds);
+    case CallEnd::kNoMemory:
+      return fmt::format(
+          "reading it takes more memory than there is, or than {:g} GB (--mesh-memory allows more)",
+          limits.memory_gigabytes);
+    default:
+      return fmt::format("it is damaged, or has something that Assimp cannot read: reading it ended in {}",
+                         result.signal == 0 ? "an unknown error" : strsignal(result.signal));
+  }
+}
+
+}  // namespace
+
+ReadMesh read_mesh_isolated(const std::string& path, const MeshLimits& limits) {
+  constexpr double kGigabyte = 1 << 30, kWallShare = 4;
+  const double memory =
+      std::min(limits.memory_gigabytes * kGigabyte, static_cast<double>(available_memory()));
+  const CallResult result =
+      call_isolated([&] { return answer(path); }, {.memory_bytes = static_cast<std::uint64_t>(memory),
+                                                   .cpu_seconds = limits.seconds,
+                                                   .wall_seconds = kWallShare * limits.seconds});
+  if (result.end != CallEnd::kDone) throw InputError(path + ": error: " + problem_of(result, limits));
+  return mesh_of(result.bytes);
+}
+
+}  // namespace pprt

@@ -1,0 +1,21 @@
+// Reading meshes where a damaged file can do no harm.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "convert/mesh/mesh_reader.h"
+
+namespace pprt {
+
+// What reading a mesh may take.
+struct MeshLimits {
+  double seconds = 120;         // of the processor; four times as long in all
+  double memory_gigabytes = 8;  // and no more than is available
+};
+
+// Returns what read_mesh() does, in a process of its own: Assimp crashes on some damaged files and reads
+// others without end. This process must not have other threads. Throws InputError also for these.
+ReadMesh read_mesh_isolated(const std::string& path, const MeshLimits& limits = {});
+
+}  // namespace pprt

@@ -1,0 +1,48 @@
+#include "convert/mesh/model_files.h"
+
+#include <exception>
+#include <string_view>
+#include <system_error>
+
+namespace pprt {
+
+ModelFiles::ModelFiles(const std::filesystem::path& model) : model_(model), folder_(model) {}
+
+// Assimp puts the folder before what a mesh names.
+std::string ModelFiles::name_in_folder(const std::string& file) const {
+  const std::string folder = model_.parent_path().string();
+  if (folder.empty() || !file.starts_with(folder + '/')) return file;
+  const std::size_t begin = file.find_first_not_of('/', folder.size());
+  return begin == std::string::npos ? "" : file.substr(begin);
+}
+
+bool ModelFiles::Exists(const char* file) const {
+  try {
+    return model_ == file || !folder_.find(name_in_folder(file)).empty();
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+Assimp::IOStream* ModelFiles::Open(const char* file, const char* mode) {
+  if (std::string_view(mode).find_first_of("wa+") != std::string_view::npos) return nullptr;
+  if (model_ == file) return DefaultIOSystem::Open(file, mode);
+  const std::string name = name_in_folder(file);
+  try {
+    return DefaultIOSystem::Open(folder_.find(name).c_str(), mode);
+  } catch (const std::exception& e) {
+    if (!is_guess(name)) unread_.try_emplace(name, e.what());
+    return nullptr;
+  }
+}
+
+// Assimp looks for some files that no mesh names, by the name of the mesh. An .obj comes with an .mtl, a
+// .gltf with a .bin.
+bool ModelFiles::is_guess(const std::filesystem::path& name) const {
+  std::error_code unknown;
+  const bool is_there = exists(symlink_status(model_.parent_path() / name, unknown));
+  if (is_there || name.stem() != model_.stem() || name.extension() == ".bin") return false;
+  return name.extension() != ".mtl" || !unread_.empty();
+}
+
+}  // namespace pprt
