@@ -1,5 +1,6 @@
 #include "convert/mesh/mesh_reader.h"
 
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/camera.h>
 #include <assimp/light.h>
 #include <assimp/material.h>
@@ -65,6 +66,21 @@ struct Space {
   Affine map;
 };
 
+// Opens files for Assimp as it does itself, and notes them: materials and buffers are files of their own.
+class NotingFiles : public Assimp::DefaultIOSystem {
+ public:
+  explicit NotingFiles(std::vector<std::string>& opened) : opened_(opened) {}
+
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    Assimp::IOStream* const stream = DefaultIOSystem::Open(file, mode);
+    if (stream != nullptr) opened_.emplace_back(file);
+    return stream;
+  }
+
+ private:
+  std::vector<std::string>& opened_;
+};
+
 class SceneReader {
  public:
   // `gltf`: of a file in glTF.
@@ -82,7 +98,7 @@ class SceneReader {
     note(skins_, "meshes with a skin stand in the pose that they are bound in");
     move_camera();
     drop_unused_tracks();
-    return {without_resting_nodes(std::move(scene_)), std::move(notes_)};
+    return {without_resting_nodes(std::move(scene_)), std::move(notes_), textures_.files()};
   }
 
  private:
@@ -364,12 +380,16 @@ ReadMesh read_mesh(const std::string& path) {
     gltf = gltf_facts(read_text(path, std::numeric_limits<std::uint32_t>::max()));
     if (!gltf->problem.empty()) throw InputError(path + ": error: " + gltf->problem);
   }
+  std::vector<std::string> opened;
   Assimp::Importer importer;
+  importer.SetIOHandler(new NotingFiles(opened));  // the importer deletes it
   const aiScene* scene = importer.ReadFile(path, 0);
   if (scene == nullptr || scene->mRootNode == nullptr) {
     throw InputError(path + ": error: " + importer.GetErrorString());
   }
-  return SceneReader(*scene, path, std::move(gltf)).run();
+  ReadMesh mesh = SceneReader(*scene, path, std::move(gltf)).run();
+  mesh.files.insert(mesh.files.end(), opened.begin(), opened.end());
+  return mesh;
 }
 
 }  // namespace pprt

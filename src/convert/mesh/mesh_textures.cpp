@@ -69,14 +69,16 @@ std::optional<TextureIndex> MeshTextures::intern(const std::string& path, std::v
   return found->second;
 }
 
-Image MeshTextures::picture(const std::string& path) const {
+Image MeshTextures::picture(const std::string& path) {
   if (const aiTexture* texture = from_.GetEmbeddedTexture(path.c_str())) return embedded(*texture);
   std::error_code unknown;
   for (const std::string& spelled : {path, decoded(path), with_slashes(path)}) {
     const std::filesystem::path file = std::filesystem::path(spelled).lexically_normal();
     if (file.is_absolute() || file.empty() || *file.begin() == "..")
       throw std::runtime_error("it lies outside the folder of the mesh");
-    if (std::filesystem::is_regular_file(folder_ / file, unknown)) return read_image(folder_ / file);
+    if (!std::filesystem::is_regular_file(folder_ / file, unknown)) continue;
+    files_.push_back((folder_ / file).string());
+    return read_image(folder_ / file);
   }
   return read_image(folder_ / path);  // which is not there
 }
