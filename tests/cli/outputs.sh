@@ -121,6 +121,8 @@ for name in notes c.ndjson; do
   run pprt-render "${still[@]}" "${work[@]:0:2}" -o c.png --trace $name --resume
   expect_usage "--resume: $name is there already and is no balancing trace; --overwrite replaces it"
 done
+run pprt-render "${still[@]}" "${work[@]:0:2}" --seed 9 -o c.png --stats c.ndjson --trace c.trace --resume
+expect_usage "--resume: c_manifest.ndjson is of another scene or other options; --overwrite starts anew"
 expect_same notes kept_notes; expect_same c.ndjson kept.ndjson; expect_same c.trace kept.trace
 
 # Frames that a tool has made hard links of are frames of their own.
@@ -167,7 +169,7 @@ cp ball.nff "$latin.nff"
 run pprt-render "$latin.nff" --samples 50 -o "$latin/%02d.png" --stats "$latin.ndjson"; expect_code 0
 expect_file "$latin/01.png"
 expect_line "$latin.ndjson" '{"record":"run",.*"scene":{"latin-1":"Käse.nff"},.*}'
-expect_line "$latin/manifest.ndjson" '{"record":"frame","frame":1,"files":\[{"latin-1":"Käse/01.png"}\]}'
+expect_line "$latin/manifest.ndjson" '{"record":"frame","frame":1,"files":\[{"latin-1":"Käse/01.png"}\],"crc32":\["[0-9a-f]\{8\}"\],"key":"[0-9a-f]\{16\}"}'
 for np in 1 2; do
   more=("$latin.anim" "${work[@]}" -np $np --frames 1-2 -o "$latin$np/%02d.png")
   sed "s/ball.nff/$latin.nff/" ball.anim >"$latin.anim"
