@@ -128,14 +128,23 @@ ParsedScene read(const ConvertOptions& options, InputFormat format) {
   return {.scene = std::move(mesh.scene), .files = std::move(mesh.files)};
 }
 
-using Inputs = std::vector<std::string>;  // files that were read
-using Outputs = std::vector<std::filesystem::path>;
+// Files that were read: the one named, and others.
+struct Inputs {
+  std::string named;
+  std::vector<std::string> all;
+};
+using Outputs = std::vector<std::filesystem::path>;  // first the one named
 
 // Throws UsageError when a file that will be written has been read, or is another one that will be written.
+// The file named may be converted in place.
 void require_distinct(const Inputs& inputs, const Outputs& outputs) {
   FileTable table;
-  for (const std::string& input : inputs) table.add_input({"the input", input});
-  for (const std::filesystem::path& output : outputs) table.add_output({"the output", output});
+  for (const std::string& input : inputs.all) {
+    if (input != inputs.named) table.add_input({"the input", input});
+  }
+  table.add_output({"the output", outputs.front()});
+  table.add_input({"the input", inputs.named});
+  for (std::size_t i = 1; i < outputs.size(); ++i) table.add_output({"the output", outputs[i]});
 }
 
 void write_pov_and_tell(const SceneDescription& scene, std::ostream& out, const std::string& stem) {
@@ -171,6 +180,13 @@ SceneDescription without_stretched(SceneDescription scene, const ConvertOptions&
   return with_stretched_tessellated(scene, fineness(options));
 }
 
+// Returns a file and others in its directory.
+Outputs with_files_beside(const std::filesystem::path& path, const std::vector<std::string>& names) {
+  Outputs outputs = {path};
+  for (const std::string& name : names) outputs.push_back(path.parent_path() / name);
+  return outputs;
+}
+
 void write_mesh_files(SceneDescription scene, const ConvertOptions& options, const Inputs& inputs) {
   check_triangle_count(scene, fineness(options));
   const std::filesystem::path path = options.output;
@@ -178,11 +194,13 @@ void write_mesh_files(SceneDescription scene, const ConvertOptions& options, con
   scene = told(for_meshes(std::move(scene), keeps_textures(extension)));
   if (!keeps_movement(extension)) scene = without_stretched(std::move(scene), options);
   const WrittenMesh mesh = write_mesh(scene, extension, path.stem().string(), fineness(options));
-  Outputs outputs;
-  for (const MeshFile& file : mesh.files) outputs.push_back(path.parent_path() / file.name);
-  outputs.back() = path;  // perhaps with its extension in capitals
+  std::vector<std::string> beside;
+  for (const MeshFile& file : mesh.files) beside.push_back(file.name);
+  beside.pop_back();  // the file named, perhaps with its extension in capitals
+  const Outputs outputs = with_files_beside(path, beside);
   require_distinct(inputs, outputs);
-  for (std::size_t i = 0; i < outputs.size(); ++i) write_whole_file(outputs[i], mesh.files[i].bytes);
+  for (std::size_t i = 0; i < beside.size(); ++i) write_whole_file(outputs[i + 1], mesh.files[i].bytes);
+  write_whole_file(path, mesh.files.back().bytes);
   say_degenerate(scene, mesh.degenerate);
 }
 
@@ -198,18 +216,11 @@ void write_nff_file(SceneDescription scene, const ConvertOptions& options, const
   write_whole_file(options.output, [&](std::ostream& out) { write_nff(scene, out); });
 }
 
-// Returns a scene's file and those of its pictures, which lie beside it.
-Outputs with_pictures(const std::filesystem::path& path, const std::vector<std::string>& pictures) {
-  Outputs outputs = {path};
-  for (const std::string& picture : pictures) outputs.push_back(path.parent_path() / picture);
-  return outputs;
-}
-
 // Each writes the scene last, after the pictures that it refers to.
 void write_aff_files(const SceneDescription& scene, const ConvertOptions& options, const Inputs& inputs) {
   const std::filesystem::path path = options.output;
   const std::vector<std::string> pictures = picture_names(scene, path.stem().string());
-  require_distinct(inputs, with_pictures(path, pictures));
+  require_distinct(inputs, with_files_beside(path, pictures));
   for (TextureIndex i = 0; i < scene.textures.size(); ++i)
     write_image(path.parent_path() / pictures[i], picture_of(scene, {.name = {}, .texture = i}));
   write_whole_file(path, [&](std::ostream& out) { write_aff(scene, out, pictures); });
@@ -221,7 +232,7 @@ void write_pov_files(const SceneDescription& scene, const ConvertOptions& option
   const std::vector<PovPicture> pictures = pov_pictures(scene, stem).files;
   std::vector<std::string> names;
   for (const PovPicture& picture : pictures) names.push_back(picture.name);
-  require_distinct(inputs, with_pictures(path, names));
+  require_distinct(inputs, with_files_beside(path, names));
   for (const PovPicture& picture : pictures)
     write_image(path.parent_path() / picture.name, picture_of(scene, picture));
   write_whole_file(path, [&](std::ostream& out) { write_pov_and_tell(scene, out, stem); });
@@ -233,13 +244,14 @@ void convert(const ConvertOptions& options) {
   const InputFormat from = input_format(options.input);
   const OutputFormat to = output_format(options.output);
   ParsedScene input = read(options, from);
+  const Inputs inputs{options.input, std::move(input.files)};
   SceneDescription scene = at_time_asked(std::move(input.scene), options, to);
-  if (to == OutputFormat::kMesh) return write_mesh_files(std::move(scene), options, input.files);
+  if (to == OutputFormat::kMesh) return write_mesh_files(std::move(scene), options, inputs);
   complete_view(scene, options.up);
   if (options.tessellate || options.chord_error) scene = tessellated(scene, fineness(options));
-  if (to == OutputFormat::kAff) return write_aff_files(scene, options, input.files);
-  if (to == OutputFormat::kPov) return write_pov_files(scene, options, input.files);
-  write_nff_file(std::move(scene), options, input.files);
+  if (to == OutputFormat::kAff) return write_aff_files(scene, options, inputs);
+  if (to == OutputFormat::kPov) return write_pov_files(scene, options, inputs);
+  write_nff_file(std::move(scene), options, inputs);
 }
 
 }  // namespace pprt
