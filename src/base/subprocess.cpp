@@ -39,7 +39,7 @@ using StandardStreams = std::array<int, 3>;
 [[noreturn]] void become(char* const* words, const StandardStreams& streams,
                          const SubprocessSettings& settings, int report) {
   if (settings.own_process_group) setpgid(0, 0);
-  if (settings.ends_with_parent) prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (settings.signal_at_end != 0) prctl(PR_SET_PDEATHSIG, settings.signal_at_end);
   bool ready = true;
   for (int i = 0; i < 3; ++i) {
     const int stream = streams[static_cast<std::size_t>(i)];
@@ -161,6 +161,17 @@ bool Subprocess::write(std::string_view bytes) const {
     if (sent > 0) bytes.remove_prefix(static_cast<std::size_t>(sent));
   }
   return true;
+}
+
+// The other end sends nothing. Its closing is the end of the file, or an error where bytes were left.
+bool Subprocess::end_input() {
+  shutdown(input_, SHUT_WR);
+  char none = 0;
+  ssize_t count = 0;
+  while ((count = recv(input_, &none, 1, 0)) < 0 && errno == EINTR) {
+  }
+  close(std::exchange(input_, -1));
+  return count >= 0;
 }
 
 std::size_t Subprocess::read(std::span<char> buffer) const {

@@ -29,7 +29,7 @@ struct SubprocessSettings {
   StreamTo output = StreamTo::kSame;  // kPipe for both of these: one pipe
   StreamTo errors = StreamTo::kSame;
   bool own_process_group = false;  // a terminal's Ctrl-C does not reach the program
-  bool ends_with_parent = false;   // it gets SIGTERM when the thread that started it ends
+  int signal_at_end = 0;           // that it gets when the thread that started it ends; 0: none
 };
 
 struct ExitStatus {
@@ -59,6 +59,10 @@ class Subprocess {
   // Reads what the program has written to its output or errors (kPipe). Blocks until there are some bytes and
   // returns their number; 0: the program has closed both. Throws std::system_error.
   std::size_t read(std::span<char> buffer) const;
+
+  // Ends the program's input (kPipe) and waits until all is taken. Returns false when the program has closed
+  // it with something left to read.
+  bool end_input();
 
   // Whether read() would return within so many seconds.
   bool has_output_within(double seconds) const;

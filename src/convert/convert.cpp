@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/diagnostics.h"
+#include "base/file_table.h"
 #include "cli/scenes/scene_source.h"
 #include "convert/losses.h"
 #include "convert/mesh/isolated_reader.h"
@@ -114,18 +115,37 @@ SceneDescription at_time_asked(SceneDescription scene, const ConvertOptions& opt
   return with_still_triangles(std::move(scene), time);
 }
 
-SceneDescription read(const ConvertOptions& options, InputFormat format) {
+ParsedScene read(const ConvertOptions& options, InputFormat format) {
   if (format == InputFormat::kScene) {
     ParsedScene parsed = load_scene(options.input, {.strict = options.strict});
     std::cerr << parsed.warnings;
-    return std::move(parsed.scene);
+    return parsed;
   }
   require_file(options.input);
   ReadMesh mesh = read_mesh_isolated(options.input, options.mesh_limits);
   for (const std::string& note : mesh.notes) say(mesh.scene, note);
   complete_view(mesh.scene, options.up);
   complete_lights(mesh.scene);
-  return std::move(mesh.scene);
+  return {.scene = std::move(mesh.scene), .files = std::move(mesh.files)};
+}
+
+// Files that were read: the one named, and others.
+struct Inputs {
+  std::string named;
+  std::vector<std::string> all;
+};
+using Outputs = std::vector<std::filesystem::path>;  // first the one named
+
+// Throws UsageError when a file that will be written has been read, or is another one that will be written.
+// The file named may be converted in place.
+void require_distinct(const Inputs& inputs, const Outputs& outputs) {
+  FileTable table;
+  for (const std::string& input : inputs.all) {
+    if (input != inputs.named) table.add_input({"the input", input});
+  }
+  table.add_output({"the output", outputs.front()});
+  table.add_input({"the input", inputs.named});
+  for (std::size_t i = 1; i < outputs.size(); ++i) table.add_output({"the output", outputs[i]});
 }
 
 void write_pov_and_tell(const SceneDescription& scene, std::ostream& out, const std::string& stem) {
@@ -161,21 +181,31 @@ SceneDescription without_stretched(SceneDescription scene, const ConvertOptions&
   return with_stretched_tessellated(scene, fineness(options));
 }
 
-void write_mesh_files(SceneDescription scene, const ConvertOptions& options) {
+// Returns a file and others in its directory.
+Outputs with_files_beside(const std::filesystem::path& path, const std::vector<std::string>& names) {
+  Outputs outputs = {path};
+  for (const std::string& name : names) outputs.push_back(path.parent_path() / name);
+  return outputs;
+}
+
+void write_mesh_files(SceneDescription scene, const ConvertOptions& options, const Inputs& inputs) {
   check_triangle_count(scene, fineness(options));
   const std::filesystem::path path = options.output;
   const std::string extension = extension_of(path);
   scene = told(for_meshes(std::move(scene), keeps_textures(extension)));
   if (!keeps_movement(extension)) scene = without_stretched(std::move(scene), options);
   const WrittenMesh mesh = write_mesh(scene, extension, path.stem().string(), fineness(options));
-  for (const MeshFile& file : mesh.files) {
-    const bool named = &file == &mesh.files.back();  // perhaps with its extension in capitals
-    write_whole_file(named ? path : path.parent_path() / file.name, file.bytes);
-  }
+  std::vector<std::string> beside;
+  for (const MeshFile& file : mesh.files) beside.push_back(file.name);
+  beside.pop_back();  // the file named, perhaps with its extension in capitals
+  const Outputs outputs = with_files_beside(path, beside);
+  require_distinct(inputs, outputs);
+  for (std::size_t i = 0; i < beside.size(); ++i) write_whole_file(outputs[i + 1], mesh.files[i].bytes);
+  write_whole_file(path, mesh.files.back().bytes);
   say_degenerate(scene, mesh.degenerate);
 }
 
-void write_nff_file(SceneDescription scene, const ConvertOptions& options) {
+void write_nff_file(SceneDescription scene, const ConvertOptions& options, const Inputs& inputs) {
   scene = without_stretched(told(for_nff(std::move(scene))), options);
   if (options.output == "-") {
     write_nff(scene, std::cout);
@@ -183,22 +213,28 @@ void write_nff_file(SceneDescription scene, const ConvertOptions& options) {
     if (!std::cout) throw std::runtime_error("cannot write to standard output");
     return;
   }
+  require_distinct(inputs, {options.output});
   write_whole_file(options.output, [&](std::ostream& out) { write_nff(scene, out); });
 }
 
 // Each writes the scene last, after the pictures that it refers to.
-void write_aff_files(const SceneDescription& scene, const ConvertOptions& options) {
+void write_aff_files(const SceneDescription& scene, const ConvertOptions& options, const Inputs& inputs) {
   const std::filesystem::path path = options.output;
   const std::vector<std::string> pictures = picture_names(scene, path.stem().string());
+  require_distinct(inputs, with_files_beside(path, pictures));
   for (TextureIndex i = 0; i < scene.textures.size(); ++i)
     write_image(path.parent_path() / pictures[i], picture_of(scene, {.name = {}, .texture = i}));
   write_whole_file(path, [&](std::ostream& out) { write_aff(scene, out, pictures); });
 }
 
-void write_pov_files(const SceneDescription& scene, const ConvertOptions& options) {
+void write_pov_files(const SceneDescription& scene, const ConvertOptions& options, const Inputs& inputs) {
   const std::filesystem::path path = options.output;
   const std::string stem = path.stem().string();
-  for (const PovPicture& picture : pov_pictures(scene, stem).files)
+  const std::vector<PovPicture> pictures = pov_pictures(scene, stem).files;
+  std::vector<std::string> names;
+  for (const PovPicture& picture : pictures) names.push_back(picture.name);
+  require_distinct(inputs, with_files_beside(path, names));
+  for (const PovPicture& picture : pictures)
     write_image(path.parent_path() / picture.name, picture_of(scene, picture));
   write_whole_file(path, [&](std::ostream& out) { write_pov_and_tell(scene, out, stem); });
 }
@@ -208,13 +244,15 @@ void write_pov_files(const SceneDescription& scene, const ConvertOptions& option
 void convert(const ConvertOptions& options) {
   const InputFormat from = input_format(options.input);
   const OutputFormat to = output_format(options.output);
-  SceneDescription scene = at_time_asked(read(options, from), options, to);
-  if (to == OutputFormat::kMesh) return write_mesh_files(std::move(scene), options);
+  ParsedScene input = read(options, from);
+  const Inputs inputs{options.input, std::move(input.files)};
+  SceneDescription scene = at_time_asked(std::move(input.scene), options, to);
+  if (to == OutputFormat::kMesh) return write_mesh_files(std::move(scene), options, inputs);
   complete_view(scene, options.up);
   if (options.tessellate || options.chord_error) scene = tessellated(scene, fineness(options));
-  if (to == OutputFormat::kAff) return write_aff_files(scene, options);
-  if (to == OutputFormat::kPov) return write_pov_files(scene, options);
-  write_nff_file(std::move(scene), options);
+  if (to == OutputFormat::kAff) return write_aff_files(scene, options, inputs);
+  if (to == OutputFormat::kPov) return write_pov_files(scene, options, inputs);
+  write_nff_file(std::move(scene), options, inputs);
 }
 
 }  // namespace pprt

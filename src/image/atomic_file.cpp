@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <ostream>
 #include <stdexcept>
 #include <streambuf>
@@ -72,7 +73,7 @@ TemporaryFile make_temporary(const fs::path& directory) {
   for (int i = 0;; ++i) {
     fs::path path = directory / fmt::format(".pprt-{}-{}.tmp", ::gettid(), i);
     try {
-      Descriptor file(path, O_WRONLY | O_CREAT | O_EXCL);
+      Descriptor file(path, O_WRONLY | O_CREAT | O_EXCL | O_APPEND);
       return {std::move(path), std::move(file)};
     } catch (const std::system_error& e) {
       if (e.code() != std::errc::file_exists) throw;
@@ -92,6 +93,22 @@ struct Removal {
   fs::path path;
   ~Removal() { ::unlink(path.c_str()); }
 };
+
+// Appends all bytes to a string.
+void read_all(Descriptor& file, std::string& bytes) {
+  constexpr std::size_t kPiece = std::size_t{1} << 20;
+  while (file.read_some(bytes, kPiece)) {
+  }
+}
+
+constexpr const char* kClaimed = "another run is writing to it";
+
+// Gives the file a name that no other must have: in this moment another process may take it.
+void rename_to_new(const fs::path& from, const fs::path& to) {
+  if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return;
+  if (errno == EEXIST) throw Refusal(kClaimed);
+  fs::rename(from, to);  // the file system knows only this, or will say what is wrong
+}
 
 void write_and_rename(const fs::path& path, const std::function<void(std::ostream&)>& write) {
   TemporaryFile temporary = make_temporary_for(path);
@@ -115,11 +132,9 @@ fs::path first_existing_directory(const fs::path& path) {
 
 std::string read_whole_file(const fs::path& path) {
   try {
-    constexpr std::size_t kPiece = std::size_t{1} << 20;
     Descriptor file(path, O_RDONLY);
     std::string bytes;
-    while (file.read_some(bytes, kPiece)) {
-    }
+    read_all(file, bytes);
     return bytes;
   } catch (const std::system_error& e) {
     throw std::runtime_error(fmt::format("cannot read '{}': {}", path.string(), e.code().message()));
@@ -162,8 +177,41 @@ AppendedFile::AppendedFile(fs::path path) : path_(std::move(path)) {
   naming(path_, [this] { file_ = Descriptor(path_, O_WRONLY | O_CREAT | O_APPEND); });
 }
 
+AppendedFile::AppendedFile(fs::path path, Descriptor file) : path_(std::move(path)), file_(std::move(file)) {}
+
+void AppendedFile::require_in_place() const {
+  naming(path_, [this] {
+    if (!file_.is_at(path_)) throw Refusal("it was removed, renamed or replaced while it was written");
+  });
+}
+
 void AppendedFile::append(std::string_view bytes) {
   naming(path_, [&] { file_.write_all(bytes); });
+}
+
+FileClaim::FileClaim(fs::path path) : path_(std::move(path)) {
+  naming(path_, [this] {
+    do {
+      require_regular(path_);
+      if (!fs::exists(path_)) return;
+      claimed_ = Descriptor(path_, O_RDWR);  // for reading alone, NFS gives no lock
+      if (!claimed_.lock()) throw Refusal(kClaimed);
+    } while (!claimed_.is_at(path_));  // else its last owner has just replaced it
+    read_all(claimed_, content_.emplace());
+  });
+}
+
+AppendedFile FileClaim::replace(std::string_view bytes) && {
+  AppendedFile replaced;
+  naming(path_, [&] {
+    TemporaryFile temporary = make_temporary_for(path_);
+    const Removal removal{temporary.path};
+    temporary.file.lock();
+    temporary.file.write_all(bytes);
+    content_ ? fs::rename(temporary.path, path_) : rename_to_new(temporary.path, path_);
+    replaced = AppendedFile(path_, std::move(temporary.file));
+  });
+  return replaced;
 }
 
 }  // namespace pprt

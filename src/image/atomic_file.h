@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -65,9 +66,36 @@ class AppendedFile {
   // Passes all bytes to the system at once. Throws likewise.
   void append(std::string_view bytes);
 
+  // Throws likewise when the path leads to this file no more: it was removed, renamed or replaced.
+  void require_in_place() const;
+
  private:
+  friend class FileClaim;
+  AppendedFile(std::filesystem::path path, Descriptor file);
+
   std::filesystem::path path_;
   Descriptor file_;
+};
+
+// The right to write a file, which one process has at a time. The system takes it back when the process ends,
+// however it does. Where a file system knows no locks, everybody gets it.
+class FileClaim {
+ public:
+  // Claims the file, if there is one. Changes nothing. Throws std::runtime_error "cannot write 'PATH':
+  // REASON": another process has claimed it, it is no regular file, it may not be written.
+  explicit FileClaim(std::filesystem::path path);
+
+  // Returns the file's bytes; nullopt: there is none.
+  const std::optional<std::string>& content() const { return content_; }
+
+  // Returns a new file of these bytes that takes the name, as write_whole_file(). It is claimed as long as it
+  // is open. Throws likewise, and also when another process has made such a file meanwhile.
+  AppendedFile replace(std::string_view bytes) &&;
+
+ private:
+  std::filesystem::path path_;
+  Descriptor claimed_;
+  std::optional<std::string> content_;
 };
 
 }  // namespace pprt

@@ -1,6 +1,8 @@
 #include "image/descriptor.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -45,6 +47,17 @@ void Descriptor::write_all(std::string_view bytes) {
       throw_errno();
     }
   }
+}
+
+bool Descriptor::lock() const {
+  return ::flock(fd_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+}
+
+bool Descriptor::is_at(const std::filesystem::path& path) const {
+  struct stat own {
+  }, found{};
+  return ::fstat(fd_, &own) == 0 && ::stat(path.c_str(), &found) == 0 && own.st_dev == found.st_dev &&
+         own.st_ino == found.st_ino;
 }
 
 void Descriptor::close() {

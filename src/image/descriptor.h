@@ -27,6 +27,13 @@ class Descriptor {
 
   void write_all(std::string_view bytes);
 
+  // Locks the file until it is closed. Returns false where another process has it locked (flock); a file
+  // system without locks says nothing of it.
+  bool lock() const;
+
+  // Whether the path leads to this file.
+  bool is_at(const std::filesystem::path& path) const;
+
   // Some file systems report a full disk or quota only at closing.
   void close();
 

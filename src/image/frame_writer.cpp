@@ -111,8 +111,8 @@ WrittenFrame FrameWriter::write(const FrameToWrite& frame) const {
     if (!options_.overwrite && std::filesystem::exists(file)) {
       throw std::runtime_error(fmt::format("cannot write '{}': the file is there already", file.string()));
     }
-    write_image(file, image, frame.metadata, channels, kind);
-    written.files.push_back(std::move(file));
+    const std::uint32_t crc32 = write_image(file, image, frame.metadata, channels, kind);
+    written.files.push_back({std::move(file), crc32});
   };
   const std::vector<std::string>& layers = frame.layers.names;
   for (const FramePattern& output : outputs_) {

@@ -3,6 +3,7 @@
 
 #include <condition_variable>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <exception>
 #include <filesystem>
@@ -27,11 +28,16 @@ struct FrameToWrite {
   LayerMaker layers = {};  // become channels of each EXR, and pictures beside each PNG
 };
 
+struct WrittenFile {
+  std::filesystem::path path;
+  std::uint32_t crc32 = 0;  // of its content: image/checksum.h
+};
+
 // A frame whose files are complete.
 struct WrittenFrame {
   int frame = 0;
-  std::vector<std::filesystem::path> files;  // per output: the frame, then the pictures of its layers
-  std::vector<std::string> layers = {};      // their names
+  std::vector<WrittenFile> files;        // per output: the frame, then the pictures of its layers
+  std::vector<std::string> layers = {};  // their names
 };
 
 // Settings of a FrameWriter.

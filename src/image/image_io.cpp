@@ -3,19 +3,16 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <fstream>
 #include <stdexcept>
 
 #include "image/atomic_file.h"
+#include "image/checksum.h"
 
 namespace pprt {
 namespace {
 
 constexpr std::string_view kExrMagic = "\x76\x2f\x31\x01";
 constexpr std::string_view kPngMagic = "\x89PNG\r\n\x1a\n";
-
-// The last chunk of every PNG, behind its length of 0.
-constexpr std::string_view kPngEnd = "IEND\xae\x42\x60\x82";
 
 std::string encode(const std::filesystem::path& path, const Image& image, const Metadata& metadata,
                    const std::vector<Channel>& channels, PictureKind kind) {
@@ -40,8 +37,8 @@ std::size_t replace_non_finite(Image& image) {
   return replaced;
 }
 
-void write_image(const std::filesystem::path& path, const Image& image, const Metadata& metadata,
-                 const std::vector<Channel>& channels, PictureKind kind) {
+std::uint32_t write_image(const std::filesystem::path& path, const Image& image, const Metadata& metadata,
+                          const std::vector<Channel>& channels, PictureKind kind) {
   std::string bytes;
   try {
     bytes = encode(path, image, metadata, channels, kind);
@@ -49,6 +46,7 @@ void write_image(const std::filesystem::path& path, const Image& image, const Me
     throw std::runtime_error(fmt::format("cannot write '{}': {}", path.string(), e.what()));
   }
   write_whole_file(path, bytes);
+  return crc32_of(bytes);
 }
 
 Image decode_image(std::string_view bytes) {
@@ -66,16 +64,6 @@ Image read_image(const std::filesystem::path& path) {
   } catch (const std::runtime_error& e) {
     throw std::runtime_error(fmt::format("cannot read '{}': {}", path.string(), e.what()));
   }
-}
-
-bool looks_whole(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string begin(kPngMagic.size(), '\0'), end(kPngEnd.size(), '\0');
-  if (!file.read(begin.data(), static_cast<std::streamsize>(begin.size()))) return false;
-  if (begin.starts_with(kExrMagic)) return true;
-  file.seekg(-static_cast<std::streamoff>(end.size()), std::ios::end);
-  return begin == kPngMagic && file.read(end.data(), static_cast<std::streamsize>(end.size())) &&
-         end == kPngEnd;
 }
 
 }  // namespace pprt

@@ -59,10 +59,11 @@ Image decode_exr(std::string_view bytes);
 Image decode_png(std::string_view bytes);
 
 // Writes a picture in the format of its extension, .exr or .png, completely or not at all
-// (image/atomic_file.h). Channels go into an EXR; a PNG ignores them. Throws std::runtime_error "cannot write
-// 'PATH': REASON".
-void write_image(const std::filesystem::path& path, const Image& image, const Metadata& metadata = {},
-                 const std::vector<Channel>& channels = {}, PictureKind kind = PictureKind::kRendered);
+// (image/atomic_file.h). Channels go into an EXR; a PNG ignores them. Returns the file's CRC-32. Throws
+// std::runtime_error "cannot write 'PATH': REASON".
+std::uint32_t write_image(const std::filesystem::path& path, const Image& image,
+                          const Metadata& metadata = {}, const std::vector<Channel>& channels = {},
+                          PictureKind kind = PictureKind::kRendered);
 
 // Returns the picture in a JPEG, or in a PPM of 8 bits a channel (P6 or P3; bytes behind the picture are
 // ignored). Throw as decode_png().
@@ -75,9 +76,5 @@ Image decode_image(std::string_view bytes);
 
 // Reads such a file. Throws std::runtime_error "cannot read 'PATH': REASON".
 Image read_image(const std::filesystem::path& path);
-
-// Whether the file may be a whole picture: it begins as an EXR, or it begins and ends as a PNG. Reads a few
-// bytes only. After a power cut a file may be empty, or full of zeros.
-bool looks_whole(const std::filesystem::path& path);
 
 }  // namespace pprt

@@ -89,7 +89,7 @@ class Reader {
       throw InputError(report());
     SceneDescription& scene = builder_.scene();
     scene.name = printable(main_.string());
-    return {std::move(scene), warnings()};
+    return {.scene = std::move(scene), .warnings = warnings(), .files = files_read()};
   }
 
  private:
@@ -170,6 +170,13 @@ class Reader {
       bytes_ += file->text.size();
     }
     return *file;
+  }
+
+  std::vector<std::string> files_read() const {
+    std::vector<std::string> paths;
+    for (const auto& [path, file] : files_)
+      if (!is_alone_) paths.push_back(path);
+    return paths;
   }
 
   std::string report() const {

@@ -164,12 +164,15 @@ ParsedScene parse_nff(std::string_view text, std::string_view file_name, const N
   }
   const Diagnostics& diagnostics = builder.finish();
   if (diagnostics.has_errors()) nff::reject(diagnostics, file_name, text, options);
-  return {std::move(builder.scene()), format(diagnostics, file_name, text)};
+  return {.scene = std::move(builder.scene()), .warnings = format(diagnostics, file_name, text)};
 }
 
 ParsedScene read_nff(const std::string& path, const NffOptions& options) {
   const std::string text = read_text(path, options.max_bytes);
-  return parse_nff(text, path == "-" ? "<stdin>" : printable(path), options);
+  const bool is_stdin = path == "-";
+  ParsedScene parsed = parse_nff(text, is_stdin ? "<stdin>" : printable(path), options);
+  parsed.files.push_back(is_stdin ? "/dev/stdin" : path);
+  return parsed;
 }
 
 }  // namespace pprt

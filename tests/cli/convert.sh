@@ -53,6 +53,28 @@ x ball { s 0 0 0 1 }
 k ball { transl 4 0 0 0 0 0 0 0 1 1 0 0 0 0 0 3 3 0 0 0 0 0 4 4 0 0 0 0 0 }
 SCENE
 run pprt-convert moving.aff moving.pov; expect_code 0; expect_text err ''; expect_file moving-t.png
+
+# No file that was read besides the one named is written to: a texture, what a mesh has in files of its own.
+refuse() {
+  expect_code 2
+  expect_line err "pprt-convert: error: the input $1 and the output $2 are the same file; give each a name of its own"
+}
+mkdir read
+cp t.ppm read
+cp t.ppm read/two-t.png
+{ cat moving.aff; grep '^m vertices' moving.aff | sed 's/t.ppm/two-t.png/'; } >read/both.aff
+pprt-convert moving.aff read/tiles.obj 2>/dev/null
+cp read/tiles.obj read/other.obj
+ln ball.nff linked.nff
+cp -r read kept
+for format in aff pov obj; do
+  run pprt-convert read/both.aff read/two.$format; refuse read/two-t.png read/two-t.png
+  expect_no_file read/two.$format
+done
+run pprt-convert read/other.obj read/tiles.obj; refuse read/tiles.mtl read/tiles.mtl
+run pprt-convert - linked.nff <linked.nff; refuse /dev/stdin linked.nff
+[[ $(diff -r read kept) == '' ]] || complain "a file that was read was written to: $(diff -r read kept)"
+
 run pprt-convert --at 3 moving.aff moving.nff; expect_code 0; expect_line moving.nff 's 3 0 0 1'
 expect_text err "moving.aff: 1 texture is not kept: its surfaces get its mean colour
 moving.aff: 1 material with a coloured highlight and mirror: it becomes white

@@ -68,6 +68,50 @@ expect_text err 'done: 0 of 6 frames (6 were there already) in grown/%d.png'
 run pprt-render ball.anim "${work[@]}" --seed 2 --frames 7 -o grown/%d.png; expect_code 0
 [[ $(wc -l <grown/manifest.ndjson) -eq 2 ]] || complain "the manifest was not begun anew: $(cat grown/manifest.ndjson)"
 
+# A picture of either format that is damaged anywhere is made again, and what is no file is no picture.
+run pprt-render ball.anim "${work[@]}" -o sound/%d.png -o sound/%d.exr; expect_code 0
+cp -r sound harmed
+sed -i 's/sound/harmed/g' harmed/manifest.ndjson
+size=$(stat -c %s harmed/2.exr)
+truncate -s 100 harmed/1.exr
+truncate -s $((size / 2)) harmed/2.exr
+truncate -s $((size / 2)) harmed/3.exr; truncate -s "$size" harmed/3.exr
+printf 'x' | dd of=harmed/4.png bs=1 seek=300 conv=notrunc status=none
+run pprt-render ball.anim "${work[@]}" -o harmed/%d.png -o harmed/%d.exr --resume; expect_code 0
+expect_line err 'done: 4 of 12 frames (8 were there already) .*'
+for file in sound/[1-9]*; do expect_same "$file" "harmed/${file#*/}"; done
+rm harmed/5.exr
+mkfifo harmed/5.exr
+run timeout 60 pprt-render ball.anim "${work[@]}" -o harmed/%d.png -o harmed/%d.exr --resume; expect_code 1
+expect_line err "pprt-render: error: cannot write 'harmed/5.exr': it is not a regular file"
+rm harmed/manifest.ndjson
+mkfifo harmed/manifest.ndjson
+run timeout 60 pprt-render ball.anim "${work[@]}" --frames 1 -o harmed/%d.png --resume; expect_code 1
+expect_text err "pprt-render: error: cannot write 'harmed/manifest.ndjson': it is not a regular file"
+
+# While a run goes on, no other one writes to its manifest. A run that was killed is in nobody's way.
+pprt-render ball.anim --fps 0 --time 60 -o shared/%d.png &
+first=$!
+until [[ -s shared/manifest.ndjson ]]; do sleep 0.1; done
+for flag in --resume --overwrite; do
+  run pprt-render ball.anim "${work[@]}" -o shared/%d.png --stats shared.ndjson $flag; expect_code 1
+  expect_text err "pprt-render: error: cannot write 'shared/manifest.ndjson': another run is writing to it"
+done
+expect_no_file shared.ndjson
+kill -KILL $first
+wait $first || true
+run pprt-render ball.anim "${work[@]}" -o shared/%d.png --overwrite; expect_code 0
+
+# A directory that goes in mid-run takes the frames with it: this is told, and the run goes on no longer.
+pprt-render ball.anim --fps 0 --time 0.5 -o gone/%d.png 2>err &
+until [[ -s gone/1.png ]]; do sleep 0.1; done
+mv gone moved
+code=0; wait $! || code=$?
+command='a run whose directory was moved'
+expect_code 1
+expect_line err 'failed: [0-9]* of 12 frames in gone/%d.png; .*'
+expect_line err "pprt-render: error: cannot write 'gone/manifest.ndjson': it was removed, renamed or replaced while it was written"
+
 # After a power cut files may be empty. They are made again, and an empty manifest is none.
 cp -r part cut
 : >cut/0002.png

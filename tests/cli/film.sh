@@ -21,6 +21,30 @@ expect_line err 'no room'
 expect_line err "pprt-render: error: cannot write 'g/film.mp4': ffmpeg ended with code 3"
 expect_text <(ls g) "$(printf '%s\n' 1.png 2.png manifest.ndjson)"
 
+# One that ends early and content, or writes nothing, has made no film either.
+for early in 'head -c 1000 >/dev/null' 'cat >/dev/null'; do
+  printf '#!/bin/sh\ncase "$*" in *-version) exit 0 ;; esac\n%s\n' "$early" >broken/ffmpeg
+  for film in film.mp4 film.gif; do
+    PATH=$PWD/broken:$PATH run pprt-render ball.anim "${work[@]}" --frames 1-2 -o g/%d.png --film g/$film --resume; expect_code 1
+    expect_line err "pprt-render: error: cannot write 'g/$film': ffmpeg \(ended before it had taken all frames\|has written nothing\)"
+    expect_text <(ls g) "$(printf '%s\n' 1.png 2.png manifest.ndjson)"
+  done
+done
+
+# One that hangs and hears no signal ends with a run that is told twice to end.
+printf '#!/bin/sh\ncase "$*" in *-version) exit 0 ;; esac\ntrap "" TERM\necho $$ >hung\nexec sleep 600\n' >broken/ffmpeg
+PATH=$PWD/broken:$PATH pprt-render ball.anim "${work[@]}" --frames 1-2 -o g/%d.png --film g/film.mp4 --resume 2>err &
+until [[ -s hung ]]; do sleep 0.1; done
+kill -TERM $!
+until grep -q 'second signal' err; do sleep 0.1; done
+kill -TERM $!
+wait $! || true
+for ((i = 0; i < 300; ++i)); do
+  grep -qs $'^State:\t[^Z]' "/proc/$(cat hung)/status" || break  # it has ended, and perhaps nobody has asked how
+  sleep 0.1
+done
+if ((i == 300)); then complain 'ffmpeg outlives the run'; kill -KILL "$(cat hung)"; fi
+
 # Nothing that lies at a temporary name is written to, and no name is an option or an address.
 cp ball.nff precious
 ln -s precious plain.mp4.part

@@ -54,6 +54,34 @@ ln ref.png ref2.png
 for name in ref.png ref2.png; do
   refuse "$(same '--reference ref.png' "the frame $name")" "${still[@]}" -o $name --reference ref.png
 done
+# What was read besides: a texture, what a scene includes, what a script moves, and with what these show.
+cat >toy.aff <<'AFF'
+v from 0 3 9 at 0 1 0 up 0 1 0 angle 40 hither 1 resolution 16 12
+am 1 1 1 b .2 .3 .4 l 4 8 6 .7 .7 .7 a 1 2 6
+fm .2 .2 .2 .7 .7 .7 0 0 0 0 0 1
+tt wood.png -6 0 6 0 1 6 0 6 1 1 0 0 -6 0.5 0
+i 0 sub.aff
+AFF
+echo 's 0 .7 0 .7' >sub.aff
+cp ref.png wood.png
+ln wood.png hard.png
+ln -s sub.aff soft.aff
+printf 'animation { scene "ball.nff" frames 2 object "toy.aff" { key 1 { translate <0, 0, 0> } } }' >toy.anim
+mkdir before
+cp toy.aff sub.aff wood.png toy.anim before
+for input in "toy.aff --samples 50 --frames 1" "toy.anim --samples 50 --frames 1"; do
+  for name in wood.png "$PWD/wood.png" hard.png; do
+    refuse "$(same 'the input wood.png' "the frame $name")" $input -o $name
+    refuse "$(same 'the input wood.png' "--contact-sheet $name")" $input -o a.png --contact-sheet $name
+  done
+  for name in sub.aff soft.aff; do
+    refuse "$(same 'the input sub.aff' "--stats $name")" $input -o a.png --stats $name
+    refuse "$(same 'the input sub.aff' "--trace $name")" $input -o a.png --trace $name
+  done
+done
+refuse "$(same 'the input toy.aff' '--stats toy.aff')" toy.anim --samples 50 --frames 1 -o a.png --stats toy.aff
+for file in toy.aff sub.aff wood.png toy.anim; do expect_same $file before/$file; done
+
 # Ranks under mpirun say the same, once.
 run pprt-render "${still[@]}" -np 2 -o a.png --stats hard --overwrite
 expect_usage "$(same 'the scene ball.nff' '--stats hard'); give each a name of its own"
@@ -79,6 +107,23 @@ run pprt-render "${still[@]}" "${work[@]:0:2}" -o c.png --stats c.ndjson --conta
 printf '{"record":"fra' >>c.ndjson
 run pprt-render "${still[@]}" "${work[@]:0:2}" -o c.png --stats c.ndjson --resume; expect_code 0
 [[ $(grep -c '^{"record":"run"' c.ndjson) -eq 3 ]] || complain "a record was glued to half of one: $(cat c.ndjson)"
+
+# Only a ledger goes on as one, and only a trace as a trace. A run that is refused has written to neither.
+run pprt-render "${still[@]}" "${work[@]:0:2}" -o c.png --trace c.trace --resume; expect_code 0
+printf 'my notes' >notes
+cp notes kept_notes; cp c.ndjson kept.ndjson; cp c.trace kept.trace
+for name in notes c.trace c_manifest.ndjson; do
+  [[ $name == c_manifest.ndjson ]] && other=d.png || other=c.png
+  run pprt-render "${still[@]}" "${work[@]:0:2}" -o $other --stats $name --resume
+  expect_usage "--resume: $name is there already and is no ledger; --overwrite replaces it"
+done
+for name in notes c.ndjson; do
+  run pprt-render "${still[@]}" "${work[@]:0:2}" -o c.png --trace $name --resume
+  expect_usage "--resume: $name is there already and is no balancing trace; --overwrite replaces it"
+done
+run pprt-render "${still[@]}" "${work[@]:0:2}" --seed 9 -o c.png --stats c.ndjson --trace c.trace --resume
+expect_usage "--resume: c_manifest.ndjson is of another scene or other options; --overwrite starts anew"
+expect_same notes kept_notes; expect_same c.ndjson kept.ndjson; expect_same c.trace kept.trace
 
 # Frames that a tool has made hard links of are frames of their own.
 run pprt-render ball.anim "${work[@]}" --frames 1-2 -o d/%d.png; expect_code 0
@@ -124,7 +169,7 @@ cp ball.nff "$latin.nff"
 run pprt-render "$latin.nff" --samples 50 -o "$latin/%02d.png" --stats "$latin.ndjson"; expect_code 0
 expect_file "$latin/01.png"
 expect_line "$latin.ndjson" '{"record":"run",.*"scene":{"latin-1":"Käse.nff"},.*}'
-expect_line "$latin/manifest.ndjson" '{"record":"frame","frame":1,"files":\[{"latin-1":"Käse/01.png"}\]}'
+expect_line "$latin/manifest.ndjson" '{"record":"frame","frame":1,"files":\[{"latin-1":"Käse/01.png"}\],"crc32":\["[0-9a-f]\{8\}"\],"key":"[0-9a-f]\{16\}"}'
 for np in 1 2; do
   more=("$latin.anim" "${work[@]}" -np $np --frames 1-2 -o "$latin$np/%02d.png")
   sed "s/ball.nff/$latin.nff/" ball.anim >"$latin.anim"

@@ -108,6 +108,24 @@ for options in --census --write-config '--samples 50 -o full.png --census' '--sa
   expect_no_file full.png
 done
 
+# Of closed streams none is taken by a file, which would get the text. An empty standard input ends at once.
+for np in 1 2; do
+  code=0 command="$np ranks without standard streams"
+  pprt-render ball.nff --samples 50 -np $np -o closed$np/%d.png --stats closed$np.ndjson <&- >&- 2>&- || code=$?
+  expect_code 0
+  for file in closed$np/manifest.ndjson closed$np.ndjson; do
+    [[ $(grep -vc '^{"record":.*}$' $file) -eq 0 ]] || complain "$command: $file has other text: $(cat $file)"
+  done
+  run timeout 60 pprt-render - -np $np --samples 50 -o none.png <&-; expect_code 3
+  expect_text err '<stdin>: error: the file is empty'
+done
+for program in pprt-render pprt-convert pprt-compare pprt-study; do
+  code=0 command="$program --version >&-"
+  $program --version >&- 2>err || code=$?
+  expect_code $([[ $program == pprt-compare ]] && echo 2 || echo 1)
+  expect_text err "$program: error: cannot write to standard output: Bad file descriptor"
+done
+
 # More ranks than mpirun may open files for are refused; a soft limit is raised.
 code=0 command='16 ranks with 64 open files'
 (ulimit -n 64; pprt-render ball.nff -np 16 --samples 50 -o many.png) >out 2>err || code=$?

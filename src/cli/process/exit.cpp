@@ -1,6 +1,8 @@
 #include "cli/process/exit.h"
 
+#include <fcntl.h>
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -30,6 +32,16 @@ void finish_output() {
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout) throw_output_error(errno);
 }
 
+// Opens what is closed of the standard streams: else the next file that is opened takes its place, and gets
+// its text. Standard input is then empty, what is said on standard error is lost, and standard output still
+// cannot be written to.
+void open_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(stream, F_GETFD) >= 0) continue;
+    open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);  // takes the lowest free number: this
+  }
+}
+
 }  // namespace
 
 std::string message_of(const std::exception& error) {
@@ -54,6 +66,7 @@ void print_output(std::string_view text) {
 }
 
 int run_guarded(std::string_view program, const std::function<int()>& body) {
+  open_standard_streams();
   try {
     const int code = body();
     if (code == kExitDone) finish_output();

@@ -24,7 +24,8 @@ void print_message(std::string_view text);
 // Prints on standard output at once. Throws std::runtime_error "cannot write to standard output: REASON".
 void print_output(std::string_view text);
 
-// Runs `body` and returns its exit code. An exception becomes a message on standard error and a code:
+// Opens closed standard streams, runs `body` and returns its exit code. An exception becomes a message on
+// standard error and a code:
 //   InputError  its full report              kExitInput
 //   UsageError  its text, a hint at --help   kExitUsage
 //   any other   message_of()                 kExitFailure

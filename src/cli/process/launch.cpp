@@ -107,7 +107,7 @@ int mpirun_code(Subprocess& mpirun, const MpirunMessages& messages) {
 
 // mpirun has a process group of its own: a terminal's Ctrl-C must reach it through this process alone.
 constexpr SubprocessSettings kMpirunSettings{
-    .errors = StreamTo::kPipe, .own_process_group = true, .ends_with_parent = true};
+    .errors = StreamTo::kPipe, .own_process_group = true, .signal_at_end = SIGTERM};
 
 }  // namespace
 

@@ -62,7 +62,8 @@ bool is_aff_name(const std::string& name) {
 ParsedScene load_aff(const std::string& path, bool strict) {
   ParsedScene parsed = read_aff(path, {.strict = strict});
   try {
-    read_textures(parsed.scene, std::filesystem::path(path).parent_path());
+    const auto textures = read_textures(parsed.scene, std::filesystem::path(path).parent_path());
+    parsed.files.insert(parsed.files.end(), textures.begin(), textures.end());
   } catch (const InputError& e) {
     throw InputError(parsed.warnings + e.what());
   }
@@ -126,20 +127,22 @@ ParsedScene load_scene_of_script(const Animation& script, const std::string& scr
   const std::string name = scene_of_script(script, script_path);
   std::string text;
   try {
-    if (is_spd_name(name)) return {make_spd_scene(name), {}};
+    if (is_spd_name(name)) return {.scene = make_spd_scene(name)};
     require_file(name);
     if (is_aff_name(name)) return load_aff(name, options.strict);
     text = read_text(name, options.max_bytes);
   } catch (const InputError& e) {
     throw InputError(at_name_in_script(script, script_path, script.scene_location, e.what()));
   }
-  return parse_nff(text, printable(name), options);
+  ParsedScene parsed = parse_nff(text, printable(name), options);
+  parsed.files.push_back(name);
+  return parsed;
 }
 
-std::string add_objects(SceneDescription& scene, const Animation& script, const std::string& script_path,
-                        const FrameTimes& times, const NffOptions& options) {
+void add_objects(ParsedScene& parsed, const Animation& script, const std::string& script_path,
+                 const FrameTimes& times, const NffOptions& options) {
   constexpr std::size_t kMostTurns = 5'000'000;  // an object that turns takes a key a frame
-  std::string warnings;
+  SceneDescription& scene = parsed.scene;
   std::size_t turns = 0;
   const auto refuse = [&](const ObjectMotion& object, const std::string& problem) {
     throw InputError(at_name_in_script(script, script_path, object.location, problem));
@@ -153,7 +156,8 @@ std::string add_objects(SceneDescription& scene, const Animation& script, const 
     if (!is_known) {
       try {
         ParsedScene other = load_scene(named_in_script(object.name, script_path), options);
-        warnings += other.warnings;
+        parsed.warnings += other.warnings;
+        parsed.files.insert(parsed.files.end(), other.files.begin(), other.files.end());
         add_moving(scene, other.scene, object.name);
       } catch (const InputError& e) {
         refuse(object, e.what());
@@ -161,11 +165,10 @@ std::string add_objects(SceneDescription& scene, const Animation& script, const 
     }
     if (!object.keys.empty()) scene.movement.tracks[object.name] = track_of(object, times);
   }
-  return warnings;
 }
 
 ParsedScene load_scene(const std::string& name, const NffOptions& options) {
-  if (is_spd_name(name)) return {make_spd_scene(name), {}};
+  if (is_spd_name(name)) return {.scene = make_spd_scene(name)};
   if (name != "-") require_file(name);
   if (is_aff_name(name)) return load_aff(name, options.strict);
   return read_nff(name, options);

@@ -27,10 +27,10 @@ ParsedScene load_scene_of_script(const Animation& script, const std::string& scr
                                  const NffOptions& options = {});
 
 // Adds what a script moves to the scene: a name of the scene itself, or else another scene, named as by
-// scene_of_script(). `times`: of the script's frames. Returns warnings, as ParsedScene has them. Throws
-// InputError with the place in the script.
-std::string add_objects(SceneDescription& scene, const Animation& script, const std::string& script_path,
-                        const FrameTimes& times, const NffOptions& options = {});
+// scene_of_script(), with its warnings and files. `times`: of the script's frames. Throws InputError with the
+// place in the script.
+void add_objects(ParsedScene& parsed, const Animation& script, const std::string& script_path,
+                 const FrameTimes& times, const NffOptions& options = {});
 
 // Returns "spd:NAME" for every database.
 std::vector<std::string> generated_scenes();

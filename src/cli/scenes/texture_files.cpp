@@ -38,7 +38,8 @@ void fill(Texture& texture, const Image& image) {
   }
 }
 
-void read_textures(SceneDescription& scene, const fs::path& folder) {
+std::vector<std::string> read_textures(SceneDescription& scene, const fs::path& folder) {
+  std::vector<std::string> files;
   std::string problems;
   const auto note = [&](const std::string& problem) {
     problems += (problems.empty() ? "" : "\n") + scene.name + ": error: " + problem;
@@ -52,11 +53,13 @@ void read_textures(SceneDescription& scene, const fs::path& folder) {
     }
     try {
       fill(texture, read_image(*path));
+      files.push_back(path->string());
     } catch (const std::exception& e) {
       note(e.what());
     }
   }
   if (!problems.empty()) throw InputError(problems);
+  return files;
 }
 
 }  // namespace pprt

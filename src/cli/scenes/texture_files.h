@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "image/image.h"
 #include "scene/description/scene_description.h"
@@ -12,7 +14,8 @@ namespace pprt {
 void fill(Texture& texture, const Image& image);
 
 // Reads every texture of a scene that lies in `folder`: beside the scene, in TextureFiles/ there, or in
-// ../TextureFiles/. Throws InputError that names every one that is not there or cannot be read.
-void read_textures(SceneDescription& scene, const std::filesystem::path& folder);
+// ../TextureFiles/. Returns the files. Throws InputError that names every one that is not there or cannot be
+// read.
+std::vector<std::string> read_textures(SceneDescription& scene, const std::filesystem::path& folder);
 
 }  // namespace pprt

@@ -27,8 +27,11 @@ Bytes rejected(const std::string& report) {
 
 Bytes accepted(const ReadMesh& mesh) {
   WireWriter out;
-  out.put(true), out.put(static_cast<std::uint64_t>(mesh.notes.size()));
-  for (const std::string& note : mesh.notes) out.put(note);
+  out.put(true);
+  for (const auto* lines : {&mesh.notes, &mesh.files}) {
+    out.put(static_cast<std::uint64_t>(lines->size()));
+    for (const std::string& line : *lines) out.put(line);
+  }
   Bytes bytes = out.take();
   const Bytes scene = encode(mesh.scene);
   bytes.insert(bytes.end(), scene.begin(), scene.end());
@@ -60,9 +63,11 @@ ReadMesh mesh_of(const Bytes& answer) {
     throw InputError(report);
   }
   ReadMesh mesh;
-  std::uint64_t notes = 0;
-  in.get(notes);
-  for (; notes > 0; --notes) in.get(mesh.notes.emplace_back());
+  for (auto* lines : {&mesh.notes, &mesh.files}) {
+    std::uint64_t count = 0;
+    in.get(count);
+    for (; count > 0; --count) in.get(lines->emplace_back());
+  }
   mesh.scene = decode_scene(in.rest());
   return mesh;
 }

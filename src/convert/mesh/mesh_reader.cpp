@@ -1,5 +1,6 @@
 #include "convert/mesh/mesh_reader.h"
 
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/camera.h>
 #include <assimp/light.h>
 #include <assimp/material.h>
@@ -87,7 +88,7 @@ class SceneReader {
     note(skins_, "meshes with a skin stand in the pose that they are bound in");
     move_camera();
     drop_unused_tracks();
-    return {without_resting_nodes(std::move(scene_)), std::move(notes_)};
+    return {without_resting_nodes(std::move(scene_)), std::move(notes_), textures_.files()};
   }
 
  private:
@@ -438,6 +439,7 @@ ReadMesh read_mesh(const std::string& path) {
   for (const auto& [name, reason] : files->unread())
     mesh.notes.push_back((name.ends_with(".mtl") ? "the material library '" : "the file '") +
                          printable(name) + "' is left out: " + reason);
+  mesh.files.insert(mesh.files.end(), files->opened().begin(), files->opened().end());
   return mesh;
 }
 

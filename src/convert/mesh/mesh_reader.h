@@ -14,6 +14,7 @@ bool is_mesh_extension(const std::string& extension);
 struct ReadMesh {
   SceneDescription scene;          // named as the file; without view or lights when the file has none
   std::vector<std::string> notes;  // for people: what was left out or approximated
+  std::vector<std::string> files;  // all that were opened, by path
 };
 
 // Reads polygons, materials, camera and lights, in world space. Polygons have normals where these differ from

@@ -47,9 +47,10 @@ std::optional<TextureIndex> MeshTextures::intern(const std::string& path, std::v
   return found->second;
 }
 
-Image MeshTextures::picture(const std::string& path) const {
+Image MeshTextures::picture(const std::string& path) {
   if (const aiTexture* texture = from_.GetEmbeddedTexture(path.c_str())) return embedded(*texture);
-  return read_image(folder_.find(path));
+  files_.push_back(folder_.find(path).string());
+  return read_image(files_.back());
 }
 
 }  // namespace pprt

@@ -26,12 +26,16 @@ class MeshTextures {
   std::optional<TextureIndex> intern(const std::string& path, std::vector<Texture>& textures,
                                      std::vector<std::string>& notes);
 
+  // Returns the files that were opened, by path.
+  const std::vector<std::string>& files() const { return files_; }
+
  private:
-  Image picture(const std::string& path) const;
+  Image picture(const std::string& path);
 
   const aiScene& from_;
   ModelFolder folder_;
   std::map<std::string, std::optional<TextureIndex>> known_;
+  std::vector<std::string> files_;
 };
 
 }  // namespace pprt

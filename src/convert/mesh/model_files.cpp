@@ -26,14 +26,20 @@ bool ModelFiles::Exists(const char* file) const {
 
 Assimp::IOStream* ModelFiles::Open(const char* file, const char* mode) {
   if (std::string_view(mode).find_first_of("wa+") != std::string_view::npos) return nullptr;
-  if (model_ == file) return DefaultIOSystem::Open(file, mode);
+  if (model_ == file) return note_opened(file, mode);
   const std::string name = name_in_folder(file);
   try {
-    return DefaultIOSystem::Open(folder_.find(name).c_str(), mode);
+    return note_opened(folder_.find(name).string(), mode);
   } catch (const std::exception& e) {
     if (!is_guess(name)) unread_.try_emplace(name, e.what());
     return nullptr;
   }
+}
+
+Assimp::IOStream* ModelFiles::note_opened(const std::string& path, const char* mode) {
+  Assimp::IOStream* const stream = DefaultIOSystem::Open(path.c_str(), mode);
+  if (stream != nullptr) opened_.push_back(path);
+  return stream;
 }
 
 // Assimp looks for some files that no mesh names, by the name of the mesh. An .obj comes with an .mtl, a

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "convert/mesh/model_folder.h"
 
@@ -20,15 +21,20 @@ class ModelFiles : public Assimp::DefaultIOSystem {
   // Returns null for what cannot be read.
   Assimp::IOStream* Open(const char* file, const char* mode) override;
 
+  // Paths of the files that were opened.
+  const std::vector<std::string>& opened() const { return opened_; }
+
   // What the mesh names and cannot be read, with the reason.
   const std::map<std::string, std::string>& unread() const { return unread_; }
 
  private:
+  Assimp::IOStream* note_opened(const std::string& path, const char* mode);
   std::string name_in_folder(const std::string& file) const;
   bool is_guess(const std::filesystem::path& name) const;
 
   std::filesystem::path model_;
   ModelFolder folder_;
+  std::vector<std::string> opened_;
   std::map<std::string, std::string> unread_;
 };
 

@@ -12,11 +12,6 @@
 
 namespace pprt {
 
-struct NamedFile {
-  std::string role;  // for messages: "the scene", "--film"
-  std::filesystem::path path;
-};
-
 // Pictures that the run writes.
 struct OutputFiles {
   std::vector<FramePattern> pictures;  // of each frame; empty: nothing is written

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <csignal>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -23,11 +24,12 @@ constexpr const char* kMissing = "--film needs ffmpeg, which is not on the PATH 
 }
 
 // Starts ffmpeg in a process group of its own. A terminal's Ctrl-C then reaches this process alone, which
-// lets ffmpeg finish the film.
+// lets ffmpeg finish the film. One that hangs, and may hear no other signal, is killed with this process.
 Subprocess start_encoder(std::vector<std::string> command, StreamTo input) {
   try {
-    return Subprocess(std::move(command),
-                      {.input = input, .output = StreamTo::kNothing, .own_process_group = true});
+    return Subprocess(
+        std::move(command),
+        {.input = input, .output = StreamTo::kNothing, .own_process_group = true, .signal_at_end = SIGKILL});
   } catch (const ProgramNotFound&) {
     throw std::runtime_error(kMissing);
   }
@@ -99,6 +101,7 @@ void encode(const std::filesystem::path& film, const Words& encoding, const std:
   const Image first = read_image(pictures.front());
   Subprocess encoder =
       start_encoder(ffmpeg_command(first, frames_per_second, encoding, output.string()), StreamTo::kPipe);
+  bool is_taken = true;
   for (const std::filesystem::path& picture : pictures) {
     const Image image = read_image(picture);
     if (image.width != first.width || image.height != first.height) {
@@ -106,11 +109,14 @@ void encode(const std::filesystem::path& film, const Words& encoding, const std:
                                pictures.front().string() + "'");
     }
     const std::vector<std::uint8_t> bytes = display_bytes(image);
-    if (!encoder.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()})) break;
+    is_taken = encoder.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    if (!is_taken) break;
   }
-  if (const int code = encoder.wait().code; code != 0) {
+  is_taken = encoder.end_input() && is_taken;
+  if (const int code = encoder.wait().code; code != 0)
     fail(film, fmt::format("ffmpeg ended with code {}", code));
-  }
+  if (!is_taken) fail(film, "ffmpeg ended before it had taken all frames");
+  if (std::filesystem::file_size(output) == 0) fail(film, "ffmpeg has written nothing");
 }
 
 }  // namespace

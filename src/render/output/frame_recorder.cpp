@@ -1,7 +1,12 @@
 #include "render/output/frame_recorder.h"
 
+#include <fmt/core.h>
+
+#include <algorithm>
 #include <filesystem>
 #include <future>
+#include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include "cli/options/version.h"
@@ -49,7 +54,7 @@ Metadata header_metadata(Json record) {
   return metadata;
 }
 
-std::set<int> frames_in(const Manifest& manifest, const RenderPlan& plan) {
+std::set<int> frames_in(const EarlierManifest& manifest, const RenderPlan& plan) {
   const std::vector<FramePattern> files = files_of_a_frame(plan.output);
   std::vector<std::string> layers;
   for (const Layer layer : plan.output.layers) layers.emplace_back(name_of(layer));
@@ -80,11 +85,12 @@ std::unique_ptr<BalanceTraceWriter> trace_of(const RenderPlan& plan, int ranks) 
 FrameRecorder::FrameRecorder(const RunIdentity& run, const CompiledScene& scene, ProgressReporter& progress)
     : plan_(run.plan),
       scene_(scene),
+      earlier_(manifest_path(plan_.output.pictures.front()), run_key(run), plan_.output.existing,
+               rewritten_files(plan_)),
+      finished_before_(frames_in(earlier_, plan_)),
       ledger_(plan_.report.ledger, plan_.output.existing),
       trace_(trace_of(plan_, run.ranks)),
-      manifest_(manifest_path(plan_.output.pictures.front()), run_key(run), plan_.output.existing,
-                rewritten_files(plan_)),
-      finished_before_(frames_in(manifest_, plan_)),
+      manifest_(std::move(earlier_)),
       written_(finished_before_),
       writer_(plan_.output.pictures, {.overwrite = true, .is_hurried = is_hurried(plan_.settings)}),
       progress_(progress) {
@@ -155,8 +161,15 @@ std::vector<Measurement> FrameRecorder::measurements_of(const FinishedFrame& fra
   return measurements;
 }
 
+// A frame that the manifest does not tell of is not finished. Its error ends the run as that of a frame does.
 void FrameRecorder::note_written(const std::vector<WrittenFrame>& frames) {
-  manifest_.add(frames);
+  if (manifest_error_) return;
+  try {
+    manifest_.add(frames);
+  } catch (const std::exception&) {
+    manifest_error_ = std::current_exception();
+    return;
+  }
   for (const WrittenFrame& frame : frames) written_.insert(frame.frame);
 }
 
@@ -182,14 +195,33 @@ void FrameRecorder::make_film() const {
 }
 
 int FrameRecorder::frames_in_place() const {
-  return static_cast<int>(written_.size() - finished_before_.size());
+  return static_cast<int>(
+      std::count_if(written_.begin(), written_.end(), [&](int frame) { return !finished_before(frame); }));
+}
+
+// Notes the last frames, and forgets those whose files have been removed since they were written. Returns the
+// number of the latter.
+std::size_t FrameRecorder::settle_files() {
+  note_written(writer_.take_finished());
+  const std::vector<FramePattern> files = files_of_a_frame(plan_.output);
+  return std::erase_if(written_, [&](int frame) {
+    return std::any_of(files.begin(), files.end(), [&](const FramePattern& file) {
+      std::error_code unknown;
+      return !std::filesystem::exists(file_name(file, frame), unknown);
+    });
+  });
 }
 
 void FrameRecorder::finish(bool stopped) {
   const std::string where = names_of(plan_.output.pictures);
   try {
     writer_.finish();
-    note_written(writer_.take_finished());
+    const std::size_t removed = settle_files();
+    if (manifest_error_) std::rethrow_exception(manifest_error_);
+    if (removed > 0) {
+      throw std::runtime_error(
+          fmt::format("of {} frames written, {} are not there any more", written_.size() + removed, removed));
+    }
     write_contact_sheet();
     make_film();
     if (serial_) serial_->catch_up();
@@ -197,7 +229,7 @@ void FrameRecorder::finish(bool stopped) {
     ledger_.finish();
     ledger_.write(summary_record(totals_, plan_.settings.frames_per_second > 0));
   } catch (...) {
-    note_written(writer_.take_finished());
+    settle_files();
     progress_.finish(RunEnd::kFailed, frames_in_place(), totals_, where);
     throw;
   }

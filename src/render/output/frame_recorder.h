@@ -2,6 +2,7 @@
 // the rest happens in threads of its own.
 #pragma once
 
+#include <exception>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -30,8 +31,10 @@ class FrameRecorder {
   // Traces the frame's balancing. Everything else is left out where an earlier run has finished the frame.
   void record(FinishedFrame&& frame);
 
-  // Whether a frame or its trace could not be written, so that going on serves nothing.
-  bool failed() const { return writer_.error().has_value() || (trace_ && trace_->failed()); }
+  // Whether a frame, its trace or the manifest could not be written, so that going on serves nothing.
+  bool failed() const {
+    return writer_.error().has_value() || manifest_error_ || (trace_ && trace_->failed());
+  }
 
   // Prints a line of status; may be called from any thread.
   void status() const;
@@ -46,6 +49,7 @@ class FrameRecorder {
   LayerMaker layers_of(FinishedFrame& frame) const;
   std::vector<Measurement> measurements_of(const FinishedFrame& frame);
   void note_written(const std::vector<WrittenFrame>& frames);
+  std::size_t settle_files();
   void write_contact_sheet() const;
   void make_film() const;
   int frames_in_place() const;  // that this run has written
@@ -53,10 +57,14 @@ class FrameRecorder {
   const RenderPlan& plan_;
   const CompiledScene& scene_;
   std::optional<SerialComparison> serial_;
-  Ledger ledger_;  // before the manifest, which must stand as it was when no ledger can be written
-  std::unique_ptr<BalanceTraceWriter> trace_;  // likewise; null: none
-  Manifest manifest_;
+  // A manifest that does not go on ends the run before anything is written. It is written itself when ledger
+  // and trace are: where they cannot be, it must stand as it was.
+  EarlierManifest earlier_;
   std::set<int> finished_before_;
+  Ledger ledger_;
+  std::unique_ptr<BalanceTraceWriter> trace_;  // null: none
+  Manifest manifest_;
+  std::exception_ptr manifest_error_;
   std::set<int> written_;  // frames whose files are whole, those of earlier runs too
   FrameWriter writer_;
   mutable std::mutex mutex_;  // guards what follows

@@ -17,11 +17,14 @@
 namespace pprt {
 namespace {
 
-// Returns the files that the run reads. A scene that is generated has none.
-std::vector<NamedFile> input_files(const std::string& script, const std::string& scene,
-                                   const std::string& config, const std::string& hostfile) {
-  std::vector<NamedFile> files = {{"the script", script}, {"--config", config}, {"--hostfile", hostfile}};
+// Returns the files that have been read: those named, then what these include, show and move.
+std::vector<NamedFile> input_files(const Sources& sources, const std::string& config,
+                                   const std::string& hostfile) {
+  const std::string& scene = sources.scene_path;
+  std::vector<NamedFile> files = {
+      {"the script", sources.script_path}, {"--config", config}, {"--hostfile", hostfile}};
   if (!is_spd_name(scene)) files.push_back({"the scene", scene == "-" ? "/dev/stdin" : scene});
+  for (const std::string& file : sources.scene.files) files.push_back({"the input", file});
   std::erase_if(files, [](const NamedFile& file) { return file.path.empty(); });
   return files;
 }
@@ -141,22 +144,21 @@ RenderPlan plan_of(const RenderOptions& options, Sources& sources) {
       options.report.compare_serial || std::any_of(output.layers.begin(), output.layers.end(), needs_samples);
   settle_end(options.end, fps, options.ranks.go_on, settings);
 
-  return {
-      .scene_name = absolute_scene_name(sources.scene_path),
-      .objects = absolute_objects(sources),
-      .script_name = sources.script ? sources.script->animation.name : "",
-      .script_frames = std::move(all),
-      .frames = std::move(frames),
-      .renders = !options.report.census || names_pictures,
-      .inputs = input_files(sources.script_path, sources.scene_path, options.config, options.ranks.hostfile),
-      .output = std::move(output),
-      .report = options.report,
-      .settings = settings,
-      .goes_on = options.ranks.go_on,
-      .live = options.live,
-      .compile = options.compile,
-      .warnings = sources.warnings(),
-      .scene = std::move(sources.scene.scene)};
+  return {.scene_name = absolute_scene_name(sources.scene_path),
+          .objects = absolute_objects(sources),
+          .script_name = sources.script ? sources.script->animation.name : "",
+          .script_frames = std::move(all),
+          .frames = std::move(frames),
+          .renders = !options.report.census || names_pictures,
+          .inputs = input_files(sources, options.config, options.ranks.hostfile),
+          .output = std::move(output),
+          .report = options.report,
+          .settings = settings,
+          .goes_on = options.ranks.go_on,
+          .live = options.live,
+          .compile = options.compile,
+          .warnings = sources.warnings(),
+          .scene = std::move(sources.scene.scene)};
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/file_table.h"
 #include "live/address.h"
 #include "parallel/settings/session_settings.h"
 #include "render/options/outputs.h"

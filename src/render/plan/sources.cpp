@@ -35,8 +35,7 @@ void add_objects(Sources& sources, bool strict) {
   const FrameTimes times = frame_times(sources);
   const std::size_t own_nodes = scene.movement.nodes.size();
   for (const SceneNode& node : scene.movement.nodes) sources.own_names.insert(node.track);
-  sources.scene.warnings +=
-      add_objects(scene, sources.script->animation, sources.script_path, times, {.strict = strict});
+  add_objects(sources.scene, sources.script->animation, sources.script_path, times, {.strict = strict});
   if (scene.movement.nodes.size() > own_nodes) scene = without_resting_nodes(std::move(scene));
   if (scene.movement.nodes.size() > 1) scene.movement.times = times;
 }

@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/diagnostics.h"
 #include "cli/process/exit.h"
 
 namespace pprt {
@@ -19,6 +20,15 @@ Json rays_record(const RayCounts& rays) {
           {"reflection", rays.reflection},
           {"refraction", rays.refraction},
           {"visibility", rays.visibility}};
+}
+
+// Returns the first line, or its beginning where it is longer than any that a run begins with.
+std::string first_line(const std::filesystem::path& path) {
+  std::string begin(std::size_t{1} << 16, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(file.gcount()));
+  return begin.substr(0, begin.find('\n'));
 }
 
 // Whether the file is empty or its last line is complete; a killed process may leave one that is not.
@@ -86,6 +96,21 @@ bool is_open_stream(const std::filesystem::path& path) {
   const std::string name = path.lexically_normal().string();
   return name == "/dev/stdout" || name == "/dev/stderr" || name.starts_with("/dev/fd/") ||
          name.starts_with("/proc/self/fd/");
+}
+
+void require_continuable(const std::filesystem::path& path, std::string_view record, std::string_view kind) {
+  std::error_code unknown;  // then opening will tell
+  if (!std::filesystem::is_regular_file(path, unknown) || is_open_stream(path)) return;
+  const Json first = Json::parse(first_line(path), nullptr, false);
+  const auto has = [&](const char* key, Json::value_t type) {
+    return first.is_object() && first.contains(key) && first[key].type() == type;
+  };
+  // A manifest's first line has no version.
+  const bool is_one = has("record", Json::value_t::string) && first["record"] == record &&
+                      has("version", Json::value_t::string);
+  if (is_one || std::filesystem::is_empty(path)) return;
+  throw UsageError(fmt::format("--resume: {} is there already and is no {}; --overwrite replaces it",
+                               path.string(), kind));
 }
 
 AppendedFile open_lines(const std::filesystem::path& path, ExistingFiles existing) {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "image/atomic_file.h"
@@ -25,6 +26,11 @@ Json frame_record(const FrameSummary& frame);
 
 // Returns the last record. `has_rate`: frames had deadlines, so that lateness is reported.
 Json summary_record(const RunTotals& totals, bool has_rate);
+
+// Throws UsageError when a resumed run cannot add to an existing file: its first line is not the record of a
+// run as pprt-render writes it. `record`: its name, "run" in a ledger and "trace" in a balancing trace;
+// `kind`: what such a file is, for the message. An empty file is one; pipes and devices are not asked.
+void require_continuable(const std::filesystem::path& path, std::string_view record, std::string_view kind);
 
 // Opens a file to which a run writes lines. A resumed run adds to it; otherwise a new file takes its name.
 // What is no file is written to as it is: a pipe, a device, a stream of this process. Throws

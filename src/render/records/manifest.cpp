@@ -1,31 +1,22 @@
 #include "render/records/manifest.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <cstdint>
+#include <charconv>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 #include "base/diagnostics.h"
-#include "image/image_io.h"
+#include "image/checksum.h"
 #include "render/records/json_names.h"
 
 namespace pprt {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// Returns the names in a record's array; none where there is no such array.
-std::set<std::string> names_in(const Json& record, const char* key) {
-  std::set<std::string> names;
-  const auto found = record.find(key);
-  if (found == record.end() || !found->is_array()) return names;
-  for (const Json& entry : *found) {
-    if (std::optional<std::string> name = name_in(entry)) names.insert(*std::move(name));
-  }
-  return names;
-}
 
 std::string text_of(const Json& record, const char* key) {
   const auto found = record.find(key);
@@ -38,34 +29,70 @@ Json record_in(std::string_view line) {
   return record.is_object() ? record : Json::object();
 }
 
-// Returns a frame's record.
-template <typename Names>
-Json frame_entry(int frame, const Names& files, const Json& layers) {
-  Json names = Json::array();
-  for (const auto& file : files) names.push_back(json_name(file));
-  Json record = {{"record", "frame"}, {"frame", frame}, {"files", names}};
+// A file in a frame's record.
+struct Entry {
+  std::string name;
+  std::optional<std::uint32_t> crc32;
+};
+
+// Returns a frame's record. Its key tells that of its run, whoever has written to the same manifest.
+Json frame_entry(int frame, const std::vector<Entry>& files, const Json& layers, const std::string& key) {
+  Json names = Json::array(), sums = Json::array();
+  for (const Entry& file : files) {
+    names.push_back(json_name(file.name));
+    sums.push_back(file.crc32 ? Json(fmt::format("{:08x}", *file.crc32)) : Json());
+  }
+  Json record = {{"record", "frame"}, {"frame", frame}, {"files", names}, {"crc32", sums}};
   if (!layers.empty()) record["layers"] = layers;
+  record["key"] = key;
   return record;
 }
 
-// An existing manifest: its text, its first line's key, and the lines after it.
+// Returns the array of this name; an empty one where there is none.
+Json array_in(const Json& record, const char* key) {
+  const auto found = record.find(key);
+  return found != record.end() && found->is_array() ? *found : Json::array();
+}
+
+// Returns the number of eight hexadecimal digits; nullopt for anything else.
+std::optional<std::uint32_t> crc32_in(const Json& value) {
+  if (!value.is_string()) return std::nullopt;
+  const auto& text = value.get_ref<const std::string&>();
+  std::uint32_t sum = 0;
+  const std::from_chars_result end = std::from_chars(text.data(), text.data() + text.size(), sum, 16);
+  if (text.size() != 8 || end.ptr != text.data() + text.size()) return std::nullopt;
+  return sum;
+}
+
+// Returns the files of a frame's record. One whose checksum cannot be read equals no file.
+std::vector<Entry> entries_in(const Json& record) {
+  const Json names = array_in(record, "files"), sums = array_in(record, "crc32");
+  std::vector<Entry> entries;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (std::optional<std::string> name = name_in(names[i]))
+      entries.push_back({*std::move(name), i < sums.size() ? crc32_in(sums[i]) : std::nullopt});
+  }
+  return entries;
+}
+
+// An existing manifest: its first line's key and format, and the lines after it.
 struct Parts {
-  std::string text;
   std::string key;
   std::int64_t format = 0;
   std::string rest;
 };
 
-std::optional<Parts> parts_of(const std::filesystem::path& path) {
-  if (!std::filesystem::is_regular_file(path)) return std::nullopt;
-  Parts parts{.text = read_whole_file(path), .key = {}, .format = 0, .rest = {}};
-  const std::size_t end = std::min(parts.text.find('\n'), parts.text.size());
-  const Json run = record_in(std::string_view(parts.text).substr(0, end));
+std::optional<Parts> parts_of(const std::optional<std::string>& content) {
+  if (!content) return std::nullopt;
+  const std::string_view text = *content;
+  Parts parts;
+  const std::size_t end = std::min(text.find('\n'), text.size());
+  const Json run = record_in(text.substr(0, end));
   parts.key = text_of(run, "key");
   const auto format = run.find("format");
   if (format != run.end() && format->is_number_integer()) parts.format = format->get<std::int64_t>();
-  if (end < parts.text.size()) parts.rest = parts.text.substr(end + 1);
-  if (parts.key.empty() && end == parts.text.size()) return std::nullopt;  // the first line never came
+  if (end < text.size()) parts.rest = text.substr(end + 1);
+  if (parts.key.empty() && end == text.size()) return std::nullopt;  // the first line never came
   return parts;
 }
 
@@ -96,59 +123,62 @@ std::filesystem::path manifest_path(const FramePattern& output) {
   return before.parent_path() / (stem + "manifest.ndjson");
 }
 
-Manifest::Manifest(const std::filesystem::path& path, const std::string& key, ExistingFiles existing,
-                   const std::set<std::string>& rewritten) {
-  const std::optional<Parts> parts = parts_of(path);
-  std::string lines = Json{{"record", "run"}, {"format", kManifestFormat}, {"key", key}}.dump() + "\n";
-  if (parts && goes_on(*parts, path, key, existing)) {
-    lines += read(parts->rest, existing == ExistingFiles::kResume ? std::set<std::string>() : rewritten);
-  }
-  if (!parts || parts->text != lines) write_whole_file(path, lines);
-  file_ = AppendedFile(path);
+EarlierManifest::EarlierManifest(const std::filesystem::path& path, const std::string& key,
+                                 ExistingFiles existing, const std::set<std::string>& rewritten)
+    : claim_(path), key_(key) {
+  lines_ = Json{{"record", "run"}, {"format", kManifestFormat}, {"key", key}}.dump() + "\n";
+  const std::optional<Parts> parts = parts_of(claim_.content());
+  if (parts && goes_on(*parts, path, key, existing))
+    read(parts->rest, existing == ExistingFiles::kResume ? std::set<std::string>() : rewritten);
 }
 
-// Takes in the records of frames and returns their lines, without the files that are rewritten.
-std::string Manifest::read(const std::string& lines, const std::set<std::string>& rewritten) {
+// Takes in the records of this run's frames, without the files that are rewritten.
+void EarlierManifest::read(const std::string& lines, const std::set<std::string>& rewritten) {
   std::istringstream in(lines);
-  std::string kept;
   for (std::string line; std::getline(in, line);) {
     const Json record = record_in(line);
-    if (text_of(record, "record") != "frame" || !record.contains("frame") ||
-        !record["frame"].is_number_integer()) {
-      continue;
-    }
-    std::set<std::string> files = names_in(record, "files");
-    if (std::erase_if(files, [&](const std::string& file) { return rewritten.count(file) != 0; }) > 0) {
-      const Json layers = record.contains("layers") ? record["layers"] : Json::array();
-      line = frame_entry(record["frame"].get<int>(), files, layers).dump();
-    }
+    const auto number = record.find("frame");
+    if (text_of(record, "record") != "frame" || text_of(record, "key") != key_) continue;
+    if (number == record.end() || !number->is_number_integer()) continue;
+    std::vector<Entry> files = entries_in(record);
+    std::erase_if(files, [&](const Entry& file) { return rewritten.contains(file.name); });
     if (files.empty()) continue;
-    kept += line + "\n";
-    auto& written = written_before_[record["frame"].get<int>()];
-    for (const std::string& file : files) written[file] = names_in(record, "layers");
+    const int frame = number->get<int>();
+    const Json layers = array_in(record, "layers");
+    lines_ += frame_entry(frame, files, layers, key_).dump() + "\n";
+    std::set<std::string> names;
+    for (const Json& layer : layers) names.insert(name_in(layer).value_or(""));
+    for (const Entry& file : files) frames_[frame][file.name] = {file.crc32, names};
   }
-  return kept;
 }
 
-bool Manifest::has(int frame, const std::vector<FramePattern>& files,
-                   const std::vector<std::string>& layers) const {
-  const auto found = written_before_.find(frame);
-  if (found == written_before_.end()) return false;
+bool EarlierManifest::has(int frame, const std::vector<FramePattern>& files,
+                          const std::vector<std::string>& layers) const {
+  const auto found = frames_.find(frame);
+  if (found == frames_.end()) return false;
   return std::all_of(files.begin(), files.end(), [&](const FramePattern& pattern) {
-    const std::filesystem::path file = file_name(pattern, frame);
-    const auto written = found->second.find(file.string());
-    if (written == found->second.end() || !looks_whole(file)) return false;
-    return !holds_channels(pattern) ||
-           std::all_of(layers.begin(), layers.end(),
-                       [&](const std::string& layer) { return written->second.count(layer) != 0; });
+    const std::filesystem::path path = file_name(pattern, frame);
+    const auto written = found->second.find(path.string());
+    if (written == found->second.end()) return false;
+    const File& file = written->second;
+    if (holds_channels(pattern) && !std::all_of(layers.begin(), layers.end(), [&](const std::string& layer) {
+          return file.layers.contains(layer);
+        }))
+      return false;
+    return file.crc32 && crc32_of_file(path) == file.crc32;
   });
 }
 
+Manifest::Manifest(EarlierManifest&& earlier)
+    : key_(std::move(earlier.key_)), file_(std::move(earlier.claim_).replace(earlier.lines_)) {}
+
 void Manifest::add(const std::vector<WrittenFrame>& frames) {
+  if (frames.empty()) return;
+  file_.require_in_place();
   for (const WrittenFrame& frame : frames) {
-    std::vector<std::string> files;
-    for (const std::filesystem::path& file : frame.files) files.push_back(file.string());
-    file_.append(frame_entry(frame.frame, files, frame.layers).dump() + "\n");
+    std::vector<Entry> files;
+    for (const WrittenFile& file : frame.files) files.push_back({file.path.string(), file.crc32});
+    file_.append(frame_entry(frame.frame, files, frame.layers, key_).dump() + "\n");
   }
 }
 

@@ -57,6 +57,19 @@ TEST_CASE("a captured run takes input and output larger than any pipe") {
   CHECK(run_captured({"true"}, text).status.code == 0);  // which reads none of it
 }
 
+TEST_CASE("a subprocess that leaves input unread is told from one that takes all") {
+  const auto takes_all = [](const char* script) {
+    Subprocess program({"sh", "-c", script}, {.input = StreamTo::kPipe, .output = StreamTo::kNothing});
+    const bool is_written = program.write("four");
+    const bool is_taken = program.end_input();
+    CHECK(program.wait().code == 0);
+    return is_written && is_taken;
+  };
+  CHECK(takes_all("cat"));
+  CHECK_FALSE(takes_all("head -c 2"));
+  CHECK_FALSE(takes_all("sleep 0.1"));
+}
+
 TEST_CASE("writing to a subprocess that has ended fails without a signal") {
   Subprocess program({"true"}, {.input = StreamTo::kPipe});
   const std::string much(std::size_t{1} << 20, 'x');

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "image/atomic_file.h"
+#include "image/checksum.h"
 #include "unit/image/temporary_directory.h"
 
 namespace fs = std::filesystem;
@@ -30,6 +31,12 @@ std::vector<int> numbers(const std::vector<WrittenFrame>& frames) {
   return result;
 }
 
+std::vector<fs::path> paths(const WrittenFrame& frame) {
+  std::vector<fs::path> result;
+  for (const WrittenFile& file : frame.files) result.push_back(file.path);
+  return result;
+}
+
 }  // namespace
 
 TEST_CASE("all frames are written in order, to all outputs") {
@@ -45,11 +52,12 @@ TEST_CASE("all frames are written in order, to all outputs") {
 
   const std::vector<WrittenFrame> finished = writer.take_finished();
   CHECK(numbers(finished) == expected);
-  CHECK(finished[6].files ==
+  CHECK(paths(finished[6]) ==
         std::vector<fs::path>{directory.path() / "out/0007.exr", directory.path() / "p_07.png"});
   for (const WrittenFrame& frame : finished) {
-    CHECK(read_image(frame.files[1]).pixels == picture_of(frame.frame).pixels);
-    CHECK(read_image(frame.files[0]).at(0, 0).x == Approx(frame.frame / 255.0).epsilon(1e-3));
+    CHECK(read_image(frame.files[1].path).pixels == picture_of(frame.frame).pixels);
+    for (const WrittenFile& file : frame.files) CHECK(crc32_of_file(file.path) == file.crc32);
+    CHECK(read_image(frame.files[0].path).at(0, 0).x == Approx(frame.frame / 255.0).epsilon(1e-3));
   }
   CHECK(writer.take_finished().empty());
   CHECK(!writer.error());
@@ -73,9 +81,9 @@ TEST_CASE("layers are channels of an EXR and pictures beside a PNG, made when th
   const std::vector<WrittenFrame> finished = writer.take_finished();
   REQUIRE(finished.size() == 1);
   CHECK(finished[0].layers == layers.names);
-  CHECK(finished[0].files == std::vector<fs::path>{directory.path() / "3.exr", directory.path() / "3.png",
-                                                   directory.path() / "3.a.png",
-                                                   directory.path() / "3.b.png"});
+  CHECK(paths(finished[0]) == std::vector<fs::path>{directory.path() / "3.exr", directory.path() / "3.png",
+                                                    directory.path() / "3.a.png",
+                                                    directory.path() / "3.b.png"});
   CHECK(read_whole_file(directory.path() / "3.png") == encode_png(picture_of(3)));
   CHECK(read_whole_file(directory.path() / "3.a.png") ==
         encode_png(Image(4, 2, Color(1, 1, 1)), {}, PictureKind::kDrawn));

@@ -1,0 +1,86 @@
+// Which frames are told of as finished when some could not be written.
+#include "render/output/frame_recorder.h"
+
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <string>
+#include <thread>
+
+#include "parser/nff_parser.h"
+#include "unit/image/temporary_directory.h"
+
+namespace pprt {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kScene =
+    "v from 0 0 5 at 0 0 0 up 0 1 0 angle 45 hither 1 resolution 8 8\n"
+    "b 0 0 1\nl 5 5 5\nf 1 1 1 1 0 0 0 1\ns 0 0 0 1\n";
+
+// A run of three frames into a directory of its own.
+struct ThreeFrames {
+  TemporaryDirectory directory;
+  RenderPlan plan;
+  CompiledScene scene;
+  ProgressReporter progress{ProgressKind::kNone};
+
+  ThreeFrames() : scene((plan.scene = parse_nff(kScene, "t.nff").scene, compile(plan.scene, {}))) {
+    for (const int number : {1, 2, 3}) plan.frames.push_back({.number = number, .view = *plan.scene.view});
+    plan.script_frames = plan.frames;
+    const std::string name = (directory.path() / "out/%d.png").string();
+    plan.output.pictures = {parse_frame_pattern(name, FrameCount::kMany)};
+  }
+  fs::path picture(int frame) const { return directory.path() / "out" / (std::to_string(frame) + ".png"); }
+
+  static void record(FrameRecorder& recorder, int number) {
+    FinishedFrame frame;
+    frame.order.number = number;
+    frame.image = Image(8, 8, Color(0.5F, 0.5F, 0.5F));
+    recorder.record(std::move(frame));
+  }
+
+  // Numbers of the frames that the manifest tells of.
+  std::set<int> told() const {
+    std::set<int> frames;
+    std::ifstream manifest(directory.path() / "out/manifest.ndjson");
+    for (std::string line; std::getline(manifest, line);) {
+      const Json record = Json::parse(line);
+      if (record["record"] == "frame") frames.insert(record["frame"].get<int>());
+    }
+    return frames;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("frames written after one that could not be are in the manifest") {
+  ThreeFrames run;
+  FrameRecorder recorder({run.plan, 1, "hash"}, run.scene, run.progress);
+  fs::create_directory(run.picture(2));
+  for (const int number : {1, 2, 3}) run.record(recorder, number);
+  CHECK_THROWS_WITH(recorder.finish(false), Catch::Contains("2.png': it is a directory"));
+  CHECK(run.told() == std::set<int>{1, 3});
+}
+
+TEST_CASE("frames whose directory is removed in mid-run are missed") {
+  ThreeFrames run;
+  FrameRecorder recorder({run.plan, 1, "hash"}, run.scene, run.progress);
+  run.record(recorder, 1);
+  while (!fs::exists(run.picture(1))) std::this_thread::yield();
+  fs::remove_all(run.directory.path() / "out");
+  for (const int number : {2, 3}) run.record(recorder, number);
+  CHECK_THROWS_WITH(recorder.finish(false), Catch::Contains("removed, renamed or replaced"));
+}
+
+TEST_CASE("frames that are removed in mid-run are missed, though the manifest stays") {
+  ThreeFrames run;
+  FrameRecorder recorder({run.plan, 1, "hash"}, run.scene, run.progress);
+  run.record(recorder, 1);
+  while (!fs::exists(run.picture(1))) std::this_thread::yield();
+  fs::remove(run.picture(1));
+  for (const int number : {2, 3}) run.record(recorder, number);
+  CHECK_THROWS_WITH(recorder.finish(false), "of 3 frames written, 1 are not there any more");
+}
+
+}  // namespace pprt
