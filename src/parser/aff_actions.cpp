@@ -316,25 +316,25 @@ std::size_t SceneBuilder::indices_of_a_row() const {
   return 3 * (1 + (mesh_.normals.empty() ? 0 : 1) + (mesh_.texture_points.empty() ? 0 : 1));
 }
 
-// Three vertices, then three normals, then three texture points, as far as there are such; files count
-// from 1.
+// Three vertices, then three normals, then three texture points, as far as there are such lists. Vertices
+// must be there: what reads the scene looks them up unasked.
 void SceneBuilder::triangle() {
   TriangleCorners triangle;
   std::size_t next = 0;
   const auto take = [&](std::array<std::uint32_t, 3>& indices, std::size_t size, const char* what) {
-    if (size == 0) return;
     for (std::uint32_t& index : indices) {
       const double value = numbers_[next++];
       if (!(value >= 0 && value < static_cast<double>(size) && value == std::floor(value))) {
-        throw ParseFailure{tried_,
-                           fmt::format("{:g} is no index of a {}: 'm' has {}, from 0 on", value, what, size)};
+        const std::string has = size > 0 ? fmt::format("{}, from 0 on", size) : "none";
+        throw ParseFailure{tried_, fmt::format("{:g} is no index of a {}: 'm' has {}", value, what, has)};
       }
       index = static_cast<std::uint32_t>(value);
     }
   };
   take(triangle.position, mesh_.positions.size(), "vertex");
-  take(triangle.normal, mesh_.normals.size(), "normal");
-  take(triangle.texture_point, mesh_.texture_points.size(), "texture coordinate");
+  if (!mesh_.normals.empty()) take(triangle.normal, mesh_.normals.size(), "normal");
+  if (!mesh_.texture_points.empty())
+    take(triangle.texture_point, mesh_.texture_points.size(), "texture coordinate");
   triangles_of_mesh_.push_back(triangle);
   numbers_.clear();
 }

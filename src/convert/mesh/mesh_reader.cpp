@@ -112,6 +112,7 @@ class SceneReader {
     namesakes_ += !names_.insert(from.mName.C_Str()).second;
     const Space space = space_of(from, parent);
     for (unsigned i = 0; i < from.mNumMeshes; ++i) {
+      if (from.mMeshes[i] >= from_.mNumMeshes) reject("a node names a mesh that is not there");
       mesh(*from_.mMeshes[from.mMeshes[i]], space);
       scene_.nodes.resize(scene_.order.size(), space.node);
     }
@@ -148,6 +149,7 @@ class SceneReader {
 
   // Not every reader of Assimp's does.
   void check_indices(const aiMesh& from) const {
+    if (from.mMaterialIndex >= from_.mNumMaterials) reject("a mesh names a material that is not there");
     for (const aiFace& face : std::span(from.mFaces, from.mNumFaces)) {
       for (const unsigned index : std::span(face.mIndices, face.mNumIndices)) {
         if (index >= from.mNumVertices) reject("a face names a vertex that is not there");

@@ -223,6 +223,23 @@ TEST_CASE("aff: problems are told with their place, all of them") {
   CHECK(report("tp 3").find("expected a directive of AFF, found 'tp'") != std::string::npos);
 }
 
+TEST_CASE("aff: every index of a mesh is judged, by the list that it is for") {
+  const auto mesh = [](const std::string& lists, const std::string& indices) {
+    return report("m vertices " + lists + " triangles 1 " + indices);
+  };
+  const std::string three = "3 0 0 0 1 0 0 0 1 0";
+  CHECK(mesh("0", "0 1 2").find("0 is no index of a vertex: 'm' has none") != std::string::npos);
+  CHECK(mesh("0 normals 1 0 0 1", "0 1 2 0 0 0").find("of a vertex: 'm' has none") != std::string::npos);
+  CHECK(mesh(three + " normals 1 0 0 1", "0 1 2 0 0 1").find("1 is no index of a normal: 'm' has 1") !=
+        std::string::npos);
+  CHECK(mesh(three + " texturecoords 2 t 0 0 1 1", "0 1 2 0 1 2")
+            .find("2 is no index of a texture coordinate: 'm' has 2") != std::string::npos);
+  CHECK(mesh(three, "0 1 -1").find("-1 is no index of a vertex") != std::string::npos);
+  CHECK(mesh(three, "0 1 .5").find("0.5 is no index of a vertex") != std::string::npos);
+  CHECK(mesh(three + " normals 0 texturecoords 0 t", "0 1 2").empty());
+  CHECK(report("m vertices 0 triangles 0").empty());
+}
+
 TEST_CASE("aff: deviations are warnings, or errors when reading is strict") {
   const std::string text =
       "s 0 0 0 1\nfm 1 1 1 1 1 1 1 1 1 1 .5 0\ns 0 0 0 0\ns 1 1 1 0\n"
