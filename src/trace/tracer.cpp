@@ -86,8 +86,7 @@ bool Tracer::visible(const Vec3f& hit, bool at_infinity) {
   const double start = distance_to_scene(scene_.impl(), camera_.eye, direction);
   const Vec3d origin = camera_.eye + direction * start;
   const double reach = std::max(sum_of_coordinates(Vec3d(hit)), sum_of_coordinates(origin));
-  const double gap =
-      visibility_gap(reach) + kFlattestCosine * std::min(kMaxTriangleOffset, pose_->rounding() * reach);
+  const double gap = visibility_gap(reach) + kFlattestCosine * instance_offset(pose_->rounding(), reach);
   const double length = at_infinity ? std::numeric_limits<double>::infinity() : distance - start - gap;
   if (!(length > 0)) return true;
   return !occluded(*pose_, Vec3f(origin), Vec3f(direction), static_cast<float>(length));
