@@ -63,9 +63,10 @@ FirstHit Tracer::first_hit(double x, double y) const {
   const Vec3d origin = camera_.eye + direction * distance_to_scene(scene_.impl(), camera_.eye, direction);
   const std::optional<VisibleSurface> surface = visible_surface(*pose_, Vec3f(origin), Vec3f(direction));
   if (!surface) return {};
+  constexpr double kMost = std::numeric_limits<float>::max();
   const double depth = (surface->position - camera_.eye).dot(camera_.forward);
-  return {static_cast<float>(depth / scene_.impl().normalisation.scale), Vec3f(surface->normal),
-          surface->primitive + 1, surface->material + 1};
+  return {static_cast<float>(std::clamp(depth / scene_.impl().normalisation.scale, -kMost, kMost)),
+          Vec3f(surface->normal), surface->primitive + 1, surface->material + 1};
 }
 
 GlassSeen Tracer::glass_seen(double x, double y) const {
