@@ -169,10 +169,13 @@ Image depth_picture(std::span<const FirstHit> hits, int width, int height) {
     if (hit.primitive == 0) continue;
     nearest = std::min(nearest, hit.depth), farthest = std::max(farthest, hit.depth);
   }
-  const float range = 1 / nearest - 1 / farthest;
+  // Nearer than that, as in the plane of a polygon through the eye, all is equally light.
+  const float least = farthest * 0x1p-16f;
+  const auto nearness = [&](float depth) { return 1 / std::max(depth, least); };
+  const float range = nearness(nearest) - nearness(farthest);
   return picture_of(hits, width, height, [&](const FirstHit& hit) {
     if (hit.primitive == 0) return Color(0, 0, 0);
-    return Color(range > 0 ? 0.1f + 0.9f * (1 / hit.depth - 1 / farthest) / range : 1.0f);
+    return Color(range > 0 ? 0.1f + 0.9f * (nearness(hit.depth) - nearness(farthest)) / range : 1.0f);
   });
 }
 

@@ -10,8 +10,10 @@
 #include "base/diagnostics.h"
 #include "scene/description/shading_rules.h"
 #include "scene/description/view_frame.h"
+#include "trace/embree_reach.h"
 #include "trace/numerics.h"
 #include "trace/parts_builder.h"
+#include "trace/scene_extent.h"
 #include "trace/scene_impl.h"
 
 namespace pprt {
@@ -25,63 +27,6 @@ Color to_color(const Rgb& rgb) {
   const std::string place =
       at.line > 0 ? name + ":" + std::to_string(at.line) + ":" + std::to_string(at.column) : name;
   throw InputError(place + ": error: " + problem);
-}
-
-// Returns the times that a scene's objects are looked at for their places.
-std::vector<double> times_of(const Movement& movement) {
-  std::vector<double> times;
-  if (movement.times) {
-    for (int i = 0; i < movement.times->frames; ++i) times.push_back(time_of_frame(*movement.times, i));
-    return times;
-  }
-  for (const auto& [name, track] : movement.tracks) {
-    for (const VectorKey& key : track.translation) times.push_back(key.time);
-    for (const VectorKey& key : track.scale) times.push_back(key.time);
-    for (const RotationKey& key : track.rotation) times.push_back(key.time);
-  }
-  times.push_back(0);  // such a scene has one frame, at this time
-  return times;
-}
-
-// Returns the box of all that the scene shows at its frames' times, or at its keys' if it has no frames.
-Box3d box_of_all_times(const SceneDescription& scene) {
-  std::vector<Box3d> boxes(scene.movement.nodes.size());  // of each node's objects, in its space
-  for (std::size_t place = 0; place < scene.order.size(); ++place)
-    boxes[node_of(scene, place)].extendBy(bounds(scene, scene.order[place]));
-  if (boxes.size() == 1) return boxes[0];
-  Box3d box;
-  for (const double time : times_of(scene.movement)) {
-    const std::vector<Placement> placements = placements_at(scene.movement, time);
-    for (std::size_t node = 0; node < boxes.size(); ++node)
-      box.extendBy(mapped(placements[node].to_parent, boxes[node]));
-  }
-  return box;
-}
-
-// Returns the origin of the compiled space, about which floats are finest. Usually it is the middle of the
-// scene's box.
-//
-// If nearly all of the scene is empty or one large object, floats are coarse for the rest. The origin is then
-// the mean of the objects' middles, weighted by 1 / size^2. Test: hard_surfaces_test.cpp, "a huge sphere
-// ...".
-Vec3d origin_for(const SceneDescription& scene, const Box3d& box) {
-  constexpr double kSmallDetail = 0x1p-14;  // share of the scene's size
-  constexpr double kNoExtent = 1e-12;       // of the scene's size; smaller ones would take all the weight
-  const double whole = (box.max - box.min).length();
-  double weights = 0, objects = 0;
-  Vec3d sum(0, 0, 0);  // of the objects' middles, relative to the box's middle
-  const Vec3d middle = box.min * 0.5 + box.max * 0.5;
-  for (std::size_t i = 0; i < scene.order.size(); ++i) {
-    if (node_of(scene, i) != 0) continue;
-    const Box3d own = bounds(scene, scene.order[i]);
-    const double size = (own.max - own.min).length() / whole;
-    if (!(size > kNoExtent)) continue;
-    ++objects;
-    weights += 1 / (size * size);
-    sum += (own.min * 0.5 + own.max * 0.5 - middle) * (1 / (size * size));
-  }
-  const double typical = objects > 0 ? std::sqrt(objects / weights) : 1;
-  return typical < kSmallDetail ? middle + sum * (1 / weights) : middle;
 }
 
 // Returns the radius of the sphere about the origin that contains the normalised box.
@@ -199,8 +144,9 @@ void add_lights(const SceneDescription& scene, CompiledScene::Impl& impl) {
   const double weight = scene.ambient ? 1 : light_weight(scene.lights.size());
   for (const Light& l : scene.lights) {
     if (!is_finite(l.position)) reject(scene.name, l.location, "the position of a light is not finite");
-    impl.lights.push_back(
-        {impl.normalisation.point(l.position), to_color(l.color.value_or(Rgb(1, 1, 1)) * weight), {}});
+    impl.lights.push_back({light_in_reach(l.position - impl.normalisation.center, impl.normalisation.scale),
+                           to_color(l.color.value_or(Rgb(1, 1, 1)) * weight),
+                           {}});
     impl.light_positions.push_back(l.position);
   }
   impl.light_nodes = scene.light_nodes;
@@ -213,15 +159,15 @@ void number_parts(std::size_t primitives, CompiledScene::Impl& impl) {
   }
 }
 
-// Only where neither the light nor the surface moves.
-void find_light_contacts(CompiledScene::Impl& impl) {
+// Only where neither the light nor the surface moves. `radius`: of what the scene is measured by.
+void find_light_contacts(double radius, CompiledScene::Impl& impl) {
   const auto moving = std::find_if(impl.parts.begin(), impl.parts.end(),
                                    [](const ScenePart& part) { return part.body != 0; });
   const std::span<const ScenePart> resting(impl.parts.begin(), moving);
   for (std::size_t i = 0; i < impl.lights.size(); ++i) {
     const bool rests =
         impl.light_nodes.empty() || (impl.light_nodes[i].node == 0 && impl.light_nodes[i].track.empty());
-    if (rests) impl.lights[i].contacts = contacts_of_light(impl.lights[i].position, resting, impl.radius);
+    if (rests) impl.lights[i].contacts = contacts_of_light(impl.lights[i].position, resting, radius);
   }
 }
 
@@ -287,20 +233,20 @@ Camera CompiledScene::camera(const View& view) const {
 }
 
 CompiledScene compile(const SceneDescription& scene, const CompileOptions& options) {
-  const Box3d box = box_of_all_times(scene);
-  if (scene.primitive_count() == 0 || box.isEmpty()) {
+  const SceneExtent extent = measure(scene);
+  if (scene.primitive_count() == 0 || extent.measured.isEmpty()) {
     reject(scene.name, {}, "the scene has no objects: there is nothing in it to see");
   }
-  if (!is_finite(box.max - box.min)) reject(scene.name, {}, "the scene is too large to be measured");
+  if (!is_finite(extent.shown)) reject(scene.name, {}, "the scene is too large to be measured");
 
   auto impl = std::make_unique<CompiledScene::Impl>();
   impl->name = scene.name;
   impl->options = options;
   impl->inventory = take_inventory(scene);
   impl->effects = chosen_effects(impl->inventory, options);
-  impl->normalisation = normalising(box, origin_for(scene, box));
+  impl->normalisation = extent.normalisation;
   // Enlarged by far more than the rounding of the sum, so that rays may start on the sphere.
-  impl->radius = radius_about_origin(impl->normalisation, box) * (1 + 0x1p-20);
+  impl->radius = radius_about_origin(impl->normalisation, extent.shown) * (1 + 0x1p-20);
   impl->background = to_color(scene.background.value_or(Rgb(0, 0, 0)));
   impl->movement = scene.movement;
   add_materials(scene, *impl);
@@ -311,7 +257,7 @@ CompiledScene compile(const SceneDescription& scene, const CompileOptions& optio
   if (impl->parts.empty()) reject(scene.name, {}, "no object of the scene has any extent");
   impl->moves = impl->bodies.size() > 1 || !impl->light_nodes.empty();
   if (impl->moves) number_parts(scene.order.size(), *impl);
-  find_light_contacts(*impl);
+  find_light_contacts(radius_about_origin(impl->normalisation, extent.measured), *impl);
   build_hierarchy(*impl);
   return CompiledScene(std::move(impl));
 }

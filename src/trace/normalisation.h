@@ -22,7 +22,7 @@ struct Normalisation {
 };
 
 // Returns the map of a box. `box` must be finite and not empty; `center`, a point in it, becomes the origin.
-// A box without extent keeps the scale 1.
+// A box without extent keeps the scale 1. Of one below 2^-1000 the scale stays finite.
 inline Normalisation normalising(const Box3d& box, const Vec3d& center) {
   Normalisation result;
   result.center = center;
@@ -31,7 +31,7 @@ inline Normalisation normalising(const Box3d& box, const Vec3d& center) {
   if (largest > 0) {
     int exponent = 0;
     const double mantissa = std::frexp(largest, &exponent);  // in [0.5, 1); largest = mantissa * 2^exponent
-    result.scale = std::ldexp(1.0, mantissa == 0.5 ? 1 - exponent : -exponent);
+    result.scale = std::ldexp(1.0, std::min(1000, mantissa == 0.5 ? 1 - exponent : -exponent));
   }
   return result;
 }

@@ -27,25 +27,32 @@ inline double sum_of_coordinates(const Vec3d& p) {
 }
 
 // Returns the same bound for one point, given its sum_of_coordinates. Near the origin it is far smaller,
-// because floats are finer there. Counted from: half a unit in the last place of each coordinate. Test:
-// hard_surfaces_test.cpp, "a huge sphere ...".
+// because floats are finer there. It grows with the distance of bodies that leave the scene. Counted from:
+// half a unit in the last place of each coordinate. Test: hard_surfaces_test.cpp, "a huge sphere ...".
 constexpr double origin_rounding(double sum_of_coordinates) {
   const double bound = kFloatRounding * sum_of_coordinates;
-  return bound < kOriginRounding ? bound : kOriginRounding;
+  return bound < kOriginRounding || sum_of_coordinates > 3 ? bound : kOriginRounding;
 }
 
-// Error of a ray's crossing with a sphere or cone. Counted from: some sixty operations in double on numbers
-// below 8, each off by at most 2^-50. Test: quadrics_test.cpp, "a line crosses ...".
+// Error of a ray's crossing with a sphere or cone, for numbers below 8. Counted from: some sixty operations
+// in double, each off by at most 2^-50. Test: quadrics_test.cpp, "a line crosses ...".
 inline constexpr double kCrossingError = 64 * 0x1p-50;
 
-// Returns the height above a sphere or cone at which a leaving ray starts.
+// Returns the same where a ray starts on the surface. All numbers are then at most `reach`: the sum of the
+// point's coordinates, and the surface's size.
+constexpr double crossing_error(double reach) {
+  return kCrossingError * reach;
+}
+
+// Returns the height above a sphere or cone at which a leaving ray starts. `size`: the largest distance of
+// two of its points.
 //
-// Counted from: the rounding of the origin along the normal, and kCrossingError. As much again for the
+// Counted from: the rounding of the origin along the normal, and the crossing's error. As much again for the
 // rounding across the normal. It turns the surface by rounding / radius and costs rounding^2 / (2 radius).
 // That is less than the rounding itself for every radius above half of it. Test: leaving_rays_test.cpp, "rays
 // leave ...".
-constexpr double quadric_offset(double sum_of_coordinates) {
-  return 2 * (origin_rounding(sum_of_coordinates) + kCrossingError);
+constexpr double quadric_offset(double sum_of_coordinates, double size) {
+  return 2 * (origin_rounding(sum_of_coordinates) + crossing_error(sum_of_coordinates + size));
 }
 
 // Largest height above a triangle at which a leaving ray starts. Embree's error grows without bound as
@@ -80,6 +87,14 @@ constexpr double instance_rounding(double condition) {
   return kFloatRounding * 16 * condition * condition;
 }
 
+// Returns the height that a body's map may add where a ray leaves it: instance_rounding times `reach`, the
+// sums of coordinates that it is relative to. At most kMaxTriangleOffset of that. Test:
+// moving_bodies_test.cpp, "rays leave ...".
+constexpr double instance_offset(double rounding, double reach) {
+  const double bound = rounding * reach, most = kMaxTriangleOffset * (reach > 1 ? reach : 1);
+  return bound < most ? bound : most;
+}
+
 // Flattest angle, as the inverse of its cosine to the normal, at which bounds that grow with it still hold.
 inline constexpr double kFlattestCosine = 256;
 
@@ -112,7 +127,7 @@ constexpr double shadow_end_on_triangle(double length, double longest_edge, doub
 // cos(incidence). The bound covers cosines down to 1/256. At flatter angles a visible point may count as
 // hidden, and is sampled anew. Test: visibility_test.cpp.
 constexpr double visibility_gap(double sum_of_coordinates) {
-  return kFlattestCosine * (origin_rounding(sum_of_coordinates) + kCrossingError);
+  return kFlattestCosine * (origin_rounding(sum_of_coordinates) + crossing_error(sum_of_coordinates));
 }
 
 // Smallest cosine of a secondary ray with the geometric normal. An interpolated normal can send a ray through

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "trace/embree_reach.h"
 #include "trace/numerics.h"
 
 namespace pprt {
@@ -29,8 +30,10 @@ double norm(const Affine& map) {
   return std::sqrt(map.x.length2() + map.y.length2() + map.z.length2());
 }
 
-// Returns the map of a body's compiled space to the world's, rounded as Embree has it.
-BodyPlace place_body(const CompiledBody& body, const Normalisation& world, const Placement& node) {
+// Returns the map of a body's compiled space to the world's, rounded as Embree has it. A body out of reach is
+// not shown.
+BodyPlace place_body(const CompiledBody& body, const CompiledScene::Impl& scene, const Placement& node) {
+  const Normalisation& world = scene.normalisation;
   const double scale = world.scale / body.normalisation.scale;
   const Affine& map = node.to_parent;
   BodyPlace place;
@@ -40,13 +43,17 @@ BodyPlace place_body(const CompiledBody& body, const Normalisation& world, const
   const double size = norm(place.to_world);
   // A body that is flattened shows nothing: its faces have no inside, and rays cannot be mapped into it.
   constexpr double kFlat = 1e-12;
-  place.is_shown = node.visible && std::abs(volume) > kFlat * size * size * size && std::isfinite(volume) &&
-                   std::isfinite(sum_of_coordinates(place.to_world.origin));
+  if (node.visible && std::abs(volume) > kFlat * size * size * size) {
+    place.from_world = inverse(place.to_world);
+    place.is_shown =
+        is_in_reach(place.to_world, place.from_world, mapped(place.to_world, body.box), scene.radius);
+  } else {
+    place.is_shown = false;
+  }
   if (!place.is_shown) {
     place.to_world = place.from_world = Affine();
     return place;
   }
-  place.from_world = inverse(place.to_world);
   place.rounding = instance_rounding(size * norm(place.from_world) / 3);
   place.distance = sum_of_coordinates(place.to_world.origin);
   return place;
@@ -128,7 +135,7 @@ void Pose::place_bodies(double time) {
   rounding_ = 0;
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const CompiledBody& body = scene_.bodies[i];
-    if (i > 0) places_[i] = place_body(body, scene_.normalisation, nodes[body.node]);
+    if (i > 0) places_[i] = place_body(body, scene_, nodes[body.node]);
     rounding_ = std::max(rounding_, places_[i].rounding);
     place_instance(instances_[i].get(), places_[i]);
   }
@@ -185,7 +192,8 @@ void Pose::place_lights(double time) {
     if (at.node == 0 && at.track.empty()) continue;
     const auto moved = track_at(scene_.movement, at.track, time);
     const Vec3d position = moved ? moved->to_parent.origin : scene_.light_positions[i];
-    own_lights_[i].position = scene_.normalisation.point(nodes[at.node].to_parent.point(position));
+    own_lights_[i].position = light_in_reach(
+        nodes[at.node].to_parent.point(position) - scene_.normalisation.center, scene_.normalisation.scale);
   }
 }
 

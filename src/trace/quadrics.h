@@ -3,7 +3,7 @@
 // Both are boundaries of convex bodies, so a line enters the body once and leaves it once. A cone's ends are
 // open, so either crossing may be missing. Directions have unit length up to rounding to float.
 //
-// Error of a crossing: kCrossingError (numerics.h). Test: quadrics_test.cpp.
+// Error of a crossing: crossing_error (numerics.h). Test: quadrics_test.cpp.
 #pragma once
 
 #include <cmath>
@@ -112,6 +112,15 @@ double refined(const Record& record, const Vec3d& origin, const Vec3d& direction
   if (std::isnan(front) && std::isnan(back)) return t;
   const bool is_back = std::isnan(front) || std::abs(back - t) < std::abs(front - t);
   return is_back ? back : front;
+}
+
+// Returns a bound of the distance of two points of the surface, cheap to compute.
+inline double extent(const SphereRecord& sphere) {
+  return 2 * sphere.radius;
+}
+inline double extent(const ConeRecord& cone) {
+  return std::abs(cone.axis.x) + std::abs(cone.axis.y) + std::abs(cone.axis.z) +
+         2 * (cone.base_radius + std::abs(cone.radius_change));
 }
 
 // Projects a point that lies on the surface up to rounding onto it. Returns the point and its normal.

@@ -61,8 +61,8 @@ void place(const BodyPlace& at, const Vec3d& direction, Surface& surface) {
   surface.position = at.to_world.point(surface.position);
   surface.normal = normal * (1 / per_height);
   const double reach = sum_of_coordinates(surface.position);
-  surface.offset = surface.offset / per_height +
-                   std::min(kMaxTriangleOffset, at.rounding * (reach + at.distance)) + origin_rounding(reach);
+  surface.offset = surface.offset / per_height + instance_offset(at.rounding, reach + at.distance) +
+                   origin_rounding(reach);
   if (surface.normal.dot(direction) > 0) surface.normal = -surface.normal;
   surface.shading = unit(normal_of(surface.shading));
   if (surface.shading.dot(surface.normal) < 0) surface.shading = -surface.shading;
@@ -90,10 +90,14 @@ Surface surface_at(const Pose& pose, const RTCRayHit& found, const Vec3d& along)
   TrianglePoint at;  // of a triangle
   SurfacePoint point;
   const Mesh* mesh = nullptr;
+  const auto meet = [&](const auto& record) {
+    point = on_surface(record, near(record));
+    surface.offset = quadric_offset(sum_of_coordinates(point.position), extent(record));
+  };
   if (const auto* spheres = std::get_if<std::vector<SphereRecord>>(&part.shape)) {
-    point = on_surface((*spheres)[primitive], near((*spheres)[primitive]));
+    meet((*spheres)[primitive]);
   } else if (const auto* cones = std::get_if<std::vector<ConeRecord>>(&part.shape)) {
-    point = on_surface((*cones)[primitive], near((*cones)[primitive]));
+    meet((*cones)[primitive]);
   } else {
     mesh = std::get_if<Mesh>(&part.shape);
     at = on_surface(*mesh, primitive, origin(), direction);
@@ -101,7 +105,6 @@ Surface surface_at(const Pose& pose, const RTCRayHit& found, const Vec3d& along)
     surface.offset = mesh->facets[primitive].offset;
   }
   surface.position = point.position;
-  if (!mesh) surface.offset = quadric_offset(sum_of_coordinates(point.position));
   surface.entering = point.normal.dot(direction) < 0;
   surface.normal = surface.entering ? point.normal : -point.normal;
   surface.shading = surface.normal;

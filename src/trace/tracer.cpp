@@ -61,9 +61,10 @@ FirstHit Tracer::first_hit(double x, double y) const {
   const Vec3d origin = camera_.eye + direction * distance_to_scene(scene_.impl(), camera_.eye, direction);
   const std::optional<VisibleSurface> surface = visible_surface(*pose_, Vec3f(origin), Vec3f(direction));
   if (!surface) return {};
+  constexpr double kMost = std::numeric_limits<float>::max();
   const double depth = (surface->position - camera_.eye).dot(camera_.forward);
-  return {static_cast<float>(depth / scene_.impl().normalisation.scale), Vec3f(surface->normal),
-          surface->primitive + 1, surface->material + 1};
+  return {static_cast<float>(std::clamp(depth / scene_.impl().normalisation.scale, -kMost, kMost)),
+          Vec3f(surface->normal), surface->primitive + 1, surface->material + 1};
 }
 
 GlassSeen Tracer::glass_seen(double x, double y) const {
@@ -84,8 +85,7 @@ bool Tracer::visible(const Vec3f& hit, bool at_infinity) {
   const double start = distance_to_scene(scene_.impl(), camera_.eye, direction);
   const Vec3d origin = camera_.eye + direction * start;
   const double reach = std::max(sum_of_coordinates(Vec3d(hit)), sum_of_coordinates(origin));
-  const double gap =
-      visibility_gap(reach) + kFlattestCosine * std::min(kMaxTriangleOffset, pose_->rounding() * reach);
+  const double gap = visibility_gap(reach) + kFlattestCosine * instance_offset(pose_->rounding(), reach);
   const double length = at_infinity ? std::numeric_limits<double>::infinity() : distance - start - gap;
   if (!(length > 0)) return true;
   return !occluded(*pose_, Vec3f(origin), Vec3f(direction), static_cast<float>(length));

@@ -1,9 +1,13 @@
 #include "parallel/rank/sample_tracer.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace pprt {
 namespace {
+
+// Largest channel that an EXR picture holds, as half. Sums and differences of such stay finite in float.
+constexpr float kLargestChannel = 65504;
 
 bool is_finite(const Color& c) {
   return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
@@ -32,6 +36,8 @@ Sample SampleTracer::trace(double x, double y, std::span<const KnownLights> know
     ++non_finite_;
     sample.ray.color = Color(0, 0, 0);
   }
+  for (int i = 0; i < 3; ++i)
+    sample.ray.color[i] = std::clamp(sample.ray.color[i], -kLargestChannel, kLargestChannel);
   clock_.spend(Work::kRay, sample.ray.rays);
   costs_.add_own(sample);
   poll_(sample.ray.rays);

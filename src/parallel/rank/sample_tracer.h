@@ -30,8 +30,8 @@ class SampleTracer {
   // Numbers samples from 0 again: which of them casting draws must not depend on frames before.
   void restart_ids() { next_id_ = 0; }
 
-  // Traces the eye ray through an image point. The one gate for colours that are no finite numbers: they are
-  // counted, and black from here on.
+  // Traces the eye ray through an image point. The one gate for colours that no picture holds. Those that are
+  // no finite numbers are counted, and black from here on. Others are clamped to 65504.
   // `known`: lights that need no shadow rays where the eye ray hits their primitives.
   Sample trace(double x, double y, std::span<const KnownLights> known = {});
 

@@ -74,6 +74,22 @@ TEST_CASE("layer pictures: more rays are darker") {
   CHECK(picture.at(4, 0) == kBlack);
 }
 
+TEST_CASE("layer pictures: depths of any size make a picture, also in the eye's own plane") {
+  constexpr float kMost = std::numeric_limits<float>::max(), kLeast = std::numeric_limits<float>::denorm_min();
+  const Vec3f up(0, 0, 1);
+  for (const float nearest : {0.f, -1e-20f, kLeast, 1e-30f}) {
+    for (const float farthest : {0.f, kLeast, 3.f, kMost}) {
+      const std::vector<FirstHit> hits = {hit(nearest, up, 1, 1), hit(farthest, up, 2, 1)};
+      const Image picture = depth_picture(hits, 2, 1);
+      INFO(nearest << " and " << farthest);
+      for (const Color& pixel : picture.pixels) CHECK((pixel.x >= 0.1f && pixel.x <= 1.001f));
+    }
+  }
+  const std::vector<FirstHit> hits = {hit(0, up, 1, 1), hit(3, up, 2, 1)};
+  CHECK(depth_picture(hits, 2, 1).at(0, 0).x == Approx(1));
+  CHECK(depth_picture(hits, 2, 1).at(1, 0).x == Approx(0.1));
+}
+
 TEST_CASE("layer pictures: near depths are light, misses black") {
   const std::vector<FirstHit> hits = {hit(1, {0, 0, 1}, 1, 1), hit(2, {0, 0, 1}, 1, 1),
                                       hit(4, {0, 0, 1}, 1, 1), FirstHit()};
