@@ -10,7 +10,7 @@
 
 #include "base/sanitized.h"
 
-using namespace pprt;
+namespace pprt::isolated_call_test {
 
 namespace {
 
@@ -79,3 +79,5 @@ TEST_CASE("isolated call: nothing of it is printed") {
   CHECK(read(ends[0], &c, 1) == 0);
   close(ends[0]);
 }
+
+}  // namespace pprt::isolated_call_test

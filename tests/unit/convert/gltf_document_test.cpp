@@ -10,7 +10,8 @@
 #include "convert/mesh/mesh_writer.h"
 #include "parser/aff_parser.h"
 
-using namespace pprt;
+namespace pprt::gltf_document_test {
+
 using nlohmann::json;
 
 namespace {
@@ -93,3 +94,5 @@ TEST_CASE("gltf document: names in UTF-8 stay, others lose the bytes that are no
   CHECK(utf8("h\xf6lzern") == "h_lzern");
   CHECK(utf8("\xc0\xaf\xed\xa0\x80\xf4\x90\x80\x80\xc3") == "__________");
 }
+
+}  // namespace pprt::gltf_document_test

@@ -15,7 +15,7 @@
 #include "scene/bytes/scene_bytes.h"
 #include "unit/image/temporary_directory.h"
 
-using namespace pprt;
+namespace pprt::mesh_hostile_test {
 
 namespace {
 
@@ -249,3 +249,5 @@ TEST_CASE("hostile meshes: one that crashes Assimp, or takes too much, is refuse
           ": error: reading it takes more memory than there is, or than 0 GB (--mesh-memory allows "
           "more)");
 }
+
+}  // namespace pprt::mesh_hostile_test

@@ -5,7 +5,7 @@
 #include "image/atomic_file.h"
 #include "unit/image/temporary_directory.h"
 
-using namespace pprt;
+namespace pprt::checksum_test {
 
 TEST_CASE("a checksum is the CRC-32 that its catalogue gives for the digits") {
   CHECK(crc32_of("123456789") == 0xcbf43926u);  // the check value of CRC-32/ISO-HDLC
@@ -19,3 +19,5 @@ TEST_CASE("a file has the checksum of its content; what is no file has none") {
   CHECK_FALSE(crc32_of_file(directory.path() / "none"));
   CHECK_FALSE(crc32_of_file(directory.path()));
 }
+
+}  // namespace pprt::checksum_test

@@ -8,7 +8,7 @@
 #include "trace/compiled_scene.h"
 #include "trace/embree_reach.h"
 
-using namespace pprt;
+namespace pprt::far_objects_test {
 
 namespace {
 
@@ -128,3 +128,5 @@ TEST_CASE("far objects: a light beyond reach shines from its direction") {
   CHECK(light_in_reach(Vec3d(3e200, 0, -3e200), 1e200) == Vec3d(kFarthestLight, 0, -kFarthestLight));
   CHECK(light_in_reach(Vec3d(3, 4, 5), 2) == Vec3d(6, 8, 10));
 }
+
+}  // namespace pprt::far_objects_test

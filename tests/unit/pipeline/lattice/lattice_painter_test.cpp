@@ -7,7 +7,7 @@
 
 #include "pipeline/lattice/lattice_refiner.h"
 
-namespace pprt {
+namespace pprt::lattice_painter_test {
 namespace {
 
 constexpr int kSize = 32;  // of the image, pixels
@@ -147,4 +147,4 @@ TEST_CASE("lattice painter: between primitives of unknown shape colours change a
   CHECK(worst < 1e-5F);
 }
 
-}  // namespace pprt
+}  // namespace pprt::lattice_painter_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace pprt {
+namespace pprt::node_prediction_test {
 namespace {
 
 constexpr int kMiddle = 32 * kPixelSide;  // of the image, which the eight symmetries of a square turn about
@@ -90,4 +90,4 @@ TEST_CASE("lattice prediction: a lattice that is turned or mirrored predicts the
   }
 }
 
-}  // namespace pprt
+}  // namespace pprt::node_prediction_test

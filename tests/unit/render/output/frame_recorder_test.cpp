@@ -9,7 +9,7 @@
 #include "parser/nff_parser.h"
 #include "unit/image/temporary_directory.h"
 
-namespace pprt {
+namespace pprt::frame_recorder_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -83,4 +83,4 @@ TEST_CASE("frames that are removed in mid-run are missed, though the manifest st
   CHECK_THROWS_WITH(recorder.finish(false), "of 3 frames written, 1 are not there any more");
 }
 
-}  // namespace pprt
+}  // namespace pprt::frame_recorder_test
