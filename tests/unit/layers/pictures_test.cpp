@@ -75,7 +75,8 @@ TEST_CASE("layer pictures: more rays are darker") {
 }
 
 TEST_CASE("layer pictures: depths of any size make a picture, also in the eye's own plane") {
-  constexpr float kMost = std::numeric_limits<float>::max(), kLeast = std::numeric_limits<float>::denorm_min();
+  constexpr float kMost = std::numeric_limits<float>::max(),
+                  kLeast = std::numeric_limits<float>::denorm_min();
   const Vec3f up(0, 0, 1);
   for (const float nearest : {0.f, -1e-20f, kLeast, 1e-30f}) {
     for (const float farthest : {0.f, kLeast, 3.f, kMost}) {

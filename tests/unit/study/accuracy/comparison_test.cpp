@@ -198,7 +198,7 @@ TEST_CASE("methods: some are chosen by their words, the uniform method and the c
   CHECK(names("area-only,delaunay") ==
         std::vector<std::string>{"delaunay", "uniform", "control", "area only"});
   CHECK(methods_of("paper-weights,paper-weights").size() == 3);
-  CHECK_THROWS_WITH(methods_of("progresive"),
+  CHECK_THROWS_WITH(methods_of("delauney"),
                     "--methods delauney: 'delauney' is none of delaunay, uniform, control, auto, "
                     "paper-weights, area-only, variance-only, no-pixel-rule, pixel-area, mean-of-samples, "
                     "pixel-centers, stratified-random; did you mean 'delaunay'?");
