@@ -114,13 +114,15 @@ SceneDescription at_time_asked(SceneDescription scene, const ConvertOptions& opt
 }
 
 SceneDescription read(const ConvertOptions& options, InputFormat format) {
+  NffOptions reading{.strict = options.strict};
+  if (options.memory) reading.max_memory = *options.memory;
   if (format == InputFormat::kScene) {
-    ParsedScene parsed = load_scene(options.input, {.strict = options.strict});
+    ParsedScene parsed = load_scene(options.input, reading);
     std::cerr << parsed.warnings;
     return std::move(parsed.scene);
   }
   require_file(options.input);
-  ReadMesh mesh = read_mesh(options.input);
+  ReadMesh mesh = read_mesh(options.input, reading.max_memory);
   for (const std::string& note : mesh.notes) say(mesh.scene, note);
   complete_view(mesh.scene, options.up);
   complete_lights(mesh.scene);

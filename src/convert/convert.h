@@ -1,6 +1,7 @@
 // pprt-convert: a scene from one format into another.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -14,6 +15,7 @@ struct ConvertOptions {
   // *.nff, "-" (NFF on standard output), *.aff, *.pov, or one of mesh_output_extensions()
   std::string output;
   bool strict = false;
+  std::optional<std::uint64_t> memory = {};  // bytes that reading may take; empty: a share of what is there
   std::optional<int> tessellate;  // Fineness::divisions; empty: keep curved surfaces if the format has them
   std::optional<double> chord_error;  // Fineness::chord_error
   UpAxis up = UpAxis::kY;             // of an added view

@@ -37,6 +37,10 @@ void add_options(CLI::App& app, pprt::ConvertOptions& options) {
       ->excludes(divisions);
   pprt::add_choice(app, "--up", options.up, "Up axis of an added camera");
   app.add_flag("--strict", options.strict, "Reject what the format's specification does not allow");
+  app.add_option("--memory", options.memory,
+                 "Most memory that reading may take, as 500M or 4G (default: an eighth of what is there)")
+      ->transform(pprt::memory_size())
+      ->type_name("SIZE");
 }
 
 }  // namespace

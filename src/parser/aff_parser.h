@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
 #include "parser/parsed_scene.h"
+#include "parser/reading_memory.h"
 
 namespace pprt {
 
@@ -14,12 +16,13 @@ struct AffOptions {
   bool strict = false;          // every deviation is an error, also one that causes no warning
   bool files_anywhere = false;  // included files may lie outside the folder of the scene
 
-  int max_depth = 64;                            // of includes, and of transforms
-  std::size_t max_reads = 100'000;               // of files
-  std::size_t max_bytes = std::size_t{1} << 30;  // read in all
-  std::size_t max_rows = 20'000'000;             // of one list
-  std::size_t max_items = 100'000'000;           // objects, vertices, keys and transforms, in all
-  std::size_t max_errors = 1'000;                // reading stops here
+  int max_depth = 64;                                 // of includes, and of transforms
+  std::size_t max_reads = 100'000;                    // of files
+  std::size_t max_bytes = std::size_t{1} << 30;       // read in all
+  std::size_t max_rows = 20'000'000;                  // of one list
+  std::size_t max_items = 100'000'000;                // objects, vertices, keys and transforms, in all
+  std::uint64_t max_memory = usual_reading_memory();  // bytes that the scene may take
+  std::size_t max_errors = 1'000;                     // reading stops here
 };
 
 // Reads a scene from memory, which can include no file. `file_name` is for messages. Throws as read_aff().

@@ -168,7 +168,7 @@ ParsedScene parse_nff(std::string_view text, std::string_view file_name, const N
 }
 
 ParsedScene read_nff(const std::string& path, const NffOptions& options) {
-  const std::string text = read_text(path, options.max_bytes);
+  const std::string text = read_text(path, std::min<std::uint64_t>(options.max_bytes, options.max_memory));
   return parse_nff(text, path == "-" ? "<stdin>" : printable(path), options);
 }
 

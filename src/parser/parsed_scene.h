@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "scene/description/scene_description.h"
 
@@ -11,6 +12,7 @@ namespace pprt {
 struct ParsedScene {
   SceneDescription scene;
   std::string warnings;  // formatted with their places, each line ended; empty when there are none
+  std::vector<std::string> texture_places = {};  // "file:line:column" where each texture is named first
 };
 
 }  // namespace pprt

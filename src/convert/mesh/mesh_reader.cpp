@@ -68,8 +68,11 @@ struct Space {
 class SceneReader {
  public:
   // `gltf`: of a file in glTF.
-  SceneReader(const aiScene& from, const std::string& path, std::optional<GltfFacts> gltf)
-      : from_(from), gltf_(std::move(gltf)), textures_(from, std::filesystem::path(path).parent_path()) {
+  SceneReader(const aiScene& from, const std::string& path, std::optional<GltfFacts> gltf,
+              std::uint64_t max_memory)
+      : from_(from),
+        gltf_(std::move(gltf)),
+        textures_(from, std::filesystem::path(path).parent_path(), max_memory) {
     scene_.name = path;
   }
 
@@ -357,7 +360,7 @@ bool is_mesh_extension(const std::string& extension) {
   return extension != ".nff" && extension.size() > 1 && Assimp::Importer().IsExtensionSupported(extension);
 }
 
-ReadMesh read_mesh(const std::string& path) {
+ReadMesh read_mesh(const std::string& path, std::uint64_t max_memory) {
   // Assimp has the same message for every reason why a file cannot be read.
   if (!std::ifstream(path))
     throw InputError("cannot read '" + path + "': " + std::generic_category().message(errno));
@@ -371,7 +374,7 @@ ReadMesh read_mesh(const std::string& path) {
   if (scene == nullptr || scene->mRootNode == nullptr) {
     throw InputError(path + ": error: " + importer.GetErrorString());
   }
-  return SceneReader(*scene, path, std::move(gltf)).run();
+  return SceneReader(*scene, path, std::move(gltf), max_memory).run();
 }
 
 }  // namespace pprt

@@ -41,8 +41,9 @@ std::string with_slashes(std::string path) {
 }
 
 // Returns a picture within the file: another file's bytes, or texels where there is a height.
-Image embedded(const aiTexture& from) {
-  if (from.mHeight == 0) return decode_image({reinterpret_cast<const char*>(from.pcData), from.mWidth});
+Image embedded(const aiTexture& from, std::uint64_t max_memory) {
+  if (from.mHeight == 0)
+    return decode_image({reinterpret_cast<const char*>(from.pcData), from.mWidth}, max_memory);
   Image image(static_cast<int>(from.mWidth), static_cast<int>(from.mHeight));
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
     const aiTexel& texel = from.pcData[i];
@@ -61,6 +62,7 @@ std::optional<TextureIndex> MeshTextures::intern(const std::string& path, std::v
     Texture texture;
     texture.name = name_of(path);
     fill(texture, picture(path));
+    left_ -= std::min<std::uint64_t>(left_, texture.rgb.size());
     textures.push_back(std::move(texture));
     found->second = static_cast<TextureIndex>(textures.size() - 1);
   } catch (const std::exception& e) {
@@ -70,13 +72,13 @@ std::optional<TextureIndex> MeshTextures::intern(const std::string& path, std::v
 }
 
 Image MeshTextures::picture(const std::string& path) const {
-  if (const aiTexture* texture = from_.GetEmbeddedTexture(path.c_str())) return embedded(*texture);
+  if (const aiTexture* texture = from_.GetEmbeddedTexture(path.c_str())) return embedded(*texture, left_);
   std::error_code unknown;
   for (const std::string& spelled : {path, decoded(path), with_slashes(path)}) {
     const std::filesystem::path file = std::filesystem::path(spelled).lexically_normal();
     if (file.is_absolute() || file.empty() || *file.begin() == "..")
       throw std::runtime_error("it lies outside the folder of the mesh");
-    if (std::filesystem::is_regular_file(folder_ / file, unknown)) return read_image(folder_ / file);
+    if (std::filesystem::is_regular_file(folder_ / file, unknown)) return read_image(folder_ / file, left_);
   }
   return read_image(folder_ / path);  // which is not there
 }

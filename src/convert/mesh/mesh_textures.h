@@ -1,6 +1,7 @@
 // Pictures on the surfaces of mesh files.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -17,7 +18,9 @@ namespace pprt {
 // Reads the pictures of a file's materials, each once: those within the file, and those in its folder.
 class MeshTextures {
  public:
-  MeshTextures(const aiScene& from, std::filesystem::path folder) : from_(from), folder_(std::move(folder)) {}
+  // `max_memory`: bytes that the pictures may take.
+  MeshTextures(const aiScene& from, std::filesystem::path folder, std::uint64_t max_memory)
+      : from_(from), folder_(std::move(folder)), left_(max_memory) {}
 
   // Returns the place among `textures` of the picture of a path (picture_path()). Empty where it cannot be
   // read; `notes` then gets the reason.
@@ -29,6 +32,7 @@ class MeshTextures {
 
   const aiScene& from_;
   std::filesystem::path folder_;
+  std::uint64_t left_;  // bytes
   std::map<std::string, std::optional<TextureIndex>> known_;
 };
 
