@@ -58,8 +58,15 @@ struct Surface {
 struct TexturedSurface : Surface {
   Color tint{1, 1, 1};  // of ambient and diffuse reflection
 };
-template <bool kExtended>
-using SurfaceOf = std::conditional_t<kExtended, TexturedSurface, Surface>;
+// What only kernels with interpolated normals know.
+template <bool kSmooth>
+struct Rise {};
+template <>
+struct Rise<true> {
+  Vec3d rise{0, 0, 0};  // from the position to the smooth surface, see rise_to_smooth
+};
+template <bool kSmooth, bool kExtended>
+struct SurfaceOf : std::conditional_t<kExtended, TexturedSurface, Surface>, Rise<kSmooth> {};
 
 // Takes a surface of a body's compiled space to the world's, where `direction` is the ray's.
 void place(const BodyPlace& at, const Vec3d& direction, Surface& surface) {
@@ -82,7 +89,7 @@ void place(const BodyPlace& at, const Vec3d& direction, Surface& surface) {
 // Recomputes a hit from its primitive. `along` is the ray's direction, unit. kSmooth: patches have
 // interpolated normals.
 template <bool kSmooth, bool kExtended>
-SurfaceOf<kExtended> surface_at(const Pose& pose, const RTCRayHit& found, const Vec3d& along) {
+SurfaceOf<kSmooth, kExtended> surface_at(const Pose& pose, const RTCRayHit& found, const Vec3d& along) {
   const CompiledScene::Impl& scene = pose.scene();
   const ScenePart& part = kExtended ? pose.part(found.hit.geomID) : scene.parts[found.hit.geomID];
   const BodyPlace* body = kExtended ? pose.place_of(part) : nullptr;
@@ -99,7 +106,7 @@ SurfaceOf<kExtended> surface_at(const Pose& pose, const RTCRayHit& found, const 
     return from + direction * (kExtended && body ? refined(record, from, direction, t) : t);
   };
 
-  SurfaceOf<kExtended> surface;
+  SurfaceOf<kSmooth, kExtended> surface;
   TrianglePoint at;  // of a triangle
   SurfacePoint point;
   const Mesh* mesh = nullptr;
@@ -125,6 +132,8 @@ SurfaceOf<kExtended> surface_at(const Pose& pose, const RTCRayHit& found, const 
     if (part.smooth) {
       const Vec3d normal = shading_normal(*mesh, primitive, at.u, at.v);
       surface.shading = normal.dot(surface.normal) < 0 ? -normal : normal;
+      surface.rise = rise_to_smooth(*mesh, primitive, at, surface.normal);
+      if (kExtended && body) surface.rise = body->to_world.vector(surface.rise);
     }
   }
   surface.material = &scene.materials[part.materials[primitive]];
@@ -196,7 +205,7 @@ class RayTree {
   }
 
  private:
-  using Hit = SurfaceOf<kExtended>;
+  using Hit = SurfaceOf<EffectSet(kEffects).has(Effect::kSmoothNormals), kExtended>;
 
   static SeenLights lights_known(std::span<const KnownLights> known, std::uint32_t primitive) {
     for (const KnownLights& at : known) {
@@ -262,7 +271,8 @@ class RayTree {
     const ShadingMaterial& material = *surface.material;
     Color color(0, 0, 0);
     if (!kPublished && !material.lit) return color;
-    const Vec3d position = surface.position + surface.normal * surface.offset;
+    Vec3d position = surface.position + surface.normal * surface.offset;
+    if constexpr (kSmooth) position += surface.rise;
     const Vec3f origin(position);
     unsigned bit = 1;  // of the light; 0 after the first eight
     for (const ShadingLight& light : lights_) {
@@ -392,8 +402,8 @@ std::optional<VisibleSurface> visible_surface(const Pose& pose, const Vec3f& ori
   RTCRayHit found;
   if (!intersect(pose.embree(), sender, origin, direction, kInfinity, found)) return std::nullopt;
   const bool smooth = pose.scene().effects.has(Effect::kSmoothNormals);
-  const Surface surface = smooth ? surface_at<true, true>(pose, found, Vec3d(direction))
-                                 : surface_at<false, true>(pose, found, Vec3d(direction));
+  const Surface surface = smooth ? Surface(surface_at<true, true>(pose, found, Vec3d(direction)))
+                                 : Surface(surface_at<false, true>(pose, found, Vec3d(direction)));
   const ScenePart& part = pose.scene().parts[found.hit.geomID];
   return VisibleSurface{surface.position,
                         surface.shading,
