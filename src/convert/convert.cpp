@@ -116,13 +116,16 @@ SceneDescription at_time_asked(SceneDescription scene, const ConvertOptions& opt
 }
 
 ParsedScene read(const ConvertOptions& options, InputFormat format) {
+  NffOptions reading{.strict = options.strict};
+  if (options.memory) reading.max_memory = *options.memory;
   if (format == InputFormat::kScene) {
-    ParsedScene parsed = load_scene(options.input, {.strict = options.strict});
+    ParsedScene parsed = load_scene(options.input, reading);
     std::cerr << parsed.warnings;
     return parsed;
   }
   require_file(options.input);
-  ReadMesh mesh = read_mesh_isolated(options.input, options.mesh_limits);
+  ReadMesh mesh =
+      read_mesh_isolated(options.input, {.seconds = options.mesh_seconds, .memory_bytes = reading.max_memory});
   for (const std::string& note : mesh.notes) say(mesh.scene, note);
   complete_view(mesh.scene, options.up);
   complete_lights(mesh.scene);

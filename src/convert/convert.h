@@ -1,6 +1,7 @@
 // pprt-convert: a scene from one format into another.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -15,13 +16,14 @@ struct ConvertOptions {
   // *.nff, "-" (NFF on standard output), *.aff, *.pov, or one of mesh_output_extensions()
   std::string output;
   bool strict = false;
+  std::optional<std::uint64_t> memory = {};  // bytes that reading may take; empty: a share of what is there
   std::optional<int> tessellate;  // Fineness::divisions; empty: keep curved surfaces if the format has them
   std::optional<double> chord_error;  // Fineness::chord_error
   UpAxis up = UpAxis::kY;             // of an added view
   // Time at which a scene that moves is taken, seconds. Empty: its movement, where the format has that; else
   // the start of its animation.
   std::optional<double> at = {};
-  MeshLimits mesh_limits = {};  // for reading one
+  double mesh_seconds = MeshLimits().seconds;  // MeshLimits::seconds
 };
 
 // Reads the input and writes the output, which is left as it was on failure. Prints warnings about the scene,

@@ -35,16 +35,16 @@ void add_options(CLI::App& app, pprt::ConvertOptions& options) {
       ->type_name("E")
       ->check(pprt::number_above_zero())
       ->excludes(divisions);
-  app.add_option("--mesh-seconds", options.mesh_limits.seconds,
+  app.add_option("--mesh-seconds", options.mesh_seconds,
                  "Processor time that reading a mesh may take (default: 120)")
       ->type_name("SECONDS")
       ->check(pprt::number_between(1, 1e6));
-  app.add_option("--mesh-memory", options.mesh_limits.memory_gigabytes,
-                 "Memory that reading a mesh may take (default: 8)")
-      ->type_name("GIGABYTES")
-      ->check(pprt::number_between(0.1, 1e6));
   pprt::add_choice(app, "--up", options.up, "Up axis of an added camera");
   app.add_flag("--strict", options.strict, "Reject what the format's specification does not allow");
+  app.add_option("--memory", options.memory,
+                 "Most memory that reading may take, as 500M or 4G (default: an eighth of what is there)")
+      ->transform(pprt::memory_size())
+      ->type_name("SIZE");
 }
 
 }  // namespace

@@ -178,14 +178,14 @@ std::string encode_exr(const Image& image, const Metadata& metadata, const std::
   }
 }
 
-Image decode_exr(std::string_view bytes) {
+Image decode_exr(std::string_view bytes, std::uint64_t max_memory) {
   try {
     ViewInput input(bytes);
     Imf::InputFile file(input, kThreads);
     const Imath::Box2i window = file.header().dataWindow();
     const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
     const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
-    require_decodable_size(width, height);
+    require_decodable_size(width, height, max_memory);
     const ChannelNames channels = channels_to_read(file.header().channels());
 
     Image image(static_cast<int>(width), static_cast<int>(height));

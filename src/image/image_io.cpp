@@ -49,18 +49,18 @@ std::uint32_t write_image(const std::filesystem::path& path, const Image& image,
   return crc32_of(bytes);
 }
 
-Image decode_image(std::string_view bytes) {
-  if (bytes.starts_with(kExrMagic)) return decode_exr(bytes);
-  if (bytes.starts_with(kPngMagic)) return decode_png(bytes);
-  if (bytes.starts_with("\xff\xd8")) return decode_jpeg(bytes);
-  if (bytes.starts_with("P6") || bytes.starts_with("P3")) return decode_ppm(bytes);
+Image decode_image(std::string_view bytes, std::uint64_t max_memory) {
+  if (bytes.starts_with(kExrMagic)) return decode_exr(bytes, max_memory);
+  if (bytes.starts_with(kPngMagic)) return decode_png(bytes, max_memory);
+  if (bytes.starts_with("\xff\xd8")) return decode_jpeg(bytes, max_memory);
+  if (bytes.starts_with("P6") || bytes.starts_with("P3")) return decode_ppm(bytes, max_memory);
   throw std::runtime_error(bytes.empty() ? "the file is empty" : "it is no OpenEXR, PNG, JPEG or PPM file");
 }
 
-Image read_image(const std::filesystem::path& path) {
+Image read_image(const std::filesystem::path& path, std::uint64_t max_memory) {
   const std::string bytes = read_whole_file(path);
   try {
-    return decode_image(bytes);
+    return decode_image(bytes, max_memory);
   } catch (const std::runtime_error& e) {
     throw std::runtime_error(fmt::format("cannot read '{}': {}", path.string(), e.what()));
   }

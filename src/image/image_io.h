@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -52,11 +53,15 @@ std::string encode_png(const Image& image, const Metadata& metadata = {},
 // encode_png().
 std::string encode_jpeg(const Image& image, int quality);
 
+inline constexpr std::uint64_t kAnyMemory = std::numeric_limits<std::uint64_t>::max();
+
 // Return the picture in a file's bytes. Throw std::runtime_error with the reason. EXR: channels R, G, B of
 // any pixel type, or Y alone; of several parts the first. PNG: any colour type and depth; transparency is
 // composited over black.
-Image decode_exr(std::string_view bytes);
-Image decode_png(std::string_view bytes);
+//
+// `max_memory`: bytes that decoding may take, judged by the size in the header before anything is decoded.
+Image decode_exr(std::string_view bytes, std::uint64_t max_memory = kAnyMemory);
+Image decode_png(std::string_view bytes, std::uint64_t max_memory = kAnyMemory);
 
 // Writes a picture in the format of its extension, .exr or .png, completely or not at all
 // (image/atomic_file.h). Channels go into an EXR; a PNG ignores them. Returns the file's CRC-32. Throws
@@ -67,14 +72,14 @@ std::uint32_t write_image(const std::filesystem::path& path, const Image& image,
 
 // Returns the picture in a JPEG, or in a PPM of 8 bits a channel (P6 or P3; bytes behind the picture are
 // ignored). Throw as decode_png().
-Image decode_jpeg(std::string_view bytes);
-Image decode_ppm(std::string_view bytes);
+Image decode_jpeg(std::string_view bytes, std::uint64_t max_memory = kAnyMemory);
+Image decode_ppm(std::string_view bytes, std::uint64_t max_memory = kAnyMemory);
 
 // Returns the picture in the bytes of an EXR, a PNG, a JPEG or a PPM, told apart by the first ones. Throws as
 // decode_png().
-Image decode_image(std::string_view bytes);
+Image decode_image(std::string_view bytes, std::uint64_t max_memory = kAnyMemory);
 
 // Reads such a file. Throws std::runtime_error "cannot read 'PATH': REASON".
-Image read_image(const std::filesystem::path& path);
+Image read_image(const std::filesystem::path& path, std::uint64_t max_memory = kAnyMemory);
 
 }  // namespace pprt

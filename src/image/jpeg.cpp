@@ -35,7 +35,7 @@ std::string encode_jpeg(const Image& image, int quality) {
   return {reinterpret_cast<const char*>(bytes.get()), size};
 }
 
-Image decode_jpeg(std::string_view bytes) {
+Image decode_jpeg(std::string_view bytes, std::uint64_t max_memory) {
   const TurboJpeg decoder(tjInitDecompress());
   if (!decoder) throw std::runtime_error("libjpeg-turbo cannot be set up");
   const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
@@ -44,7 +44,7 @@ Image decode_jpeg(std::string_view bytes) {
   };
   int width = 0, height = 0, subsampling = 0, colors = 0;
   require(tjDecompressHeader3(decoder.get(), data, bytes.size(), &width, &height, &subsampling, &colors));
-  require_decodable_size(width, height);
+  require_decodable_size(width, height, max_memory);
   Image image(width, height);
   std::vector<unsigned char> rgb(3 * image.pixels.size());
   require(tjDecompress2(decoder.get(), data, bytes.size(), rgb.data(), width, 0, height, TJPF_RGB,

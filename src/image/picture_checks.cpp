@@ -7,6 +7,11 @@
 #include <stdexcept>
 
 namespace pprt {
+namespace {
+
+constexpr std::uint64_t kDecodedPixel = 20;  // bytes: as 16 bits a channel and opacity, and as float
+
+}  // namespace
 
 void require_encodable(const Image& image) {
   if (image.width < 1 || image.height < 1 ||
@@ -20,10 +25,17 @@ void require_encodable(const Image& image) {
   if (bad > 0) throw std::runtime_error(fmt::format("{} pixels are not finite", bad));
 }
 
-void require_decodable_size(std::int64_t width, std::int64_t height) {
+void require_decodable_size(std::int64_t width, std::int64_t height, std::uint64_t max_memory) {
   if (width < 1 || height < 1 || width > kMaxPixels / height) {
     throw std::runtime_error(
         fmt::format("the size {}x{} is out of bounds (1 to {} pixels)", width, height, kMaxPixels));
+  }
+  const std::uint64_t needed = kDecodedPixel * static_cast<std::uint64_t>(width * height);
+  if (needed > max_memory) {
+    throw std::runtime_error(fmt::format(
+        "decoding {}x{} pixels takes {:.4g} MB of memory, and {:.4g} MB are left of "
+        "what reading may take (--memory)",
+        width, height, static_cast<double>(needed) * 1e-6, static_cast<double>(max_memory) * 1e-6));
   }
 }
 

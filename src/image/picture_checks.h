@@ -15,7 +15,8 @@ inline constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28;
 // that is not finite.
 void require_encodable(const Image& image);
 
-// Throws std::runtime_error unless 1 <= width * height <= kMaxPixels.
-void require_decodable_size(std::int64_t width, std::int64_t height);
+// Throws std::runtime_error unless 1 <= width * height <= kMaxPixels, and decoding takes no more memory than
+// that, bytes. A file of some kilobytes can hold a picture of gigabytes.
+void require_decodable_size(std::int64_t width, std::int64_t height, std::uint64_t max_memory);
 
 }  // namespace pprt

@@ -178,7 +178,7 @@ std::string encode_png(const Image& image, const Metadata& metadata, PictureKind
   return std::move(stream.output);
 }
 
-Image decode_png(std::string_view bytes) {
+Image decode_png(std::string_view bytes, std::uint64_t max_memory) {
   Stream stream;
   stream.input = bytes;
   Reader reader(stream);
@@ -188,7 +188,7 @@ Image decode_png(std::string_view bytes) {
   if (!read_header(reader)) fail();
   const std::size_t width = png_get_image_width(reader.png, reader.info);
   const std::size_t height = png_get_image_height(reader.png, reader.info);
-  require_decodable_size(static_cast<std::int64_t>(width), static_cast<std::int64_t>(height));
+  require_decodable_size(static_cast<std::int64_t>(width), static_cast<std::int64_t>(height), max_memory);
 
   constexpr std::size_t kPixelBytes = 8;
   std::vector<png_byte> samples(width * height * kPixelBytes);

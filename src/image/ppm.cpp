@@ -47,13 +47,13 @@ class PpmText {
 
 }  // namespace
 
-Image decode_ppm(std::string_view bytes) {
+Image decode_ppm(std::string_view bytes, std::uint64_t max_memory) {
   const bool is_text = bytes.starts_with("P3");
   PpmText text(bytes.substr(2));
   const int width = text.number("width"), height = text.number("height");
   const int most = text.number("largest value");
   if (most < 1 || most > 255) throw std::runtime_error("a channel of it has more than 8 bits");
-  require_decodable_size(width, height);
+  require_decodable_size(width, height, max_memory);
   const std::size_t values = 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   const std::string_view body = text.body();
   if (values == 0 || body.size() < values) throw std::runtime_error("the file ends early");

@@ -16,6 +16,7 @@ namespace pprt::aff {
 namespace {
 
 constexpr int kLargestResolution = 65536;  // pixels
+constexpr std::size_t kPlace = sizeof(PrimitiveRef) + sizeof(NodeIndex);  // bytes, of an object in its lists
 
 }  // namespace
 
@@ -128,7 +129,7 @@ void SceneBuilder::add_light() {
   light.position = vector_at(0);
   if (numbers_.size() > 3) light.color = color_at(3);
   light.location = location_in_scene();
-  count_kept(1);
+  count_kept(1, sizeof(Light) + sizeof(LightNode));
   scene_.lights.push_back(light);
   scene_.light_nodes.push_back({.node = nodes_.back().node});
 }
@@ -198,25 +199,30 @@ TextureIndex SceneBuilder::texture() {
   if (found != textures_.end()) return found->second;
   const auto index = static_cast<TextureIndex>(scene_.textures.size());
   scene_.textures.emplace_back().name = name_;
+  const SourceLocation at = locate(keyword_.data());
+  texture_places_.push_back(fmt::format("{}:{}:{}", open_.back().file->name, at.line, at.column));
   textures_.emplace(name_, index);
   return index;
 }
 
 // --- Objects
 
-// Files that are short may be read many times: all that is kept counts.
-void SceneBuilder::count_kept(std::size_t more) {
-  kept_ += more;
+// Files that are short may be read many times: all that is kept counts, twice, for lists grow by doubling.
+void SceneBuilder::count_kept(std::size_t items, std::size_t bytes) {
+  kept_ += items;
+  kept_bytes_ += 2 * bytes;
   if (kept_ > options_.max_items)
     throw ParseFailure{keyword_.data(),
                        fmt::format("more than {} objects, vertices, keys and transforms", options_.max_items),
                        true};
+  if (kept_bytes_ > options_.max_memory)
+    throw ParseFailure{keyword_.data(), too_much_memory(options_.max_memory), true};
 }
 
 void SceneBuilder::add_sphere() {
   const MaterialIndex of = material();
   if (numbers_[3] == 0) return deviation(Deviation::kNoExtent);
-  count_kept(1);
+  count_kept(1, sizeof(Sphere) + kPlace);
   pprt::add_sphere(scene_, {vector_at(0), numbers_[3], of, location_in_scene()});
   stand_in_node(1);
 }
@@ -226,7 +232,7 @@ void SceneBuilder::add_cone() {
   const double base = numbers_[3], apex = numbers_[7];
   if (vector_at(0) == vector_at(4) || (base == 0 && apex == 0) || base * apex < 0)
     return deviation(Deviation::kNoExtent);
-  count_kept(1);
+  count_kept(1, sizeof(Cone) + kPlace);
   pprt::add_cone(scene_, {vector_at(0), base, vector_at(4), apex, of, location_in_scene()});
   stand_in_node(1);
 }
@@ -292,7 +298,8 @@ void SceneBuilder::add_moving() {
   check_times(moving_.keys);
   moving_.material = material();
   moving_.location = location_in_scene();
-  count_kept(1 + moving_.keys.size());
+  count_kept(1 + moving_.keys.size(),
+             sizeof(MovingTriangle) + kPlace + moving_.keys.size() * sizeof(MovingTriangle::Key));
   add_moving_triangle(scene_, std::move(moving_));
   stand_in_node(1);
 }
@@ -342,8 +349,10 @@ void SceneBuilder::triangle() {
 void SceneBuilder::add_mesh() {
   mesh_.material = material();
   mesh_.location = location_in_scene();
-  count_kept(triangles_of_mesh_.size() + mesh_.positions.size() + mesh_.normals.size() +
-             mesh_.texture_points.size());
+  const std::size_t vectors = mesh_.positions.size() + mesh_.normals.size();
+  count_kept(triangles_of_mesh_.size() + vectors + mesh_.texture_points.size(),
+             sizeof(TriangleMesh) + triangles_of_mesh_.size() * (sizeof(Triangle) + kPlace) +
+                 vectors * sizeof(Vec3d) + mesh_.texture_points.size() * sizeof(Vec2d));
   if (triangles_of_mesh_.empty()) return;
   pprt::add_mesh(scene_, std::move(mesh_), triangles_of_mesh_);
   stand_in_node(triangles_of_mesh_.size());
@@ -373,7 +382,7 @@ void SceneBuilder::begin_node(const Affine& to_parent, std::string track) {
     throw ParseFailure{keyword_.data(),
                        fmt::format("more than {} transforms in each other", options_.max_transforms), true};
   const SourceLocation at = locate(keyword_.data());
-  count_kept(1);
+  count_kept(1, sizeof(SceneNode) + track.size());
   const auto node = static_cast<NodeIndex>(scene_.movement.nodes.size());
   scene_.movement.nodes.push_back(
       {.parent = nodes_.back().node, .to_parent = to_parent, .track = std::move(track), .location = at});

@@ -101,6 +101,7 @@ class SceneBuilder {
   SourceLocation locate(const char* place) { return open_.back().cursor.at(place); }
   void finish();  // adds the warnings
   SceneDescription& scene() { return scene_; }
+  std::vector<std::string>& texture_places() { return texture_places_; }
 
  private:
   struct OpenFile {
@@ -137,7 +138,7 @@ class SceneBuilder {
   TextureIndex texture();
   void begin_node(const Affine& to_parent, std::string track);
   void add_corners();
-  void count_kept(std::size_t more);
+  void count_kept(std::size_t items, std::size_t bytes);
   template <typename Key>
   void check_times(const std::vector<Key>& keys);
 
@@ -151,7 +152,9 @@ class SceneBuilder {
   std::map<std::string, MotionTrack, std::less<>> tracks_;
   std::array<Occurrence, static_cast<std::size_t>(Deviation::kCount)> deviations_{};
   std::size_t errors_ = 0;
-  std::size_t kept_ = 0;
+  std::size_t kept_ = 0;  // items
+  std::uint64_t kept_bytes_ = 0;
+  std::vector<std::string> texture_places_;
   int detail_ = 0;
   bool has_material_ = false;
   Material material_;

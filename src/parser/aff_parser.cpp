@@ -89,7 +89,10 @@ class Reader {
       throw InputError(report());
     SceneDescription& scene = builder_.scene();
     scene.name = printable(main_.string());
-    return {.scene = std::move(scene), .warnings = warnings(), .files = files_read()};
+    return {.scene = std::move(scene),
+            .warnings = warnings(),
+            .files = files_read(),
+            .texture_places = std::move(builder_.texture_places())};
   }
 
  private:
@@ -166,7 +169,8 @@ class Reader {
       file = std::make_unique<SourceFile>();
       order_.push_back(file.get());
       file->name = printable(path.string());
-      file->text = read_text(path.string(), options_.max_bytes - bytes_);
+      const std::size_t most = std::min<std::uint64_t>(options_.max_bytes, options_.max_memory);
+      file->text = read_text(path.string(), most - std::min(most, bytes_));
       bytes_ += file->text.size();
     }
     return *file;

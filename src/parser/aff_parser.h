@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
 #include "parser/parsed_scene.h"
 #include "scene/movement/movement_limits.h"
+#include "parser/reading_memory.h"
 
 namespace pprt {
 
@@ -21,6 +23,7 @@ struct AffOptions {
   std::size_t max_bytes = std::size_t{1} << 30;  // read in all
   std::size_t max_rows = 20'000'000;             // of one list
   std::size_t max_items = 100'000'000;           // objects, vertices, keys and transforms, in all
+  std::uint64_t max_memory = usual_reading_memory();  // bytes that the scene may take
   std::size_t max_errors = 1'000;                // reading stops here
 };
 

@@ -313,6 +313,9 @@ SourceLocation SceneBuilder::begin_object() {
   if (scene_.primitive_count() >= options_.max_primitives) {
     throw ParseFailure{entity_.data(), fmt::format("more than {} objects", options_.max_primitives), true};
   }
+  // Twice, for lists grow by doubling.
+  if (2 * memory_of(scene_) > options_.max_memory)
+    throw ParseFailure{entity_.data(), too_much_memory(options_.max_memory), true};
   return cursor_.at(entity_.data());
 }
 

@@ -168,7 +168,7 @@ ParsedScene parse_nff(std::string_view text, std::string_view file_name, const N
 }
 
 ParsedScene read_nff(const std::string& path, const NffOptions& options) {
-  const std::string text = read_text(path, options.max_bytes);
+  const std::string text = read_text(path, std::min<std::uint64_t>(options.max_bytes, options.max_memory));
   const bool is_stdin = path == "-";
   ParsedScene parsed = parse_nff(text, is_stdin ? "<stdin>" : printable(path), options);
   parsed.files.push_back(is_stdin ? "/dev/stdin" : path);

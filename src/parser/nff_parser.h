@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
 #include "parser/parsed_scene.h"
+#include "parser/reading_memory.h"
 
 namespace pprt {
 
@@ -18,8 +20,9 @@ struct NffOptions {
   std::size_t max_primitives = 20'000'000;
   std::size_t max_polygon_vertices = 1'000'000;  // per 'p' or 'pp'
   std::size_t max_lights = 10'000;
-  std::size_t max_materials = 1'000'000;  // distinct materials
-  std::size_t max_errors = 1'000;         // reading stops here
+  std::size_t max_materials = 1'000'000;              // distinct materials
+  std::uint64_t max_memory = usual_reading_memory();  // bytes that the scene may take
+  std::size_t max_errors = 1'000;                     // reading stops here
 };
 
 // Reads a scene from memory. `file_name` is for messages and becomes the scene's name. Throws InputError with

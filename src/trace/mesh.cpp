@@ -95,6 +95,22 @@ Vec3d shading_normal(const Mesh& mesh, std::uint32_t triangle, double u, double 
   return normal * (1 / std::sqrt(length2));
 }
 
+// Each corner's tangent plane lies above the facet where the surface bulges. The mean of the heights,
+// weighted as the normals are, is that of the smooth surface. Source: Hanika, Hacking the Shadow Terminator,
+// in Ray Tracing Gems II, 2021.
+Vec3d rise_to_smooth(const Mesh& mesh, std::uint32_t triangle, const TrianglePoint& at, const Vec3d& side) {
+  const TriangleIndices& index = mesh.triangles[triangle];
+  const std::array<double, 3> weights = {1 - at.u - at.v, at.u, at.v};
+  Vec3d rise(0, 0, 0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3d normal(mesh.normals[index[i]]);
+    const double above = normal.dot(at.position - Vec3d(mesh.vertices[index[i]]));
+    const double height = normal.dot(side) < 0 ? std::max(0.0, above) : std::min(0.0, above);
+    rise -= normal * (weights[i] * height);
+  }
+  return rise;
+}
+
 Vec2d texture_point(const Mesh& mesh, std::uint32_t triangle, double u, double v) {
   const TriangleIndices& index = mesh.triangles[triangle];
   return Vec2d(mesh.texture_points[index[0]]) * (1 - u - v) + Vec2d(mesh.texture_points[index[1]]) * u +

@@ -54,6 +54,11 @@ TrianglePoint on_surface(const Mesh& mesh, std::uint32_t triangle, const Vec3d& 
 // normals.
 Vec3d shading_normal(const Mesh& mesh, std::uint32_t triangle, double u, double v);
 
+// Returns the way from a point of a triangle with normals to the smooth surface that the normals describe,
+// where that bulges to the side of `side`; else 0. Shadow rays start there: neighbouring facets would hide
+// lights that the smooth surface sees. At most half the longest edge.
+Vec3d rise_to_smooth(const Mesh& mesh, std::uint32_t triangle, const TrianglePoint& at, const Vec3d& side);
+
 // Returns the texture coordinates. The mesh must have them.
 Vec2d texture_point(const Mesh& mesh, std::uint32_t triangle, double u, double v);
 

@@ -48,6 +48,7 @@ struct Surface {
   bool entering = true;    // whether the ray comes from outside
   const ShadingMaterial* material = nullptr;
   Color tint{1, 1, 1};  // of ambient and diffuse reflection
+  Vec3d rise{0, 0, 0};  // from the position to the smooth surface, see rise_to_smooth
 };
 
 // Takes a surface of a body's compiled space to the world's, where `direction` is the ray's.
@@ -111,6 +112,8 @@ Surface surface_at(const Pose& pose, const RTCRayHit& found, const Vec3d& along)
   if (part.smooth && scene.effects.has(Effect::kSmoothNormals)) {
     const Vec3d normal = shading_normal(*mesh, primitive, at.u, at.v);
     surface.shading = normal.dot(surface.normal) < 0 ? -normal : normal;
+    surface.rise = rise_to_smooth(*mesh, primitive, at, surface.normal);
+    if (body) surface.rise = body->to_world.vector(surface.rise);
   }
   surface.material = &scene.materials[part.materials[primitive]];
   const TextureImage* texture = surface.material->texture;
@@ -246,7 +249,7 @@ class RayTree {
     const ShadingMaterial& material = *surface.material;
     Color color(0, 0, 0);
     if (!published_ && !material.lit) return color;
-    const Vec3d position = surface.position + surface.normal * surface.offset;
+    const Vec3d position = surface.position + surface.normal * surface.offset + surface.rise;
     const Vec3f origin(position);
     unsigned bit = 1;  // of the light; 0 after the first eight
     for (const ShadingLight& light : lights_) {

@@ -101,7 +101,7 @@ run pprt-convert --chord-error 0.1 --tessellate 3 ball.nff x.nff; expect_code 2
 run pprt-convert --up x ball.nff x.nff; expect_code 2
 run pprt-convert none.obj x.nff; expect_code 3; expect_text err "cannot read 'none.obj': No such file or directory"
 echo nonsense >bad.glb
-run pprt-convert bad.glb x.nff; expect_code 3; expect_line err 'bad.glb: error: .*'
+run pprt-convert bad.glb x.nff; expect_code 3; expect_line err 'bad.glb:1:2: error: its JSON is broken: .*'
 run pprt-convert --tessellate 1000 spd:balls:3 x.nff; expect_code 3; expect_line err '.* triangles, more than 20000000: cut them less finely'
 expect_no_file x.nff
 mkdir folder.ply

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 namespace pprt {
@@ -48,6 +50,24 @@ CLI::Validator count_from(std::uint64_t least, std::uint64_t most) {
         if (whole && value >= least && value <= most) return {};
         return fmt::format("value {} is not a whole number from {}", text, least) +
                (most < std::numeric_limits<std::uint64_t>::max() ? fmt::format(" to {}", most) : "");
+      },
+      "");
+}
+
+CLI::Validator memory_size() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        constexpr std::string_view kUnits = "kMGT";
+        std::uint64_t value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const std::string_view unit(end, static_cast<std::size_t>(text.data() + text.size() - end));
+        const std::size_t found = unit.empty() ? 0 : kUnits.find(unit);
+        double bytes = static_cast<double>(value);
+        for (std::size_t i = 0; !unit.empty() && i <= std::min(found, kUnits.size()); ++i) bytes *= 1000;
+        if (error != std::errc() || value == 0 || found == std::string_view::npos || bytes > 1e18)
+          return fmt::format("value {} is no size of memory, such as 500M or 4G", text);
+        text = fmt::format("{:.0f}", bytes);
+        return {};
       },
       "");
 }

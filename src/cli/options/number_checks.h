@@ -26,4 +26,7 @@ CLI::Validator any_number();
 CLI::Validator count_from(std::uint64_t least,
                           std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
 
+// Accepts a size of memory, as 2500000, 500M or 4G, and makes it a number of bytes.
+CLI::Validator memory_size();
+
 }  // namespace pprt

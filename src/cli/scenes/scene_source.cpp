@@ -13,6 +13,7 @@
 #include "base/printable.h"
 #include "cli/scenes/texture_files.h"
 #include "parser/aff_parser.h"
+#include "parser/reading_memory.h"
 #include "parser/text_input.h"
 #include "scene/animation/object_motion.h"
 #include "scene/animation/resting_nodes.h"
@@ -59,11 +60,10 @@ bool is_aff_name(const std::string& name) {
   return std::filesystem::path(name).extension() == ".aff";
 }
 
-ParsedScene load_aff(const std::string& path, bool strict) {
-  ParsedScene parsed = read_aff(path, {.strict = strict});
+ParsedScene load_aff(const std::string& path, const NffOptions& options) {
+  ParsedScene parsed = read_aff(path, {.strict = options.strict, .max_memory = options.max_memory});
   try {
-    const auto textures = read_textures(parsed.scene, std::filesystem::path(path).parent_path());
-    parsed.files.insert(parsed.files.end(), textures.begin(), textures.end());
+    read_textures(parsed, std::filesystem::path(path).parent_path(), options.max_memory);
   } catch (const InputError& e) {
     throw InputError(parsed.warnings + e.what());
   }
@@ -129,7 +129,7 @@ ParsedScene load_scene_of_script(const Animation& script, const std::string& scr
   try {
     if (is_spd_name(name)) return {.scene = make_spd_scene(name)};
     require_file(name);
-    if (is_aff_name(name)) return load_aff(name, options.strict);
+    if (is_aff_name(name)) return load_aff(name, options);
     text = read_text(name, options.max_bytes);
   } catch (const InputError& e) {
     throw InputError(at_name_in_script(script, script_path, script.scene_location, e.what()));
@@ -155,7 +155,9 @@ void add_objects(ParsedScene& parsed, const Animation& script, const std::string
                                       [&](const SceneNode& node) { return node.track == object.name; });
     if (!is_known) {
       try {
-        ParsedScene other = load_scene(named_in_script(object.name, script_path), options);
+        NffOptions left = options;
+        left.max_memory -= std::min(left.max_memory, memory_of(scene));
+        ParsedScene other = load_scene(named_in_script(object.name, script_path), left);
         parsed.warnings += other.warnings;
         parsed.files.insert(parsed.files.end(), other.files.begin(), other.files.end());
         add_moving(scene, other.scene, object.name);
@@ -170,7 +172,7 @@ void add_objects(ParsedScene& parsed, const Animation& script, const std::string
 ParsedScene load_scene(const std::string& name, const NffOptions& options) {
   if (is_spd_name(name)) return {.scene = make_spd_scene(name)};
   if (name != "-") require_file(name);
-  if (is_aff_name(name)) return load_aff(name, options.strict);
+  if (is_aff_name(name)) return load_aff(name, options);
   return read_nff(name, options);
 }
 

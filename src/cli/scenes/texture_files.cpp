@@ -10,6 +10,7 @@
 #include "base/diagnostics.h"
 #include "base/printable.h"
 #include "image/image_io.h"
+#include "parser/reading_memory.h"
 
 namespace pprt {
 namespace {
@@ -38,13 +39,15 @@ void fill(Texture& texture, const Image& image) {
   }
 }
 
-std::vector<std::string> read_textures(SceneDescription& scene, const fs::path& folder) {
-  std::vector<std::string> files;
+void read_textures(ParsedScene& parsed, const fs::path& folder, std::uint64_t max_memory) {
+  SceneDescription& scene = parsed.scene;
   std::string problems;
-  const auto note = [&](const std::string& problem) {
-    problems += (problems.empty() ? "" : "\n") + scene.name + ": error: " + problem;
-  };
-  for (Texture& texture : scene.textures) {
+  std::uint64_t taken = memory_of(scene);
+  for (std::size_t i = 0; i < scene.textures.size(); ++i) {
+    Texture& texture = scene.textures[i];
+    const auto note = [&](const std::string& problem) {
+      problems += (problems.empty() ? "" : "\n") + parsed.texture_places[i] + ": error: " + problem;
+    };
     const std::optional<fs::path> path = find_texture(texture.name, folder);
     if (!path) {
       note("there is no texture '" + printable(texture.name) +
@@ -52,8 +55,9 @@ std::vector<std::string> read_textures(SceneDescription& scene, const fs::path& 
       continue;
     }
     try {
-      fill(texture, read_image(*path));
-      files.push_back(path->string());
+      fill(texture, read_image(*path, max_memory - std::min(max_memory, taken)));
+      parsed.files.push_back(path->string());
+      taken += texture.rgb.size();
     } catch (const std::exception& e) {
       note(e.what());
     }

@@ -38,9 +38,9 @@ Bytes accepted(const ReadMesh& mesh) {
   return bytes;
 }
 
-Bytes answer(const std::string& path) {
+Bytes answer(const std::string& path, std::uint64_t max_memory) {
   try {
-    return accepted(read_mesh(path));
+    return accepted(read_mesh(path, max_memory));
   } catch (const InputError& e) {
     return rejected(e.what());
   } catch (const std::bad_alloc&) {
@@ -78,9 +78,7 @@ std::string problem_of(const CallResult& result, const MeshLimits& limits) {
       return fmt::format("reading it takes more than {:g} seconds (--mesh-seconds allows more)",
                          limits.seconds);
     case CallEnd::kNoMemory:
-      return fmt::format(
-          "reading it takes more memory than there is, or than {:g} GB (--mesh-memory allows more)",
-          limits.memory_gigabytes);
+      return too_much_memory(limits.memory_bytes);
     default:
       return fmt::format("it is damaged, or has something that Assimp cannot read: reading it ended in {}",
                          result.signal == 0 ? "an unknown error" : strsignal(result.signal));
@@ -90,13 +88,14 @@ std::string problem_of(const CallResult& result, const MeshLimits& limits) {
 }  // namespace
 
 ReadMesh read_mesh_isolated(const std::string& path, const MeshLimits& limits) {
-  constexpr double kGigabyte = 1 << 30, kWallShare = 4;
-  const double memory =
-      std::min(limits.memory_gigabytes * kGigabyte, static_cast<double>(available_memory()));
-  const CallResult result =
-      call_isolated([&] { return answer(path); }, {.memory_bytes = static_cast<std::uint64_t>(memory),
-                                                   .cpu_seconds = limits.seconds,
-                                                   .wall_seconds = kWallShare * limits.seconds});
+  constexpr double kWallShare = 4;
+  constexpr std::uint64_t kAssimpShare = 4;  // it holds the file, its own scene and this program's at a time
+  const std::uint64_t available = available_memory();
+  const std::uint64_t memory =
+      limits.memory_bytes < available / kAssimpShare ? kAssimpShare * limits.memory_bytes : available;
+  const CallResult result = call_isolated(
+      [&] { return answer(path, limits.memory_bytes); },
+      {.memory_bytes = memory, .cpu_seconds = limits.seconds, .wall_seconds = kWallShare * limits.seconds});
   if (result.end != CallEnd::kDone) throw InputError(path + ": error: " + problem_of(result, limits));
   return mesh_of(result.bytes);
 }

@@ -10,8 +10,8 @@ namespace pprt {
 
 // What reading a mesh may take.
 struct MeshLimits {
-  double seconds = 120;         // of the processor; four times as long in all
-  double memory_gigabytes = 8;  // and no more than is available
+  double seconds = 120;  // of the processor; four times as long in all
+  std::uint64_t memory_bytes = usual_reading_memory();  // of the scene; Assimp may take four times as much
 };
 
 // Returns what read_mesh() does, in a process of its own: Assimp crashes on some damaged files and reads

@@ -75,8 +75,10 @@ struct Space {
 class SceneReader {
  public:
   // `gltf`: of a file in glTF.
-  SceneReader(const aiScene& from, const std::string& path, std::optional<GltfFacts> gltf)
-      : from_(from), gltf_(std::move(gltf)), textures_(from, path) {
+  // `gltf`: of a file in glTF. `max_memory`: bytes that its pictures may take.
+  SceneReader(const aiScene& from, const std::string& path, std::optional<GltfFacts> gltf,
+              std::uint64_t max_memory)
+      : from_(from), gltf_(std::move(gltf)), textures_(from, path, max_memory) {
     scene_.name = path;
   }
 
@@ -420,7 +422,7 @@ bool is_mesh_extension(const std::string& extension) {
   return extension != ".nff" && extension.size() > 1 && Assimp::Importer().IsExtensionSupported(extension);
 }
 
-ReadMesh read_mesh(const std::string& path) {
+ReadMesh read_mesh(const std::string& path, std::uint64_t max_memory) {
   require_readable(path);
   std::optional<GltfFacts> gltf;
   if (extension_of(path) == ".glb" || extension_of(path) == ".gltf") {
@@ -434,7 +436,7 @@ ReadMesh read_mesh(const std::string& path) {
   if (const std::exception_ptr thrown = importer.GetException()) rethrow_lack_of_memory(thrown);
   const Unreadable unreadable{path, gltf.value_or(GltfFacts()), files->unread()};
   if (scene == nullptr || scene->mRootNode == nullptr) unreadable.reject(importer.GetErrorString());
-  ReadMesh mesh = SceneReader(*scene, path, std::move(gltf)).run();
+  ReadMesh mesh = SceneReader(*scene, path, std::move(gltf), max_memory).run();
   if (mesh.scene.primitive_count() == 0) unreadable.reject("there is no polygon in it");
   for (const auto& [name, reason] : files->unread())
     mesh.notes.push_back((name.ends_with(".mtl") ? "the material library '" : "the file '") +

@@ -1,9 +1,11 @@
 // Reading mesh files of modelling programs.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
+#include "parser/reading_memory.h"
 #include "scene/description/scene_description.h"
 
 namespace pprt {
@@ -19,6 +21,6 @@ struct ReadMesh {
 
 // Reads polygons, materials, camera and lights, in world space. Polygons have normals where these differ from
 // their plane's. Throws InputError: the file is missing, Assimp rejects it, or it has no polygon.
-ReadMesh read_mesh(const std::string& path);
+ReadMesh read_mesh(const std::string& path, std::uint64_t max_memory = usual_reading_memory());
 
 }  // namespace pprt

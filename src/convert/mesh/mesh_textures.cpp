@@ -19,8 +19,9 @@ std::string name_of(const std::string& path) {
 }
 
 // Returns a picture within the file: another file's bytes, or texels where there is a height.
-Image embedded(const aiTexture& from) {
-  if (from.mHeight == 0) return decode_image({reinterpret_cast<const char*>(from.pcData), from.mWidth});
+Image embedded(const aiTexture& from, std::uint64_t max_memory) {
+  if (from.mHeight == 0)
+    return decode_image({reinterpret_cast<const char*>(from.pcData), from.mWidth}, max_memory);
   Image image(static_cast<int>(from.mWidth), static_cast<int>(from.mHeight));
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
     const aiTexel& texel = from.pcData[i];
@@ -39,6 +40,7 @@ std::optional<TextureIndex> MeshTextures::intern(const std::string& path, std::v
     Texture texture;
     texture.name = name_of(path);
     fill(texture, picture(path));
+    left_ -= std::min<std::uint64_t>(left_, texture.rgb.size());
     textures.push_back(std::move(texture));
     found->second = static_cast<TextureIndex>(textures.size() - 1);
   } catch (const std::exception& e) {
@@ -48,9 +50,9 @@ std::optional<TextureIndex> MeshTextures::intern(const std::string& path, std::v
 }
 
 Image MeshTextures::picture(const std::string& path) {
-  if (const aiTexture* texture = from_.GetEmbeddedTexture(path.c_str())) return embedded(*texture);
+  if (const aiTexture* texture = from_.GetEmbeddedTexture(path.c_str())) return embedded(*texture, left_);
   files_.push_back(folder_.find(path).string());
-  return read_image(files_.back());
+  return read_image(files_.back(), left_);
 }
 
 }  // namespace pprt

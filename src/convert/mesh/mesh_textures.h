@@ -1,6 +1,7 @@
 // Pictures on the surfaces of mesh files.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -18,8 +19,9 @@ namespace pprt {
 // Reads the pictures of a file's materials, each once: those within the file, and those in its folder.
 class MeshTextures {
  public:
-  // `model`: the path of the mesh.
-  MeshTextures(const aiScene& from, const std::filesystem::path& model) : from_(from), folder_(model) {}
+  // `model`: the path of the mesh. `max_memory`: bytes that the pictures may take.
+  MeshTextures(const aiScene& from, const std::filesystem::path& model, std::uint64_t max_memory)
+      : from_(from), folder_(model), left_(max_memory) {}
 
   // Returns the place among `textures` of the picture of a path (picture_path()). Empty where it cannot be
   // read; `notes` then gets the reason.
@@ -34,6 +36,7 @@ class MeshTextures {
 
   const aiScene& from_;
   ModelFolder folder_;
+  std::uint64_t left_;  // bytes
   std::map<std::string, std::optional<TextureIndex>> known_;
   std::vector<std::string> files_;
 };

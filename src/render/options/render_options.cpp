@@ -212,6 +212,11 @@ void add_effect_options(CLI::App& app, RenderOptions& o) {
                "Print which effects the scene calls for and why; with -o also the rays of each kind")
       ->group(group);
   app.add_flag("--strict", o.source.strict, "Reject what the NFF specification does not allow")->group(group);
+  app.add_option("--memory", o.source.memory,
+                 "Most memory that reading may take, as 500M or 4G (default: an eighth of what is there)")
+      ->transform(memory_size())
+      ->type_name("SIZE")
+      ->group(group);
 }
 
 void add_report_options(CLI::App& app, RenderOptions& o) {

@@ -25,6 +25,7 @@ struct SourceOptions {
   std::string input;   // scene, or script that names its scene
   std::string script;  // empty: none, or `input` is one
   bool strict = false;
+  std::optional<std::uint64_t> memory;  // bytes that reading may take; empty: a share of what is there
 };
 
 // Where the run takes place.

@@ -175,7 +175,7 @@ std::vector<FramePattern> files_of_a_frame(const OutputFiles& output) {
 RenderPlan plan_render(const RenderOptions& options) {
   Sources sources = read_sources(options.source);
   try {
-    add_objects(sources, options.source.strict);
+    add_objects(sources, options.source);
     return plan_of(options, sources);
   } catch (const InputError& e) {
     throw InputError(sources.warnings() + e.what());  // a warning may tell why

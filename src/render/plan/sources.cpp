@@ -13,10 +13,16 @@ namespace {
 
 constexpr double kCustomaryRate = 25;  // frames/s
 
+NffOptions reading_of(const SourceOptions& options) {
+  NffOptions reading{.strict = options.strict};
+  if (options.memory) reading.max_memory = *options.memory;
+  return reading;
+}
+
 }  // namespace
 
 Sources read_sources(const SourceOptions& options) {
-  const NffOptions reading{.strict = options.strict};
+  const NffOptions reading = reading_of(options);
   const bool only_script = options.script.empty() && is_script_name(options.input);
   const std::string& script_path = only_script ? options.input : options.script;
   std::optional<ParsedAnimation> script;
@@ -29,13 +35,13 @@ Sources read_sources(const SourceOptions& options) {
                  load_scene_of_script(script->animation, script_path, reading)};
 }
 
-void add_objects(Sources& sources, bool strict) {
+void add_objects(Sources& sources, const SourceOptions& options) {
   if (!sources.script) return;
   SceneDescription& scene = sources.scene.scene;
   const FrameTimes times = frame_times(sources);
   const std::size_t own_nodes = scene.movement.nodes.size();
   for (const SceneNode& node : scene.movement.nodes) sources.own_names.insert(node.track);
-  add_objects(sources.scene, sources.script->animation, sources.script_path, times, {.strict = strict});
+  add_objects(sources.scene, sources.script->animation, sources.script_path, times, reading_of(options));
   if (scene.movement.nodes.size() > own_nodes) scene = without_resting_nodes(std::move(scene));
   if (scene.movement.nodes.size() > 1) scene.movement.times = times;
 }

@@ -29,7 +29,7 @@ struct Sources {
 Sources read_sources(const SourceOptions& options);
 
 // Adds what the script moves to the scene. Throws InputError.
-void add_objects(Sources& sources, bool strict);
+void add_objects(Sources& sources, const SourceOptions& options);
 
 // Returns the times of the frames. Those of a script are spread over the scene's own animation; without one
 // the first is at 0 and they follow each other at the script's rate.

@@ -244,10 +244,9 @@ TEST_CASE("hostile meshes: one that crashes Assimp, or takes too much, is refuse
   for (int i = 0; i < 100'000; ++i) many += kTriangle;
   const std::string large = files.write("large.obj", many);
   CHECK_THROWS_WITH(
-      read_mesh_isolated(large, {.memory_gigabytes = 0}),
+      read_mesh_isolated(large, {.memory_bytes = 1}),
       large +
-          ": error: reading it takes more memory than there is, or than 0 GB (--mesh-memory allows "
-          "more)");
+          ": error: " + too_much_memory(1));
 }
 
 }  // namespace pprt::mesh_hostile_test

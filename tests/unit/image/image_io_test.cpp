@@ -406,4 +406,15 @@ TEST_CASE("damaged files are errors that name the file") {
   CHECK_THAT(message_for(hostile), Catch::StartsWith(prefix));
 }
 
+TEST_CASE("images: a picture that takes too much memory is refused by its header, before it is decoded") {
+  const Image image(300, 200, Color(0.5f));
+  const std::string png = encode_png(image);
+  const auto refused = Catch::Contains("decoding 300x200 pixels takes 1.2 MB of memory, and 1 MB are left");
+  for (const std::string& bytes : {png, encode_exr(image), encode_jpeg(image, 90),
+                                   "P6 300 200 255\n" + std::string(180'000, 'a'), png.substr(0, 60)}) {
+    CHECK_THROWS_WITH(decode_image(bytes, 1'000'000), refused);
+  }
+  CHECK(decode_image(png, 1'200'000).width == 300);
+}
+
 }  // namespace pprt::image_io_test

@@ -1,3 +1,4 @@
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -246,6 +247,50 @@ TEST_CASE("only what shines, mirrors or transmits depends on the eye") {
   scene.materials[0].specular = 0;
   scene.materials[0].transmittance = 0.1;
   CHECK(look(compile(scene), *scene.view).eye_dependent);
+}
+
+// A ball of few triangles with the ball's normals, under one light from the side: what the smooth surface
+// shows to the light is lit, up to a facet's width from its terminator.
+TEST_CASE("shading: facets hide no light from the smooth surface that their normals describe") {
+  constexpr int kSides = 12, kRings = 6;
+  Material matte;
+  matte.color = Rgb(1, 1, 1), matte.diffuse = 1;
+  const Vec3d light(60, 30, 0), to_light = light.normalized();
+  for (const double side : {1.0, -1.0}) {  // normals outwards, or inwards with the same faces
+    SceneDescription scene = scene_with(matte, {light});
+    const auto vertex = [](int ring, int k) {
+      const double polar = std::numbers::pi * ring / kRings, turn = 2 * std::numbers::pi * k / kSides;
+      return Vec3d(std::sin(polar) * std::cos(turn), std::cos(polar), std::sin(polar) * std::sin(turn));
+    };
+    const auto facet = [&](const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+      const std::array<PatchVertex, 3> corners = {PatchVertex{a, a * side}, {b, b * side}, {c, c * side}};
+      add_patch(scene, corners, 0, {});
+    };
+    for (int ring = 0; ring < kRings; ++ring) {
+      for (int k = 0; k < kSides; ++k) {
+        if (ring > 0) facet(vertex(ring, k), vertex(ring, k + 1), vertex(ring + 1, k));
+        if (ring + 1 < kRings) facet(vertex(ring, k + 1), vertex(ring + 1, k + 1), vertex(ring + 1, k));
+      }
+    }
+    const CompiledScene compiled = compile(scene);
+    const Camera camera = compiled.camera(view_from({0, 0, 10}, {0, 0, 0}, 13, 64));
+    Tracer tracer(compiled, camera);
+    int near_terminator = 0, dark = 0, lit_behind = 0;
+    for (int y = 0; y < 64; ++y) {
+      for (int x = 0; x < 64; ++x) {
+        const RaySample sample = tracer.trace(x + 0.5, y + 0.5);
+        if (sample.at_infinity) continue;
+        const double cosine = Vec3d(tracer.first_hit(x + 0.5, y + 0.5).normal).dot(to_light);
+        const bool is_lit = (sample.lights.seen & 1) != 0;
+        if (cosine > 0.02 && cosine < 0.5) ++near_terminator, dark += !is_lit;
+        if (cosine < 0) lit_behind += is_lit;
+      }
+    }
+    INFO(near_terminator << " near the terminator, " << dark << " of them dark");
+    CHECK(near_terminator > 300);
+    CHECK(dark == 0);
+    CHECK(lit_behind == 0);
+  }
 }
 
 }  // namespace pprt::shading_test

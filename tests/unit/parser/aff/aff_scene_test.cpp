@@ -331,6 +331,22 @@ TEST_CASE("aff: there are limits of everything") {
   CHECK(report(kMaterial + "p 4 0 0 0 1 0 0 1 1 0 0 1 0", few)
             .find("more than 1 objects, vertices, keys and transforms") != std::string::npos);
   few = {};
+  few.max_memory = 100'000;
+  folder.write("ball.aff", "s 0 0 0 1\n s 0 0 0 2\n");
+  folder.write("many.aff", kMaterial + "i 0 nine.aff i 0 nine.aff i 0 nine.aff i 0 nine.aff i 0 nine.aff");
+  std::string nine;
+  for (int n = 0; n < 99; ++n) nine += "i 0 ball.aff\n";
+  folder.write("nine.aff", nine);
+  const std::string too_much = folder.report("many.aff", few);
+  INFO(too_much);
+  CHECK(too_much.find("ball.aff:") != std::string::npos);
+  CHECK(too_much.find(
+            "the scene takes more than 0.1 MB of memory, the most that reading may take (--memory)") !=
+        std::string::npos);
+  few.max_memory = 1'000'000;
+  CHECK(folder.read("many.aff", few).spheres.size() == 990);
+  CHECK(memory_of(folder.read("many.aff")) > 990 * sizeof(Sphere));
+  few = {};
   few.max_errors = 3;
   CHECK(report("l x\nl x\nl x\nl x\n", few).find("reading stopped after 3 errors") != std::string::npos);
   few = {};
