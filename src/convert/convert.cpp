@@ -124,8 +124,8 @@ ParsedScene read(const ConvertOptions& options, InputFormat format) {
     return parsed;
   }
   require_file(options.input);
-  ReadMesh mesh =
-      read_mesh_isolated(options.input, {.seconds = options.mesh_seconds, .memory_bytes = reading.max_memory});
+  ReadMesh mesh = read_mesh_isolated(options.input,
+                                     {.seconds = options.mesh_seconds, .memory_bytes = reading.max_memory});
   for (const std::string& note : mesh.notes) say(mesh.scene, note);
   complete_view(mesh.scene, options.up);
   complete_lights(mesh.scene);

@@ -17,9 +17,10 @@ struct ConvertOptions {
   std::string output;
   bool strict = false;
   std::optional<std::uint64_t> memory = {};  // bytes that reading may take; empty: a share of what is there
-  std::optional<int> tessellate;  // Fineness::divisions; empty: keep curved surfaces if the format has them
-  std::optional<double> chord_error;  // Fineness::chord_error
-  UpAxis up = UpAxis::kY;             // of an added view
+  std::optional<int> tessellate =
+      {};  // Fineness::divisions; empty: keep curved surfaces if the format has them
+  std::optional<double> chord_error = {};  // Fineness::chord_error
+  UpAxis up = UpAxis::kY;                  // of an added view
   // Time at which a scene that moves is taken, seconds. Empty: its movement, where the format has that; else
   // the start of its animation.
   std::optional<double> at = {};

@@ -15,7 +15,7 @@
 namespace pprt::aff {
 namespace {
 
-constexpr int kLargestResolution = 65536;  // pixels
+constexpr int kLargestResolution = 65536;                                 // pixels
 constexpr std::size_t kPlace = sizeof(PrimitiveRef) + sizeof(NodeIndex);  // bytes, of an object in its lists
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace pprt {
 struct ParsedScene {
   SceneDescription scene;
   std::string warnings = {};  // formatted with their places, each line ended; empty when there are none
-  std::vector<std::string> files = {};  // by path; "/dev/stdin" for standard input
+  std::vector<std::string> files = {};           // by path; "/dev/stdin" for standard input
   std::vector<std::string> texture_places = {};  // "file:line:column" where each texture is named first
 };
 

@@ -63,7 +63,6 @@ void read_textures(ParsedScene& parsed, const fs::path& folder, std::uint64_t ma
     }
   }
   if (!problems.empty()) throw InputError(problems);
-  return files;
 }
 
 }  // namespace pprt

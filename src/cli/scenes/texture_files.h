@@ -15,8 +15,8 @@ namespace pprt {
 void fill(Texture& texture, const Image& image);
 
 // Reads every texture of a scene that lies in `folder`: beside the scene, in TextureFiles/ there, or in
-// ../TextureFiles/. Adds them to its files. Throws InputError that names every one that is not there, or cannot
-// be read, or not within `max_memory` for the scene, bytes.
+// ../TextureFiles/. Adds them to its files. Throws InputError that names every one that is not there, or
+// cannot be read, or not within `max_memory` for the scene, bytes.
 void read_textures(ParsedScene& parsed, const std::filesystem::path& folder, std::uint64_t max_memory);
 
 }  // namespace pprt

@@ -10,7 +10,7 @@ namespace pprt {
 
 // What reading a mesh may take.
 struct MeshLimits {
-  double seconds = 120;  // of the processor; four times as long in all
+  double seconds = 120;                                 // of the processor; four times as long in all
   std::uint64_t memory_bytes = usual_reading_memory();  // of the scene; Assimp may take four times as much
 };
 

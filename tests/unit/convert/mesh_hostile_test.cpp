@@ -243,10 +243,7 @@ TEST_CASE("hostile meshes: one that crashes Assimp, or takes too much, is refuse
   std::string many;
   for (int i = 0; i < 100'000; ++i) many += kTriangle;
   const std::string large = files.write("large.obj", many);
-  CHECK_THROWS_WITH(
-      read_mesh_isolated(large, {.memory_bytes = 1}),
-      large +
-          ": error: " + too_much_memory(1));
+  CHECK_THROWS_WITH(read_mesh_isolated(large, {.memory_bytes = 1}), large + ": error: " + too_much_memory(1));
 }
 
 }  // namespace pprt::mesh_hostile_test
