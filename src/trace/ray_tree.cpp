@@ -47,7 +47,7 @@ struct Surface {
   double offset = 0;       // distance from the surface at which a leaving ray starts
   bool entering = true;    // whether the ray comes from outside
   const ShadingMaterial* material = nullptr;
-  Color tint{1, 1, 1};  // of ambient and diffuse reflection
+  Color ambient{0, 0, 0}, diffuse{0, 0, 0};  // of the material, times its texture
   Vec3d rise{0, 0, 0};  // from the position to the smooth surface, see rise_to_smooth
 };
 
@@ -115,10 +115,15 @@ Surface surface_at(const Pose& pose, const RTCRayHit& found, const Vec3d& along)
     surface.rise = rise_to_smooth(*mesh, primitive, at, surface.normal);
     if (body) surface.rise = body->to_world.vector(surface.rise);
   }
-  surface.material = &scene.materials[part.materials[primitive]];
-  const TextureImage* texture = surface.material->texture;
-  if (texture != nullptr && mesh != nullptr && !mesh->texture_points.empty())
-    surface.tint = texture->at(texture_point(*mesh, primitive, at.u, at.v));
+  const ShadingMaterial& material = scene.materials[part.materials[primitive]];
+  surface.material = &material;
+  surface.ambient = material.ambient;
+  surface.diffuse = material.diffuse;
+  if (material.texture != nullptr && mesh != nullptr && !mesh->texture_points.empty()) {
+    const Color tint = material.texture->at(texture_point(*mesh, primitive, at.u, at.v));
+    surface.ambient *= tint;
+    surface.diffuse *= tint;
+  }
   if (body) place(*body, along, surface);
   return surface;
 }
@@ -181,7 +186,7 @@ class RayTree {
         ((has(Effect::kHighlights) || has(Effect::kReflection)) && material.specular > 0) ||
         (has(Effect::kRefraction) && material.transmittance > 0);
     const SeenLights lights = lights_known(known, sample.primitive);
-    sample.color = ambient(surface) + from_lights<true>(surface, d, lights, sample.lights);
+    sample.color = surface.ambient + from_lights<true>(surface, d, lights, sample.lights);
     if (has_secondary_rays()) {
       if (1 < scene_.options.max_depth) sample.color += from_secondary_rays(surface, d, 2);
     }
@@ -234,7 +239,7 @@ class RayTree {
   // the secondary rays that `depth` allows. An eye ray has depth 1.
   Color shade(const Surface& surface, const Vec3d& direction, int depth) {
     SeenLights unused;
-    Color color = ambient(surface) + from_lights<false>(surface, direction, {}, unused);
+    Color color = surface.ambient + from_lights<false>(surface, direction, {}, unused);
     if (has_secondary_rays()) {
       if (depth < scene_.options.max_depth) color += from_secondary_rays(surface, direction, depth + 1);
     }
@@ -269,14 +274,12 @@ class RayTree {
         }
         if (is_hidden) continue;
       }
-      color += light.color * (material.diffuse * surface.tint) * static_cast<float>(cosine_length / length);
+      color += light.color * surface.diffuse * static_cast<float>(cosine_length / length);
       if (has(Effect::kHighlights) && material.shine > 0)
         color += light.color * (material.specular_color * highlight(surface, direction, unit_to_light));
     }
     return color;
   }
-
-  static Color ambient(const Surface& surface) { return surface.material->ambient * surface.tint; }
 
   // Phong: cos(angle)^shine, with the angle between the mirrored ray and the light.
   static float highlight(const Surface& surface, const Vec3d& direction, const Vec3d& unit_to_light) {

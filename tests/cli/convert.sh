@@ -101,7 +101,17 @@ run pprt-convert --chord-error 0.1 --tessellate 3 ball.nff x.nff; expect_code 2
 run pprt-convert --up x ball.nff x.nff; expect_code 2
 run pprt-convert none.obj x.nff; expect_code 3; expect_text err "cannot read 'none.obj': No such file or directory"
 echo nonsense >bad.glb
-run pprt-convert bad.glb x.nff; expect_code 3; expect_line err 'bad.glb:1:2: error: its JSON is broken: .*'
+run pprt-convert bad.glb x.nff; expect_code 3; expect_text err 'bad.glb: error: it begins neither as text in glTF nor as binary glTF'
+# A mesh that crashes Assimp, one that waits for ever, one that takes more than it may.
+{ echo '<COLLADA version="1.4.1"><library_visual_scenes><visual_scene id="s">'; printf '<node>%.0s' {1..300000}; printf '</node>%.0s' {1..300000}
+  echo '</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>'; } >deep.dae
+run pprt-convert deep.dae x.nff; expect_code 3; expect_no_file x.nff
+expect_line err 'deep.dae: error: it is damaged, or has something that Assimp cannot read: reading it ended in .*'
+mkfifo pipe.obj
+run pprt-convert pipe.obj x.nff; expect_code 3; expect_text err "cannot read 'pipe.obj': it is not a regular file"
+run pprt-convert --mesh-seconds 0 mesh/ball.ply x.nff; expect_code 2; expect_no_file x.nff
+run pprt-convert --memory many mesh/ball.ply x.nff; expect_code 2; expect_no_file x.nff
+run pprt-convert --mesh-seconds 300 --memory 2G mesh/ball.ply x.nff; expect_code 0; rm x.nff
 run pprt-convert --tessellate 1000 spd:balls:3 x.nff; expect_code 3; expect_line err '.* triangles, more than 20000000: cut them less finely'
 expect_no_file x.nff
 mkdir folder.ply

@@ -163,9 +163,14 @@ json parsed(const std::string& text, std::size_t begin, GltfFacts& facts) {
           "its JSON has brackets more than " + std::to_string(kMaxJsonDepth) + " deep in each other";
     return document;
   } catch (const json::parse_error& e) {
+    if (!facts.likely_cause.empty()) return nullptr;
+    if (const std::size_t first = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");
+        first == std::string::npos || text[first] != '{') {
+      facts.likely_cause = "it begins neither as text in glTF nor as binary glTF";
+      return nullptr;
+    }
     const std::size_t at = e.byte > 0 ? e.byte - 1 : 0;
     if (begin == 0) facts.broken_at = at;
-    if (!facts.likely_cause.empty()) return nullptr;
     facts.likely_cause =
         "its JSON is broken" + (begin > 0 ? " at byte " + std::to_string(at) : "") + ": " + reason_of(e);
     return nullptr;

@@ -180,6 +180,8 @@ TEST_CASE("hostile meshes: what is wrong with a .gltf is said, with its place") 
         "'{', "
         "or a literal\n     \"nodes\":[}\n              ^");
   CHECK(files.report("m.gltf", R"({"asset":{"version":"1.0"}})") == ": error: it is of glTF 1.0, not 2");
+  for (const char* text : {"", " ", "\xef\xbb\xbf", "nonsense", "[1"})
+    CHECK(files.report("m.gltf", text) == ": error: it begins neither as text in glTF nor as binary glTF");
   CHECK(files.report("m.gltf", "{}") == ": error: it does not tell its version of glTF");
   for (const std::size_t depth : {501, 200'000}) {
     const std::string nested = R"("extras":)" + std::string(depth, '[') + std::string(depth, ']') + ",";
