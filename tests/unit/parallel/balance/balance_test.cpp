@@ -129,6 +129,15 @@ TEST_CASE("local balancing: tiles without cost are given on the way to those tha
   CHECK_FALSE(tiles_to_give({}, halves(), 0, 1, {4000, 1, kUnlimited}, offer).empty());
 }
 
+TEST_CASE("local balancing: where nothing else differs, the tile goes that shortens the border most") {
+  Partition partition = halves();
+  constexpr int kSpur = 12;  // its other three sides are the taker's
+  partition.owner[kSpur] = 0;
+  const LocalBalanceSettings settings{.communication_weight = 0, .shape_weight = 0};
+  const auto offer = [](int) { return TileOffer{100, 10, 0}; };
+  CHECK(tiles_to_give(settings, partition, 0, 1, {400, 1, kUnlimited}, offer) == std::vector{kSpur});
+}
+
 TEST_CASE("local balancing: tiles that the taker knows go first") {
   const auto offer = [](int tile) { return TileOffer{100, 10, tile == 19 ? 10.0 : 0.0}; };
   const std::vector<int> tiles = tiles_to_give({}, halves(), 0, 1, {400, 1, kUnlimited}, offer);
@@ -281,6 +290,21 @@ TEST_CASE("local balancing: what a tile costs is judged by the mean of the giver
   };
   CHECK(given_to_rank_of(1) == 4);
   CHECK(given_to_rank_of(3) == 2);
+}
+
+TEST_CASE("global balancing: a resting picture is cut anew only if few samples change hands") {
+  for (const bool is_even : {true, false}) {
+    SessionSettings settings{.sampler = SamplerChoice::kAuto};
+    settings.balance = BalanceMode::kGlobal;
+    settings.frames_per_second = 25;
+    constexpr double kUnitsPerFrame = 1e5;  // a twentieth of it takes in some ten samples
+    GlobalBalancer balancer(settings, traits_of(settings.sampler), TileGrid(40, 10, 10), 2, kUnitsPerFrame);
+    FrameReports frame = reports_of_two(1000, is_even ? 1 : 4);
+    for (std::vector<TileReport>& tiles : frame.tiles)
+      for (TileReport& tile : tiles) tile.cost = 1e6;
+    frame.accumulates = true;
+    CHECK(repartitions(balancer, frame, Carry::kAccumulate) == is_even);
+  }
 }
 
 BOTH_SAMPLERS_TEST_CASE("global balancing: tiles of a lost rank go to the others, whatever had accumulated") {

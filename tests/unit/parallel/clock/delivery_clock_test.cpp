@@ -13,6 +13,14 @@ TEST_CASE("without a rate time begins with the first frame, not at the common st
   CHECK(clock.delivery_time(FrameOrder(), {}).late_ms == 0);
 }
 
+TEST_CASE("ranks that share a core have their share of a frame's work units") {
+  const auto units = [](double ranks_per_core) {
+    return WallDeliveryClock(10, ranks_per_core, [] { return 0.0; }).units_per_frame();
+  };
+  CHECK(units(1) == Approx(1e8));
+  CHECK(units(4) == Approx(0.25e8));
+}
+
 TEST_CASE("with a rate time begins at the common start") {
   double now = 10;
   WallDeliveryClock clock(4, 1, [&now] { return now; });

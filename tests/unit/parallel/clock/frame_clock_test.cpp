@@ -61,6 +61,16 @@ TEST_CASE("wall clock: ranks that share a core leave time for each other's recon
   CHECK(left_with(*clock, 3000) == Approx(1.25 * 16 * 0.001));
 }
 
+TEST_CASE("wall clock: a frame whose time is over grows no further") {
+  const auto clock = clock_in_a_frame(1.5);
+  FrameOrder order;
+  order.deadline_s = 0.001;
+  clock->begin_frame(order);
+  clock->begin_packet(100);
+  CHECK(clock->sampling_share() == 1);
+  CHECK(clock->expected_growth(100, 200) == 1.0);
+}
+
 TEST_CASE("wall clock: ranks that share a core afford their share of its work") {
   for (const double ranks_per_core : {1.0, 16.0}) {
     const auto clock = clock_in_a_frame(0, Carry::kNothing, ranks_per_core);

@@ -77,6 +77,17 @@ TEST_CASE("lattice exchange: each rank is told of the samples that touch its reg
   CHECK(told > 100);
 }
 
+TEST_CASE("lattice exchange: of others nothing is known but what they have said") {
+  Rank rank_1(1);
+  CHECK(rank_1.exchange.insert(sample_at(kSide + 4, 4), 1));
+  CHECK(rank_1.exchange.insert(sample_at(kSide + 4, 8), 1));
+  CHECK(rank_1.exchange.insert(sample_at(2 * kSide, 4), 2));
+  std::vector<std::uint32_t> own(12, 0);
+  own[1] = 2, own[2] = 1;
+  CHECK(rank_1.exchange.known_in_tiles(1) == own);
+  CHECK(rank_1.exchange.known_in_tiles(2) == std::vector<std::uint32_t>(12, 0));
+}
+
 TEST_CASE("lattice exchange: once a tile that was given away is back nothing is forwarded any more") {
   Rank rank_1(1);
   Partition given = columns();

@@ -4,6 +4,8 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 #include "pipeline/lattice/lattice_refiner.h"
 
@@ -19,15 +21,26 @@ RaySample sample_of(float value, std::uint32_t primitive = 1) {
   return sample;
 }
 
+// The whole image, or its last base square only: elsewhere samples then make no candidates.
+Region region_of_image(bool is_whole) {
+  const TileGrid grid{kSize, kSize, kBaseSide / kPixelSide};
+  std::vector<std::uint8_t> owned(static_cast<std::size_t>(grid.tile_count()), is_whole ? 1 : 0);
+  owned.back() = 1;
+  return Region(grid, owned);
+}
+
 // A picture of samples that a test places.
 class Picture {
  public:
+  explicit Picture(bool is_own = true) : refiner_(region_of_image(is_own), no_shape) {}
+
   bool add(const LatticeNode& node, float value, std::uint32_t primitive = 1) {
     return refiner_.insert(point_of(node), sample_of(value, primitive));
   }
   template <class Value>
   void add_base(const Value& value) {
-    for (const Vec2d& at : refiner_.base_points()) add(node_at(at), value(node_at(at)));
+    for (int y = 0; y <= kSize * kPixelSide; y += kBaseSide)
+      for (int x = 0; x <= kSize * kPixelSide; x += kBaseSide) add({x, y}, value(LatticeNode{x, y}));
   }
   PixelBlock painted() {
     PixelBlock pixels;
@@ -36,8 +49,9 @@ class Picture {
   }
 
  private:
-  LatticeRefiner refiner_{Region::whole({kSize, kSize, kSize}),
-                          [](std::uint32_t, ImageShape& shape) { shape.kind = ImageShape::Kind::kUnknown; }};
+  static void no_shape(std::uint32_t, ImageShape& shape) { shape.kind = ImageShape::Kind::kUnknown; }
+
+  LatticeRefiner refiner_;
 };
 
 struct Square {
@@ -45,12 +59,17 @@ struct Square {
   int side = kBaseSide;
 };
 
-// Squares of every side, the smaller in the larger: now the upper left quarter, now the lower right one.
-std::vector<Square> nested_squares() {
+// Which quarter of each square the next smaller one is.
+enum class Path : std::uint8_t { kUpperLeft, kLowerRight, kInTurn };
+constexpr std::array kPaths = {Path::kUpperLeft, Path::kLowerRight, Path::kInTurn};
+
+// Squares of every side, the smaller in the larger.
+std::vector<Square> nested_squares(Path path) {
   std::vector<Square> squares = {{{kBaseSide, kBaseSide}, kBaseSide}};
   while (squares.back().side > 2) {
     const auto [corner, side] = squares.back();
-    const int half = side / 2, step = squares.size() % 2 == 0 ? half : 0;
+    const bool is_lower = path == Path::kLowerRight || (path == Path::kInTurn && squares.size() % 2 == 0);
+    const int half = side / 2, step = is_lower ? half : 0;
     squares.push_back({{corner.x + step, corner.y + step}, half});
   }
   return squares;
@@ -65,8 +84,8 @@ std::array<LatticeNode, 5> inner_nodes(const Square& square) {
 
 // Samples the centres of the squares around a square.
 template <class Value>
-void add_path(Picture& picture, const Square& to, const Value& value) {
-  for (const Square& square : nested_squares()) {
+void add_path(Picture& picture, Path path, const Square& to, const Value& value) {
+  for (const Square& square : nested_squares(path)) {
     if (square.side == to.side) return;
     const LatticeNode center = inner_nodes(square)[0];
     picture.add(center, value(center));
@@ -81,11 +100,13 @@ float linear(const LatticeNode& node) {
 
 TEST_CASE("lattice painter: one odd sample shows in every square that it touches") {
   const auto flat = [](const LatticeNode&) { return 0.25F; };
-  for (const Square& square : nested_squares()) {
+  const Path path = GENERATE(from_range(kPaths));
+  const bool is_own = GENERATE(true, false);
+  for (const Square& square : nested_squares(path)) {
     for (const LatticeNode& odd : inner_nodes(square)) {
-      Picture picture;
+      Picture picture(is_own);
       picture.add_base(flat);
-      add_path(picture, square, flat);
+      add_path(picture, path, square, flat);
       const PixelBlock before = picture.painted();
       REQUIRE(picture.add(odd, 1));
       const PixelBlock after = picture.painted();
@@ -103,13 +124,14 @@ TEST_CASE("lattice painter: one odd sample shows in every square that it touches
 // Within a pixel a sampled centre predicts the sides without the square beyond: the mean is exact if no side
 // is sampled.
 TEST_CASE("lattice painter: what changes evenly stays exact, wherever in a square it is sampled") {
-  for (const Square& square : nested_squares()) {
+  const Path path = GENERATE(from_range(kPaths));
+  for (const Square& square : nested_squares(path)) {
     if (square.side < kPixelSide) break;
     for (unsigned known = 0; known < 32; ++known) {
       if (square.side == kPixelSide && (known & 1) != 0 && known != 1) continue;
       Picture picture;
       picture.add_base(linear);
-      add_path(picture, square, linear);
+      add_path(picture, path, square, linear);
       const std::array<LatticeNode, 5> nodes = inner_nodes(square);
       for (std::size_t i = 0; i < nodes.size(); ++i)
         if ((known >> i & 1U) != 0) picture.add(nodes[i], linear(nodes[i]));

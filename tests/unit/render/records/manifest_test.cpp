@@ -2,7 +2,9 @@
 
 #include <catch2/catch.hpp>
 #include <fstream>
+#include <set>
 #include <sstream>
+#include <string>
 #include <utility>
 
 #include "base/diagnostics.h"
@@ -86,6 +88,14 @@ TEST_CASE("a resumed run knows the frames that the manifest lists as finished") 
   append(run.picture(7), kPng);
   begun(run.path, "key", ExistingFiles::kResume).add({written(7, {run.picture(7)})});
   CHECK(run.resumed() == std::set<int>{1, 2, 3, 7});
+}
+
+TEST_CASE("a frame whose files are all written anew is listed no more") {
+  const FinishedRun run;
+  std::set<std::string> rewritten;
+  for (const int frame : {1, 2, 3}) rewritten.insert(run.picture(frame).string());
+  Manifest(run.path, "key", ExistingFiles::kReplace, rewritten);
+  CHECK(text_of(run.path) == kFirstLine);
 }
 
 TEST_CASE("a frame whose picture was deleted is not finished") {
