@@ -12,7 +12,7 @@ TEST_CASE("a checksum is the CRC-32 that its catalogue gives for the digits") {
   CHECK(crc32_of("") == 0u);
 }
 
-TEST_CASE("a file has the checksum of its content; what is no file has none") {
+TEST_CASE("a file has the checksum of its content, and what is no file has none") {
   const TemporaryDirectory directory;
   write_whole_file(directory.path() / "file", "123456789");
   CHECK(crc32_of_file(directory.path() / "file") == 0xcbf43926u);
