@@ -43,14 +43,40 @@ std::vector<double> times_of(const Movement& movement) {
   return times;
 }
 
+// Returns a box of all that the scene shows at any time. `boxes`: of each node's objects, in its space. What
+// a track turns counts as the sphere about its origin.
+Box3d box_of_any_time(const Movement& movement, std::vector<Box3d> boxes) {
+  for (std::size_t i = boxes.size() - 1; i > 0; --i) {  // a node's parent comes before it
+    const SceneNode& node = movement.nodes[i];
+    const Box3d& own = boxes[i];
+    if (own.isEmpty()) continue;
+    const auto track = movement.tracks.find(node.track);
+    Box3d in_parent = mapped(node.to_parent, own);
+    if (!node.track.empty() && track != movement.tracks.end()) {
+      Vec3d farthest;
+      for (int axis = 0; axis < 3; ++axis)
+        farthest[axis] = std::max(std::abs(own.min[axis]), std::abs(own.max[axis]));
+      const TrackReach reach = reach_of(track->second);
+      const Vec3d radius(reach.scale * farthest.length());
+      in_parent = {reach.translation.min - radius, reach.translation.max + radius};
+    }
+    boxes[node.parent].extendBy(in_parent);
+  }
+  return boxes[0];
+}
+
 // Returns the box of all that the scene shows at its frames' times, or at its keys' if it has no frames.
+// Where these take too long, one that is larger.
 Box3d box_of_all_times(const SceneDescription& scene) {
   std::vector<Box3d> boxes(scene.movement.nodes.size());  // of each node's objects, in its space
   for (std::size_t place = 0; place < scene.order.size(); ++place)
     boxes[node_of(scene, place)].extendBy(bounds(scene, scene.order[place]));
   if (boxes.size() == 1) return boxes[0];
+  constexpr std::size_t kMostPlacements = std::size_t{1} << 22;  // some seconds
+  const std::vector<double> times = times_of(scene.movement);
+  if (times.size() > kMostPlacements / boxes.size()) return box_of_any_time(scene.movement, std::move(boxes));
   Box3d box;
-  for (const double time : times_of(scene.movement)) {
+  for (const double time : times) {
     const std::vector<Placement> placements = placements_at(scene.movement, time);
     for (std::size_t node = 0; node < boxes.size(); ++node)
       box.extendBy(mapped(placements[node].to_parent, boxes[node]));
