@@ -48,7 +48,7 @@ struct Surface {
   bool entering = true;    // whether the ray comes from outside
   const ShadingMaterial* material = nullptr;
   Color ambient{0, 0, 0}, diffuse{0, 0, 0};  // of the material, times its texture
-  Vec3d rise{0, 0, 0};  // from the position to the smooth surface, see rise_to_smooth
+  Vec3d rise{0, 0, 0};                       // from the position to the smooth surface, see rise_to_smooth
 };
 
 // Takes a surface of a body's compiled space to the world's, where `direction` is the ray's.
@@ -203,7 +203,8 @@ class RayTree {
   bool has(Effect effect) const { return effects_.has(effect); }
   bool has_secondary_rays() const { return has(Effect::kReflection) || has(Effect::kRefraction); }
 
-  bool in_shadow(const ShadingLight& light, const Vec3f& origin, const Vec3d& direction, double length) {
+  [[gnu::noinline]] bool in_shadow(const ShadingLight& light, const Vec3f& origin, const Vec3d& direction,
+                                   double length) {
     ++counts_.shadow;
     if (!light.contacts.empty()) return in_shadow_of_others(light, origin, direction, length);
     RTCRay ray;

@@ -41,11 +41,40 @@ std::vector<double> times_of(const Movement& movement) {
   return times;
 }
 
-// Calls `visit` with the box of each node's objects that move, at each time. `own`: in their nodes' spaces.
+// Returns a box of what a node shows at any time. `box`: of its objects, in its space. What a track turns
+// counts as the sphere about its origin.
+Box3d at_any_time(const Movement& movement, std::size_t node, Box3d box) {
+  for (; node != 0; node = movement.nodes[node].parent) {
+    const SceneNode& at = movement.nodes[node];
+    const auto track = movement.tracks.find(at.track);
+    if (at.track.empty() || track == movement.tracks.end()) {
+      box = mapped(at.to_parent, box);
+      continue;
+    }
+    Vec3d farthest;
+    for (int axis = 0; axis < 3; ++axis)
+      farthest[axis] = std::max(std::abs(box.min[axis]), std::abs(box.max[axis]));
+    const TrackReach reach = reach_of(track->second);
+    const Vec3d radius(reach.scale * farthest.length());
+    box = {reach.translation.min - radius, reach.translation.max + radius};
+  }
+  return box;
+}
+
+// Calls `visit` with the box of each node's objects that move, at each time. Where these take too long, once
+// with a larger one. `own`: in their nodes' spaces.
 template <typename Visit>
 void visit_moving(const SceneDescription& scene, const std::vector<Box3d>& own, const Visit& visit) {
+  constexpr std::size_t kMostPlacements = std::size_t{1} << 22;  // some seconds
   if (own.size() == 1) return;
-  for (const double time : times_of(scene.movement)) {
+  const std::vector<double> times = times_of(scene.movement);
+  if (times.size() > kMostPlacements / own.size()) {
+    for (std::size_t node = 1; node < own.size(); ++node) {
+      if (!own[node].isEmpty()) visit(node, 0, at_any_time(scene.movement, node, own[node]));
+    }
+    return;
+  }
+  for (const double time : times) {
     const std::vector<Placement> placements = placements_at(scene.movement, time);
     for (std::size_t node = 1; node < own.size(); ++node) {
       if (!own[node].isEmpty()) visit(node, time, mapped(placements[node].to_parent, own[node]));

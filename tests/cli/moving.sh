@@ -112,4 +112,24 @@ for scene in "$here"/../../scenes/*.aff; do
   shown=$((shown + 1))
 done
 [[ $shown -gt 1 ]] || complain "there are $shown scenes"
+
+# A frame of a million, with thousands of objects that move and a hundred thousand keys, is soon there. Planning each
+# frame, or looking at each key for it, takes many minutes.
+awk 'BEGIN {
+  print "v from 0 0 30 at 0 0 0 up 0 1 0 angle 45 hither 1 resolution 16 12"
+  print "am 1 1 1 b .2 .3 .4 l 4 8 6 .7 .7 .7 fm .2 .2 .2 .7 .7 .7 0 0 0 0 0 1"
+  for (i = 0; i < 5000; ++i) {
+    printf "x b%d { s %g %g 0 .3 }\nk b%d { transl 20", i, i % 100 / 5 - 10, i / 250 - 10, i
+    for (k = 0; k < 20; ++k) printf " %d %g 0 0 0 0 0", 2000 * k, k % 3
+    print " }"
+  }
+}' >many.aff
+awk 'BEGIN {
+  print "animation { scene \"many.aff\" frames 1000000 fps 25 camera {"
+  print "key 1 { from <0, 0, 30> at <0, 0, 0> up <0, 1, 0> angle 45 }"
+  for (i = 1; i < 100000; ++i) printf "key %d { from <%g, 0, 30> }\n", 1 + 10 * i, i % 7
+  print "} }"
+}' >many.anim
+run timeout 120 pprt-render many.anim --frames 999999 --clock work --budget 10000 -o 'many%d.png'; expect_code 0
+expect_file many999999.png
 finish

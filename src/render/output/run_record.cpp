@@ -61,6 +61,7 @@ std::string run_key(const RunIdentity& run) {
                         v.from.z, v.at.x, v.at.y, v.at.z, v.up.x, v.up.y, v.up.z, v.angle_degrees);
     if (f.time != 0) text += fmt::format(" {}", f.time);
   }
+  text += run.plan.script_keys;
   return content_hash(text);
 }
 

@@ -192,16 +192,24 @@ std::string preflight(const RenderPlan& plan, const CompiledScene& scene) {
   const Seen seen = look_at_frames(plan, scene);
   const std::string& name = plan.scene.name;
   const std::string frames = plan.script_frames.size() > 1 ? " in any frame" : "";
-  if (!seen.stands_out) {
+  const auto judged = static_cast<int>(plan.script_frames.size());
+  const bool shows_nothing = !seen.stands_out;
+  if (shows_nothing && judged >= plan.script_length) {
     throw InputError(
         fmt::format("{}: error: nothing is to be seen{}: {}", name, frames, why_nothing_is_seen(plan, seen)));
   }
-  std::string warnings = warn_of_repeats(plan.scene, scene.repeated());
+  std::string warnings;
+  if (shows_nothing) {
+    warnings +=
+        fmt::format("{}: warning: nothing is to be seen in {} of its {} frames, the only ones looked at\n",
+                    name, judged, plan.script_length);
+  }
+  warnings += warn_of_repeats(plan.scene, scene.repeated());
   if (plan.scene.lights.empty()) {
     warnings += name + ": warning: the scene has no light: its objects show in ambient light alone\n";
   }
   const View& view = plan.script_frames.front().view;
-  if (!seen.varied && view.width * view.height > 1) {
+  if (!seen.varied && !shows_nothing && view.width * view.height > 1) {
     warnings += name + ": warning: the picture is of one colour throughout: " +
                 (seen.several ? "all that is in view shows the same" : "a single surface fills the view") +
                 "\n";
@@ -211,9 +219,14 @@ std::string preflight(const RenderPlan& plan, const CompiledScene& scene) {
 }
 
 void require_eyes_in_reach(const RenderPlan& plan, const CompiledScene& scene) {
-  for (const PlannedFrame& frame : plan.script_frames) {
+  const auto is_too_far = [&](const PlannedFrame& frame) {
+    return !(scene.distance(frame.view.from) <= kFarthestEye);
+  };
+  for (const std::vector<PlannedFrame>* frames : {&plan.script_frames, &plan.frames}) {
+    const auto found = std::find_if(frames->begin(), frames->end(), is_too_far);
+    if (found == frames->end()) continue;
+    const PlannedFrame& frame = *found;
     const double distance = scene.distance(frame.view.from);
-    if (distance <= kFarthestEye) continue;
     const std::string where = plan.script_name.empty()
                                   ? plan.scene.name + ": error: "
                                   : fmt::format("{}: error: frame {}: ", plan.script_name, frame.number);

@@ -8,7 +8,8 @@
 
 namespace pprt {
 
-// Judges all frames of the script together, as one of them may look at the sky. Traces 16 x 16 rays a frame,
+// Judges all frames of the script together, as one of them may look at the sky; of a long script those of the
+// plan's script_frames. Then it warns where it would refuse. Traces 16 x 16 rays a frame,
 // which nearly always is enough. Otherwise traces a ray through the middle of every pixel, but at most about
 // four million in all.
 //

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 #include "base/diagnostics.h"
@@ -12,6 +13,7 @@
 #include "render/options/render_options.h"
 #include "render/plan/session_plan.h"
 #include "render/plan/sources.h"
+#include "scene/writers/anim_writer.h"
 #include "spd/spd.h"
 
 namespace pprt {
@@ -65,29 +67,47 @@ void require_sound_cameras(const Sources& sources, const View& base) {
   throw InputError(report);
 }
 
-std::vector<PlannedFrame> script_frames(const Sources& sources, const View& base) {
+PlannedFrame planned_frame(const Sources& sources, const View& base, const FrameTimes& times, int number) {
+  PlannedFrame frame{.number = number, .view = base, .time = time_of_frame(times, number - 1), .cut = false};
+  if (const std::optional<View> moved = view_at(sources.scene.scene, frame.time)) {
+    frame.view = *moved;
+    frame.view.width = base.width, frame.view.height = base.height;
+  }
+  if (!sources.script) return frame;
+  frame.view = view_at(sources.script->animation, number, frame.view);
+  frame.cut = cut_before(sources.script->animation, number);
+  return frame;
+}
+
+// Returns `count` frames of the range at equal distances, with its first and its last.
+std::vector<PlannedFrame> planned_frames(const Sources& sources, const View& base, const FrameRange& range,
+                                         int count) {
   const FrameTimes times = frame_times(sources);
   std::vector<PlannedFrame> frames;
-  for (int n = 1; n <= times.frames; ++n) {
-    PlannedFrame& frame = frames.emplace_back(
-        PlannedFrame{.number = n, .view = base, .time = time_of_frame(times, n - 1), .cut = false});
-    if (const std::optional<View> moved = view_at(sources.scene.scene, frame.time)) {
-      frame.view = *moved;
-      frame.view.width = base.width, frame.view.height = base.height;
-    }
-    if (!sources.script) continue;
-    frame.view = view_at(sources.script->animation, n, frame.view);
-    frame.cut = cut_before(sources.script->animation, n);
+  const std::int64_t length = range.last - range.first;
+  for (std::int64_t i = 0; i < count; ++i) {
+    const auto after_first = static_cast<int>(count > 1 ? i * length / (count - 1) : 0);
+    frames.push_back(planned_frame(sources, base, times, range.first + after_first));
   }
   return frames;
 }
 
-std::vector<PlannedFrame> frames_to_render(const std::optional<FrameRange>& range,
-                                           const std::vector<PlannedFrame>& all) {
-  if (!range) return all;
-  if (range->last > static_cast<int>(all.size()))
-    throw UsageError(fmt::format("--frames {}: the last frame is {}", to_string(*range), all.size()));
-  return {all.begin() + (range->first - 1), all.begin() + range->last};
+FrameRange frames_to_render(const std::optional<FrameRange>& range, int length) {
+  if (!range) return {1, length};
+  if (range->last > length)
+    throw UsageError(fmt::format("--frames {}: the last frame is {}", to_string(*range), length));
+  return *range;
+}
+
+// Returns what decides the views of all frames, besides the scene.
+std::string script_keys(const Sources& sources) {
+  const FrameTimes times = frame_times(sources);
+  std::string keys = fmt::format("{} {} {}\n", times.start, times.end, times.frames);
+  if (!sources.script) return keys;
+  Animation camera = sources.script->animation;
+  camera.scene.reset(), camera.objects.clear();  // in whatever way the scene came to be
+  camera.fps = 0, camera.width.reset(), camera.height.reset();
+  return keys + anim_script(camera);
 }
 
 double frame_rate(const std::optional<double>& fps, const std::optional<ParsedAnimation>& script,
@@ -127,8 +147,10 @@ RenderPlan plan_of(const RenderOptions& options, Sources& sources) {
   if (is_live) require_live_rate(fps, options.end.has_stop_rule());
   if (is_live && names_pictures && !sources.script)
     throw UsageError("with --live, --output writes the frames of a script, and there is none");
-  std::vector<PlannedFrame> all = script_frames(sources, base);
-  std::vector<PlannedFrame> frames = frames_to_render(options.frames, all);
+  const int length = frame_times(sources).frames;
+  const int judged = std::min(length, kMostJudged);
+  const FrameRange range = frames_to_render(options.frames, length);
+  std::vector<PlannedFrame> frames = planned_frames(sources, base, range, range.last - range.first + 1);
 
   // Their files, and how the ranks make them.
   OutputFiles output = named_files(options.output, is_live, frames.size());
@@ -147,7 +169,9 @@ RenderPlan plan_of(const RenderOptions& options, Sources& sources) {
   return {.scene_name = absolute_scene_name(sources.scene_path),
           .objects = absolute_objects(sources),
           .script_name = sources.script ? sources.script->animation.name : "",
-          .script_frames = std::move(all),
+          .script_length = length,
+          .script_frames = planned_frames(sources, base, {1, length}, judged),
+          .script_keys = judged < length ? script_keys(sources) : "",
           .frames = std::move(frames),
           .renders = !options.report.census || names_pictures,
           .inputs = input_files(sources, options.config, options.ranks.hostfile),

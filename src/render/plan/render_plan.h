@@ -29,7 +29,9 @@ struct RenderPlan {
   std::optional<std::string> scene_name;    // as a script in any directory names it; empty: none can
   std::vector<ObjectMotion> objects;        // that the script moves, named so that any script can
   std::string script_name;                  // empty: none
-  std::vector<PlannedFrame> script_frames;  // all, rendered or not
+  int script_length = 1;                    // frames of the script or of the scene's own animation
+  std::vector<PlannedFrame> script_frames;  // by which it is judged: all, or kMostJudged at equal distances
+  std::string script_keys;                  // that decide the frames; empty: all are among script_frames
   std::vector<PlannedFrame> frames;         // those to render
   bool renders = true;                      // false: a census alone
   std::vector<NamedFile> inputs;            // files that are read, without --reference's
@@ -42,6 +44,9 @@ struct RenderPlan {
   std::string warnings;  // about scene and script, for people
   SceneDescription scene;
 };
+
+// Of a long script no more frames are planned than are judged or rendered.
+inline constexpr int kMostJudged = 1000;
 
 // Returns every file of a frame: its pictures and, beside those that cannot hold layers, the layers' own.
 std::vector<FramePattern> files_of_a_frame(const OutputFiles& output);

@@ -177,9 +177,9 @@ class LiveRunner {
 
   // What moves stands still while the script does.
   double time_of(const LiveShot& shot) const {
-    const auto place = static_cast<std::size_t>(shot.script_frame - 1);
-    return shot.script_frame > 0 && place < plan_.script_frames.size() ? plan_.script_frames[place].time
-                                                                       : time_;
+    const int place = shot.script_frame - plan_.frames.front().number;
+    const bool is_planned = place >= 0 && place < static_cast<int>(plan_.frames.size());
+    return is_planned ? plan_.frames[static_cast<std::size_t>(place)].time : time_;
   }
 
   // A film goes through cameras that nobody has seen. One that is none is left out.

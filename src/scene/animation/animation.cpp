@@ -59,9 +59,12 @@ View view_at(const Animation& animation, double frame, const View& base) {
 }
 
 bool cut_before(const Animation& animation, int frame) {
-  return std::any_of(animation.keys.begin(), animation.keys.end(), [frame](const CameraKey& key) {
-    return key.cut && frame - 1 < key.frame && key.frame <= frame;
-  });
+  const auto first_after = [&](double f) {
+    return std::upper_bound(animation.keys.begin(), animation.keys.end(), f,
+                            [](double wanted, const CameraKey& key) { return wanted < key.frame; });
+  };
+  return std::any_of(first_after(frame - 1), first_after(frame),
+                     [](const CameraKey& key) { return key.cut; });
 }
 
 std::string_view camera_defect(const Vec3d& from, const Vec3d& at, const Vec3d& up) {

@@ -158,8 +158,8 @@ std::optional<View> view_at(const SceneDescription& scene, double time) {
 
 MovingTriangle::Key shape_at(const MovingTriangle& triangle, double time) {
   const auto& keys = triangle.keys;
-  const auto after =
-      std::find_if(keys.begin(), keys.end(), [time](const auto& key) { return time < key.time; });
+  const auto after = std::upper_bound(keys.begin(), keys.end(), time,
+                                      [](double t, const MovingTriangle::Key& key) { return t < key.time; });
   MovingTriangle::Key shape = after == keys.end() ? keys.back() : *after;
   if (after != keys.begin() && after != keys.end()) {
     const MovingTriangle::Key& before = *(after - 1);

@@ -80,6 +80,17 @@ Vec3d vector_at(const std::vector<VectorKey>& keys, double time, bool in_order) 
   return from * (2 * u3 - 3 * u2 + 1) + to * (3 * u2 - 2 * u3) + out * (u3 - 2 * u2 + u) + in * (u3 - u2);
 }
 
+// Returns a box that contains the curve: each segment stays within the control points of its Bezier form.
+Box3d box_of(const std::vector<VectorKey>& keys) {
+  Box3d box;
+  for (std::size_t j = 1; j + 2 < keys.size(); ++j) {
+    const Vec3d &from = keys[j].value, &to = keys[j + 1].value;
+    const auto [out, in] = key_tangents(keys, j, from - keys[j - 1].value, to - from, keys[j + 2].value - to);
+    for (const Vec3d& point : {from, from + out / 3, to - in / 3, to}) box.extendBy(point);
+  }
+  return box;
+}
+
 // --- Rotations
 
 Quaternion quaternion_of(const Vec3d& axis, double degrees) {
@@ -127,8 +138,14 @@ Affine affine_of(const Quaternion& q) {
           {0, 0, 0}};
 }
 
-bool visible_at(const std::vector<VisibilityKey>& keys, double time) {
+// The last key in the list counts of those whose time has come.
+bool visible_at(const std::vector<VisibilityKey>& keys, double time, bool in_order) {
   bool visible = true;
+  if (in_order) {
+    const auto later = std::upper_bound(keys.begin(), keys.end(), time,
+                                        [](double t, const VisibilityKey& key) { return t < key.time; });
+    return later == keys.begin() || (later - 1)->visible;
+  }
   for (const VisibilityKey& key : keys) {
     if (key.time <= time) visible = key.visible;
   }
@@ -157,7 +174,8 @@ void note_order(MotionTrack& track) {
     return std::is_sorted(keys.begin(), keys.end(),
                           [](const auto& a, const auto& b) { return a.time < b.time; });
   };
-  track.is_in_order = is_ordered(track.translation) && is_ordered(track.scale) && is_ordered(track.rotation);
+  track.is_in_order = is_ordered(track.translation) && is_ordered(track.scale) &&
+                      is_ordered(track.rotation) && is_ordered(track.visibility);
 }
 
 TrackValues values_at(const MotionTrack& track, double time) {
@@ -166,8 +184,19 @@ TrackValues values_at(const MotionTrack& track, double time) {
   if (!track.rotation.empty())
     values.rotation = affine_of(rotation_at(track.rotation, time, track.is_in_order));
   if (!track.translation.empty()) values.translation = vector_at(track.translation, time, track.is_in_order);
-  values.visible = visible_at(track.visibility, time);
+  values.visible = visible_at(track.visibility, time, track.is_in_order);
   return values;
+}
+
+TrackReach reach_of(const MotionTrack& track) {
+  TrackReach reach;
+  reach.translation = track.translation.empty() ? Box3d(Vec3d(0, 0, 0)) : box_of(track.translation);
+  if (track.scale.empty()) return reach;
+  const Box3d scales = box_of(track.scale);
+  reach.scale = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    reach.scale = std::max({reach.scale, std::abs(scales.min[axis]), std::abs(scales.max[axis])});
+  return reach;
 }
 
 Placement placement_at(const MotionTrack& track, double time) {

@@ -46,7 +46,7 @@ struct MotionTrack {
   std::vector<VectorKey> translation, scale;
   std::vector<RotationKey> rotation;
   std::vector<VisibilityKey> visibility;  // visible before the first
-  bool is_in_order = false;  // no time of a curve is less than the one before; then it is found faster
+  bool is_in_order = false;  // no time in a list is less than the one before; then it is found faster
 };
 
 inline constexpr std::size_t kLeastCurveKeys = 4;
@@ -73,6 +73,13 @@ TrackValues values_at(const MotionTrack& track, double time);
 
 // Returns them as one map.
 Placement placement_at(const MotionTrack& track, double time);
+
+// What a track reaches at all times.
+struct TrackReach {
+  Box3d translation;  // contains every one
+  double scale = 1;   // no factor's magnitude is greater
+};
+TrackReach reach_of(const MotionTrack& track);
 
 // Returns a turn about an axis of any length; zero: none.
 Affine rotation(const Vec3d& axis, double degrees);

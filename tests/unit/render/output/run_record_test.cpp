@@ -42,6 +42,7 @@ TEST_CASE("a run's key changes with every setting that decides its pictures") {
       [](RenderPlan& p) { p.compile.max_depth = 2; },
       [](RenderPlan& p) { p.compile.effects = EffectSet(); },
       [](RenderPlan& p) { p.compile.cull = true; },
+      [](RenderPlan& p) { p.script_keys = "key"; },
       [](RenderPlan& p) { p.script_frames[0].cut = true; },
       [](RenderPlan& p) { p.script_frames[0].number = 2; },
       [](RenderPlan& p) { p.script_frames[0].time = 2; },

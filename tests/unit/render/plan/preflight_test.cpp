@@ -140,6 +140,11 @@ TEST_CASE("preflight accepts a sequence when one of its frames shows something")
   plan.script_frames.assign(40, {1, away, false});
   CHECK_THAT(outcome(plan),
              Equals("t.nff: error: nothing is to be seen in any frame: all objects lie behind the eye"));
+  plan.script_length = 41;  // one has not been looked at
+  CHECK_THAT(outcome(plan),
+             Equals("t.nff: warning: nothing is to be seen in 40 of its 41 frames, the only ones "
+                    "looked at\n"));
+  plan.script_length = 40;
   plan.script_frames[30].view = plan.scene.view.value();
   CHECK_THAT(outcome(plan), Equals(""));
 }

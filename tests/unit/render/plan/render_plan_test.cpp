@@ -171,6 +171,27 @@ TEST_CASE("all frames, a range or one are planned, and camera cuts keep their fr
   CHECK(plan_render(options).frames.size() == 1);
 }
 
+TEST_CASE("of a long script only the frames to render and some to judge it by are planned") {
+  const Files files;
+  RenderOptions options = options_for(
+      "spd:tree:1", files.add("a.anim",
+                              "animation { frames 1000000 fps 4 resolution <64, 48>\n"
+                              "  camera { key 1 { from <5, 0, 2> at <0, 0, 1> up <0, 0, 1> angle 45 }\n"
+                              "           cut 500000 { from <0, 5, 2> } } }\n"));
+  options.output.pictures = {pattern("out/%07d.png")};
+  options.frames = {499'999, 500'000};
+  const RenderPlan plan = plan_render(options);
+  REQUIRE(plan.frames.size() == 2);
+  CHECK((plan.frames[0].number == 499'999 && plan.frames[1].number == 500'000));
+  CHECK((!plan.frames[0].cut && plan.frames[1].cut && plan.frames[1].view.from.y == 5));
+  CHECK(plan.script_length == 1'000'000);
+  REQUIRE(plan.script_frames.size() == kMostJudged);
+  CHECK((plan.script_frames.front().number == 1 && plan.script_frames.back().number == 1'000'000));
+  CHECK(plan.script_keys.find("cut ") != std::string::npos);
+  options.frames = {1'000'001, 1'000'001};
+  CHECK_THROWS_WITH(plan_render(options), "--frames 1000001: the last frame is 1000000");
+}
+
 TEST_CASE("a script may name its scene, relative to its own directory") {
   const Files files;
   files.add("ball.nff",

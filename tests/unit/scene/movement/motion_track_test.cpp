@@ -218,4 +218,41 @@ TEST_CASE("affine: normals stay normal to their surface, also where it is mirror
   check_near((map * map).point(a), map.point(map.point(a)), 1e-12);
 }
 
+TEST_CASE("a track's reach contains it at all times, and is not much larger") {
+  MotionTrack track = kitchen_camera();
+  for (std::size_t i = 0; i < track.translation.size(); ++i) {
+    track.translation[i].shape = {0.5 - 0.3 * static_cast<double>(i % 5), 0.2, i % 2 ? -0.8 : 0.7};
+    track.scale.push_back(track.translation[i]);
+    track.scale.back().value *= -1;
+  }
+  const TrackReach reach = reach_of(track);
+  Box3d found;
+  for (double time = -2; time < 22; time += 1e-3) {
+    const TrackValues values = values_at(track, time);
+    found.extendBy(values.translation);
+    for (int axis = 0; axis < 3; ++axis) {
+      CHECK(values.translation[axis] >= reach.translation.min[axis] - 1e-12);
+      CHECK(values.translation[axis] <= reach.translation.max[axis] + 1e-12);
+      CHECK(std::abs(values.scale[axis]) <= reach.scale + 1e-12);
+    }
+  }
+  CHECK(reach.translation.size().length() < 1.2 * found.size().length());
+  CHECK(reach_of(MotionTrack()).scale == 1);
+  CHECK(reach_of(MotionTrack()).translation == Box3d(Vec3d(0, 0, 0)));
+}
+
+TEST_CASE("visibility is found by halving as by looking at each key") {
+  MotionTrack track;
+  for (int i = 0; i < 9; ++i)
+    track.visibility.push_back({0.5 * (i / 2), i % 3 != 0});  // pairs at equal times
+  MotionTrack sorted = track;
+  note_order(sorted);
+  REQUIRE((sorted.is_in_order && !track.is_in_order));
+  for (double time = -0.25; time < 3; time += 0.25)
+    CHECK(values_at(sorted, time).visible == values_at(track, time).visible);
+  std::swap(track.visibility[0], track.visibility[8]);
+  note_order(track);
+  CHECK_FALSE(track.is_in_order);
+}
+
 }  // namespace pprt::motion_track_test
