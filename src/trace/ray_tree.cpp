@@ -203,8 +203,7 @@ class RayTree {
   bool has(Effect effect) const { return effects_.has(effect); }
   bool has_secondary_rays() const { return has(Effect::kReflection) || has(Effect::kRefraction); }
 
-  [[gnu::noinline]] bool in_shadow(const ShadingLight& light, const Vec3f& origin, const Vec3d& direction,
-                                   double length) {
+  bool in_shadow(const ShadingLight& light, const Vec3f& origin, const Vec3d& direction, double length) {
     ++counts_.shadow;
     if (!light.contacts.empty()) return in_shadow_of_others(light, origin, direction, length);
     RTCRay ray;
