@@ -37,6 +37,7 @@ struct Hit {
   Vec position{0, 0, 0};
   Vec normal{0, 0, 1};   // unit, of the surface: outwards, or towards a counter-clockwise winding
   Vec shading{0, 0, 1};  // unit, on any side
+  Vec rise{0, 0, 0};     // from the position to the surface that a patch's normals describe
   MaterialIndex material = 0;
 };
 
@@ -98,6 +99,21 @@ Vec interpolated_normal(const Plate& patch, const Vec& p) {
   return sum.dot(sum) > 0 ? unit(sum) : patch.normal;
 }
 
+// Returns the mean of what the vertices' tangent planes lie above a point on the side that is seen, weighted
+// by the opposite areas. Source: Hanika, Hacking the Shadow Terminator, in Ray Tracing Gems II, 2021.
+Vec rise_above(const Plate& patch, const Vec& p, const Vec& side) {
+  Vec sum(0, 0, 0);
+  Real area = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec &b = patch.corners[(i + 1) % 3], &c = patch.corners[(i + 2) % 3];
+    const Real weight = (b - p).cross(c - p).dot(patch.normal);
+    const Vec normal = patch.normals[i] * Real(patch.normals[i].dot(side) < 0 ? -1 : 1);
+    sum += normal * (weight * std::max((patch.corners[i] - p).dot(normal), Real(0)));
+    area += weight;
+  }
+  return sum / area;
+}
+
 void meet(const Plate& plate, const Ray& ray, Hit& hit) {
   const Real slope = plate.normal.dot(ray.direction);
   if (slope == 0) return;
@@ -105,8 +121,10 @@ void meet(const Plate& plate, const Ray& ray, Hit& hit) {
   if (!(t > ray.nearest && t < std::min(ray.farthest, hit.t))) return;
   const Vec p = at(ray, t);
   if (!holds(plate, p)) return;
-  const Vec shading = plate.normals.empty() ? plate.normal : interpolated_normal(plate, p);
-  hit = {t, p, plate.normal, shading, plate.material};
+  hit = {.t = t, .position = p, .normal = plate.normal, .shading = plate.normal, .material = plate.material};
+  if (plate.normals.empty()) return;
+  hit.shading = interpolated_normal(plate, p);
+  hit.rise = rise_above(plate, p, slope < 0 ? plate.normal : -plate.normal);
 }
 
 // Considers a crossing with a curved surface. Its outward normal decides which face is seen.
@@ -114,7 +132,7 @@ void consider(const Ray& ray, Real t, const Vec& outwards, bool inside_only, Mat
               Hit& hit) {
   if (!(t > ray.nearest && t < std::min(ray.farthest, hit.t))) return;
   if (inside_only && outwards.dot(ray.direction) < 0) return;
-  hit = {t, at(ray, t), outwards, outwards, material};
+  hit = {.t = t, .position = at(ray, t), .normal = outwards, .shading = outwards, .material = material};
 }
 
 // Starts where the ray passes the centre; the hits are half the chord away on both sides.
@@ -226,14 +244,16 @@ class Oracle {
   }
 
   Vec lit_by(const Light& light, const Hit& hit, const Ray& ray, const Material& material) const {
-    const Vec way = Vec(light.position) - hit.position;
+    const Vec from = hit.position + hit.rise;
+    const Vec way = Vec(light.position) - from;
     const Real length = std::sqrt(way.dot(way));
     const Vec direction = way / length;
     const Real cosine = hit.shading.dot(direction);
     if (!(cosine > 0)) return Vec(0, 0, 0);
-    // A patch shadows itself where a light is behind it, whatever its interpolated normal.
-    const bool behind = !(hit.normal.dot(direction) > 0);
-    if (behind || first_hit({hit.position, direction, leaving_, length})) return Vec(0, 0, 0);
+    // A patch shadows itself where a light is behind it, whatever its interpolated normal. Above it, its
+    // plate does.
+    const bool behind = !(hit.normal.dot(direction) > 0) && !(hit.rise.dot(hit.normal) > leaving_);
+    if (behind || first_hit({from, direction, leaving_, length})) return Vec(0, 0, 0);
     const Vec color = Vec(light.color.value_or(Rgb(1, 1, 1))) * light_weight_;
     Vec sum = color * Vec(material.color) * (static_cast<Real>(material.diffuse) * cosine);
     if (material.shine > 0 && material.shine < kNoHighlightFrom) {

@@ -94,7 +94,7 @@ TEST_CASE("a frame whose files are all written anew is listed no more") {
   const FinishedRun run;
   std::set<std::string> rewritten;
   for (const int frame : {1, 2, 3}) rewritten.insert(run.picture(frame).string());
-  Manifest(run.path, "key", ExistingFiles::kReplace, rewritten);
+  Manifest(EarlierManifest(run.path, "key", ExistingFiles::kReplace, rewritten));
   CHECK(text_of(run.path) == kFirstLine);
 }
 
