@@ -190,11 +190,14 @@ int run_live_view(ProcessRanks& ranks, const PreparedRun& run, const SessionEven
   RenderJob job = run.job;
   job.again = true;
   run_live(run.plan, run.scene, size, recorder ? &*recorder : nullptr,
-           [&](const SessionSettings& settings, const CameraSource& source, const FrameSink& sink) {
+           [&](const SessionSettings& settings, const CameraSource& source, const FrameSink& sink,
+               const std::function<bool()>& is_enough) {
+             SessionEvents with_end = events;
+             with_end.is_enough = is_enough;
              job.settings = settings;
              broadcast.send(job);
              job.scene.clear();
-             run_sequence(ranks, run.scene, settings, source, sink, events);
+             run_sequence(ranks, run.scene, settings, source, sink, with_end);
              broadcast.require_others();
            });
   broadcast.end();
