@@ -2,8 +2,8 @@
 
 #include "cli/process/exit.h"
 #include "cli/process/launch.h"
+#include "cli/process/launched.h"
 #include "cli/process/rank_limits.h"
-#include "parallel/network/mpi_communicator.h"
 #include "render/run/run_process.h"
 
 namespace pprt {

@@ -116,4 +116,21 @@ expect_text err "pprt-render: error: 16 ranks are too many: mpirun would open 12
 code=0 command='16 ranks with 64 open files, which may be more'
 (ulimit -Sn 64; timeout --signal=KILL 120 pprt-render ball.nff -np 16 --samples 50 -o many.png) >out 2>err || code=$?
 expect_code 0; expect_file many.png
+# A variable that merely has the name of a launcher's does not make this process a rank.
+for variable in OMPI_COMM_WORLD_RANK=3 'OMPI_COMM_WORLD_RANK=3 OMPI_COMM_WORLD_SIZE=4' PMIX_RANK=3 PMI_RANK=3; do
+  rm -f lone.png
+  # shellcheck disable=SC2086 # two variables
+  run env $variable pprt-render ball.nff --samples 300 -o lone.png
+  expect_code 0
+  expect_file lone.png
+  # shellcheck disable=SC2086
+  run env $variable pprt-render ball.nff --no-such-option
+  expect_code 2
+done
+# One that takes part in a run of another MPI says so.
+run env PMI_RANK=3 PMI_SIZE=4 pprt-render ball.nff --samples 300 -o lonely.png
+expect_code 1
+expect_line err 'pprt-render: error: the environment says that this is rank 3 of an MPI run (PMIX_RANK or PMI_RANK), but for MPI it is rank 0; .*'
+expect_no_file lonely.png
+
 finish

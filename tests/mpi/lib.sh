@@ -20,3 +20,53 @@ mpirun_by_hand() {
   if [[ $(id -u) == 0 ]]; then root=(--allow-run-as-root); fi
   mpirun --oversubscribe "${root[@]}" "$@"
 }
+
+# family PROCESS: it and all that it has started: the launcher, its mpirun, the guards, the ranks.
+family() {
+  local child
+  echo "$1"
+  for child in $(pgrep -P "$1" || true); do family "$child"; done
+}
+
+# guard_process RUN RANK: the id of the process beside a rank, waiting until it is there.
+guard_process() {
+  local process
+  for ((i = 0; i < 500; ++i)); do
+    for process in $(family "$1"); do
+      if tr '\0' '\n' 2>/dev/null <"/proc/$process/environ" | grep -qx "OMPI_COMM_WORLD_RANK=$2"; then
+        echo "$process"
+        return
+      fi
+    done
+    sleep 0.02
+  done
+  fail "there is no rank $2"
+}
+
+# rank_process RUN RANK: the same for the rank itself.
+rank_process() {
+  local guard
+  guard=$(guard_process "$1" "$2")
+  for ((i = 0; i < 500; ++i)); do
+    if pgrep -P "$guard"; then return; fi
+    sleep 0.02
+  done
+  fail "nobody is beside the guard of rank $2"
+}
+
+# await_frames DIRECTORY COUNT
+await_frames() {
+  for ((i = 0; i < 1500; ++i)); do
+    if [[ $(find "$1" -name '????.png' 2>/dev/null | wc -l) -ge $2 ]]; then return; fi
+    sleep 0.02
+  done
+  fail "$1 does not come to hold $2 frames"
+}
+
+# Checks that every file is a whole picture, and is in the manifest unless the run was killed in between.
+expect_whole() {
+  local file
+  for file in "$1"/????.png; do
+    pprt-compare "$file" "$file" >/dev/null || fail "$file is not whole"
+  done
+}
