@@ -133,4 +133,25 @@ expect_code 1
 expect_line err 'pprt-render: error: the environment says that this is rank 3 of an MPI run (PMIX_RANK or PMI_RANK), but for MPI it is rank 0; .*'
 expect_no_file lonely.png
 
+# A hostfile is checked before mpirun reads it.
+printf 'localhost slots=2\r\n' >hosts
+run pprt-render ball.nff --samples 300 -np 2 --hostfile hosts -o hosts.png
+expect_code 0
+expect_file hosts.png
+printf 'localhost\nlocalhost slot=2\n' >hosts
+run pprt-render ball.nff --samples 300 -np 2 --hostfile hosts -o none.png
+expect_code 3
+expect_text err "hosts:2:11: error: 'slot' is no word of a hostfile; did you mean 'slots'?
+    localhost slot=2
+              ^"
+printf 'no-such-host.invalid slots=2\n' >hosts
+run pprt-render ball.nff --samples 300 -np 2 --hostfile hosts -o none.png
+expect_code 3
+expect_text err "hosts:1:1: error: no address is known for the host 'no-such-host.invalid'
+    no-such-host.invalid slots=2
+    ^"
+run pprt-render ball.nff --samples 300 -np 2 --hostfile no-hosts -o none.png
+expect_code 3
+expect_line err ".*cannot read '.*no-hosts': No such file or directory"
+
 finish
