@@ -21,11 +21,28 @@ mpirun_by_hand() {
   mpirun --oversubscribe "${root[@]}" "$@"
 }
 
+# children PROCESS: what its main thread has started, without a process of its own: moments pass quickly.
+children() {
+  local list=()
+  read -r -a list 2>/dev/null <"/proc/$1/task/$1/children" || true
+  echo "${list[@]}"
+}
+
 # family PROCESS: it and all that it has started: the launcher, its mpirun, the guards, the ranks.
 family() {
   local child
   echo "$1"
-  for child in $(pgrep -P "$1" || true); do family "$child"; done
+  for child in $(children "$1"); do family "$child"; done
+}
+
+# has_rank PROCESS RANK: whether mpirun has given the process this rank.
+has_rank() {
+  local variables=() variable
+  mapfile -d '' -t variables 2>/dev/null <"/proc/$1/environ" || return 1
+  for variable in "${variables[@]}"; do
+    if [[ $variable == "OMPI_COMM_WORLD_RANK=$2" ]]; then return; fi
+  done
+  return 1
 }
 
 # guard_process RUN RANK: the id of the process beside a rank, waiting until it is there.
@@ -33,7 +50,7 @@ guard_process() {
   local process
   for ((i = 0; i < 500; ++i)); do
     for process in $(family "$1"); do
-      if tr '\0' '\n' 2>/dev/null <"/proc/$process/environ" | grep -qx "OMPI_COMM_WORLD_RANK=$2"; then
+      if has_rank "$process" "$2"; then
         echo "$process"
         return
       fi
@@ -45,10 +62,14 @@ guard_process() {
 
 # rank_process RUN RANK: the same for the rank itself.
 rank_process() {
-  local guard
+  local guard process
   guard=$(guard_process "$1" "$2")
   for ((i = 0; i < 500; ++i)); do
-    if pgrep -P "$guard"; then return; fi
+    process=$(children "$guard")
+    if [[ -n $process ]]; then
+      echo "$process"
+      return
+    fi
     sleep 0.02
   done
   fail "nobody is beside the guard of rank $2"

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <fstream>
 #include <initializer_list>
 #include <string>
 #include <system_error>
@@ -43,6 +44,13 @@ sigset_t set_of(std::initializer_list<int> signals) {
   return set;
 }
 
+// Whether this process is mpirun's daemon, which it has on every host but its own.
+bool is_daemon(pid_t process) {
+  std::string name;
+  std::getline(std::ifstream("/proc/" + std::to_string(process) + "/comm"), name);
+  return name == "orted" || name == "prted";
+}
+
 class RankGuard {
  public:
   RankGuard(pid_t rank_process, pid_t parent) : rank_process_(rank_process), parent_(parent) {}
@@ -57,8 +65,8 @@ class RankGuard {
       }
       const auto now = std::chrono::steady_clock::now();
       if (now >= next_sign_) {
-        tell(RankEvent::kLives);
-        next_sign_ = now + std::chrono::seconds(1);
+        tell(RankEvent::kLives, period_s_);
+        next_sign_ = period_s_ > 0 ? now + std::chrono::seconds(period_s_) : now.max();
       }
       constexpr timespec kBetweenLooks{0, 100'000'000};
       if (sigtimedwait(&changes, nullptr, &kBetweenLooks) == SIGTERM) is_being_ended_ = true;
@@ -88,7 +96,8 @@ class RankGuard {
   }
 
   pid_t rank_process_, parent_;
-  bool is_being_ended_ = false;  // by mpirun, which knows why
+  int period_s_ = is_daemon(parent_) ? 0 : 1;  // of signs
+  bool is_being_ended_ = false;                // by mpirun, which knows why
   std::string host_ = short_host_name();
   std::chrono::steady_clock::time_point next_sign_{};
 };

@@ -4,8 +4,10 @@
 namespace pprt {
 
 // Returns in a new process, which is the rank. The process that called becomes its guard and never returns:
-// - It tells run_under_mpirun() once a second that it is there, and when a signal kills, stops or continues
-//   the rank.
+// - It tells run_under_mpirun() that it is there, and when a signal kills, stops or continues the rank. On
+// the
+//   launcher's host it says once a second that it is there. From another host nothing may come regularly: the
+//   system asks only a silent connection whether the other host still answers.
 // - It kills the rank when mpirun, or its daemon on this host, has ended. A guard that is killed takes the
 //   rank along.
 // - It ends as the rank does, so mpirun sees what it would see without a guard.

@@ -9,7 +9,7 @@
 namespace pprt {
 
 enum class RankEvent : std::uint8_t {
-  kLives,      // its guard is there: told once a second
+  kLives,      // its guard is there; the next such news come after this many seconds, or never (0)
   kMet,        // rank 0: all processes have found each other
   kListens,    // rank 0: a signal ends the run after the frame at hand
   kSpares,     // rank 0: from now on frames do not wait for other ranks
@@ -23,7 +23,7 @@ enum class RankEvent : std::uint8_t {
 struct RankNews {
   RankEvent event = RankEvent::kLives;
   int rank = 0;
-  int number = 0;         // exit code or signal, where the event has one
+  int number = 0;         // exit code, signal or seconds, where the event has one
   std::string host = {};  // that the rank runs on
 
   friend bool operator==(const RankNews&, const RankNews&) = default;

@@ -12,6 +12,7 @@ void RunWatch::hear(const RankNews& news, double now_s) {
   if (rank.name.empty() || !news.host.empty()) rank.name = rank_name(news.rank, news.host);
   switch (news.event) {
     case RankEvent::kLives:
+      rank.speaks_regularly = news.number > 0;
       return;
     case RankEvent::kMet:
       have_met_ = true;
@@ -87,7 +88,7 @@ std::optional<std::string> RunWatch::standstill_of(const Rank& rank, double now_
     return fmt::format("{} was stopped by {} and has not gone on for {:g} s", rank.name,
                        signal_name(*rank.stopped_by), settings_.stand_patience_s);
   }
-  if (now_s > rank.heard_s + settings_.silence_patience_s)
+  if (rank.speaks_regularly && now_s > rank.heard_s + settings_.silence_patience_s)
     return fmt::format("no sign of {} for {:g} s", rank.name, settings_.silence_patience_s);
   return std::nullopt;
 }

@@ -47,7 +47,8 @@ class RunWatch {
  private:
   struct Rank {
     std::string name;
-    double heard_s = 0;                  // last
+    double heard_s = 0;  // last
+    bool speaks_regularly = false;
     std::optional<int> stopped_by = {};  // signal
     double stopped_s = 0;
   };

@@ -13,12 +13,12 @@ RankNews news(RankEvent event, int rank, int number = 0) {
 // A run of three ranks whose guards have spoken at 0 s.
 RunWatch three_ranks(bool goes_on) {
   RunWatch watch({.goes_on = goes_on});
-  for (const int rank : {0, 1, 2}) watch.hear(news(RankEvent::kLives, rank), 0);
+  for (const int rank : {0, 1, 2}) watch.hear(news(RankEvent::kLives, rank, 1), 0);
   return watch;
 }
 
 void all_live(RunWatch& watch, double now_s) {
-  for (const int rank : {0, 1, 2}) watch.hear(news(RankEvent::kLives, rank), now_s);
+  for (const int rank : {0, 1, 2}) watch.hear(news(RankEvent::kLives, rank, 1), now_s);
 }
 
 }  // namespace
@@ -63,16 +63,20 @@ TEST_CASE("a rank that was stopped ends a run that waits for it, unless it goes 
   RunWatch sparing = three_ranks(false);
   sparing.hear(news(RankEvent::kSpares, 0), 1);
   sparing.hear(news(RankEvent::kStopped, 2, SIGSTOP), 1);
-  sparing.hear(news(RankEvent::kLives, 0), 50);
+  sparing.hear(news(RankEvent::kLives, 0, 1), 50);
   CHECK_FALSE(sparing.failure(50));
 }
 
 TEST_CASE("a guard that keeps silent ends a run, but not one whose rank has ended by itself") {
   RunWatch watch = three_ranks(false);
   watch.hear(news(RankEvent::kLeft, 1), 1);
-  watch.hear(news(RankEvent::kLives, 0), 9);
+  watch.hear(news(RankEvent::kLives, 3, 0), 1);  // on another host, whence nothing comes regularly
+  watch.hear(news(RankEvent::kLives, 0, 1), 9);
   CHECK_FALSE(watch.failure(10));
   CHECK(watch.failure(10.1) == "no sign of rank 2 on vm for 10 s");
+  watch.hear(news(RankEvent::kLeft, 2), 10.2);
+  watch.hear(news(RankEvent::kLives, 0, 1), 100);
+  CHECK_FALSE(watch.failure(100));
 }
 
 TEST_CASE("an mpirun that was stopped is given time to go on, and nothing is expected of ranks meanwhile") {
