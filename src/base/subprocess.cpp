@@ -37,9 +37,12 @@ using StandardStreams = std::array<int, 3>;
 
 // In the new process. Only async-signal-safe calls: this process may have other threads.
 [[noreturn]] void become(char* const* words, const StandardStreams& streams,
-                         const SubprocessSettings& settings, int report) {
+                         const SubprocessSettings& settings, pid_t parent, int report) {
   if (settings.own_process_group) setpgid(0, 0);
-  if (settings.signal_at_end != 0) prctl(PR_SET_PDEATHSIG, settings.signal_at_end);
+  if (settings.signal_at_end != 0) {
+    prctl(PR_SET_PDEATHSIG, settings.signal_at_end);
+    if (getppid() != parent) _exit(127);  // it has ended before
+  }
   bool ready = true;
   for (int i = 0; i < 3; ++i) {
     const int stream = streams[static_cast<std::size_t>(i)];
@@ -82,9 +85,9 @@ pid_t spawn(std::vector<std::string>& command, const StandardStreams& streams,
   words.push_back(nullptr);
 
   Ends report = make_pipe();  // closed by a successful exec
-  const pid_t child = fork();
+  const pid_t parent = getpid(), child = fork();
   if (child < 0) throw_errno("fork");
-  if (child == 0) become(words.data(), streams, settings, report.theirs.get());
+  if (child == 0) become(words.data(), streams, settings, parent, report.theirs.get());
   report.theirs = {};
   const int error = start_error(report.ours.get());
   if (error == 0) return child;
@@ -193,12 +196,25 @@ bool Subprocess::has_output_within(double seconds) const {
   }
 }
 
+bool Subprocess::has_ended() const {
+  siginfo_t info{};
+  return waitid(P_PID, static_cast<id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT) != 0 || info.si_pid != 0;
+}
+
+bool Subprocess::is_stopped() {
+  for (siginfo_t info{};
+       waitid(P_PID, static_cast<id_t>(id_), &info, WSTOPPED | WCONTINUED | WNOHANG) == 0 && info.si_pid != 0;
+       info = {})
+    stopped_ = info.si_code != CLD_CONTINUED;
+  return stopped_;
+}
+
 ExitStatus Subprocess::end_within(double seconds) {
   constexpr auto kBetweenLooks = std::chrono::milliseconds(20);
   const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
   kill(id_, SIGTERM);
-  siginfo_t info{};
-  while (waitid(P_PID, static_cast<id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == 0) {
+  kill(id_, SIGCONT);
+  while (!has_ended()) {
     if (std::chrono::steady_clock::now() > until) {
       kill(id_, SIGKILL);
       break;

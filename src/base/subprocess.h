@@ -67,7 +67,14 @@ class Subprocess {
   // Whether read() would return within so many seconds.
   bool has_output_within(double seconds) const;
 
-  // Asks the program to end, by SIGTERM, and kills it when it has not ended after so many seconds.
+  // Whether the program has ended; wait() returns at once then.
+  bool has_ended() const;
+
+  // Whether a signal has stopped the program, and none has continued it since.
+  bool is_stopped();
+
+  // Asks the program to end, by SIGTERM, and kills it when it has not ended after so many seconds. One that
+  // was stopped is continued.
   ExitStatus end_within(double seconds);
 
   // Closes the program's input and waits for its end. A second call returns the same.
@@ -75,8 +82,9 @@ class Subprocess {
 
  private:
   pid_t id_ = 0;
-  int input_ = -1;   // this process's end; -1: no pipe, or closed
-  int output_ = -1;  // likewise
+  int input_ = -1;        // this process's end; -1: no pipe, or closed
+  int output_ = -1;       // likewise
+  bool stopped_ = false;  // as far as is_stopped() has seen
   bool ended_ = false;
   ExitStatus status_;
 };

@@ -1,5 +1,6 @@
 #include "live/server.h"
 
+#include <algorithm>
 #include <array>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
@@ -9,6 +10,7 @@
 #include <boost/beast/websocket.hpp>
 #include <chrono>
 #include <deque>
+#include <list>
 #include <map>
 #include <thread>
 #include <utility>
@@ -71,12 +73,13 @@ class LiveServer::Impl {
   void accept();
   int join(const std::shared_ptr<Client>& client);
   void leave(int client);
-  bool has_room() const { return visits_ + clients_.size() < settings_.most_clients; }
+  void make_room_for_stranger();
+  bool has_room() const { return clients_.size() < settings_.most_clients; }
 
   LiveServerSettings settings_;
   LiveServerEvents events_;
   std::string token_ = new_token();
-  std::size_t visits_ = 0;  // connections that have not become clients
+  std::list<Visit*> strangers_;  // connections that have not sent their request, the oldest first
   asio::io_context context_{1};
   tcp::acceptor acceptor_{context_};
   std::uint16_t port_ = 0;
@@ -232,11 +235,15 @@ class LiveServer::Impl::Client : public std::enable_shared_from_this<Client> {
 class LiveServer::Impl::Visit : public std::enable_shared_from_this<Visit> {
  public:
   Visit(Impl& server, tcp::socket&& socket) : server_(server), stream_(std::move(socket)) {
-    ++server_.visits_;
+    error_code gone;
+    address_ = stream_.socket().remote_endpoint(gone).address();
+    server_.strangers_.push_back(this);
   }
   Visit(const Visit&) = delete;
   Visit& operator=(const Visit&) = delete;
-  ~Visit() { --server_.visits_; }
+  ~Visit() { server_.strangers_.remove(this); }
+
+  const asio::ip::address& address() const { return address_; }
 
   void run() {
     parser_.header_limit(kMostHeaderBytes);
@@ -246,13 +253,21 @@ class LiveServer::Impl::Visit : public std::enable_shared_from_this<Visit> {
     });
   }
 
+  void close() {
+    error_code ignored;
+    stream_.socket().close(ignored);
+  }
+
  private:
   void answer() {
+    server_.strangers_.remove(this);
     const http::request<http::empty_body>& request = parser_.get();
     switch (admit(gate_request(request), server_.token_, server_.settings_.address)) {
       case GateAnswer::kPage:
         return respond(http::status::ok, server_.settings_.page);
       case GateAnswer::kConnect:
+        if (!server_.has_room())
+          return respond(http::status::service_unavailable, "Too many are watching.\n");
         return std::make_shared<Client>(server_, std::move(stream_))->run(request);
       case GateAnswer::kForbidden:
         return respond(http::status::forbidden, "This address is not complete, or not from here.\n");
@@ -288,6 +303,7 @@ class LiveServer::Impl::Visit : public std::enable_shared_from_this<Visit> {
 
   Impl& server_;
   beast::tcp_stream stream_;
+  asio::ip::address address_;
   beast::flat_buffer buffer_{kMostHeaderBytes};
   http::request_parser<http::empty_body> parser_;
   http::response<http::string_body> response_;
@@ -351,10 +367,23 @@ void LiveServer::Impl::accept() {
     if (!error) {
       error_code ignored;
       socket.set_option(tcp::no_delay(true), ignored);
-      if (has_room()) std::make_shared<Visit>(*this, std::move(socket))->run();
+      make_room_for_stranger();
+      std::make_shared<Visit>(*this, std::move(socket))->run();
     }
     if (acceptor_.is_open()) accept();
   });
+}
+
+void LiveServer::Impl::make_room_for_stranger() {
+  if (strangers_.size() < settings_.most_strangers) return;
+  std::map<asio::ip::address, int> connections;
+  for (const Visit* visit : strangers_) ++connections[visit->address()];
+  const auto crowd = std::max_element(connections.begin(), connections.end(),
+                                      [](const auto& a, const auto& b) { return a.second < b.second; });
+  const auto oldest = std::find_if(strangers_.begin(), strangers_.end(),
+                                   [&](const Visit* visit) { return visit->address() == crowd->first; });
+  (*oldest)->close();
+  strangers_.erase(oldest);
 }
 
 // Nobody may have told it anything before it has joined.

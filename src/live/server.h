@@ -15,6 +15,7 @@ struct LiveServerSettings {
   std::uint16_t port = 0;  // 0: any that is free
   std::string page = {};   // HTML
   std::size_t most_clients = 64;
+  std::size_t most_strangers = 64;        // connections that have not said the token yet
   std::size_t most_message_bytes = 4096;  // from a client
   int most_messages_per_second = 300;     // from a client, acknowledgements not counted
   double patience_s = 10;                 // for a request, and for a client that takes in nothing
@@ -38,6 +39,9 @@ struct LiveServerEvents {
 //
 // A client gets the newest frame. It acknowledges each by the text "ack", which said() does not pass on. Two
 // frames at most wait for that. Until then newer ones are dropped, for this client alone.
+//
+// A connection that has said nothing yet cannot keep others out. Where there are too many of these, the one
+// that has waited longest is closed, of the address that has most.
 //
 // Texts and files keep their order. A client that leaves more than 256 of them untaken is closed.
 class LiveServer {

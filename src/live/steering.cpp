@@ -75,6 +75,7 @@ void Steering::joined(int client) {
 void Steering::left(int client) {
   const std::lock_guard lock(mutex_);
   clients_.erase(client);
+  if (run_.photo_for == client) run_.photo.reset();
   if (pilot_ == client) {
     pilot_ = 0;
     if (show_.records) give_back();
@@ -308,6 +309,11 @@ LiveRun Steering::next_run() {
   if (was_photo) voice_.tell_all(state());
   jumps_ = true;
   return run_now_;
+}
+
+bool Steering::awaits_photo() const {
+  const std::lock_guard lock(mutex_);
+  return run_.photo.has_value();
 }
 
 std::optional<LiveShot> Steering::next_shot() {

@@ -105,6 +105,9 @@ class Steering {
   // What the next run of frames is like. A photo is over when this is asked again.
   LiveRun next_run();
 
+  // Whether the client for whom a photo is being made is still there.
+  bool awaits_photo() const;
+
   // The next frame's camera; empty: another run is wanted, or none.
   std::optional<LiveShot> next_shot();
 

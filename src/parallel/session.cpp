@@ -131,7 +131,13 @@ void run_as_master(Communicator& network, const SessionSettings& settings, const
   };
   // On the work clock nothing may depend on the time.
   const bool watches = !is_reproducible(settings);
+  bool is_enough = false;
+  const auto end_frames = [&] {
+    is_enough = true;
+    for (int rank = 0; rank < network.size(); ++rank) network.send(rank, Tag::kEnough, {});
+  };
   const auto watch = [&] {
+    if (!is_enough && events.is_enough()) end_frames();
     clocks.look();
     for (const RankClocks::Jump& jump : clocks.take_jumps()) events.clock_jumped(jump.rank, jump.seconds);
     const std::vector<int> lost = losses.newly_lost([&](int rank) { return master.awaits(rank); });

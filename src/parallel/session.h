@@ -18,6 +18,8 @@ struct SessionEvents {
   // A rank's clock was found to have gone ahead by so many seconds more than it should.
   std::function<void(int rank, double seconds)> clock_jumped = [](int, double) {};
   LossRule loss = {};
+  // Without a rate: whether frames need not get better than they are. Asked often; true stays true.
+  std::function<bool()> is_enough = [] { return false; };
 };
 
 // Both return when every frame has been delivered to the master's sink. Throw std::runtime_error when ranks

@@ -1,9 +1,12 @@
 #include "render/render.h"
 
+#include <optional>
+
 #include "cli/process/exit.h"
+#include "cli/process/hostfile.h"
 #include "cli/process/launch.h"
+#include "cli/process/launched.h"
 #include "cli/process/rank_limits.h"
-#include "parallel/network/mpi_communicator.h"
 #include "render/run/run_process.h"
 
 namespace pprt {
@@ -11,9 +14,14 @@ namespace {
 
 int start_processes(const RankOptions& ranks, bool ends_by_signal, ProgressReporter& progress,
                     std::span<const std::string> words) {
-  if (ranks.hostfile.empty()) make_room_for(ranks.processes);
+  std::optional<Hostfile> hosts;
+  if (ranks.hostfile.empty()) {
+    make_room_for(ranks.processes);
+  } else {
+    hosts.emplace(ranks.hostfile);
+  }
   const Launch launch{.processes = ranks.processes,
-                      .hostfile = ranks.hostfile,
+                      .hostfile = hosts ? hosts->path() : "",
                       .goes_on = ranks.go_on,
                       .ends_by_signal = ends_by_signal};
   return run_under_mpirun(launch, words, [&](std::string_view said) { progress.overhear(said); });

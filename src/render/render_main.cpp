@@ -6,6 +6,8 @@
 #include "cli/options/config_text.h"
 #include "cli/process/exit.h"
 #include "cli/process/launch.h"
+#include "cli/process/launched.h"
+#include "cli/process/rank_guard.h"
 #include "render/options/examples.h"
 #include "render/render.h"
 
@@ -44,6 +46,7 @@ int say_first_steps() {
 
 int main(int argc, char** argv) {
   return pprt::run_guarded("pprt-render", [&]() -> int {
+    if (pprt::started_by_pprt()) pprt::guard_this_rank();
     CLI::App app(
         "Renders a scene, or an animation at a fixed frame rate, by parallel progressive ray tracing.",
         "pprt-render");

@@ -17,12 +17,12 @@ k ball { transl 4 0 -3 0 0 0 0 0 1 -2 0 0 0 0 0 2 2 0 0 0 0 0 3 3 0 0 0 0 0 }
 AFF
 
 # The pictures: beside the scene, in TextureFiles/ there, or in ../TextureFiles/.
-missing="toy.aff: error: there is no texture 'floor.ppm' beside the scene, in TextureFiles/ or in ../TextureFiles/"
+missing="toy.aff:4:1: error: there is no texture 'floor.ppm' beside the scene, in TextureFiles/ or in ../TextureFiles/"
 run pprt-render toy.aff; expect_code 3; expect_text err "$missing"
 mkdir TextureFiles
 printf 'P6 2 2 255\n\377\0\0\0\377\0\0\0\377\377\377' >TextureFiles/floor.ppm
 run pprt-render toy.aff; expect_code 3
-expect_text err "toy.aff: error: cannot read 'TextureFiles/floor.ppm': the file ends early"
+expect_text err "toy.aff:4:1: error: cannot read 'TextureFiles/floor.ppm': the file ends early"
 printf 'P6 2 2 255\n\377\0\0\0\377\0\0\0\377\377\377\377' >TextureFiles/floor.ppm
 
 run pprt-render toy.aff --census; expect_code 0

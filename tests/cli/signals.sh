@@ -37,6 +37,26 @@ stopped_by INT 130 -np 2
 stopped_by HUP 129
 stopped_by HUP 129 -np 2
 
+# No signal is lost while the ranks start: the run, which takes minutes, ends by itself.
+set -m # a shell lets jobs in the background ignore SIGINT, unless it watches them
+for signal in INT TERM; do
+  for delay in 0 0.03 0.06 0.1 0.2 0.4; do
+    rm -rf out_frames
+    pprt-render ball.anim -np 2 --clock work --budget 1000000 -o "$PWD/out_frames/%05d.png" >out 2>err &
+    pid=$! command="a run on 2 ranks that was sent SIG$signal after $delay s"
+    sleep $delay
+    kill "-$signal" "$pid"
+    for ((i = 0; i < 200 && $(ps -o stat= -p "$pid" | grep -c '^[^Z]') > 0; ++i)); do sleep 0.1; done
+    [[ $i -lt 200 ]] || { complain "$command goes on"; kill -KILL "$pid"; }
+    code=0
+    wait "$pid" || code=$?
+    expect_code $([[ $signal == INT ]] && echo 130 || echo 143)
+    for ((i = 0; i < 100; ++i)); do pgrep -f "$PWD/out_frames" >/dev/null || break; sleep 0.1; done
+    [[ $i -lt 100 ]] || complain "$command left processes"
+  done
+done
+set +m
+
 # Under nohup a run outlives its terminal.
 for np in 1 2; do
   rm -rf out_frames

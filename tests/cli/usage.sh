@@ -134,4 +134,42 @@ expect_text err "pprt-render: error: 16 ranks are too many: mpirun would open 12
 code=0 command='16 ranks with 64 open files, which may be more'
 (ulimit -Sn 64; timeout --signal=KILL 120 pprt-render ball.nff -np 16 --samples 50 -o many.png) >out 2>err || code=$?
 expect_code 0; expect_file many.png
+# A variable that merely has the name of a launcher's does not make this process a rank.
+for variable in OMPI_COMM_WORLD_RANK=3 'OMPI_COMM_WORLD_RANK=3 OMPI_COMM_WORLD_SIZE=4' PMIX_RANK=3 PMI_RANK=3; do
+  rm -f lone.png
+  # shellcheck disable=SC2086 # two variables
+  run env $variable pprt-render ball.nff --samples 300 -o lone.png
+  expect_code 0
+  expect_file lone.png
+  # shellcheck disable=SC2086
+  run env $variable pprt-render ball.nff --no-such-option
+  expect_code 2
+done
+# One that takes part in a run of another MPI says so.
+run env PMI_RANK=3 PMI_SIZE=4 pprt-render ball.nff --samples 300 -o lonely.png
+expect_code 1
+expect_line err 'pprt-render: error: the environment says that this is rank 3 of an MPI run (PMIX_RANK or PMI_RANK), but for MPI it is rank 0; .*'
+expect_no_file lonely.png
+
+# A hostfile is checked before mpirun reads it.
+printf 'localhost slots=2\r\n' >hosts
+run pprt-render ball.nff --samples 300 -np 2 --hostfile hosts -o hosts.png
+expect_code 0
+expect_file hosts.png
+printf 'localhost\nlocalhost slot=2\n' >hosts
+run pprt-render ball.nff --samples 300 -np 2 --hostfile hosts -o none.png
+expect_code 3
+expect_text err "hosts:2:11: error: 'slot' is no word of a hostfile; did you mean 'slots'?
+    localhost slot=2
+              ^"
+printf 'no-such-host.invalid slots=2\n' >hosts
+run pprt-render ball.nff --samples 300 -np 2 --hostfile hosts -o none.png
+expect_code 3
+expect_text err "hosts:1:1: error: no address is known for the host 'no-such-host.invalid'
+    no-such-host.invalid slots=2
+    ^"
+run pprt-render ball.nff --samples 300 -np 2 --hostfile no-hosts -o none.png
+expect_code 3
+expect_line err ".*cannot read '.*no-hosts': No such file or directory"
+
 finish

@@ -73,7 +73,7 @@ class AssimpTrial {
   static constexpr pprt::SubprocessSettings kStreams{.input = pprt::StreamTo::kPipe,
                                                      .output = pprt::StreamTo::kPipe,
                                                      .errors = pprt::StreamTo::kNothing,
-                                                     .ends_with_parent = true};
+                                                     .signal_at_end = SIGTERM};
   std::optional<pprt::Subprocess> program_;
 };
 

@@ -24,45 +24,6 @@ export OMPI_MCA_orte_tmpdir_base=$work/tmp OMPI_MCA_btl_vader_backing_directory=
 
 report() { echo "$fault | $1 | $2"; }
 
-# The processes of a run: the launcher, its mpirun, the ranks.
-processes_of() {
-  local run=$1 mpirun
-  mpirun=$(pgrep -P "$run" || true)
-  echo "$run" "$mpirun" $([[ -n $mpirun ]] && pgrep -P "$mpirun")
-}
-
-# rank_process RUN RANK: its process id, waiting until it is there.
-rank_process() {
-  local process
-  for ((i = 0; i < 200; ++i)); do
-    for process in $(processes_of "$1"); do
-      if tr '\0' '\n' 2>/dev/null <"/proc/$process/environ" | grep -qx "OMPI_COMM_WORLD_RANK=$2"; then
-        echo "$process"
-        return
-      fi
-    done
-    sleep 0.05
-  done
-  fail "there is no rank $2"
-}
-
-# await_frames DIRECTORY COUNT
-await_frames() {
-  for ((i = 0; i < 600; ++i)); do
-    if [[ $(find "$1" -name '????.png' 2>/dev/null | wc -l) -ge $2 ]]; then return; fi
-    sleep 0.05
-  done
-  fail "$1 does not come to hold $2 frames"
-}
-
-# Checks that every file is a whole picture, and is in the manifest unless the run was killed in between.
-expect_whole() {
-  local file
-  for file in "$1"/????.png; do
-    pprt-compare "$file" "$file" >/dev/null || fail "$file is not whole"
-  done
-}
-
 expect_equal() {
   local file
   for file in "$1"/????.png; do
@@ -196,7 +157,7 @@ case $fault in
       run=$!
       sleep "$(awk -v whole="$whole" -v seed="$RANDOM" 'BEGIN { srand(seed); print rand() * whole / 1000 }')"
       # shellcheck disable=SC2046 # one word a process
-      kill -KILL $(processes_of $run) 2>/dev/null || true
+      kill -KILL $(family $run) 2>/dev/null || true
       wait $run 2>/dev/null || true
       # A rank that starts at this moment ends without its mpirun, or is killed here.
       while processes=$(pgrep -f "$work/out"); do

@@ -17,7 +17,7 @@
 #include "cli/options/typed_options.h"
 #include "cli/options/version.h"
 #include "cli/process/exit.h"
-#include "cli/process/launch.h"
+#include "cli/process/launched.h"
 #include "parser/text_input.h"
 
 namespace pprt {

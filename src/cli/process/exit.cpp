@@ -15,7 +15,7 @@
 
 #include "base/diagnostics.h"
 #include "base/printable.h"
-#include "cli/process/launch.h"
+#include "cli/process/launched.h"
 
 namespace pprt {
 namespace {

@@ -8,51 +8,53 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "base/subprocess.h"
 #include "cli/process/exit.h"
+#include "cli/process/launched.h"
 #include "cli/process/mpirun_messages.h"
+#include "cli/process/run_watch.h"
 
 namespace pprt {
 namespace {
 
-volatile std::sig_atomic_t mpirun_pid = 0;
-volatile std::sig_atomic_t stopped_by = 0;
-volatile std::sig_atomic_t forced = 0;  // a second signal came
-
-// Tells the ranks where the pipe to mpirun, which is their standard error, ends: at a terminal or elsewhere.
-constexpr const char* kLauncherVariable = "PPRT_LAUNCHED";
-constexpr std::string_view kFromTerminal = "from-terminal", kFromElsewhere = "from-elsewhere";
+// The only state a signal handler may touch. What it asks for is done by follow().
+volatile std::sig_atomic_t stopped_by = 0;    // the first signal that asked for the end
+volatile std::sig_atomic_t forced = 0;        // a second one came
+volatile std::sig_atomic_t status_asked = 0;  // by SIGUSR1
 
 std::string program_path() {
   return std::filesystem::read_symlink("/proc/self/exe");
 }
 
-using SteadyTime = std::chrono::steady_clock::time_point;
+// How long mpirun has to end when it is asked to, in seconds. It may wait for a lost host in vain. Otherwise
+// it ends its ranks first, and removes what lies in shared memory.
+constexpr double kEndPatience_s = 5, kLostHostPatience_s = 2;
 
-constexpr double kEndPatience_s = 2;  // that mpirun has to end when it is asked to
+// mpirun has a process group of its own: a terminal's Ctrl-C must reach it through this process alone.
+constexpr SubprocessSettings kMpirunSettings{
+    .errors = StreamTo::kPipe, .own_process_group = true, .signal_at_end = SIGTERM};
 
 // Stands before quoted words, each of which begins with '='.
 constexpr std::string_view kQuotedWords = "=words";
 
-// A first SIGINT, SIGTERM or SIGHUP asks rank 0 to finish its frame; a second SIGINT or SIGTERM ends mpirun.
-void pass_on(int signal) {
-  if (mpirun_pid == 0 || (signal == SIGHUP && stopped_by != 0)) return;
+void note_signal(int signal) {
   if (signal == SIGUSR1) {
-    kill(mpirun_pid, SIGUSR1);
-  } else {
-    kill(mpirun_pid, stopped_by == 0 ? SIGUSR2 : signal);
-    forced = stopped_by != 0;
+    status_asked = 1;
+  } else if (stopped_by == 0) {
     stopped_by = signal;
+  } else if (signal != SIGHUP) {  // a terminal that goes may send several
+    forced = 1;
   }
 }
 
-void pass_signals_on() {
+// Before mpirun is started, so that no signal is lost.
+void note_signals() {
   struct sigaction action {};
-  action.sa_handler = pass_on;
+  action.sa_handler = note_signal;
   action.sa_flags = SA_RESTART;
   for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) sigaction(signal, &action, nullptr);
   struct sigaction hangup {};
@@ -68,49 +70,132 @@ void show(std::string_view text) {
   }
 }
 
-// With --enable-recovery mpirun says nothing of a host that cannot start its ranks, and the others wait for
-// them. Ends it then.
-void await_begin(Subprocess& mpirun, const Launch& launch, SteadyTime began) {
-  const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - began;
-  if (mpirun.has_output_within(launch.start_patience_s - waited.count())) return;
-  mpirun.end_within(kEndPatience_s);
-  throw std::runtime_error(
-      fmt::format("the ranks have not found each other within {:g} s; is the program on every host at '{}'?",
-                  launch.start_patience_s, program_path()));
-}
-
-// Prints what mpirun and the ranks say until they end.
-MpirunMessages relay(Subprocess& mpirun, const Launch& launch,
-                     const std::function<void(std::string_view)>& overhear) {
-  MpirunMessages messages;
-  std::array<char, 4096> piece{};
-  const SteadyTime began = std::chrono::steady_clock::now();
-  while (!messages.end_code() && !messages.has_lost_host()) {
-    if (launch.goes_on && !messages.has_begun()) await_begin(mpirun, launch, began);
-    const std::size_t count = mpirun.read(piece);
-    if (count == 0) break;
-    const std::string said = messages.take({piece.data(), count});
-    show(said);
-    overhear(said);
+// Seconds for which this process has been looking. While it stands still, as a job of a shell may, nothing is
+// heard, and this is nobody's silence.
+class WakingTime {
+ public:
+  double look() {
+    constexpr double kLongestLook_s = 0.5;
+    const auto now = std::chrono::steady_clock::now();
+    const std::chrono::duration<double> passed = now - last_look_;
+    last_look_ = now;
+    return awake_s_ += std::min(passed.count(), kLongestLook_s);
   }
-  show(messages.finish());
-  return messages;
-}
 
-// Waits for mpirun's end, but not long where it may wait itself for a host that is out of reach. The ranks
-// that it can reach end with it in any case. Returns its exit code, or what a rank has said instead.
-int mpirun_code(Subprocess& mpirun, const MpirunMessages& messages) {
-  if (!messages.end_code() && !messages.has_lost_host()) return mpirun.wait().code;
-  const int code = mpirun.end_within(kEndPatience_s).code;
-  return messages.end_code().value_or(code);
-}
+ private:
+  std::chrono::steady_clock::time_point last_look_ = std::chrono::steady_clock::now();
+  double awake_s_ = 0;
+};
 
-// mpirun has a process group of its own: a terminal's Ctrl-C must reach it through this process alone.
-constexpr SubprocessSettings kMpirunSettings{
-    .errors = StreamTo::kPipe, .own_process_group = true, .signal_at_end = SIGTERM};
+// A run under mpirun.
+class FollowedRun {
+ public:
+  FollowedRun(const Launch& launch, std::span<const std::string> words,
+              const std::function<void(std::string_view)>& overhear)
+      : launch_(launch),
+        overhear_(overhear),
+        watch_({.goes_on = launch.goes_on, .start_patience_s = launch.start_patience_s}),
+        mpirun_(mpirun_command(launch, words), kMpirunSettings) {}
+
+  // Returns the exit code. Throws std::runtime_error with what was lost.
+  int run() {
+    follow();
+    const int code = end_mpirun();
+    show(messages_.finish());
+    if (ends_at_once_) return 128 + stopped_by;
+    if (failure_) fail(*failure_);
+    const bool failed = code >= kExitFailure && code <= kExitInput;
+    if (!watch_.end_code() && !failed) require_no_loss(code);
+    // A run that was asked to stop may still fail.
+    const bool ended_well = launch_.ends_by_signal && code == kExitDone;
+    return stopped_by != 0 && !failed && !ended_well ? 128 + stopped_by : code;
+  }
+
+ private:
+  [[noreturn]] static void fail(const std::string& why) {
+    throw std::runtime_error(why + "; frames that are in place are whole, and --resume goes on after them");
+  }
+
+  // A run that goes on without what it has lost says itself how it ended.
+  void require_no_loss(int code) const {
+    if (watch_.loss()) fail(*watch_.loss());
+    if (messages_.loss()) fail(*messages_.loss());
+    if (stopped_by != 0) return;  // mpirun may have ended by it
+    if (code > 128) fail("mpirun was ended by " + signal_name(code - 128));
+    if (code > kExitInput) fail(fmt::format("mpirun ended with code {}", code));
+  }
+
+  // Prints what mpirun and the ranks say until they end, or must be ended.
+  void follow() {
+    constexpr double kBetweenLooks_s = 0.1;
+    for (;;) {
+      const bool speaks = mpirun_.has_output_within(kBetweenLooks_s);
+      const double now_s = time_.look();
+      if (speaks && !hear(now_s)) return;
+      if (!speaks && mpirun_.has_ended()) return;
+      watch_.see_mpirun(mpirun_.is_stopped(), now_s);
+      if (!obey_signals() || messages_.has_lost_host()) return;
+      if (mpirun_.has_output_within(0)) continue;  // it may change what follows
+      failure_ = watch_.failure(now_s);
+      is_overdue_ = watch_.is_over(now_s);
+      if (failure_ || is_overdue_) return;
+    }
+  }
+
+  // Returns false when nothing more comes.
+  bool hear(double now_s) {
+    std::array<char, 4096> piece{};
+    const std::size_t count = mpirun_.read(piece);
+    const std::string said = messages_.take({piece.data(), count});
+    show(said);
+    overhear_(said);
+    for (const RankNews& news : messages_.take_news()) {
+      watch_.hear(news, now_s);
+      warn_of(news);
+    }
+    return count > 0;
+  }
+
+  void warn_of(const RankNews& news) const {
+    const bool goes_on = news.event == RankEvent::kKilled && !watch_.loss();
+    if (news.event != RankEvent::kStopped && !goes_on) return;
+    show(fmt::format("pprt-render: warning: {} was {} by {}\n", rank_name(news.rank, news.host),
+                     goes_on ? "ended" : "stopped", signal_name(news.number)));
+  }
+
+  // Returns false when the run is to end at once.
+  bool obey_signals() {
+    const bool is_at_work = watch_.listens();
+    if (stopped_by != 0 && !is_at_work) show("pprt-render: stopped while starting\n");
+    ends_at_once_ = stopped_by != 0 && (forced != 0 || !is_at_work);
+    if (ends_at_once_ || !is_at_work) return !ends_at_once_;
+    if (stopped_by != 0 && !std::exchange(has_passed_on_stop_, true)) kill(mpirun_.id(), SIGUSR2);
+    if (status_asked != 0) kill(mpirun_.id(), SIGUSR1);
+    status_asked = 0;
+    return true;
+  }
+
+  // Returns mpirun's exit code, or what rank 0 has told instead.
+  int end_mpirun() {
+    const bool must_end = failure_ || ends_at_once_ || is_overdue_ || messages_.has_lost_host();
+    const double patience_s = messages_.has_lost_host() ? kLostHostPatience_s : kEndPatience_s;
+    const int code = (must_end ? mpirun_.end_within(patience_s) : mpirun_.wait()).code;
+    return watch_.end_code().value_or(code);
+  }
+
+  const Launch& launch_;
+  const std::function<void(std::string_view)>& overhear_;
+  RunWatch watch_;
+  MpirunMessages messages_;
+  WakingTime time_;
+  Subprocess mpirun_;
+  bool has_passed_on_stop_ = false;
+  bool ends_at_once_ = false;           // by a signal
+  bool is_overdue_ = false;             // mpirun, after the run's end
+  std::optional<std::string> failure_;  // that ends the run
+};
 
 }  // namespace
-
 std::vector<std::string> mpirun_command(const Launch& launch, std::span<const std::string> words) {
   std::vector<std::string> command = {"mpirun", "-np", std::to_string(launch.processes)};
   if (!launch.hostfile.empty()) command.insert(command.end(), {"--hostfile", absolute(launch.hostfile)});
@@ -118,6 +203,8 @@ std::vector<std::string> mpirun_command(const Launch& launch, std::span<const st
   // questions, one a second. By default that takes 8 minutes. A batch system may name hosts, too.
   for (const auto& [name, value] : {std::pair("time", "2"), {"intvl", "1"}, {"probes", "4"}})
     command.insert(command.end(), {"--mca", std::string("oob_tcp_keepalive_") + name, value});
+  // When a run has to end, mpirun lets 2 s pass between its first signal to the ranks and the last.
+  command.insert(command.end(), {"--mca", "odls_base_sigkill_timeout", "0"});
   if (launch.goes_on) command.emplace_back("--enable-recovery");
   // More ranks than cores is normal here: idle ranks sleep, and no rank may be bound to a core.
   command.insert(command.end(), {"--oversubscribe", "--bind-to", "none"});
@@ -140,45 +227,10 @@ std::vector<std::string> user_words(int argc, const char* const* argv) {
 
 int run_under_mpirun(const Launch& launch, std::span<const std::string> words,
                      const std::function<void(std::string_view)>& overhear) try {
-  Subprocess mpirun(mpirun_command(launch, words), kMpirunSettings);
-  mpirun_pid = mpirun.id();
-  pass_signals_on();
-  const MpirunMessages messages = relay(mpirun, launch, overhear);
-  const int code = mpirun_code(mpirun, messages);
-  // A run that was asked to stop may still fail. The code of an mpirun that was ended says nothing.
-  const bool failed = code >= kExitFailure && code <= kExitInput;
-  const bool ended_well = launch.ends_by_signal && code == kExitDone && forced == 0;
-  if (stopped_by != 0 && (forced != 0 || !failed) && !ended_well) return 128 + stopped_by;
-  // A run that goes on without what it has lost says itself how it ended.
-  const bool is_lost = messages.loss() && !messages.end_code();
-  if (is_lost || code > kExitInput) {
-    throw std::runtime_error(messages.loss().value_or("mpirun ended with code " + std::to_string(code)) +
-                             "; frames that are in place are whole, and --resume goes on after them");
-  }
-  return code;
+  note_signals();
+  return FollowedRun(launch, words, overhear).run();
 } catch (const ProgramNotFound&) {
   throw std::runtime_error("cannot start mpirun: it is not on the PATH (package openmpi-bin)");
-}
-
-bool on_terminal() {
-  const char* launched = std::getenv(kLauncherVariable);
-  return isatty(STDERR_FILENO) != 0 || (launched != nullptr && launched == kFromTerminal);
-}
-
-void tell_launcher_of_begin() {
-  if (std::getenv(kLauncherVariable) != nullptr) show(begin_line());
-}
-
-void tell_launcher_of_end(int exit_code) {
-  if (std::getenv(kLauncherVariable) != nullptr) show(end_line(exit_code));
-}
-
-int launcher_rank() {
-  // Set by Open MPI, by PMIx, and by the PMI of MPICH and Slurm.
-  for (const char* name : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"}) {
-    if (const char* rank = std::getenv(name)) return std::atoi(rank);
-  }
-  return 0;
 }
 
 }  // namespace pprt

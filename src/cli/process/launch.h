@@ -1,4 +1,4 @@
-// Starting mpirun, and what its ranks find.
+// Starting mpirun, and following the run to its end.
 #pragma once
 
 #include <filesystem>
@@ -31,25 +31,14 @@ std::vector<std::string> user_words(int argc, const char* const* argv);
 
 // Runs this program with these words under mpirun and returns its exit code.
 //
-// The first SIGINT, SIGTERM or SIGHUP asks rank 0 to end after its frame; a second SIGINT or SIGTERM ends
-// mpirun. Each makes the code 128 + signal, unless the run failed. SIGUSR1 is passed on. `overhear` gets what
-// the ranks print on standard error, which is printed too.
+// The first SIGINT, SIGTERM or SIGHUP asks rank 0 to end after its frame. A second SIGINT or SIGTERM ends
+// mpirun, and so does the first before rank 0 has begun its frames. Each makes the code 128 + signal, unless
+// the run failed. SIGUSR1 is passed on. `overhear` gets what the ranks print on standard error, which is
+// printed too.
 //
-// Throws std::runtime_error when mpirun cannot be started. Throws it when the ranks do not find each other in
-// time (Launch). Throws it, with the name of a rank or a host, when a signal has ended the one or the other
-// does not answer.
+// Throws std::runtime_error when mpirun cannot be started, or has been ended. Throws it, with the name of a
+// rank or a host, when the run cannot come to its end without the one or the other (RunWatch).
 int run_under_mpirun(const Launch& launch, std::span<const std::string> words,
                      const std::function<void(std::string_view)>& overhear);
-
-// Whether standard error is a terminal, also when run_under_mpirun() stands between.
-bool on_terminal();
-
-// These tell run_under_mpirun(), if it stands between, that all processes have begun to render, or that the
-// run has ended with this code. mpirun may not notice the end: a host that it waits for may be out of reach.
-void tell_launcher_of_begin();
-void tell_launcher_of_end(int exit_code);
-
-// Returns this process's rank as its launcher tells it before MPI begins; 0 without a launcher.
-int launcher_rank();
 
 }  // namespace pprt

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <regex>
 #include <utility>
 
@@ -12,8 +11,8 @@ namespace pprt {
 namespace {
 
 constexpr std::string_view kForwarding = "mpirun: Forwarding signal";
-constexpr std::string_view kRun = "pprt: the run has ";
-constexpr std::string_view kBegun = "begun", kEnded = "ended with code ";
+// Open MPI says this with --enable-recovery for each rank that was killed.
+constexpr std::string_view kEventError = "] PMIX ERROR: BAD-PARAM in file ";
 
 // Open MPI's lines of dashes have 74 of them.
 bool is_rule(const std::string& line) {
@@ -28,7 +27,12 @@ bool starts_like(std::string_view line, std::string_view words) {
 // Whether a line that begins like this may be one that is not shown.
 bool may_be_mpiruns(const std::string& line) {
   return line.find_first_not_of('-') == std::string::npos || starts_like(line, kForwarding) ||
-         starts_like(line, kRun);
+         line.starts_with('[');
+}
+
+bool is_dropped(const std::string& line) {
+  return line.starts_with(kForwarding) ||
+         (line.starts_with('[') && line.find(kEventError) != std::string::npos);
 }
 
 // Whether a message says only that ranks had an exit code, which the ranks have explained themselves.
@@ -62,17 +66,13 @@ std::optional<std::string> lost_host_in(const std::string& message) {
 
 }  // namespace
 
-std::string begin_line() {
-  return fmt::format("{}{}\n", kRun, kBegun);
-}
-
-std::string end_line(int exit_code) {
-  return fmt::format("{}{}{}\n", kRun, kEnded, exit_code);
-}
-
 std::string MpirunMessages::take(std::string_view text) {
   std::string shown;
   for (const char c : text) {
+    if (is_in_news_ || c == kNewsBegin) {
+      take_news(c);
+      continue;
+    }
     if (in_shown_line_) {
       shown += c;
       in_shown_line_ = c != '\n';
@@ -89,16 +89,27 @@ std::string MpirunMessages::take(std::string_view text) {
   return shown;
 }
 
+void MpirunMessages::take_news(char c) {
+  is_in_news_ = c != kNewsEnd;
+  if (c == kNewsBegin) news_text_.clear();
+  if (is_in_news_) {
+    if (c != kNewsBegin) news_text_ += c;
+    return;
+  }
+  const std::optional<RankNews> news = news_in(news_text_);
+  if (!news) return;
+  have_met_ = have_met_ || news->event == RankEvent::kMet;
+  news_.push_back(*news);
+}
+
+std::vector<RankNews> MpirunMessages::take_news() {
+  return std::exchange(news_, {});
+}
+
 std::string MpirunMessages::take_line() {
   std::string line = std::exchange(line_, {});
-  if (message_.empty() && line.starts_with(kRun)) {
-    const std::string word = line.substr(kRun.size());
-    has_begun_ = has_begun_ || word.starts_with(kBegun);
-    if (word.starts_with(kEnded)) end_code_ = std::atoi(word.c_str() + kEnded.size());
-    return {};
-  }
   const bool rule = is_rule(line);
-  if (message_.empty() && !rule) return line.starts_with(kForwarding) ? std::string() : line;
+  if (message_.empty() && !rule) return is_dropped(line) ? std::string() : line;
   const bool closes = rule && !message_.empty();
   message_ += line;
   return closes ? end_message() : std::string();
@@ -106,7 +117,7 @@ std::string MpirunMessages::take_line() {
 
 std::string MpirunMessages::end_message() {
   std::string message = std::exchange(message_, {});
-  if (repeats_exit_code(message) || (has_begun_ && complains_of_start(message))) return {};
+  if (repeats_exit_code(message) || (have_met_ && complains_of_start(message))) return {};
   const std::optional<std::string> host = lost_host_in(message);
   const std::optional<std::string> loss = host ? host : killed_rank_in(message);
   if (!loss) return message;

@@ -4,12 +4,15 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "cli/process/rank_news.h"
 
 namespace pprt {
 
-// Filters standard error. Open MPI puts its own messages between lines of dashes. Those that only repeat a
-// rank's exit code are dropped. One that names a rank ended by a signal, or a host out of reach, is kept for
-// loss(). All else is passed on as it comes.
+// Filters standard error. News of ranks are taken out of it. Open MPI puts its own messages between lines of
+// dashes. Those that only repeat a rank's exit code are dropped. One that names a rank ended by a signal, or
+// a host out of reach, is kept for loss(). All else is passed on as it comes.
 class MpirunMessages {
  public:
   // Takes what was read next and returns what is to be shown. Holds back only what may belong to a message of
@@ -25,28 +28,24 @@ class MpirunMessages {
   // Whether loss() is that of a host, for which mpirun may wait in vain.
   bool has_lost_host() const { return has_lost_host_; }
 
-  // Whether a rank has printed begin_line().
-  bool has_begun() const { return has_begun_; }
-
-  // The run's exit code, once a rank has printed end_line().
-  std::optional<int> end_code() const { return end_code_; }
+  // Removes and returns the news that have come.
+  std::vector<RankNews> take_news();
 
  private:
+  void take_news(char c);
   std::string take_line();
   std::string end_message();
 
   std::string line_;            // held back so far
   bool in_shown_line_ = false;  // its beginning has been handed on
   std::string message_;         // of mpirun, from its first line of dashes on
-  bool has_begun_ = false;
+  bool is_in_news_ = false;     // news have begun, and not ended
+  std::string news_text_;       // of these
+  std::vector<RankNews> news_;  // not taken yet
+  // All processes have met: mpirun's complaint that it cannot start a daemon only repeats the loss of a host.
+  bool have_met_ = false;
   std::optional<std::string> loss_;
   bool has_lost_host_ = false;
-  std::optional<int> end_code_;
 };
-
-// Lines by which a rank says that the run has begun or ended. They are not shown. In a run that has begun,
-// mpirun's complaint that it cannot start a daemon only repeats the loss of a host.
-std::string begin_line();
-std::string end_line(int exit_code);
 
 }  // namespace pprt

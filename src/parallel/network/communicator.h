@@ -18,6 +18,7 @@ enum class Tag : int {
   kRoundSent,      // work clock: rank -> master, after a round's bundles: whom they went to
   kRoundDue,       // work clock: master -> rank, when all have sent theirs: how many come to it
   kTransfers,      // where asked for: rank -> master, before its pixels: how it chose tile transfers
+  kEnough,         // without a rate: master -> rank, when frames need not get better than they are
 };
 
 // Bundles may come in numbers; whoever rests is woken by each message of another kind.

@@ -402,12 +402,4 @@ void MpiCommunicator::abort_all(int exit_code) {
   std::_Exit(exit_code);
 }
 
-bool started_by_mpi_launcher() {
-  // Open MPI, PMIx and the PMI of MPICH and Slurm each set one of these.
-  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"}) {
-    if (std::getenv(name) != nullptr) return true;
-  }
-  return false;
-}
-
 }  // namespace pprt

@@ -56,7 +56,4 @@ class MpiCommunicator final : public Communicator {
   std::unique_ptr<Impl> impl_;
 };
 
-// Whether an MPI launcher started this process.
-bool started_by_mpi_launcher();
-
 }  // namespace pprt

@@ -26,6 +26,9 @@ void Inbox::accept(const Message& message) {
     case Tag::kRoundDue:
       due_ = decode_round_due(message.payload);
       return;
+    case Tag::kEnough:
+      has_enough_ = true;
+      return;
     case Tag::kPixels:
     case Tag::kTransfers:
     case Tag::kRoundSent:

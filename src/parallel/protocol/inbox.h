@@ -55,6 +55,9 @@ class Inbox {
   // Work clock: how many bundles come in this round; empty while the master has not said.
   std::optional<std::size_t> bundles_due(int frame_index, int round) const;
 
+  // Without a rate: whether the master has said that frames need not get better.
+  bool has_enough() const { return has_enough_; }
+
   // How many bundles that `wanted` accepts are here.
   std::size_t count_bundles(const std::function<bool(const Arrived&)>& wanted) const;
 
@@ -66,6 +69,7 @@ class Inbox {
   std::deque<FrameOrder> orders_;
   std::vector<Arrived> bundles_;
   std::optional<RoundDue> due_;  // said last
+  bool has_enough_ = false;
 };
 
 }  // namespace pprt

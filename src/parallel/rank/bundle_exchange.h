@@ -81,6 +81,9 @@ class BundleExchange {
   // before may become whole meanwhile, or due.
   void poll(std::uint64_t rays);
 
+  // Whether the master has said that frames without a rate need not get better.
+  bool has_enough() const { return inbox_.has_enough(); }
+
   // Looks for messages now.
   void look() { inbox_.pump(); }
 

@@ -106,10 +106,14 @@ void Worker::begin_packet(const FrameOrder& order, int round) {
 Worker::Packet Worker::sample_packet(bool has_rate) {
   Packet packet;
   while (!packet.idle && !clock_->packet_over()) {
-    packet.idle = (!has_rate && goal_.is_reached(sampler_, picture_, *clock_)) || !sample_once();
+    packet.idle = (!has_rate && has_reached_goal()) || !sample_once();
     packet.traced = packet.traced || !packet.idle;
   }
   return packet;
+}
+
+bool Worker::has_reached_goal() {
+  return bundles_.has_enough() || goal_.is_reached(sampler_, picture_, *clock_);
 }
 
 // A goal counts when it still holds after what the others have sent: not in the round that reached it.

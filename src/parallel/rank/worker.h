@@ -79,6 +79,7 @@ class Worker {
   void sample(const FrameOrder& order);
   void begin_packet(const FrameOrder& order, int round);
   Packet sample_packet(bool has_rate);
+  bool has_reached_goal();
   bool sample_once();
   void exchange_and_set_goal(bool is_done);
   void exchange_bundles(bool concerns_all);

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "cli/process/exit.h"
-#include "cli/process/launch.h"
+#include "cli/process/launched.h"
 #include "render/records/ledger.h"
 
 namespace pprt {

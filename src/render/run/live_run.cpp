@@ -143,7 +143,12 @@ class LiveRunner {
       if (index > 0) return std::nullopt;
       return FrameRequest{.number = ++number_, .camera = scene_.camera(view), .time = time_};
     };
-    run_sequence_(settings, source, [&](FinishedFrame&& frame) { view_.show_photo(wanted, frame.image); });
+    // Whoever has asked for it may leave meanwhile, and a signal does not wait for it.
+    const auto is_unwanted = [&] { return stop_requested() || !view_.steering().awaits_photo(); };
+    const auto sink = [&](FinishedFrame&& frame) {
+      if (!is_unwanted()) view_.show_photo(wanted, frame.image);
+    };
+    run_sequence_(settings, source, sink, is_unwanted);
   }
 
   void render_frames(const LiveRun& wanted) {
@@ -167,12 +172,13 @@ class LiveRunner {
                           .time = time_,
                           .moves = scene_.moves_between(before, time_)};
     };
-    run_sequence_(settings, source, [&](FinishedFrame&& frame) {
+    const auto sink = [&](FinishedFrame&& frame) {
       const LiveShot shot = shots.front();
       shots.pop_front();
       if (finish.is_finished(frame)) view_.steering().rest(shot.change);
       deliver(std::move(frame), shot, grid);
-    });
+    };
+    run_sequence_(settings, source, sink, [] { return false; });
   }
 
   // What moves stands still while the script does.

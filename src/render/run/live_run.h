@@ -10,9 +10,9 @@
 
 namespace pprt {
 
-// Renders one sequence with all ranks.
-using RunSequence =
-    std::function<void(const SessionSettings& settings, const CameraSource& source, const FrameSink& sink)>;
+// Renders one sequence with all ranks. `is_enough`: see SessionEvents.
+using RunSequence = std::function<void(const SessionSettings& settings, const CameraSource& source,
+                                       const FrameSink& sink, const std::function<bool()>& is_enough)>;
 
 // Serves the page of `plan.live` and renders what it asks for, one sequence after the other: each has its
 // rate and size. Returns when a signal has asked for the end or a file cannot be written. A recorder gets

@@ -11,9 +11,10 @@
 #include "base/diagnostics.h"
 #include "base/host_cores.h"
 #include "cli/process/exit.h"
-#include "cli/process/launch.h"
+#include "cli/process/launched.h"
 #include "cli/process/log.h"
 #include "cli/process/stop_signals.h"
+#include "parallel/clock/make_clocks.h"
 #include "parallel/network/mpi_communicator.h"
 #include "parallel/network/process_ranks.h"
 #include "parallel/session.h"
@@ -174,6 +175,11 @@ int finish_files(FrameRecorder& recorder, ProgressReporter& progress) try {
   return kExitFailure;
 }
 
+void listen_to_signals() {
+  watch_signals();
+  tell_launcher({.event = RankEvent::kListens});
+}
+
 // A live view without files has no end of its own: a signal is the usual one.
 int run_live_view(ProcessRanks& ranks, const PreparedRun& run, const SessionEvents& events,
                   ProgressReporter& progress, JobBroadcast& broadcast) {
@@ -182,7 +188,7 @@ int run_live_view(ProcessRanks& ranks, const PreparedRun& run, const SessionEven
   if (!run.plan.output.pictures.empty()) {
     recorder.emplace(RunIdentity{run.plan, size, hash_of(run.plan.scene)}, run.scene, progress);
   }
-  watch_signals();
+  listen_to_signals();
   const auto status = [&recorder] {
     if (recorder) recorder->status();
   };
@@ -190,11 +196,14 @@ int run_live_view(ProcessRanks& ranks, const PreparedRun& run, const SessionEven
   RenderJob job = run.job;
   job.again = true;
   run_live(run.plan, run.scene, size, recorder ? &*recorder : nullptr,
-           [&](const SessionSettings& settings, const CameraSource& source, const FrameSink& sink) {
+           [&](const SessionSettings& settings, const CameraSource& source, const FrameSink& sink,
+               const std::function<bool()>& is_enough) {
+             SessionEvents with_end = events;
+             with_end.is_enough = is_enough;
              job.settings = settings;
              broadcast.send(job);
              job.scene.clear();
-             run_sequence(ranks, run.scene, settings, source, sink, events);
+             run_sequence(ranks, run.scene, settings, source, sink, with_end);
              broadcast.require_others();
            });
   broadcast.end();
@@ -212,9 +221,14 @@ int run_frames(ProcessRanks& ranks, const PreparedRun& run, const SessionEvents&
 
   // Render with all ranks.
   broadcast.send(run.job);
-  watch_signals();
+  listen_to_signals();
   const StatusPrinter printer([&recorder] { recorder.status(); }, [&progress] { progress.stopping(); });
-  const FrameSink sink = [&](FinishedFrame&& frame) { recorder.record(std::move(frame)); };
+  const bool has_deadlines = run.plan.settings.frames_per_second > 0 && !is_reproducible(run.plan.settings);
+  bool is_first = true;
+  const FrameSink sink = [&](FinishedFrame&& frame) {
+    recorder.record(std::move(frame));
+    if (std::exchange(is_first, false) && has_deadlines) tell_launcher({.event = RankEvent::kSpares});
+  };
   run_sequence(ranks, run.scene, run.plan.settings, source, sink, events);
 
   const int code = finish_files(recorder, progress);
@@ -267,13 +281,25 @@ void meet_others(MpiCommunicator& processes) try {
   processes.abort_all(kExitFailure);
 }
 
+// A process of another launcher's, or of none, would render what others render too, or keep silent for them.
+void require_rank(MpiCommunicator& processes, int told_rank) {
+  if (processes.rank() == told_rank) return;
+  print_message(fmt::format(
+      "pprt-render: error: the environment says that this is rank {} of an MPI run (PMIX_RANK or PMI_RANK), "
+      "but for MPI it is rank {}; was it started by another MPI's launcher?\n",
+      told_rank, processes.rank()));
+  processes.abort_all(kExitFailure);
+}
+
 // No exception may leave a process while others wait for it. An error of the first before the run dismisses
 // the others; any later error aborts all at once.
 int run_mpi_process(const PlanMaker& make_plan, std::optional<int> threads, LogLevel log,
                     ProgressReporter& progress) {
+  const int told_rank = launcher_rank();  // before MPI, which sets variables of its own
   MpiCommunicator processes;
   meet_others(processes);
-  if (processes.rank() == 0) tell_launcher_of_begin();
+  require_rank(processes, told_rank);
+  if (processes.rank() == 0) tell_launcher({.event = RankEvent::kMet});
   const int share = std::max(1, processes.cores_on_host() / processes.ranks_on_host());
   ProcessRanks ranks(processes, threads.value_or(share));
   set_up_log(log, ranks.ranks().first);
@@ -282,9 +308,10 @@ int run_mpi_process(const PlanMaker& make_plan, std::optional<int> threads, LogL
   try {
     const int code = is_first ? run_first_process(ranks, make_plan, progress, broadcast)
                               : run_further_process(processes, ranks);
+    // mpirun may not notice the end: a host that it waits for may be out of reach.
+    if (is_first) tell_launcher({.event = RankEvent::kEnded, .number = code});
     if (processes.all_finished()) return code;
     progress.close(code);
-    tell_launcher_of_end(code);
     processes.abort_all(code);
   } catch (const std::exception& e) {
     if (is_first && !broadcast.run_begun()) throw;

@@ -1,8 +1,9 @@
 #include "base/subprocess.h"
 
-#include <catch2/catch.hpp>
+#include <unistd.h>
 
 #include <array>
+#include <catch2/catch.hpp>
 #include <csignal>
 #include <string>
 
@@ -112,6 +113,23 @@ TEST_CASE("a subprocess with a process group of its own leads it") {
   const SubprocessSettings settings{.output = StreamTo::kPipe, .own_process_group = true};
   const Subprocess program({"sh", "-c", "cut -d' ' -f5 /proc/$$/stat"}, settings);
   CHECK(everything_from(program) == std::to_string(program.id()) + "\n");
+}
+
+TEST_CASE("a subprocess that is stopped can be told from one that runs and one that has ended") {
+  Subprocess program({"sleep", "30"});
+  const auto becomes = [](const auto& is_so) {
+    for (int i = 0; i < 1000 && !is_so(); ++i) usleep(10'000);
+    return is_so();
+  };
+  CHECK_FALSE(program.is_stopped());
+  kill(program.id(), SIGSTOP);
+  CHECK(becomes([&] { return program.is_stopped(); }));
+  kill(program.id(), SIGCONT);
+  CHECK(becomes([&] { return !program.is_stopped(); }));
+  kill(program.id(), SIGSTOP);
+  CHECK_FALSE(program.has_ended());
+  CHECK(program.end_within(10).code == 128 + SIGTERM);
+  CHECK(program.has_ended());
 }
 
 TEST_CASE("a subprocess's CPU time is measured") {

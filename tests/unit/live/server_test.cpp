@@ -233,6 +233,24 @@ TEST_CASE("live server: more connections than allowed are closed") {
   CHECK_FALSE(Client(stage).error);
 }
 
+TEST_CASE("live server: connections that say nothing keep nobody out") {
+  Stage stage({.most_strangers = 3, .patience_s = 60});
+  std::vector<tcp::socket> idle;
+  for (int i = 0; i < 8; ++i) idle.push_back(stage.connection());
+  CHECK(has_status(stage.get("/" + stage.server().token() + "/"), 200));
+  CHECK_FALSE(Client(stage).error);
+  // The oldest has been closed, the newest has not.
+  const auto is_closed = [](tcp::socket& socket) {
+    socket.non_blocking(true);
+    char byte = 0;
+    error_code error;
+    socket.read_some(asio::buffer(&byte, 1), error);
+    return error && error != asio::error::would_block;
+  };
+  CHECK(comes_true([&] { return is_closed(idle.front()); }));
+  CHECK_FALSE(is_closed(idle.back()));
+}
+
 TEST_CASE("live server: an address that is taken is an error") {
   Stage stage;
   LiveServerSettings settings;

@@ -254,6 +254,22 @@ TEST_CASE("steering: another rate, size or a photo ends the run and begins anoth
   CHECK(stage.shot().view.from.x == 3);
 }
 
+TEST_CASE("steering: a photo is over when the viewer who has asked for it leaves") {
+  for (const bool begun : {false, true}) {
+    Stage stage;
+    stage.steering.joined(1), stage.steering.joined(2);
+    stage.say(1, R"({"do":"take"})");
+    stage.say(1, R"({"do":"photo","format":"png"})");
+    if (begun) CHECK(stage.steering.next_run().photo);
+    stage.steering.left(2);
+    CHECK(stage.steering.awaits_photo());
+    stage.steering.left(1);
+    CHECK_FALSE(stage.steering.awaits_photo());
+    CHECK(stage.state["photo"] == false);
+    CHECK_FALSE(stage.steering.next_run().photo);
+  }
+}
+
 TEST_CASE("steering: keys make a film, which plays and is saved") {
   Stage stage;
   stage.steering.joined(1);

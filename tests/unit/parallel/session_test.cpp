@@ -330,6 +330,19 @@ BOTH_SAMPLERS_TEST_CASE("session: ranks whose clocks are far apart and drift kee
   CHECK(std::count_if(run.frames.begin(), run.frames.end(), is_in_time) >= 15);
 }
 
+BOTH_SAMPLERS_TEST_CASE("session: a frame without a rate ends when it is said to be good enough",
+                        "[realtime]") {
+  // By itself it ends when every pixel has its samples.
+  SessionSettings settings = free_settings(sampler, ClockKind::kWall, {.seconds = 3600});
+  settings.width = 192, settings.height = 128;
+  const VirtualRun run =
+      run_session(3, settings, still_or_pan(settings, 1, 1), {.is_enough = [] { return true; }});
+  CHECK(run.error.empty());
+  REQUIRE(run.frames.size() == 1);
+  CHECK(std::count(run.frames[0].owners.begin(), run.frames[0].owners.end(), -1) == 0);
+  CHECK(total(run.frames[0], &RankReport::samples_in_region) < 192 * 128);
+}
+
 BOTH_SAMPLERS_TEST_CASE("session: frames without a rate end in real time, whenever the last messages arrive",
                         "[realtime]") {
   // Messages say when a frame may end: none may be overlooked.

@@ -246,7 +246,7 @@ VirtualRun run_session(int ranks, const SessionSettings& settings, const CameraS
       if (rank == 0) {
         run_as_master(communicator, settings, tracer.probe(), source,
                       [&](FinishedFrame&& frame) { run.frames.push_back(std::move(frame)); },
-                      {.loss = conditions.loss});
+                      {.loss = conditions.loss, .is_enough = conditions.is_enough});
       } else {
         run_as_worker(communicator, settings, tracer.probe(),
                       [&] { return monotonic_seconds() * (1 + 2e-4 * apart * rank) + 1e5 * apart * rank; });

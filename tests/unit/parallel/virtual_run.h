@@ -33,6 +33,7 @@ struct Conditions {
   std::set<int> unplugged = {};   // ranks that are cut off from the others
   double unplugged_at_s = 0;      // after the run began
   LossRule loss = {};
+  std::function<bool()> is_enough = [] { return false; };  // see SessionEvents
   double patience_s = 120;  // after so long a rank that still waits for a message gives up: an error
 };
 

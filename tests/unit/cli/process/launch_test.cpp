@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-#include "cli/process/mpirun_messages.h"
+#include "cli/process/rank_news.h"
 
 namespace pprt::launch_test {
 namespace {
@@ -55,11 +55,17 @@ TEST_CASE("a start that mpirun says nothing of is given up where a run may go on
     return run_under_mpirun({.processes = 2, .goes_on = goes_on, .start_patience_s = 0.3}, {},
                             [](std::string_view) {});
   };
-  const std::string begins = "printf '" + begin_line() + "' >&2; sleep 1; exit 0";
+  const std::string begins = "printf '" + to_text({.event = RankEvent::kMet}) + "' >&2; sleep 1; exit 0";
   CHECK_THROWS_WITH(run("exec sleep 20", true), Catch::Contains("have not found each other within 0.3 s") &&
                                                     Catch::Contains("every host"));
   CHECK(run(begins, true) == 0);
   CHECK(run("sleep 1; exit 0", false) == 0);  // mpirun itself tells what is wrong
+}
+
+TEST_CASE("an mpirun that is killed is told of") {
+  const StandIn mpirun("kill -KILL $$");
+  CHECK_THROWS_WITH(run_under_mpirun({.processes = 2}, {}, [](std::string_view) {}),
+                    Catch::StartsWith("mpirun was ended by signal 9 (Killed)"));
 }
 
 TEST_CASE("no word of the user's stands in mpirun's command line as it was given") {

@@ -1,6 +1,8 @@
 #include "cli/process/mpirun_messages.h"
 
 #include <catch2/catch.hpp>
+#include <string>
+#include <vector>
 
 namespace pprt::mpirun_messages_test {
 namespace {
@@ -48,17 +50,21 @@ TEST_CASE("a host out of reach is named, and what mpirun says of it is dropped")
     // A daemon that could not be started is a reason of its own; one that was, is lost.
     MpirunMessages before, after;
     CHECK(shown(before, start, piece) == start);
-    CHECK(shown(after, begin_line() + start + "frame 2\n", piece) == "frame 2\n");
+    CHECK(shown(after, to_text({.event = RankEvent::kMet}) + start + "frame 2\n", piece) == "frame 2\n");
   }
 }
 
-TEST_CASE("the end of a run is told by a line that is not shown") {
+TEST_CASE("news of ranks are taken out of what is shown, also from the middle of a line") {
+  const RankNews stopped{.event = RankEvent::kStopped, .rank = 12, .number = 19, .host = "vm-1"};
+  const RankNews ended{.event = RankEvent::kEnded, .rank = 0, .number = 130};
   for (const std::size_t piece : {1, 7, 4096}) {
     MpirunMessages messages;
-    CHECK(shown(messages, "done\n" + begin_line(), piece) == "done\n");
-    CHECK_FALSE(messages.end_code());
-    CHECK(shown(messages, end_line(130) + "pprt: the road\n", piece) == "pprt: the road\n");
-    CHECK(messages.end_code() == 130);
+    CHECK(shown(messages, "\rframe 1" + to_text(stopped) + " of 3\n" + to_text(ended) + "done\n", piece) ==
+          "\rframe 1 of 3\ndone\n");
+    CHECK(messages.take_news() == std::vector<RankNews>{stopped, ended});
+    CHECK(messages.take_news().empty());
+    CHECK(shown(messages, std::string(1, kNewsBegin) + "no news\n" + "x\n", piece) == "x\n");
+    CHECK(messages.take_news().empty());
   }
 }
 
@@ -84,6 +90,13 @@ TEST_CASE("other messages of mpirun are passed on whole, also incomplete ones") 
     MpirunMessages messages;
     CHECK(shown(messages, text, 5) == text);
   }
+}
+
+TEST_CASE("what Open MPI says of itself when a rank was killed is dropped") {
+  MpirunMessages messages;
+  const std::string said =
+      "[vm:1] PMIX ERROR: BAD-PARAM in file ../event/pmix_event_notification.c at line 1\n";
+  CHECK(shown(messages, said + "[vm:1] other\n" + said, 3) == "[vm:1] other\n");
 }
 
 TEST_CASE("mpirun's message about a forwarded signal is dropped") {

@@ -120,7 +120,8 @@ TEST_CASE("docs/protocol.md: its tags are those of the communicator") {
   const std::vector<std::pair<Tag, std::string>> tags = {
       {Tag::kClockPing, "kClockPing"},   {Tag::kClockPong, "kClockPong"}, {Tag::kStart, "kStart"},
       {Tag::kFrameOrder, "kFrameOrder"}, {Tag::kBundle, "kBundle"},       {Tag::kPixels, "kPixels"},
-      {Tag::kRoundSent, "kRoundSent"},   {Tag::kRoundDue, "kRoundDue"},   {Tag::kTransfers, "kTransfers"}};
+      {Tag::kRoundSent, "kRoundSent"},   {Tag::kRoundDue, "kRoundDue"},   {Tag::kTransfers, "kTransfers"},
+      {Tag::kEnough, "kEnough"}};
   for (const auto& [tag, name] : tags) {
     const std::string row = "| " + std::to_string(static_cast<int>(tag)) + " `" + name + "` |";
     INFO(row);
