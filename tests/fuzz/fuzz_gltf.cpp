@@ -2,6 +2,7 @@
 // written as AFF and NFF and read again, as the renderer does.
 //
 // Assimp is not what is tested, and crashes: what it does not survive alone is left out.
+#include <csignal>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace pprt {
+namespace pprt::hostfile_test {
 namespace {
 
 // What is said of a text where there are two hosts.
@@ -60,4 +60,4 @@ TEST_CASE("mpirun reads a hostfile itself, or a copy of it without CR") {
   CHECK_THROWS_AS(Hostfile(path), InputError);
 }
 
-}  // namespace pprt
+}  // namespace pprt::hostfile_test

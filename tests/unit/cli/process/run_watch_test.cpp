@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <csignal>
 
-namespace pprt {
+namespace pprt::run_watch_test {
 namespace {
 
 RankNews news(RankEvent event, int rank, int number = 0) {
@@ -102,4 +102,4 @@ TEST_CASE("a run that has told its end cannot fail any more, and mpirun's time e
   CHECK(watch.is_over(8.1));
 }
 
-}  // namespace pprt
+}  // namespace pprt::run_watch_test

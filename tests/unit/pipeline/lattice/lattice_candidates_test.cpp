@@ -4,7 +4,7 @@
 
 #include "pipeline/lattice/lattice_refiner.h"
 
-namespace pprt {
+namespace pprt::lattice_candidates_test {
 namespace {
 
 // The candidates of each of nine base squares when there is one sample, at this node. A border belongs to the
@@ -35,4 +35,4 @@ TEST_CASE("lattice candidates: a sample in the middle of a side asks for the fou
   CHECK(candidates_around({128, 192}) == Counts{0, 0, 0, 2, 2, 0, 0, 0, 0});
 }
 
-}  // namespace pprt
+}  // namespace pprt::lattice_candidates_test
