@@ -90,7 +90,8 @@ run timeout 60 pprt-render ball.anim "${work[@]}" --frames 1 -o harmed/%d.png --
 expect_text err "pprt-render: error: cannot write 'harmed/manifest.ndjson': it is not a regular file"
 
 # While a run goes on, no other one writes to its manifest. A run that was killed is in nobody's way.
-pprt-render ball.anim --fps 0 --time 60 -o shared/%d.png &
+sed 's/frames 12/frames 60000/; s/key 12/key 60000/' ball.anim >long.anim  # hours at 4 frames/s
+pprt-render long.anim -o shared/%d.png --progress none &
 first=$!
 until [[ -s shared/manifest.ndjson ]]; do sleep 0.1; done
 for flag in --resume --overwrite; do
