@@ -129,7 +129,8 @@ CLI::App& add_accuracy(CLI::App& app, pprt::AccuracyOptions& options) {
 
 CLI::App& add_balance(CLI::App& app, pprt::BalanceOptions& options) {
   CLI::App& command = *app.add_subcommand("balance", "Shows how recorded runs were balanced");
-  add(command, "FILE", "", options.files, "Balancing traces, as pprt-render --trace writes them")->required();
+  add(command, "FILE", "", options.files, "Balancing traces, as pprt-render --balance-trace writes them")
+      ->required();
   add(command, "-o,--output", "DIR", options.directory, "Directory for tables, plots and index.html");
   add(command, "--frames", "N,...", options.frames,
       "Draw the regions of these frames (default: the first, the middle and the last)")

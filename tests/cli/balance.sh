@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
-# Balancing traces: pprt-render --trace writes them, pprt-study balance shows them.
+# Balancing traces: pprt-render --balance-trace writes them, pprt-study balance shows them.
 source "$(dirname "$0")/check.sh"
 
 work=(--clock work --budget 400000 --size 96x64)
-run pprt-render ball.anim "${work[@]}" -np 4 -o a/%02d.png --trace a.trace; expect_code 0
+run pprt-render ball.anim "${work[@]}" -np 4 -o a/%02d.png --balance-trace a.trace; expect_code 0
 [[ $(wc -l <a.trace) -eq 13 ]] || complain "the trace has not 13 lines"
 expect_line a.trace '{"record":"trace","format":2,"version":"[^"]*",.*"ranks":4,"size":\[96,64\],.*'
 expect_line a.trace '{"record":"frame","frame":12,.*'
 
 # The same decisions on threads, and the same pictures without a trace.
-run pprt-render ball.anim "${work[@]}" --threads 4 -o b/%02d.png --trace b.trace; expect_code 0
+run pprt-render ball.anim "${work[@]}" --threads 4 -o b/%02d.png --balance-trace b.trace; expect_code 0
 expect_same a.trace b.trace
 run pprt-render ball.anim "${work[@]}" --threads 4 -o c/%02d.png; expect_code 0
 for frame in a/*.png; do expect_same "$frame" "c/${frame#a/}"; done
@@ -22,7 +22,7 @@ expect_line out 'a  *combined  *12  *[0-9.]*  *[0-9.]*  *[1-9][0-9]*  *[0-9]*  *
 
 # Several: the deviations side by side, and a row for each.
 for balance in none local; do
-  run pprt-render ball.anim "${work[@]}" --threads 4 --balance $balance -o $balance/%02d.png --trace $balance.trace; expect_code 0
+  run pprt-render ball.anim "${work[@]}" --threads 4 --balance $balance -o $balance/%02d.png --balance-trace $balance.trace; expect_code 0
 done
 run pprt-study balance none.trace a.trace; expect_code 0; expect_text err ''
 expect_line out 'frame  *none  *a'
@@ -35,7 +35,7 @@ run pprt-study balance local.trace none.trace -o study --frames 2,7; expect_code
 for file in index.html frames.csv traces.csv provenance.json regions-{local,none}-{2,7}.png; do expect_file "study/$file"; done
 [[ $(grep -vc '^#' study/frames.csv) -eq 25 ]] || complain "frames.csv has not 25 lines: $(cat study/frames.csv)"
 if command -v gnuplot >/dev/null; then expect_file study/balance.svg; fi
-run pprt-render ball.anim "${work[@]}" --threads 3 --frames 1-6 -o e/%02d.png --trace e.trace; expect_code 0
+run pprt-render ball.anim "${work[@]}" --threads 3 --frames 1-6 -o e/%02d.png --balance-trace e.trace; expect_code 0
 run pprt-study balance a.trace e.trace; expect_code 0
 expect_text err "warning: a.trace and e.trace are runs of different numbers of ranks"
 run pprt-study balance a.trace ./a.trace; expect_code 2
@@ -43,23 +43,23 @@ expect_line err "pprt-study: error: a.trace and ./a.trace have the same name; gi
 
 # A trace is an output as the ledger is.
 there="is there already; --overwrite replaces it, --resume goes on after it"
-run pprt-render ball.anim "${work[@]}" -o d/%02d.png --trace a.trace; expect_usage "a.trace $there"
-run pprt-render ball.anim "${work[@]}" -o d/%02d.png --trace ball.nff --overwrite
-expect_usage "the scene ball.nff and --trace ball.nff are the same file; give each a name of its own"
-run pprt-render ball.anim "${work[@]}" -o d/%02d.png --trace x --stats x
-expect_usage "--stats x and --trace x are the same file; give each a name of its own"
-run pprt-render ball.anim "${work[@]}" -o d/%02d.png --trace -; expect_usage "--trace -: want the name of a file"
-run pprt-render ball.anim --live 0 --trace x; expect_usage "--live changes its settings on the way: it takes no --trace"
+run pprt-render ball.anim "${work[@]}" -o d/%02d.png --balance-trace a.trace; expect_usage "a.trace $there"
+run pprt-render ball.anim "${work[@]}" -o d/%02d.png --balance-trace ball.nff --overwrite
+expect_usage "the scene ball.nff and --balance-trace ball.nff are the same file; give each a name of its own"
+run pprt-render ball.anim "${work[@]}" -o d/%02d.png --balance-trace x --stats x
+expect_usage "--stats x and --balance-trace x are the same file; give each a name of its own"
+run pprt-render ball.anim "${work[@]}" -o d/%02d.png --balance-trace -; expect_usage "--balance-trace -: want the name of a file"
+run pprt-render ball.anim --live 0 --balance-trace x; expect_usage "--live changes its settings on the way: it takes no --balance-trace"
 expect_no_file x
-run pprt-render ball.anim "${work[@]}" --threads 4 -o a/%02d.png --trace a.trace --overwrite; expect_code 0
+run pprt-render ball.anim "${work[@]}" --threads 4 -o a/%02d.png --balance-trace a.trace --overwrite; expect_code 0
 expect_same a.trace b.trace
-run pprt-render ball.anim "${work[@]}" -o d/%02d.png --trace a/01.png/x; expect_code 1
+run pprt-render ball.anim "${work[@]}" -o d/%02d.png --balance-trace a/01.png/x; expect_code 1
 expect_text err "pprt-render: error: cannot write 'a/01.png/x': Not a directory"
 
 # A killed run leaves half a line; the resumed one begins a trace of its own behind it.
-run pprt-render ball.anim "${work[@]}" --threads 4 --frames 1-6 -o r/%02d.png --trace r.trace; expect_code 0
+run pprt-render ball.anim "${work[@]}" --threads 4 --frames 1-6 -o r/%02d.png --balance-trace r.trace; expect_code 0
 printf '{"record":"fra' >>r.trace
-run pprt-render ball.anim "${work[@]}" --threads 4 -o r/%02d.png --trace r.trace --resume; expect_code 0
+run pprt-render ball.anim "${work[@]}" --threads 4 -o r/%02d.png --balance-trace r.trace --resume; expect_code 0
 run pprt-study balance r.trace; expect_code 0
 expect_text err "r.trace:8: warning: the line is incomplete and left out"
 expect_line out 'r  *combined  *12  *[0-9.]*  *[0-9.]*  *[0-9]*  *[0-9]*  *[0-9]*'

@@ -76,7 +76,7 @@ for input in "toy.aff --samples 50 --frames 1" "toy.anim --samples 50 --frames 1
   done
   for name in sub.aff soft.aff; do
     refuse "$(same 'the input sub.aff' "--stats $name")" $input -o a.png --stats $name
-    refuse "$(same 'the input sub.aff' "--trace $name")" $input -o a.png --trace $name
+    refuse "$(same 'the input sub.aff' "--balance-trace $name")" $input -o a.png --balance-trace $name
   done
 done
 refuse "$(same 'the input toy.aff' '--stats toy.aff')" toy.anim --samples 50 --frames 1 -o a.png --stats toy.aff
@@ -109,7 +109,7 @@ run pprt-render "${still[@]}" "${work[@]:0:2}" -o c.png --stats c.ndjson --resum
 [[ $(grep -c '^{"record":"run"' c.ndjson) -eq 3 ]] || complain "a record was glued to half of one: $(cat c.ndjson)"
 
 # Only a ledger goes on as one, and only a trace as a trace. A run that is refused has written to neither.
-run pprt-render "${still[@]}" "${work[@]:0:2}" -o c.png --trace c.trace --resume; expect_code 0
+run pprt-render "${still[@]}" "${work[@]:0:2}" -o c.png --balance-trace c.trace --resume; expect_code 0
 printf 'my notes' >notes
 cp notes kept_notes; cp c.ndjson kept.ndjson; cp c.trace kept.trace
 for name in notes c.trace c_manifest.ndjson; do
@@ -118,10 +118,10 @@ for name in notes c.trace c_manifest.ndjson; do
   expect_usage "--resume: $name is there already and is no ledger; --overwrite replaces it"
 done
 for name in notes c.ndjson; do
-  run pprt-render "${still[@]}" "${work[@]:0:2}" -o c.png --trace $name --resume
+  run pprt-render "${still[@]}" "${work[@]:0:2}" -o c.png --balance-trace $name --resume
   expect_usage "--resume: $name is there already and is no balancing trace; --overwrite replaces it"
 done
-run pprt-render "${still[@]}" "${work[@]:0:2}" --seed 9 -o c.png --stats c.ndjson --trace c.trace --resume
+run pprt-render "${still[@]}" "${work[@]:0:2}" --seed 9 -o c.png --stats c.ndjson --balance-trace c.trace --resume
 expect_usage "--resume: c_manifest.ndjson is of another scene or other options; --overwrite starts anew"
 expect_same notes kept_notes; expect_same c.ndjson kept.ndjson; expect_same c.trace kept.trace
 

@@ -69,7 +69,7 @@ struct GivenTile {
   friend bool operator==(const GivenTile&, const GivenTile&) = default;
 };
 
-// A rank's choice of tiles to give, as --trace records it.
+// A rank's choice of tiles to give, as --balance-trace records it.
 struct TransferChoice {
   std::int32_t giver = 0;
   std::int32_t round = 0;  // of the frame's exchanges

@@ -224,7 +224,7 @@ void add_report_options(CLI::App& app, RenderOptions& o) {
   app.add_option("--stats", o.report.ledger, "Write the ledger, one JSON object a line; - is standard output")
       ->type_name("FILE")
       ->group(group);
-  app.add_option("--trace", o.report.trace,
+  app.add_option("--balance-trace", o.report.trace,
                  "Write the balancing trace, one JSON object a line, which pprt-study balance shows")
       ->type_name("FILE")
       ->group(group);

@@ -23,7 +23,8 @@ void require_live_usage(const RenderOptions& options) {
   const Reports& report = options.report;
   if (options.method.clock == ClockKind::kWork) throw UsageError("--live needs real time, not --clock work");
   if (options.ranks.go_on) throw UsageError("--live needs all ranks: it cannot be used with --go-on");
-  if (!report.trace.empty()) throw UsageError("--live changes its settings on the way: it takes no --trace");
+  if (!report.trace.empty())
+    throw UsageError("--live changes its settings on the way: it takes no --balance-trace");
   if (!output.pictures.empty()) return;
   const bool writes = !output.layers.empty() || !report.ledger.empty() || !output.film.empty() ||
                       !output.contact_sheet.empty() || report.reference || report.compare_serial ||
@@ -42,7 +43,7 @@ void check_usage(const RenderOptions& options) {
   const bool counts_work = options.method.clock == ClockKind::kWork;
   require_picture_name(options.output.contact_sheet);
   require_film_name(options.output.film);
-  if (options.report.trace == "-") throw UsageError("--trace -: want the name of a file");
+  if (options.report.trace == "-") throw UsageError("--balance-trace -: want the name of a file");
   if (options.report.compare_serial && options.report.ledger.empty())
     throw UsageError("--compare-serial tells the ledger: it needs --stats");
   if (const double fps = options.end.fps.value_or(0); fps > 0 && fps < kLeastFramesPerSecond) {

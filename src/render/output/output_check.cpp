@@ -34,7 +34,7 @@ std::vector<NamedFile> files_of_the_run(const RenderPlan& plan) {
   std::vector<NamedFile> files = {{"--contact-sheet", plan.output.contact_sheet},
                                   {"--film", plan.output.film},
                                   {"--stats", plan.report.ledger},
-                                  {"--trace", plan.report.trace}};
+                                  {"--balance-trace", plan.report.trace}};
   std::erase_if(files, [](const NamedFile& file) { return file.path.empty() || file.path == "-"; });
   return files;
 }
@@ -60,7 +60,7 @@ bool would_be_replaced(const NamedFile& file) {
   if (found.type() == fs::file_type::none) {
     throw std::runtime_error(fmt::format("cannot write '{}': {}", file.path.string(), error.message()));
   }
-  if (file.role != "--stats" && file.role != "--trace") return fs::exists(found);
+  if (file.role != "--stats" && file.role != "--balance-trace") return fs::exists(found);
   return !is_open_stream(file.path) &&
          (fs::is_regular_file(found) || (!fs::exists(found) && fs::is_symlink(file.path)));
 }

@@ -1,5 +1,5 @@
-// The balancing trace (--trace): who owned which tile in each frame, what it cost, and which tiles changed
-// hands. One JSON object a line; docs/balancing-traces.md describes the members.
+// The balancing trace (--balance-trace): who owned which tile in each frame, what it cost, and which tiles
+// changed hands. One JSON object a line; docs/balancing-traces.md describes the members.
 #pragma once
 
 #include <condition_variable>
