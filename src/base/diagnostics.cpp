@@ -81,7 +81,7 @@ void Diagnostics::add(Severity severity, SourceLocation at, std::string message,
   if (count++ < kMaxKept) kept_.push_back({severity, at, std::move(message)});
 }
 
-std::string format(const Diagnostics& diagnostics, std::string_view file_name, std::string_view text) {
+std::string report_of(const Diagnostics& diagnostics, std::string_view file_name, std::string_view text) {
   std::vector<Diagnostic> ordered = diagnostics.kept();
   std::stable_sort(ordered.begin(), ordered.end(), [](const Diagnostic& a, const Diagnostic& b) {
     return std::pair(a.location.line, a.location.column) < std::pair(b.location.line, b.location.column);

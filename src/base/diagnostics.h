@@ -47,7 +47,7 @@ class Diagnostics {
 
 // Formats one "file:line:column: error: message" per problem, ordered by place. Each is followed by the line
 // of the text and a caret under the column; a long line is cut around the caret. Ends with a newline.
-std::string format(const Diagnostics& diagnostics, std::string_view file_name, std::string_view text);
+std::string report_of(const Diagnostics& diagnostics, std::string_view file_name, std::string_view text);
 
 // A scene or script that cannot be used (exit code 3). what() is the formatted report without a trailing
 // newline.

@@ -186,14 +186,14 @@ class Reader {
   std::string report() const {
     std::string all;
     for (const SourceFile* file : order_)
-      if (file->diagnostics.has_errors()) all += format(file->diagnostics, file->name, file->text);
+      if (file->diagnostics.has_errors()) all += report_of(file->diagnostics, file->name, file->text);
     while (all.ends_with('\n')) all.pop_back();
     return all;
   }
 
   std::string warnings() const {
     std::string all;
-    for (const SourceFile* file : order_) all += format(file->diagnostics, file->name, file->text);
+    for (const SourceFile* file : order_) all += report_of(file->diagnostics, file->name, file->text);
     return all;
   }
 

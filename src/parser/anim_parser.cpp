@@ -68,7 +68,7 @@ ParsedAnimation parse_animation(std::string_view text, std::string_view file_nam
   if (!reader.script().has_animation && !problems.diagnostics().has_errors()) {
     problems.error(text.data() + text.size(), "expected 'animation { ... }', found the end of the script");
   }
-  std::string report = format(problems.diagnostics(), file_name, text);
+  std::string report = report_of(problems.diagnostics(), file_name, text);
   if (!problems.diagnostics().has_errors()) return {std::move(animation), std::move(report)};
   report.pop_back();  // the last line end
   throw InputError(report);

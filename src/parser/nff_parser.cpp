@@ -134,7 +134,7 @@ Diagnostics nothing_found(const Input& whole, SceneBuilder& builder) {
 
 [[noreturn]] void reject(const Diagnostics& diagnostics, std::string_view file_name, std::string_view text,
                          const NffOptions& options) {
-  std::string report = format(diagnostics, file_name, text);
+  std::string report = report_of(diagnostics, file_name, text);
   report.pop_back();  // the last line end
   if (diagnostics.error_count() >= options.max_errors) {
     report += fmt::format("\n{}: reading stopped after {} errors", file_name, diagnostics.error_count());
@@ -164,7 +164,7 @@ ParsedScene parse_nff(std::string_view text, std::string_view file_name, const N
   }
   const Diagnostics& diagnostics = builder.finish();
   if (diagnostics.has_errors()) nff::reject(diagnostics, file_name, text, options);
-  return {.scene = std::move(builder.scene()), .warnings = format(diagnostics, file_name, text)};
+  return {.scene = std::move(builder.scene()), .warnings = report_of(diagnostics, file_name, text)};
 }
 
 ParsedScene read_nff(const std::string& path, const NffOptions& options) {

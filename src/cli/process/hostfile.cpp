@@ -139,7 +139,7 @@ Hostfile::Hostfile(const std::filesystem::path& path) : path_(path) {
   std::string text = read_text(std::filesystem::absolute(path).string(), kMostHostfileBytes);
   const Diagnostics problems = check_hosts(text, is_reachable_name);
   if (problems.has_errors()) {
-    std::string report = format(problems, path.string(), text);
+    std::string report = report_of(problems, path.string(), text);
     report.pop_back();
     throw InputError(report);
   }

@@ -203,8 +203,10 @@ std::vector<std::string> mpirun_command(const Launch& launch, std::span<const st
   // questions, one a second. By default that takes 8 minutes. A batch system may name hosts, too.
   for (const auto& [name, value] : {std::pair("time", "2"), {"intvl", "1"}, {"probes", "4"}})
     command.insert(command.end(), {"--mca", std::string("oob_tcp_keepalive_") + name, value});
-  // When a run has to end, mpirun lets 2 s pass between its first signal to the ranks and the last.
-  command.insert(command.end(), {"--mca", "odls_base_sigkill_timeout", "0"});
+  // When a run has to end, mpirun lets 2 s pass between its first signal to the ranks and the last. With
+  // other hosts these are needed: a daemon that is cut off must not end, and be taken for one that has not
+  // started, before mpirun has noticed itself.
+  if (launch.hostfile.empty()) command.insert(command.end(), {"--mca", "odls_base_sigkill_timeout", "0"});
   if (launch.goes_on) command.emplace_back("--enable-recovery");
   // More ranks than cores is normal here: idle ranks sleep, and no rank may be bound to a core.
   command.insert(command.end(), {"--oversubscribe", "--bind-to", "none"});

@@ -81,7 +81,7 @@ std::string at_name_in_script(const Animation& script, const std::string& script
   Diagnostics diagnostics;
   diagnostics.error(place, std::move(problem));
   std::string report =
-      format(diagnostics, script.name, read_text(script_path, std::numeric_limits<std::uint32_t>::max()));
+      report_of(diagnostics, script.name, read_text(script_path, std::numeric_limits<std::uint32_t>::max()));
   report.pop_back();  // the last line end
   return report;
 }

@@ -402,7 +402,7 @@ struct Unreadable {
     const std::string text = read_text(path, kMaxBytes);
     Diagnostics problem;
     problem.error(LineCursor(text).at(text.data() + std::min(byte, text.size())), gltf.likely_cause);
-    std::string report = format(problem, path, text);
+    std::string report = report_of(problem, path, text);
     report.pop_back();  // the last line end
     throw InputError(report);
   }

@@ -62,7 +62,7 @@ void require_sound_cameras(const Sources& sources, const View& base) {
   Diagnostics problems;
   check_cameras(animation, base, problems);
   if (!problems.has_errors()) return;
-  std::string report = format(problems, animation.name, read_whole_file(sources.script_path));
+  std::string report = report_of(problems, animation.name, read_whole_file(sources.script_path));
   while (!report.empty() && report.back() == '\n') report.pop_back();
   throw InputError(report);
 }

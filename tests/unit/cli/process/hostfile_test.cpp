@@ -13,7 +13,7 @@ namespace {
 // What is said of a text where there are two hosts.
 std::string said_of(const std::string& text) {
   const auto is_host = [](const std::string& name) { return name == "alpha" || name == "10.0.0.2"; };
-  return format(check_hosts(text, is_host), "hosts", text);
+  return report_of(check_hosts(text, is_host), "hosts", text);
 }
 
 }  // namespace
