@@ -139,6 +139,7 @@ inline bool Surroundings::is_first(std::size_t i) const {
 }
 
 inline int Surroundings::primitives() const {
+  if (count_ == 0) return 0;
   if (is_on_one_primitive({values_.data(), count_})) return 1;
   int count = 0;
   for (std::size_t i = 0; i < count_; ++i) count += is_first(i) ? 1 : 0;
