@@ -19,8 +19,11 @@
 namespace pprt {
 namespace {
 
+// Colours beyond what a sum of floats can hold are as bright as any picture can show.
 Color to_color(const Rgb& rgb) {
-  return Color(rgb);
+  static constexpr double kMost = 1e30;
+  const auto held = [](double v) { return std::clamp(v, -kMost, kMost); };
+  return Color(Rgb(held(rgb.x), held(rgb.y), held(rgb.z)));
 }
 
 [[noreturn]] void reject(const std::string& name, SourceLocation at, const std::string& problem) {

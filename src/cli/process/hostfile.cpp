@@ -117,6 +117,7 @@ int file_in_memory(std::string_view text) {
 Diagnostics check_hosts(std::string_view text, const std::function<bool(const std::string& name)>& is_host) {
   Diagnostics problems;
   std::uint32_t number = 1;
+  bool names_hosts = false;
   for (std::size_t begin = 0; begin < text.size(); ++number) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     const std::vector<HostWord> words = host_words(text.substr(begin, end - begin));
@@ -126,11 +127,13 @@ Diagnostics check_hosts(std::string_view text, const std::function<bool(const st
         problems.error({number, static_cast<std::uint32_t>(words[word].column + 1)}, std::move(what));
       return is_wrong;
     };
+    names_hosts = names_hosts || !words.empty();
     if (!words.empty()) complain(0, wrong_host(words[0].text, is_host));
     for (std::size_t at = 1; at < words.size() && !complain(at, wrong_setting(words, at)); at += 3) {
     }
     begin = end + 1;
   }
+  if (!names_hosts) problems.error({}, "there is no host in it");
   return problems;
 }
 

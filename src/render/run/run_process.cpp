@@ -317,6 +317,8 @@ int run_mpi_process(const PlanMaker& make_plan, std::optional<int> threads, LogL
     if (is_first && !broadcast.run_begun()) throw;
     print_message(fmt::format("pprt-render: rank {}: error: {}\n", ranks.ranks().first, message_of(e)));
     progress.fail(message_of(e));
+    // With --go-on mpirun ends with 0 where it was told to do without a rank.
+    if (is_first) tell_launcher({.event = RankEvent::kEnded, .number = kExitFailure});
     processes.abort_all(kExitFailure);
   }
 }

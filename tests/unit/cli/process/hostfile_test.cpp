@@ -19,12 +19,13 @@ std::string said_of(const std::string& text) {
 }  // namespace
 
 TEST_CASE("a hostfile may have comments, spaces, user names and CR LF") {
-  CHECK(said_of("").empty());
   CHECK(said_of("# all\n\nalpha slots=2 # here\n10.0.0.2\n").empty());
   CHECK(said_of("alpha slots = 2 max_slots=4\r\nme@alpha\r\n^alpha\n+n1\nalpha username=me").empty());
 }
 
 TEST_CASE("what is wrong in a hostfile is told with its place") {
+  for (const char* none : {"", "# all\n", "\r\n\n"})
+    CHECK(said_of(none) == "hosts: error: there is no host in it\n");
   CHECK(said_of("alpha\nalpha slot=2\n") ==
         "hosts:2:7: error: 'slot' is no word of a hostfile; did you mean 'slots'?\n    alpha slot=2\n        "
         "  ^\n");
