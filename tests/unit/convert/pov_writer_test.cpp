@@ -306,6 +306,17 @@ TEST_CASE("the pictures of textures have their bytes, one for each tint, under d
   CHECK(write_pov(scene, out).lost_ambient == 1);  // the blue of the second material
 }
 
+TEST_CASE("for POV-Ray a stretched ball stands where lengths are scaled to") {
+  SceneDescription scene = two_materials();
+  scene.view->from = {0, 0, 10000};  // four times as long
+  add_sphere(scene, {{0, 0, 0}, 1, 0, {}});
+  scene.movement.nodes.push_back(
+      {.parent = 0, .to_parent = {{2, 0, 0}, {0, 1, 0}, {0, 0, 3}, {5, 6, 7}}, .track = {}, .location = {}});
+  scene.nodes = {1};
+  CHECK(objects(scene) ==
+        "sphere { <0, 0, 0>, 4 matrix <2, 0, 0, 0, 1, 0, 0, 0, 3, 20, 24, 28> texture { Material_1 } }\n");
+}
+
 TEST_CASE("for POV-Ray a stretched ball keeps the map that stretches it") {
   SceneDescription scene = two_materials();
   add_sphere(scene, {{0, 0, 0}, 1, 0, {}});

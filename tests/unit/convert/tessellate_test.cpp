@@ -138,6 +138,21 @@ TEST_CASE("with a chord error each object is divided as its own size needs") {
   CHECK(divisions(Cone{{0, 0, 0}, 1, {0, 0, 0}, 1, 0, {}}, fineness) == 0);
 }
 
+TEST_CASE("what a node makes larger is divided more finely, by the chord error that shows") {
+  const auto patches = [](double factor) {
+    SceneDescription scene;
+    scene.materials = {{}};
+    add_sphere(scene, {{0, 0, 0}, 1, 0, {}});
+    scene.movement.nodes.push_back({.parent = 0,
+                                    .to_parent = {{factor, 0, 0}, {0, factor, 0}, {0, 0, factor}, {0, 0, 0}},
+                                    .track = {},
+                                    .location = {}});
+    scene.nodes = {1};
+    return tessellated(scene, {1, 0.01}).patches.size();
+  };
+  CHECK(patches(10) > 5 * patches(1));
+}
+
 TEST_CASE("a tessellated scene has patches in place of spheres and cones, with their materials") {
   const SceneDescription scene = one_of_each();
   const SceneDescription result = tessellated(scene, {2, {}});

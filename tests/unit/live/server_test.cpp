@@ -194,6 +194,19 @@ TEST_CASE("live server: a client that takes in nothing is no burden, and the oth
   }
 }
 
+TEST_CASE("live server: a client may say as much in each second") {
+  Stage stage({.most_messages_per_second = 20});
+  Client client(stage);
+  REQUIRE(comes_true([&] { return stage.joined == 1; }));
+  for (const std::size_t all : {15, 30}) {
+    for (int i = 0; i < 15; ++i) client.say("x");
+    REQUIRE(comes_true([&] { return stage.said().size() == all || stage.left == 1; }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+  }
+  stage.server().tell_all("still");
+  CHECK(client.hear() == "still");
+}
+
 TEST_CASE("live server: what is too long, too much or no text ends a client, and only it") {
   Stage stage({.most_message_bytes = 100, .most_messages_per_second = 20});
   Client other(stage);

@@ -32,4 +32,16 @@ TEST_CASE("with a rate time begins at the common start") {
   CHECK(clock.delivery_time(order, {}).late_ms == Approx(0).margin(1e-6));
 }
 
+TEST_CASE("a frame is prepared beside the one before until that one is due, but not on a shared core") {
+  double now = 10;
+  WallDeliveryClock clock(4, 1, [&now] { return now; }), shared(4, 2, [&now] { return now; });
+  clock.begin_sequence(10), shared.begin_sequence(10);
+  now = 10.2;
+  CHECK(clock.may_overlap(1));
+  CHECK_FALSE(shared.may_overlap(1));
+  now = 10.3;
+  CHECK_FALSE(clock.may_overlap(1));
+  CHECK(clock.may_overlap(2));
+}
+
 }  // namespace pprt::delivery_clock_test

@@ -104,6 +104,18 @@ TEST_CASE("casting: a visibility ray per sample leaves no wrong sample") {
   CHECK(samples.size() + hidden == cast);
 }
 
+TEST_CASE("casting: what leaves a picture that is wider than high, or higher than wide, is out of view") {
+  Camera wide = straight(), high = straight();
+  wide.height = kSize / 2, high.width = kSize / 2;
+  const auto cast = [](double x, double y, const Camera& next) {
+    return cast_samples(std::vector{look(straight(), x, y, 1)}, Region::whole(kGrid), next, 2, {});
+  };
+  CHECK(cast(50, 32, wide).samples.size() == 1);
+  CHECK(cast(32, 50, wide).out_of_view == 1);
+  CHECK(cast(32, 50, high).samples.size() == 1);
+  CHECK(cast(50, 32, high).out_of_view == 1);
+}
+
 TEST_CASE("casting: samples are dropped by age, eye-dependent ones earlier") {
   SampleMesh mesh(Region::whole(kGrid));
   for (int frame = 1; frame <= 10; ++frame) {

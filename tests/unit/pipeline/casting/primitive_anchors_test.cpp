@@ -53,6 +53,14 @@ TEST_CASE("anchors: primitives with a sample are left out, the others come in th
   CHECK(anchors.unseen({}, camera_at(0), kWhole, 0).empty());
 }
 
+TEST_CASE("anchors: a primitive that had a sample in the last frame is sought when it has none in this") {
+  PrimitiveAnchors anchors(1);
+  anchors.note(std::vector{seen_at(20, 20, 1)});
+  CHECK(anchors.unseen(std::vector{seen_at(60, 60, 1)}, camera_at(0), kWhole, kAll).empty());
+  anchors.note({});  // the sample was hidden
+  CHECK(anchors.unseen({}, camera_at(0), kWhole, kAll).size() == 1);
+}
+
 TEST_CASE("anchors: those out of view, in another region or of the background are left out") {
   PrimitiveAnchors anchors(2);
   anchors.note(std::vector{seen_at(20, 20, 1), seen_at(50, 50, 2), seen_at(5, 5, 0), seen_at(6, 6, 3)});

@@ -83,4 +83,17 @@ TEST_CASE("frames that are removed in mid-run are missed, though the manifest st
   CHECK_THROWS_WITH(recorder.finish(false), "of 3 frames written, 1 are not there any more");
 }
 
+TEST_CASE("a frame is missed as soon as one of its files is removed") {
+  ThreeFrames run;
+  const std::string twin = (run.directory.path() / "out/b%d.png").string();
+  run.plan.output.pictures.push_back(parse_frame_pattern(twin, FrameCount::kMany));
+  FrameRecorder recorder({run.plan, 1, "hash"}, run.scene, run.progress);
+  run.record(recorder, 1);
+  const fs::path second = run.directory.path() / "out/b1.png";
+  while (!fs::exists(second)) std::this_thread::yield();
+  fs::remove(second);
+  for (const int number : {2, 3}) run.record(recorder, number);
+  CHECK_THROWS_WITH(recorder.finish(false), "of 3 frames written, 1 are not there any more");
+}
+
 }  // namespace pprt::frame_recorder_test
