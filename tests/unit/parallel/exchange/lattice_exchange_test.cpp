@@ -1,6 +1,7 @@
 // What one rank tells the others of its lattice, tile by tile.
 #include "parallel/exchange/lattice_exchange.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 namespace pprt::lattice_exchange_test {
@@ -100,6 +101,14 @@ TEST_CASE("lattice exchange: once a tile that was given away is back nothing is 
   CHECK(rank_1.exchange.insert(sample_at(2 * kSide, 8), 2));
   CHECK(rank_1.exchange.take_outbox(0).empty());
   CHECK(rank_1.exchange.announce() == 0);  // nor looked at
+}
+
+TEST_CASE("lattice exchange: neighbours are those of the regions as they are now") {
+  Rank rank_1(1);
+  Partition given = columns();
+  std::replace(given.owner.begin(), given.owner.end(), 0, 2);
+  CHECK_FALSE(rank_1.exchange.transfer(given));  // its own region is as it was
+  CHECK(rank_1.exchange.neighbours() == std::vector{2});
 }
 
 TEST_CASE("lattice exchange: what comes for a tile that was given away is forwarded to its owner") {
