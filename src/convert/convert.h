@@ -28,9 +28,11 @@ struct ConvertOptions {
 };
 
 // Reads the input and writes the output, which is left as it was on failure. Prints warnings about the scene,
-// and what the output does not keep, on standard error. Throws UsageError for an unknown format, for a time
-// of a scene where nothing moves and for an output that is a file read besides the input; InputError for the
-// scene; std::runtime_error for the output.
+// and what the output does not keep, on standard error. Throws InputError for the scene, std::runtime_error
+// for the output. Throws UsageError:
+// - for an unknown format
+// - for a time of a scene where nothing moves
+// - for an output that is a file read besides the input
 void convert(const ConvertOptions& options);
 
 }  // namespace pprt

@@ -22,7 +22,7 @@ struct Normalisation {
 };
 
 // Returns the map of a box. `box` must be finite and not empty; `center`, a point in it, becomes the origin.
-// A box without extent keeps the scale 1. Of one below 2^-1000 the scale stays finite.
+// A box without extent keeps the scale 1. The scale stays finite where the box is smaller than 2^-1000.
 inline Normalisation normalising(const Box3d& box, const Vec3d& center) {
   Normalisation result;
   result.center = center;

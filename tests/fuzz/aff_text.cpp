@@ -53,7 +53,7 @@ class AffText {
   void rows(std::size_t numbers_each) {
     for (std::size_t left = count(); left > 0; --left) numbers(numbers_each);
   }
-  // Of a list with that many entries. The one behind the last is as likely as each of them.
+  // Writes an index into a list with that many entries. The one behind the last is as likely as each of them.
   void index(std::size_t size) {
     if (pick(32) == 1) return number();
     word(std::to_string(pick(size + 1)));

@@ -45,7 +45,7 @@ struct RenderPlan {
   SceneDescription scene;
 };
 
-// Of a long script no more frames are planned than are judged or rendered.
+// Most frames that a long script is judged by. Besides these, only the frames to render are planned.
 inline constexpr int kMostJudged = 1000;
 
 // Returns every file of a frame: its pictures and, beside those that cannot hold layers, the layers' own.

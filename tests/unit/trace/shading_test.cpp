@@ -249,8 +249,8 @@ TEST_CASE("only what shines, mirrors or transmits depends on the eye") {
   CHECK(look(compile(scene), *scene.view).eye_dependent);
 }
 
-// A ball of few triangles with the ball's normals, under one light from the side: what the smooth surface
-// shows to the light is lit, up to a facet's width from its terminator.
+// A ball of few triangles has the ball's normals and one light from the side. What the smooth surface shows
+// to the light is lit, up to a facet's width from its terminator.
 TEST_CASE("shading: facets hide no light from the smooth surface that their normals describe") {
   constexpr int kSides = 12, kRings = 6;
   Material matte;
