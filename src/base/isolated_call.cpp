@@ -21,8 +21,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "base/owned_descriptor.h"
 #include "base/sanitized.h"
+#include "base/system/owned_descriptor.h"
 
 namespace pprt {
 namespace {

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "base/thread_priority.h"
+#include "base/system/thread_priority.h"
 
 namespace pprt {
 namespace {

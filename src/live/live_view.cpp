@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/thread_priority.h"
+#include "base/system/thread_priority.h"
 #include "image/image_io.h"
 #include "live/page.h"
 #include "live/picture_stream.h"

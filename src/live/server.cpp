@@ -15,7 +15,7 @@
 #include <thread>
 #include <utility>
 
-#include "base/thread_priority.h"
+#include "base/system/thread_priority.h"
 #include "live/address.h"
 #include "live/gate.h"
 #include "live/http_request.h"

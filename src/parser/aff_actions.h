@@ -14,8 +14,8 @@
 #include "parser/aff_grammar.h"
 #include "parser/aff_messages.h"
 #include "parser/aff_parser.h"
-#include "parser/parser_input.h"
-#include "parser/text_input.h"
+#include "parser/text/parser_input.h"
+#include "parser/text/text_input.h"
 
 namespace pprt::aff {
 

@@ -15,8 +15,8 @@
 #include "parser/aff_actions.h"
 #include "parser/aff_grammar.h"
 #include "parser/aff_messages.h"
-#include "parser/parser_input.h"
-#include "parser/text_input.h"
+#include "parser/text/parser_input.h"
+#include "parser/text/text_input.h"
 
 namespace pprt {
 namespace aff {

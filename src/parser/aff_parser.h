@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "parser/parsed_scene.h"
-#include "parser/reading_memory.h"
+#include "parser/text/reading_memory.h"
 #include "scene/movement/movement_limits.h"
 
 namespace pprt {

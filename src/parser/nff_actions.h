@@ -12,8 +12,8 @@
 #include "parser/nff_grammar.h"
 #include "parser/nff_messages.h"
 #include "parser/nff_parser.h"
-#include "parser/parser_input.h"
-#include "parser/text_input.h"
+#include "parser/text/parser_input.h"
+#include "parser/text/text_input.h"
 #include "scene/description/scene_description.h"
 
 namespace pprt::nff {

@@ -7,7 +7,7 @@
 #include <tao/pegtl.hpp>
 #include <tao/pegtl/contrib/analyze_traits.hpp>
 
-#include "parser/text_input.h"
+#include "parser/text/text_input.h"
 
 namespace pprt::nff::grammar {
 

@@ -14,8 +14,8 @@
 #include "parser/nff_actions.h"
 #include "parser/nff_grammar.h"
 #include "parser/nff_messages.h"
-#include "parser/parser_input.h"
-#include "parser/text_input.h"
+#include "parser/text/parser_input.h"
+#include "parser/text/text_input.h"
 
 namespace pprt {
 namespace nff {

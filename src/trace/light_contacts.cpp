@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "trace/numerics.h"
+#include "trace/geometry/numerics.h"
 #include "trace/scene_impl.h"
 
 namespace pprt {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/diagnostics.h"
-#include "trace/numerics.h"
+#include "trace/geometry/numerics.h"
 #include "trace/repeats.h"
 
 namespace pprt {

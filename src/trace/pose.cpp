@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "trace/embree_reach.h"
-#include "trace/numerics.h"
+#include "trace/geometry/embree_reach.h"
+#include "trace/geometry/numerics.h"
 
 namespace pprt {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "trace/numerics.h"
+#include "trace/geometry/numerics.h"
 #include "trace/pose.h"
 #include "trace/scene_impl.h"
 

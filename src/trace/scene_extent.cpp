@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "trace/embree_reach.h"
+#include "trace/geometry/embree_reach.h"
 
 namespace pprt {
 namespace {

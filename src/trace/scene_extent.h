@@ -3,8 +3,8 @@
 
 #include "base/vector.h"
 #include "scene/description/scene_description.h"
-#include "trace/normalisation.h"
-#include "trace/numerics.h"
+#include "trace/geometry/normalisation.h"
+#include "trace/geometry/numerics.h"
 
 namespace pprt {
 

@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "trace/compiled_scene.h"
-#include "trace/embree.h"
+#include "trace/geometry/embree.h"
+#include "trace/geometry/mesh.h"
+#include "trace/geometry/normalisation.h"
+#include "trace/geometry/user_geometry.h"
 #include "trace/inventory.h"
 #include "trace/light_contacts.h"
-#include "trace/mesh.h"
-#include "trace/normalisation.h"
 #include "trace/texture_image.h"
-#include "trace/user_geometry.h"
 
 namespace pprt {
 

@@ -3,8 +3,8 @@
 #include <limits>
 
 #include "trace/compiled_scene.h"
+#include "trace/geometry/numerics.h"
 #include "trace/image_shape.h"
-#include "trace/numerics.h"
 #include "trace/pose.h"
 #include "trace/scene_impl.h"
 

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "base/diagnostics.h"
-#include "parser/anim_parser.h"
+#include "parser/anim/anim_parser.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);

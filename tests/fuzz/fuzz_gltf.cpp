@@ -15,7 +15,7 @@
 
 #include "aff_invariants.h"
 #include "base/diagnostics.h"
-#include "base/subprocess.h"
+#include "base/system/subprocess.h"
 #include "convert/losses.h"
 #include "convert/mesh/gltf_document.h"
 #include "convert/mesh/mesh_reader.h"

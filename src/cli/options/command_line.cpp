@@ -18,7 +18,7 @@
 #include "cli/options/version.h"
 #include "cli/process/exit.h"
 #include "cli/process/launched.h"
-#include "parser/text_input.h"
+#include "parser/text/text_input.h"
 
 namespace pprt {
 namespace {

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "base/nearest_word.h"
-#include "base/subprocess.h"
-#include "parser/text_input.h"
+#include "base/system/subprocess.h"
+#include "parser/text/text_input.h"
 
 namespace pprt {
 namespace {

@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "base/subprocess.h"
+#include "base/system/subprocess.h"
 #include "cli/process/exit.h"
 #include "cli/process/launched.h"
 #include "cli/process/mpirun_messages.h"

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "base/available_memory.h"
+#include "base/system/available_memory.h"
 
 namespace pprt {
 namespace {

@@ -10,7 +10,7 @@
 #include "base/diagnostics.h"
 #include "base/printable.h"
 #include "image/image_io.h"
-#include "parser/reading_memory.h"
+#include "parser/text/reading_memory.h"
 
 namespace pprt {
 namespace {

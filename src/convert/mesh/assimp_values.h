@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "base/affine.h"
-#include "parser/text_input.h"
+#include "parser/text/text_input.h"
 #include "scene/description/scene_description.h"
 
 namespace pprt {

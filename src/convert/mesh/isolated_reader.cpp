@@ -9,9 +9,9 @@
 #include <new>
 #include <stdexcept>
 
-#include "base/available_memory.h"
 #include "base/diagnostics.h"
 #include "base/isolated_call.h"
+#include "base/system/available_memory.h"
 #include "base/wire.h"
 #include "scene/bytes/scene_bytes.h"
 

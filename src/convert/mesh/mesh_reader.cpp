@@ -37,7 +37,7 @@
 #include "convert/mesh/model_files.h"
 #include "convert/mesh/model_folder.h"
 #include "convert/names/extension.h"
-#include "parser/text_input.h"
+#include "parser/text/text_input.h"
 #include "scene/animation/animation.h"
 #include "scene/animation/resting_nodes.h"
 #include "scene/movement/movement_limits.h"

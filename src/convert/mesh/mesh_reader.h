@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "parser/reading_memory.h"
+#include "parser/text/reading_memory.h"
 #include "scene/description/scene_description.h"
 
 namespace pprt {

@@ -6,7 +6,7 @@
 #include <thread>
 #include <utility>
 
-#include "base/host_cores.h"
+#include "base/system/host_cores.h"
 
 namespace pprt {
 

@@ -15,8 +15,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/host_cores.h"
-#include "base/host_networks.h"
+#include "base/system/host_cores.h"
+#include "base/system/host_networks.h"
 
 namespace pprt {
 namespace {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/diagnostics.h"
-#include "base/subprocess.h"
+#include "base/system/subprocess.h"
 #include "image/atomic_file.h"
 #include "image/display_bytes.h"
 #include "image/image_io.h"

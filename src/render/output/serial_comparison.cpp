@@ -3,7 +3,7 @@
 #include <exception>
 #include <utility>
 
-#include "base/thread_priority.h"
+#include "base/system/thread_priority.h"
 #include "parallel/serial_pattern.h"
 #include "trace/tracer_probe.h"
 

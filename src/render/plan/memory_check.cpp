@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "base/available_memory.h"
+#include "base/system/available_memory.h"
 
 namespace pprt {
 

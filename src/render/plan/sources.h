@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "parser/anim_parser.h"
+#include "parser/anim/anim_parser.h"
 #include "parser/parsed_scene.h"
 #include "scene/animation/animation.h"
 

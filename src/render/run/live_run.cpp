@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "base/diagnostics.h"
-#include "base/host_networks.h"
+#include "base/system/host_networks.h"
 #include "cli/process/exit.h"
 #include "cli/process/stop_signals.h"
 #include "layers/overlay.h"

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/diagnostics.h"
-#include "base/host_cores.h"
+#include "base/system/host_cores.h"
 #include "cli/process/exit.h"
 #include "cli/process/launched.h"
 #include "cli/process/log.h"

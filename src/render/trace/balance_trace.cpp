@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "base/thread_priority.h"
+#include "base/system/thread_priority.h"
 #include "parallel/settings/session_words.h"
 #include "render/records/json_names.h"
 #include "render/records/ledger.h"

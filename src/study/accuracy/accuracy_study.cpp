@@ -15,7 +15,7 @@
 #include "cli/scenes/scene_source.h"
 #include "parallel/exchange/samplers.h"
 #include "parallel/settings/session_words.h"
-#include "parser/anim_parser.h"
+#include "parser/anim/anim_parser.h"
 #include "scene/animation/resting_nodes.h"
 #include "scene/writers/nff_writer.h"
 #include "study/accuracy/page.h"

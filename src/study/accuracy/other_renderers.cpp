@@ -9,7 +9,7 @@
 #include <functional>
 #include <stdexcept>
 
-#include "base/subprocess.h"
+#include "base/system/subprocess.h"
 #include "convert/pov/pov_material.h"
 #include "convert/pov/pov_writer.h"
 #include "image/atomic_file.h"

@@ -18,7 +18,7 @@
 #include "image/contact_sheet.h"
 #include "image/image_io.h"
 #include "layers/pictures.h"
-#include "parser/text_input.h"
+#include "parser/text/text_input.h"
 #include "study/balance/figures.h"
 #include "study/balance/results.h"
 #include "study/report/output.h"

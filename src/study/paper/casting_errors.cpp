@@ -8,7 +8,7 @@
 #include <mutex>
 
 #include "parallel/settings/work_units.h"
-#include "parser/anim_parser.h"
+#include "parser/anim/anim_parser.h"
 #include "render/records/frame_summary.h"
 #include "spd/spd.h"
 #include "study/frame_series.h"

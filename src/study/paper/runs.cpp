@@ -10,7 +10,7 @@
 #include "base/content_hash.h"
 #include "parallel/balance/partition.h"
 #include "parallel/serial_pattern.h"
-#include "parser/anim_parser.h"
+#include "parser/anim/anim_parser.h"
 #include "spd/spd.h"
 #include "study/sequences.h"
 #include "study/stopwatch.h"

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "base/subprocess.h"
+#include "base/system/subprocess.h"
 #include "cli/options/version.h"
 #include "image/atomic_file.h"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "base/subprocess.h"
+#include "base/system/subprocess.h"
 
 namespace pprt {
 namespace {

@@ -1,4 +1,4 @@
-#include "base/subprocess.h"
+#include "base/system/subprocess.h"
 
 #include <unistd.h>
 

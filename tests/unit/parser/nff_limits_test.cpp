@@ -4,7 +4,7 @@
 #include <random>
 #include <string>
 
-#include "parser/text_input.h"
+#include "parser/text/text_input.h"
 #include "unit/parser/nff_sample.h"
 
 namespace pprt::nff_limits_test {

@@ -4,7 +4,7 @@
 
 #include "base/diagnostics.h"
 #include "trace/compiled_scene.h"
-#include "trace/normalisation.h"
+#include "trace/geometry/normalisation.h"
 #include "unit/trace/test_scenes.h"
 
 namespace pprt::compile_test {

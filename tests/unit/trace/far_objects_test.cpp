@@ -6,7 +6,7 @@
 #include "parser/aff_parser.h"
 #include "scene/animation/resting_nodes.h"
 #include "trace/compiled_scene.h"
-#include "trace/embree_reach.h"
+#include "trace/geometry/embree_reach.h"
 
 namespace pprt::far_objects_test {
 

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "trace/numerics.h"
+#include "trace/geometry/numerics.h"
 #include "unit/trace/test_scenes.h"
 
 namespace pprt::light_contacts_test {

@@ -1,4 +1,4 @@
-#include "trace/quadrics.h"
+#include "trace/geometry/quadrics.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

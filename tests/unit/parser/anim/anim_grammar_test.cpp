@@ -1,4 +1,4 @@
-#include "parser/anim_grammar.h"
+#include "parser/anim/anim_grammar.h"
 
 #include <catch2/catch.hpp>
 #include <tao/pegtl/contrib/analyze.hpp>

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <random>
 
-#include "parser/text_input.h"
+#include "parser/text/text_input.h"
 #include "unit/parser/anim/script.h"
 
 namespace pprt::anim_limits_test {

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <string>
 
-#include "parser/anim_parser.h"
+#include "parser/anim/anim_parser.h"
 #include "scene/writers/anim_writer.h"
 
 namespace pprt::anim_round_trip_test {

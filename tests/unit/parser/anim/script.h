@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "base/diagnostics.h"
-#include "parser/anim_parser.h"
+#include "parser/anim/anim_parser.h"
 
 namespace pprt {
 

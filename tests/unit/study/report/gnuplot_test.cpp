@@ -2,7 +2,7 @@
 #include <limits>
 #include <string>
 
-#include "base/subprocess.h"
+#include "base/system/subprocess.h"
 #include "study/report/plot.h"
 
 namespace pprt::gnuplot_test {

@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-#include "parser/anim_problems.h"
+#include "parser/anim/anim_problems.h"
 
 namespace pprt::anim {
 

@@ -1,8 +1,8 @@
-#include "parser/reading_memory.h"
+#include "parser/text/reading_memory.h"
 
 #include <fmt/format.h>
 
-#include "base/available_memory.h"
+#include "base/system/available_memory.h"
 
 namespace pprt {
 

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "parser/anim_grammar.h"
-#include "parser/anim_script.h"
-#include "parser/anim_value.h"
+#include "parser/anim/anim_grammar.h"
+#include "parser/anim/anim_script.h"
+#include "parser/anim/anim_value.h"
 
 namespace pprt::anim {
 

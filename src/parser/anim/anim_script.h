@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "parser/anim_problems.h"
-#include "parser/anim_value.h"
+#include "parser/anim/anim_problems.h"
+#include "parser/anim/anim_value.h"
 #include "scene/animation/animation.h"
 
 namespace pprt::anim {

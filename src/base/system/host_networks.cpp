@@ -1,4 +1,4 @@
-#include "base/host_networks.h"
+#include "base/system/host_networks.h"
 
 #include <arpa/inet.h>
 #include <fmt/format.h>

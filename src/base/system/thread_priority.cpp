@@ -1,4 +1,4 @@
-#include "base/thread_priority.h"
+#include "base/system/thread_priority.h"
 
 #include <sched.h>
 #include <sys/resource.h>

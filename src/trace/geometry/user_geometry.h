@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "trace/embree.h"
-#include "trace/quadrics.h"
+#include "trace/geometry/embree.h"
+#include "trace/geometry/quadrics.h"
 
 namespace pprt {
 

@@ -1,4 +1,4 @@
-#include "parser/text_input.h"
+#include "parser/text/text_input.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "parser/anim_script.h"
+#include "parser/anim/anim_script.h"
 
 namespace pprt::anim {
 namespace {

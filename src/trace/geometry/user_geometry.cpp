@@ -1,4 +1,4 @@
-#include "trace/user_geometry.h"
+#include "trace/geometry/user_geometry.h"
 
 #include <cmath>
 #include <limits>

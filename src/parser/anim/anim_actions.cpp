@@ -1,4 +1,4 @@
-#include "parser/anim_actions.h"
+#include "parser/anim/anim_actions.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "base/nearest_word.h"
-#include "parser/text_input.h"
+#include "parser/text/text_input.h"
 
 namespace pprt::anim {
 namespace {

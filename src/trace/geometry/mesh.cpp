@@ -1,9 +1,9 @@
-#include "trace/mesh.h"
+#include "trace/geometry/mesh.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "trace/numerics.h"
+#include "trace/geometry/numerics.h"
 
 namespace pprt {
 namespace {

@@ -1,4 +1,4 @@
-#include "parser/anim_value.h"
+#include "parser/anim/anim_value.h"
 
 #include <fmt/format.h>
 

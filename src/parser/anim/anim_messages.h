@@ -1,7 +1,7 @@
 // Error messages of the animation grammar.
 #pragma once
 
-#include "parser/anim_grammar.h"
+#include "parser/anim/anim_grammar.h"
 
 namespace pprt::anim {
 

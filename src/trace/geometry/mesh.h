@@ -8,9 +8,9 @@
 
 #include "base/vector.h"
 #include "scene/polygons/triangulate.h"
-#include "trace/embree.h"
-#include "trace/quadrics.h"
-#include "trace/user_geometry.h"
+#include "trace/geometry/embree.h"
+#include "trace/geometry/quadrics.h"
+#include "trace/geometry/user_geometry.h"
 
 namespace pprt {
 

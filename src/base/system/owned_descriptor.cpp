@@ -1,4 +1,4 @@
-#include "base/owned_descriptor.h"
+#include "base/system/owned_descriptor.h"
 
 #include <fcntl.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "base/host_cores.h"
+#include "base/system/host_cores.h"
 
 #include <sched.h>
 #include <unistd.h>

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/diagnostics.h"
-#include "parser/text_input.h"
+#include "parser/text/text_input.h"
 
 namespace pprt::anim {
 

@@ -1,4 +1,4 @@
-#include "base/subprocess.h"
+#include "base/system/subprocess.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -19,7 +19,7 @@
 #include <thread>
 #include <utility>
 
-#include "base/owned_descriptor.h"
+#include "base/system/owned_descriptor.h"
 
 namespace pprt {
 namespace {

@@ -1,15 +1,15 @@
-#include "parser/anim_parser.h"
+#include "parser/anim/anim_parser.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "base/printable.h"
-#include "parser/anim_actions.h"
-#include "parser/anim_grammar.h"
-#include "parser/anim_messages.h"
-#include "parser/anim_script.h"
-#include "parser/text_input.h"
+#include "parser/anim/anim_actions.h"
+#include "parser/anim/anim_grammar.h"
+#include "parser/anim/anim_messages.h"
+#include "parser/anim/anim_script.h"
+#include "parser/text/text_input.h"
 
 namespace pprt {
 namespace anim {

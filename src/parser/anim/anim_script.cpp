@@ -1,4 +1,4 @@
-#include "parser/anim_script.h"
+#include "parser/anim/anim_script.h"
 
 #include <fmt/format.h>
 
