@@ -140,7 +140,8 @@ BENCHMARK(reconstruction)->ArgsProduct({{4000, 16000, 64000}, {1, 2, 3}})->Unit(
 
 LatticeRefiner lattice() {
   return {whole(),
-          [](std::uint32_t primitive, ImageShape& shape) { tree().tracer.project(primitive, shape); }};
+          {[](std::uint32_t primitive, ImageShape& shape) { tree().tracer.project(primitive, shape); },
+           tree().tracer.primitive_count(), tree().tracer.surfaces()}};
 }
 
 template <typename Trace>

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace pprt {
@@ -34,6 +35,10 @@ struct ImageBounds {
   float x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 };
 
+inline constexpr ImageBounds kEverywhere = {
+    -std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity(),
+    std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity()};
+
 // A projected triangle. It covers the points at which no edge function is negative.
 struct ImageFacet {
   std::array<LinearForm, 3> edges;
@@ -52,11 +57,13 @@ struct ImageQuadric {
   bool has_ends = false;
   LinearForm along;
   double height = 0, top = 0;
-  bool front = true, back = true;  // which faces stop a ray
+  bool front = true, back = true;                          // which faces stop a ray
+  float nearest = std::numeric_limits<float>::infinity();  // no point of it is nearer
+  ImageBounds bounds =
+      kEverywhere;  // so, too, where the surface reaches behind the eye; x0 > x1: it is not seen
 };
 
-// The projection of one primitive. kUnknown where it is not defined: the eye is inside the primitive or next
-// to its surface.
+// The projection of one primitive. kUnknown where it is not defined: the eye is next to its surface.
 struct ImageShape {
   enum class Kind : std::uint8_t { kUnknown, kQuadric, kFacets };
   Kind kind = Kind::kUnknown;

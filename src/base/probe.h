@@ -36,6 +36,8 @@ struct Probe {
   // Carries a sample of the time before the last set_time() into this time: its hit point moves with its
   // object, and lights that may have changed are no more known.
   std::function<Carried(RaySample& sample)> carry = {};
+  // By primitive number, 0 included: the surface that it is a part of. Empty: each is one of its own.
+  std::span<const std::uint32_t> surfaces = {};
 };
 
 }  // namespace pprt

@@ -10,6 +10,7 @@
 #include "base/diagnostics.h"
 #include "scene/description/shading_rules.h"
 #include "scene/description/view_frame.h"
+#include "trace/connected_surfaces.h"
 #include "trace/geometry/embree_reach.h"
 #include "trace/geometry/numerics.h"
 #include "trace/parts_builder.h"
@@ -261,6 +262,7 @@ CompiledScene compile(const SceneDescription& scene, const CompileOptions& optio
   impl->moves = impl->bodies.size() > 1 || !impl->light_nodes.empty();
   if (impl->moves) number_parts(scene.order.size(), *impl);
   find_light_contacts(radius_about_origin(impl->normalisation, extent.measured), *impl);
+  impl->surfaces = connected_surfaces(impl->parts, static_cast<std::uint32_t>(scene.order.size()));
   build_hierarchy(*impl);
   return CompiledScene(std::move(impl));
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "base/camera.h"
@@ -125,6 +126,10 @@ class Tracer {
 
   // Returns the largest primitive number that a RaySample may have.
   std::uint32_t primitive_count() const;
+
+  // Returns for each primitive number of a RaySample, 0 included, the surface that it is a part of: polygons
+  // that go on into each other are one, which has the number of its first.
+  std::span<const std::uint32_t> surfaces() const;
 
   // Projects a primitive of a RaySample to the image, into `shape`, whose storage is reused.
   void project(std::uint32_t primitive, ImageShape& shape) const;

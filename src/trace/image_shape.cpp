@@ -5,14 +5,15 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "trace/pose.h"
 
 namespace pprt {
 namespace {
 
-// Least clearance of the eye from a quadric, c / size as in `solve`. Below it the eye is inside, or so near
-// that rounding decides. Counted from: c errs by some 2^-50 of `size`. Test: image_shape_test.cpp.
+// Least clearance of the eye from a quadric, |c| / size as in `solve`. Below it the eye is so near that
+// rounding decides. Counted from: c errs by some 2^-50 of `size`. Test: image_shape_test.cpp.
 constexpr double kLeastClearance = 1e-9;
 
 // Least volume of a facet and the eye, relative to the product of the vertices' distances. Below it rounding
@@ -64,13 +65,57 @@ QuadraticForm square(const LinearForm& f) {
           f.per_x * f.per_x,       2 * f.per_x * f.per_y,    f.per_y * f.per_y};
 }
 
-// Solves c n^2 + 2 b n + a = 0 for the nearness n. `c` is positive when the eye is outside, `size` the
-// magnitude of the terms whose difference it is. Returns false when the eye is not clearly outside.
+// Solves c n^2 + 2 b n + a = 0 for the nearness n. `c` is positive when the eye is outside of the body, which
+// is infinite for a cone, `size` the magnitude of the terms whose difference it is. From inside, a ray leaves
+// the body first: its faces change places. Returns false when the eye is too near to the surface.
 bool solve(const QuadraticForm& a, const LinearForm& b, double c, double size, ImageQuadric& seen) {
-  if (!(c > kLeastClearance * size)) return false;
+  if (!(std::fabs(c) > kLeastClearance * size)) return false;
+  if (c < 0) std::swap(seen.front, seen.back);
   seen.middle = scaled(b, 1 / c);
   seen.discriminant = difference(square(seen.middle), scaled(a, 1 / c));
   return true;
+}
+
+constexpr ImageBounds kNowhere = {1, 1, 0, 0};
+
+// Returns the box about a sphere's ellipse, discriminant >= 0. With the equation's greatest value over all y,
+// (by + axy x)^2 / (-4 ayy) more than at y = 0, its ends are the roots of a quadratic in x; those in y alike.
+// Grown by what rounding may take from it: a 2^-20th of its distance from the image's corner.
+ImageBounds bounds_of(const ImageQuadric& sphere) {
+  const QuadraticForm& q = sphere.discriminant;
+  const double determinant = 4 * q.per_xx * q.per_yy - q.per_xy * q.per_xy;
+  if (!(q.per_xx < 0 && q.per_yy < 0 && determinant > 0)) return kEverywhere;
+  struct Interval {
+    double middle, reach;
+  };
+  const auto ends = [&](double by, double other, double ayy) -> Interval {
+    const double half = 2 * by * ayy - other * q.per_xy, rest = 4 * q.constant * ayy - other * other;
+    return {-half / determinant, std::sqrt(std::max(half * half - determinant * rest, 0.0)) / determinant};
+  };
+  const Interval x = ends(q.per_x, q.per_y, q.per_yy), y = ends(q.per_y, q.per_x, q.per_xx);
+  if (!(sphere.middle.at(x.middle, y.middle) < 0)) return kNowhere;  // behind the eye
+  constexpr double kGrowth = 0x1p-20, kLeast = 0x1p-10;
+  const auto grown = [](const Interval& i) { return i.reach + kGrowth * std::fabs(i.middle) + kLeast; };
+  return {static_cast<float>(x.middle - grown(x)), static_cast<float>(y.middle - grown(y)),
+          static_cast<float>(x.middle + grown(x)), static_cast<float>(y.middle + grown(y))};
+}
+
+// Returns an upper bound of a sphere's nearness within its bounds. The discriminant is greatest in the middle
+// of the ellipse, and what is linear at a corner of the box.
+float nearest_of(const ImageQuadric& sphere) {
+  const ImageBounds& b = sphere.bounds;
+  if (b.x0 > b.x1) return 0;
+  if (b.x0 == kEverywhere.x0) return std::numeric_limits<float>::infinity();
+  const double x = 0.5 * (static_cast<double>(b.x0) + b.x1), y = 0.5 * (static_cast<double>(b.y0) + b.y1);
+  const double discriminant = std::max(sphere.discriminant.at(x, y), 0.0), middle = sphere.middle.at(x, y);
+  const double slope =
+      std::fabs(sphere.middle.per_x) * (b.x1 - x) + std::fabs(sphere.middle.per_y) * (b.y1 - y);
+  constexpr double kGrowth = 1 + 0x1p-16;  // float's rounding, and that of the middle
+  return static_cast<float>((std::sqrt(discriminant) - middle + slope) * kGrowth);
+}
+
+ImageBounds around(const ImageBounds& a, const ImageBounds& b) {
+  return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
 }
 
 // These equations are those of quadrics.h for the ray d / n from the eye, multiplied by n^2.
@@ -79,8 +124,30 @@ bool project(const SphereRecord& sphere, const Camera& camera, ImageQuadric& see
   const Vec3d from_center = camera.eye - sphere.center;
   const double distance2 = from_center.dot(from_center);
   seen.has_ends = false;
-  return solve(ray.squared(), ray.dot(from_center), distance2 - sphere.radius * sphere.radius, distance2,
-               seen);
+  if (!solve(ray.squared(), ray.dot(from_center), distance2 - sphere.radius * sphere.radius, distance2, seen))
+    return false;
+  seen.bounds = bounds_of(seen);
+  seen.nearest = nearest_of(seen);
+  return true;
+}
+
+// The box about a cone is that about spheres of its ends: it lies in their convex hull. Where one of them is
+// not wholly before the eye it is unknown.
+void bound(const ConeRecord& cone, const Camera& camera, ImageQuadric& seen) {
+  constexpr double kLeastRadius = 0x1p-40;  // of an apex, to the distance of the eye
+  ImageBounds box = kNowhere;
+  float nearest = 0;
+  for (const double end : {0.0, 1.0}) {
+    const Vec3d center = cone.base + cone.axis * end, from_center = camera.eye - center;
+    const double radius = std::max(cone.base_radius + cone.radius_change * end,
+                                   kLeastRadius * std::sqrt(from_center.dot(from_center)));
+    ImageQuadric sphere;
+    if (!project(SphereRecord{center, radius}, camera, sphere)) return;
+    if (sphere.bounds.x0 > sphere.bounds.x1 || sphere.bounds.x0 == kEverywhere.x0) return;
+    box = end == 0 ? sphere.bounds : around(box, sphere.bounds);
+    nearest = std::max(nearest, sphere.nearest);
+  }
+  seen.bounds = box, seen.nearest = nearest;
 }
 
 bool project(const ConeRecord& cone, const Camera& camera, ImageQuadric& seen) {
@@ -95,6 +162,8 @@ bool project(const ConeRecord& cone, const Camera& camera, ImageQuadric& seen) {
   seen.along = ray.dot(cone.axis);
   seen.height = height;
   seen.top = length2;
+  seen.bounds = kEverywhere, seen.nearest = std::numeric_limits<float>::infinity();
+  bound(cone, camera, seen);
   // (d x axis) . aside = d . (axis x aside)
   const Vec3d b = cone.axis.cross(aside) * length2 - cone.axis * (cone.radius_change * radius);
   return solve(difference(scaled(ray.cross_squared(cone.axis), length2), square(growth)), ray.dot(b),
@@ -178,7 +247,7 @@ void project(const ScenePart& part, const BodyPlace* body, std::size_t first, st
 }  // namespace
 
 void project_primitive(const Pose& pose, std::uint32_t primitive, const Camera& camera, ImageShape& shape) {
-  shape.kind = ImageShape::Kind::kUnknown;
+  shape.kind = ImageShape::Kind::kFacets;
   shape.facets.clear();
   const CompiledScene::Impl& scene = pose.scene();
   const auto within = [&](const ScenePart& part) {

@@ -10,7 +10,7 @@
 namespace pprt {
 
 // Writes the projection of a primitive, counted from 1 as in RaySample, into `shape`, whose storage is
-// reused. The kind is kUnknown for a number that is no primitive.
+// reused. There are no facets where it has no extent or is not shown.
 void project_primitive(const Pose& pose, std::uint32_t primitive, const Camera& camera, ImageShape& shape);
 
 }  // namespace pprt

@@ -97,8 +97,16 @@ std::uint32_t Tracer::primitive_count() const {
                                     of.moving_triangles);
 }
 
+std::span<const std::uint32_t> Tracer::surfaces() const {
+  return scene_.impl().surfaces;
+}
+
 void Tracer::project(std::uint32_t primitive, ImageShape& shape) const {
-  project_primitive(*pose_, primitive, camera_, shape);
+  if (primitive - 1 < primitive_count()) {
+    project_primitive(*pose_, primitive, camera_, shape);
+  } else {
+    shape.kind = ImageShape::Kind::kUnknown;
+  }
 }
 
 }  // namespace pprt

@@ -17,6 +17,7 @@ inline Probe probe_of(Tracer& tracer) {
                  [&tracer](double x, double y, std::span<const KnownLights> known) {
                    return tracer.trace(x, y, known);
                  }};
+  probe.surfaces = tracer.surfaces();
   if (tracer.scene().moves()) {
     probe.set_time = [&tracer](double time) { return tracer.set_time(time); };
     probe.carry = [&tracer](RaySample& sample) { return tracer.carry(sample); };

@@ -29,8 +29,9 @@ for line in \
   "pipeline/silhouettes: pipeline/core" \
   "pipeline/casting: pipeline/core" \
   "pipeline/sampling: pipeline/core pipeline/casting" \
+  "pipeline/visibility: pipeline/core pipeline/silhouettes" \
   "pipeline/mesh: pipeline/core pipeline/silhouettes pipeline/casting pipeline/sampling" \
-  "pipeline/lattice: pipeline/core pipeline/silhouettes pipeline/casting pipeline/sampling" \
+  "pipeline/lattice: pipeline/core pipeline/silhouettes pipeline/visibility pipeline/casting pipeline/sampling" \
   "parallel/network:" \
   "parallel/settings: parallel/network" \
   "parallel/protocol: parallel/network" \

@@ -11,24 +11,23 @@
 namespace pprt {
 namespace {
 
-using View = decltype(Probe::project);
-
 SamplerWithExchange make_mesh(const SessionSettings& settings, const Partition& partition, int rank,
-                              const View& view) {
+                              const Probe& probe) {
   auto sampler = std::make_unique<MeshSampler>(region_of(partition, rank),
                                                seed_pattern(settings.width, settings.height, settings.seed),
-                                               settings.pixel_rule, settings.learned_weights, view);
+                                               settings.pixel_rule, settings.learned_weights, probe.project);
   auto exchange = std::make_unique<MeshExchange>(sampler->mesh(), sampler->seed_pattern(), partition, rank);
   return {std::move(sampler), std::move(exchange)};
 }
 
 template <LatticeOrder kOrder>
 SamplerWithExchange make_lattice(const SessionSettings& settings, const Partition& partition, int rank,
-                                 const View& view) {
+                                 const Probe& probe) {
   const LatticeSampler::Goal goal = {
       .samples = settings.stop.samples,
       .keeps_samples = partition.ranks > 1 || !settings.is_still || settings.report_samples};
-  auto sampler = std::make_unique<LatticeSampler>(region_of(partition, rank), kOrder, goal, view);
+  auto sampler = std::make_unique<LatticeSampler>(region_of(partition, rank), kOrder, goal,
+                                                  PrimitiveShapes{probe.project, probe.primitives, probe.surfaces});
   auto exchange =
       std::make_unique<LatticeExchange>(*sampler, settings.cast != CastChoice::kOff, partition, rank);
   return {std::move(sampler), std::move(exchange)};
@@ -36,7 +35,7 @@ SamplerWithExchange make_lattice(const SessionSettings& settings, const Partitio
 
 struct SamplerEntry {
   SamplerTraits traits;
-  SamplerWithExchange (*make)(const SessionSettings&, const Partition&, int rank, const View&);
+  SamplerWithExchange (*make)(const SessionSettings&, const Partition&, int rank, const Probe&);
 };
 
 // Mean triangle weight at which a still looks converged: the structural similarity to a converged picture is
@@ -88,8 +87,8 @@ const SamplerTraits& traits_of(SamplerChoice choice) {
 }
 
 SamplerWithExchange make_sampler(const SessionSettings& settings, const Partition& partition, int rank,
-                                 const View& view) {
-  return entry(settings.sampler).make(settings, partition, rank, view);
+                                 const Probe& probe) {
+  return entry(settings.sampler).make(settings, partition, rank, probe);
 }
 
 }  // namespace pprt

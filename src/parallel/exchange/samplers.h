@@ -21,8 +21,8 @@ struct SamplerWithExchange {
   std::unique_ptr<SampleExchange> exchange;
 };
 
-// Makes the sampler that the settings choose, for the rank's region. `view`: Probe::project.
+// Makes the sampler that the settings choose, for the rank's region.
 SamplerWithExchange make_sampler(const SessionSettings& settings, const Partition& partition, int rank,
-                                 const decltype(Probe::project)& view);
+                                 const Probe& probe);
 
 }  // namespace pprt

@@ -9,6 +9,17 @@
 #include "parallel/exchange/samplers.h"
 
 namespace pprt {
+namespace {
+
+// Which rank's message comes first is chance.
+std::vector<TransferChoice> in_order(std::vector<TransferChoice> transfers) {
+  std::stable_sort(transfers.begin(), transfers.end(), [](const TransferChoice& a, const TransferChoice& b) {
+    return std::pair(a.round, a.giver) < std::pair(b.round, b.giver);
+  });
+  return transfers;
+}
+
+}  // namespace
 
 Master::Master(Communicator& network, const SessionSettings& settings, const Partition& partition,
                double ranks_per_core, CameraSource source, FrameSink sink, std::function<double()> now)
@@ -248,7 +259,7 @@ FinishedFrame Master::finish(PendingFrame& pending) {
   frame.image = assembly.picture.take_image();
   frame.samples = std::move(assembly.samples);
   frame.tiles = std::move(assembly.tiles);
-  frame.transfers = std::move(assembly.transfers);
+  frame.transfers = in_order(std::move(assembly.transfers));
   frame.late_ranks = assembly.late_ranks();
   frame.overdue_pixels = std::exchange(overdue_pixels_, 0);
   frame.global_balance = !frame.order.owners.empty();

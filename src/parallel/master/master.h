@@ -51,7 +51,7 @@ struct FinishedFrame {
   std::vector<std::int32_t> owners;            // per tile: the rank whose pixels are shown
   std::vector<Sample> samples;                 // of all ranks, each once; empty unless they are asked for
   std::vector<std::vector<TileReport>> tiles;  // per rank: what its tiles took
-  std::vector<TransferChoice> transfers;       // of all ranks, each rank's in order; empty unless asked for
+  std::vector<TransferChoice> transfers;       // of all ranks, by round and giver; empty unless asked for
   std::vector<std::int32_t> late_ranks;        // whose pixels had not come: ascending
   int stale_tiles = 0;                         // tiles that show an earlier frame, for nobody has sent them
   int overdue_pixels = 0;       // messages of earlier frames that came after those had been delivered

@@ -16,7 +16,7 @@ RankSampling::RankSampling(const SessionSettings& settings, const Partition& par
       clock_(clock),
       poll_(std::move(poll)),
       traits_(traits_of(settings.sampler)) {
-  SamplerWithExchange made = make_sampler(settings, partition, rank, tracer.probe().project);
+  SamplerWithExchange made = make_sampler(settings, partition, rank, tracer.probe());
   sampler_ = std::move(made.sampler);
   exchange_ = std::move(made.exchange);
   clock_.region_changed(region().pixel_count());

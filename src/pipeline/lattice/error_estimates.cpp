@@ -7,12 +7,15 @@
 namespace pprt {
 namespace {
 
-// What to expect before anything is learned. Errors are larger where larger ones were found, and where three
-// primitives meet, for there may be more between them.
+// What to expect before anything is learned. Errors are larger where larger ones were found, and where few
+// samples lie on the surface.
 float expected(NodeClass c) {
   constexpr float kOctaves = 0.3F, kMiddle = 2.5F;
-  const std::size_t error_level = c % kErrorLevels, primitives = c / kErrorLevels / kVarianceLevels + 1;
-  const auto steps = static_cast<float>(error_level / 2 + (primitives > 2 ? 1 : 0));
+  const std::size_t error_level = c % kErrorLevels, basis = c / kErrorLevels / kVarianceLevels;
+  constexpr float kWithoutSample = 12;
+  const auto steps =
+      static_cast<float>(error_level / 2) +
+      (basis == static_cast<NodeClass>(Basis::kNothing) ? kWithoutSample : static_cast<float>(basis));
   return std::exp2(kOctaves * (steps - kMiddle));
 }
 

@@ -7,20 +7,19 @@
 #include <cstdint>
 
 #include "pipeline/lattice/local_errors.h"
+#include "pipeline/lattice/surface_share.h"
 
 namespace pprt {
 
-// A class of nodes whose errors are alike. It has three parts: the number of primitives at the nodes around
-// (1 to 4), the variance of their colours (two octaves each), and the level of the errors near them.
-inline constexpr int kPrimitiveCounts = 4;
+// A class of nodes whose errors are alike. It has three parts: what their prediction rests on, the variance
+// of the colours that it is made of (two octaves each), and the level of the errors near them.
 using NodeClass = std::size_t;
-inline constexpr std::size_t kNodeClasses = std::size_t{kPrimitiveCounts} * kVarianceLevels * kErrorLevels;
+inline constexpr std::size_t kNodeClasses = std::size_t{kBases} * kVarianceLevels * kErrorLevels;
 
-inline NodeClass class_of(int primitives, float variance, int level_of_errors) {
+inline NodeClass class_of(Basis basis, float variance, int level_of_errors) {
   const int level = std::min(variance_level(variance), kVarianceLevels - 1);
-  const int number = ((std::min(primitives, kPrimitiveCounts) - 1) * kVarianceLevels + level) * kErrorLevels +
-                     level_of_errors;
-  return static_cast<NodeClass>(number);
+  return static_cast<NodeClass>((static_cast<int>(basis) * kVarianceLevels + level) * kErrorLevels +
+                                level_of_errors);
 }
 
 // detail_of() of floats in [0, 2), four an octave.
@@ -42,6 +41,9 @@ class ErrorEstimates {
 
   // Returns the factor that turns detail_of() into the error to expect, up to a common factor.
   float factor(NodeClass c) const { return factors_[c]; }
+
+  // Returns the error over the detail in the mean of all: factors are relative to it.
+  float of_all() const { return all_.error / all_.detail; }
 
   // Notes the error found at a node, where `detail` was to be expected, both times the area it stands for.
   // Factors stay as they are until update().

@@ -1,24 +1,13 @@
 #include "pipeline/lattice/lattice_painter.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
-
-#include "pipeline/silhouettes/shape_nearness.h"
 
 namespace pprt {
 namespace {
 
-// Points of a square, in shares of its side. No two in one row or column.
-constexpr PerPoint kColumns = {0.0625F, 0.1875F, 0.3125F, 0.4375F, 0.5625F, 0.6875F, 0.8125F, 0.9375F};
-constexpr PerPoint kRows = {0.4375F, 0.8125F, 0.0625F, 0.6875F, 0.1875F, 0.5625F, 0.9375F, 0.3125F};
-
 constexpr int kBasePixels = kBaseSide / kPixelSide;
-
-float4 weighted_mean(const SquareCorners& corners, const std::array<float, 4>& weights) {
-  float4 sum{};
-  for (std::size_t i = 0; i < corners.size(); ++i) sum += corners[i].channels() * weights[i];
-  return sum;
-}
 
 // Four colours of three channels as they lie in memory.
 using PackedColors = std::array<float4, 3>;
@@ -29,50 +18,12 @@ PackedColors pack(const std::array<float4, 4>& colors) {
   return {float4{a[0], a[1], a[2], b[0]}, float4{b[1], b[2], c[0], c[1]}, float4{c[2], d[0], d[1], d[2]}};
 }
 
-// The eight points of a square that each of up to four shapes is nearest at, as shares.
-struct Coverage {
-  std::array<float, 4> shares{};
-  float all = 0;
-};
-
-// Null shapes cover nothing.
-PPRT_CLONED_FOR_WIDE_REGISTERS
-Coverage coverage(const ProjectedShapeCache& shapes,
-                  const std::array<const ProjectedShapeCache::Shape*, 4>& candidates, const Vec2d& corner,
-                  float side) {
-  const ImageBounds square = {static_cast<float>(corner.x), static_cast<float>(corner.y),
-                              static_cast<float>(corner.x) + side, static_cast<float>(corner.y) + side};
-  std::array<PerPoint, 4> near{};
-  PerPoint nearest{};
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (candidates[i] == nullptr) continue;
-    const ProjectedShapeCache::Shape& shape = *candidates[i];
-    const PerPoint x = kColumns * side + static_cast<float>(corner.x - shape.origin.x);
-    const PerPoint y = kRows * side + static_cast<float>(corner.y - shape.origin.y);
-    if (shape.kind == ImageShape::Kind::kQuadric) {
-      near[i] = nearness(shape.quadric, x, y);
-    } else {
-      shapes.for_each_facet(shape, square, [&](const ProjectedFacet& facet) {
-        const PerPoint n = nearness(facet, x, y);
-        near[i] = n > near[i] ? n : near[i];
-      });
-    }
-    nearest = near[i] > nearest ? near[i] : nearest;
-  }
-  Coverage found;
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    const PerPoint is_seen = (near[i] == nearest) & (nearest > 0) ? PerPoint{} + 1.0F / kPoints : PerPoint{};
-    found.shares[i] = sum_of(is_seen);
-    found.all += found.shares[i];
-  }
-  return found;
-}
-
 }  // namespace
 
 void LatticePainter::paint(const PixelRect& part, PixelBlock& pixels) {
   part_ = part;
   pixels_ = &pixels;
+  sees_ = visibility_.is_known();
   const auto first = [](int pixel) { return pixel / kBasePixels * kBasePixels; };
   const auto base = [&](int x, int y) { return predictor_.value({kPixelSide * x, kPixelSide * y}); };
   for (int y = first(part.y0); y < part.y1; y += kBasePixels) {
@@ -89,18 +40,18 @@ void LatticePainter::paint_square(const LatticeNode& corner, int side, const Squ
   if (x >= part_.x1 || y >= part_.y1 || x + size <= part_.x0 || y + size <= part_.y0) return;
   if (size == 1) {
     finest_side_ = finest_side(corner);
-    store_channels(mean_of_refined(corner, side, corners), pixel(x, y));
+    const bool is_mixed = sees_ && !is_uniform(corner, 1);
+    store_channels(is_mixed ? mean_of_mixed(corner, corners) : mean_of_refined(corner, side, corners),
+                   pixel(x, y));
     return;
   }
   if (!is_refined(corner, side)) {
-    if (is_on_one_primitive(corners) || Surroundings(corners).variance() < kLeastEdgeVariance) {
+    if (!sees_ || is_uniform(corner, size)) {
       fill(corner, side, corners);
-      return;
+    } else {
+      paint_mixed(corner, side, corners);
     }
-    if (size == 2) {
-      paint_edge(corner, corners);
-      return;
-    }
+    return;
   }
   const int half = side / 2;
   const std::array<SquareCorners, 4> parts = quarters(corner, side, corners);
@@ -165,9 +116,9 @@ std::array<SquareCorners, 4> LatticePainter::quarters_within_pixel(const Lattice
     Surroundings ends;
     for (const std::size_t end : kEnds[i]) ends.add(corners[end]);
     if (seen != nullptr) ends.add(*seen);
-    shown[i] = predictor_.predict(middles[i], ends);
+    shown[i] = predictor_.predict(middles[i], ends).value;
   }
-  const NodeValue inner = seen != nullptr ? *seen : predictor_.predict(center, around);
+  const NodeValue inner = seen != nullptr ? *seen : predictor_.predict(center, around).value;
   return {{{corners[0], shown[0], shown[1], inner},
            {shown[0], corners[1], inner, shown[2]},
            {shown[1], inner, corners[2], shown[3]},
@@ -220,7 +171,7 @@ void LatticePainter::fill(const LatticeNode& corner, int side, const SquareCorne
 
 // Returns the mean over a pixel or a square of it.
 float4 LatticePainter::mean_of_refined(const LatticeNode& corner, int side, const SquareCorners& corners) {
-  if (side <= finest_side_ || !is_refined(corner, side)) return mean_of(corner, side, corners);
+  if (side <= finest_side_ || !is_refined(corner, side)) return mean_of(corners);
   const int half = side / 2;
   const std::array<SquareCorners, 4> parts = quarters_within_pixel(corner, side, corners);
   return (mean_of_refined(corner, half, parts[0]) +
@@ -230,85 +181,159 @@ float4 LatticePainter::mean_of_refined(const LatticeNode& corner, int side, cons
          0.25F;
 }
 
-// Returns the mean over a square with samples at its corners only.
-float4 LatticePainter::mean_of(const LatticeNode& corner, int side, const SquareCorners& corners) {
-  const Surroundings around(corners);
-  if (is_on_one_primitive(corners) || around.variance() < kLeastEdgeVariance) return around.mean();
-  return mean_of_edge(corner, side, corners);
+// Returns the mean over a square of at most a pixel with samples at its corners only.
+float4 LatticePainter::mean_of(const SquareCorners& corners) {
+  return Surroundings(corners).mean();
 }
 
-// The same where the corners lie on different primitives.
-float4 LatticePainter::mean_of_edge(const LatticeNode& corner, int side, const SquareCorners& corners) {
-  const Surroundings around(corners);
-  const EdgeShapes shapes = shapes_of(corner, corners);
-  constexpr std::array<float, 4> kEqual = {0.25F, 0.25F, 0.25F, 0.25F};
-  if (!shapes.are_known) return around.mean();
-  const float share = share_.of(around.primitives(), errors_.near(corner).level);
-  return mean_by_shapes(point_of(corner), static_cast<float>(side) / kPixelSide, corners, shapes, kEqual,
-                        share);
+// Returns the mean over a pixel in which several surfaces are seen: each by its share and by what the samples
+// on it show.
+float4 LatticePainter::mean_of_mixed(const LatticeNode& corner, const SquareCorners& corners) {
+  known_colors_ = 0;
+  if (!is_refined(corner, kPixelSide)) return mixed_mean(corner, corner, kPixelSide, corners);
+  summed_ = 0;
+  gather(corner, kPixelSide, corners);
+  const SeenInPixel seen = seen_in(corner);
+  const LatticeNode middle{corner.x + kPixelSide / 2, corner.y + kPixelSide / 2};
+  float4 mean{};
+  for (std::size_t i = 0; i < seen.count; ++i) {
+    if (seen.shares[i] <= 0) continue;
+    const auto end = sums_.begin() + static_cast<std::ptrdiff_t>(summed_);
+    const auto found = std::find_if(sums_.begin(), end,
+                                    [&](const SurfaceSum& s) { return s.primitive == seen.primitives[i]; });
+    const float4 color = found != end ? found->sum * (1 / found->weight)
+                                      : color_at(seen.primitives[i], middle, 0.5F, 0.5F, corners);
+    mean += color * seen.shares[i];
+  }
+  return mean;
 }
 
-// The four pixels of a square whose corners lie on different primitives and that holds no other sample. In
-// each pixel the corners count by their distance.
-void LatticePainter::paint_edge(const LatticeNode& corner, const SquareCorners& corners) {
-  constexpr float kNear = 0.75F, kFar = 0.25F;
-  const EdgeShapes shapes = shapes_of(corner, corners);
-  const float share = share_.of(Surroundings(corners).primitives(), errors_.near(corner).level);
-  for (std::size_t p = 0; p < 4; ++p) {
-    const LatticeNode at{corner.x + static_cast<int>(p % 2) * kPixelSide,
-                         corner.y + static_cast<int>(p / 2) * kPixelSide};
-    const int x = at.x / kPixelSide, y = at.y / kPixelSide;
-    if (x < part_.x0 || y < part_.y0 || x >= part_.x1 || y >= part_.y1) continue;
-    std::array<float, 4> weights{};
-    for (std::size_t i = 0; i < 4; ++i)
-      weights[i] = (i % 2 == p % 2 ? kNear : kFar) * (i / 2 == p / 2 ? kNear : kFar);
-    store_channels(shapes.are_known ? mean_by_shapes(point_of(at), 1, corners, shapes, weights, share)
-                                    : weighted_mean(corners, weights),
-                   pixel(x, y));
+// Sums up by surface what the corners of the smallest squares of a pixel show.
+void LatticePainter::gather(const LatticeNode& corner, int side, const SquareCorners& corners) {
+  if (side > finest_side_ && is_refined(corner, side)) {
+    const int half = side / 2;
+    const std::array<SquareCorners, 4> parts = quarters_within_pixel(corner, side, corners);
+    gather(corner, half, parts[0]);
+    gather({corner.x + half, corner.y}, half, parts[1]);
+    gather({corner.x, corner.y + half}, half, parts[2]);
+    gather({corner.x + half, corner.y + half}, half, parts[3]);
+    return;
+  }
+  const auto area = static_cast<float>(side * side);
+  for (const NodeValue& value : corners) {
+    std::size_t i = 0;
+    while (i < summed_ && sums_[i].primitive != value.primitive()) ++i;
+    if (i == summed_) {
+      if (summed_ == sums_.size()) continue;
+      sums_[summed_++] = SurfaceSum{value.primitive(), float4{}, 0};
+    }
+    sums_[i].sum += value.channels() * area, sums_[i].weight += area;
   }
 }
 
-// The shapes of the corners' primitives, as seen near the square.
-LatticePainter::EdgeShapes LatticePainter::shapes_of(const LatticeNode& corner,
-                                                     const SquareCorners& corners) {
-  EdgeShapes found;
-  const Surroundings around(corners);
-  std::array<ProjectedShapeCache::Place, 4> places{};
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    if (!around.is_first(i) || corners[i].primitive() == 0) continue;
-    places[i] = shapes_.find(corners[i].primitive(), point_of(corner));
-    if (shapes_.shape(places[i]).kind == ImageShape::Kind::kUnknown) return found;
+// Whether all points of a square of whole pixels see one primitive.
+bool LatticePainter::is_uniform(const LatticeNode& corner, int pixels) const {
+  const int x = corner.x / kPixelSide, y = corner.y / kPixelSide, tile = visibility_.tile_pixels();
+  return visibility_.tile(x, y).is_uniform(x % tile, y % tile, pixels);
+}
+
+// The pixels of a square with samples at its corners only, in which several surfaces are seen.
+void LatticePainter::paint_mixed(const LatticeNode& corner, int side, const SquareCorners& corners) {
+  known_colors_ = 0;
+  const int left = std::max(corner.x / kPixelSide, part_.x0), top = std::max(corner.y / kPixelSide, part_.y0);
+  const int right = std::min((corner.x + side) / kPixelSide, part_.x1);
+  const int bottom = std::min((corner.y + side) / kPixelSide, part_.y1);
+  for (int y = top; y < bottom; ++y) {
+    for (int x = left; x < right; ++x) {
+      const LatticeNode at{kPixelSide * x, kPixelSide * y};
+      store_channels(mixed_mean(at, corner, side, corners), pixel(x, y));
+    }
   }
-  for (std::size_t i = 0; i < corners.size(); ++i)
-    if (places[i] != ProjectedShapeCache::Place{0}) found.shapes[i] = &shapes_.shape(places[i]);
-  found.are_known = true;
+}
+
+// Returns the surfaces seen at the points of a pixel, its border included, and their shares: points on the
+// border count half, and a quarter in a corner.
+LatticePainter::SeenInPixel LatticePainter::seen_in(const LatticeNode& corner) const {
+  const int density = visibility_.points_per_side(), tile = visibility_.tile_pixels();
+  const int pixel_x = corner.x / kPixelSide, pixel_y = corner.y / kPixelSide;
+  const VisibleTile& seen = visibility_.tile(pixel_x, pixel_y);
+  const int left = pixel_x % tile * density, top = pixel_y % tile * density;
+  SeenInPixel found;
+  std::array<std::uint16_t, 8> numbers;
+  found.shares.fill(0);
+  for (int y = 0; y <= density; ++y) {
+    const std::uint16_t* row = seen.row(top + y) + left;
+    const float down = y == 0 || y == density ? 1 : 2;
+    for (int x = 0; x <= density; ++x) {
+      std::size_t i = 0;
+      while (i < found.count && numbers[i] != row[x]) ++i;
+      if (i == numbers.size()) continue;
+      if (i == found.count) numbers[found.count++] = row[x];
+      found.shares[i] += x == 0 || x == density ? down : 2 * down;
+    }
+  }
+  const float each = 0.25F / static_cast<float>(density * density);
+  for (std::size_t i = 0; i < found.count; ++i)
+    found.primitives[i] = seen.surfaces()[numbers[i]], found.shares[i] *= each;
+  if (found.count > 1 && visibility_.has_shares())
+    visibility_.shares(pixel_x, pixel_y, {numbers.data(), found.count}, {found.shares.data(), found.count});
   return found;
 }
 
-// Returns the mean over a square of at most a pixel, of weighted colours: where a shape is seen, mostly those
-// of the corners on its primitive.
-float4 LatticePainter::mean_by_shapes(const Vec2d& at, float size, const SquareCorners& corners,
-                                      const EdgeShapes& shapes, const std::array<float, 4>& weights,
-                                      float share) {
-  const Coverage found = coverage(shapes_, shapes.shapes, at, size);
-  const float each = 1 / std::max(found.all, 1.0F), beyond = std::max(1 - found.all, 0.0F);
-  const float4 mean = weighted_mean(corners, weights);
-  float4 difference{};  // from the mean
+// Returns the mean over a pixel of a square: the surfaces seen in it by their shares, each with its colour in
+// the middle.
+float4 LatticePainter::mixed_mean(const LatticeNode& corner, const LatticeNode& square, int square_side,
+                                  const SquareCorners& corners) {
+  const float per_side = 1 / static_cast<float>(square_side);
+  const LatticeNode middle{corner.x + kPixelSide / 2, corner.y + kPixelSide / 2};
+  const float u = static_cast<float>(middle.x - square.x) * per_side;
+  const float v = static_cast<float>(middle.y - square.y) * per_side;
+  const SeenInPixel seen = seen_in(corner);
+  if (seen.count == 1) return color_at(seen.primitives[0], middle, u, v, corners);
+  float4 sum{};
+  for (std::size_t i = 0; i < seen.count; ++i)
+    if (seen.shares[i] > 0) sum += color_at(seen.primitives[i], middle, u, v, corners) * seen.shares[i];
+  return sum;
+}
+
+// Returns what a surface shows at a point of a square: bilinear among the corners on it, else what a sample
+// near by does.
+float4 LatticePainter::color_at(std::uint32_t primitive, const LatticeNode& at, float u, float v,
+                                const SquareCorners& corners) {
+  const SurfaceColors& colors = colors_of(primitive, at, corners);
+  constexpr float kLeast = 1e-3F;  // where the weights of all corners on the surface vanish
+  const std::array<float, 4> weights = {(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v};
+  float4 sum{}, all{};
+  float weight = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const std::uint32_t primitive = corners[i].primitive();
-    const auto is_before = [&](const SquareCorners::value_type& v) { return v.primitive() == primitive; };
-    if (std::any_of(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(i), is_before)) continue;
-    const float covered = primitive == 0 ? beyond : found.shares[i] * each;
-    if (covered <= 0) continue;
-    float4 sum{};
-    float weight = 0;
-    for (std::size_t k = i; k < corners.size(); ++k) {
-      if (corners[k].primitive() == primitive)
-        sum += corners[k].channels() * weights[k], weight += weights[k];
-    }
-    difference += (sum * (1 / weight) - mean) * covered;
+    const float4 channels = corners[i].channels();
+    all += channels * weights[i];
+    if ((colors.on_it >> i & 1U) == 0) continue;
+    sum += channels * (weights[i] + kLeast), weight += weights[i] + kLeast;
   }
-  return mean + difference * share;
+  const float4 on_surface = weight > 0 ? sum * (1 / weight) : colors.elsewhere;
+  return all + (on_surface - all) * colors.share;
+}
+
+const LatticePainter::SurfaceColors& LatticePainter::colors_of(std::uint32_t primitive, const LatticeNode& at,
+                                                               const SquareCorners& corners) {
+  for (std::size_t i = 0; i < known_colors_; ++i)
+    if (colors_[i].primitive == primitive) return colors_[i];
+  if (known_colors_ == colors_.size()) known_colors_ = 0;
+  SurfaceColors& found = colors_[known_colors_++];
+  found = SurfaceColors{primitive, 0, 1, {}};
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    if (corners[i].primitive() == primitive) found.on_it |= 1U << i;
+  const int level = errors_.near(at).level;
+  if (found.on_it != 0) {
+    found.share =
+        share_.of(basis_of(static_cast<std::size_t>(std::popcount(found.on_it)), corners.size()), level);
+    return found;
+  }
+  const NodeValue* near = surfaces_.nearest(at, primitive);
+  found.share = near != nullptr ? share_.of(Basis::kNearSample, level) : 0;
+  if (near != nullptr) found.elsewhere = near->channels();
+  return found;
 }
 
 }  // namespace pprt

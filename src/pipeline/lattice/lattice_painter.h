@@ -15,9 +15,14 @@ using SquareCorners = std::array<NodeValue, 4>;
 // Paints a lattice. The references must outlive the object.
 class LatticePainter {
  public:
-  LatticePainter(const LatticeStore& store, NodePredictor& predictor, ProjectedShapeCache& shapes,
-                 LocalErrors& errors, const EdgeShare& share)
-      : store_(store), predictor_(predictor), shapes_(shapes), errors_(errors), share_(share) {}
+  LatticePainter(const LatticeStore& store, NodePredictor& predictor, VisibilityBuffer& visibility,
+                 const SurfaceSamples& surfaces, LocalErrors& errors, const SurfaceShare& share)
+      : store_(store),
+        predictor_(predictor),
+        visibility_(visibility),
+        surfaces_(surfaces),
+        errors_(errors),
+        share_(share) {}
 
   // Replaces the pixels of a part of `pixels`, a rectangle of the image within their bounds.
   void paint(const PixelRect& part, PixelBlock& pixels);
@@ -31,18 +36,33 @@ class LatticePainter {
   bool is_refined(const LatticeNode& corner, int side) const;
   int finest_side(const LatticeNode& pixel) const;
   float4 mean_of_refined(const LatticeNode& corner, int side, const SquareCorners& corners);
-  float4 mean_of(const LatticeNode& corner, int side, const SquareCorners& corners);
-  float4 mean_of_edge(const LatticeNode& corner, int side, const SquareCorners& corners);
+  static float4 mean_of(const SquareCorners& corners);
 
-  // The shapes of the corners' primitives; null for repeated ones and the background.
-  struct EdgeShapes {
-    std::array<const ProjectedShapeCache::Shape*, 4> shapes{};
-    bool are_known = false;
+  // A surface within a square: what it shows at a point (u, v), 0 to 1 from the square's upper left corner.
+  struct SurfaceColors {
+    std::uint32_t primitive = 0;
+    unsigned on_it = 0;     // corners, a bit each
+    float share = 1;        // SurfaceShare
+    float4 elsewhere = {};  // its colour if there is none
   };
-  EdgeShapes shapes_of(const LatticeNode& corner, const SquareCorners& corners);
-  void paint_edge(const LatticeNode& corner, const SquareCorners& corners);
-  float4 mean_by_shapes(const Vec2d& at, float size, const SquareCorners& corners, const EdgeShapes& shapes,
-                        const std::array<float, 4>& weights, float share);
+  const SurfaceColors& colors_of(std::uint32_t primitive, const LatticeNode& at,
+                                 const SquareCorners& corners);
+  float4 color_at(std::uint32_t primitive, const LatticeNode& at, float u, float v,
+                  const SquareCorners& corners);
+  float4 mixed_mean(const LatticeNode& corner, const LatticeNode& square, int square_side,
+                    const SquareCorners& corners);
+  // The surfaces seen in a pixel, and the share of each.
+  struct SeenInPixel {
+    std::array<std::uint32_t, 8> primitives;
+    std::array<float, 8> shares;
+    std::size_t count = 0;
+  };
+  SeenInPixel seen_in(const LatticeNode& corner) const;
+
+  float4 mean_of_mixed(const LatticeNode& pixel, const SquareCorners& corners);
+  void gather(const LatticeNode& corner, int side, const SquareCorners& corners);
+  void paint_mixed(const LatticeNode& corner, int side, const SquareCorners& corners);
+  bool is_uniform(const LatticeNode& corner, int pixels) const;
   Color& pixel(int x, int y) {
     const PixelRect& bounds = pixels_->bounds;
     return pixels_
@@ -52,9 +72,20 @@ class LatticePainter {
 
   const LatticeStore& store_;
   NodePredictor& predictor_;
-  ProjectedShapeCache& shapes_;
+  VisibilityBuffer& visibility_;
+  const SurfaceSamples& surfaces_;
   LocalErrors& errors_;
-  const EdgeShare& share_;
+  const SurfaceShare& share_;
+  bool sees_ = false;                     // whether the visibility is known
+  std::array<SurfaceColors, 16> colors_;  // of the surfaces met in a square
+  std::size_t known_colors_ = 0;
+  struct SurfaceSum {
+    std::uint32_t primitive = 0;
+    float4 sum{};
+    float weight = 0;
+  };
+  std::array<SurfaceSum, 32> sums_;  // of what the samples in a pixel show
+  std::size_t summed_ = 0;
   PixelRect part_;
   PixelBlock* pixels_ = nullptr;
   int finest_side_ = 1;  // of the pixel that is painted

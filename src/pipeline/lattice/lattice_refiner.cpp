@@ -6,25 +6,13 @@
 #include <numeric>
 #include <utility>
 
-#include "pipeline/core/display_values.h"
-
 namespace pprt {
 namespace {
 
-constexpr double kGridShare = 0.35;        // of all samples that the grid may take
-constexpr float kInsertion = 2;            // time of choosing and inserting a sample, in rays
-constexpr float kGreatestFall = 3;         // of the threshold, from pass to pass
-constexpr double kFirstGrowth = 3;         // pessimistic: nothing is learned yet
-constexpr float kSurprise = 1e-4F;         // squared error
-constexpr float kShareOfLast = 0.2F;       // that an error of the last picture counts as, of one of this
-constexpr float kUnpredicted = 1.0F / 32;  // squared error that a sample without a prediction counts as
-
-// Calls visit(x, y) for the four corners of a square of nodes.
-template <class Visit>
-void for_each_corner(const LatticeNode& corner, int side, const Visit& visit) {
-  visit(corner.x, corner.y), visit(corner.x + side, corner.y);
-  visit(corner.x, corner.y + side), visit(corner.x + side, corner.y + side);
-}
+constexpr double kGridShare = 0.35;   // of all samples that the grid may take
+constexpr float kGreatestFall = 3;    // of the threshold, from pass to pass
+constexpr double kFirstGrowth = 3;    // pessimistic: nothing is learned yet
+constexpr float kShareOfLast = 0.2F;  // that an error of the last picture counts as, of one of this
 
 // Returns the tiles in bands of two rows. Bands follow each other by steps of the golden section, which fall
 // evenly over the picture.
@@ -43,34 +31,25 @@ std::vector<int> in_scattered_bands(int columns, int rows) {
   return tiles;
 }
 
-float squared_error(const float4& a, const float4& b) {
-  const float4 difference = on_display(a) - on_display(b), squares = difference * difference;
-  return (squares[0] + squares[1] + squares[2]) * (1.0F / 3);
-}
-
-// Below a pixel an error is a part of what the pixel shows.
-float effect_of(const LatticeLevel& level) {
-  const float area = level.area();
-  return level.side <= kPixelSide ? 2 * area * area : area;
-}
-
 }  // namespace
 
-LatticeRefiner::LatticeRefiner(const Region& region, ProjectedShapeCache::View view, LatticeOrder order)
+LatticeRefiner::LatticeRefiner(const Region& region, PrimitiveShapes shapes, LatticeOrder order)
     : order_(order),
       store_(region.grid().width, region.grid().height),
       own_(store_, region),
       tiles_(in_scattered_bands(store_.tile_columns(), store_.tile_rows())),
-      shapes_(std::move(view)),
+      visibility_(store_.right() / kPixelSide, store_.bottom() / kPixelSide, std::move(shapes)),
+      surfaces_(store_.right(), store_.bottom()),
+      unsampled_surfaces_(store_.tile_count()),
       errors_(store_.right(), store_.bottom()),
-      predictor_(store_, shapes_, errors_, share_),
-      painter_(store_, predictor_, shapes_, errors_, share_),
+      predictor_(store_, visibility_, surfaces_, errors_, share_),
+      painter_(store_, predictor_, visibility_, surfaces_, errors_, share_),
       greatest_(static_cast<std::size_t>(store_.tile_count()) * kLatticeLevels.size()) {
   clear();
 }
 
 void LatticeRefiner::clear() {
-  shapes_.forget();
+  visibility_.forget(VisibilityBuffer::kFine);
   estimates_.clear();
   share_.clear();
   growth_ = kFirstGrowth;
@@ -88,6 +67,10 @@ void LatticeRefiner::restart() {
 
 void LatticeRefiner::forget_samples() {
   store_.clear();
+  surfaces_.clear();
+  unsampled_surfaces_.clear();
+  has_looked_ = has_fineness_ = false;
+  surfaces_wanted_.clear();
   samples_ = 0;
   expected_ = 0;
   has_base_ = has_grid_ = is_region_new_ = false;
@@ -113,7 +96,7 @@ void LatticeRefiner::set_region(const Region& region) {
       leave_square(corner);
     }
   });
-  has_base_ = false;
+  has_base_ = has_looked_ = false;
   is_region_new_ = true;
   if (order_ == LatticeOrder::kLevels) grid_levels_ = 0;
 }
@@ -126,15 +109,15 @@ void LatticeRefiner::begin_square(const LatticeNode& corner) {
     if (!store_.is_sampled(node)) continue;
     Wanted at;
     at.node = node;
+    Prediction predicted;
     if (is_base(at.node)) {
       at.level = {2 * kBaseSide, LatticeKind::kMiddle};
     } else {
       at.level = level_of(at.node);
       at.around = known_around(at.node, at.level);
-      at.variance = at.around.count() > 0 ? at.around.variance() : 0;
-      at.primitives = std::max(at.around.primitives(), 1);
+      if (at.around.count() > 0) predicted = predictor_.predict(node, at.around);
     }
-    make_candidates(at.node, at.level, worth_around(at, kUnpredicted, at.primitives));
+    make_candidates(at.node, at.level, worth_around(at, kUnpredicted, predicted.variance, Basis::kAllAround));
   }
 }
 
@@ -159,14 +142,17 @@ double LatticeRefiner::samples_left() const {
 
 std::optional<Vec2d> LatticeRefiner::next_point() {
   for (;;) {
-    while (next_ == nodes_.size()) {
+    if (const std::optional<LatticeNode> node = next_surface()) return point_of(*node);
+    if (next_ == nodes_.size()) {
       if (!next_nodes()) return std::nullopt;
+      continue;
     }
     const LatticeNode node = nodes_[next_++];
     // By now the node may hold another region's sample, or its square may have gone.
     if (store_.is_sampled(node) || !(pass_.takes_base ? own_.needs_base(node) : own_.owns(node))) continue;
+    wanted_.area = 0;
     if (pass_.takes_base) {
-      wanted_.node = node, wanted_.is_base = true, wanted_.variance = 0;
+      wanted_.node = node, wanted_.is_base = true;
     } else if (!is_wanted(node, kLatticeLevels[level_ - 1])) {
       continue;
     }
@@ -181,6 +167,7 @@ bool LatticeRefiner::next_nodes() {
   nodes_.clear();
   if (std::exchange(is_region_new_, false) && !knows_base()) return leave_pass();
   if (level_ == pass_.end_level && !next_tile()) return start_pass();
+  if (!surfaces_wanted_.empty()) return true;
   const std::size_t level = level_++;
   if (pass_.takes_base) {
     collect_base(tile_);
@@ -201,6 +188,7 @@ bool LatticeRefiner::next_tile() {
     tiles_left_ = tiles_left_.subspan(1);
     if (!own_.touches_tile(tile_)) continue;
     level_ = pass_.first_level;
+    if (!pass_.takes_all) unsampled_surfaces_.take(tile_, pass_.least, surfaces_wanted_);
     return true;
   }
   return false;
@@ -245,9 +233,22 @@ void LatticeRefiner::start(const Pass& pass) {
   level_ = pass_.end_level;
 }
 
+// Where there are few samples finer edges would not show. What they cost does not grow with the samples.
+void LatticeRefiner::choose_fineness() {
+  constexpr double kVeryFew = 0.07, kFew = 0.4;  // samples a pixel
+  const double samples =
+      (static_cast<double>(samples_) + samples_left()) / static_cast<double>(region().pixel_count());
+  if (std::exchange(has_fineness_, true) || expected_ == 0) return;
+  const VisibilityBuffer::Fineness fineness = samples < kVeryFew ? VisibilityBuffer::kCoarse
+                                              : samples < kFew   ? VisibilityBuffer::kMiddle
+                                                                 : VisibilityBuffer::kFine;
+  if (fineness != visibility_.fineness()) visibility_.forget(fineness);
+}
+
 // Takes a whole level, while the levels so far are but a part of all samples to come.
 bool LatticeRefiner::start_grid_pass() {
   if (!std::exchange(has_base_, true)) {
+    choose_fineness();
     start({.first_level = 0, .end_level = 1, .takes_base = true, .takes_all = true});
     return true;
   }
@@ -271,7 +272,9 @@ bool LatticeRefiner::start_grid_pass() {
 // estimate.
 bool LatticeRefiner::start_refinement_pass() {
   constexpr double kShare = 0.5, kLast = 0.25, kMost = 0.6;
-  const std::array<std::int64_t, 256>& counts = store_.candidates();
+  if (!std::exchange(has_looked_, true)) look_for_unsampled();
+  std::array<std::int64_t, 256> counts = store_.candidates();
+  for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += unsampled_surfaces_.counts()[i];
   const double all = std::accumulate(counts.begin() + kLeastCandidate + 1, counts.end(), 0.0);
   if (all == 0) return false;
   const double left = std::max(samples_left(), 1.0) / growth_;
@@ -302,187 +305,9 @@ void LatticeRefiner::learn_growth() {
   if (made >= kEnough) growth_ = 0.5 * growth_ + 0.5 * std::clamp(growth, 0.3, 4.0);
 }
 
-// The worth of a sample.
-
-// Whether a node is worth a sample in this pass. Keeps its priority otherwise.
-bool LatticeRefiner::is_wanted(const LatticeNode& node, const LatticeLevel& level) {
-  wanted_.node = node, wanted_.level = level, wanted_.is_base = false;
-  wanted_.around = predictor_.around(node, level);
-  wanted_.variance = wanted_.around.variance();
-  wanted_.primitives = wanted_.around.primitives();
-  if (pass_.takes_all) return true;
-  const float worth = worth_of(node, level);
-  if (worth >= pass_.threshold) return true;
-  store_.set_state(node, priority_of(worth));
-  return false;
-}
-
-// Returns the expected error at a node times its area, per time. Flat squares below a pixel come late, and
-// only near errors: something thin may pass between their corners.
-float LatticeRefiner::worth_of(const LatticeNode& node, const LatticeLevel& level) {
-  constexpr float kFlat = 1e-5F, kShareOfFlat = 0.1F;
-  constexpr int kLeastLevel = 5;  // mean squared errors of 2^-10
-  const Wanted& at = wanted_;
-  const LocalErrors::Mean& near = errors_.near(node);
-  const bool is_flat = level.side <= kPixelSide && at.variance < kFlat;
-  if (is_flat && near.level < kLeastLevel) return 0;
-  const float factor = estimates_.factor(class_of(at.primitives, at.variance, near.level));
-  const float worth = effect_of(level) * detail_of(at.variance) * factor / (kInsertion + near.rays);
-  return is_flat ? kShareOfFlat * worth : worth;
-}
-
-// Takes in the sample of the wanted node.
-void LatticeRefiner::insert_wanted(const RaySample& sample) {
-  const Wanted& at = wanted_;
-  has_wanted_ = false;
-  const float4 seen{sample.color.x, sample.color.y, sample.color.z, 0};
-  const auto rays = static_cast<float>(sample.rays);
-  ++samples_;
-  if (at.is_base) {
-    constexpr float kWeight = 0.5F;
-    errors_.note(at.node, kUnpredicted, rays, kWeight);
-    store_.set_sample(at.node, NodeValue(seen, sample.primitive));
-    make_candidates(at.node, {2 * kBaseSide, LatticeKind::kMiddle}, worth_around(at, kUnpredicted, 1));
-    return;
-  }
-  const Prediction predicted = predictor_.predict(at.node, at.around, at.variance, at.primitives);
-  const float error = squared_error(seen, predicted.value.channels());
-  const LocalErrors::Mean near = errors_.near(at.node);
-  const float effect = effect_of(at.level);
-  estimates_.learn(class_of(at.primitives, at.variance, near.level), effect * detail_of(at.variance),
-                   effect * std::sqrt(error));
-  if (predicted.shows_edge) learn_edge(at, seen, predicted);
-  errors_.note(at.node, error, rays);
-  store_.set_sample(at.node, NodeValue(seen, sample.primitive));
-  const int primitives = std::max(at.primitives, predicted.value.primitive() == sample.primitive ? 1 : 2);
-  const float worth = worth_around(at, error, primitives);
-  make_candidates(at.node, at.level, worth);
-  if (at.level.kind == LatticeKind::kMiddle && error > kSurprise) look_beyond(at.node, at.level.side, worth);
-}
-
-// Nothing is learned from a sample whose neighbours may not be known here.
-bool LatticeRefiner::insert(const Vec2d& point, const RaySample& sample) {
-  Wanted at;
-  at.node = node_at(point);
-  if (has_wanted_ && wanted_.node == at.node) {
-    insert_wanted(sample);
-    return true;
-  }
-  if (point_of(at.node) != point || !store_.has(at.node) || store_.is_sampled(at.node)) return false;
-  const float4 seen{sample.color.x, sample.color.y, sample.color.z, 0};
-  const auto rays = static_cast<float>(sample.rays);
-  if (is_base(at.node)) {
-    at.is_base = true;
-    wanted_ = at;
-    insert_wanted(sample);
-    return true;
-  }
-  ++samples_;
-  at.level = level_of(at.node);
-  at.around = known_around(at.node, at.level);
-  float error = kUnpredicted;
-  if (at.around.count() > 0) {
-    at.variance = at.around.variance();
-    at.primitives = at.around.primitives();
-    error = squared_error(seen, at.around.mean());
-  }
-  errors_.note(at.node, error, rays);
-  store_.set_sample(at.node, NodeValue(seen, sample.primitive));
-  make_candidates(at.node, at.level, worth_around(at, error, at.primitives));
-  return true;
-}
-
-// Returns the samples at the corners of a node's square or at the ends of its side.
-Surroundings LatticeRefiner::known_around(const LatticeNode& node, const LatticeLevel& level) const {
-  Surroundings around;
-  const auto add = [&](int x, int y) {
-    const NodeValue* sample = store_.has({x, y}) ? store_.sample_at({x, y}) : nullptr;
-    if (sample != nullptr) around.add(*sample);
-  };
-  const int half = level.side / 2;
-  if (level.kind == LatticeKind::kCenter) {
-    for_each_corner({node.x - half, node.y - half}, level.side, add);
-  } else {
-    const int dx = (node.x & half) != 0 ? half : 0, dy = half - dx;
-    add(node.x - dx, node.y - dy), add(node.x + dx, node.y + dy);
-  }
-  return around;
-}
-
-// Returns what a square pixel near a new sample is expected to be worth: what the sample did not find as
-// predicted is a difference between the nodes around it.
-float LatticeRefiner::worth_around(const Wanted& at, float squared_error, int primitives) {
-  const float variance = 0.25F * squared_error + 0.5F * at.variance;
-  const LocalErrors::Mean& near = errors_.near(at.node);
-  return detail_of(variance) * estimates_.factor(class_of(primitives, variance, near.level)) /
-         (kInsertion + near.rays);
-}
-
-void LatticeRefiner::learn_edge(const Wanted& at, const float4& seen, const Prediction& predicted) {
-  const float4 mean = on_display(at.around.mean());
-  const float4 direction = on_display(predicted.on_primitive) - mean;
-  const float4 along = (on_display(seen) - mean) * direction, squared = direction * direction;
-  share_.learn(at.primitives, errors_.near(at.node).level, along[0] + along[1] + along[2],
-               squared[0] + squared[1] + squared[2]);
-}
-
-// The nodes that a new sample predicts. `worth_per_area`: what is expected of them, for each square pixel.
-void LatticeRefiner::make_candidates(const LatticeNode& node, const LatticeLevel& level,
-                                     float worth_per_area) {
-  const auto [x, y] = node;
-  if (level.kind == LatticeKind::kCenter) {
-    const int half = level.side / 2;
-    const LatticeLevel next{level.side, LatticeKind::kMiddle};
-    const NodeState priority = priority_of(worth_per_area * effect_of(next));
-    make_candidate({x - half, y}, next, priority);
-    make_candidate({x + half, y}, next, priority);
-    make_candidate({x, y - half}, next, priority);
-    make_candidate({x, y + half}, next, priority);
-  } else if (level.side > 2) {
-    const int quarter = level.side / 4;
-    const LatticeLevel next{level.side / 2, LatticeKind::kCenter};
-    const NodeState priority = priority_of(worth_per_area * effect_of(next));
-    make_candidate({x - quarter, y - quarter}, next, priority);
-    make_candidate({x + quarter, y - quarter}, next, priority);
-    make_candidate({x - quarter, y + quarter}, next, priority);
-    make_candidate({x + quarter, y + quarter}, next, priority);
-  }
-}
-
-// What came as a surprise on the side of two squares may go on in them: their centres get another chance.
-void LatticeRefiner::look_beyond(const LatticeNode& middle, int side, float worth_per_area) {
-  const int half = side / 2, dx = (middle.x & half) != 0 ? 0 : half, dy = half - dx;  // across the side
-  const LatticeLevel level{side, LatticeKind::kCenter};
-  const NodeState priority = priority_of(worth_per_area * effect_of(level));
-  make_candidate({middle.x - dx, middle.y - dy}, level, priority);
-  make_candidate({middle.x + dx, middle.y + dy}, level, priority);
-}
-
-void LatticeRefiner::make_candidate(const LatticeNode& node, const LatticeLevel& level, NodeState priority) {
-  if (!store_.has(node) || !own_.owns(node) || !store_.raise(node, priority)) return;
-  NodeState& greatest = greatest_in(store_.tile_at(node), index_of(level));
-  greatest = std::max(greatest, priority);
-}
-
-double LatticeRefiner::weigh(std::vector<TileWeights>& weights) const {
-  const TileGrid& grid = region().grid();
-  weights.assign(static_cast<std::size_t>(grid.tile_count()), {});
-  store_.for_each_square([&](int x, int y, std::int64_t count, double root) {
-    TileWeights& here = weights[static_cast<std::size_t>(grid.tile_at(x, y))];
-    here.count += count, here.total_weight += root;
-  });
-  const std::array<std::int64_t, 256>& of = store_.candidates();
-  double worth = 0;
-  for (std::size_t i = kLeastCandidate + 1; i <= kGreatestCandidate; ++i)
-    worth += static_cast<double>(of[i]) * static_cast<double>(least_worth(static_cast<NodeState>(i)));
-  const std::int64_t candidates = std::accumulate(of.begin() + kLeastCandidate, of.end(), std::int64_t{0});
-  return candidates > 0 ? worth / static_cast<double>(candidates) : 0;
-}
-
 std::size_t LatticeRefiner::paint(const PixelRect& bounds, std::span<const PixelRect> parts,
                                   PixelBlock& pixels, const std::function<bool()>& is_over) {
   store_.forget_predictions();
-  errors_.start_round();
   pixels.bounds = bounds;
   pixels.colors.resize(bounds.area());
   std::size_t painted = 0;

@@ -18,13 +18,15 @@
 #include "base/ray_sample.h"
 #include "base/vector.h"
 #include "pipeline/core/region_quality.h"
-#include "pipeline/lattice/edge_share.h"
 #include "pipeline/lattice/error_estimates.h"
 #include "pipeline/lattice/lattice_painter.h"
 #include "pipeline/lattice/lattice_region.h"
 #include "pipeline/lattice/lattice_store.h"
 #include "pipeline/lattice/local_errors.h"
 #include "pipeline/lattice/node_prediction.h"
+#include "pipeline/lattice/surface_samples.h"
+#include "pipeline/lattice/unsampled_surfaces.h"
+#include "pipeline/visibility/visibility_buffer.h"
 
 namespace pprt {
 
@@ -36,10 +38,8 @@ enum class LatticeOrder : std::uint8_t {
 
 class LatticeRefiner {
  public:
-  // For a region of an image; its tiles are whole base squares. `view` computes a primitive's shape as
-  // Probe::project does.
-  LatticeRefiner(const Region& region, ProjectedShapeCache::View view,
-                 LatticeOrder order = LatticeOrder::kAdaptive);
+  // For a region of an image; its tiles are whole base squares.
+  LatticeRefiner(const Region& region, PrimitiveShapes shapes, LatticeOrder order = LatticeOrder::kAdaptive);
   LatticeRefiner(const LatticeRefiner&) = delete;
   LatticeRefiner& operator=(const LatticeRefiner&) = delete;
 
@@ -54,7 +54,7 @@ class LatticeRefiner {
   const Region& region() const { return own_.region(); }
 
   // Projected shapes are of another camera from now on.
-  void camera_changed() { shapes_.forget(); }
+  void camera_changed() { visibility_.forget(); }
 
   // Tells how many samples more there will be, about. Thresholds are set by it: too few or too many make the
   // picture coarser in one part than in another. Repeat the call on the way. Where it is not repeated as many
@@ -94,14 +94,17 @@ class LatticeRefiner {
   }
 
  private:
+  static constexpr float kUnpredicted =
+      1.0F / 32;  // squared error that a sample without a prediction counts as
+
   // A node whose sample is wanted, and what is known of it.
   struct Wanted {
     LatticeNode node;
     LatticeLevel level;
     Surroundings around;
-    float variance = 0;
-    int primitives = 1;
+    Prediction predicted;
     bool is_base = false;  // a corner of a base square: nothing predicts it
+    float area = 0;        // if it stands for a surface that no sample lies on, square pixels
   };
 
   // A pass over all tiles, through some levels in each. In the first passes `takes_all` nodes of one level.
@@ -125,6 +128,7 @@ class LatticeRefiner {
   bool knows_base() const;
   bool leave_pass();
   bool start_pass();
+  void choose_fineness();
   bool start_grid_pass();
   bool start_refinement_pass();
   void start(const Pass& pass);
@@ -136,8 +140,14 @@ class LatticeRefiner {
   Surroundings known_around(const LatticeNode& node, const LatticeLevel& level) const;
   bool is_wanted(const LatticeNode& node, const LatticeLevel& level);
   float worth_of(const LatticeNode& node, const LatticeLevel& level);
-  float worth_around(const Wanted& at, float squared_error, int primitives);
-  void learn_edge(const Wanted& at, const float4& seen, const Prediction& predicted);
+  float worth_around(const Wanted& at, float squared_error, float variance, Basis basis);
+  void learn_share(const Wanted& at, const float4& seen);
+  void set_sample(const LatticeNode& node, const NodeValue& value);
+  void look_for_unsampled();
+  void look_for_unsampled(const LatticeNode& square, int tile);
+  std::optional<LatticeNode> next_surface();
+  float worth_of_surface(const UnsampledSurface& surface);
+  Surroundings base_corners(const LatticeNode& node);
   void make_candidates(const LatticeNode& node, const LatticeLevel& level, float worth_per_area);
   void look_beyond(const LatticeNode& middle, int side, float worth_per_area);
   void make_candidate(const LatticeNode& node, const LatticeLevel& level, NodeState priority);
@@ -146,10 +156,12 @@ class LatticeRefiner {
   LatticeStore store_;
   LatticeRegion own_;
   std::vector<int> tiles_;  // in the order of passes
-  ProjectedShapeCache shapes_;
+  VisibilityBuffer visibility_;
+  SurfaceSamples surfaces_;
+  UnsampledSurfaces unsampled_surfaces_;
   LocalErrors errors_;
   ErrorEstimates estimates_;
-  EdgeShare share_;
+  SurfaceShare share_;
   NodePredictor predictor_;
   LatticePainter painter_;
 
@@ -159,8 +171,11 @@ class LatticeRefiner {
   Pass pass_;
   std::size_t grid_levels_ = 0;  // taken whole, the base not counted
   bool has_base_ = false, has_grid_ = false;
-  bool is_region_new_ = false;  // its base may be unknown
-  double growth_ = 0;           // samples that a pass takes, for each that its candidates promise
+  bool has_fineness_ = false;
+  bool has_looked_ = false;                        // for unsampled surfaces
+  std::vector<UnsampledSurface> surfaces_wanted_;  // of the tile, in this pass
+  bool is_region_new_ = false;                     // its base may be unknown
+  double growth_ = 0;  // samples that a pass takes, for each that its candidates promise
   float last_threshold_ = 0;
   int tile_ = 0;                     // of the pass
   std::span<const int> tiles_left_;  // for the pass after this one

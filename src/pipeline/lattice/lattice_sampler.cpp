@@ -4,18 +4,9 @@
 #include <utility>
 
 namespace pprt {
-namespace {
-
-ProjectedShapeCache::View view_or_unknown(ProjectedShapeCache::View view) {
-  if (view) return view;
-  return [](std::uint32_t, ImageShape& shape) { shape.kind = ImageShape::Kind::kUnknown; };
-}
-
-}  // namespace
-
 LatticeSampler::LatticeSampler(const Region& region, LatticeOrder order, const Goal& goal,
-                               ProjectedShapeCache::View view)
-    : goal_(goal), refiner_(region, view_or_unknown(std::move(view)), order) {
+                               PrimitiveShapes shapes)
+    : goal_(goal), refiner_(region, std::move(shapes), order) {
   if (goal_.keeps_samples) reserve_samples();
 }
 

@@ -19,9 +19,8 @@ class LatticeSampler final : public Sampler {
     bool keeps_samples = true;  // somebody asks for samples()
   };
 
-  // The region's tiles are whole base squares. `view` computes a primitive's shape as Probe::project does;
-  // empty: shapes are not known.
-  LatticeSampler(const Region& region, LatticeOrder order, const Goal& goal, ProjectedShapeCache::View view);
+  // The region's tiles are whole base squares.
+  LatticeSampler(const Region& region, LatticeOrder order, const Goal& goal, PrimitiveShapes shapes);
 
   // Changes which nodes are wanted; keeps all samples.
   void set_region(const Region& region);

@@ -1,51 +1,8 @@
 #include "pipeline/lattice/node_prediction.h"
 
 #include "pipeline/core/display_values.h"
-#include "pipeline/silhouettes/shape_nearness.h"
 
 namespace pprt {
-namespace {
-
-float nearness_at(const ProjectedShapeCache& shapes, const ProjectedShapeCache::Shape& shape, double x,
-                  double y) {
-  const auto from_x = static_cast<float>(x - shape.origin.x), from_y = static_cast<float>(y - shape.origin.y);
-  if (shape.kind == ImageShape::Kind::kQuadric) return nearness(shape.quadric, from_x, from_y);
-  const auto left = static_cast<float>(x), top = static_cast<float>(y);
-  float nearest = 0;
-  shapes.for_each_facet(shape, {left, top, left, top}, [&](const ProjectedFacet& facet) {
-    nearest = std::max(nearest, nearness(facet, from_x, from_y));
-  });
-  return nearest;
-}
-
-// The primitive that is nearest at a point, among those around; whether there is one that is known to be
-// seen.
-struct Seen {
-  std::uint32_t primitive = 0;
-  bool is_known = false;
-};
-
-Seen seen_at(const Vec2d& point, const Surroundings& around, ProjectedShapeCache& shapes) {
-  Seen seen;
-  float nearest = 0;
-  bool sees_background = false;
-  for (std::size_t i = 0; i < around.count(); ++i) {
-    const std::uint32_t primitive = around[i].primitive();
-    if (!around.is_first(i)) continue;
-    if (primitive == 0) {
-      sees_background = true;
-      continue;
-    }
-    const ProjectedShapeCache::Shape& shape = shapes.shape(shapes.find(primitive, point));
-    if (shape.kind == ImageShape::Kind::kUnknown) return {};
-    const float n = nearness_at(shapes, shape, point.x, point.y);
-    if (n > nearest) nearest = n, seen = {primitive, true};
-  }
-  if (!seen.is_known) seen.is_known = sees_background;
-  return seen;
-}
-
-}  // namespace
 
 // Whether all corners of the base square around a node are known. Those of another rank's need not be.
 bool NodePredictor::knows_base(const LatticeNode& node) const {
@@ -87,15 +44,39 @@ Surroundings NodePredictor::around(const LatticeNode& node, const LatticeLevel& 
   return around;
 }
 
-Prediction NodePredictor::predict(const LatticeNode& node, const Surroundings& around, float variance,
-                                  int primitives) {
-  const float4 mean = around.mean();
-  if (primitives == 1 || variance < kLeastEdgeVariance) return {NodeValue(mean, around[0].primitive())};
-  const Seen seen = seen_at(point_of(node), around, shapes_);
-  if (!seen.is_known) return {NodeValue(mean, around[0].primitive())};
-  const float4 on_primitive = around.mean_on(seen.primitive);
-  const float share = share_.of(primitives, errors_.near(node).level);
-  return {NodeValue(mean + (on_primitive - mean) * share, seen.primitive), true, on_primitive};
+// Without visibility all around are taken for one surface.
+Prediction NodePredictor::predict(const LatticeNode& node, const Surroundings& around) {
+  if (!visibility_.is_known()) {
+    Prediction found;
+    found.around = found.on_surface = around.mean();
+    found.value = NodeValue(found.around, around[0].primitive());
+    found.variance = around.variance();
+    found.basis = Basis::kAllAround;
+    return found;
+  }
+  const std::uint32_t seen = seen_at(visibility_, node);
+  Prediction found;
+  found.around = found.on_surface = around.mean();
+  if (is_on_one_primitive({&around[0], around.count()}) && around[0].primitive() == seen) {
+    found.value = NodeValue(found.around, seen);
+    found.variance = around.variance();
+    found.basis = Basis::kAllAround;
+    return found;
+  }
+  Surroundings same;
+  for (std::size_t i = 0; i < around.count(); ++i)
+    if (around[i].primitive() == seen) same.add(around[i]);
+  if (same.count() > 0) {
+    found.variance = same.variance();
+    found.basis = basis_of(same.count(), around.count());
+    found.on_surface = same.mean();
+  } else if (const NodeValue* near = surfaces_.nearest(node, seen)) {
+    found.basis = Basis::kNearSample;
+    found.on_surface = near->channels();
+  }
+  const float share = share_.of(found.basis, errors_.near(node).level);
+  found.value = NodeValue(found.around + (found.on_surface - found.around) * share, seen);
+  return found;
 }
 
 NodeValue NodePredictor::kept_prediction(const LatticeNode& corner) {
@@ -107,7 +88,7 @@ NodeValue NodePredictor::kept_prediction(const LatticeNode& corner) {
 // Nothing predicts the corners of base squares: without a sample they are black.
 NodeValue NodePredictor::predicted(const LatticeNode& node) {
   if (is_base(node)) return {};
-  return predict(node, around(node, level_of(node)));
+  return predict(node, around(node, level_of(node))).value;
 }
 
 }  // namespace pprt

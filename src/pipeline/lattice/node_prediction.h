@@ -1,10 +1,9 @@
 // What a node is taken to show before it is sampled.
 //
 // The centre of a square is predicted from its corners, and from the middles of its sides that are sampled.
-// That way what is thin is followed from one square to the next. The middle of a side is predicted from the
-// side's ends. The centres of the squares on both sides count as well if one of them is sampled. Where these
-// nodes lie on different primitives, the one nearest at the node's point is seen, as in
-// docs/decisions/0017-edges.md.
+// The middle of a side is predicted from the side's ends. The centres of the squares on both sides count as
+// well if one of them is sampled. Of these nodes those count that lie on the surface seen at the node. Where
+// none does, the nearest sample on that surface counts (docs/decisions/0033-visibility.md).
 #pragma once
 
 #include <algorithm>
@@ -12,15 +11,13 @@
 #include <cstdint>
 
 #include "pipeline/core/display_values.h"
-#include "pipeline/lattice/edge_share.h"
 #include "pipeline/lattice/lattice_store.h"
 #include "pipeline/lattice/local_errors.h"
-#include "pipeline/silhouettes/projected_shape_cache.h"
+#include "pipeline/lattice/surface_samples.h"
+#include "pipeline/lattice/surface_share.h"
+#include "pipeline/visibility/visibility_buffer.h"
 
 namespace pprt {
-
-// Least variance of colours at which edges are looked for.
-inline constexpr float kLeastEdgeVariance = 3e-4F;
 
 // Some nodes around a point, two to eight.
 class Surroundings {
@@ -40,23 +37,14 @@ class Surroundings {
     add(value);
   }
 
+  // Mean over the channels of the variance of the colours on the display scale.
+  float variance() const;
+
   std::size_t count() const { return count_; }
   const NodeValue& operator[](std::size_t i) const { return values_[i]; }
 
   // Mean colour, exact at the centre of what changes evenly: a middle counts by how it differs from its ends.
   float4 mean() const;
-
-  // Mean over the channels of the variance of the colours on the display scale.
-  float variance() const;
-
-  // The number of different primitives.
-  int primitives() const;
-
-  // Whether value i is the first on its primitive.
-  bool is_first(std::size_t i) const;
-
-  // Mean colour of the values on a primitive that one of them is on.
-  float4 mean_on(std::uint32_t primitive) const;
 
  private:
   std::array<NodeValue, 8> values_;  // the first count_ of them
@@ -66,24 +54,30 @@ class Surroundings {
 
 struct Prediction {
   NodeValue value;
-  bool shows_edge = false;
-  float4 on_primitive{};  // where it does: the mean colour around of those on the primitive seen
+  float variance = 0;  // mean over the channels of that of the colours on the surface, on the display scale
+  Basis basis = Basis::kNothing;
+  float4 around{}, on_surface{};  // the mean of all around, and the colour that those on the surface make
 };
+
+// Returns the primitive seen at a node. Only if the visibility is known.
+inline std::uint32_t seen_at(VisibilityBuffer& visibility, const LatticeNode& node) {
+  const int interval = kPixelSide / visibility.points_per_side();
+  if ((node.x | node.y) % interval != 0) return visibility.at(point_of(node));
+  return visibility.at(node.x / interval, node.y / interval);
+}
 
 // Reads a lattice. The references must outlive the object.
 class NodePredictor {
  public:
-  NodePredictor(LatticeStore& store, ProjectedShapeCache& shapes, LocalErrors& errors, const EdgeShare& share)
-      : store_(store), shapes_(shapes), errors_(errors), share_(share) {}
+  NodePredictor(LatticeStore& store, VisibilityBuffer& visibility, const SurfaceSamples& surfaces,
+                LocalErrors& errors, const SurfaceShare& share)
+      : store_(store), visibility_(visibility), surfaces_(surfaces), errors_(errors), share_(share) {}
 
   // Returns the nodes that predict a node of this level.
   Surroundings around(const LatticeNode& node, const LatticeLevel& level);
 
-  // Predicts a node from them. `variance` and `primitives` are theirs.
-  Prediction predict(const LatticeNode& node, const Surroundings& around, float variance, int primitives);
-  NodeValue predict(const LatticeNode& node, const Surroundings& around) {
-    return predict(node, around, around.variance(), around.primitives()).value;
-  }
+  // Predicts a node from them.
+  Prediction predict(const LatticeNode& node, const Surroundings& around);
 
   // Returns a node's sample or, where there is none, its prediction.
   NodeValue value(const LatticeNode& node) {
@@ -99,9 +93,10 @@ class NodePredictor {
   bool knows_base(const LatticeNode& node) const;
 
   LatticeStore& store_;
-  ProjectedShapeCache& shapes_;
+  VisibilityBuffer& visibility_;
+  const SurfaceSamples& surfaces_;
   LocalErrors& errors_;
-  const EdgeShare& share_;
+  const SurfaceShare& share_;
 };
 
 inline float4 Surroundings::mean() const {
@@ -118,32 +113,7 @@ inline float Surroundings::variance() const {
   }
   const float each = 1.0F / static_cast<float>(count_);
   const float4 mean = sum * each, variances = squares * each - mean * mean;
-  const float variance = (variances[0] + variances[1] + variances[2]) * (1.0F / 3);
-  return variance > 0 ? variance : 0;
-}
-
-inline float4 Surroundings::mean_on(std::uint32_t primitive) const {
-  float4 sum{};
-  float count = 0;
-  for (std::size_t i = 0; i < count_; ++i) {
-    if (values_[i].primitive() != primitive) continue;
-    sum += values_[i].channels(), count += 1;
-  }
-  return sum * (1 / count);
-}
-
-inline bool Surroundings::is_first(std::size_t i) const {
-  for (std::size_t k = 0; k < i; ++k)
-    if (values_[k].primitive() == values_[i].primitive()) return false;
-  return true;
-}
-
-inline int Surroundings::primitives() const {
-  if (count_ == 0) return 0;
-  if (is_on_one_primitive({values_.data(), count_})) return 1;
-  int count = 0;
-  for (std::size_t i = 0; i < count_; ++i) count += is_first(i) ? 1 : 0;
-  return count;
+  return std::max((variances[0] + variances[1] + variances[2]) * (1.0F / 3), 0.0F);
 }
 
 }  // namespace pprt

@@ -49,7 +49,7 @@ struct TracedFrame {
   std::vector<TracedRank> ranks = {};
   std::vector<std::int32_t> owners = {};       // per tile: the rank that reported it; -1: none has
   std::vector<TileReport> tiles = {};          // per tile; zeros where nobody has reported it
-  std::vector<TransferChoice> transfers = {};  // each rank's in order
+  std::vector<TransferChoice> transfers = {};  // by round and giver
 };
 
 // One run: a file of a run that was resumed holds several.

@@ -240,7 +240,8 @@ class LatticePicture {
       : camera_(subject.camera),
         tracer_(tracer_of(subject)),
         sampler_(Region::whole({camera_.width, camera_.height, kTilePixels}),
-                 [this](std::uint32_t primitive, ImageShape& shape) { tracer_.project(primitive, shape); }) {}
+                 {[this](std::uint32_t primitive, ImageShape& shape) { tracer_.project(primitive, shape); },
+                  tracer_.primitive_count(), tracer_.surfaces()}) {}
 
   // Whether so few samples leave parts of the picture black.
   bool is_too_coarse(double density) const {

@@ -73,6 +73,12 @@ class Stage {
       master_.handle({rank, Tag::kPixels, encode(message)});
     }
   }
+  // Tells that a rank gave its tile `tile` away in a round.
+  void send_transfer(int rank, int frame, int round, int tile) {
+    const TransferMessage message{.frame_index = frame,
+                                  .choices = {{.giver = rank, .round = round, .given = {{tile, 0}}}}};
+    master_.handle({rank, Tag::kTransfers, encode(message)});
+  }
   void send_all(int frame, double sampling_ended_s = 0) {
     for (int rank = 0; rank < kRanks; ++rank) send(rank, frame, sampling_ended_s);
   }
@@ -152,6 +158,20 @@ TEST_CASE("master: a whole frame is delivered at once") {
   REQUIRE(stage.delivered.size() == 1);
   CHECK(stage.delivered[0].late_ranks.empty());
   CHECK(stage.delivered[0].late_ms == Approx(-50));
+}
+
+TEST_CASE("master: transfers are told by round and giver, whichever message comes first") {
+  Stage stage;
+  stage.begin();
+  for (const int rank : {2, 1}) stage.send_transfer(rank, 0, rank == 2 ? 7 : 9, rank);
+  stage.send_transfer(1, 0, 7, 3);
+  stage.send_all(0);
+  stage.end();
+  REQUIRE(stage.delivered.size() == 1);
+  std::vector<std::pair<int, int>> told;
+  for (const TransferChoice& choice : stage.delivered[0].transfers)
+    told.emplace_back(choice.round, choice.giver);
+  CHECK(told == std::vector<std::pair<int, int>>{{7, 1}, {7, 2}, {9, 1}});
 }
 
 BOTH_SAMPLERS_TEST_CASE("master: goes on without lost ranks, and lets the others take over their tiles") {

@@ -11,8 +11,7 @@ namespace {
 // square right of it or below.
 std::vector<std::int64_t> candidates_around(const LatticeNode& node) {
   constexpr int kBasePixels = kBaseSide / kPixelSide, kSize = 3 * kBasePixels;
-  LatticeRefiner refiner(Region::whole({kSize, kSize, kBasePixels}),
-                         [](std::uint32_t, ImageShape& shape) { shape.kind = ImageShape::Kind::kUnknown; });
+  LatticeRefiner refiner(Region::whole({kSize, kSize, kBasePixels}), {});
   REQUIRE(refiner.insert(point_of(node), RaySample()));
   std::vector<TileWeights> weights;
   refiner.weigh(weights);

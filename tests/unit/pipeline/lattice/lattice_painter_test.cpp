@@ -32,7 +32,7 @@ Region region_of_image(bool is_whole) {
 // A picture of samples that a test places.
 class Picture {
  public:
-  explicit Picture(bool is_own = true) : refiner_(region_of_image(is_own), no_shape) {}
+  explicit Picture(bool is_own = true) : refiner_(region_of_image(is_own), {}) {}
 
   bool add(const LatticeNode& node, float value, std::uint32_t primitive = 1) {
     return refiner_.insert(point_of(node), sample_of(value, primitive));
@@ -49,8 +49,6 @@ class Picture {
   }
 
  private:
-  static void no_shape(std::uint32_t, ImageShape& shape) { shape.kind = ImageShape::Kind::kUnknown; }
-
   LatticeRefiner refiner_;
 };
 

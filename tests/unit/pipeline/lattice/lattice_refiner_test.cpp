@@ -49,13 +49,11 @@ Scene disc(bool is_primitive) {
   };
 }
 
-void no_shape(std::uint32_t, ImageShape& shape) {
-  shape.kind = ImageShape::Kind::kUnknown;
-}
+const PrimitiveShapes kNoShapes;
 
 // The shapes of disc(true), the disc to the right of its place by `by` pixels.
-ProjectedShapeCache::View shapes_of_disc(double by) {
-  return [=](std::uint32_t primitive, ImageShape& shape) {
+PrimitiveShapes shapes_of_disc(double by) {
+  const auto project = [=](std::uint32_t primitive, ImageShape& shape) {
     constexpr double kNear = 1e-6;
     constexpr float kFar = 1e9F;
     shape.facets.clear();
@@ -74,6 +72,7 @@ ProjectedShapeCache::View shapes_of_disc(double by) {
                                   -kNear};
     shape.quadric.middle = {-2, 0, 0};
   };
+  return {project, 2};
 }
 
 // Makes a number of samples, or fewer if it ends. Returns their points.
@@ -91,8 +90,8 @@ std::vector<Vec2d> sample(LatticeRefiner& sampler, const Scene& scene, int sampl
 
 // A sampler with so many samples of a scene.
 struct Sampled {
-  Sampled(const Scene& scene, int samples, const ProjectedShapeCache::View& view = no_shape)
-      : sampler(Region::whole({kWidth, kHeight, 32}), view), points(sample(sampler, scene, samples)) {}
+  Sampled(const Scene& scene, int samples, const PrimitiveShapes& shapes = kNoShapes)
+      : sampler(Region::whole({kWidth, kHeight, 32}), shapes), points(sample(sampler, scene, samples)) {}
 
   LatticeRefiner sampler;
   std::vector<Vec2d> points;
@@ -121,8 +120,8 @@ double error_of(const PixelBlock& pixels, const Scene& scene) {
   return std::sqrt(sum / (3.0 * kWidth * kHeight));
 }
 
-double error_with(int samples, const Scene& scene, const ProjectedShapeCache::View& view = no_shape) {
-  Sampled sampled(scene, samples, view);
+double error_with(int samples, const Scene& scene, const PrimitiveShapes& shapes = kNoShapes) {
+  Sampled sampled(scene, samples, shapes);
   return error_of(painted(sampled.sampler), scene);
 }
 
@@ -225,7 +224,7 @@ TEST_CASE("lattice sampler: it ends when nothing is worth a sample") {
 }
 
 TEST_CASE("lattice sampler: a picture of one pixel, and one without samples") {
-  LatticeRefiner tiny(Region::whole({1, 1, 32}), no_shape);
+  LatticeRefiner tiny(Region::whole({1, 1, 32}), kNoShapes);
   PixelBlock pixels;
   tiny.paint({0, 0, 1, 1}, pixels);
   CHECK(pixels.colors == std::vector{Color(0, 0, 0)});
@@ -303,7 +302,7 @@ TEST_CASE("lattice sampler: two regions that tell each other of their border sho
 TEST_CASE("lattice sampler: one colour stays one colour up to a border beyond which nothing is known") {
   constexpr int kColumn = 48;
   for (int samples = 63; samples < 600; samples += 50) {
-    LatticeRefiner left(part_of_image(kColumn, true), no_shape);
+    LatticeRefiner left(part_of_image(kColumn, true), kNoShapes);
     for (int i = 0; i < samples; ++i) {
       const auto point = left.next_point();
       REQUIRE(point);
@@ -332,7 +331,7 @@ TEST_CASE("lattice sampler: a region that grows samples the corners of its new s
 }
 
 TEST_CASE("lattice sampler: a sample at no node, or at one that has a sample, is refused") {
-  LatticeRefiner sampler(part_of_image(48, true), no_shape);
+  LatticeRefiner sampler(part_of_image(48, true), kNoShapes);
   CHECK(sampler.insert({8, 8}, kFlat(8, 8)));
   CHECK_FALSE(sampler.insert({8, 8}, kFlat(8, 8)));
   CHECK_FALSE(sampler.insert({8.1, 8}, kFlat(8, 8)));
@@ -382,7 +381,7 @@ TEST_CASE("lattice sampler: weights are sums over the region's candidates, and f
 }
 
 TEST_CASE("lattice sampler: level by level, each level is whole before the next begins") {
-  LatticeRefiner sampler(Region::whole({kWidth, kHeight, kTileSide}), no_shape, LatticeOrder::kLevels);
+  LatticeRefiner sampler(Region::whole({kWidth, kHeight, kTileSide}), kNoShapes, LatticeOrder::kLevels);
   const std::vector<Vec2d> points = sample_all(sampler, disc(true), 2'000'000);
   CHECK(points.size() > std::size_t{kPixelSide} * kPixelSide * kWidth * kHeight);  // every node
   std::size_t level = 0;
@@ -406,7 +405,7 @@ TEST_CASE("lattice sampler: what is like the picture before is refined evenly, n
     const double wave = std::sin(1.9 * x + std::sin(0.7 * y)) * std::sin(2.3 * y + std::sin(0.9 * x));
     return Color(static_cast<float>(0.5 + height * wave), 0.5F, 0.5F);
   });
-  LatticeRefiner sampler(Region::whole({side, side, 32}), no_shape);
+  LatticeRefiner sampler(Region::whole({side, side, 32}), kNoShapes);
   const auto samples_of_frame = [&] {
     std::array<int, 2> in_half{};
     for (int i = 0; i < samples; ++i) {
@@ -439,7 +438,7 @@ TEST_CASE("lattice sampler: where the last picture was wrong, this one is expect
     }
     return Color(shown, shown, shown);
   });
-  LatticeRefiner sampler(Region::whole({kWidth, kHeight, 32}), no_shape);
+  LatticeRefiner sampler(Region::whole({kWidth, kHeight, 32}), kNoShapes);
   sample(sampler, twigs, kSamples);
   const double first = error_of(painted(sampler), twigs);
   sampler.restart();
@@ -457,7 +456,7 @@ TEST_CASE("lattice sampler: a surprise on a square's side makes the centre beyon
     return is_bright ? Color(0.9F, 0.9F, 0.9F) : Color(0.3F, 0.3F, 0.3F);
   });
   const TileGrid grid{64, 64, kBasePixels};
-  LatticeRefiner sampler(Region::whole(grid), no_shape);
+  LatticeRefiner sampler(Region::whole(grid), kNoShapes);
   std::optional<Vec2d> middle;
   std::set<std::pair<double, double>> sampled;
   for (int i = 0; i < 300 && !middle; ++i) {

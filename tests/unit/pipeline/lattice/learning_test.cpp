@@ -1,10 +1,11 @@
-// What the lattice sampler learns from its samples: errors near a point, errors by class, shares at edges.
+// What the lattice sampler learns from its samples: errors near a point, errors by class, what one sample
+// says of its surface.
 #include <catch2/catch.hpp>
 #include <cstdlib>
 
-#include "pipeline/lattice/edge_share.h"
 #include "pipeline/lattice/error_estimates.h"
 #include "pipeline/lattice/local_errors.h"
+#include "pipeline/lattice/surface_share.h"
 
 namespace pprt::learning_test {
 
@@ -85,8 +86,8 @@ TEST_CASE("local errors: levels are octaves of the squared error") {
 
 TEST_CASE("error estimates: a class that proves worse than expected is expected to be worse") {
   ErrorEstimates estimates;
-  const NodeClass better = class_of(1, 0.01F, 3), worse = class_of(1, 0.01F, 4),
-                  unseen = class_of(2, 0.01F, 3);
+  const NodeClass better = class_of(Basis::kAllAround, 0.01F, 3),
+                  worse = class_of(Basis::kAllAround, 0.01F, 4), unseen = class_of(Basis::kSome, 0.01F, 3);
   const float before = estimates.factor(worse) / estimates.factor(better);
   const float unseen_before = estimates.factor(unseen) / estimates.factor(better);
   for (int i = 0; i < 100; ++i) {
@@ -102,28 +103,31 @@ TEST_CASE("error estimates: a class that proves worse than expected is expected 
 }
 
 TEST_CASE("error estimates: classes differ by each of their parts, and details grow with the variance") {
-  const NodeClass c = class_of(2, 0.01F, 5);
-  CHECK(class_of(3, 0.01F, 5) != c);
-  CHECK(class_of(2, 0.1F, 5) != c);
-  CHECK(class_of(2, 0.01F, 6) != c);
-  CHECK(class_of(kPrimitiveCounts, 1, kErrorLevels - 1) < kNodeClasses);
-  CHECK(class_of(1, 0, 0) == 0);
+  const NodeClass c = class_of(Basis::kSome, 0.01F, 5);
+  CHECK(class_of(Basis::kOne, 0.01F, 5) != c);
+  CHECK(class_of(Basis::kSome, 0.1F, 5) != c);
+  CHECK(class_of(Basis::kSome, 0.01F, 6) != c);
+  CHECK(class_of(Basis::kNothing, 1, kErrorLevels - 1) < kNodeClasses);
+  CHECK(class_of(Basis::kAllAround, 0, 0) == 0);
   CHECK(detail_of(0) > 0);
   CHECK(detail_of(0.1F) > detail_of(0.01F));
 }
 
-TEST_CASE("edge share: the share is the one with which predictions would have been right") {
-  EdgeShare share;
-  const float expected = share.of(2, 5);
-  CHECK((expected > 0.5F && expected < 1));
-  for (int i = 0; i < 1000; ++i) share.learn(2, 5, 0.3F * 0.04F, 0.04F);
-  CHECK(share.of(2, 5) == expected);  // not before update()
+TEST_CASE("surface share: the share is the one with which predictions would have been right") {
+  SurfaceShare share;
+  const float expected = share.of(Basis::kOne, 5);
+  CHECK((expected > 0.9F && expected < 1));
+  for (int i = 0; i < 1000; ++i) share.learn(Basis::kOne, 5, 0.3F * 0.04F, 0.04F);
+  CHECK(share.of(Basis::kOne, 5) == expected);  // not before update()
   share.update();
-  CHECK(share.of(2, 5) == Approx(0.3F).margin(0.01));
-  CHECK(share.of(3, 5) == expected);
-  for (int i = 0; i < 10000; ++i) share.learn(3, 5, 4, 0.04F);
+  CHECK(share.of(Basis::kOne, 5) == Approx(0.3F).margin(0.01));
+  CHECK(share.of_one() == Approx(0.3F).margin(0.01));
+  CHECK(share.of(Basis::kSome, 5) == expected);
+  for (int i = 0; i < 10000; ++i) share.learn(Basis::kSome, 5, 4, 0.04F);
   share.update();
-  CHECK(share.of(3, 5) == 1);
+  CHECK(share.of(Basis::kSome, 5) == 1);
+  CHECK(share.of_one() == Approx(0.3F).margin(0.01));  // of one sample, and of those near by
+  CHECK(share.of(Basis::kAllAround, 5) == 1);
 }
 
 }  // namespace pprt::learning_test

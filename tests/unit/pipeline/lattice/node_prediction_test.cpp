@@ -15,16 +15,16 @@ class Lattice {
  public:
   void add(const LatticeNode& node, float value) { store_.set_sample(node, NodeValue(float4{value}, 1)); }
   float predicted(const LatticeNode& node) {
-    return predictor_.predict(node, predictor_.around(node, level_of(node))).channels()[0];
+    return predictor_.predict(node, predictor_.around(node, level_of(node))).value.channels()[0];
   }
 
  private:
   LatticeStore store_{64, 64};
-  ProjectedShapeCache shapes_{
-      [](std::uint32_t, ImageShape& shape) { shape.kind = ImageShape::Kind::kUnknown; }};
+  VisibilityBuffer visibility_{64, 64, {}};
+  SurfaceSamples surfaces_{64 * kPixelSide, 64 * kPixelSide};
   LocalErrors errors_{64 * kPixelSide, 64 * kPixelSide};
-  EdgeShare share_;
-  NodePredictor predictor_{store_, shapes_, errors_, share_};
+  SurfaceShare share_;
+  NodePredictor predictor_{store_, visibility_, surfaces_, errors_, share_};
 };
 
 // One of the eight ways to turn and mirror the image.

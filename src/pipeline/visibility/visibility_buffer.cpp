@@ -1,0 +1,296 @@
+#include "pipeline/visibility/visibility_buffer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "pipeline/silhouettes/shape_nearness.h"
+#include "pipeline/visibility/pixel_shares.h"
+
+namespace pprt {
+namespace {
+
+// Returns an upper bound of a facet's nearness.
+float nearest_of(const ImageFacet& facet) {
+  const ImageBounds& b = facet.bounds;
+  if (b.x0 == kEverywhere.x0) return std::numeric_limits<float>::infinity();
+  const LinearForm& n = facet.nearness;
+  const double most =
+      n.constant + std::max(n.per_x * b.x0, n.per_x * b.x1) + std::max(n.per_y * b.y0, n.per_y * b.y1);
+  constexpr double kGrowth = 1 + 0x1p-16;
+  return static_cast<float>(most * kGrowth);
+}
+
+}  // namespace
+
+VisibilityBuffer::VisibilityBuffer(int right, int bottom, PrimitiveShapes shapes)
+    : right_(right), bottom_(bottom), shapes_(std::move(shapes)) {
+  forget(kFine);
+}
+
+void VisibilityBuffer::forget(const Fineness& fineness) {
+  constexpr std::uint32_t kMost = 1 << 20;
+  state_ =
+      shapes_.project && shapes_.count > 0 && shapes_.count <= kMost ? State::kNotAsked : State::kUnknown;
+  density_ = fineness.points_per_side, share_points_ = fineness.share_points;
+  columns_ = (right_ + tile_pixels() - 1) / tile_pixels(),
+  rows_ = (bottom_ + tile_pixels() - 1) / tile_pixels();
+  is_seen_.assign(static_cast<std::size_t>(columns_ * rows_), 0);
+}
+
+// Projects all primitives. False where one has no shape.
+bool VisibilityBuffer::project_all() {
+  items_.clear(), quadrics_.clear(), facets_.clear();
+  state_ = State::kUnknown;
+  for (std::uint32_t primitive = 1; primitive <= shapes_.count; ++primitive) {
+    shapes_.project(primitive, asked_);
+    if (asked_.kind == ImageShape::Kind::kUnknown) return false;
+    add(primitive, asked_);
+  }
+  assign_to_tiles();
+  if (tiles_.size() < is_seen_.size()) tiles_.resize(is_seen_.size());
+  nearest_.resize(kTilePlaces);
+  numbers_.resize(kTilePlaces);
+  state_ = State::kKnown;
+  return true;
+}
+
+void VisibilityBuffer::add(std::uint32_t primitive, const ImageShape& shape) {
+  const auto origin_of = [this](const ImageBounds& b) {
+    const auto middle = [](float low, float high, int most) {
+      const double from = std::max(low, 0.0F), to = std::min(high, static_cast<float>(most));
+      return 0.5 * (from + to);
+    };
+    return Vec2d(middle(b.x0, b.x1, right_), middle(b.y0, b.y1, bottom_));
+  };
+  const auto is_in_picture = [this](const ImageBounds& b) {
+    return b.x1 >= 0 && b.y1 >= 0 && b.x0 <= static_cast<float>(right_) &&
+           b.y0 <= static_cast<float>(bottom_) && b.x0 <= b.x1;
+  };
+  if (shape.kind == ImageShape::Kind::kQuadric) {
+    const ImageBounds& box = shape.quadric.bounds;
+    if (!is_in_picture(box)) return;
+    const Vec2d origin = origin_of(box);
+    items_.push_back(
+        {primitive, static_cast<std::uint32_t>(quadrics_.size()), true, shape.quadric.nearest, origin, box});
+    quadrics_.emplace_back(shape.quadric, origin);
+    return;
+  }
+  for (const ImageFacet& facet : shape.facets) {
+    if (!is_in_picture(facet.bounds)) continue;
+    const Vec2d origin = origin_of(facet.bounds);
+    items_.push_back({primitive, static_cast<std::uint32_t>(facets_.size()), false, nearest_of(facet), origin,
+                      facet.bounds});
+    facets_.emplace_back(facet, origin);
+  }
+}
+
+VisibilityBuffer::TileRange VisibilityBuffer::tiles_that_meet(const ImageBounds& b) const {
+  const auto side = static_cast<float>(tile_pixels());
+  const auto tile = [side](float at, int count) {
+    return static_cast<int>(std::clamp(at / side, 0.0F, static_cast<float>(count - 1)));
+  };
+  return {tile(b.x0 - 1, columns_), tile(b.y0 - 1, rows_), tile(b.x1 + 1, columns_), tile(b.y1 + 1, rows_)};
+}
+
+// By counting, so that each tile's items are in the order of primitives: of two equally near ones the first
+// is seen.
+void VisibilityBuffer::assign_to_tiles() {
+  const auto for_each_tile = [this](const Item& item, const auto& visit) {
+    const TileRange tiles = tiles_that_meet(item.bounds);
+    for (int y = tiles.y0; y <= tiles.y1; ++y)
+      for (int x = tiles.x0; x <= tiles.x1; ++x) visit(static_cast<std::size_t>(y * columns_ + x));
+  };
+  first_of_tile_.assign(is_seen_.size() + 1, 0);
+  for (const Item& item : items_) for_each_tile(item, [this](std::size_t t) { ++first_of_tile_[t + 1]; });
+  for (std::size_t t = 1; t < first_of_tile_.size(); ++t) first_of_tile_[t] += first_of_tile_[t - 1];
+  of_tile_.resize(first_of_tile_.back());
+  std::vector<std::uint32_t> next(first_of_tile_.begin(), first_of_tile_.end() - 1);
+  for (std::size_t i = 0; i < items_.size(); ++i)
+    for_each_tile(items_[i], [&](std::size_t t) { of_tile_[next[t]++] = static_cast<std::uint32_t>(i); });
+}
+
+void VisibilityBuffer::see(std::size_t number) {
+  is_seen_[number] = 1;
+  if (!tiles_[number]) tiles_[number] = std::make_unique_for_overwrite<VisibleTile>();
+  VisibleTile& tile = *tiles_[number];
+  tile.primitives_.assign(1, 0);
+  tile.first_item_.assign(1, 0);
+  const std::uint32_t first = first_of_tile_[number], end = first_of_tile_[number + 1];
+  if (first == end) {
+    tile.points_.fill(0);
+    tile.uniform_.fill(~0U);
+    tile.surfaces_.assign(1, 0), tile.first_of_surface_.assign(1, 0);
+    return;
+  }
+  std::fill(nearest_.begin(), nearest_.end(), 0.0F);
+  std::fill(numbers_.begin(), numbers_.end(), 0U);
+  order_.clear();
+  for (std::uint32_t i = first; i < end; ++i) {
+    const Item& item = items_[of_tile_[i]];
+    if (item.primitive != tile.primitives_.back()) {
+      tile.primitives_.push_back(item.primitive);
+      tile.first_item_.push_back(i);
+    }
+    order_.push_back({item.nearest, of_tile_[i], static_cast<std::uint32_t>(tile.primitives_.size() - 1)});
+  }
+  // The nearest first, for they hide others. The order changes nothing else: of equally near points that of
+  // the first primitive is seen.
+  std::sort(order_.begin(), order_.end(), [](const Numbered& a, const Numbered& b) {
+    return a.nearest != b.nearest ? a.nearest > b.nearest : a.item < b.item;
+  });
+  const auto column = static_cast<int>(number) % columns_, row = static_cast<int>(number) / columns_;
+  const int left = column * tile_pixels(), top = row * tile_pixels();
+  const auto side = static_cast<float>(tile_pixels()), density = static_cast<float>(density_);
+  const auto x = static_cast<float>(left), y = static_cast<float>(top);
+  blocks_.clear();
+  for (const auto& [nearest, number_of_item, own] : order_) {
+    const Item& item = items_[number_of_item];
+    const ImageBounds box = {item.bounds.x0 - x, item.bounds.y0 - y, std::min(item.bounds.x1 - x, side),
+                             std::min(item.bounds.y1 - y, side)};
+    const Vec2f corner(static_cast<float>(left - item.origin.x), static_cast<float>(top - item.origin.y));
+    const TileTarget to{1 / density, density, corner, box, nearest_.data(), numbers_.data()};
+    const PointSpan columns = to.columns(), rows = to.rows();
+    if (columns.begin >= columns.end || rows.begin >= rows.end) continue;
+    if (!blocks_.may_show(nearest, columns.begin, rows.begin, columns.end - 1, rows.end - 1, nearest_.data()))
+      continue;
+    if (item.is_quadric) {
+      rasterise(quadrics_[item.shape], own, to);
+    } else {
+      if (misses(facets_[item.shape], to)) continue;
+      rasterise(facets_[item.shape], own, to);
+    }
+    blocks_.touch(columns.begin, rows.begin, columns.end - 1, rows.end - 1);
+  }
+  compress(tile);
+  find_surfaces(tile);
+}
+
+// Numbers each surface by the first of its primitives, and marks the pixels that see one only.
+void VisibilityBuffer::find_surfaces(VisibleTile& tile) {
+  const std::size_t count = tile.primitives_.size();
+  tile.surfaces_.resize(count), tile.first_of_surface_.resize(count);
+  bool is_one_each = true;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t surface = shapes_.surface_of(tile.primitives_[i]);
+    tile.surfaces_[i] = surface;
+    // Primitives ascend, and a surface has the number of its first one, which need not be in the tile.
+    std::size_t first = i;
+    if (surface != tile.primitives_[i]) {
+      const auto [place, is_new] = first_of_surface_.try_emplace(surface, i);
+      first = place->second;
+    } else if (!shapes_.surfaces.empty()) {
+      first_of_surface_.try_emplace(surface, i);
+    }
+    tile.first_of_surface_[i] = static_cast<std::uint16_t>(first);
+    is_one_each = is_one_each && first == i;
+  }
+  first_of_surface_.clear();
+  if (is_one_each) {
+    mark_uniform(tile.points_.data(), density_, tile.uniform_.data());
+    return;
+  }
+  on_surface_.resize(tile.points_.size());
+  for (std::size_t i = 0; i < on_surface_.size(); ++i)
+    on_surface_[i] = tile.first_of_surface_[tile.points_[i]];
+  mark_uniform(on_surface_.data(), density_, tile.uniform_.data());
+}
+
+// Keeps the points as 16 bits. Of more than 2^16 primitives in a tile those that are seen get new numbers:
+// they are no more than there are points.
+void VisibilityBuffer::compress(VisibleTile& tile) {
+  constexpr std::size_t kMost = std::size_t{1} << 16;
+  if (tile.primitives_.size() > kMost) {
+    std::vector<std::uint32_t> new_number(tile.primitives_.size(), 0);
+    std::vector<std::uint32_t> seen(1, 0), first_item(1, 0);
+    for (std::uint32_t& number : numbers_) {
+      if (number != 0 && new_number[number] == 0) {
+        new_number[number] = static_cast<std::uint32_t>(seen.size());
+        seen.push_back(tile.primitives_[number]), first_item.push_back(tile.first_item_[number]);
+      }
+      number = new_number[number];
+    }
+    tile.primitives_ = std::move(seen), tile.first_item_ = std::move(first_item);
+  }
+  narrow(numbers_.data(), numbers_.size(), tile.points_.data());
+}
+
+// Calls visit(quadric or facet, from its origin) for the parts of a primitive in a tile whose bounds meet a
+// rectangle.
+template <class Visit>
+void VisibilityBuffer::for_each_item(const VisibleTile& tile, std::uint16_t number, const ImageBounds& within,
+                                     const Visit& visit) const {
+  const std::uint32_t primitive = tile.primitives_[number];
+  if (primitive == 0) return;
+  for (std::uint32_t i = tile.first_item_[number]; i < of_tile_.size(); ++i) {
+    const Item& item = items_[of_tile_[i]];
+    if (item.primitive != primitive) return;
+    const ImageBounds& b = item.bounds;
+    if (b.x0 > within.x1 || b.x1 < within.x0 || b.y0 > within.y1 || b.y1 < within.y0) continue;
+    const Vec2f from(static_cast<float>(within.x0 - item.origin.x),
+                     static_cast<float>(within.y0 - item.origin.y));
+    if (item.is_quadric) {
+      visit(quadrics_[item.shape], from);
+    } else {
+      visit(facets_[item.shape], from);
+    }
+  }
+}
+
+std::uint32_t VisibilityBuffer::at(const Vec2d& point) {
+  const int side = tile_pixels();
+  const int column = std::min(static_cast<int>(point.x) / side, columns_ - 1);
+  const int row = std::min(static_cast<int>(point.y) / side, rows_ - 1);
+  const VisibleTile& seen = tile(column * side, row * side);
+  const double x = (point.x - column * side) * density_, y = (point.y - row * side) * density_;
+  const int left = static_cast<int>(x), top = static_cast<int>(y);
+  const int right = left < x ? left + 1 : left, bottom = top < y ? top + 1 : top;
+  const std::array<std::uint16_t, 4> around = {seen.row(top)[left], seen.row(top)[right],
+                                               seen.row(bottom)[left], seen.row(bottom)[right]};
+  if (around[0] == around[1] && around[0] == around[2] && around[0] == around[3])
+    return seen.surfaces()[around[0]];
+  const auto u = static_cast<float>(point.x), v = static_cast<float>(point.y);
+  std::uint16_t nearest = 0;
+  float most = 0;
+  for (const std::uint16_t number : around) {
+    for_each_item(seen, number, {u, v, u, v}, [&](const auto& shape, const Vec2f& from) {
+      const float n = nearness(shape, from.x, from.y);
+      if (n > most) most = n, nearest = number;
+    });
+  }
+  return seen.surfaces()[nearest];
+}
+
+void VisibilityBuffer::shares(int pixel_x, int pixel_y, std::span<const std::uint16_t> numbers,
+                              std::span<float> shares) {
+  const VisibleTile& seen = tile(pixel_x, pixel_y);
+  const auto x = static_cast<float>(pixel_x), y = static_cast<float>(pixel_y);
+  const auto vectors = static_cast<std::size_t>(share_points_ / kPoints);
+  SharePoints nearest, near;
+  std::array<EightIds, kMostShareVectors> owner;  // of a point, by its place in `numbers` and from 1
+  for (std::size_t k = 0; k < vectors; ++k) nearest[k] = PerPoint{}, owner[k] = EightIds{};
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    for (std::size_t k = 0; k < vectors; ++k) near[k] = PerPoint{};
+    for_each_item(seen, numbers[i], {x, y, x + 1, y + 1}, [&](const auto& shape, const Vec2f& from) {
+      raise(shape, from.x, from.y, {near.data(), vectors});
+    });
+    for (std::size_t k = 0; k < vectors; ++k) {
+      const auto is_nearer = near[k] > nearest[k];
+      nearest[k] = is_nearer ? near[k] : nearest[k];
+      owner[k] = is_nearer ? EightIds{} + static_cast<std::uint32_t>(i + 1) : owner[k];
+    }
+  }
+  std::fill(shares.begin(), shares.end(), 0.0F);
+  const auto background = std::find(numbers.begin(), numbers.end(), 0) - numbers.begin();
+  float all = 0;
+  for (std::size_t k = 0; k < vectors; ++k) {
+    for (int lane = 0; lane < kPoints; ++lane) {
+      const auto place = owner[k][lane] == 0 ? static_cast<std::size_t>(background) : owner[k][lane] - 1;
+      if (place < numbers.size()) shares[place] += 1, all += 1;
+    }
+  }
+  for (float& share : shares) share = all > 0 ? share / all : 1 / static_cast<float>(numbers.size());
+}
+
+}  // namespace pprt

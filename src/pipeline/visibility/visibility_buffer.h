@@ -1,0 +1,182 @@
+// What is seen at each point of a picture: the nearest primitive, found by rasterising projected shapes.
+//
+// Points lie a half or a quarter of a pixel apart, pixels' corners among them, in tiles of 64 x 64 intervals.
+// A tile is rasterised when it is asked for first: its depths then stay in the first cache. Source: a
+// visibility buffer, as in Burns and Hunt, "The Visibility Buffer: A Cache-Friendly Approach to Deferred
+// Shading", JCGT 2013; quadrics as in Sigg et al., "GPU-Based Ray-Casting of Quadratic Surfaces", 2006.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "base/image_shape.h"
+#include "base/vector.h"
+#include "pipeline/silhouettes/projected_shape_cache.h"
+#include "pipeline/visibility/tile_raster.h"
+
+namespace pprt {
+
+// What is seen of a tile: at each point a number of the tile's own, by which its primitives are listed, and
+// the surfaces that these are parts of.
+class VisibleTile {
+ public:
+  // Returns the surface at a point, counted from the tile's corner; 0: the background.
+  std::uint32_t at(int x, int y) const { return surfaces_[row(y)[x]]; }
+
+  // Returns the own numbers of a row of points. The background's is 0.
+  const std::uint16_t* row(int y) const { return points_.data() + static_cast<std::size_t>(y * kTileStride); }
+
+  // By the own numbers: the surfaces, and the first number of the same surface.
+  std::span<const std::uint32_t> surfaces() const { return surfaces_; }
+  std::span<const std::uint16_t> first_of_surface() const { return first_of_surface_; }
+
+  // Whether all points of a square are on one surface, its border included. Corner and side are whole
+  // pixels.
+  bool is_uniform(int pixel_x, int pixel_y, int pixels) const {
+    const std::uint32_t columns = (pixels < 32 ? (1U << pixels) - 1 : ~0U) << pixel_x;
+    std::uint32_t all = columns;
+    for (int y = pixel_y; y < pixel_y + pixels; ++y) all &= uniform_[static_cast<std::size_t>(y)];
+    return all == columns;
+  }
+
+ private:
+  friend class VisibilityBuffer;
+
+  std::array<std::uint16_t, kTilePlaces> points_;
+  std::array<std::uint32_t, 32> uniform_;  // pixels of a row of pixels, a bit each
+  std::vector<std::uint32_t> primitives_, surfaces_;
+  std::vector<std::uint16_t> first_of_surface_;
+  std::vector<std::uint32_t> first_item_;  // of each primitive, in VisibilityBuffer::of_tile_
+};
+
+// The shapes of a scene's primitives, numbered from 1 to `count`, as Probe::project makes them. None: nothing
+// can be known of what is seen.
+struct PrimitiveShapes {
+  ProjectedShapeCache::View project = {};
+  std::uint32_t count = 0;
+  std::span<const std::uint32_t> surfaces = {};
+
+  // Primitives from other ranks may have any number.
+  std::uint32_t surface_of(std::uint32_t primitive) const {
+    return primitive < surfaces.size() ? surfaces[primitive] : primitive;
+  }
+};
+
+class VisibilityBuffer {
+ public:
+  // For the points (0, 0) to (right, bottom), pixels.
+  VisibilityBuffer(int right, int bottom, PrimitiveShapes shapes);
+
+  // How fine it is. Little is seen of finer edges where samples are few.
+  struct Fineness {
+    int points_per_side;  // of a pixel
+    int share_points;     // of a pixel, for shares(); 0: it has no finer ones than these points tell
+
+    friend bool operator==(const Fineness&, const Fineness&) = default;
+  };
+  static constexpr Fineness kCoarse = {2, 0}, kMiddle = {2, 32}, kFine = {4, 64};
+
+  // The eye or what it sees has moved: all is to be seen anew.
+  void forget(const Fineness& fineness);
+  void forget() { forget(fineness()); }
+
+  Fineness fineness() const { return {density_, share_points_}; }
+
+  std::uint32_t surface_of(std::uint32_t primitive) const { return shapes_.surface_of(primitive); }
+
+  int points_per_side() const { return density_; }
+  bool has_shares() const { return share_points_ > 0; }
+
+  // Whether what is seen can be known: every primitive has a shape (image_shape.h), and they are not too
+  // many.
+  bool is_known() { return state_ == State::kKnown || (state_ == State::kNotAsked && project_all()); }
+
+  // Returns the tile that holds a pixel. Only if is_known().
+  const VisibleTile& tile(int pixel_x, int pixel_y) {
+    const auto number =
+        static_cast<std::size_t>(pixel_y / tile_pixels() * columns_ + pixel_x / tile_pixels());
+    if (!is_seen_[number]) see(number);
+    return *tiles_[number];
+  }
+  // Returns the surface at an image point, pixels: of the primitives at the points around it the nearest
+  // there. Only if is_known().
+  std::uint32_t at(const Vec2d& point);
+
+  // Replaces `shares` by the part of a pixel in which each of some primitives is seen, where no others are.
+  // They are told by the tile's own numbers. Shares sum up to 1. Only if is_known().
+  void shares(int pixel_x, int pixel_y, std::span<const std::uint16_t> numbers, std::span<float> shares);
+
+  int tile_pixels() const { return kTileIntervals / density_; }
+
+  // Returns the surface at a point of the picture, counted in intervals; 0: the background. Only if
+  // is_known().
+  std::uint32_t at(int x, int y) {
+    const int column = std::min(x / kTileIntervals, columns_ - 1),
+              row = std::min(y / kTileIntervals, rows_ - 1);
+    const auto number = static_cast<std::size_t>(row * columns_ + column);
+    if (!is_seen_[number]) see(number);
+    return tiles_[number]->at(x - column * kTileIntervals, y - row * kTileIntervals);
+  }
+
+ private:
+  enum class State : std::uint8_t { kNotAsked, kKnown, kUnknown };
+
+  // A quadric or a facet.
+  struct Item {
+    std::uint32_t primitive = 0;
+    std::uint32_t shape = 0;  // its number among the quadrics or facets
+    bool is_quadric = false;
+    float nearest = 0;  // no point of it is nearer
+    Vec2d origin{0, 0};
+    ImageBounds bounds;
+  };
+  struct TileRange {
+    int x0, y0, x1, y1;  // inclusive; empty: x1 < x0
+  };
+
+  template <class Visit>
+  void for_each_item(const VisibleTile& tile, std::uint16_t number, const ImageBounds& within,
+                     const Visit& visit) const;
+  TileRange tiles_that_meet(const ImageBounds& bounds) const;
+  bool project_all();
+  void add(std::uint32_t primitive, const ImageShape& shape);
+  void assign_to_tiles();
+  void see(std::size_t tile);
+  void compress(VisibleTile& tile);
+  void find_surfaces(VisibleTile& tile);
+
+  int right_, bottom_;
+  int density_ = 4;             // points along a pixel's side
+  int share_points_ = 64;       // Fineness
+  int columns_ = 0, rows_ = 0;  // of tiles
+  PrimitiveShapes shapes_;
+  State state_ = State::kNotAsked;
+  std::vector<Item> items_;
+  std::vector<ProjectedQuadric> quadrics_;
+  std::vector<ProjectedFacet> facets_;
+  std::vector<std::uint32_t> first_of_tile_, of_tile_;  // items by tile
+  std::vector<std::uint8_t> is_seen_;                   // per tile
+  std::vector<std::unique_ptr<VisibleTile>> tiles_;     // null: never rasterised
+  // Of the tile being rasterised. An item, and its primitive's number in the tile.
+  struct Numbered {
+    float nearest;
+    std::uint32_t item;
+    std::uint32_t number;
+  };
+  std::vector<Numbered> order_;
+  DepthBlocks blocks_;
+  std::vector<float> nearest_;          // of the tile being rasterised
+  std::vector<std::uint32_t> numbers_;  // the same
+  std::vector<std::uint16_t> on_surface_;
+  std::unordered_map<std::uint32_t, std::size_t> first_of_surface_;
+  ImageShape asked_;
+};
+
+}  // namespace pprt

@@ -1,0 +1,129 @@
+// What the visibility buffer shows is what eye rays hit, whatever the scene's place and size.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <vector>
+
+#include "numeric/pictures.h"
+#include "pipeline/visibility/visibility_buffer.h"
+#include "trace/compiled_scene.h"
+#include "unit/trace/test_scenes.h"
+
+namespace pprt::visibility_test {
+
+using namespace pprt::test;
+
+namespace {
+
+constexpr int kSize = 128;
+
+// Rays that pass an edge on the other side: float against double. Measured: at most 12 of 66,049 points
+// (gears).
+constexpr double kShareOfEdges = 0.0005;
+
+PrimitiveShapes shapes_of(const Tracer& tracer) {
+  return {[&tracer](std::uint32_t primitive, ImageShape& shape) { tracer.project(primitive, shape); },
+          tracer.primitive_count()};
+}
+
+View square(View view) {
+  view.width = view.height = kSize;
+  return view;
+}
+
+// Returns the share of the points, half a pixel apart, at which the buffer shows another primitive than an
+// eye ray hits. `shift`: the rays are sent so many pixels to the right.
+double share_wrong(const SceneDescription& scene, double shift = 0) {
+  const CompiledScene compiled = compile(scene);
+  Tracer tracer(compiled, compiled.camera(square(*scene.view)));
+  VisibilityBuffer buffer(kSize, kSize, shapes_of(tracer));
+  buffer.forget(VisibilityBuffer::kCoarse);
+  REQUIRE(buffer.is_known());
+  int wrong = 0, all = 0;
+  for (int y = 0; y <= 2 * kSize; ++y) {
+    for (int x = 0; x <= 2 * kSize; ++x) {
+      wrong += buffer.at(x, y) != tracer.first_hit(0.5 * x + shift, 0.5 * y).primitive ? 1 : 0;
+      ++all;
+    }
+  }
+  return static_cast<double>(wrong) / all;
+}
+
+}  // namespace
+
+TEST_CASE("visibility: at every point the primitive that an eye ray hits, at home, far away and tiny") {
+  for (const SceneDescription& scene : spd_scenes()) {
+    INFO(scene.name);
+    const double at_home = share_wrong(scene);
+    CHECK(at_home <= kShareOfEdges);
+    CHECK(share_wrong(moved(scene, {1e6, -1e6, 1e6}, 1)) <= 2 * kShareOfEdges + at_home);
+    CHECK(share_wrong(moved(scene, {0, 0, 0}, 1e-6)) <= kShareOfEdges + at_home);
+    CHECK(share_wrong(scene, 0.5) > 10 * kShareOfEdges);  // the control: another point is another picture
+  }
+}
+
+TEST_CASE("visibility: facets that share their edges leave no gap") {
+  constexpr int kRows = 40;
+  SceneDescription scene = scene_with(Material(), {});
+  for (int i = 0; i < kRows; ++i) {
+    for (int j = 0; j < kRows; ++j) {
+      const auto corner = [](int row, int column) {
+        return Vec3d(0.31 * column - 6.2, 0.29 * row - 5.8, std::sin(0.7 * row) + std::cos(1.3 * column));
+      };
+      add_polygon(scene, std::vector<Vec3d>{corner(i, j), corner(i, j + 1), corner(i + 1, j)}, 0);
+      add_polygon(scene, std::vector<Vec3d>{corner(i + 1, j), corner(i, j + 1), corner(i + 1, j + 1)}, 0);
+    }
+  }
+  const CompiledScene compiled = compile(scene);
+  for (const double distance : {4.0, 6.0, 1e4}) {
+    View view = square(view_from({0.1, 0.2, distance}, {0, 0, 0}));
+    view.angle_degrees = 2 * std::atan(5 / distance) * 57.29578;
+    const Tracer tracer(compiled, compiled.camera(view));
+    VisibilityBuffer buffer(kSize, kSize, shapes_of(tracer));
+    REQUIRE(buffer.is_known());
+    int gaps = 0;
+    for (int y = 0; y <= 4 * kSize; ++y)
+      for (int x = 0; x <= 4 * kSize; ++x)
+        gaps += buffer.at(x, y) == 0 && tracer.first_hit(0.25 * x, 0.25 * y).primitive != 0 ? 1 : 0;
+    INFO("distance " << distance);
+    CHECK(gaps == 0);
+  }
+}
+
+TEST_CASE("visibility: shares of a pixel are those that many rays find") {
+  const SceneDescription scene = spd_scenes().front();
+  const CompiledScene compiled = compile(scene);
+  Tracer tracer(compiled, compiled.camera(square(*scene.view)));
+  VisibilityBuffer buffer(kSize, kSize, shapes_of(tracer));
+  REQUIRE(buffer.is_known());
+  constexpr int kRays = 16;  // along a side
+  double error = 0, worst = 0;
+  int mixed = 0;
+  for (int y = 0; y < kSize; ++y) {
+    for (int x = 0; x < kSize; ++x) {
+      const VisibleTile& tile = buffer.tile(x, y);
+      const int left = 4 * (x % buffer.tile_pixels()), top = 4 * (y % buffer.tile_pixels());
+      const std::vector<std::uint16_t> numbers = {tile.row(top)[left], tile.row(top + 4)[left + 4]};
+      const std::uint32_t first = tile.surfaces()[numbers[0]], second = tile.surfaces()[numbers[1]];
+      if (first == second) continue;
+      std::vector<float> shares(2);
+      buffer.shares(x, y, numbers, shares);
+      CHECK(shares[0] + shares[1] == Approx(1));
+      int found_first = 0, found_both = 0;
+      for (int j = 0; j < kRays; ++j) {
+        for (int i = 0; i < kRays; ++i) {
+          const std::uint32_t seen = tracer.first_hit(x + (i + 0.5) / kRays, y + (j + 0.5) / kRays).primitive;
+          found_first += seen == first ? 1 : 0;
+          found_both += seen == first || seen == second ? 1 : 0;
+        }
+      }
+      if (found_both < kRays * kRays) continue;  // a third primitive is seen
+      const double wrong = std::abs(shares[0] - found_first / static_cast<double>(found_both));
+      error += wrong, worst = std::max(worst, wrong), ++mixed;
+    }
+  }
+  REQUIRE(mixed > 100);
+  CHECK(error / mixed < 0.02);
+  CHECK(worst < 0.1);
+}
+
+}  // namespace pprt::visibility_test

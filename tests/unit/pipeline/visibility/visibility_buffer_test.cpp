@@ -1,0 +1,164 @@
+// The visibility buffer on shapes made by hand.
+#include "pipeline/visibility/visibility_buffer.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <vector>
+
+namespace pprt::visibility_buffer_test {
+namespace {
+
+constexpr int kSize = 64;
+
+// A triangle parallel to the image at some nearness.
+ImageFacet triangle(const std::array<Vec2d, 3>& corners, double nearness) {
+  ImageFacet facet;
+  facet.bounds = {1e9F, 1e9F, -1e9F, -1e9F};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec2d &a = corners[i], &b = corners[(i + 1) % 3];
+    facet.edges[i] = {a.x * b.y - a.y * b.x, a.y - b.y, b.x - a.x};
+    const auto x = static_cast<float>(a.x), y = static_cast<float>(a.y);
+    ImageBounds& box = facet.bounds;
+    box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x), std::max(box.y1, y)};
+  }
+  facet.nearness = {nearness, 0, 0};
+  return facet;
+}
+
+// Rectangles, each a primitive of two triangles.
+struct Rectangle {
+  double x0, y0, x1, y1, nearness;
+};
+
+PrimitiveShapes shapes_of(const std::vector<Rectangle>& rectangles) {
+  return {[rectangles](std::uint32_t primitive, ImageShape& shape) {
+            const Rectangle& r = rectangles.at(primitive - 1);
+            shape.kind = ImageShape::Kind::kFacets;
+            shape.facets = {triangle({{{r.x0, r.y0}, {r.x1, r.y0}, {r.x0, r.y1}}}, r.nearness),
+                            triangle({{{r.x1, r.y0}, {r.x1, r.y1}, {r.x0, r.y1}}}, r.nearness)};
+          },
+          static_cast<std::uint32_t>(rectangles.size())};
+}
+
+}  // namespace
+
+TEST_CASE(
+    "visibility buffer: the nearest is seen, whatever the order, and the background where there is none") {
+  const std::vector<Rectangle> rectangles = {
+      {10, 10, 50, 50, 1}, {20.25, 20.25, 30.25, 30.25, 2}, {25, 5, 35, 40, 0.5}};
+  for (const auto& fineness :
+       {VisibilityBuffer::kCoarse, VisibilityBuffer::kMiddle, VisibilityBuffer::kFine}) {
+    VisibilityBuffer buffer(kSize, kSize, shapes_of(rectangles));
+    buffer.forget(fineness);
+    REQUIRE(buffer.is_known());
+    const int side = fineness.points_per_side;
+    int wrong = 0;
+    for (int y = 0; y <= side * kSize; ++y) {
+      for (int x = 0; x <= side * kSize; ++x) {
+        const double u = static_cast<double>(x) / side, v = static_cast<double>(y) / side;
+        std::uint32_t nearest = 0;
+        double most = 0;
+        for (std::size_t i = 0; i < rectangles.size(); ++i) {
+          const Rectangle& r = rectangles[i];
+          if (u >= r.x0 && u <= r.x1 && v >= r.y0 && v <= r.y1 && r.nearness > most)
+            most = r.nearness, nearest = static_cast<std::uint32_t>(i + 1);
+        }
+        wrong += buffer.at(x, y) != nearest ? 1 : 0;
+      }
+    }
+    CHECK(wrong == 0);
+  }
+}
+
+TEST_CASE("visibility buffer: a square is uniform if all its points see one surface") {
+  PrimitiveShapes shapes = shapes_of({{0, 0, 20, 64, 1}, {20, 0, 40.5, 64, 1}, {50.2, 50.2, 50.8, 50.8, 1}});
+  for (const bool is_one : {false, true}) {
+    const std::vector<std::uint32_t> surfaces = {0, 1, is_one ? 1U : 2U, 3};
+    shapes.surfaces = surfaces;
+    VisibilityBuffer buffer(kSize, kSize, shapes);
+    for (const auto& fineness : {VisibilityBuffer::kCoarse, VisibilityBuffer::kFine}) {
+      buffer.forget(fineness);
+      REQUIRE(buffer.is_known());
+      const int side = fineness.points_per_side;
+      for (const int size : {1, 2, 8}) {
+        int wrong = 0;
+        for (int y = 0; y < kSize; y += size) {
+          for (int x = 0; x < kSize; x += size) {
+            bool is_uniform = true;
+            for (int v = side * y; v <= side * (y + size); ++v)
+              for (int u = side * x; u <= side * (x + size); ++u)
+                is_uniform = is_uniform && buffer.at(u, v) == buffer.at(side * x, side * y);
+            const int tile = buffer.tile_pixels();
+            wrong += buffer.tile(x, y).is_uniform(x % tile, y % tile, size) != is_uniform ? 1 : 0;
+          }
+        }
+        INFO("points " << side << ", squares of " << size << ", one surface " << is_one);
+        CHECK(wrong == 0);
+      }
+    }
+  }
+}
+
+TEST_CASE("visibility buffer: shares are areas") {
+  VisibilityBuffer buffer(kSize, kSize,
+                          shapes_of({{0, 0, 64, 64, 1}, {0, 0, 10.25, 64, 2}, {0, 0, 64, 10.5, 3}}));
+  REQUIRE(buffer.is_known());
+  const VisibleTile& tile = buffer.tile(10, 10);
+  std::vector<std::uint16_t> numbers;
+  for (std::uint16_t i = 0; i < tile.surfaces().size(); ++i) numbers.push_back(i);
+  std::vector<float> shares(numbers.size());
+  buffer.shares(10, 10, numbers, shares);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const std::uint32_t surface = tile.surfaces()[numbers[i]];
+    const double area = surface == 1 ? 0.75 * 0.5 : surface == 2 ? 0.25 * 0.5 : surface == 3 ? 0.5 : 0;
+    INFO("surface " << surface);
+    CHECK(shares[i] == Approx(area).margin(0.02));
+  }
+  CHECK(buffer.at(Vec2d(10.1, 10.4)) == 3);
+  CHECK(buffer.at(Vec2d(10.1, 10.6)) == 2);
+  CHECK(buffer.at(Vec2d(10.4, 10.6)) == 1);
+}
+
+TEST_CASE("visibility buffer: of two that are equally near the first is seen") {
+  const Rectangle one = {8, 8, 40, 40, 1};
+  VisibilityBuffer buffer(kSize, kSize, shapes_of({one, one}));
+  REQUIRE(buffer.is_known());
+  CHECK(buffer.at(100, 100) == 1);
+}
+
+TEST_CASE("visibility buffer: a tile of more primitives than 16 bits count shows those that are seen") {
+  constexpr std::size_t kMany = 70'000;
+  std::vector<Rectangle> rectangles(kMany, {30, 30, 31, 31, 0.5});
+  rectangles.push_back({29, 29, 33, 33, 1});  // hides them all
+  rectangles.push_back({40, 40, 50, 50, 1});
+  VisibilityBuffer buffer(kSize, kSize, shapes_of(rectangles));
+  REQUIRE(buffer.is_known());
+  CHECK(buffer.at(4 * 30 + 2, 4 * 30 + 2) == kMany + 1);
+  CHECK(buffer.at(4 * 45, 4 * 45) == kMany + 2);
+  CHECK(buffer.at(Vec2d(39.9, 45.03)) == 0);
+  CHECK(buffer.at(Vec2d(40.1, 45.03)) == kMany + 2);
+}
+
+TEST_CASE("visibility buffer: nothing is known where a shape is unknown, and all anew after forget()") {
+  bool is_known = false;
+  double left = 8;
+  VisibilityBuffer buffer(kSize, kSize,
+                          {[&](std::uint32_t, ImageShape& shape) {
+                             shape.kind = is_known ? ImageShape::Kind::kFacets : ImageShape::Kind::kUnknown;
+                             shape.facets = {triangle({{{left, 0}, {left + 30, 0}, {left, 60}}}, 1)};
+                           },
+                           1});
+  CHECK_FALSE(buffer.is_known());
+  is_known = true;
+  buffer.forget();
+  REQUIRE(buffer.is_known());
+  CHECK(buffer.at(4 * 9, 4) == 1);
+  left = 20;
+  CHECK(buffer.at(4 * 9, 4) == 1);
+  buffer.forget();
+  REQUIRE(buffer.is_known());
+  CHECK(buffer.at(4 * 9, 4) == 0);
+  CHECK_FALSE(VisibilityBuffer(kSize, kSize, {}).is_known());
+}
+
+}  // namespace pprt::visibility_buffer_test
