@@ -108,7 +108,7 @@ done
 samples() { grep -o '"samples_new":[0-9]*' "$1.stats" | head -1 | tail -c +15; }
 (($(samples coincident) * 2 < $(samples below) * 3)) || complain "coincident faces take $(samples coincident) samples, others $(samples below)"
 run pprt-compare coincident.png below.png --max-rmse 0.01; expect_code 0
-run pprt-compare coincident.png other.png --max-rmse 0.1; expect_code 1
+run pprt-compare coincident.png other.png --max-rmse 0.03; expect_code 1
 
 # Standard input is as good as a file.
 run pprt-render ball.nff --clock work -o a.png; expect_code 0
