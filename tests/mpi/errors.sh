@@ -36,7 +36,7 @@ for words in ": touch made" "ball.nff : -np 1 touch made" "--mca orte_launch_age
   [[ ! -e made ]] || fail "'$words' started another program"
 done
 
-# An error of rank 0 in mid-run: with --go-on mpirun itself would end with 0.
+# An error of rank 0 in mid-run, also with --go-on.
 cat >long.anim <<'END'
 animation { frames 400 fps 20 resolution <32, 24> camera { key 1 { from <4, 0, 2> at <0, 0, 1> up <0, 0, 1> } key 400 { from <2, 3, 2> } } }
 END
@@ -49,6 +49,6 @@ for go_on in '' --go-on; do
   : >out
   wait $! || code=$?
   [[ $code == 1 ]] || { cat told >&2; fail "frames that cannot be written end with code $code ($go_on)"; }
-  grep -q "rank 0: error: .*out" told || { cat told >&2; fail "the reason is not told ($go_on)"; }
+  grep -q "error: .*out" told || { cat told >&2; fail "the reason is not told ($go_on)"; }
   rm out
 done
