@@ -42,8 +42,8 @@ std::size_t samples_near_borders(std::span<const Sample> samples, const TileGrid
   }));
 }
 
-FinishedFrame serial_frame(const SessionSettings& settings, const Camera& camera, std::uint64_t count,
-                           const Probe& probe) {
+FinishedFrame serial_frame(const SessionSettings& settings, const Camera& camera, double time,
+                           std::uint64_t count, const Probe& probe) {
   SessionSettings serial{.sampler = settings.sampler};
   serial.width = settings.width;
   serial.height = settings.height;
@@ -56,7 +56,8 @@ FinishedFrame serial_frame(const SessionSettings& settings, const Camera& camera
   serial.balance = BalanceMode::kNone;
   serial.report_samples = true;
   const auto one_frame = [&](int index) {
-    return index == 0 ? std::optional(FrameRequest{1, camera, false, true}) : std::nullopt;
+    FrameRequest request{.number = 1, .camera = camera, .carries_nothing = true, .time = time};
+    return index == 0 ? std::optional(request) : std::nullopt;
   };
   FinishedFrame frame;
   run_virtual_ranks(
@@ -65,14 +66,14 @@ FinishedFrame serial_frame(const SessionSettings& settings, const Camera& camera
   return frame;
 }
 
-std::vector<Sample> serial_samples(const SessionSettings& settings, const Camera& camera, std::uint64_t count,
-                                   const Probe& probe) {
-  return serial_frame(settings, camera, count, probe).samples;
+std::vector<Sample> serial_samples(const SessionSettings& settings, const Camera& camera, double time,
+                                   std::uint64_t count, const Probe& probe) {
+  return serial_frame(settings, camera, time, count, probe).samples;
 }
 
 double distance_to_serial(const FinishedFrame& frame, const SessionSettings& settings, const Probe& probe) {
-  return bucket_distance(frame.samples,
-                         serial_samples(settings, frame.order.camera, frame.samples.size(), probe));
+  return bucket_distance(frame.samples, serial_samples(settings, frame.order.camera, frame.order.time,
+                                                       frame.samples.size(), probe));
 }
 
 }  // namespace pprt

@@ -27,12 +27,12 @@ std::size_t samples_near_borders(std::span<const Sample> samples, const TileGrid
                                  std::span<const std::int32_t> owners, double reach);
 
 // Returns the frame of one rank that samples the camera's image afresh until it holds `count` samples, its
-// seeds included; its samples alone. Uses the settings' size, seed, weights and pixel rule only. The probe
-// is left looking from `camera`.
-FinishedFrame serial_frame(const SessionSettings& settings, const Camera& camera, std::uint64_t count,
-                           const Probe& probe);
-std::vector<Sample> serial_samples(const SessionSettings& settings, const Camera& camera, std::uint64_t count,
-                                   const Probe& probe);
+// seeds included; its samples alone. Uses the settings' size, seed, weights and pixel rule only. `time`: of
+// what moves in the scene, seconds. The probe is left looking from `camera` at that time.
+FinishedFrame serial_frame(const SessionSettings& settings, const Camera& camera, double time,
+                           std::uint64_t count, const Probe& probe);
+std::vector<Sample> serial_samples(const SessionSettings& settings, const Camera& camera, double time,
+                                   std::uint64_t count, const Probe& probe);
 
 // Returns bucket_distance() of a frame's samples to as many of the serial sampler's. The settings must have
 // asked for the samples.

@@ -330,10 +330,11 @@ void SceneBuilder::triangle() {
   std::size_t next = 0;
   const auto take = [&](std::array<std::uint32_t, 3>& indices, std::size_t size, const char* what) {
     for (std::uint32_t& index : indices) {
-      const double value = numbers_[next++];
+      const double value = numbers_[next];
+      const char* const place = places_[next++];
       if (!(value >= 0 && value < static_cast<double>(size) && value == std::floor(value))) {
         const std::string has = size > 0 ? fmt::format("{}, from 0 on", size) : "none";
-        throw ParseFailure{tried_, fmt::format("{:g} is no index of a {}: 'm' has {}", value, what, has)};
+        throw ParseFailure{place, fmt::format("{:g} is no index of a {}: 'm' has {}", value, what, has)};
       }
       index = static_cast<std::uint32_t>(value);
     }

@@ -47,7 +47,10 @@ class SceneBuilder {
 
   // --- Called by the actions, in the order of the grammar
 
-  void number(double value) { numbers_.push_back(value); }
+  void number(double value, const char* place) {
+    if (numbers_.size() < places_.size()) places_[numbers_.size()] = place;
+    numbers_.push_back(value);
+  }
   void name(std::string_view text) { name_ = text; }
   void begin(std::string_view keyword);
   void count(std::string_view matched);
@@ -168,6 +171,7 @@ class SceneBuilder {
   MovingTriangle moving_;
   MotionTrack track_;
   const char* tried_ = nullptr;
+  std::array<const char*, 9> places_{};  // of the first numbers at hand: a triangle has nine at most
 };
 
 template <typename Rule>
@@ -175,7 +179,7 @@ struct action : grammar::pegtl::nothing<Rule> {};
 
 template <>
 struct action<grammar::number> : grammar::pegtl::nothing<grammar::number> {
-  static void value(double value, SceneBuilder& builder) { builder.number(value); }
+  static void value(double value, const char* place, SceneBuilder& builder) { builder.number(value, place); }
 };
 
 template <>

@@ -53,8 +53,9 @@ struct number {
     double value = 0;
     const char* const stop = scan_number(in.current(), in.end(), value);
     if (!stop || !ends_token(stop, in.end())) return false;
-    in.bump(static_cast<std::size_t>(stop - in.current()));
-    if constexpr (A == pegtl::apply_mode::action) Action<number>::value(value, states...);
+    const char* const place = in.current();
+    in.bump(static_cast<std::size_t>(stop - place));
+    if constexpr (A == pegtl::apply_mode::action) Action<number>::value(value, place, states...);
     return true;
   }
 

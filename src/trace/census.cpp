@@ -29,6 +29,9 @@ std::string primitives(const CompiledScene::Impl& scene) {
     text += fmt::format("; {} without extent left out", scene.figures.degenerate);
   if (scene.figures.repeated > 0)
     text += fmt::format("; {} that repeat others left out", scene.figures.repeated);
+  if (scene.figures.coincident > 0)
+    text += fmt::format("; {} in one plane with others that they overlap",
+                        counted(scene.figures.coincident, "triangle", "triangles"));
   return text;
 }
 

@@ -10,6 +10,7 @@
 #include "base/diagnostics.h"
 #include "scene/description/shading_rules.h"
 #include "scene/description/view_frame.h"
+#include "trace/coincident_faces.h"
 #include "trace/connected_surfaces.h"
 #include "trace/geometry/embree_reach.h"
 #include "trace/geometry/numerics.h"
@@ -163,6 +164,16 @@ void number_parts(std::size_t primitives, CompiledScene::Impl& impl) {
   }
 }
 
+// The parts of a body lie side by side.
+void find_coincident_faces(CompiledScene::Impl& impl) {
+  for (auto first = impl.parts.begin(); first != impl.parts.end();) {
+    const auto end = std::find_if(first, impl.parts.end(),
+                                  [&](const ScenePart& part) { return part.body != first->body; });
+    if (!impl.bodies[first->body].deforms) impl.figures.coincident += mark_coincident_faces({first, end});
+    first = end;
+  }
+}
+
 // Only where neither the light nor the surface moves. `radius`: of what the scene is measured by.
 void find_light_contacts(double radius, CompiledScene::Impl& impl) {
   const auto moving = std::find_if(impl.parts.begin(), impl.parts.end(),
@@ -261,6 +272,7 @@ CompiledScene compile(const SceneDescription& scene, const CompileOptions& optio
   if (impl->parts.empty()) reject(scene.name, {}, "no object of the scene has any extent");
   impl->moves = impl->bodies.size() > 1 || !impl->light_nodes.empty();
   if (impl->moves) number_parts(scene.order.size(), *impl);
+  find_coincident_faces(*impl);
   find_light_contacts(radius_about_origin(impl->normalisation, extent.measured), *impl);
   impl->surfaces = connected_surfaces(impl->parts, static_cast<std::uint32_t>(scene.order.size()));
   build_hierarchy(*impl);

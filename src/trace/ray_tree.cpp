@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "trace/coincident_faces.h"
 #include "trace/geometry/numerics.h"
 #include "trace/pose.h"
 #include "trace/scene_impl.h"
@@ -37,6 +38,19 @@ bool intersect(RTCScene scene, RaySender& sender, const Vec3f& origin, const Vec
   found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   sender.intersect(scene, found);
   return found.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+}
+
+// Finds the surface that a ray of any length sees.
+bool see(const Pose& pose, RaySender& sender, const Vec3f& origin, const Vec3f& direction, RTCRayHit& found) {
+  if (!intersect(pose.embree(), sender, origin, direction, kInfinity, found)) return false;
+  const ScenePart& part = pose.part(found.hit.geomID);
+  if (is_coincident(part, found.hit)) {
+    const BodyPlace* body = pose.place_of(part);
+    choose_coincident_face(pose.scene(), part.body,
+                           body ? body->from_world.point(Vec3d(origin)) : Vec3d(origin),
+                           body ? body->from_world.vector(Vec3d(direction)) : Vec3d(direction), found.hit);
+  }
+  return true;
 }
 
 // A hit, recomputed in double from the primitive.
@@ -170,7 +184,7 @@ class RayTree {
                       RaySample& sample) {
     ++counts_.primary;
     RTCRayHit found;
-    if (!intersect(embree_, sender_, origin, direction, kInfinity, found)) {
+    if (!see(pose_, sender_, origin, direction, found)) {
       sample.color = scene_.background;
       sample.hit = direction;
       sample.at_infinity = true;
@@ -230,7 +244,7 @@ class RayTree {
   Color follow(const Vec3d& origin, const Vec3d& direction, int depth) {
     const Vec3f d(direction);
     RTCRayHit found;
-    if (!intersect(embree_, sender_, Vec3f(origin), d, kInfinity, found)) return scene_.background;
+    if (!see(pose_, sender_, Vec3f(origin), d, found)) return scene_.background;
     const Vec3d exact(d);
     return shade(surface_at(pose_, found, exact), exact, depth);
   }
@@ -346,7 +360,7 @@ RaySample trace_ray_tree(const Pose& pose, const Vec3f& origin, const Vec3f& dir
 std::optional<VisibleSurface> visible_surface(const Pose& pose, const Vec3f& origin, const Vec3f& direction) {
   RaySender sender;
   RTCRayHit found;
-  if (!intersect(pose.embree(), sender, origin, direction, kInfinity, found)) return std::nullopt;
+  if (!see(pose, sender, origin, direction, found)) return std::nullopt;
   const Surface surface = surface_at(pose, found, Vec3d(direction));
   const ScenePart& part = pose.scene().parts[found.hit.geomID];
   return VisibleSurface{surface.position,

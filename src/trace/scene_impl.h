@@ -51,6 +51,7 @@ struct ScenePart {
   bool textured = false;                  // a mesh with texture coordinates
   std::vector<MaterialIndex> materials;   // by Embree's primitive number
   std::vector<std::uint32_t> primitives;  // place in SceneDescription::order, by Embree's primitive number
+  std::vector<bool> coincides;            // triangles that lie in others; empty: none. See coincident_faces.h
   std::vector<MovingTriangle> shapes;     // of triangles whose corners move, in the body's space
 };
 
@@ -72,6 +73,7 @@ struct BuildFigures {
   std::size_t triangles = 0;
   std::size_t degenerate = 0;        // primitives without extent, left out
   std::size_t repeated = 0;          // primitives that equal an earlier one, left out
+  std::size_t coincident = 0;        // triangles that lie in others
   std::uint32_t first_repeated = 0;  // of them, the first in SceneDescription::order
 };
 

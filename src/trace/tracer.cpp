@@ -6,6 +6,7 @@
 #include "trace/geometry/numerics.h"
 #include "trace/image_shape.h"
 #include "trace/pose.h"
+#include "trace/ray_tree.h"
 #include "trace/scene_impl.h"
 
 namespace pprt {

@@ -31,19 +31,33 @@ for early in 'head -c 1000 >/dev/null' 'cat >/dev/null'; do
   done
 done
 
-# One that hangs and hears no signal ends with a run that is told twice to end.
+# One on the PATH that does not run is not taken for missing.
+printf '#!/bin/sh\nexit 9\n' >broken/ffmpeg
+PATH=$PWD/broken:$PATH run pprt-render ball.anim "${work[@]}" -o f/%d.png --film f.mp4; expect_code 1
+expect_text err "pprt-render: error: --film needs ffmpeg, and that on the PATH does not run: 'ffmpeg -version' ended with code 9"
+
+# One that hangs and hears no signal is ended when the run is told to end, and at once when it is told twice.
 printf '#!/bin/sh\ncase "$*" in *-version) exit 0 ;; esac\ntrap "" TERM\necho $$ >hung\nexec sleep 600\n' >broken/ffmpeg
-PATH=$PWD/broken:$PATH pprt-render ball.anim "${work[@]}" --frames 1-2 -o g/%d.png --film g/film.mp4 --resume 2>err &
-until [[ -s hung ]]; do sleep 0.1; done
-kill -TERM $!
-until grep -q 'second signal' err; do sleep 0.1; done
-kill -TERM $!
-wait $! || true
-for ((i = 0; i < 300; ++i)); do
-  grep -qs $'^State:\t[^Z]' "/proc/$(cat hung)/status" || break  # it has ended, and perhaps nobody has asked how
-  sleep 0.1
+for signals in 1 2; do
+  rm -f hung
+  PATH=$PWD/broken:$PATH pprt-render ball.anim "${work[@]}" --frames 1-2 -o g/%d.png --film g/film.mp4 --resume 2>err &
+  until [[ -s hung ]]; do sleep 0.1; done
+  kill -TERM $!
+  until grep -q 'second signal' err; do sleep 0.1; done
+  if ((signals == 2)); then kill -TERM $!; fi
+  code=0; wait $! || code=$?
+  command="ffmpeg hangs, $signals signals"
+  if ((signals == 1)); then
+    expect_code 1
+    expect_line err "pprt-render: error: cannot write 'g/film.mp4': ffmpeg hung, and was ended when the run was to end"
+    expect_text <(ls -A g) "$(printf '%s\n' 1.png 2.png manifest.ndjson)"
+  fi
+  for ((i = 0; i < 300; ++i)); do
+    grep -qs $'^State:\t[^Z]' "/proc/$(cat hung)/status" || break  # it has ended, and perhaps nobody has asked how
+    sleep 0.1
+  done
+  if ((i == 300)); then complain 'ffmpeg outlives the run'; kill -KILL "$(cat hung)"; fi
 done
-if ((i == 300)); then complain 'ffmpeg outlives the run'; kill -KILL "$(cat hung)"; fi
 
 # Nothing that lies at a temporary name is written to, and no name is an option or an address.
 cp ball.nff precious

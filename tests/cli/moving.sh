@@ -99,7 +99,7 @@ echo 'animation { scene "toy.aff" frames 1000000 object "ball" {} object "a.nff"
   object "d.nff" {} object "e.nff" {} }' >many.anim
 for name in a b c d e; do cp other.nff $name.nff; done
 run pprt-render many.anim; expect_code 3
-expect_line err 'many.anim:2:[0-9]*: error: too many objects for so many frames'
+expect_line err 'many.anim:2:[0-9]*: error: too many objects for so many frames: objects times frames, here 6 times 1000000, may be 5000000 at most'
 
 # The scenes of the distribution: without a warning, and they move.
 shown=0

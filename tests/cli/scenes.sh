@@ -88,6 +88,28 @@ for name in $'a\e[31mb.nff' $'spd:\e[31mb' $'a\xc2\x9b31mb.nff'; do
   if LC_ALL=C grep -q $'[\x01-\x08\x0b-\x1f\x7f]\|\xc2[\x80-\x9f]' err; then complain "'$command': control characters: $(cat -v err)"; fi
 done
 
+# Faces that coincide: the still settles with as many samples as one whose second face lies below, and shows the same.
+# The other way round it is another picture.
+faces() {
+  printf 'v\nfrom 0 3 4\nat 0 0 0\nup 0 1 0\nangle 40\nhither 1\nresolution 64 64\nl 3 6 4\n'
+  for face in "$@"; do
+    case $face in
+      first) printf 'f 1 0 0 1 0 1 0 1\np 4\n-1 0 -1\n-1 0 1\n1 0 1\n1 0 -1\n' ;;
+      second) printf 'f 0 0 1 1 0 1 0 1\np 4\n-.7 %s -.5\n-.7 %s .6\n.9 %s .6\n.9 %s -.5\n' "$height" "$height" "$height" "$height" ;;
+    esac
+  done
+}
+height=0 faces first second >coincident.nff
+height=-.3 faces first second >below.nff
+height=0 faces second first >other.nff
+for name in coincident below other; do
+  run pprt-render $name.nff --clock work -o $name.png --stats $name.stats; expect_code 0
+done
+samples() { grep -o '"samples_new":[0-9]*' "$1.stats" | head -1 | tail -c +15; }
+(($(samples coincident) * 2 < $(samples below) * 3)) || complain "coincident faces take $(samples coincident) samples, others $(samples below)"
+run pprt-compare coincident.png below.png --max-rmse 0.01; expect_code 0
+run pprt-compare coincident.png other.png --max-rmse 0.03; expect_code 1
+
 # Standard input is as good as a file.
 run pprt-render ball.nff --clock work -o a.png; expect_code 0
 pprt-render - --clock work -o b.png <ball.nff 2>err; expect_same a.png b.png

@@ -35,3 +35,20 @@ for words in ": touch made" "ball.nff : -np 1 touch made" "--mca orte_launch_age
   [[ $code == 2 || $code == 3 ]] || { cat told >&2; fail "'$words' ended with code $code"; }
   [[ ! -e made ]] || fail "'$words' started another program"
 done
+
+# An error of rank 0 in mid-run, also with --go-on.
+cat >long.anim <<'END'
+animation { frames 400 fps 20 resolution <32, 24> camera { key 1 { from <4, 0, 2> at <0, 0, 1> up <0, 0, 1> } key 400 { from <2, 3, 2> } } }
+END
+for go_on in '' --go-on; do
+  code=0
+  # shellcheck disable=SC2086 # no word, where the run does not go on
+  pprt-render spd:tree:3 long.anim -np 2 $go_on --progress none -o out/%04d.png 2>told &
+  for ((i = 0; i < 1500; ++i)); do [[ -s out/manifest.ndjson ]] && break || sleep 0.02; done
+  rm -r out
+  : >out
+  wait $! || code=$?
+  [[ $code == 1 ]] || { cat told >&2; fail "frames that cannot be written end with code $code ($go_on)"; }
+  grep -q "error: .*out" told || { cat told >&2; fail "the reason is not told ($go_on)"; }
+  rm out
+done

@@ -140,14 +140,16 @@ Diagnostics check_hosts(std::string_view text, const std::function<bool(const st
 Hostfile::Hostfile(const std::filesystem::path& path) : path_(path) {
   // Absolute, as "-" is a file here.
   std::string text = read_text(std::filesystem::absolute(path).string(), kMostHostfileBytes);
+  const bool has_mark = text.starts_with("\xef\xbb\xbf");  // of UTF-8, which some editors write
+  if (has_mark) text.erase(0, 3);
   const Diagnostics problems = check_hosts(text, is_reachable_name);
   if (problems.has_errors()) {
     std::string report = report_of(problems, path.string(), text);
     report.pop_back();
     throw InputError(report);
   }
-  // What is no file, as a pipe, can be read only once.
-  if (std::erase(text, '\r') == 0 && std::filesystem::is_regular_file(path)) return;
+  // mpirun reads neither. What is no file, as a pipe, can be read only once.
+  if (std::erase(text, '\r') == 0 && !has_mark && std::filesystem::is_regular_file(path)) return;
   copy_ = file_in_memory(text);
   path_ = fmt::format("/proc/{}/fd/{}", getpid(), copy_);
 }

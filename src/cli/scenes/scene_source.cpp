@@ -1,5 +1,7 @@
 #include "cli/scenes/scene_source.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
@@ -149,7 +151,11 @@ void add_objects(ParsedScene& parsed, const Animation& script, const std::string
   };
   for (const ObjectMotion& object : script.objects) {
     turns += static_cast<std::size_t>(times.frames);
-    if (turns > kMostTurns) refuse(object, "too many objects for so many frames");
+    if (turns > kMostTurns)
+      refuse(object,
+             fmt::format("too many objects for so many frames: objects times frames, here {} times {}, "
+                         "may be {} at most",
+                         script.objects.size(), times.frames, kMostTurns));
     const std::vector<SceneNode>& nodes = scene.movement.nodes;
     const bool is_known = std::any_of(nodes.begin(), nodes.end(),
                                       [&](const SceneNode& node) { return node.track == object.name; });

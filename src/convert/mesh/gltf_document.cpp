@@ -21,7 +21,7 @@ using nlohmann::json;
 // A .glb is a header, a chunk of JSON and one of numbers (glTF 2.0, section 4.4). Lengths are 32 bits, the
 // lowest first.
 constexpr std::string_view kMagic = "glTF";
-constexpr std::size_t kHeader = 12, kChunkHeader = 8;
+constexpr std::size_t kVersion = 4, kHeader = 12, kChunkHeader = 8;
 
 std::uint32_t length_at(std::string_view bytes, std::size_t place) {
   std::uint32_t length = 0;
@@ -120,7 +120,6 @@ constexpr int kMaxJsonDepth = 500;  // brackets in each other: Assimp's parser t
 
 // Returns why the JSON of a .glb does not lie where its header tells. One of glTF 1 has another header.
 std::string problem_of_header(std::string_view bytes) {
-  constexpr std::size_t kVersion = 4;
   if (!bytes.starts_with(kMagic)) return {};
   if (bytes.size() < kHeader + kChunkHeader) return "it ends within its header";
   const std::size_t length = length_at(bytes, kHeader), rest = bytes.size() - kHeader - kChunkHeader;
@@ -132,10 +131,14 @@ std::string problem_of_header(std::string_view bytes) {
 std::string cause_in_header(std::string_view bytes) {
   constexpr std::size_t kTotal = 8;
   if (!bytes.starts_with(kMagic)) return {};
+  const std::size_t version = length_at(bytes, kVersion);
+  if (version != 2) return "by its header it is of version " + std::to_string(version) + " of glTF, not 2";
   const std::size_t total = length_at(bytes, kTotal), json_length = length_at(bytes, kHeader);
   if (total > bytes.size())
     return "it is cut off: it has " + std::to_string(bytes.size()) + " bytes, by its header " +
            std::to_string(total);
+  if (total < kHeader + kChunkHeader + json_length)
+    return "by its header it has " + std::to_string(total) + " bytes, fewer than its header and its JSON";
   if (json_length % 4 != 0)
     return "the length of its JSON, " + std::to_string(json_length) + " bytes, is not a multiple of 4";
   return {};
@@ -156,13 +159,17 @@ json parsed(const std::string& text, std::size_t begin, GltfFacts& facts) {
     deepest = std::max(deepest, depth);
     return depth <= kMaxJsonDepth;
   };
-  try {
-    json document = json::parse(text, keep);
+  const auto judge_depth = [&] {
     if (deepest > kMaxJsonDepth)
       facts.problem =
           "its JSON has brackets more than " + std::to_string(kMaxJsonDepth) + " deep in each other";
+  };
+  try {
+    json document = json::parse(text, keep);
+    judge_depth();
     return document;
   } catch (const json::parse_error& e) {
+    judge_depth();
     if (!facts.likely_cause.empty()) return nullptr;
     if (const std::size_t first = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");
         first == std::string::npos || text[first] != '{') {

@@ -1,10 +1,48 @@
 #include "convert/mesh/model_files.h"
 
+#include <assimp/IOStream.hpp>
+
 #include <exception>
+#include <memory>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 namespace pprt {
+namespace {
+
+constexpr std::size_t kMark = 3;  // bytes of UTF-8's mark, which some editors put before a text
+
+bool begins_with_mark(Assimp::IOStream& file) {
+  char head[kMark] = {};
+  const bool has_mark = file.Read(head, 1, kMark) == kMark && std::string_view(head, kMark) == "\xef\xbb\xbf";
+  file.Seek(0, aiOrigin_SET);
+  return has_mark;
+}
+
+// A file without its mark.
+class UnmarkedFile : public Assimp::IOStream {
+ public:
+  explicit UnmarkedFile(std::unique_ptr<Assimp::IOStream> file) : file_(std::move(file)) {
+    file_->Seek(kMark, aiOrigin_SET);
+  }
+
+  std::size_t Read(void* to, std::size_t size, std::size_t count) override {
+    return file_->Read(to, size, count);
+  }
+  std::size_t Write(const void* /*from*/, std::size_t /*size*/, std::size_t /*count*/) override { return 0; }
+  aiReturn Seek(std::size_t offset, aiOrigin from) override {
+    return file_->Seek(from == aiOrigin_SET ? offset + kMark : offset, from);
+  }
+  std::size_t Tell() const override { return file_->Tell() - kMark; }
+  std::size_t FileSize() const override { return file_->FileSize() - kMark; }
+  void Flush() override {}
+
+ private:
+  std::unique_ptr<Assimp::IOStream> file_;
+};
+
+}  // namespace
 
 ModelFiles::ModelFiles(const std::filesystem::path& model) : model_(model), folder_(model) {}
 
@@ -37,9 +75,11 @@ Assimp::IOStream* ModelFiles::Open(const char* file, const char* mode) {
 }
 
 Assimp::IOStream* ModelFiles::note_opened(const std::string& path, const char* mode) {
-  Assimp::IOStream* const stream = DefaultIOSystem::Open(path.c_str(), mode);
-  if (stream != nullptr) opened_.push_back(path);
-  return stream;
+  std::unique_ptr<Assimp::IOStream> stream(DefaultIOSystem::Open(path.c_str(), mode));
+  if (stream == nullptr) return nullptr;
+  opened_.push_back(path);
+  if (begins_with_mark(*stream)) return new UnmarkedFile(std::move(stream));
+  return stream.release();
 }
 
 // Assimp looks for some files that no mesh names, by the name of the mesh. An .obj comes with an .mtl, a

@@ -2,14 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
+#include <chrono>
 #include <csignal>
+#include <cstddef>
 #include <cstdint>
 #include <stdexcept>
+#include <stop_token>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "base/diagnostics.h"
 #include "base/system/subprocess.h"
+#include "cli/process/stop_signals.h"
 #include "image/atomic_file.h"
 #include "image/display_bytes.h"
 #include "image/image_io.h"
@@ -34,6 +40,44 @@ Subprocess start_encoder(std::vector<std::string> command, StreamTo input) {
     throw std::runtime_error(kMissing);
   }
 }
+
+// Ends a program that hangs, once the run has been asked to end. Others are given their time: nobody knows
+// how long ffmpeg may take for a picture.
+class HangWatch {
+ public:
+  explicit HangWatch(const Subprocess& program) : program_(program) {}
+
+  void note_progress() { ++progress_; }
+
+  // Waits until the program has ended. To be called before its wait(): until then nobody else has its number.
+  void await_end() {
+    while (!program_.has_ended()) std::this_thread::sleep_for(kBetweenLooks);
+    thread_ = {};
+  }
+
+  bool has_ended_it() const { return has_ended_it_; }
+
+ private:
+  static constexpr auto kBetweenLooks = std::chrono::milliseconds(20);
+  static constexpr auto kPatience = std::chrono::seconds(10);
+
+  void run(const std::stop_token& over) {
+    auto quiet_since = std::chrono::steady_clock::now();
+    for (std::size_t seen = 0; !over.stop_requested(); std::this_thread::sleep_for(kBetweenLooks)) {
+      const auto now = std::chrono::steady_clock::now();
+      if (!stop_requested() || progress_ != seen) seen = progress_, quiet_since = now;
+      if (now - quiet_since < kPatience) continue;
+      has_ended_it_ = true;
+      kill(program_.id(), SIGKILL);
+      return;
+    }
+  }
+
+  const Subprocess& program_;
+  std::atomic<std::size_t> progress_ = 0;
+  std::atomic<bool> has_ended_it_ = false;
+  std::jthread thread_{[this](const std::stop_token& over) { run(over); }};  // last: it uses the others
+};
 
 using Words = std::vector<std::string>;
 
@@ -101,6 +145,7 @@ void encode(const std::filesystem::path& film, const Words& encoding, const std:
   const Image first = read_image(pictures.front());
   Subprocess encoder =
       start_encoder(ffmpeg_command(first, frames_per_second, encoding, output.string()), StreamTo::kPipe);
+  HangWatch watch(encoder);
   bool is_taken = true;
   for (const std::filesystem::path& picture : pictures) {
     const Image image = read_image(picture);
@@ -111,8 +156,12 @@ void encode(const std::filesystem::path& film, const Words& encoding, const std:
     const std::vector<std::uint8_t> bytes = display_bytes(image);
     is_taken = encoder.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     if (!is_taken) break;
+    watch.note_progress();
   }
   is_taken = encoder.end_input() && is_taken;
+  watch.note_progress();
+  watch.await_end();
+  if (watch.has_ended_it()) fail(film, "ffmpeg hung, and was ended when the run was to end");
   if (const int code = encoder.wait().code; code != 0)
     fail(film, fmt::format("ffmpeg ended with code {}", code));
   if (!is_taken) fail(film, "ffmpeg ended before it had taken all frames");
@@ -124,7 +173,11 @@ void encode(const std::filesystem::path& film, const Words& encoding, const std:
 void require_ffmpeg() {
   // Prints its version and ends, which shows that it can be run.
   Subprocess ffmpeg = start_encoder({"ffmpeg", "-loglevel", "quiet", "-version"}, StreamTo::kSame);
-  if (ffmpeg.wait().code != 0) throw std::runtime_error(kMissing);
+  if (const int code = ffmpeg.wait().code; code != 0) {
+    throw std::runtime_error(fmt::format(
+        "--film needs ffmpeg, and that on the PATH does not run: 'ffmpeg -version' ended with code {}",
+        code));
+  }
 }
 
 void write_film(const std::filesystem::path& film, const std::vector<std::filesystem::path>& pictures,

@@ -74,9 +74,8 @@ void SerialComparison::do_first(std::unique_lock<std::mutex>& lock) {
 
 double SerialComparison::measure(const Task& task) const {
   Tracer tracer(scene_, task.camera);
-  tracer.set_time(task.time);
-  return bucket_distance(task.samples,
-                         serial_samples(settings_, task.camera, task.samples.size(), probe_of(tracer)));
+  return bucket_distance(
+      task.samples, serial_samples(settings_, task.camera, task.time, task.samples.size(), probe_of(tracer)));
 }
 
 }  // namespace pprt

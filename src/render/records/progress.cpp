@@ -28,19 +28,18 @@ std::string lateness(double late_ms) {
                       : fmt::format("{:.0f} ms after its deadline", late_ms);
 }
 
-// 75.2 -> "1:15"
-std::string minutes(double seconds) {
-  const long long whole = std::llround(seconds);
-  if (whole < 3600) return fmt::format("{}:{:02}", whole / 60, whole % 60);
-  return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
-}
-
 // Returns how the JSON object for the end begins.
 std::string head_of(RunEnd end) {
   return fmt::format("{{\"event\":\"{}\"", word_for(end));
 }
 
 }  // namespace
+
+std::string minutes(double seconds) {
+  const long long whole = std::llround(seconds);
+  if (whole < 3600) return fmt::format("{}:{:02}", whole / 60, whole % 60);
+  return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+}
 
 void Pace::frame(Time when) {
   last_ = when;

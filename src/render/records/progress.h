@@ -35,6 +35,9 @@ inline constexpr std::array<Word<RunEnd>, 3> kWords<RunEnd>{{
     {RunEnd::kFailed, "failed", "ended by an error"},
 }};
 
+// Returns a duration as minutes and seconds, from an hour on with hours: 75.2 -> "1:15", 3675 -> "1:01:15".
+std::string minutes(double seconds);
+
 // Measures how fast frames come. The first one says little: in it ranks find each other, and nothing is
 // carried over.
 class Pace {

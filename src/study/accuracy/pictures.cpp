@@ -50,7 +50,8 @@ std::vector<Picture> figure_pictures(const std::string& scene, const Subject& su
   SessionSettings settings{.sampler = SamplerChoice::kDelaunay};
   settings.width = subject.camera.width, settings.height = subject.camera.height, settings.seed = seed;
   Tracer tracer = tracer_of(subject);
-  const FinishedFrame frame = serial_frame(settings, subject.camera, kFigureSamples, probe_of(tracer));
+  const FinishedFrame frame =
+      serial_frame(settings, subject.camera, subject.time, kFigureSamples, probe_of(tracer));
   const TileGrid grid = tile_grid_for(settings.width, settings.height, 1);
   FrameLayers layers({frame.order.number, grid, frame.owners, frame.samples, {}});
   std::string word = scene;

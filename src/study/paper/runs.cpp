@@ -63,7 +63,7 @@ std::string hash_of(const Image& image) {
 void compare_with_serial(const FinishedFrame& frame, const SessionSettings& settings, int ranks,
                          const Probe& probe, FrameMeasures& measures) {
   const std::vector<Sample> serial =
-      serial_samples(settings, frame.order.camera, frame.samples.size(), probe);
+      serial_samples(settings, frame.order.camera, frame.order.time, frame.samples.size(), probe);
   measures.distance = bucket_distance(frame.samples, serial);
   const TileGrid grid = tile_grid_for(settings.width, settings.height, ranks);
   const auto near = [&](const std::vector<Sample>& samples) {

@@ -13,6 +13,8 @@
 #include <string>
 #include <type_traits>
 
+#include "base/vector.h"
+
 namespace pprt {
 
 // Releases a handle with the given Embree function.
@@ -48,6 +50,22 @@ inline void check_embree(const EmbreeDevice& device, const char* doing) {
   throw std::runtime_error(
       std::string("Embree: ") + doing + ": " +
       (error == RTC_ERROR_OUT_OF_MEMORY ? "out of memory" : "error " + std::to_string(error)));
+}
+
+// Calls `visit(geometry, primitive)` for all primitives whose boxes are within `radius` of a point. The scene
+// must have no instances.
+template <class Visit>
+void visit_primitives_near(RTCScene scene, const Vec3f& point, float radius, Visit visit) {
+  RTCPointQuery query{point.x, point.y, point.z, 0, radius};
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(
+      scene, &query, &context,
+      [](RTCPointQueryFunctionArguments* args) {
+        (*static_cast<Visit*>(args->userPtr))(args->geomID, args->primID);
+        return false;  // the radius stays
+      },
+      &visit);
 }
 
 // Traces single rays. Embree 3 needs a context for them, Embree 4 has its own.

@@ -76,6 +76,17 @@ constexpr double triangle_offset(double longest_edge, double twice_area, double 
   return bound < kMaxTriangleOffset ? bound : kMaxTriangleOffset;
 }
 
+// Returns the height that two triangles may be apart so that Embree's rounding decides which of them a ray
+// meets first. `offset`: their triangle_offset.
+//
+// Counted from: triangle_offset of each, for the corners' rounding and that of the normal, and 10 u d for a
+// ray of length d: each vertex relative to the origin errs by u d, sqrt(3) u d together; each of the two dot
+// products whose quotient is the hit's distance by 3 u d; the quotient by 2 u d. Rays in a scene are shorter
+// than 2. Test: coincident_faces_test.cpp.
+constexpr double coincidence_bound(double offset, double other_offset) {
+  return offset + other_offset + 2 * 10 * kFloatRounding * 2;
+}
+
 // Returns how far a ray may miss a body that Embree maps into the world. It is relative to the sums of the
 // coordinates of the ray's origin and of the body's. `condition` is the norm of the map times that of its
 // inverse: 1 where it turns, and scales all directions alike.

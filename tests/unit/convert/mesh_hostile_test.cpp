@@ -166,6 +166,18 @@ TEST_CASE("hostile meshes: what is wrong with a .glb is said") {
             std::to_string(whole.size()));
   CHECK(files.report("m.glb", glb(json + ' ', size + 1)) ==
         ": error: the length of its JSON, " + std::to_string(size + 1) + " bytes, is not a multiple of 4");
+  const auto with = [&](std::size_t place, char number) {
+    std::string changed = whole;
+    changed.replace(place, 4, std::string{number, 0, 0, 0});
+    return files.report("m.glb", changed);
+  };
+  for (const char total : {0, 19, 100}) {
+    CHECK(with(8, total) == ": error: by its header it has " + std::to_string(total) +
+                                " bytes, fewer than its header and its JSON");
+  }
+  for (const char version : {0, 1, 3})
+    CHECK(with(4, version) ==
+          ": error: by its header it is of version " + std::to_string(version) + " of glTF, not 2");
   const std::string broken = padded("{\"asset\":}");
   CHECK(files.report("m.glb", glb(broken, static_cast<std::uint32_t>(broken.size()))) ==
         ": error: its JSON is broken at byte 9: syntax error while parsing value - unexpected '}'; expected "
@@ -187,7 +199,14 @@ TEST_CASE("hostile meshes: what is wrong with a .gltf is said, with its place") 
     const std::string nested = R"("extras":)" + std::string(depth, '[') + std::string(depth, ']') + ",";
     CHECK(files.report("m.gltf", gltf("", nested)) ==
           ": error: its JSON has brackets more than 500 deep in each other");
+    CHECK(files.report("m.gltf", R"({"extras":)" + std::string(depth, '[')) ==
+          ": error: its JSON has brackets more than 500 deep in each other");
   }
+}
+
+TEST_CASE("hostile meshes: the mark that some editors put before UTF-8 is passed over") {
+  const Folder files;
+  CHECK(files.report("m.obj", "\xef\xbb\xbf" + std::string(kTriangle)) == "read");
 }
 
 TEST_CASE("hostile meshes: text in UTF-16 is named as such") {

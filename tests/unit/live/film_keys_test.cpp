@@ -54,6 +54,7 @@ TEST_CASE("film keys: there are so many and no more, in the list and to undo") {
   int undone = 0;
   while (film.undo()) ++undone;
   CHECK(undone == 100);
+  CHECK(film.keys().size() == FilmKeys::kMost - 99);  // the last changes, one of which added none
 }
 
 }  // namespace

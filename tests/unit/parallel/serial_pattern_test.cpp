@@ -78,7 +78,7 @@ BOTH_SAMPLERS_TEST_CASE(
     "serial pattern: the serial sampler makes as many samples as asked for, where the picture calls for "
     "them") {
   const SessionSettings s = settings(sampler);
-  const std::vector<Sample> samples = serial_samples(s, camera_before_disc(96, 96), 1500, diagonal());
+  const std::vector<Sample> samples = serial_samples(s, camera_before_disc(96, 96), 0, 1500, diagonal());
   CHECK(samples.size() == 1500);
   std::size_t near_edge = 0;
   for (const Sample& sample : samples) near_edge += std::abs(sample.x - sample.y) < 10;

@@ -43,13 +43,13 @@ TEST_CASE("what is wrong in a hostfile is told with its place") {
   CHECK(complains("--mca x", "1: error: '--mca' is no name of a host"));
 }
 
-TEST_CASE("mpirun reads a hostfile itself, or a copy of it without CR") {
+TEST_CASE("mpirun reads a hostfile itself, or a copy of it without CR and the mark of UTF-8") {
   const std::filesystem::path path =
       std::filesystem::temp_directory_path() / ("pprt-hostfile-test-" + std::to_string(getpid()));
   std::ofstream(path) << "localhost slots=2\n";
   CHECK(Hostfile(path).path() == path);
-  std::ofstream(path) << "localhost slots=2\r\n";
-  {
+  for (const char* text : {"localhost slots=2\r\n", "\xef\xbb\xbflocalhost slots=2\n"}) {
+    std::ofstream(path) << text;
     const Hostfile hosts(path);
     std::ostringstream copy;
     copy << std::ifstream(hosts.path()).rdbuf();

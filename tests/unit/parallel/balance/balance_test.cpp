@@ -232,6 +232,34 @@ TEST_CASE("global balancing: a tile's predicted cost grows with its weight over 
   for (const double c : predicted_costs(TileGrid(30, 10, 10), {})) CHECK(c == 1);
 }
 
+TEST_CASE("global balancing: what a region's received samples cost counts for its tiles") {
+  std::vector<std::vector<TileReport>> ranks = {{report(0, 100, 5, 5)}, {report(1, 100, 5, 5)}};
+  const double before = predicted_costs(TileGrid(20, 10, 10), ranks)[0];
+  ranks[0][0].preparation = 50;
+  const std::vector<double> costs = predicted_costs(TileGrid(20, 10, 10), ranks);
+  CHECK(costs[0] == Approx(before + 50));
+  CHECK(costs[1] == Approx(before));
+}
+
+TEST_CASE("local balancing: a rank begins to give beyond the noise, and goes on until it is even") {
+  const LocalBalanceSettings settings{.giving_ratio = 1.2, .giving_noise = 2};
+  CHECK_FALSE(should_begin_to_give(settings, 1.29, 0.05, false));
+  CHECK(should_begin_to_give(settings, 1.31, 0.05, false));
+  CHECK(should_begin_to_give(settings, 1.01, 0.05, true));
+  CHECK_FALSE(should_begin_to_give(settings, 0.99, 0.05, true));
+}
+
+TEST_CASE("local balancing: a rank's load is the geometric mean over its neighbours") {
+  const auto neighbour = [](double mean_weight, double future_cost) {
+    return RankProgress{.mean_weight = mean_weight, .target_weight = 1, .future_cost = future_cost};
+  };
+  const std::vector neighbours = {neighbour(2, 20000), neighbour(2, 80000), neighbour(2, 40000),
+                                  neighbour(0, 1e9)};  // of the last nothing is known
+  CHECK(load_by_neighbours(neighbours, [](double) { return 80000.0; }) == Approx(2));
+  CHECK(load_by_neighbours(neighbours, [](double) { return 10000.0; }) == Approx(0.25));
+  CHECK(load_by_neighbours({}, [](double) { return 1.0; }) == 1);
+}
+
 TEST_CASE("local balancing: a rank's future cost is a time, by its pace") {
   const TileGrid grid(20, 10, 10);
   const Region region = Region::whole(grid);

@@ -48,5 +48,22 @@ TEST_CASE("cost estimator: a tile that comes brings what it cost in this frame a
   CHECK((costs.now(0).cost == 0 && costs.last(0).cost == 0));
 }
 
+TEST_CASE("cost estimator: a tile still costs what its target takes, less what has been paid") {
+  const TileGrid grid(20, 10, 10);
+  const Region region = Region::whole(grid);
+  const std::array<TileWeights, 2> weights{
+      {{.total_weight = 4, .count = 1}, {.total_weight = 4, .count = 1}}};
+  CostEstimator costs(grid, traits_of(SamplerChoice::kAuto).work);
+  costs.begin_frame(true, FrameLikeness::kUnknown);
+  for (const double x : {2, 12}) costs.add_own(sample_at(x, 3));
+  const RegionQuality refined{region, weights, 4};
+  costs.update(refined, 1);
+  const double paid = costs.now(0).cost, pixels = reconstruction_cost(grid, 0);
+  REQUIRE(paid > 0);
+  CHECK(costs.future_cost(refined, 0, 1) == Approx(3 * paid + pixels));
+  CHECK(costs.future_cost(refined, 0, 4) == Approx(pixels));
+  CHECK(costs.future_cost(refined, 0, 8) == Approx(-0.5 * paid + pixels));
+}
+
 }  // namespace
 }  // namespace pprt::cost_estimator_test

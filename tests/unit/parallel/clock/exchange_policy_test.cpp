@@ -112,6 +112,7 @@ TEST_CASE("exchange policy: the round in which delayed samples arrive has a bund
   const auto lockstep = policy(ClockKind::kWork);
   const auto at = [](int frame, int round) { return ExchangeRound{.frame_index = frame, .round = round}; };
   CHECK(lockstep->delivery_delay(2, at(0, 23), 2000) == 2);
+  CHECK(lockstep->delivery_delay(1, at(0, 23), 0) == 2);  // nothing that could arrive
   CHECK_FALSE(lockstep->owes_bundle(2, at(0, 24)));
   CHECK_FALSE(lockstep->owes_bundle(1, at(1, 1)));
   CHECK(lockstep->owes_bundle(2, at(1, 1)));

@@ -61,6 +61,19 @@ TEST_CASE("wall clock: ranks that share a core leave time for each other's recon
   CHECK(left_with(*clock, 3000) == Approx(1.25 * 16 * 0.001));
 }
 
+TEST_CASE("wall clock: a frame whose deadline has gone by is past, but for the first one") {
+  const auto clock = clock_in_a_frame(0.01);
+  FrameOrder order;
+  order.deadline_s = 1e-9;
+  CHECK_FALSE(clock->is_past(order));  // which waits for all ranks
+  order.index = 1;
+  CHECK(clock->is_past(order));
+  order.deadline_s = 1000;
+  CHECK_FALSE(clock->is_past(order));
+  order.deadline_s = 0;  // no rate
+  CHECK_FALSE(clock->is_past(order));
+}
+
 TEST_CASE("wall clock: a frame whose time is over grows no further") {
   const auto clock = clock_in_a_frame(1.5);
   FrameOrder order;

@@ -131,6 +131,22 @@ TEST_CASE("lattice exchange: what comes for a tile that was given away is forwar
   CHECK(middle.take_outbox(0).empty());
 }
 
+TEST_CASE("lattice exchange: nobody is told what it has said itself, nor of a picture that is over") {
+  Rank rank_1(1);
+  LatticeExchange& middle = rank_1.exchange;
+  Partition given = columns();
+  given.owner[1] = 0;
+  CHECK(middle.transfer(given));
+  CHECK(middle.insert(sample_at(kSide + 4, kSide), 0));  // on the border of the tile that was given away
+  CHECK(middle.take_outbox(0).empty());
+  CHECK(middle.insert(sample_at(2 * kSide - 4, kSide), 2));
+  CHECK(middle.take_outbox(0).size() == 1);
+  CHECK(middle.insert(sample_at(kSide, kSide + 8), 1));
+  rank_1.sampler.clear(true);
+  middle.clear();
+  CHECK(middle.take_outbox(0).empty());
+}
+
 TEST_CASE("lattice exchange: a tile's samples and those on its border are handed over with it") {
   Rank rank_1(1);
   LatticeExchange& middle = rank_1.exchange;

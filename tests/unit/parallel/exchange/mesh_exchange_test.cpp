@@ -61,6 +61,28 @@ TEST_CASE("control: without the exchange many triangles at borders are missing")
   CHECK(findings.unknown > 20);
 }
 
+TEST_CASE("exchange: a rank knows the samples that have come from it, and nobody those of others yet") {
+  const TileGrid grid(128, 96, 8);
+  const Partition partition = random_rectangles(grid, 3, 1);
+  const SeedPattern seeds = seed_pattern(grid.width, grid.height, 1);
+  SampleMesh mesh(region_of(partition, 0));
+  MeshExchange exchange(mesh, seeds, partition, 0);
+  std::vector<std::vector<std::uint32_t>> of_rank(3, std::vector<std::uint32_t>(partition.owner.size(), 0));
+  std::vector<std::uint32_t> all(partition.owner.size(), 0);
+  for (const Vec2d& point : seeds.points) {
+    Sample sample;
+    sample.x = point.x, sample.y = point.y;
+    const auto tile = static_cast<std::size_t>(grid.tile_at(point.x, point.y));
+    const int owner = partition.owner[tile];
+    if (!exchange.insert(sample, owner)) continue;
+    ++of_rank[static_cast<std::size_t>(owner)][tile];
+    ++all[tile];
+  }
+  CHECK(exchange.known_in_tiles(0) == all);
+  for (const int rank : {1, 2})
+    CHECK(exchange.known_in_tiles(rank) == of_rank[static_cast<std::size_t>(rank)]);
+}
+
 TEST_CASE("exchange: each rank is sent the seeds that its triangles need") {
   for (unsigned seed = 1; seed <= 40; ++seed) {
     ExchangingRanks run(random_rectangles(TileGrid(200, 150, 10), 7, seed), seed);

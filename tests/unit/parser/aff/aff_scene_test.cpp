@@ -228,6 +228,8 @@ TEST_CASE("aff: every index of a mesh is judged, by the list that it is for") {
     return report("m vertices " + lists + " triangles 1 " + indices);
   };
   const std::string three = "3 0 0 0 1 0 0 0 1 0";
+  CHECK(report("m vertices 1 0 0 0\ntriangles 1\n  0 1 0\n")
+            .starts_with("a.aff:3:5: error: 1 is no index of a vertex: 'm' has 1, from 0 on\n"));
   CHECK(mesh("0", "0 1 2").find("0 is no index of a vertex: 'm' has none") != std::string::npos);
   CHECK(mesh("0 normals 1 0 0 1", "0 1 2 0 0 0").find("of a vertex: 'm' has none") != std::string::npos);
   CHECK(mesh(three + " normals 1 0 0 1", "0 1 2 0 0 1").find("1 is no index of a normal: 'm' has 1") !=

@@ -116,6 +116,21 @@ TEST_CASE("casting: what leaves a picture that is wider than high, or higher tha
   CHECK(cast(50, 32, high).out_of_view == 1);
 }
 
+TEST_CASE("casting: the mean way of samples is as long as they went, along both axes") {
+  Camera next = straight();
+  next.eye = Vec3d(0.3, -0.5, 0);
+  const std::vector<Sample> samples = {look(straight(), 10, 14, 1), look(straight(), 50, 40, 1)};
+  const CastResult cast = cast_samples(samples, Region::whole(kGrid), next, 2, {});
+  REQUIRE(cast.samples.size() == 2);
+  double sum = 0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double dx = cast.samples[i].x - samples[i].x, dy = cast.samples[i].y - samples[i].y;
+    REQUIRE((std::abs(dx) > 1 && std::abs(dy) > 1));
+    sum += std::hypot(dx, dy);
+  }
+  CHECK(cast.moved == Approx(sum / 2));
+}
+
 TEST_CASE("casting: samples are dropped by age, eye-dependent ones earlier") {
   SampleMesh mesh(Region::whole(kGrid));
   for (int frame = 1; frame <= 10; ++frame) {

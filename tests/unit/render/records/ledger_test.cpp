@@ -204,7 +204,12 @@ TEST_CASE("a ledger is replaced, or continued when a run is resumed") {
   Ledger(path, ExistingFiles::kReplace).write({{"run", 1}});
   Ledger(path, ExistingFiles::kResume).write({{"run", 2}});
   CHECK(records_of(path).size() == 2);
-  Ledger(path, ExistingFiles::kReplace).write({{"run", 3}});
+  std::ofstream(path, std::ios::app) << "{\"to";  // as a killed process may leave it
+  Ledger(path, ExistingFiles::kResume).write({{"run", 3}});
+  std::ifstream in(path);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  CHECK(text == "{\"run\":1}\n{\"run\":2}\n{\"to\n{\"run\":3}\n");
+  Ledger(path, ExistingFiles::kReplace).write({{"run", 4}});
   CHECK(records_of(path).size() == 1);
 }
 

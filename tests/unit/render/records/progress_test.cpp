@@ -34,4 +34,13 @@ TEST_CASE("frames that come at the same time have no pace") {
   CHECK(pace.seconds_for(3) == 0);
 }
 
+TEST_CASE("the time left has minutes and seconds, from an hour on with hours") {
+  CHECK(minutes(0.4) == "0:00");
+  CHECK(minutes(75.2) == "1:15");
+  CHECK(minutes(3599.4) == "59:59");
+  CHECK(minutes(3599.6) == "1:00:00");
+  CHECK(minutes(3600 + 15 * 60 + 2) == "1:15:02");
+  CHECK(minutes(25 * 3600 + 59) == "25:00:59");
+}
+
 }  // namespace pprt::progress_test
