@@ -70,6 +70,20 @@ void place(const BodyPlace& at, const Vec3d& direction, Surface& surface) {
   surface.curvature *= per_height;
 }
 
+// Returns the mean curvature at a point of a part, > 0 where it bulges to the side of the shading normal.
+double curvature_of(const ScenePart& part, std::uint32_t primitive, const SurfacePoint& at,
+                    const Vec3d& shading) {
+  const double outwards = at.normal.dot(shading) < 0 ? -1 : 1;
+  if (const auto* spheres = std::get_if<std::vector<SphereRecord>>(&part.shape))
+    return outwards * mean_curvature((*spheres)[primitive], at.position);
+  if (const auto* cones = std::get_if<std::vector<ConeRecord>>(&part.shape))
+    return outwards * mean_curvature((*cones)[primitive], at.position);
+  if (!part.smooth) return 0;
+  const Mesh& mesh = std::get<Mesh>(part.shape);
+  const Vec3d normal(mesh.normals[mesh.triangles[primitive][0]]);
+  return mean_curvature(mesh, primitive) * (normal.dot(shading) < 0 ? -1 : 1);
+}
+
 // Multiplies a placed surface's colours by its texture, filtered over what its cone covers.
 void apply_texture(const Mesh& mesh, std::uint32_t triangle, const TrianglePoint& at, const BodyPlace* body,
                    const Vec3d& direction, Surface& surface) {
@@ -85,7 +99,6 @@ void apply_texture(const Mesh& mesh, std::uint32_t triangle, const TrianglePoint
 // Recomputes a hit from its primitive. `along` is the ray's direction, unit; `cone` its cone where it starts.
 Surface surface_at(const Pose& pose, const RTCRayHit& found, const Vec3d& along, const RayCone& cone = {}) {
   const CompiledScene::Impl& scene = pose.scene();
-  const bool has_textures = scene.effects.has(Effect::kTextures);
   const ScenePart& part = pose.part(found.hit.geomID);
   const BodyPlace* body = pose.place_of(part);
   const std::uint32_t primitive = found.hit.primID;
@@ -106,7 +119,6 @@ Surface surface_at(const Pose& pose, const RTCRayHit& found, const Vec3d& along,
   const auto meet = [&](const auto& record) {
     point = on_surface(record, near(record));
     surface.offset = quadric_offset(sum_of_coordinates(point.position), extent(record));
-    if (has_textures) surface.curvature = mean_curvature(record, point.position);
   };
   if (const auto* spheres = std::get_if<std::vector<SphereRecord>>(&part.shape)) {
     meet((*spheres)[primitive]);
@@ -121,13 +133,10 @@ Surface surface_at(const Pose& pose, const RTCRayHit& found, const Vec3d& along,
   surface.position = point.position;
   surface.entering = point.normal.dot(direction) < 0;
   surface.normal = surface.entering ? point.normal : -point.normal;
-  if (!surface.entering) surface.curvature = -surface.curvature;
   surface.shading = surface.normal;
   if (part.smooth && scene.effects.has(Effect::kSmoothNormals)) {
     const Vec3d normal = shading_normal(*mesh, primitive, at.u, at.v);
-    const bool is_behind = normal.dot(surface.normal) < 0;
-    surface.shading = is_behind ? -normal : normal;
-    if (has_textures) surface.curvature = mean_curvature(*mesh, primitive) * (is_behind ? -1 : 1);
+    surface.shading = normal.dot(surface.normal) < 0 ? -normal : normal;
     surface.rise = rise_to_smooth(*mesh, primitive, at, surface.normal);
     if (body) surface.rise = body->to_world.vector(surface.rise);
   }
@@ -135,6 +144,8 @@ Surface surface_at(const Pose& pose, const RTCRayHit& found, const Vec3d& along,
   surface.material = &material;
   surface.ambient = material.ambient;
   surface.diffuse = material.diffuse;
+  const bool has_textures = scene.effects.has(Effect::kTextures);
+  if (has_textures) surface.curvature = curvature_of(part, primitive, point, surface.shading);
   if (body) place(*body, along, surface);
   if (!has_textures) return surface;
   surface.cone = cone.after((surface.position - start()).dot(along));
