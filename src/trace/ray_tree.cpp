@@ -72,13 +72,13 @@ void place(const BodyPlace& at, const Vec3d& direction, Surface& surface) {
 
 // Returns the mean curvature at a point of a part, > 0 where it bulges to the side of the shading normal.
 double curvature_of(const ScenePart& part, std::uint32_t primitive, const SurfacePoint& at,
-                    const Vec3d& shading) {
+                    const Vec3d& shading, bool is_smooth) {
   const double outwards = at.normal.dot(shading) < 0 ? -1 : 1;
   if (const auto* spheres = std::get_if<std::vector<SphereRecord>>(&part.shape))
     return outwards * mean_curvature((*spheres)[primitive], at.position);
   if (const auto* cones = std::get_if<std::vector<ConeRecord>>(&part.shape))
     return outwards * mean_curvature((*cones)[primitive], at.position);
-  if (!part.smooth) return 0;
+  if (!is_smooth) return 0;
   const Mesh& mesh = std::get<Mesh>(part.shape);
   const Vec3d normal(mesh.normals[mesh.triangles[primitive][0]]);
   return mean_curvature(mesh, primitive) * (normal.dot(shading) < 0 ? -1 : 1);
@@ -134,7 +134,8 @@ Surface surface_at(const Pose& pose, const RTCRayHit& found, const Vec3d& along,
   surface.entering = point.normal.dot(direction) < 0;
   surface.normal = surface.entering ? point.normal : -point.normal;
   surface.shading = surface.normal;
-  if (part.smooth && scene.effects.has(Effect::kSmoothNormals)) {
+  const bool is_smooth = part.smooth && scene.effects.has(Effect::kSmoothNormals);
+  if (is_smooth) {
     const Vec3d normal = shading_normal(*mesh, primitive, at.u, at.v);
     surface.shading = normal.dot(surface.normal) < 0 ? -normal : normal;
     surface.rise = rise_to_smooth(*mesh, primitive, at, surface.normal);
@@ -145,7 +146,7 @@ Surface surface_at(const Pose& pose, const RTCRayHit& found, const Vec3d& along,
   surface.ambient = material.ambient;
   surface.diffuse = material.diffuse;
   const bool has_textures = scene.effects.has(Effect::kTextures);
-  if (has_textures) surface.curvature = curvature_of(part, primitive, point, surface.shading);
+  if (has_textures) surface.curvature = curvature_of(part, primitive, point, surface.shading, is_smooth);
   if (body) place(*body, along, surface);
   if (!has_textures) return surface;
   surface.cone = cone.after((surface.position - start()).dot(along));
