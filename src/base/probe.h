@@ -28,8 +28,10 @@ struct Probe {
   // Largest primitive number in a RaySample; 0: not known.
   std::uint32_t primitives = 0;
   // Traces the eye ray through image point (x, y), pixels, but sends no shadow rays from its first hit to
-  // lights that are known there. Empty: not available.
-  std::function<RaySample(double x, double y, std::span<const KnownLights> known)> trace_knowing = {};
+  // lights that are known there. Textures are filtered over a square of the image whose side is `footprint`,
+  // pixels; trace() takes a pixel's. Empty: not available.
+  std::function<RaySample(double x, double y, std::span<const KnownLights> known, double footprint)>
+      trace_knowing = {};
   // Moves everything to its place at a time, seconds. Returns whether anything stands elsewhere than before.
   // Empty: nothing moves.
   std::function<bool(double time)> set_time = {};

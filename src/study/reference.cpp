@@ -41,7 +41,9 @@ void trace_row(const Subject& subject, int y, int n, const Place& place, Image& 
     Vec3d sum(0, 0, 0);
     for (int cell = 0; cell < n * n; ++cell) {
       const Vec2d at = place(pixel, cell);
-      sum += Vec3d(displayed(tracer.trace(x + (cell % n + at.x) / n, y + (cell / n + at.y) / n).color));
+      const RaySample sample =
+          tracer.trace(x + (cell % n + at.x) / n, y + (cell / n + at.y) / n, {}, 1.0 / n);
+      sum += Vec3d(displayed(sample.color));
     }
     image.at(x, y) = Color(sum / (n * n));
   }

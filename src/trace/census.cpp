@@ -102,6 +102,11 @@ std::string census_text(const CompiledScene::Impl& scene) {
   text += fmt::format("hierarchy   built in {:.1f} ms; {:.2f} MB, primitives {:.2f} MB\n",
                       1e3 * scene.figures.seconds, 1e-6 * static_cast<double>(scene.figures.hierarchy_bytes),
                       1e-6 * static_cast<double>(scene.figures.primitive_bytes));
+  if (!scene.textures.empty()) {
+    text += fmt::format("textures    {}; {:.2f} MB, smaller copies for the distance included\n",
+                        counted(scene.textures.size(), "picture", "pictures"),
+                        1e-6 * static_cast<double>(scene.figures.texture_bytes));
+  }
   return text;
 }
 

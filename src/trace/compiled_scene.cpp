@@ -133,7 +133,8 @@ EffectSet chosen_effects(const Inventory& inventory, const CompileOptions& optio
 void add_materials(const SceneDescription& scene, CompiledScene::Impl& impl) {
   const bool has_textures = impl.effects.has(Effect::kTextures);
   for (const Texture& texture : scene.textures) {
-    if (has_textures && texture.width > 0) impl.textures.emplace_back(texture);
+    if (has_textures && texture.width > 0)
+      impl.figures.texture_bytes += impl.textures.emplace_back(texture).bytes();
   }
   const Rgb ambient = scene.ambient.value_or(Rgb(1, 1, 1));
   const double weight = scene.ambient ? 1 : light_weight(scene.lights.size());

@@ -110,8 +110,9 @@ class Tracer {
   const Camera& camera() const { return camera_; }
 
   // Traces the eye ray through image point (x, y), pixels, with its whole ray tree. From its first hit no
-  // shadow rays go to lights that are `known` for that primitive.
-  RaySample trace(double x, double y, std::span<const KnownLights> known = {});
+  // shadow rays go to lights that are `known` for that primitive. Textures are filtered over a square of the
+  // image whose side is `footprint`, pixels.
+  RaySample trace(double x, double y, std::span<const KnownLights> known = {}, double footprint = 1);
 
   // Returns the first hit at image point (x, y), pixels. The ray is not counted. Primitives are numbered as
   // in SceneDescription::order, materials as in SceneDescription::materials, both from 1.

@@ -21,6 +21,11 @@ struct BodyPlace {
   // Sum of the coordinates of its origin in the world.
   double distance = 0;
   bool is_shown = true;
+
+  // Takes a gradient, or a normal, to the world's space: by the inverse transpose.
+  Vec3d gradient(const Vec3d& v) const {
+    return {from_world.x.dot(v), from_world.y.dot(v), from_world.z.dot(v)};
+  }
 };
 
 // A scene at rest is one pose, which reads the compiled scene. Where bodies move, Embree's instances of them

@@ -8,6 +8,7 @@
 #include "trace/coincident_faces.h"
 #include "trace/geometry/numerics.h"
 #include "trace/pose.h"
+#include "trace/ray_cone.h"
 #include "trace/scene_impl.h"
 
 namespace pprt {
@@ -63,15 +64,14 @@ struct Surface {
   const ShadingMaterial* material = nullptr;
   Color ambient{0, 0, 0}, diffuse{0, 0, 0};  // of the material, times its texture
   Vec3d rise{0, 0, 0};                       // from the position to the smooth surface, see rise_to_smooth
+  // Only where the scene has textures.
+  RayCone cone;          // of the ray that comes
+  double curvature = 0;  // mean, > 0 where the smooth surface bulges towards the ray
 };
 
 // Takes a surface of a body's compiled space to the world's, where `direction` is the ray's.
 void place(const BodyPlace& at, const Vec3d& direction, Surface& surface) {
-  const auto normal_of = [&at](const Vec3d& n) {
-    return Vec3d(at.from_world.x.dot(n), at.from_world.y.dot(n),
-                 at.from_world.z.dot(n));  // inverse transpose
-  };
-  const Vec3d normal = normal_of(surface.normal);
+  const Vec3d normal = at.gradient(surface.normal);
   const double per_height = std::sqrt(normal.dot(normal));  // heights above the surface shrink so
   surface.position = at.to_world.point(surface.position);
   surface.normal = normal * (1 / per_height);
@@ -79,21 +79,46 @@ void place(const BodyPlace& at, const Vec3d& direction, Surface& surface) {
   surface.offset = surface.offset / per_height + instance_offset(at.rounding, reach + at.distance) +
                    origin_rounding(reach);
   if (surface.normal.dot(direction) > 0) surface.normal = -surface.normal;
-  surface.shading = unit(normal_of(surface.shading));
+  surface.shading = unit(at.gradient(surface.shading));
   if (surface.shading.dot(surface.normal) < 0) surface.shading = -surface.shading;
+  surface.curvature *= per_height;
 }
 
-// Recomputes a hit from its primitive. `along` is the ray's direction, unit.
-Surface surface_at(const Pose& pose, const RTCRayHit& found, const Vec3d& along) {
+// Returns the mean curvature at a point of a part, > 0 where it bulges to the side of the shading normal.
+double curvature_of(const ScenePart& part, std::uint32_t primitive, const SurfacePoint& at,
+                    const Vec3d& shading, bool is_smooth) {
+  const double outwards = at.normal.dot(shading) < 0 ? -1 : 1;
+  if (const auto* spheres = std::get_if<std::vector<SphereRecord>>(&part.shape))
+    return outwards * mean_curvature((*spheres)[primitive], at.position);
+  if (const auto* cones = std::get_if<std::vector<ConeRecord>>(&part.shape))
+    return outwards * mean_curvature((*cones)[primitive], at.position);
+  if (!is_smooth) return 0;
+  const Mesh& mesh = std::get<Mesh>(part.shape);
+  const Vec3d normal(mesh.normals[mesh.triangles[primitive][0]]);
+  return mean_curvature(mesh, primitive) * (normal.dot(shading) < 0 ? -1 : 1);
+}
+
+// Multiplies a placed surface's colours by its texture, filtered over what its cone covers.
+void apply_texture(const Mesh& mesh, std::uint32_t triangle, const TrianglePoint& at, const BodyPlace* body,
+                   const Vec3d& direction, Surface& surface) {
+  TextureGradients gradients = texture_gradients(mesh, triangle);
+  if (body) gradients = {body->gradient(gradients.u), body->gradient(gradients.v)};
+  const Color tint =
+      surface.material->texture->over(footprint(surface.cone.width, direction, surface.normal, gradients),
+                                      texture_point(mesh, triangle, at.u, at.v));
+  surface.ambient *= tint;
+  surface.diffuse *= tint;
+}
+
+// Recomputes a hit from its primitive. `along` is the ray's direction, unit; `cone` its cone where it starts.
+Surface surface_at(const Pose& pose, const RTCRayHit& found, const Vec3d& along, const RayCone& cone = {}) {
   const CompiledScene::Impl& scene = pose.scene();
   const ScenePart& part = pose.part(found.hit.geomID);
   const BodyPlace* body = pose.place_of(part);
   const std::uint32_t primitive = found.hit.primID;
   const Vec3d direction = body ? body->from_world.vector(along) : along;
-  const auto origin = [&] {
-    const Vec3d world(found.ray.org_x, found.ray.org_y, found.ray.org_z);
-    return body ? body->from_world.point(world) : world;
-  };
+  const auto start = [&] { return Vec3d(found.ray.org_x, found.ray.org_y, found.ray.org_z); };
+  const auto origin = [&] { return body ? body->from_world.point(start()) : start(); };
   // A ray that Embree took into a body's space was rounded there, and not alike by all processors.
   const auto near = [&](const auto& record) {
     const Vec3d from = origin();
@@ -123,7 +148,8 @@ Surface surface_at(const Pose& pose, const RTCRayHit& found, const Vec3d& along)
   surface.entering = point.normal.dot(direction) < 0;
   surface.normal = surface.entering ? point.normal : -point.normal;
   surface.shading = surface.normal;
-  if (part.smooth && scene.effects.has(Effect::kSmoothNormals)) {
+  const bool is_smooth = part.smooth && scene.effects.has(Effect::kSmoothNormals);
+  if (is_smooth) {
     const Vec3d normal = shading_normal(*mesh, primitive, at.u, at.v);
     surface.shading = normal.dot(surface.normal) < 0 ? -normal : normal;
     surface.rise = rise_to_smooth(*mesh, primitive, at, surface.normal);
@@ -133,12 +159,13 @@ Surface surface_at(const Pose& pose, const RTCRayHit& found, const Vec3d& along)
   surface.material = &material;
   surface.ambient = material.ambient;
   surface.diffuse = material.diffuse;
-  if (material.texture != nullptr && mesh != nullptr && !mesh->texture_points.empty()) {
-    const Color tint = material.texture->at(texture_point(*mesh, primitive, at.u, at.v));
-    surface.ambient *= tint;
-    surface.diffuse *= tint;
-  }
+  const bool has_textures = scene.effects.has(Effect::kTextures);
+  if (has_textures) surface.curvature = curvature_of(part, primitive, point, surface.shading, is_smooth);
   if (body) place(*body, along, surface);
+  if (!has_textures) return surface;
+  surface.cone = cone.after((surface.position - start()).dot(along));
+  if (material.texture != nullptr && mesh != nullptr && !mesh->texture_points.empty())
+    apply_texture(*mesh, primitive, at, body, along, surface);
   return surface;
 }
 
@@ -180,8 +207,8 @@ class RayTree {
         effects_(scene_.effects),
         published_(scene_.options.count_as_published) {}
 
-  void follow_eye_ray(const Vec3f& origin, const Vec3f& direction, std::span<const KnownLights> known,
-                      RaySample& sample) {
+  void follow_eye_ray(const Vec3f& origin, const Vec3f& direction, const RayCone& cone,
+                      std::span<const KnownLights> known, RaySample& sample) {
     ++counts_.primary;
     RTCRayHit found;
     if (!see(pose_, sender_, origin, direction, found)) {
@@ -192,7 +219,7 @@ class RayTree {
     }
     ++counts_.eye_hits;
     const Vec3d d(direction);
-    const Surface surface = surface_at(pose_, found, d);
+    const Surface surface = surface_at(pose_, found, d, cone);
     const ShadingMaterial& material = *surface.material;
     sample.hit = Vec3f(surface.position);
     sample.primitive = scene_.parts[found.hit.geomID].primitives[found.hit.primID] + 1;
@@ -241,12 +268,12 @@ class RayTree {
   }
 
   // Returns the colour of a secondary ray.
-  Color follow(const Vec3d& origin, const Vec3d& direction, int depth) {
+  Color follow(const Vec3d& origin, const Vec3d& direction, const RayCone& cone, int depth) {
     const Vec3f d(direction);
     RTCRayHit found;
     if (!see(pose_, sender_, Vec3f(origin), d, found)) return scene_.background;
     const Vec3d exact(d);
-    return shade(surface_at(pose_, found, exact), exact, depth);
+    return shade(surface_at(pose_, found, exact, cone), exact, depth);
   }
 
   // Returns the colour of a surface seen along `direction`, by NFF's model: ambient light, direct light, and
@@ -310,8 +337,9 @@ class RayTree {
     if (mirrors || (published_ && (material.specular > 0 || material.transmittance > 0))) {
       ++counts_.reflection;
       const Vec3d away = lifted(mirrored(direction, surface.shading), surface.normal);
-      color +=
-          follow(surface.position + surface.normal * surface.offset, away, depth) * material.specular_color;
+      color += follow(surface.position + surface.normal * surface.offset, away,
+                      mirrored(surface.cone, surface.curvature), depth) *
+               material.specular_color;
     }
     if (has(Effect::kRefraction) && material.transmittance > 0)
       color += refraction(surface, direction, depth);
@@ -327,12 +355,18 @@ class RayTree {
       if (!material.reflects_totally) return Color(0, 0, 0);
       ++counts_.reflection;
       const Vec3d inwards = lifted(mirrored(direction, surface.shading), surface.normal);
-      return follow(surface.position + surface.normal * surface.offset, inwards, depth) *
+      return follow(surface.position + surface.normal * surface.offset, inwards,
+                    mirrored(surface.cone, surface.curvature), depth) *
              material.transmittance;
     }
     ++counts_.refraction;
+    RayCone cone;
+    if (has(Effect::kTextures)) {
+      cone = refracted(surface.cone, surface.curvature, ratio, -direction.dot(surface.shading),
+                       -through.dot(surface.shading));
+    }
     through = lifted(through, -surface.normal);
-    return follow(surface.position - surface.normal * surface.offset, through, depth) *
+    return follow(surface.position - surface.normal * surface.offset, through, cone, depth) *
            material.transmittance;
   }
 
@@ -348,11 +382,11 @@ class RayTree {
 
 }  // namespace
 
-RaySample trace_ray_tree(const Pose& pose, const Vec3f& origin, const Vec3f& direction,
+RaySample trace_ray_tree(const Pose& pose, const Vec3f& origin, const Vec3f& direction, const RayCone& cone,
                          std::span<const KnownLights> known, RayCounts& counts) {
   const std::uint64_t before = counts.traced();
   RaySample sample;
-  RayTree(pose, counts).follow_eye_ray(origin, direction, known, sample);
+  RayTree(pose, counts).follow_eye_ray(origin, direction, cone, known, sample);
   sample.rays = static_cast<std::uint32_t>(counts.traced() - before);
   return sample;
 }

@@ -12,10 +12,12 @@
 namespace pprt {
 
 class Pose;
+struct RayCone;
 
 // Traces the ray tree of an eye ray, with the scene's effects and no others. Adds to the counts. Origin and
-// unit direction are in the compiled space. `known`: lights that need no shadow rays from the first hit.
-RaySample trace_ray_tree(const Pose& pose, const Vec3f& origin, const Vec3f& direction,
+// unit direction are in the compiled space. `cone`: the ray's, if the scene has textures. `known`: lights
+// that need no shadow rays from the first hit.
+RaySample trace_ray_tree(const Pose& pose, const Vec3f& origin, const Vec3f& direction, const RayCone& cone,
                          std::span<const KnownLights> known, RayCounts& counts);
 
 // The surface that an eye ray hits first, in the compiled space. Indices count from 0.

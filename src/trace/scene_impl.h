@@ -70,6 +70,7 @@ struct BuildFigures {
   double seconds = 0;
   std::size_t hierarchy_bytes = 0;  // memory of Embree's BVH
   std::size_t primitive_bytes = 0;
+  std::size_t texture_bytes = 0;  // pyramids included
   std::size_t triangles = 0;
   std::size_t degenerate = 0;        // primitives without extent, left out
   std::size_t repeated = 0;          // primitives that equal an earlier one, left out

@@ -6,6 +6,7 @@
 #include "trace/geometry/numerics.h"
 #include "trace/image_shape.h"
 #include "trace/pose.h"
+#include "trace/ray_cone.h"
 #include "trace/ray_tree.h"
 #include "trace/scene_impl.h"
 
@@ -36,6 +37,12 @@ int times_left(const Pose& pose, Vec3d origin, const Vec3f& direction) {
   return left;
 }
 
+// Returns the cone of an eye ray where it starts, `distance` from the eye. `footprint`: its width in pixels.
+RayCone eye_cone(const Camera& camera, const Vec3d& direction, double footprint, double distance) {
+  const double spread = footprint * camera.slope_per_pixel * direction.dot(camera.forward);
+  return {spread * distance, spread};
+}
+
 }  // namespace
 
 Tracer::Tracer(const CompiledScene& scene, const Camera& camera)
@@ -51,10 +58,13 @@ Carried Tracer::carry(RaySample& sample) const {
   return pose_->carry(sample);
 }
 
-RaySample Tracer::trace(double x, double y, std::span<const KnownLights> known) {
+RaySample Tracer::trace(double x, double y, std::span<const KnownLights> known, double footprint) {
   const Vec3d direction = unit(ray_direction(camera_, x, y));
-  const Vec3d origin = camera_.eye + direction * distance_to_scene(scene_.impl(), camera_.eye, direction);
-  return trace_ray_tree(*pose_, Vec3f(origin), Vec3f(direction), known, counts_);
+  const double start = distance_to_scene(scene_.impl(), camera_.eye, direction);
+  const Vec3d origin = camera_.eye + direction * start;
+  RayCone cone;
+  if (scene_.impl().effects.has(Effect::kTextures)) cone = eye_cone(camera_, direction, footprint, start);
+  return trace_ray_tree(*pose_, Vec3f(origin), Vec3f(direction), cone, known, counts_);
 }
 
 FirstHit Tracer::first_hit(double x, double y) const {

@@ -14,8 +14,8 @@ inline Probe probe_of(Tracer& tracer) {
                  [&tracer] { return tracer.counts(); },
                  [&tracer](std::uint32_t primitive, ImageShape& shape) { tracer.project(primitive, shape); },
                  tracer.primitive_count(),
-                 [&tracer](double x, double y, std::span<const KnownLights> known) {
-                   return tracer.trace(x, y, known);
+                 [&tracer](double x, double y, std::span<const KnownLights> known, double footprint) {
+                   return tracer.trace(x, y, known, footprint);
                  }};
   probe.surfaces = tracer.surfaces();
   if (tracer.scene().moves()) {

@@ -39,10 +39,11 @@ void RankSampling::trace_seeds() {
   }
 }
 
-// A sample for which other frames' shadow rays were enough is as old as they are.
+// A sample for which other frames' shadow rays were enough is as old as they are. Coarse samples stay in
+// finer pictures, so none is filtered over more than a pixel.
 Sample RankSampling::trace(const Vec2d& point) {
   const std::span<const KnownLights> known = sampler_->known_lights(point);
-  Sample sample = tracer_.trace(point.x, point.y, known);
+  Sample sample = tracer_.trace(point.x, point.y, known, std::min(1.0, sampler_->footprint(point)));
   for (const KnownLights& at : known) {
     if (at.primitive != sample.ray.primitive) continue;
     sample.frame = at.frame;

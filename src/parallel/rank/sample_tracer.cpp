@@ -24,14 +24,13 @@ void SampleTracer::begin_frame(const FrameOrder& order) {
   time_ = order.time;
 }
 
-Sample SampleTracer::trace(double x, double y, std::span<const KnownLights> known) {
+Sample SampleTracer::trace(double x, double y, std::span<const KnownLights> known, double footprint) {
   Sample sample;
   sample.x = x;
   sample.y = y;
   sample.frame = frame_number_;
   sample.id = (static_cast<SampleId>(rank_) << 40) | next_id_++;
-  sample.ray =
-      known.empty() || !probe_.trace_knowing ? probe_.trace(x, y) : probe_.trace_knowing(x, y, known);
+  sample.ray = probe_.trace_knowing ? probe_.trace_knowing(x, y, known, footprint) : probe_.trace(x, y);
   if (!is_finite(sample.ray.color)) {
     ++non_finite_;
     sample.ray.color = Color(0, 0, 0);

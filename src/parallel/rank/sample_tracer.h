@@ -32,8 +32,9 @@ class SampleTracer {
 
   // Traces the eye ray through an image point. The one gate for colours that no picture holds. Those that are
   // no finite numbers are counted, and black from here on. Others are clamped to 65504.
-  // `known`: lights that need no shadow rays where the eye ray hits their primitives.
-  Sample trace(double x, double y, std::span<const KnownLights> known = {});
+  // `known`: lights that need no shadow rays where the eye ray hits their primitives. `footprint`: side of
+  // the square that textures are filtered over, pixels.
+  Sample trace(double x, double y, std::span<const KnownLights> known = {}, double footprint = 1);
 
   // Whether nothing hides a hit point from the eye.
   bool is_visible(const Vec3f& hit, bool at_infinity);

@@ -1,6 +1,7 @@
 #include "pipeline/lattice/lattice_sampler.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace pprt {
@@ -50,6 +51,11 @@ std::vector<SeedPoint> LatticeSampler::seeds() const {
   for (const Vec2d& at : refiner_.base_points())
     seeds.push_back({at, static_cast<std::uint32_t>(seeds.size()), region().owns_point(at.x, at.y)});
   return seeds;
+}
+
+double LatticeSampler::footprint(const Vec2d& point) const {
+  const LatticeNode node = node_at(point);
+  return is_base(node) ? double{kBaseSide} / kPixelSide : std::sqrt(level_of(node).area());
 }
 
 bool LatticeSampler::insert(const Sample& sample) {

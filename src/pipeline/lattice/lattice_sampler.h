@@ -31,6 +31,7 @@ class LatticeSampler final : public Sampler {
   void clear(bool keep_learned) override;
   std::vector<SeedPoint> seeds() const override;
   std::optional<Vec2d> next_point() override { return refiner_.next_point(); }
+  double footprint(const Vec2d& point) const override;
   bool insert(const Sample& sample) override;
   void expect_growth(double factor) override;
   void camera_changed() override { refiner_.camera_changed(); }

@@ -56,6 +56,9 @@ class Sampler {
   // same point is not returned again, whether a sample is inserted there or not.
   virtual std::optional<Vec2d> next_point() = 0;
 
+  // Returns the side of the square of the image that a sample at this point stands for, pixels.
+  virtual double footprint(const Vec2d& /*point*/) const { return 1; }
+
   // Returns what the picture shows at the last next_point(), for a sample on this primitive. For samplers
   // that insert cast samples, whose worth is judged by it.
   virtual PictureGuess guess(std::uint32_t /*primitive*/) const { return {}; }

@@ -76,9 +76,10 @@ Image uniform_picture(Tracer& tracer, const Camera& camera, const Size& size) {
   Image grid(size.width, size.height);
   const double step_x = static_cast<double>(camera.width) / size.width;
   const double step_y = static_cast<double>(camera.height) / size.height;
+  const double footprint = std::min({1.0, step_x, step_y});
   for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x) {
-      grid.at(x, y) = tracer.trace((x + 0.5) * step_x, (y + 0.5) * step_y).color;
+      grid.at(x, y) = tracer.trace((x + 0.5) * step_x, (y + 0.5) * step_y, {}, footprint).color;
     }
   }
   if (size.width == camera.width && size.height == camera.height) return grid;

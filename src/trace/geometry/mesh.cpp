@@ -43,6 +43,21 @@ FacetShape facet_shape(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
   return {normal, twice_area, triangle_offset(longest, twice_area, reach)};
 }
 
+// Gradients of the weights of a triangle's second and third corner, in its plane.
+struct WeightGradients {
+  Vec3d b, c;
+};
+
+WeightGradients weight_gradients(const Mesh& mesh, std::uint32_t triangle) {
+  const TriangleIndices& index = mesh.triangles[triangle];
+  const Vec3d a(mesh.vertices[index[0]]);
+  const Vec3d ab = Vec3d(mesh.vertices[index[1]]) - a;
+  const Vec3d ac = Vec3d(mesh.vertices[index[2]]) - a;
+  const Vec3d normal = ab.cross(ac);
+  const double per_area2 = 1 / normal.dot(normal);
+  return {ac.cross(normal) * per_area2, normal.cross(ab) * per_area2};
+}
+
 }  // namespace
 
 std::size_t Mesh::add(std::span<const Vec3d> polygon, std::span<const Vec3f> vertex_normals) {
@@ -115,6 +130,24 @@ Vec2d texture_point(const Mesh& mesh, std::uint32_t triangle, double u, double v
   const TriangleIndices& index = mesh.triangles[triangle];
   return Vec2d(mesh.texture_points[index[0]]) * (1 - u - v) + Vec2d(mesh.texture_points[index[1]]) * u +
          Vec2d(mesh.texture_points[index[2]]) * v;
+}
+
+TextureGradients texture_gradients(const Mesh& mesh, std::uint32_t triangle) {
+  const WeightGradients weights = weight_gradients(mesh, triangle);
+  const TriangleIndices& index = mesh.triangles[triangle];
+  const Vec2d from(mesh.texture_points[index[0]]);
+  const Vec2d to_b = Vec2d(mesh.texture_points[index[1]]) - from;
+  const Vec2d to_c = Vec2d(mesh.texture_points[index[2]]) - from;
+  return {weights.b * to_b.x + weights.c * to_c.x, weights.b * to_b.y + weights.c * to_c.y};
+}
+
+// Half the trace of the normal's derivative.
+double mean_curvature(const Mesh& mesh, std::uint32_t triangle) {
+  const WeightGradients weights = weight_gradients(mesh, triangle);
+  const TriangleIndices& index = mesh.triangles[triangle];
+  const Vec3d from(mesh.normals[index[0]]);
+  return 0.5 * (weights.b.dot(Vec3d(mesh.normals[index[1]]) - from) +
+                weights.c.dot(Vec3d(mesh.normals[index[2]]) - from));
 }
 
 void Mesh::set_shape(std::size_t triangle, const std::array<Vec3d, 3>& corners,

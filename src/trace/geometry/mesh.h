@@ -62,6 +62,18 @@ Vec3d rise_to_smooth(const Mesh& mesh, std::uint32_t triangle, const TrianglePoi
 // Returns the texture coordinates. The mesh must have them.
 Vec2d texture_point(const Mesh& mesh, std::uint32_t triangle, double u, double v);
 
+// How the texture coordinates change along a triangle: their gradients, in its plane.
+struct TextureGradients {
+  Vec3d u{0, 0, 0}, v{0, 0, 0};
+};
+
+// The mesh must have texture coordinates.
+TextureGradients texture_gradients(const Mesh& mesh, std::uint32_t triangle);
+
+// Returns the mean curvature of the smooth surface that the normals describe, > 0 where it bulges to their
+// side. The mesh must have normals.
+double mean_curvature(const Mesh& mesh, std::uint32_t triangle);
+
 // Makes a geometry that reads the mesh's buffers on every ray: the mesh must outlive it and not move. A
 // filter drops hits on invisible faces. Appends the padding that Embree reads past the last vertex.
 EmbreeGeometry new_mesh_geometry(const EmbreeDevice& device, Mesh& mesh, VisibleFaces faces);

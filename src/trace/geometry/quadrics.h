@@ -143,6 +143,20 @@ inline SurfacePoint on_surface(const ConeRecord& cone, const Vec3d& near) {
   return {on_axis + radial * radius, unit(radial - cone.axis * (cone.radius_change * per_length2))};
 }
 
+// Returns the mean curvature at a point of the surface, > 0 as it bulges outwards.
+inline double mean_curvature(const SphereRecord& sphere, const Vec3d&) {
+  return 1 / sphere.radius;
+}
+
+// A cone is curved around its axis alone: by the cosine of its slope over the radius. The tip counts as flat.
+inline double mean_curvature(const ConeRecord& cone, const Vec3d& position) {
+  const double length2 = cone.axis.dot(cone.axis);
+  const double radius =
+      cone.base_radius + cone.radius_change * (position - cone.base).dot(cone.axis) / length2;
+  if (!(radius > 0)) return 0;
+  return 0.5 / (radius * std::sqrt(1 + cone.radius_change * cone.radius_change / length2));
+}
+
 // Returns the axis-parallel bounding box, exact up to rounding.
 inline Box3d bounds(const SphereRecord& sphere) {
   const Vec3d half(sphere.radius);

@@ -241,4 +241,26 @@ TEST_CASE("lattice session: balancing does not make a still of several ranks mor
   CHECK(samples_with(BalanceMode::kCombined) < 1.1 * samples_with(BalanceMode::kNone));
 }
 
+TEST_CASE(
+    "lattice sessions: a sample is filtered over the area that its node stands for, at most a pixel's") {
+  SessionSettings settings = lattice_settings(SamplerChoice::kGrid);
+  settings.frames_per_second = 0, settings.budget_units = 0;
+  settings.stop = {.samples = 6 * 160 * 96};
+  const VirtualRun run = run_session(2, settings, still_or_pan(settings, 1), discs());
+  std::map<double, std::size_t> of_footprint;
+  for (const std::vector<Traced>& traced : run.traced) {
+    for (const Traced& at : traced) {
+      const LatticeNode node = node_at({at.x, at.y});
+      const bool is_fine = !is_base(node) && level_of(node).side <= kPixelSide;
+      REQUIRE(at.footprint == (is_fine ? std::sqrt(level_of(node).area()) : 1));
+      ++of_footprint[at.footprint];
+    }
+  }
+  // One sample a pixel, another in the middle of each, two more on the sides, and the first half of the next
+  // four.
+  CHECK(of_footprint.size() == 4);
+  CHECK(of_footprint[std::sqrt(0.5F)] > 150 * 90);
+  CHECK(of_footprint[0.5] > 2 * 150 * 90);
+}
+
 }  // namespace pprt::lattice_session_test

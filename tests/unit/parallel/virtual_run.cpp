@@ -40,7 +40,9 @@ class DiscTracer {
             conditions_.tells_shapes ? [this](std::uint32_t p, ImageShape& shape) { view(p, shape); }
                                      : std::function<void(std::uint32_t, ImageShape&)>(),
             0,
-            [this](double x, double y, std::span<const KnownLights> known) { return trace(x, y, known); }};
+            [this](double x, double y, std::span<const KnownLights> known, double footprint) {
+              return trace(x, y, known, footprint);
+            }};
   }
 
   std::vector<Traced> take_traced() { return std::move(traced_); }
@@ -72,8 +74,8 @@ class DiscTracer {
   }
 
   // All rays but the first are shadow rays, to as many lights, all of which are seen.
-  RaySample trace(double x, double y, std::span<const KnownLights> known = {}) {
-    traced_.push_back({frame_, x, y});
+  RaySample trace(double x, double y, std::span<const KnownLights> known = {}, double footprint = 1) {
+    traced_.push_back({frame_, x, y, footprint});
     ++counts_.primary;
     const Vec3d hit = camera_.eye + ray_direction(camera_, x, y) * kPlaneDistance;
     const double period = conditions_.period;

@@ -56,6 +56,7 @@ struct Traced {
   int frame = 0;  // the how many-th camera
   double x = 0;
   double y = 0;
+  double footprint = 1;
 };
 
 struct VirtualRun {

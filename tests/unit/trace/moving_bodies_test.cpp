@@ -371,6 +371,17 @@ TEST_CASE("moving bodies: colours under lights that no sample notes, and that mo
   }
 }
 
+TEST_CASE(
+    "moving bodies: textures are filtered over what a pixel covers of a body that is turned and stretched") {
+  SceneDescription scene = scene_of(
+      moving(kMatte + "tt t -2 0 0 0 0  2 0 0 9 0  2 2 0 9 9  tt t -2 0 0 0 0  2 2 0 9 9  -2 2 0 0 9\n",
+             keys("rot", "0 1 0 @0", 1) + keys("scale", ".5 2 1", 1)));
+  Texture& stripes = scene.textures.at(0);
+  stripes = {"t", 32, 32, {}};
+  for (int i = 0; i < 32 * 32; ++i) stripes.rgb.insert(stripes.rgb.end(), 3, (i / 3) % 2 == 0 ? 255 : 0);
+  check_pose(scene, 2.5, 1);
+}
+
 TEST_CASE("moving bodies: triangles with a texture but without area make no parts of their own") {
   std::string text = kView + kLight + kMatte;
   for (int i = 0; i < 300; ++i) text += "tt t 0 0 0 0 0  1 1 1 0 0  2 2 2 " + std::to_string(i) + " 0\n";

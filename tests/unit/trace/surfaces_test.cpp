@@ -95,9 +95,12 @@ TEST_CASE("textures: an effect that can be left out") {
   const SceneDescription scene =
       textured_square({.ambient = {.5, .4, .3}, .diffuse = {0, 0, 0}, .specular = {0, 0, 0}});
   CHECK(compile(scene).effects().has(Effect::kTextures));
+  const std::string census = compile(scene).census();
+  CHECK(census.find("textures    1 picture; 0.00 MB, smaller") != std::string::npos);
   CompileOptions without;
   without.effects = parse_effects("none");
   CHECK(close(seen_at(scene, -0.5, 0.5, without), Color(0.5F, 0.4F, 0.3F)));
+  CHECK(compile(scene, without).census().find("1 picture") == std::string::npos);
   SceneDescription plain = scene;
   plain.materials[0].texture.reset();
   CHECK_FALSE(compile(plain).effects().has(Effect::kTextures));
