@@ -8,8 +8,8 @@
 #include "trace/coincident_faces.h"
 #include "trace/geometry/numerics.h"
 #include "trace/pose.h"
-#include "trace/ray_cone.h"
 #include "trace/scene_impl.h"
+#include "trace/textures/ray_cone.h"
 
 namespace pprt {
 namespace {

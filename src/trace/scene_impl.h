@@ -15,7 +15,7 @@
 #include "trace/geometry/user_geometry.h"
 #include "trace/inventory.h"
 #include "trace/light_contacts.h"
-#include "trace/texture_image.h"
+#include "trace/textures/texture_image.h"
 
 namespace pprt {
 

@@ -6,9 +6,9 @@
 #include "trace/geometry/numerics.h"
 #include "trace/image_shape.h"
 #include "trace/pose.h"
-#include "trace/ray_cone.h"
 #include "trace/ray_tree.h"
 #include "trace/scene_impl.h"
+#include "trace/textures/ray_cone.h"
 
 namespace pprt {
 namespace {

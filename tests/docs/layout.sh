@@ -25,6 +25,7 @@ for line in \
   "parser/text:" \
   "parser/anim: parser/text" \
   "trace/geometry:" \
+  "trace/textures: trace/geometry" \
   "pipeline/core:" \
   "pipeline/silhouettes: pipeline/core" \
   "pipeline/casting: pipeline/core" \

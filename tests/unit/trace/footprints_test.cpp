@@ -8,7 +8,7 @@
 #include <string>
 
 #include "parser/aff_parser.h"
-#include "trace/texture_image.h"
+#include "trace/textures/texture_image.h"
 #include "unit/trace/test_scenes.h"
 
 namespace pprt::footprints_test {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "trace/texture_image.h"
+#include "trace/textures/texture_image.h"
 #include "unit/trace/test_scenes.h"
 
 namespace pprt::surfaces_test {

@@ -8,7 +8,7 @@
 
 #include "base/vector.h"
 #include "trace/geometry/mesh.h"
-#include "trace/texture_image.h"
+#include "trace/textures/texture_image.h"
 
 namespace pprt {
 

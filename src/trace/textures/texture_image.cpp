@@ -1,4 +1,4 @@
-#include "trace/texture_image.h"
+#include "trace/textures/texture_image.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "trace/ray_cone.h"
+#include "trace/textures/ray_cone.h"
 
 #include <algorithm>
 #include <cmath>
