@@ -16,6 +16,14 @@ expect_line err 'mesh/ball.stl: no background: a grey one is added'
 run pprt-render mesh/ball.stl --up z --clock work -s 16x16 -o z.png; expect_code 0
 expect_line err 'mesh/ball.stl: no camera: one that shows everything is added, with z up (--up y for the other)'
 
+# A centimetre and a kilometre look alike.
+for size in 0.005 500; do
+  awk -v s=$size '$1 == "v" { $2 *= s; $3 *= s; $4 *= s } { print }' mesh/ball.obj >sized.obj; cp mesh/ball.mtl .
+  run pprt-render sized.obj --clock work -s 32x32 --samples 4000 --overwrite -o sized.png; expect_code 0
+  run pprt-render mesh/ball.obj --clock work -s 32x32 --samples 4000 --overwrite -o whole.png; expect_code 0
+  run pprt-compare sized.png whole.png --max-rmse 0.01; expect_code 0
+done
+
 # The same picture as by a file between, but for the background.
 printf 'solid t\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 9 0 0\nvertex 0 9 0\nendloop\nendfacet\nendsolid t\n' >t.stl
 pprt-convert t.stl t.aff 2>/dev/null

@@ -41,7 +41,7 @@ inline constexpr std::array<std::string_view, static_cast<std::size_t>(GltfLoss:
     "materials with a picture of metal and roughness: its mean counts",
     "materials that glow by a picture besides that of their colour: its mean glows",
     "materials with coloured glass or metal: what is seen through or in them keeps its colours",
-    "meshes with colours at their vertices: each shows its mean",
+    "meshes with colours at their vertices besides a texture: their mean counts",
     "meshes with a skin stand in the pose that they are bound in",
     "meshes that can change their shape (morph targets): they rest",
     "movements that change a mesh's shape: left out",

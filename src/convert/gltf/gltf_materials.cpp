@@ -279,6 +279,12 @@ std::optional<TextureIndex> GltfMaterials::tiled(int texture, const Vec2d& low, 
   return place;
 }
 
+TextureIndex GltfMaterials::add(Texture texture) {
+  std::vector<Texture>& textures = builder_.scene().textures;
+  textures.push_back(std::move(texture));
+  return static_cast<TextureIndex>(textures.size() - 1);
+}
+
 void GltfMaterials::cut(const GltfSurface& surface, const Material& material, ModelMesh& mesh) {
   if (!surface.cutoff || !material.texture) return;
   const auto alpha = alphas_.find(*material.texture);

@@ -59,6 +59,9 @@ class GltfMaterials {
   // Sets the texture of a material, and the coordinates of a mesh that are its own in `mesh`.
   void put_on(const GltfPicture& picture, Material& material, ModelMesh& mesh);
 
+  // Returns the place of a texture that is no picture of the file.
+  TextureIndex add(Texture texture);
+
   // Cuts holes into a mesh that has a texture, where its surface has them.
   void cut(const GltfSurface& surface, const Material& material, ModelMesh& mesh);
 

@@ -1,7 +1,12 @@
 #include "convert/gltf/gltf_mesh.h"
 
+#include <array>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
+#include <utility>
+
+#include "convert/gltf/gltf_colours.h"
 
 namespace pprt {
 namespace {
@@ -80,12 +85,6 @@ void add_gltf_primitive(const tinygltf::Model& model, const tinygltf::Primitive&
   const GltfSurface& surface = materials.surface(from.material);
   if (surface.is_hidden) return;
   Material material = surface.material;
-  if (const int color = attribute(from, "COLOR_0"); color >= 0) {
-    const GltfNumbers colors = numbers(model, color);
-    if (colors.components < 3) throw std::runtime_error("a mesh has colours that are none");
-    material = GltfMaterials::recoloured(surface, mean_color(colors, mesh.corners));
-    losses.add(GltfLoss::kVertexColours);
-  }
   const GltfPicture& picture = surface.picture;
   const int places = attribute(from, "TEXCOORD_" + std::to_string(picture.coordinates));
   if (picture.texture >= 0 && places >= 0) {
@@ -97,6 +96,19 @@ void add_gltf_primitive(const tinygltf::Model& model, const tinygltf::Primitive&
     materials.put_on(picture, material, mesh);
     materials.cut(surface, material, mesh);
     if (mesh.corners.empty()) return;  // all of it is a hole
+  }
+  if (const int color = attribute(from, "COLOR_0"); color >= 0) {
+    const GltfNumbers colors = numbers(model, color);
+    if (colors.components < 3) throw std::runtime_error("a mesh has colours that are none");
+    std::optional<Texture> painted;
+    if (!material.texture) painted = paint(mesh, colors);
+    if (painted) {
+      material.texture = materials.add(std::move(*painted));
+    } else {
+      const Material mean = GltfMaterials::recoloured(surface, mean_color(colors, mesh.corners));
+      material.color = mean.color, material.terms = mean.terms;
+      losses.add(GltfLoss::kVertexColours);
+    }
   }
   builder.add(mesh, material, space);
 }

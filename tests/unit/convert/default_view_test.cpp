@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "convert/model/display_values.h"
 #include "scene/description/shading_rules.h"
 #include "scene/description/view_frame.h"
 #include "spd/spd.h"
@@ -86,6 +87,35 @@ TEST_CASE("default lights are left of the eye and above it, and to the right") {
   CHECK_FALSE(default_lights(scene, view)[0].color);
   CHECK(default_lights(scene, view)[1].color.value().x ==
         Approx(lights[1].color.value().x * light_weight(2)));
+}
+
+TEST_CASE("a grey ball in the default light spans most of the range of display values") {
+  SceneDescription scene;
+  scene.ambient = Rgb(1, 1, 1);
+  scene.materials = {{}};
+  add_sphere(scene, {{3, 2, 1}, 0.5, 0, {}});
+  const View view = fitted_view(scene, UpAxis::kY);
+  const std::vector<Light> lights = default_lights(scene, view);
+  const double grey = display_value(0.5);
+  double least = 1, most = 0;
+  for (int i = 0; i < 64; ++i) {
+    for (int k = 0; k < 128; ++k) {
+      const double polar = (i + 0.5) * M_PI / 64, around = k * M_PI / 64;
+      const Vec3d normal(std::sin(polar) * std::cos(around), std::cos(polar),
+                         std::sin(polar) * std::sin(around));
+      const Vec3d place = Vec3d(3, 2, 1) + normal * 0.5;
+      if (normal.dot(view.from - place) <= 0) continue;  // not seen
+      double shown = kAmbientReflectance;
+      for (const Light& light : lights) {
+        const double cosine = normal.dot((light.position - place).normalized());
+        shown += std::max(cosine, 0.0) * light.color.value_or(Rgb(1, 1, 1)).x;
+      }
+      least = std::min(least, shown * grey), most = std::max(most, shown * grey);
+    }
+  }
+  CHECK(least < 0.15);
+  CHECK(most > 0.8);
+  CHECK(most <= 1);
 }
 
 }  // namespace pprt::default_view_test

@@ -204,6 +204,37 @@ TEST_CASE("gltf: a picture's alpha cuts holes, lets through, or counts for nothi
   CHECK(blended.notes == Notes{"1 materials as transparent as a picture's alpha (BLEND): its mean counts"});
 }
 
+TEST_CASE("gltf: colours at vertices are shown where they are, and between") {
+  GltfSample sample;
+  const std::vector<float> colors = {1, 0, 0, 0, 0.5F, 0, 0, 0, 1};
+  json primitive;
+  primitive["attributes"]["COLOR_0"] = sample.numbers(colors, "VEC3");
+  primitive["material"] = sample.add("materials", colored({0.5, 0.5, 0.5, 1}));
+  sample.node({{"mesh", sample.triangle(primitive)}});
+  const ReadMesh read = sample.read();
+  CHECK(read.notes.empty());
+  REQUIRE(read.scene.textures.size() == 1);
+  const Texture& texture = read.scene.textures[0];
+  const TriangleMesh& mesh = read.scene.meshes[0];
+  const auto texel = [&](const Vec2d& place, std::size_t channel) {
+    const double x = place.x * texture.width - 0.5, y = place.y * texture.height - 0.5;
+    CHECK((std::abs(x - std::round(x)) < 1e-9 && std::abs(y - std::round(y)) < 1e-9));
+    const auto at = static_cast<std::size_t>(std::lround(y) * texture.width + std::lround(x));
+    return static_cast<int>(texture.rgb[3 * at + channel]);
+  };
+  REQUIRE(mesh.texture_points.size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t c = 0; c < 3; ++c)
+      CHECK(texel(mesh.texture_points[i], c) ==
+            std::lround(255 * display_value(static_cast<double>(colors[3 * i + c]))));
+  }
+  // A third of the way from the first to the second corner.
+  const Vec2d between = mesh.texture_points[0] + (mesh.texture_points[1] - mesh.texture_points[0]) / 3.0;
+  CHECK(texel(between, 0) == 170);
+  CHECK(texel(between, 1) == std::lround(85 * display_value(0.5)));
+  CHECK(material_of(read).color.x == Approx(display_value(0.5)));
+}
+
 TEST_CASE("gltf: holes of single texels are cut, wherever corners lie between them") {
   AlphaPicture checks{4, 4, {}};
   for (int i = 0; i < 16; ++i) checks.alpha.push_back((i + i / 4) % 2 == 0 ? 1.0F : 0.0F);
@@ -364,6 +395,7 @@ TEST_CASE("gltf: every loss is told") {
   const int colors = sample.numbers({1, 0, 0, 1, 0, 0, 0.25F, 0, 0}, "VEC3");
   const int shapes = sample.numbers({0, 0, 0, 0, 0, 0, 0, 0, 1}, "VEC3");
   json coloured;
+  coloured["material"] = 0;
   coloured["attributes"]["COLOR_0"] = colors;
   coloured["targets"].push_back({{"POSITION", shapes}});
   sample.node({{"mesh", sample.triangle(coloured)}, {"skin", 0}});
@@ -391,6 +423,7 @@ TEST_CASE("gltf: every loss is told") {
   CHECK(std::set<std::string>(read.notes.begin(), read.notes.end()).size() == read.notes.size());
   const Material red = read.scene.materials[material_of(read.scene, read.scene.order.back())];
   CHECK(red.color.x == Approx(display_value(0.75)));
+  CHECK(red.color.y == 0);
 }
 
 TEST_CASE("gltf: numbers that are not there, and packed ones, are refused") {
