@@ -15,6 +15,7 @@ if(NOT embree_FOUND)
   find_package(embree 3.13 REQUIRED)
 endif()
 find_package(assimp REQUIRED)
+find_path(TINYGLTF_INCLUDE_DIR tiny_gltf.h REQUIRED)  # all in its header
 find_package(MPI REQUIRED COMPONENTS C)
 
 # CGAL reports its own build type advice; ours is set already.

@@ -13,9 +13,8 @@
 #include "base/file_table.h"
 #include "cli/scenes/scene_source.h"
 #include "convert/losses.h"
-#include "convert/mesh/isolated_reader.h"
-#include "convert/mesh/mesh_reader.h"
 #include "convert/mesh/mesh_writer.h"
+#include "convert/model_scene.h"
 #include "convert/names/extension.h"
 #include "convert/names/picture_names.h"
 #include "convert/pov/pov_material.h"
@@ -38,7 +37,7 @@ InputFormat input_format(const std::string& input) {
   if (is_spd_name(input) || input == "-") return InputFormat::kScene;
   const std::string extension = extension_of(input);
   if (extension == ".nff" || extension == ".aff") return InputFormat::kScene;
-  if (is_mesh_extension(extension)) return InputFormat::kMesh;
+  if (is_model_name(input)) return InputFormat::kMesh;
   throw UsageError(
       fmt::format("cannot tell the format of input '{}': it must be FILE.nff, FILE.aff, - (NFF on standard "
                   "input), spd:NAME[:SIZE] or a mesh such as FILE.obj{}",
@@ -75,31 +74,6 @@ void say_degenerate(const SceneDescription& scene, std::size_t count) {
   if (count > 0) say(scene, fmt::format("{} objects without extent left out", count));
 }
 
-// Whether time changes the scene.
-bool moves(const SceneDescription& scene) {
-  const auto has_track = [&](const auto& moved) { return scene.movement.tracks.contains(moved.track); };
-  const std::vector<SceneNode>& nodes = scene.movement.nodes;
-  return (scene.view && scene.movement.tracks.contains(kCameraTrack)) || !scene.moving_triangles.empty() ||
-         std::any_of(nodes.begin(), nodes.end(), has_track) ||
-         std::any_of(scene.light_nodes.begin(), scene.light_nodes.end(), has_track);
-}
-
-// Adds a view, which mesh files often lack and a scene to be rendered needs.
-void complete_view(SceneDescription& scene, UpAxis up) {
-  if (scene.view || scene.primitive_count() == 0) return;
-  const SceneDescription still = moves(scene) ? still_at(scene, start_time(scene.movement)) : scene;
-  scene.view = fitted_view(still.primitive_count() > 0 ? still : scene, up);
-  const bool y = up == UpAxis::kY;
-  say(scene, fmt::format("no camera: one that shows everything is added, with {} up (--up {} for the other)",
-                         y ? 'y' : 'z', y ? 'z' : 'y'));
-}
-
-void complete_lights(SceneDescription& scene) {
-  if (!scene.lights.empty()) return;
-  scene.lights.push_back(default_light(scene, *scene.view));
-  say(scene, "no lights: one behind the viewer's left shoulder is added");
-}
-
 // Returns the scene as the output can hold it: with its movement, or at one time.
 SceneDescription at_time_asked(SceneDescription scene, const ConvertOptions& options, OutputFormat to) {
   if (!moves(scene)) {
@@ -123,13 +97,13 @@ ParsedScene read(const ConvertOptions& options, InputFormat format) {
     std::cerr << parsed.warnings;
     return parsed;
   }
-  require_file(options.input);
-  ReadMesh mesh = read_mesh_isolated(options.input,
-                                     {.seconds = options.mesh_seconds, .memory_bytes = reading.max_memory});
-  for (const std::string& note : mesh.notes) say(mesh.scene, note);
-  complete_view(mesh.scene, options.up);
-  complete_lights(mesh.scene);
-  return {.scene = std::move(mesh.scene), .files = std::move(mesh.files)};
+  ParsedScene parsed = load_model(options.input, {.limits = {.seconds = options.mesh_seconds,
+                                                             .memory_bytes = reading.max_memory,
+                                                             .animation = options.animation},
+                                                  .up = options.up})
+                           .parsed;
+  std::cerr << parsed.warnings;
+  return parsed;
 }
 
 // Files that were read: the one named, and others.
@@ -251,7 +225,7 @@ void convert(const ConvertOptions& options) {
   const Inputs inputs{options.input, std::move(input.files)};
   SceneDescription scene = at_time_asked(std::move(input.scene), options, to);
   if (to == OutputFormat::kMesh) return write_mesh_files(std::move(scene), options, inputs);
-  complete_view(scene, options.up);
+  if (const std::optional<std::string> added = complete_view(scene, options.up)) say(scene, *added);
   if (options.tessellate || options.chord_error) scene = tessellated(scene, fineness(options));
   if (to == OutputFormat::kAff) return write_aff_files(scene, options, inputs);
   if (to == OutputFormat::kPov) return write_pov_files(scene, options, inputs);

@@ -24,6 +24,7 @@ struct ConvertOptions {
   // Time at which a scene that moves is taken, seconds. Empty: its movement, where the format has that; else
   // the start of its animation.
   std::optional<double> at = {};
+  std::string animation = {};                  // MeshOptions::animation
   double mesh_seconds = MeshLimits().seconds;  // MeshLimits::seconds
 };
 

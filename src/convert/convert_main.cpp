@@ -35,6 +35,9 @@ void add_options(CLI::App& app, pprt::ConvertOptions& options) {
       ->type_name("E")
       ->check(pprt::number_above_zero())
       ->excludes(divisions);
+  app.add_option("--animation", options.animation,
+                 "Which animation of a mesh is taken (default: the first of glTF, all of other formats)")
+      ->type_name("NAME");
   app.add_option("--mesh-seconds", options.mesh_seconds,
                  "Processor time that reading a mesh may take (default: 120)")
       ->type_name("SECONDS")

@@ -57,6 +57,11 @@ Image decode_image(std::string_view bytes, std::uint64_t max_memory) {
   throw std::runtime_error(bytes.empty() ? "the file is empty" : "it is no OpenEXR, PNG, JPEG or PPM file");
 }
 
+TransparentImage decode_transparent_image(std::string_view bytes, std::uint64_t max_memory) {
+  if (bytes.starts_with(kPngMagic)) return decode_transparent_png(bytes, max_memory);
+  return {decode_image(bytes, max_memory), {}};
+}
+
 Image read_image(const std::filesystem::path& path, std::uint64_t max_memory) {
   const std::string bytes = read_whole_file(path);
   try {

@@ -63,6 +63,13 @@ inline constexpr std::uint64_t kAnyMemory = std::numeric_limits<std::uint64_t>::
 Image decode_exr(std::string_view bytes, std::uint64_t max_memory = kAnyMemory);
 Image decode_png(std::string_view bytes, std::uint64_t max_memory = kAnyMemory);
 
+// A picture's colours, whatever shines through them, and the alpha of each pixel.
+struct TransparentImage {
+  Image colors;
+  std::vector<float> alpha;  // empty: 1 everywhere
+};
+TransparentImage decode_transparent_png(std::string_view bytes, std::uint64_t max_memory = kAnyMemory);
+
 // Writes a picture in the format of its extension, .exr or .png, completely or not at all
 // (image/atomic_file.h). Channels go into an EXR; a PNG ignores them. Returns the file's CRC-32. Throws
 // std::runtime_error "cannot write 'PATH': REASON".
@@ -78,6 +85,9 @@ Image decode_ppm(std::string_view bytes, std::uint64_t max_memory = kAnyMemory);
 // Returns the picture in the bytes of an EXR, a PNG, a JPEG or a PPM, told apart by the first ones. Throws as
 // decode_png().
 Image decode_image(std::string_view bytes, std::uint64_t max_memory = kAnyMemory);
+
+// The same with the alpha of a PNG; other formats have none.
+TransparentImage decode_transparent_image(std::string_view bytes, std::uint64_t max_memory = kAnyMemory);
 
 // Reads such a file. Throws std::runtime_error "cannot read 'PATH': REASON".
 Image read_image(const std::filesystem::path& path, std::uint64_t max_memory = kAnyMemory);

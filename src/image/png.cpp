@@ -178,7 +178,7 @@ std::string encode_png(const Image& image, const Metadata& metadata, PictureKind
   return std::move(stream.output);
 }
 
-Image decode_png(std::string_view bytes, std::uint64_t max_memory) {
+TransparentImage decode_transparent_png(std::string_view bytes, std::uint64_t max_memory) {
   Stream stream;
   stream.input = bytes;
   Reader reader(stream);
@@ -196,13 +196,23 @@ Image decode_png(std::string_view bytes, std::uint64_t max_memory) {
   for (std::size_t y = 0; y < height; ++y) rows[y] = samples.data() + y * width * kPixelBytes;
   if (!read_rows(reader, rows.data())) fail();
 
-  Image image(static_cast<int>(width), static_cast<int>(height));
+  TransparentImage image{Image(static_cast<int>(width), static_cast<int>(height)), {}};
+  image.alpha.reserve(image.colors.pixels.size());
   const png_byte* sample = samples.data();
-  for (Color& pixel : image.pixels) {
-    pixel = Color(channel(sample), channel(sample + 2), channel(sample + 4)) * channel(sample + 6);
+  for (Color& pixel : image.colors.pixels) {
+    pixel = Color(channel(sample), channel(sample + 2), channel(sample + 4));
+    image.alpha.push_back(channel(sample + 6));
     sample += kPixelBytes;
   }
+  const bool is_opaque = std::all_of(image.alpha.begin(), image.alpha.end(), [](float a) { return a == 1; });
+  if (is_opaque) image.alpha.clear();
   return image;
+}
+
+Image decode_png(std::string_view bytes, std::uint64_t max_memory) {
+  TransparentImage image = decode_transparent_png(bytes, max_memory);
+  for (std::size_t i = 0; i < image.alpha.size(); ++i) image.colors.pixels[i] *= image.alpha[i];
+  return std::move(image.colors);
 }
 
 }  // namespace pprt

@@ -26,7 +26,7 @@ expect_file mesh/ball.mtl; expect_file mesh/ball.bin
 # What a mesh lacks is added, and told.
 run pprt-convert mesh/ball.ply - ; expect_code 0
 expect_text err "mesh/ball.ply: no camera: one that shows everything is added, with y up (--up z for the other)
-mesh/ball.ply: no lights: one behind the viewer's left shoulder is added"
+mesh/ball.ply: no lights: a key light and a fill light are added"
 expect_line out 'up 0 1 0'
 run pprt-convert --up z mesh/ball.ply - ; expect_code 0; expect_line out 'up 0 0 1'
 run pprt-convert mesh/ball.dae - ; expect_code 0; expect_text err ''
@@ -106,7 +106,7 @@ run pprt-convert bad.glb x.nff; expect_code 3; expect_text err 'bad.glb: error: 
 { echo '<COLLADA version="1.4.1"><library_visual_scenes><visual_scene id="s">'; printf '<node>%.0s' {1..300000}; printf '</node>%.0s' {1..300000}
   echo '</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>'; } >deep.dae
 run pprt-convert deep.dae x.nff; expect_code 3; expect_no_file x.nff
-expect_line err 'deep.dae: error: it is damaged, or has something that Assimp cannot read: reading it ended in .*'
+expect_line err 'deep.dae: error: it is damaged, or has something that cannot be read: reading it ended in .*'
 mkfifo pipe.obj
 run pprt-convert pipe.obj x.nff; expect_code 3; expect_text err "cannot read 'pipe.obj': it is not a regular file"
 run pprt-convert --mesh-seconds 0 mesh/ball.ply x.nff; expect_code 2; expect_no_file x.nff

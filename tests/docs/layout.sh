@@ -16,7 +16,7 @@ declare -A allowed=(
   [convert]="base scene spd parser image cli convert" [compare]="base image cli compare"
   [study]="base scene spd parser trace image pipeline layers parallel cli convert study")
 # Single headers of other rooms.
-declare -A besides=([study]="render/trace/balance_trace.h render/records/frame_summary.h")
+declare -A besides=([render]="convert/model_scene.h convert/default_view.h" [study]="render/trace/balance_trace.h render/records/frame_summary.h")
 # Rooms within a module, and which others of it each may include: only such as stand above it here, so that there is no
 # circle. Files beside the rooms may include them all.
 declare -A within
@@ -53,7 +53,9 @@ for line in \
   "convert/names:" \
   "convert/surfaces:" \
   "convert/pov: convert/names" \
-  "convert/mesh: convert/names convert/surfaces convert/pov" \
+  "convert/model:" \
+  "convert/gltf: convert/model" \
+  "convert/mesh: convert/names convert/surfaces convert/pov convert/model convert/gltf" \
   "render/records:" \
   "render/options: render/records" \
   "render/plan: render/options" \
@@ -68,7 +70,7 @@ done
 # The triangulation is known to its exchange, to the layers that draw it and to the study of the paper.
 mesh_users='^src/(pipeline/mesh|parallel/exchange|layers|study)/'
 declare -A home=(
-  [embree3]=trace [embree4]=trace [CGAL]=pipeline [mpi.h]=parallel [tao]=parser [assimp]=convert [OpenEXR]=image [png.h]=image [boost]=live
+  [embree3]=trace [embree4]=trace [CGAL]=pipeline [mpi.h]=parallel [tao]=parser [assimp]=convert [tiny_gltf.h]=convert [OpenEXR]=image [png.h]=image [boost]=live
   [CLI]="cli render convert compare study" [nlohmann]="cli live render convert compare study" [spdlog]="cli render")
 
 seen=0

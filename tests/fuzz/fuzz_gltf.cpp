@@ -1,23 +1,18 @@
 // libFuzzer entry. Files of glTF put together by structure must be an InputError, or a scene that can be
 // written as AFF and NFF and read again, as the renderer does.
-//
-// Assimp is not what is tested, and crashes: what it does not survive alone is left out.
-#include <csignal>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "aff_invariants.h"
 #include "base/diagnostics.h"
-#include "base/system/subprocess.h"
+#include "convert/gltf/gltf_document.h"
 #include "convert/losses.h"
-#include "convert/mesh/gltf_document.h"
 #include "convert/mesh/mesh_reader.h"
 #include "gltf_files.h"
 #include "parser/aff_parser.h"
@@ -55,29 +50,6 @@ class Workplace {
   std::filesystem::path top_;
 };
 
-// Assimp at work in a program of its own, which is started anew when a file has ended it.
-class AssimpTrial {
- public:
-  bool survives(const std::string& path) {
-    if (!program_) program_.emplace(std::vector<std::string>{PPRT_ASSIMP_TRIAL}, kStreams);
-    char answer = 0;
-    if (program_->write(path + '\n') && program_->has_output_within(kPatience_s) &&
-        program_->read({&answer, 1}) == 1)
-      return true;
-    program_->end_within(0);
-    program_.reset();
-    return false;
-  }
-
- private:
-  static constexpr double kPatience_s = 0.5;
-  static constexpr pprt::SubprocessSettings kStreams{.input = pprt::StreamTo::kPipe,
-                                                     .output = pprt::StreamTo::kPipe,
-                                                     .errors = pprt::StreamTo::kNothing,
-                                                     .signal_at_end = SIGTERM};
-  std::optional<pprt::Subprocess> program_;
-};
-
 // What was read must be written so that it is read again. An exception ends the fuzzer.
 void check(const pprt::SceneDescription& scene) {
   std::ostringstream aff;
@@ -96,12 +68,10 @@ void check(const pprt::SceneDescription& scene) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const Workplace workplace;
-  static AssimpTrial trial;
   const pprt::fuzz::GltfFiles files = pprt::fuzz::gltf_files({data, size});
   pprt::gltf_facts(files.document);
   workplace.write("numbers.bin", files.numbers);
   const std::string path = workplace.write("fuzz.gltf", files.document);
-  if (!trial.survives(path)) return 0;
   pprt::SceneDescription scene;
   try {
     scene = pprt::read_mesh(path).scene;

@@ -125,12 +125,13 @@ std::string scene_of_script(const Animation& script, const std::string& script_p
 }
 
 ParsedScene load_scene_of_script(const Animation& script, const std::string& script_path,
-                                 const NffOptions& options) {
+                                 const NffOptions& options, const OtherReader& others) {
   const std::string name = scene_of_script(script, script_path);
   std::string text;
   try {
     if (is_spd_name(name)) return {.scene = make_spd_scene(name)};
     require_file(name);
+    if (std::optional<ParsedScene> other = others ? others(name) : std::nullopt) return std::move(*other);
     if (is_aff_name(name)) return load_aff(name, options);
     text = read_text(name, options.max_bytes);
   } catch (const InputError& e) {
@@ -142,7 +143,7 @@ ParsedScene load_scene_of_script(const Animation& script, const std::string& scr
 }
 
 void add_objects(ParsedScene& parsed, const Animation& script, const std::string& script_path,
-                 const FrameTimes& times, const NffOptions& options) {
+                 const FrameTimes& times, const NffOptions& options, const OtherReader& others) {
   constexpr std::size_t kMostTurns = 5'000'000;  // an object that turns takes a key a frame
   SceneDescription& scene = parsed.scene;
   std::size_t turns = 0;
@@ -163,7 +164,9 @@ void add_objects(ParsedScene& parsed, const Animation& script, const std::string
       try {
         NffOptions left = options;
         left.max_memory -= std::min(left.max_memory, memory_of(scene));
-        ParsedScene other = load_scene(named_in_script(object.name, script_path), left);
+        const std::string name = named_in_script(object.name, script_path);
+        std::optional<ParsedScene> read = others ? others(name) : std::nullopt;
+        ParsedScene other = read ? std::move(*read) : load_scene(name, left);
         parsed.warnings += other.warnings;
         parsed.files.insert(parsed.files.end(), other.files.begin(), other.files.end());
         add_moving(scene, other.scene, object.name);

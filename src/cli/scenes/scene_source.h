@@ -1,6 +1,8 @@
 // Scenes and scripts named on a command line.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,16 +23,19 @@ bool is_script_name(const std::string& name);
 // script's directory. Throws UsageError when the script names none.
 std::string scene_of_script(const Animation& script, const std::string& script_path);
 
+// Reads scenes of formats that are not known here, by their names; empty for other names.
+using OtherReader = std::function<std::optional<ParsedScene>(const std::string& name)>;
+
 // Reads the scene that a script names. Throws InputError with the place in the script when there is no such
 // scene or it cannot be read.
 ParsedScene load_scene_of_script(const Animation& script, const std::string& script_path,
-                                 const NffOptions& options = {});
+                                 const NffOptions& options = {}, const OtherReader& others = {});
 
 // Adds what a script moves to the scene: a name of the scene itself, or else another scene, named as by
 // scene_of_script(), with its warnings and files. `times`: of the script's frames. Throws InputError with the
 // place in the script.
 void add_objects(ParsedScene& parsed, const Animation& script, const std::string& script_path,
-                 const FrameTimes& times, const NffOptions& options = {});
+                 const FrameTimes& times, const NffOptions& options = {}, const OtherReader& others = {});
 
 // Returns "spd:NAME" for every database.
 std::vector<std::string> generated_scenes();

@@ -5,25 +5,13 @@
 #include <assimp/matrix4x4.h>
 #include <assimp/vector3.h>
 
-#include <cmath>
-
 #include "base/affine.h"
-#include "parser/text/text_input.h"
 #include "scene/description/scene_description.h"
 
 namespace pprt {
 
 inline Vec3d to_vector(const aiVector3D& v) {
   return {v.x, v.y, v.z};
-}
-
-// Whether scene files can hold a number. False for NaN.
-inline bool is_in_range(double v) {
-  return std::abs(v) <= kLargestNumber;
-}
-
-inline bool is_in_range(const Vec3d& v) {
-  return is_in_range(v.x) && is_in_range(v.y) && is_in_range(v.z);
 }
 
 inline aiVector3D to_assimp(const Vec3d& v) {

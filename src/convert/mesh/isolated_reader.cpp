@@ -38,9 +38,9 @@ Bytes accepted(const ReadMesh& mesh) {
   return bytes;
 }
 
-Bytes answer(const std::string& path, std::uint64_t max_memory) {
+Bytes answer(const std::string& path, const MeshOptions& options) {
   try {
-    return accepted(read_mesh(path, max_memory));
+    return accepted(read_mesh(path, options));
   } catch (const InputError& e) {
     return rejected(e.what());
   } catch (const std::bad_alloc&) {
@@ -80,7 +80,7 @@ std::string problem_of(const CallResult& result, const MeshLimits& limits) {
     case CallEnd::kNoMemory:
       return too_much_memory(limits.memory_bytes);
     default:
-      return fmt::format("it is damaged, or has something that Assimp cannot read: reading it ended in {}",
+      return fmt::format("it is damaged, or has something that cannot be read: reading it ended in {}",
                          result.signal == 0 ? "an unknown error" : strsignal(result.signal));
   }
 }
@@ -89,12 +89,15 @@ std::string problem_of(const CallResult& result, const MeshLimits& limits) {
 
 ReadMesh read_mesh_isolated(const std::string& path, const MeshLimits& limits) {
   constexpr double kWallShare = 4;
-  constexpr std::uint64_t kAssimpShare = 4;  // it holds the file, its own scene and this program's at a time
+  constexpr std::uint64_t kLibraryShare =
+      4;  // it holds the file, a library's scene and this program's at a time
   const std::uint64_t available = available_memory();
   const std::uint64_t memory =
-      limits.memory_bytes < available / kAssimpShare ? kAssimpShare * limits.memory_bytes : available;
+      limits.memory_bytes < available / kLibraryShare ? kLibraryShare * limits.memory_bytes : available;
   const CallResult result = call_isolated(
-      [&] { return answer(path, limits.memory_bytes); },
+      [&] {
+        return answer(path, {limits.memory_bytes, limits.animation});
+      },
       {.memory_bytes = memory, .cpu_seconds = limits.seconds, .wall_seconds = kWallShare * limits.seconds});
   if (result.end != CallEnd::kDone) throw InputError(path + ": error: " + problem_of(result, limits));
   return mesh_of(result.bytes);

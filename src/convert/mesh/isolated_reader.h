@@ -11,10 +11,11 @@ namespace pprt {
 // What reading a mesh may take.
 struct MeshLimits {
   double seconds = 120;                                 // of the processor; four times as long in all
-  std::uint64_t memory_bytes = usual_reading_memory();  // of the scene; Assimp may take four times as much
+  std::uint64_t memory_bytes = usual_reading_memory();  // of the scene; reading may take four times as much
+  std::string animation = {};                           // MeshOptions::animation
 };
 
-// Returns what read_mesh() does, in a process of its own: Assimp crashes on some damaged files and reads
+// Returns what read_mesh() does, in a process of its own: libraries crash on some damaged files and read
 // others without end. This process must not have other threads. Throws InputError also for these.
 ReadMesh read_mesh_isolated(const std::string& path, const MeshLimits& limits = {});
 

@@ -5,19 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstddef>
 #include <numbers>
-#include <stdexcept>
 
 #include "convert/mesh/assimp_values.h"
-#include "scene/movement/movement_limits.h"
 #include "scene/movement/straight_track.h"
 
 namespace pprt {
 namespace {
 
-constexpr double kFramesPerSecond = 24;
-constexpr double kRounding = 1e-3;      // of a frame: times are floats
 constexpr double kTicksPerSecond = 25;  // where a file does not tell
 
 void set_value(VectorKey& key, const aiVectorKey& from) {
@@ -30,21 +26,18 @@ void set_value(RotationKey& key, const aiQuatKey& from) {
   key.degrees = 2 * std::atan2(key.axis.length(), q.w) * (180 / std::numbers::pi);
 }
 
-bool is_usable(const VectorKey& key) {
-  return is_in_range(key.time) && is_in_range(key.value);
-}
-
-bool is_usable(const RotationKey& key) {
-  return is_in_range(key.time) && is_in_range(key.degrees) && is_in_range(key.axis);
-}
-
 class AnimationReader {
  public:
   explicit AnimationReader(const aiScene& from) : from_(from) {}
 
-  MeshAnimation run() {
+  ModelAnimation run(const std::string& name) {
+    std::vector<std::string> names;
+    for (unsigned i = 0; i < from_.mNumAnimations; ++i)
+      names.emplace_back(from_.mAnimations[i]->mName.C_Str());
+    const std::size_t taken = animation_called(names, name);
     std::size_t repeated = 0, others = 0;
-    for (unsigned i = 0; i < from_.mNumAnimations; ++i) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (!name.empty() && i != taken) continue;
       const aiAnimation& animation = *from_.mAnimations[i];
       seconds_ = 1 / (animation.mTicksPerSecond > 0 ? animation.mTicksPerSecond : kTicksPerSecond);
       for (unsigned c = 0; c < animation.mNumChannels; ++c) repeated += !channel(*animation.mChannels[c]);
@@ -56,20 +49,11 @@ class AnimationReader {
     }
     if (others > 0)
       result_.notes.push_back(std::to_string(others) + " movements that change a mesh's shape: left out");
-    if (last_ > first_) set_times();
+    result_.times = span_.frames(result_.notes);
     return std::move(result_);
   }
 
  private:
-  void set_times() {
-    const double wanted = std::ceil((last_ - first_) * kFramesPerSecond - kRounding) + 1;
-    const double frames = std::min(wanted, double{kMostFrames});
-    result_.times = {.start = first_, .end = last_, .frames = static_cast<int>(frames)};
-    if (frames < wanted)
-      result_.notes.push_back("it would have more than " + std::to_string(kMostFrames) +
-                              " frames at 24 a second: these are further apart");
-  }
-
   // Returns false for a node that has a track.
   bool channel(const aiNodeAnim& from) {
     const auto [found, is_new] = result_.tracks.try_emplace(from.mNodeName.C_Str());
@@ -88,18 +72,15 @@ class AnimationReader {
       Key& key = to.emplace_back();
       key.time = from[i].mTime * seconds_;
       set_value(key, from[i]);
-      if (!is_usable(key)) throw std::runtime_error("a key of its animation is not finite, or beyond 1e100");
+      require_usable(key);
     }
-    if (to.empty()) return;
-    std::stable_sort(to.begin(), to.end(), [](const Key& a, const Key& b) { return a.time < b.time; });
-    first_ = std::min(first_, to.front().time), last_ = std::max(last_, to.back().time);
-    make_straight(to);
+    if (!to.empty()) join(to, span_);
   }
 
   const aiScene& from_;
-  MeshAnimation result_;
+  ModelAnimation result_;
   double seconds_ = 1;  // a tick
-  double first_ = std::numeric_limits<double>::infinity(), last_ = -first_;
+  KeySpan span_;
 };
 
 aiQuaternion to_quaternion(const Affine& turn) {
@@ -112,8 +93,8 @@ aiQuaternion to_quaternion(const Affine& turn) {
 
 }  // namespace
 
-MeshAnimation read_animation(const aiScene& from) {
-  return AnimationReader(from).run();
+ModelAnimation read_animation(const aiScene& from, const std::string& name) {
+  return AnimationReader(from).run(name);
 }
 
 std::unique_ptr<aiNodeAnim> node_animation(std::vector<double> times,

@@ -3,12 +3,11 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "convert/model/model_animation.h"
 #include "scene/movement/movement.h"
 
 struct aiAnimation;
@@ -17,15 +16,10 @@ struct aiScene;
 
 namespace pprt {
 
-struct MeshAnimation {
-  std::map<std::string, MotionTrack> tracks;  // by the name of the node that moves
-  std::optional<FrameTimes> times;            // from the first key to the last, 24 frames a second
-  std::vector<std::string> notes;             // for people: what was left out
-};
-
-// Returns the movement of all of a file's animations. Where several move a node, the first counts. Throws
-// std::runtime_error for keys out of range.
-MeshAnimation read_animation(const aiScene& from);
+// Returns the movement of an animation of a name. Without a name it is that of all of a file's: where several
+// move a node, the first counts. Tracks have the names of their nodes. Throws std::runtime_error for keys out
+// of range, and where there is no animation of that name.
+ModelAnimation read_animation(const aiScene& from, const std::string& name);
 
 // Returns keys for the node of a name that moves as `values_at` tells, as many as straight lines between them
 // need. `times`: those between which it moves smoothly, in any order, at least one. `start`: the time that is

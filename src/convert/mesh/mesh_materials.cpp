@@ -1,6 +1,5 @@
 #include "convert/mesh/mesh_materials.h"
 
-#include <assimp/GltfMaterial.h>
 #include <assimp/material.h>
 
 #include <algorithm>
@@ -8,6 +7,7 @@
 #include <string_view>
 
 #include "convert/mesh/assimp_values.h"
+#include "convert/model/display_values.h"
 #include "scene/description/shading_rules.h"
 
 namespace pprt {
@@ -47,10 +47,7 @@ Material to_material(const aiMaterial& from) {
     from.Get(AI_MATKEY_ROUGHNESS_FACTOR, rough);
     material.specular = unit_interval(value * (1 - unit_interval(rough)));
   }
-  aiString mode;
-  const bool is_opaque = from.Get(AI_MATKEY_GLTF_ALPHAMODE, mode) == aiReturn_SUCCESS &&
-                         std::string_view(mode.C_Str()) == "OPAQUE";  // whatever its alpha
-  if (!is_opaque && from.Get(AI_MATKEY_OPACITY, value) == aiReturn_SUCCESS)
+  if (from.Get(AI_MATKEY_OPACITY, value) == aiReturn_SUCCESS)
     material.transmittance = 1 - unit_interval(value);
   if (material.transmittance > 0) {
     const bool given = from.Get(AI_MATKEY_REFRACTI, value) == aiReturn_SUCCESS && value > 0;
@@ -72,14 +69,25 @@ std::unique_ptr<aiMaterial> to_assimp(const Material& m, const std::string& name
   auto material = std::make_unique<aiMaterial>();
   const aiString name(name_in_file);
   const aiColor3D diffuse = to_color(m.terms ? m.terms->diffuse : m.color * m.diffuse);
-  const auto opacity = static_cast<float>(1 - m.transmittance);
+  const auto opacity = static_cast<float>(physically_based ? 1 : 1 - m.transmittance);  // else transmission
   const auto mirror = static_cast<float>(m.specular);
   material->AddProperty(&name, AI_MATKEY_NAME);
   material->AddProperty(&opacity, 1, AI_MATKEY_OPACITY);
   const aiString file(picture);
   if (!picture.empty()) material->AddProperty(&file, AI_MATKEY_TEXTURE_DIFFUSE(0));
   if (physically_based) {
-    const aiColor4D base(diffuse.r, diffuse.g, diffuse.b, 1);  // times the opacity
+    // Of a physically based material, what is mirrored or let through is not reflected to all sides.
+    const double left = (1 - m.transmittance) * (1 - m.specular);
+    const auto light = [&](float v) {
+      return static_cast<float>(light_of(left > 0 ? std::min(static_cast<double>(v) / left, 1.0) : v));
+    };
+    const aiColor4D base(light(diffuse.r), light(diffuse.g), light(diffuse.b), 1);
+    const auto glass = static_cast<float>(effective_refractive_index(m));
+    const auto through = static_cast<float>(std::min(m.transmittance / std::max(1 - m.specular, 1e-9), 1.0));
+    if (m.transmittance > 0) {
+      material->AddProperty(&glass, 1, AI_MATKEY_REFRACTI);
+      material->AddProperty(&through, 1, AI_MATKEY_TRANSMISSION_FACTOR);
+    }
     const float roughness = m.specular > 0 ? 0 : 1;
     material->AddProperty(&base, 1, AI_MATKEY_BASE_COLOR);
     material->AddProperty(&mirror, 1, AI_MATKEY_METALLIC_FACTOR);

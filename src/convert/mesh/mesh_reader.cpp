@@ -6,19 +6,19 @@
 #include <assimp/material.h>
 #include <assimp/mesh.h>
 #include <assimp/scene.h>
+#include <assimp/texture.h>
 #include <algorithm>
-#include <array>
 #include <assimp/Importer.hpp>
 #include <cerrno>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <map>
 #include <new>
-#include <numbers>
 #include <optional>
 #include <set>
 #include <span>
@@ -29,32 +29,25 @@
 
 #include "base/diagnostics.h"
 #include "base/printable.h"
+#include "convert/gltf/gltf_document.h"
+#include "convert/gltf/gltf_losses.h"
+#include "convert/gltf/gltf_reader.h"
 #include "convert/mesh/assimp_values.h"
-#include "convert/mesh/gltf_document.h"
+#include "convert/mesh/collada_cameras.h"
 #include "convert/mesh/mesh_animation.h"
 #include "convert/mesh/mesh_materials.h"
-#include "convert/mesh/mesh_textures.h"
 #include "convert/mesh/model_files.h"
-#include "convert/mesh/model_folder.h"
+#include "convert/model/model_builder.h"
+#include "convert/model/model_folder.h"
+#include "convert/model/model_textures.h"
 #include "convert/names/extension.h"
+#include "image/image_io.h"
 #include "parser/text/text_input.h"
-#include "scene/animation/animation.h"
-#include "scene/animation/resting_nodes.h"
-#include "scene/movement/movement_limits.h"
-#include "scene/movement/straight_track.h"
-#include "scene/polygons/triangulate.h"
 
 namespace pprt {
 namespace {
 
-constexpr std::size_t kMaxPolygons = 20'000'000;
 constexpr std::size_t kMaxBytes = std::numeric_limits<std::uint32_t>::max();  // of a .glb or a .gltf
-
-// The transforms of a node that moves: one that stretches askew is written as two.
-static_assert(3 * kMaxNodeDepth <= kMostTransforms);
-
-// Cosine from which on a vertex' normal is taken for the polygon's: half a degree.
-constexpr double kSameDirection = 0.99996;
 
 // Scales the brightest channel to 1, as the intensity of lights follows from a rule of NFF.
 std::optional<Rgb> light_color(const aiColor3D& c) {
@@ -66,63 +59,58 @@ std::optional<Rgb> light_color(const aiColor3D& c) {
   return color;
 }
 
-// Where the contents of a file's node stand: in a node of the scene that moves, or in the world.
-struct Space {
-  NodeIndex node = 0;
-  Affine map;
-};
+// Returns a picture within the file: another file's bytes, or texels where there is a height.
+Image embedded(const aiTexture& from, std::uint64_t max_memory) {
+  if (from.mHeight == 0)
+    return decode_image({reinterpret_cast<const char*>(from.pcData), from.mWidth}, max_memory);
+  Image image(static_cast<int>(from.mWidth), static_cast<int>(from.mHeight));
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    const aiTexel& texel = from.pcData[i];
+    image.pixels[i] = Color(texel.r, texel.g, texel.b) / 255.F;
+  }
+  return image;
+}
 
+// What Assimp has read, as a scene.
 class SceneReader {
  public:
-  // `gltf`: of a file in glTF.
-  // `gltf`: of a file in glTF. `max_memory`: bytes that its pictures may take.
-  SceneReader(const aiScene& from, const std::string& path, std::optional<GltfFacts> gltf,
-              std::uint64_t max_memory)
-      : from_(from), gltf_(std::move(gltf)), textures_(from, path, max_memory) {
-    scene_.name = path;
+  // `max_memory`: bytes that its pictures may take.
+  SceneReader(const aiScene& from, const std::string& path, std::uint64_t max_memory)
+      : from_(from), builder_(path), folder_(path), textures_(max_memory) {
+    if (extension_of(path) == ".dae") told_cameras_ = collada_cameras(read_text(path, kMaxBytes));
   }
 
-  ReadMesh run() {
-    read_movement();
+  ReadMesh run(const std::string& animation) {
+    read_movement(animation);
     node(*from_.mRootNode, {});
-    note(skipped_, "points, lines and faces without extent left out");
-    note(namesakes_, "nodes have the name of another: movements, cameras and lights may be mixed up");
-    note(skins_, "meshes with a skin stand in the pose that they are bound in");
-    move_camera();
-    drop_unused_tracks();
-    return {without_resting_nodes(std::move(scene_)), std::move(notes_), textures_.files()};
+    builder_.note(namesakes_,
+                  "nodes have the name of another: movements, cameras and lights may be mixed up");
+    builder_.note(skins_, std::string(kGltfLossWords[static_cast<std::size_t>(GltfLoss::kSkin)]));
+    return std::move(builder_).finish(std::move(files_));
   }
 
  private:
-  [[noreturn]] void reject(const std::string& problem) const {
-    throw InputError(scene_.name + ": error: " + problem);
-  }
-
-  void note(std::size_t count, const std::string& what) {
-    if (count > 0) notes_.push_back(std::to_string(count) + " " + what);
-  }
-
-  void read_movement() {
+  void read_movement(const std::string& name) {
     try {
-      MeshAnimation animation = read_animation(from_);
-      scene_.movement.times = animation.times;
-      notes_ = std::move(animation.notes);
-      for (auto& [name, track] : animation.tracks)
-        scene_.movement.tracks[name == kCameraTrack ? kNodeCalledCamera : name] = std::move(track);
+      ModelAnimation animation = read_animation(from_, name);
+      builder_.scene().movement.times = animation.times;
+      builder_.notes() = std::move(animation.notes);
+      for (auto& [node, track] : animation.tracks)
+        builder_.scene().movement.tracks[ModelBuilder::track_name(node)] = std::move(track);
     } catch (const std::runtime_error& e) {
-      reject(e.what());
+      builder_.reject(e.what());
     }
   }
 
-  void node(const aiNode& from, const Space& parent) {
+  void node(const aiNode& from, const ModelSpace& parent) {
     if (++depth_ > kMaxNodeDepth)
-      reject("its nodes lie more than " + std::to_string(kMaxNodeDepth) + " deep in each other");
+      builder_.reject("its nodes lie more than " + std::to_string(kMaxNodeDepth) + " deep in each other");
     namesakes_ += !names_.insert(from.mName.C_Str()).second;
-    const Space space = space_of(from, parent);
+    const ModelSpace space = builder_.space_of(parent, to_affine(from.mTransformation),
+                                               ModelBuilder::track_name(from.mName.C_Str()));
     for (unsigned i = 0; i < from.mNumMeshes; ++i) {
-      if (from.mMeshes[i] >= from_.mNumMeshes) reject("a node names a mesh that is not there");
+      if (from.mMeshes[i] >= from_.mNumMeshes) builder_.reject("a node names a mesh that is not there");
       mesh(*from_.mMeshes[from.mMeshes[i]], space);
-      scene_.nodes.resize(scene_.order.size(), space.node);
     }
     camera(from, space);
     lights(from, space);
@@ -130,236 +118,90 @@ class SceneReader {
     --depth_;
   }
 
-  Space space_of(const aiNode& from, const Space& parent) {
-    std::string name = from.mName.C_Str();
-    if (name == kCameraTrack) name = kNodeCalledCamera;
-    const Affine map = parent.map * to_affine(from.mTransformation);
-    if (!is_in_range(map.x) || !is_in_range(map.y) || !is_in_range(map.z) || !is_in_range(map.origin))
-      reject("a transform is not finite, or beyond 1e100");
-    if (!scene_.movement.tracks.contains(name)) return {parent.node, map};
-    const NodeIndex around = add_node({.parent = parent.node, .to_parent = parent.map});
-    return {add_node({.parent = around, .track = std::move(name)}), {}};
-  }
-
-  NodeIndex add_node(SceneNode node) {
-    scene_.movement.nodes.push_back(std::move(node));
-    return static_cast<NodeIndex>(scene_.movement.nodes.size() - 1);
-  }
-
-  void mesh(const aiMesh& from, const Space& space) {
-    check_indices(from);
+  void mesh(const aiMesh& from, const ModelSpace& space) {
+    if (from.mMaterialIndex >= from_.mNumMaterials)
+      builder_.reject("a mesh names a material that is not there");
     skins_ += from.mNumBones > 0;
     const aiMaterial& material = *from_.mMaterials[from.mMaterialIndex];
     Material own = to_material(material);
-    if (const std::string path = picture_path(material); !path.empty() && from.mTextureCoords[0] != nullptr)
-      own.texture = textures_.intern(path, scene_.textures, notes_);
-    const MaterialIndex index = table_.intern(scene_.materials, own);
-    own.texture ? textured_mesh(from, space, index) : polygons(from, space, index);
-  }
-
-  // Not every reader of Assimp's does.
-  void check_indices(const aiMesh& from) const {
-    if (from.mMaterialIndex >= from_.mNumMaterials) reject("a mesh names a material that is not there");
-    for (const aiFace& face : std::span(from.mFaces, from.mNumFaces)) {
-      for (const unsigned index : std::span(face.mIndices, face.mNumIndices)) {
-        if (index >= from.mNumVertices) reject("a face names a vertex that is not there");
-      }
-    }
-  }
-
-  Vec3d normal_of(const aiMesh& from, unsigned vertex, const Space& space) const {
-    if (from.mNormals == nullptr) return {0, 0, 0};
-    const Vec3d normal = space.map.outward(to_vector(from.mNormals[vertex])).normalized();
-    return is_in_range(normal) ? normal : Vec3d(0, 0, 0);
-  }
-
-  Vec3d position_of(const aiMesh& from, unsigned vertex, const Space& space) const {
-    const Vec3d position = space.map.point(to_vector(from.mVertices[vertex]));
-    if (!is_in_range(position)) reject("a coordinate is not finite, or beyond 1e100");
-    return position;
-  }
-
-  void polygons(const aiMesh& from, const Space& space, MaterialIndex material) {
-    const bool mirrored = space.map.determinant() < 0;
-    for (unsigned i = 0; i < from.mNumFaces; ++i) {
-      const aiFace& face = from.mFaces[i];
-      positions_.clear();
-      vertices_.clear();
-      for (unsigned k = 0; k < face.mNumIndices; ++k) {
-        const unsigned at = face.mIndices[mirrored ? face.mNumIndices - 1 - k : k];
-        positions_.push_back(position_of(from, at, space));
-        vertices_.push_back({positions_.back(), normal_of(from, at, space)});
-      }
-      polygon(material);
-    }
-  }
-
-  void polygon(MaterialIndex material) {
-    const Vec3d plane = newell_normal(positions_).normalized();
-    if (plane == Vec3d(0, 0, 0)) {
-      ++skipped_;
-      return;
-    }
-    count_polygons(1);
-    const bool flat = std::all_of(vertices_.begin(), vertices_.end(), [&](const PatchVertex& v) {
-      return v.normal == Vec3d(0, 0, 0) || v.normal.dot(plane) > kSameDirection;
-    });
-    if (flat) {
-      add_polygon(scene_, positions_, material);
-    } else {
-      add_patch(scene_, vertices_, material);
-    }
-  }
-
-  void count_polygons(std::size_t more) const {
-    if (scene_.primitive_count() + more > kMaxPolygons) reject("it has more than 20 million polygons");
-  }
-
-  // Triangles that share their corners, which have a place in the texture. Assimp's second coordinate runs
-  // upwards.
-  void textured_mesh(const aiMesh& from, const Space& space, MaterialIndex material) {
-    TriangleMesh mesh;
-    mesh.material = material;
+    const bool has_places = from.mTextureCoords[0] != nullptr;
+    if (const std::string path = picture_path(material); !path.empty() && has_places)
+      own.texture = texture(path);
+    ModelMesh mesh;
     for (unsigned i = 0; i < from.mNumVertices; ++i) {
-      mesh.positions.push_back(position_of(from, i, space));
-      if (from.mNormals != nullptr) mesh.normals.push_back(normal_of(from, i, space));
-      const Vec3d place = to_vector(from.mTextureCoords[0][i]);
-      mesh.texture_points.push_back(is_in_range(place) ? Vec2d(place.x, 1 - place.y) : Vec2d(0, 0));
+      mesh.positions.push_back(to_vector(from.mVertices[i]));
+      if (from.mNormals != nullptr) mesh.normals.push_back(to_vector(from.mNormals[i]));
+      // Assimp's second coordinate runs upwards.
+      if (own.texture)
+        mesh.texture_points.emplace_back(from.mTextureCoords[0][i].x, 1 - from.mTextureCoords[0][i].y);
     }
-    const bool mirrored = space.map.determinant() < 0;
-    std::vector<TriangleCorners> triangles;
-    for (unsigned i = 0; i < from.mNumFaces; ++i) {
-      const aiFace& face = from.mFaces[i];
-      positions_.clear();
-      for (unsigned k = 0; k < face.mNumIndices; ++k) positions_.push_back(mesh.positions[face.mIndices[k]]);
-      const std::vector<TriangleIndices> cut = triangulate(positions_);
-      skipped_ += cut.empty();
-      for (const TriangleIndices& t : cut) {
-        std::array<std::uint32_t, 3> at = {face.mIndices[t[0]], face.mIndices[t[1]], face.mIndices[t[2]]};
-        if (mirrored) std::swap(at[1], at[2]);
-        triangles.push_back({.position = at, .normal = at, .texture_point = at});
-      }
+    for (const aiFace& face : std::span(from.mFaces, from.mNumFaces)) {
+      mesh.corners.insert(mesh.corners.end(), face.mIndices, face.mIndices + face.mNumIndices);
+      mesh.ends.push_back(mesh.corners.size());
     }
-    count_polygons(triangles.size());
-    if (!triangles.empty()) add_mesh(scene_, std::move(mesh), triangles);
+    builder_.add(mesh, own, space);
   }
 
-  // Takes the first camera as the view. The angle of modelling programs spans the picture, that of NFF the
-  // centres of its rows.
-  void camera(const aiNode& node, const Space& space) {
-    for (unsigned i = 0; i < from_.mNumCameras && !scene_.view; ++i) {
+  std::optional<TextureIndex> texture(const std::string& path) {
+    const auto picture = [&](std::uint64_t max_memory) {
+      if (const aiTexture* inside = from_.GetEmbeddedTexture(path.c_str()))
+        return embedded(*inside, max_memory);
+      files_.push_back(folder_.find(path).string());
+      return read_image(files_.back(), max_memory);
+    };
+    const std::string name =
+        path.starts_with('*') ? "texture" + path.substr(1) : std::filesystem::path(path).filename().string();
+    return textures_.intern(path, name, picture, builder_.scene().textures, builder_.notes());
+  }
+
+  void camera(const aiNode& node, const ModelSpace& space) {
+    for (unsigned i = 0; i < from_.mNumCameras; ++i) {
       const aiCamera& from = *from_.mCameras[i];
       if (std::string_view(from.mName.C_Str()) != node.mName.C_Str()) continue;
-      View view;
-      const double aspect = from.mAspect > 0 ? from.mAspect : 1;
-      view.width = static_cast<int>(std::lround(std::clamp(view.height * aspect, 1.0, 32768.0)));
-      const double rows = view.height;
-      view.angle_degrees =
-          2 * std::atan(half_height(from, aspect) * (rows - 1) / rows) * (180 / std::numbers::pi);
-      if (std::isfinite(from.mClipPlaneNear)) view.hither = std::max(from.mClipPlaneNear, 0.F);
-      from_camera_ = &from;
-      aim(view, space.map);
-      if (!is_usable(view)) {
-        notes_.push_back("the camera '" + printable(from.mName.C_Str()) + "' has no perspective: left out");
-        continue;
-      }
-      camera_ = space;
-      scene_.view = view;
+      ModelCamera camera{.name = from.mName.C_Str(),
+                         .half_height = 0,
+                         .aspect = from.mAspect > 0 ? from.mAspect : 1,
+                         .near = from.mClipPlaneNear,
+                         .from = to_vector(from.mPosition),
+                         .direction = to_vector(from.mLookAt),
+                         .up = to_vector(from.mUp)};
+      camera.half_height = std::tan(0.5 * from.mHorizontalFOV) / camera.aspect;
+      correct(camera);
+      builder_.add(camera, space);
     }
   }
 
-  // Returns half the picture's height at a distance of 1.
-  double half_height(const aiCamera& from, double aspect) const {
-    if (gltf_) {
-      const auto found = gltf_->camera_angles.find(from.mName.C_Str());
-      if (found != gltf_->camera_angles.end()) return std::tan(0.5 * found->second);
-    }
-    return std::tan(0.5 * from.mHorizontalFOV) / aspect;
+  void correct(ModelCamera& camera) const {
+    const auto told = told_cameras_.find(camera.name);
+    if (told == told_cameras_.end() || !told->second.half_height()) return;
+    camera.half_height = *told->second.half_height();
+    camera.aspect = told->second.ratio();
+    camera.near = told->second.near.value_or(camera.near);
   }
 
-  static bool is_usable(const View& view) {
-    return view.angle_degrees > 0 && view.angle_degrees < 180 &&
-           camera_defect(view.from, view.at, view.up).empty();
-  }
-
-  // `map`: from the camera's node to the world.
-  void aim(View& view, const Affine& map) const {
-    // One of glTF stands in its node's origin; versions of Assimp differ in what they say.
-    view.from = gltf_ ? map.origin : map.point(to_vector(from_camera_->mPosition));
-    view.at = view.from + map.vector(to_vector(from_camera_->mLookAt)).normalized();
-    view.up = map.vector(to_vector(from_camera_->mUp)).normalized();
-  }
-
-  // Gives the camera a track in the world where its node moves.
-  void move_camera() {
-    if (camera_.node == 0) return;
-    const auto view_at = [&](double time) {
-      View view = *scene_.view;
-      aim(view, placements_at(scene_.movement, time)[camera_.node].to_parent * camera_.map);
-      return view;
-    };
-    const auto values_at = [&](double time) {
-      const View view = view_at(time);
-      const Vec3d back = view.from - view.at;
-      const Vec3d right = view.up.cross(back).normalized();
-      const Affine turn{right, back.cross(right).normalized(), back.normalized(), {0, 0, 0}};
-      return TrackValues{.rotation = turn, .translation = view.from};
-    };
-    std::vector<double> times;
-    for (NodeIndex n = camera_.node; n != 0; n = scene_.movement.nodes[n].parent) {
-      const auto track = scene_.movement.tracks.find(scene_.movement.nodes[n].track);
-      if (track == scene_.movement.tracks.end()) continue;
-      const std::vector<double> own = key_times(track->second);
-      times.insert(times.end(), own.begin(), own.end());
-    }
-    if (times.empty()) times.push_back(0);
-    MotionTrack track = straight_track(straight_times(std::move(times), values_at), values_at);
-    track.scale.clear();  // means nothing
-    scene_.view = view_at(start_time(scene_.movement));
-    scene_.movement.tracks[kCameraTrack] = std::move(track);
-  }
-
-  // A file may move nodes that hold nothing but a camera, or that it does not have.
-  void drop_unused_tracks() {
-    std::set<std::string> used = {kCameraTrack};
-    for (const SceneNode& node : scene_.movement.nodes) used.insert(node.track);
-    std::erase_if(scene_.movement.tracks, [&](const auto& track) { return !used.contains(track.first); });
-    if (scene_.movement.tracks.empty()) scene_.movement.times.reset();
-  }
-
-  void lights(const aiNode& node, const Space& space) {
+  void lights(const aiNode& node, const ModelSpace& space) {
     for (unsigned i = 0; i < from_.mNumLights; ++i) {
       const aiLight& from = *from_.mLights[i];
       if (std::string_view(from.mName.C_Str()) != node.mName.C_Str()) continue;
-      if (from.mType != aiLightSource_POINT && from.mType != aiLightSource_SPOT) {
-        notes_.push_back(std::string("the light '") + from.mName.C_Str() +
-                         "' is neither a point nor a spot: left out");
-        continue;
+      if (from.mType == aiLightSource_POINT || from.mType == aiLightSource_SPOT) {
+        builder_.add_light(to_vector(from.mPosition), light_color(from.mColorDiffuse), space);
+      } else {
+        builder_.notes().push_back("the light '" + printable(from.mName.C_Str()) +
+                                   "' is neither a point nor a spot: left out");
       }
-      if (!is_in_range(space.map.point(to_vector(from.mPosition))))
-        reject("a light's place is not finite, or beyond 1e100");
-      scene_.lights.push_back(
-          {space.map.point(to_vector(from.mPosition)), light_color(from.mColorDiffuse), {}});
-      scene_.light_nodes.push_back({.node = space.node});
     }
   }
 
-  static constexpr const char* kNodeCalledCamera = "camera_node";  // "camera" moves the view
-
   const aiScene& from_;
-  std::optional<GltfFacts> gltf_;
-  MeshTextures textures_;
-  SceneDescription scene_;
-  std::vector<std::string> notes_;
-  MaterialTable table_;
-  std::size_t skipped_ = 0, skins_ = 0;
+  ModelBuilder builder_;
+  ModelFolder folder_;
+  ModelTextures textures_;
+  std::map<std::string, ColladaCamera, std::less<>> told_cameras_;  // by what the file itself tells
+  std::vector<std::string> files_;
+  std::size_t skins_ = 0;
   std::set<std::string> names_;  // of nodes
   std::size_t namesakes_ = 0;
   int depth_ = 0;
-  const aiCamera* from_camera_ = nullptr;  // that the view is taken from
-  Space camera_;
-  std::vector<Vec3d> positions_;  // of the polygon at hand
-  std::vector<PatchVertex> vertices_;
 };
 
 void require_readable(const std::string& path) {
@@ -422,27 +264,51 @@ bool is_mesh_extension(const std::string& extension) {
   return extension != ".nff" && extension.size() > 1 && Assimp::Importer().IsExtensionSupported(extension);
 }
 
-ReadMesh read_mesh(const std::string& path, std::uint64_t max_memory) {
-  require_readable(path);
-  std::optional<GltfFacts> gltf;
-  if (extension_of(path) == ".glb" || extension_of(path) == ".gltf") {
-    gltf = gltf_facts(read_text(path, kMaxBytes));
-    if (!gltf->problem.empty()) throw InputError(path + ": error: " + gltf->problem);
+namespace {
+
+ReadMesh read_gltf_file(const std::string& path, const MeshOptions& options) {
+  std::string bytes = read_text(path, kMaxBytes);
+  const GltfFacts facts = gltf_facts(bytes);
+  if (!facts.problem.empty()) throw InputError(path + ": error: " + facts.problem);
+  GltfFiles files;
+  const auto reason = [&](const std::string& otherwise) {
+    return Unreadable{path, facts, files.unread}.reject(otherwise);
+  };
+  if (facts.broken_at || !facts.likely_cause.empty()) reason("");
+  try {
+    ReadMesh mesh = read_gltf(path, std::move(bytes), facts, options.animation, options.max_memory, files);
+    if (mesh.scene.primitive_count() == 0) reason("there is no polygon in it");
+    return mesh;
+  } catch (const InputError&) {
+    if (!files.unread.empty()) reason("");
+    throw;
   }
+}
+
+ReadMesh read_by_assimp(const std::string& path, const MeshOptions& options) {
   Assimp::Importer importer;
   auto* const files = new ModelFiles(path);
   importer.SetIOHandler(files);  // which takes it
   const aiScene* scene = importer.ReadFile(path, 0);
   if (const std::exception_ptr thrown = importer.GetException()) rethrow_lack_of_memory(thrown);
-  const Unreadable unreadable{path, gltf.value_or(GltfFacts()), files->unread()};
+  const Unreadable unreadable{path, {}, files->unread()};
   if (scene == nullptr || scene->mRootNode == nullptr) unreadable.reject(importer.GetErrorString());
-  ReadMesh mesh = SceneReader(*scene, path, std::move(gltf), max_memory).run();
+  ReadMesh mesh = SceneReader(*scene, path, options.max_memory).run(options.animation);
   if (mesh.scene.primitive_count() == 0) unreadable.reject("there is no polygon in it");
   for (const auto& [name, reason] : files->unread())
     mesh.notes.push_back((name.ends_with(".mtl") ? "the material library '" : "the file '") +
                          printable(name) + "' is left out: " + reason);
   mesh.files.insert(mesh.files.end(), files->opened().begin(), files->opened().end());
   return mesh;
+}
+
+}  // namespace
+
+ReadMesh read_mesh(const std::string& path, const MeshOptions& options) {
+  require_readable(path);
+  const std::string extension = extension_of(path);
+  return extension == ".glb" || extension == ".gltf" ? read_gltf_file(path, options)
+                                                     : read_by_assimp(path, options);
 }
 
 }  // namespace pprt

@@ -24,8 +24,8 @@
 #include <stdexcept>
 
 #include "base/diagnostics.h"
+#include "convert/gltf/gltf_document.h"
 #include "convert/mesh/assimp_values.h"
-#include "convert/mesh/gltf_document.h"
 #include "convert/mesh/mesh_animation.h"
 #include "convert/mesh/mesh_materials.h"
 #include "convert/names/picture_names.h"

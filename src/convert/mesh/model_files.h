@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "convert/mesh/model_folder.h"
+#include "convert/model/model_folder.h"
 
 namespace pprt {
 

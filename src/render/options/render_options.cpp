@@ -45,7 +45,8 @@ constexpr const char* kRun = "Run";
 void add_positionals(CLI::App& app, RenderOptions& o) {
   auto* scene = app.add_option(
       "SCENE", o.source.input,
-      "FILE.nff, FILE.aff, - (NFF on standard input), spd:NAME[:SIZE], or a script that names its scene");
+      "FILE.nff, FILE.aff, a model (.glb .gltf .obj .ply .stl .dae ...), - (NFF on standard input), "
+      "spd:NAME[:SIZE], or a script that names its scene");
   scene->required()->type_name("");
   take_path_or(*scene, generated_scenes());
   app.add_option("SCRIPT", o.source.script,
@@ -210,6 +211,11 @@ void add_effect_options(CLI::App& app, RenderOptions& o) {
   app.add_flag("--cull", o.compile.cull, "Show opaque surfaces from the front only")->group(group);
   app.add_flag("--census", o.report.census,
                "Print which effects the scene calls for and why; with -o also the rays of each kind")
+      ->group(group);
+  add_choice(app, "--up", o.source.up, "Up axis of a camera that is added to a model").group(group);
+  app.add_option("--animation", o.source.animation,
+                 "Which animation of a model is shown (default: the first of glTF, all of other formats)")
+      ->type_name("NAME")
       ->group(group);
   app.add_flag("--strict", o.source.strict, "Reject what the NFF specification does not allow")->group(group);
   app.add_option("--memory", o.source.memory,

@@ -8,6 +8,7 @@
 
 #include "cli/options/number_pair.h"
 #include "cli/process/log.h"
+#include "convert/default_view.h"
 #include "live/address.h"
 #include "parallel/settings/session_words.h"
 #include "render/options/outputs.h"
@@ -25,6 +26,8 @@ struct SourceOptions {
   std::string input;   // scene, or script that names its scene
   std::string script;  // empty: none, or `input` is one
   bool strict = false;
+  UpAxis up = UpAxis::kY;               // of a view that a model lacks
+  std::string animation;                // of a model, by its name; empty: the first
   std::optional<std::uint64_t> memory;  // bytes that reading may take; empty: a share of what is there
 };
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/diagnostics.h"
+#include "convert/model_scene.h"
 #include "image/atomic_file.h"
 #include "image/frame_writer.h"
 #include "live/command.h"
@@ -18,6 +19,8 @@
 
 namespace pprt {
 namespace {
+
+constexpr double kFilmRate = 24;  // frames/s, of a film that turns round a model
 
 // Returns the files that have been read: those named, then what these include, show and move.
 std::vector<NamedFile> input_files(const Sources& sources, const std::string& config,
@@ -136,9 +139,20 @@ OutputFiles named_files(OutputFiles output, bool is_live, std::size_t frame_coun
   return output;
 }
 
+// A model that rests, without a script, is shown from all sides in a film.
+bool turns(const RenderOptions& options, const Sources& sources) {
+  return sources.is_model && !sources.script && !sources.scene.scene.movement.times && !options.live &&
+         !options.output.film.empty();
+}
+
 RenderPlan plan_of(const RenderOptions& options, Sources& sources) {
   const bool is_live = options.live.has_value();
   const bool names_pictures = !options.output.pictures.empty();
+
+  if (turns(options, sources)) {
+    const double rate = options.end.fps.value_or(0);
+    add_turn(sources.scene.scene, options.source.up, rate > 0 ? rate : kFilmRate, sources.is_lit_anew);
+  }
 
   // Frames, at their rate.
   const View base = base_view(options.size, sources);

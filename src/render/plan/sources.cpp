@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "cli/scenes/scene_source.h"
+#include "convert/model_scene.h"
 #include "render/options/render_options.h"
 #include "scene/animation/resting_nodes.h"
 #include "spd/spd.h"
@@ -19,6 +20,19 @@ NffOptions reading_of(const SourceOptions& options) {
   return reading;
 }
 
+ModelOptions model_options(const SourceOptions& options) {
+  ModelOptions result{.up = options.up};
+  result.limits.memory_bytes = reading_of(options).max_memory;
+  result.limits.animation = options.animation;
+  return result;
+}
+
+// What a script moves needs neither camera nor lights, so nothing is told of them.
+std::optional<ParsedScene> model_of_script(const std::string& name, const SourceOptions& options) {
+  if (!is_model_name(name)) return std::nullopt;
+  return load_object(name, model_options(options).limits);
+}
+
 }  // namespace
 
 Sources read_sources(const SourceOptions& options) {
@@ -30,9 +44,26 @@ Sources read_sources(const SourceOptions& options) {
     require_file(script_path);
     script = read_animation(script_path);
   }
-  if (!only_script) return Sources{script_path, script, options.input, load_scene(options.input, reading)};
-  return Sources{script_path, script, scene_of_script(script->animation, script_path),
-                 load_scene_of_script(script->animation, script_path, reading)};
+  Sources sources{script_path, script,
+                  only_script ? scene_of_script(script->animation, script_path) : options.input,
+                  ParsedScene()};
+  const OtherReader models = [&](const std::string& name) -> std::optional<ParsedScene> {
+    if (!is_model_name(name)) return std::nullopt;
+    Model model = load_model(name, model_options(options));
+    sources.is_model = true, sources.is_lit_anew = model.is_lit_anew;
+    return std::move(model.parsed);
+  };
+  if (only_script) {
+    sources.scene = load_scene_of_script(script->animation, script_path, reading, models);
+  } else if (std::optional<ParsedScene> model = models(options.input)) {
+    sources.scene = std::move(*model);
+  } else {
+    sources.scene = load_scene(options.input, reading);
+  }
+  if (!sources.is_model) return sources;
+  if (const std::optional<std::string> added = complete_background(sources.scene.scene))
+    sources.scene.warnings += sources.scene.scene.name + ": " + *added + "\n";
+  return sources;
 }
 
 void add_objects(Sources& sources, const SourceOptions& options) {
@@ -41,7 +72,8 @@ void add_objects(Sources& sources, const SourceOptions& options) {
   const FrameTimes times = frame_times(sources);
   const std::size_t own_nodes = scene.movement.nodes.size();
   for (const SceneNode& node : scene.movement.nodes) sources.own_names.insert(node.track);
-  add_objects(sources.scene, sources.script->animation, sources.script_path, times, reading_of(options));
+  add_objects(sources.scene, sources.script->animation, sources.script_path, times, reading_of(options),
+              [&](const std::string& name) { return model_of_script(name, options); });
   if (scene.movement.nodes.size() > own_nodes) scene = without_resting_nodes(std::move(scene));
   if (scene.movement.nodes.size() > 1) scene.movement.times = times;
 }

@@ -20,6 +20,8 @@ struct Sources {
   std::string scene_path;  // or another name of a scene
   ParsedScene scene;
   std::set<std::string, std::less<>> own_names = {};  // of what the scene itself can move
+  bool is_model = false;                              // the scene is a model's file
+  bool is_lit_anew = false;                           // its lights have been added
 
   std::string warnings() const { return scene.warnings + (script ? script->warnings : ""); }
 };

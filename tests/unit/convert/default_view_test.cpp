@@ -2,8 +2,13 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
+#include "convert/model/display_values.h"
+#include "scene/description/shading_rules.h"
 #include "scene/description/view_frame.h"
 #include "spd/spd.h"
 
@@ -16,27 +21,101 @@ TEST_CASE("a fitted view shows every corner of the scene, upright") {
     const ViewFrame frame = view_frame(view, "rings");
     CHECK(frame.up[up == UpAxis::kY ? 1 : 2] > 0.8);
     CHECK(frame.right[up == UpAxis::kY ? 1 : 2] == Approx(0).margin(1e-12));
-    const Box3d box = bounds(scene);
-    for (int corner = 0; corner < 8; ++corner) {
-      const Vec3d p(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
-                    corner & 4 ? box.max.z : box.min.z);
-      const Vec3d seen = p - view.from;
-      const double depth = seen.dot(frame.forward);
-      CHECK(depth > view.hither);
-      CHECK(std::abs(seen.dot(frame.right)) < depth * frame.slope_per_pixel * view.width / 2);
-      CHECK(std::abs(seen.dot(frame.up)) < depth * frame.slope_per_pixel * view.height / 2);
+    for (const PrimitiveRef ref : scene.order) {
+      const Box3d box = bounds(scene, ref);
+      for (int corner = 0; corner < 8; ++corner) {
+        const Vec3d p(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                      corner & 4 ? box.max.z : box.min.z);
+        const Vec3d seen = p - view.from;
+        const double depth = seen.dot(frame.forward);
+        REQUIRE(depth > view.hither);
+        REQUIRE(std::abs(seen.dot(frame.right)) < depth * frame.slope_per_pixel * view.width / 2);
+        REQUIRE(std::abs(seen.dot(frame.up)) < depth * frame.slope_per_pixel * view.height / 2);
+      }
     }
   }
 }
 
-TEST_CASE("the default light is left of the eye and above it") {
-  const SceneDescription scene = make_spd("rings", 2);
+// Slopes of the outermost corners, in half pictures: right, left, up, down.
+std::array<double, 4> reach(const SceneDescription& scene, const View& view) {
+  const ViewFrame frame = view_frame(view, scene.name);
+  const double half = frame.slope_per_pixel * view.width / 2;
+  std::array<double, 4> most{-9, -9, -9, -9};
+  for (const PrimitiveRef ref : scene.order) {
+    const Box3d box = bounds(scene, ref);
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3d p(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                    corner & 4 ? box.max.z : box.min.z);
+      const Vec3d seen = p - view.from;
+      const double x = seen.dot(frame.right) / seen.dot(frame.forward) / half;
+      const double y = seen.dot(frame.up) / seen.dot(frame.forward) / half;
+      most = {std::max(most[0], x), std::max(most[1], -x), std::max(most[2], y), std::max(most[3], -y)};
+    }
+  }
+  return most;
+}
+
+TEST_CASE("a fitted view has even margins, whatever is seen and however large") {
+  for (const Vec3d& size :
+       {Vec3d(1, 1, 1), Vec3d(0.01, 0.01, 0.01), Vec3d(1000, 1, 1), Vec3d(1, 9, 1), Vec3d(2, 0, 5)}) {
+    SceneDescription scene;
+    scene.materials = {{}};
+    const Vec3d at = size * 3.0;
+    const Vec3d corners[] = {at, at + Vec3d(size.x, 0, 0), at + size, at + Vec3d(0, size.y, size.z)};
+    add_polygon(scene, corners, 0);
+    const std::array<double, 4> most = reach(scene, fitted_view(scene, UpAxis::kY));
+    CAPTURE(size.x, size.y, size.z, most[0], most[1], most[2], most[3]);
+    const double across = std::max(most[0], most[1]), upright = std::max(most[2], most[3]);
+    CHECK(std::max(across, upright) == Approx(0.88).margin(0.01));  // 6 % of the picture on each side
+    // Both sides that decide are alike.
+    CHECK((across > upright ? most[0] - most[1] : most[2] - most[3]) == Approx(0).margin(1e-6));
+  }
+}
+
+TEST_CASE("default lights are left of the eye and above it, and to the right") {
+  SceneDescription scene = make_spd("rings", 2);
   const View view = fitted_view(scene, UpAxis::kY);
   const ViewFrame frame = view_frame(view, "rings");
-  const Light light = default_light(scene, view);
-  CHECK((light.position - view.from).dot(frame.right) < 0);
-  CHECK((light.position - view.from).dot(frame.up) > 0);
-  CHECK_FALSE(light.color);
+  const std::vector<Light> lights = default_lights(scene, view);
+  REQUIRE(lights.size() == 2);
+  CHECK((lights[0].position - view.from).dot(frame.right) < 0);
+  CHECK((lights[0].position - view.from).dot(frame.up) > 0);
+  CHECK((lights[1].position - view.from).dot(frame.right) > 0);
+  // As bright as written, whichever rule holds.
+  CHECK(lights[0].color.value().x * light_weight(2) == Approx(1));
+  scene.ambient = Rgb(1, 1, 1);
+  CHECK_FALSE(default_lights(scene, view)[0].color);
+  CHECK(default_lights(scene, view)[1].color.value().x ==
+        Approx(lights[1].color.value().x * light_weight(2)));
+}
+
+TEST_CASE("a grey ball in the default light spans most of the range of display values") {
+  SceneDescription scene;
+  scene.ambient = Rgb(1, 1, 1);
+  scene.materials = {{}};
+  add_sphere(scene, {{3, 2, 1}, 0.5, 0, {}});
+  const View view = fitted_view(scene, UpAxis::kY);
+  const std::vector<Light> lights = default_lights(scene, view);
+  const double grey = display_value(0.5);
+  double least = 1, most = 0;
+  for (int i = 0; i < 64; ++i) {
+    for (int k = 0; k < 128; ++k) {
+      const double polar = (i + 0.5) * M_PI / 64, around = k * M_PI / 64;
+      const Vec3d normal(std::sin(polar) * std::cos(around), std::cos(polar),
+                         std::sin(polar) * std::sin(around));
+      const Vec3d place = Vec3d(3, 2, 1) + normal * 0.5;
+      if (normal.dot(view.from - place) <= 0) continue;  // not seen
+      double shown = kAmbientReflectance;
+      for (const Light& light : lights) {
+        const double cosine = normal.dot((light.position - place).normalized());
+        shown += std::max(cosine, 0.0) * light.color.value_or(Rgb(1, 1, 1)).x;
+      }
+      least = std::min(least, shown * grey), most = std::max(most, shown * grey);
+    }
+  }
+  CHECK(least < 0.15);
+  CHECK(most > 0.8);
+  CHECK(most <= 1);
 }
 
 }  // namespace pprt::default_view_test

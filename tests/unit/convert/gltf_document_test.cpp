@@ -1,4 +1,4 @@
-#include "convert/mesh/gltf_document.h"
+#include "convert/gltf/gltf_document.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "convert/mesh/mesh_writer.h"
+#include "convert/model/display_values.h"
 #include "parser/aff_parser.h"
 
 namespace pprt::gltf_document_test {
@@ -53,11 +54,12 @@ TEST_CASE("gltf document: a light within the scene is not dark") {
   CHECK(intensities(lit("l 0 0 0")).at(0) == Approx(0.08));
 }
 
-TEST_CASE("gltf document: a light's brightest channel counts as intensity, the rest as colour") {
+TEST_CASE("gltf document: a light's brightest channel counts as intensity, the rest as colour, both linear") {
   const json document = document_of(lit("l 0 0 3 .5 .25 0  l 0 0 3 0 0 0"));
   const json lights = document["extensions"]["KHR_lights_punctual"]["lights"];
-  CHECK(lights[0]["color"].get<std::vector<double>>() == std::vector<double>{1, 0.5, 0});
-  CHECK(lights[0]["intensity"].get<double>() == Approx(4.5));
+  CHECK(lights[0]["color"].get<std::vector<double>>() ==
+        std::vector<double>{1, light_of(0.25) / light_of(0.5), 0});
+  CHECK(lights[0]["intensity"].get<double>() == Approx(9 * light_of(0.5)));
   CHECK(lights[1]["color"].get<std::vector<double>>() == std::vector<double>{0, 0, 0});
   CHECK(lights[1]["intensity"].get<double>() == 0);
   const json used = document["extensionsUsed"];

@@ -11,7 +11,7 @@
 #include "base/sanitized.h"
 #include "convert/mesh/isolated_reader.h"
 #include "convert/mesh/mesh_reader.h"
-#include "convert/mesh/model_folder.h"
+#include "convert/model/model_folder.h"
 #include "scene/bytes/scene_bytes.h"
 #include "unit/image/temporary_directory.h"
 
@@ -253,10 +253,9 @@ TEST_CASE("hostile meshes: one that crashes Assimp, or takes too much, is refuse
       "deep.dae",
       R"(<COLLADA version="1.4.1"><library_visual_scenes><visual_scene id="s">)" + nodes +
           R"(</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)");
-  CHECK_THROWS_WITH(
-      read_mesh_isolated(deep),
-      Catch::StartsWith(deep + ": error: it is damaged, or has something that Assimp cannot read: "
-                               "reading it ended in "));
+  CHECK_THROWS_WITH(read_mesh_isolated(deep),
+                    Catch::StartsWith(deep + ": error: it is damaged, or has something that cannot be read: "
+                                             "reading it ended in "));
   const std::string good = files.write("m.obj", kTriangle);
   CHECK_THROWS_WITH(read_mesh_isolated(good, {.seconds = 0}),
                     good + ": error: reading it takes more than 0 seconds (--mesh-seconds allows more)");

@@ -166,7 +166,7 @@ TEST_CASE("lights of glTF have their colours and move") {
   REQUIRE(back.lights.size() == 2);
   check_near(back.lights[0].position, {1, 2, 3}, 1e-6);
   const Rgb color = back.lights[0].color.value();
-  CHECK((color.x == Approx(0.6) && color.y == Approx(0.8) && color.z == Approx(1)));
+  CHECK((color.x == Approx(0.3) && color.y == Approx(0.4) && color.z == Approx(0.5)));
   const auto stands = [&](double time) {
     return placements_at(back.movement, time)[back.light_nodes[1].node].to_parent.point(
         back.lights[1].position);
@@ -322,15 +322,11 @@ TEST_CASE("there are as many frames as the modeller's, whatever a float makes of
   }
 }
 
-TEST_CASE("nodes without end, keys of whole numbers and cameras without perspective") {
+TEST_CASE("nodes without end, and cameras without perspective") {
   std::string deep = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[)";
   for (int i = 1; i <= 5000; ++i) deep += R"({"children":[)" + std::to_string(i) + "]},";
   CHECK_THROWS_WITH(read_gltf(deep + "{}]}"), Catch::Contains("deep in each other"));
   CHECK_THROWS_WITH(read_gltf(gltf(R"("children":[1,1])", ",{}")), Catch::Contains("two parents"));
-  std::string whole = gltf();
-  whole.replace(whole.rfind("5126"), 4, "5122");
-  CHECK_THROWS_WITH(read_gltf(whole), Catch::Contains("whole numbers"));
-
   for (const char* camera :
        {R"({"type":"orthographic","orthographic":{"xmag":1,"ymag":1,"zfar":9,"znear":0}})",
         R"({"type":"perspective","perspective":{"yfov":0,"znear":0.1}})"}) {

@@ -1,4 +1,4 @@
-// What Assimp leaves out of glTF files, and what its versions read in several ways.
+// What Assimp leaves out when it writes glTF files, and what is wrong with those that are read.
 #pragma once
 
 #include <cstddef>
@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "scene/description/scene_description.h"
 
@@ -27,23 +28,29 @@ std::string utf8(std::string name);
 // Throws std::runtime_error when the file is not as Assimp writes it.
 void add_camera_and_lights(std::string& bytes, const SceneDescription& scene);
 
-// What Assimp does not tell of a file, or not rightly.
+// Returns the least square of a distance that a light of glTF counts with: it is not dark within the scene.
+double least_distance2(const Box3d& scene);
+
+// What readers do not tell of a file.
 struct GltfFacts {
-  // Why it should not be read: a length beyond the file, brackets or nodes without end, keys of whole
-  // numbers. Empty: nothing was found.
+  // Why it should not be read: a length beyond the file, brackets or nodes without end. Empty: nothing was
+  // found.
   std::string problem;
-  // Why Assimp may be unable to read it, which may have other reasons too. Empty: nothing was found.
+  // Why it may be that it cannot be read, which may have other reasons too. Empty: nothing was found.
   std::string likely_cause;
-  std::optional<std::size_t> broken_at;  // the byte of the likely cause, in a .gltf
-  // Vertical angles of perspective cameras, in radians, by Assimp's names of their nodes. The first of
-  // namesakes counts.
-  std::map<std::string, double> camera_angles;
+  std::optional<std::size_t> broken_at;      // the byte of the likely cause, in a .gltf
+  std::size_t json_begin = 0, json_end = 0;  // where its JSON lies
+  // Channels of animations that move what is no place of a node, which tinygltf 2.7 passes over.
+  struct Pointer {
+    std::size_t animation = 0;
+    int sampler = 0;
+    std::string target;
+  };
+  std::vector<Pointer> pointers;
+  std::map<std::string, std::size_t> buffers;  // the lengths of those in other files, by their URIs
 };
 
 // Returns what can be found. `bytes`: of a .glb or a .gltf.
 GltfFacts gltf_facts(std::string_view bytes);
-
-// Levels of nodes in each other that can be read.
-inline constexpr int kMaxNodeDepth = 1000;
 
 }  // namespace pprt

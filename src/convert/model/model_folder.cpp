@@ -1,4 +1,4 @@
-#include "convert/mesh/model_folder.h"
+#include "convert/model/model_folder.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,4 +1,4 @@
-#include "convert/mesh/gltf_document.h"
+#include "convert/gltf/gltf_document.h"
 
 #include <algorithm>
 #include <cctype>
@@ -10,7 +10,10 @@
 #include <string_view>
 #include <vector>
 
+#include "convert/model/display_values.h"
+#include "convert/model/read_mesh.h"
 #include "scene/animation/resting_nodes.h"
+#include "scene/description/shading_rules.h"
 #include "scene/description/view_frame.h"
 
 namespace pprt {
@@ -87,16 +90,17 @@ void add_lights(json& document, const SceneDescription& scene) {
   if (scene.lights.empty()) return;
   const SceneDescription still = still_at(scene, start_time(scene.movement));
   const Box3d box = bounds(still);
-  const double least = 0.01 * box.size().length2();  // of the squared distances: not dark within
+  const double weight = scene.ambient ? 1 : light_weight(scene.lights.size());
   json lights = json::array();
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = still.lights[i];
-    const Rgb color = light.color.value_or(Rgb(1, 1, 1));
-    const double brightest = std::max({color.x, color.y, color.z});
-    const Rgb hue = brightest > 0 ? color / brightest : color;
-    lights.push_back({{"type", "point"},
-                      {"color", {hue.x, hue.y, hue.z}},
-                      {"intensity", brightest * std::max((light.position - box.center()).length2(), least)}});
+    const Rgb color = light.color.value_or(Rgb(1, 1, 1)) * weight;
+    const Rgb shown(light_of(color.x), light_of(color.y), light_of(color.z));
+    const double brightest = std::max({shown.x, shown.y, shown.z});
+    const Rgb hue = brightest > 0 ? shown / brightest : shown;
+    const double distance2 = std::max((light.position - box.center()).length2(), least_distance2(box));
+    lights.push_back(
+        {{"type", "point"}, {"color", {hue.x, hue.y, hue.z}}, {"intensity", brightest * distance2}});
     node_called(document, light_name(i))["extensions"][kExtension]["light"] = i;
   }
   document["extensions"][kExtension]["lights"] = std::move(lights);
@@ -116,7 +120,7 @@ std::string completed(std::string_view text, const SceneDescription& scene) {
 
 // --- Reading
 
-constexpr int kMaxJsonDepth = 500;  // brackets in each other: Assimp's parser takes stack for each
+constexpr int kMaxJsonDepth = 500;  // brackets in each other: parsers take stack for each
 
 // Returns why the JSON of a .glb does not lie where its header tells. One of glTF 1 has another header.
 std::string problem_of_header(std::string_view bytes) {
@@ -211,35 +215,36 @@ std::string problem_of_nodes(const json& document) {
   return {};
 }
 
-std::string problem_of_keys(const json& document) {
-  constexpr int kFloat = 5126;  // componentType
-  for (const json& animation : document.value("animations", json::array())) {
-    for (const json& sampler : animation.at("samplers")) {
-      const json& keys = document.at("accessors").at(sampler.at("output").get<std::size_t>());
-      if (keys.value("componentType", kFloat) != kFloat)
-        return "its animations have keys of whole numbers, which cannot be read; export them as floats";
-    }
+// Data URIs are left out.
+std::map<std::string, std::size_t> buffer_lengths(const json& document) {
+  std::map<std::string, std::size_t> lengths;
+  for (const json& buffer : document.value("buffers", json::array())) {
+    const std::string uri = buffer.value("uri", "");
+    if (!uri.empty() && !uri.starts_with("data:")) lengths[uri] = buffer.at("byteLength").get<std::size_t>();
   }
-  return {};
+  return lengths;
 }
 
-std::map<std::string, double> camera_angles(const json& document) {
-  std::map<std::string, double> angles;
-  const json nodes = document.value("nodes", json::array());
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (!nodes[i].contains("camera")) continue;
-    const json& camera = document.at("cameras").at(nodes[i]["camera"].get<std::size_t>());
-    const std::string name = nodes[i].value("name", "");
-    if (camera.contains("perspective")) {
-      // Assimp calls a node without a name after its place.
-      angles.try_emplace(name.empty() ? "nodes[" + std::to_string(i) + "]" : name,
-                         camera["perspective"].at("yfov").get<double>());
+std::vector<GltfFacts::Pointer> pointers(const json& document) {
+  std::vector<GltfFacts::Pointer> result;
+  const json animations = document.value("animations", json::array());
+  for (std::size_t i = 0; i < animations.size(); ++i) {
+    for (const json& channel : animations[i].at("channels")) {
+      const json& target = channel.at("target");
+      if (target.value("path", "") != "pointer") continue;
+      const json extensions = target.value("extensions", json::object());
+      const json moved = extensions.value("KHR_animation_pointer", json::object());
+      result.push_back({i, channel.at("sampler").get<int>(), moved.value("pointer", "")});
     }
   }
-  return angles;
+  return result;
 }
 
 }  // namespace
+
+double least_distance2(const Box3d& scene) {
+  return 0.01 * scene.size().length2();
+}
 
 void add_camera_and_lights(std::string& bytes, const SceneDescription& scene) {
   const auto [begin, end] = range_of_json(bytes);
@@ -281,16 +286,17 @@ GltfFacts gltf_facts(std::string_view bytes) {
   try {
     facts.likely_cause = cause_in_header(bytes);
     const auto [begin, end] = range_of_json(bytes);
+    facts.json_begin = begin, facts.json_end = end;
     const json document = parsed(utf8(std::string(bytes.substr(begin, end - begin))), begin, facts);
     if (!facts.problem.empty() || document.is_null()) return facts;
     if (facts.likely_cause.empty()) facts.likely_cause = cause_in_version(document);
     facts.problem = problem_of_nodes(document);
-    if (facts.problem.empty()) facts.problem = problem_of_keys(document);
-    facts.camera_angles = camera_angles(document);
+    facts.buffers = buffer_lengths(document);
+    facts.pointers = pointers(document);
   } catch (const json::exception&) {
-    // A value is not of its type: Assimp tells.
+    // A value is not of its type: the reader tells.
   } catch (const std::out_of_range&) {
-    // A node names what is not there: Assimp tells.
+    // A node names what is not there: the reader tells.
   }
   return facts;
 }

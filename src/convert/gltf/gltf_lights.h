@@ -1,0 +1,22 @@
+// Lights of glTF (KHR_lights_punctual).
+#pragma once
+
+#include <vector>
+
+#include "convert/gltf/gltf_losses.h"
+#include "convert/gltf/gltf_model.h"
+#include "convert/model/model_builder.h"
+
+namespace pprt {
+
+struct PlacedGltfLight {
+  int light = 0;  // its place among the file's
+  ModelSpace space;
+};
+
+// Adds lights to a scene that has its meshes. Their intensities are those in the middle of the scene at the
+// animation's start, as display values; the brightest is 1. The sun stands far away.
+void add_gltf_lights(const tinygltf::Model& model, const std::vector<PlacedGltfLight>& placed,
+                     GltfLosses& losses, ModelBuilder& builder);
+
+}  // namespace pprt

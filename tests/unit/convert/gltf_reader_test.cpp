@@ -1,0 +1,459 @@
+// What glTF says, as scenes have it, and what is told of the rest.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "base/diagnostics.h"
+#include "convert/gltf/gltf_holes.h"
+#include "convert/gltf/gltf_losses.h"
+#include "convert/model/display_values.h"
+#include "image/image_io.h"
+#include "scene/movement/movement.h"
+#include "unit/convert/gltf_sample.h"
+
+namespace pprt::gltf_reader_test {
+
+namespace {
+
+using nlohmann::json;
+using Notes = std::vector<std::string>;
+
+bool tells(const ReadMesh& read, const std::string& note) {
+  return std::find(read.notes.begin(), read.notes.end(), note) != read.notes.end();
+}
+
+const Material& material_of(const ReadMesh& read) {
+  const SceneDescription& scene = read.scene;
+  REQUIRE(scene.primitive_count() > 0);
+  return scene.materials[material_of(scene, scene.order[0])];
+}
+
+Vec3d place_at(const ReadMesh& read, const std::string& track, double time) {
+  return track_at(read.scene.movement, track, time).value().to_parent.origin;
+}
+
+json colored(std::vector<double> factor, json more = json::object()) {
+  more["pbrMetallicRoughness"] = {{"baseColorFactor", factor}, {"metallicFactor", 0}};
+  return more;
+}
+
+Image stripes(int width, int height) {
+  Image image(width, height);
+  for (int x = 0; x < width; ++x) {
+    for (int y = 0; y < height; ++y)
+      image.at(x, y) = Color(static_cast<float>(x) / 255, static_cast<float>(y) / 255, 0);
+  }
+  return image;
+}
+
+}  // namespace
+
+TEST_CASE("gltf: STEP jumps, LINEAR slides, CUBICSPLINE eases") {
+  GltfSample sample;
+  const int mesh = sample.triangle();
+  for (const char* name : {"step", "line", "curve"}) sample.node({{"name", name}, {"mesh", mesh}});
+  sample.move(0, "translation", "STEP", {0, 1, 2}, {0, 0, 0, 4, 0, 0, 8, 0, 0});
+  sample.move(1, "translation", "LINEAR", {0, 1, 2}, {0, 0, 0, 4, 0, 0, 8, 0, 0});
+  // Tangents of 0 at both keys: 3 t^2 - 2 t^3.
+  sample.move(2, "translation", "CUBICSPLINE", {0, 1},
+              {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4, 0, 0, 0, 0, 0});
+  const ReadMesh read = sample.read();
+  for (const double t : {0.0, 0.3, 0.999, 1.0, 1.5}) {
+    CAPTURE(t);
+    CHECK(place_at(read, "step", t).x == (t < 1 ? 0 : 4));
+    CHECK(place_at(read, "line", t).x == Approx(4 * t));
+    const double c = std::min(t, 1.0);
+    CHECK(place_at(read, "curve", t).x == Approx(4 * (3 * c * c - 2 * c * c * c)).margin(4 / 4000.0));
+  }
+  CHECK(place_at(read, "step", 2).x == 8);
+  CHECK(read.notes.empty());
+}
+
+TEST_CASE("gltf: a curve of turns stays within 0.02 degrees") {
+  GltfSample sample;
+  sample.node({{"name", "wheel"}, {"mesh", sample.triangle()}});
+  const float half = std::sqrt(0.5F);  // of a quarter turn about z
+  sample.move(0, "rotation", "CUBICSPLINE", {0, 2},
+              {0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0.5F, 0, 0, 0, 0.5F, 0, 0, 0, half, half, 0, 0, 0, 0});
+  const ReadMesh read = sample.read();
+  for (const double t : {0.1, 0.77, 1.3}) {
+    // Hermite's cubic of z and w over 2 s, and then the angle.
+    const double s = t / 2, s2 = s * s, s3 = s2 * s, h = static_cast<double>(half);
+    const double z = 2 * (s3 - 2 * s2 + s) * 0.5 + (3 * s2 - 2 * s3) * h + 2 * (s3 - s2) * 0.5;
+    const double w = (2 * s3 - 3 * s2 + 1) + (3 * s2 - 2 * s3) * h;
+    const Vec3d x = track_at(read.scene.movement, "wheel", t)->to_parent.x;
+    CAPTURE(t);
+    CHECK(std::atan2(x.y, x.x) == Approx(2 * std::atan2(z, w)).margin(0.02 * M_PI / 180));
+  }
+}
+
+TEST_CASE("gltf: nodes of one name go their own ways, and what a track leaves out stays") {
+  GltfSample sample;
+  const int mesh = sample.triangle();
+  for (int i = 0; i < 3; ++i)
+    sample.node({{"name", "Cube"}, {"mesh", mesh}, {"scale", {2, 2, 2}}, {"translation", {0, 0, 7}}});
+  sample.node({{"name", "Cube_2"}, {"mesh", mesh}});
+  sample.move(0, "translation", "LINEAR", {0, 1}, {0, 0, 0, 1, 0, 0});
+  sample.move(1, "translation", "LINEAR", {0, 1}, {0, 0, 0, 0, 1, 0});
+  sample.move(3, "rotation", "LINEAR", {0, 1}, {0, 0, 0, 1, 0, 0, 1, 0});
+  const ReadMesh read = sample.read();
+  CHECK(read.notes.empty());
+  CHECK(place_at(read, "Cube", 1) == Vec3d(1, 0, 0));
+  CHECK(place_at(read, "Cube_2", 1) == Vec3d(0, 1, 0));
+  CHECK(track_at(read.scene.movement, "Cube", 1)->to_parent.x == Vec3d(2, 0, 0));
+  CHECK(read.scene.movement.tracks.size() == 3);
+  CHECK(read.scene.primitive_count() == 4);
+}
+
+TEST_CASE("gltf: of several animations one is shown, and all are named") {
+  GltfSample sample;
+  sample.node({{"name", "b"}, {"mesh", sample.triangle()}});
+  sample.move(0, "translation", "LINEAR", {0, 1}, {0, 0, 0, 1, 0, 0}, "walk");
+  sample.move(0, "translation", "LINEAR", {0, 1}, {0, 0, 0, 0, 1, 0}, "jump");
+  const ReadMesh first = sample.read(), second = sample.read({.animation = "jump"});
+  CHECK(place_at(first, "b", 1) == Vec3d(1, 0, 0));
+  CHECK(place_at(second, "b", 1) == Vec3d(0, 1, 0));
+  CHECK(first.notes == Notes{"of 2 animations 'walk' is shown; --animation takes another: 'jump'"});
+  CHECK(second.notes == Notes{"of 2 animations 'jump' is shown; --animation takes another: 'walk'"});
+  CHECK_THROWS_WITH(sample.read({.animation = "run"}),
+                    Catch::EndsWith(": error: it has no animation 'run', but 'walk', 'jump'"));
+}
+
+TEST_CASE("gltf: a linear factor and a texture of the same grey are alike") {
+  CHECK(display_value(0.5) == Approx(187.5 / 255).epsilon(0.002));
+  for (const double v : {0.0, 0.001, 0.2, 0.7, 1.0})
+    CHECK(light_of(display_value(v)) == Approx(v).margin(1e-12));
+  GltfSample sample;
+  sample.triangle_of(colored({0.5, 0.2, 0, 1}));
+  const Material m = material_of(sample.read());
+  CHECK(m.color.x == Approx(display_value(0.5)));
+  CHECK(m.color.y == Approx(display_value(0.2)));
+  CHECK(m.color.z == 0);
+}
+
+TEST_CASE("gltf: lights differ by their intensities, and the sun is far away") {
+  GltfSample sample;
+  sample.node({{"mesh", sample.triangle()}});
+  const double x = 0.5, y = 0.5;  // the middle
+  sample.document["extensions"]["KHR_lights_punctual"]["lights"] = {
+      {{"type", "point"}, {"intensity", 400}, {"color", {1, 0, 0}}},
+      {{"type", "spot"}, {"intensity", 1}, {"spot", {{"outerConeAngle", 0.2}}}},
+      {{"type", "directional"}, {"intensity", 25}}};
+  for (int i = 0; i < 3; ++i)
+    sample.node({{"translation", {x, y, 2}}, {"extensions", {{"KHR_lights_punctual", {{"light", i}}}}}});
+  const ReadMesh read = sample.read();
+  REQUIRE(read.scene.lights.size() == 3);
+  const std::vector<Light>& lights = read.scene.lights;
+  CHECK(lights[0].color.value() == Rgb(1, 0, 0));  // 400 / 2^2 is the most
+  CHECK(lights[1].color.value().x == Approx(display_value(0.25 / 100)));
+  CHECK(lights[2].color.value().y == Approx(display_value(25.0 / 100)));
+  CHECK(lights[0].position == Vec3d(x, y, 2));
+  CHECK(lights[2].position.z == Approx(100 * std::sqrt(0.5)));
+  CHECK(read.scene.ambient == Rgb(1, 1, 1));
+  CHECK(read.notes == Notes{"1 spot lights: they shine to all sides",
+                            "2 lights that weaken with the distance: they are as bright everywhere as in the "
+                            "middle of the scene"});
+}
+
+TEST_CASE("gltf: alpha counts as its mode says") {
+  const auto read = [](const char* mode, double alpha) {
+    GltfSample sample;
+    sample.triangle_of(colored({1, 1, 1, alpha}, {{"alphaMode", mode}}));
+    sample.node({{"mesh", sample.triangle()}});
+    return sample.read();
+  };
+  CHECK(read("MASK", 0.4).scene.primitive_count() == 1);
+  CHECK(read("MASK", 0.6).scene.primitive_count() == 2);
+  CHECK(material_of(read("OPAQUE", 0.25)).transmittance == 0);
+  const Material blended = material_of(read("BLEND", 0.25));
+  CHECK((blended.transmittance == 0.75 && blended.refractive_index == 1 && blended.color.x == 0.25));
+}
+
+TEST_CASE("gltf: a picture's alpha cuts holes, lets through, or counts for nothing") {
+  const auto read = [](const char* mode) {
+    GltfSample sample;
+    const json texture = {{"index", sample.half_transparent()}};
+    sample.triangle_of({{"alphaMode", mode},
+                        {"pbrMetallicRoughness", {{"metallicFactor", 0}, {"baseColorTexture", texture}}}});
+    return sample.read();
+  };
+  const auto area = [](const ReadMesh& mesh) {
+    double sum = 0;
+    for (const Triangle& t : mesh.scene.triangles) {
+      const auto corners = corners_of(mesh.scene, t);
+      sum += (corners[1].position - corners[0].position)
+                 .cross(corners[2].position - corners[0].position)
+                 .length() /
+             2;
+    }
+    return sum;
+  };
+  // Texels' middles lie at 1/8, 3/8, 5/8 and 7/8: alpha is half of all at 1/2, and at 0, where the picture
+  // repeats. To the right of 1/2 lies a triangle with the sides 1/2.
+  const ReadMesh masked = read("MASK");
+  CHECK(area(masked) == Approx(0.125).epsilon(0.02));
+  CHECK(masked.notes.empty());
+  for (const TriangleMesh& mesh : masked.scene.meshes) CHECK(mesh.positions.size() < 400);
+  const ReadMesh opaque = read("OPAQUE");
+  CHECK(area(opaque) == Approx(0.5));
+  CHECK(opaque.scene.textures[0].rgb[0] == 255);  // not darkened by its alpha
+  const ReadMesh blended = read("BLEND");
+  CHECK(material_of(blended).transmittance == Approx(0.5));
+  CHECK(blended.notes == Notes{"1 materials as transparent as a picture's alpha (BLEND): its mean counts"});
+}
+
+TEST_CASE("gltf: colours at vertices are shown where they are, and between") {
+  GltfSample sample;
+  const std::vector<float> colors = {1, 0, 0, 0, 0.5F, 0, 0, 0, 1};
+  json primitive;
+  primitive["attributes"]["COLOR_0"] = sample.numbers(colors, "VEC3");
+  primitive["material"] = sample.add("materials", colored({0.5, 0.5, 0.5, 1}));
+  sample.node({{"mesh", sample.triangle(primitive)}});
+  const ReadMesh read = sample.read();
+  CHECK(read.notes.empty());
+  REQUIRE(read.scene.textures.size() == 1);
+  const Texture& texture = read.scene.textures[0];
+  const TriangleMesh& mesh = read.scene.meshes[0];
+  const auto texel = [&](const Vec2d& place, std::size_t channel) {
+    const double x = place.x * texture.width - 0.5, y = place.y * texture.height - 0.5;
+    CHECK((std::abs(x - std::round(x)) < 1e-9 && std::abs(y - std::round(y)) < 1e-9));
+    const auto at = static_cast<std::size_t>(std::lround(y) * texture.width + std::lround(x));
+    return static_cast<int>(texture.rgb[3 * at + channel]);
+  };
+  REQUIRE(mesh.texture_points.size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t c = 0; c < 3; ++c)
+      CHECK(texel(mesh.texture_points[i], c) ==
+            std::lround(255 * display_value(static_cast<double>(colors[3 * i + c]))));
+  }
+  // A third of the way from the first to the second corner.
+  const Vec2d between = mesh.texture_points[0] + (mesh.texture_points[1] - mesh.texture_points[0]) / 3.0;
+  CHECK(texel(between, 0) == 170);
+  CHECK(texel(between, 1) == std::lround(85 * display_value(0.5)));
+  CHECK(material_of(read).color.x == Approx(display_value(0.5)));
+}
+
+TEST_CASE("gltf: holes of single texels are cut, wherever corners lie between them") {
+  AlphaPicture checks{4, 4, {}};
+  for (int i = 0; i < 16; ++i) checks.alpha.push_back((i + i / 4) % 2 == 0 ? 1.0F : 0.0F);
+  ModelMesh square;
+  square.texture_points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  for (const Vec2d& p : square.texture_points) square.positions.emplace_back(p.x, p.y, 0);
+  square.corners = {0, 1, 2, 0, 2, 3}, square.ends = {3, 6};
+  REQUIRE(cut_holes(square, checks, 0.5));
+  double area = 0;
+  for (std::size_t i = 0; i < square.corners.size(); i += 3) {
+    const Vec3d& a = square.positions[square.corners[i]];
+    area +=
+        (square.positions[square.corners[i + 1]] - a).cross(square.positions[square.corners[i + 2]] - a).z /
+        2;
+  }
+  CHECK(area == Approx(0.5).epsilon(0.05));
+}
+
+TEST_CASE("gltf: what glows is bright without light, and unlit shows its colour") {
+  GltfSample sample;
+  sample.triangle_of(colored({0, 0, 0, 1}, {{"emissiveFactor", {1, 0.5, 0}}}));
+  const Material lamp = material_of(sample.read());
+  REQUIRE(lamp.terms);
+  CHECK(lamp.terms->ambient.x == 1);
+  CHECK(lamp.terms->ambient.y == Approx(display_value(0.5)));
+  CHECK(lamp.terms->diffuse == Rgb(0, 0, 0));
+  GltfSample unlit;
+  unlit.triangle_of(colored({0, 1, 0, 1}, {{"extensions", {{"KHR_materials_unlit", json::object()}}}}));
+  const Material flat = material_of(unlit.read());
+  REQUIRE(flat.terms);
+  CHECK((flat.terms->ambient == Rgb(0, 1, 0) && flat.terms->diffuse == Rgb(0, 0, 0)));
+}
+
+TEST_CASE("gltf: glass has its index, and metal mirrors as far as it is smooth") {
+  GltfSample glass;
+  glass.triangle_of(colored({1, 1, 1, 1}, {{"extensions",
+                                            {{"KHR_materials_transmission", {{"transmissionFactor", 0.75}}},
+                                             {"KHR_materials_ior", {{"ior", 1.3}}}}}}));
+  const Material m = material_of(glass.read());
+  CHECK((m.transmittance == 0.75 && m.refractive_index == 1.3 && m.color.x == 0.25));
+  GltfSample metal;
+  metal.triangle_of({{"pbrMetallicRoughness", {{"metallicFactor", 1}, {"roughnessFactor", 0.5}}}});
+  const Material mirror = material_of(metal.read());
+  CHECK((mirror.specular == 0.5 && mirror.color.x == 0.5 && mirror.shine == Approx(30)));
+}
+
+TEST_CASE("gltf: textures are turned, shrunk and moved, and continue as their sampler says") {
+  const auto read = [](const json& transform, const json& sampler) {
+    GltfSample sample;
+    write_image(sample.folder() / "t.png", stripes(4, 2));
+    json texture = {{"index", sample.texture("t.png", sampler)}};
+    if (!transform.empty()) texture["extensions"]["KHR_texture_transform"] = transform;
+    sample.triangle_of({{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"baseColorTexture", texture}}}});
+    ReadMesh result = sample.read();
+    CHECK(result.notes.empty());
+    REQUIRE(result.scene.meshes.size() == 1);
+    return result;
+  };
+  // Corners (0 0) (1 0) (0 1).
+  const auto points = [](const ReadMesh& mesh) { return mesh.scene.meshes[0].texture_points; };
+  CHECK(points(read({}, {})) == std::vector<Vec2d>{{0, 0}, {1, 0}, {0, 1}});
+  CHECK(points(read({{"offset", {0.5, 0}}, {"scale", {0.5, 0.25}}}, {})) ==
+        std::vector<Vec2d>{{0.5, 0}, {1, 0}, {0.5, 0.25}});
+  // A quarter turn against the clock, as the picture is seen: to the right becomes up, which is less of v.
+  const std::vector<Vec2d> turned = points(read({{"rotation", M_PI / 2}}, {}));
+  CHECK((turned[1] - Vec2d(0, -1)).length() < 1e-9);
+  CHECK((turned[2] - Vec2d(1, 0)).length() < 1e-9);
+
+  const ReadMesh mirrored = read({{"scale", {2, 2}}}, {{"wrapS", 33648}, {"wrapT", 10497}});
+  const Texture& twice = mirrored.scene.textures[0];
+  CHECK((twice.width == 8 && twice.height == 2));
+  std::vector<int> reds;
+  for (std::size_t i = 0; i < 8; ++i) reds.push_back(twice.rgb[3 * i]);
+  CHECK(reds == std::vector<int>{0, 1, 2, 3, 3, 2, 1, 0});
+  CHECK(points(mirrored) == std::vector<Vec2d>{{0, 0}, {1, 0}, {0, 2}});
+
+  const ReadMesh clamped =
+      read({{"scale", {2, 1}}, {"offset", {-1, 0}}}, {{"wrapS", 33071}, {"wrapT", 33071}});
+  const Texture& wide = clamped.scene.textures[0];
+  reds.clear();
+  for (std::size_t i = 0; i < 8; ++i) reds.push_back(wide.rgb[3 * i]);
+  CHECK(reds == std::vector<int>{0, 0, 0, 0, 0, 1, 2, 3});
+  CHECK(points(clamped) == std::vector<Vec2d>{{0, 0}, {1, 0}, {0, 1}});
+}
+
+TEST_CASE("gltf: sparse, strided and whole numbers, strips and mirrored nodes are read") {
+  GltfSample sample;
+  const std::int16_t half_of_all[] = {0, 0, 0, 32767, 0, 0, 0, 32767, 0};
+  const int corners =
+      sample.accessor({reinterpret_cast<const char*>(half_of_all), sizeof half_of_all},
+                      {{"componentType", 5122}, {"count", 3}, {"type", "VEC3"}, {"normalized", true}});
+  sample.node({{"mesh", sample.triangle({{"attributes", {{"POSITION", corners}}}})}, {"scale", {-1, 1, 1}}});
+  const float moved[] = {5, 6, 7};
+  json sparse = {{"componentType", 5126}, {"count", 4}, {"type", "VEC3"}};
+  sparse["sparse"] = {
+      {"count", 1},
+      {"indices", {{"bufferView", sample.view(std::string("\x03", 1))}, {"componentType", 5121}}},
+      {"values", {{"bufferView", sample.view({reinterpret_cast<const char*>(moved), 12})}}}};
+  const int strip = sample.accessor(std::string(48, '\0'), sparse);
+  sample.node({{"mesh", sample.triangle({{"mode", 5}, {"attributes", {{"POSITION", strip}}}})}});
+  const ReadMesh read = sample.read();
+  REQUIRE(read.scene.polygons.size() == 1);
+  const auto vertices = read.scene.vertices(read.scene.polygons[0]);
+  // Mirrored, but its front stays its front: the corners run the other way.
+  CHECK(vertices[0] == Vec3d(0, 1, 0));
+  CHECK(vertices[1] == Vec3d(-1, 0, 0));
+  CHECK(read.notes == Notes{"2 points, lines and faces without extent left out"});
+}
+
+TEST_CASE("gltf: what is hidden is left out, unless it appears") {
+  const json hidden = {{"KHR_node_visibility", {{"visible", false}}}};
+  GltfSample sample;
+  const int mesh = sample.triangle();
+  sample.node({{"mesh", mesh}});
+  sample.node({{"mesh", mesh}, {"extensions", hidden}});
+  sample.node({{"name", "ghost"}, {"mesh", mesh}, {"extensions", hidden}});
+  const std::string pointer = "/nodes/2/extensions/KHR_node_visibility/visible";
+  sample.document["animations"] = {
+      {{"samplers",
+        {{{"input", sample.numbers({0, 1}, "SCALAR")},
+          {"output", sample.accessor(std::string("\0\1", 2),
+                                     {{"componentType", 5121}, {"count", 2}, {"type", "SCALAR"}})},
+          {"interpolation", "STEP"}}}},
+       {"channels",
+        {{{"sampler", 0},
+          {"target",
+           {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}}}}}}}};
+  const ReadMesh read = sample.read();
+  CHECK(read.notes.empty());
+  CHECK(read.scene.primitive_count() == 2);
+  CHECK_FALSE(track_at(read.scene.movement, "ghost", 0.5)->visible);
+  CHECK(track_at(read.scene.movement, "ghost", 1)->visible);
+}
+
+TEST_CASE("gltf: every loss is told") {
+  GltfSample sample;
+  write_image(sample.folder() / "t.png", stripes(2, 2));
+  const int plain = sample.texture("t.png"), hard = sample.texture("t.png", {{"magFilter", 9728}}),
+            border = sample.texture("t.png", {{"wrapS", 33071}, {"wrapT", 33071}});
+  const auto pictured = [](int texture, json more) {
+    more["pbrMetallicRoughness"] = {{"baseColorTexture", {{"index", texture}}}, {"metallicFactor", 0}};
+    return more;
+  };
+  const int half = sample.half_transparent(), half_hard = sample.half_transparent({{"magFilter", 9728}});
+  json cut = pictured(half, {{"alphaMode", "MASK"}, {"normalTexture", {{"index", plain}}}});
+  cut["pbrMetallicRoughness"]["baseColorTexture"]["extensions"]["KHR_texture_transform"]["scale"] = {1e7,
+                                                                                                     1e7};
+  sample.triangle_of(cut);
+  sample.triangle_of(pictured(half_hard, {{"alphaMode", "BLEND"}, {"occlusionTexture", {{"index", plain}}}}));
+  json glowing = pictured(plain, {{"emissiveFactor", {1, 1, 1}}, {"emissiveTexture", {{"index", hard}}}});
+  glowing["pbrMetallicRoughness"]["metallicRoughnessTexture"]["index"] = plain;
+  sample.triangle_of(glowing);
+  json far = pictured(border, json::object());
+  far["pbrMetallicRoughness"]["baseColorTexture"]["extensions"]["KHR_texture_transform"]["scale"] = {99, 99};
+  sample.triangle_of(far);
+  sample.triangle_of(
+      {{"pbrMetallicRoughness", {{"baseColorFactor", {1, 0.5, 0, 1}}, {"roughnessFactor", 0}}}});
+  const int colors = sample.numbers({1, 0, 0, 1, 0, 0, 0.25F, 0, 0}, "VEC3");
+  const int shapes = sample.numbers({0, 0, 0, 0, 0, 0, 0, 0, 1}, "VEC3");
+  json coloured;
+  coloured["material"] = 0;
+  coloured["attributes"]["COLOR_0"] = colors;
+  coloured["targets"].push_back({{"POSITION", shapes}});
+  sample.node({{"mesh", sample.triangle(coloured)}, {"skin", 0}});
+  sample.document["skins"].push_back({{"joints", {0}}});
+  sample.document["cameras"].push_back(
+      {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}});
+  for (int i = 0; i < 2; ++i) sample.node({{"camera", 0}, {"translation", {0, 0, 5}}});
+  sample.document["scenes"].push_back(json::object());
+  sample.document["extensions"]["KHR_lights_punctual"]["lights"] = {
+      {{"type", "spot"}, {"spot", json::object()}}};
+  sample.node({{"translation", {0, 0, 2}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  sample.document["extensionsUsed"] = {"KHR_materials_clearcoat"};
+  const int times = sample.numbers({0, 1}, "SCALAR");
+  json animation = {{"samplers", {{{"input", times}, {"output", times}}}}};
+  animation["channels"] = {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}},
+                           {{"sampler", 0}, {"target", {{"path", "pointer"}}}}};
+  sample.document["animations"].push_back(animation);
+  const ReadMesh read = sample.read();
+  for (const std::string_view words : kGltfLossWords) {
+    CAPTURE(words);
+    CHECK(std::any_of(read.notes.begin(), read.notes.end(),
+                      [&](const std::string& note) { return note.ends_with(words); }));
+  }
+  CHECK(tells(read, "the extension KHR_materials_clearcoat is not known: what it adds is left out"));
+  CHECK(std::set<std::string>(read.notes.begin(), read.notes.end()).size() == read.notes.size());
+  const Material red = read.scene.materials[material_of(read.scene, read.scene.order.back())];
+  CHECK(red.color.x == Approx(display_value(0.75)));
+  CHECK(red.color.y == 0);
+}
+
+TEST_CASE("gltf: numbers that are not there, and packed ones, are refused") {
+  const auto report = [](const GltfSample& sample) -> std::string {
+    try {
+      sample.read();
+      return "read";
+    } catch (const InputError& e) {
+      const std::string text = e.what();
+      return text.substr(text.find("error: ") + 7);
+    }
+  };
+  GltfSample sample;
+  sample.node({{"mesh", sample.triangle()}});
+  CHECK(report(sample) == "read");
+  const auto with = [&](const char* place, const json& value) {
+    GltfSample other;
+    other.node({{"mesh", other.triangle()}});
+    other.document[json::json_pointer(place)] = value;
+    return report(other);
+  };
+  CHECK(with("/accessors/0/count", 1000) == "it has numbers beyond the end of their buffer");
+  CHECK(with("/accessors/0/bufferView", 99) == "it names a part of a buffer that is not there");
+  CHECK(with("/bufferViews/0/byteLength", 4000) == "a part of a buffer lies beyond its end");
+  CHECK(with("/nodes/0/mesh", 7) == "it names a mesh that is not there");
+  CHECK(with("/meshes/0/primitives/0/material", 7) == "it names a material that is not there");
+  CHECK(with("/meshes/0/primitives/0/attributes/POSITION", 1) ==
+        "a mesh has positions or normals that are no vectors");
+  CHECK(with("/extensionsRequired", {"KHR_draco_mesh_compression"}) ==
+        "its numbers are packed (KHR_draco_mesh_compression), which cannot be read; export it without");
+}
+
+}  // namespace pprt::gltf_reader_test
