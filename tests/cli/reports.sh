@@ -82,6 +82,14 @@ expect_code 1
 expect_line err '{"event":"failed","error":"rank [01] on .* was ended by signal 9 .*"}'
 [[ $(grep -Ec '^\{"event":"(done|stopped|failed)"' err) -eq 1 ]] || complain "'$command': not one end: $(tail -n 3 err)"
 
+# A frame without a rate tells how far it is, on a terminal and to programs.
+script -qec 'pprt-render ball.nff --time 3 -o still.png --overwrite' typescript >out 2>err </dev/null
+tr '\r' '\n' <out | grep -q 'frame 1 of 1  [0-9.]* samples a pixel  [0-9]* %  0:0[0-3] left' ||
+  complain "no progress within a still on a terminal: $(cat -v out)"
+run pprt-render ball.nff --time 3 -o still.png --overwrite --progress json; expect_code 0
+grep -Eq '^\{"event":"sampling","samples_per_pixel":[0-9.]+,"share":0\.[0-9]+,"seconds_left":[0-9.]+\}$' err ||
+  complain "no progress within a still: $(cat err)"
+
 # A terminal at the launcher's end is one for rank 0.
 for np in 1 2; do
   script -qec "pprt-render ball.anim --frames 1-2 --clock work -o tty/%d.png --overwrite -np $np" typescript >out 2>err </dev/null

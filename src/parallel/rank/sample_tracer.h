@@ -35,6 +35,9 @@ class SampleTracer {
   // `known`: lights that need no shadow rays where the eye ray hits their primitives.
   Sample trace(double x, double y, std::span<const KnownLights> known = {});
 
+  // Returns the colour at an image point, for a measurement: no sample is made, and nothing is charged.
+  Color look(double x, double y);
+
   // Whether nothing hides a hit point from the eye.
   bool is_visible(const Vec3f& hit, bool at_infinity);
 
