@@ -58,7 +58,7 @@ std::string advice_on(const RunFigures& run) {
   } else {
     lines.push_back("all cores were used; more hosts (--hostfile) help");
   }
-  return fmt::format("{}", fmt::join(lines, ". "));
+  return fmt::format("{}", fmt::join(lines, "; "));
 }
 
 }  // namespace pprt

@@ -38,7 +38,7 @@ TEST_CASE("advice: none for a run that is on time and fine, nor for one without 
 
 TEST_CASE("advice: a rate that the measured lateness would have kept") {
   CHECK(advice_on(late(12, 4)) ==
-        "12 of 100 frames were late; 95 % of them would not have been at --fps 48. "
+        "12 of 100 frames were late; 95 % of them would not have been at --fps 48; "
         "all cores were used; more hosts (--hostfile) help");
 }
 
@@ -47,11 +47,11 @@ TEST_CASE(
   RunFigures coarse = kSound;
   coarse.least_rmse = 0.05, coarse.samples_per_pixel = 0.11, coarse.cores = 8;
   CHECK(advice_on(coarse) ==
-        "0.11 samples a pixel are few; --fps 30 or --size 181x181 gives twice as many. "
+        "0.11 samples a pixel are few; --fps 30 or --size 181x181 gives twice as many; "
         "2 of 8 cores were used; --threads auto uses all");
   coarse.ranks = 9, coarse.frames_per_second = 5;
   CHECK(advice_on(coarse) ==
-        "0.11 samples a pixel are few; --fps 2.5 or --size 181x181 gives twice as many. "
+        "0.11 samples a pixel are few; --fps 2.5 or --size 181x181 gives twice as many; "
         "9 ranks share 8 cores of this host; more hosts (--hostfile) or fewer ranks help");
 }
 

@@ -2,6 +2,7 @@
 // minutes, so it is run by hand (docs/accuracy.md):
 //
 //   PPRT_COVERAGE="scenes/tree-casting.anim scenes/balls-orbit.anim" test_study "[coverage]"
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
@@ -13,6 +14,7 @@
 #include "cli/scenes/scene_source.h"
 #include "parallel/master/measured_error.h"
 #include "parallel/rank/error_probes.h"
+#include "parallel/session.h"
 #include "parser/anim/anim_parser.h"
 #include "study/frame_series.h"
 #include "study/reference.h"
