@@ -33,8 +33,11 @@ std::string to_text(const FrameHeader& header) {
                {"flip", header.flip ? Json(*header.flip) : Json()},
                {"type", header.type}};
   for (const FrameFigures& f : header.frames)
-    json["frames"].push_back(
-        {{"number", f.number}, {"slack_ms", f.slack_ms}, {"samples", f.samples}, {"late", f.late_ranks}});
+    json["frames"].push_back({{"number", f.number},
+                              {"slack_ms", f.slack_ms},
+                              {"samples", f.samples},
+                              {"late", f.late_ranks},
+                              {"rmse", f.rmse ? Json(*f.rmse) : Json()}});
   return json.dump();
 }
 

@@ -1,6 +1,7 @@
 // The text before each picture, which says what it shows and how it came about.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -18,6 +19,8 @@ struct FrameFigures {
   double slack_ms = 0;               // before its deadline; negative: after it
   std::uint64_t samples = 0;         // in the image
   std::vector<int> late_ranks = {};  // whose pixels had not come
+  // Measured since the last camera cut: RMSE, and both ends of its 95 % interval.
+  std::optional<std::array<double, 3>> rmse = {};
 };
 
 struct FrameHeader {

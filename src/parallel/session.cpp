@@ -152,6 +152,7 @@ void run_as_master(Communicator& network, const SessionSettings& settings, const
   SequenceClock clock;
   clock.begin(start_together(network, inbox, clocks));
   Worker worker = make_worker(network, inbox, settings, partition, probe, clock);
+  worker.tell_progress(events.sampled);
   if (watches) clocks.watch();
   master.begin_sequence(clock.start_s());
   for (int index = 0; const std::optional<FrameOrder> order = await_order(inbox, index); ++index) {

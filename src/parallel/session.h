@@ -9,6 +9,7 @@
 #include "parallel/master/loss_watch.h"
 #include "parallel/master/master.h"
 #include "parallel/network/communicator.h"
+#include "parallel/rank/frame_goal.h"
 #include "parallel/settings/session_settings.h"
 
 namespace pprt {
@@ -18,6 +19,8 @@ struct SessionEvents {
   // A rank's clock was found to have gone ahead by so many seconds more than it should.
   std::function<void(int rank, double seconds)> clock_jumped = [](int, double) {};
   LossRule loss = {};
+  // Without a rate: how far rank 0 is in its frame. Called after each of its packets of samples.
+  std::function<void(const SamplingProgress&)> sampled = {};
   // Without a rate: whether frames need not get better than they are. Asked often; true stays true.
   std::function<bool()> is_enough = [] { return false; };
 };

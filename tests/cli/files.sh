@@ -6,7 +6,7 @@ work=(--clock work --budget 400000)
 # Frames in both formats, a manifest and a contact sheet; nothing else is left behind.
 run pprt-render ball.anim "${work[@]}" --frames 1-3 -o pics/%04d.png -o pics/#.exr --contact-sheet pics/sheet.png
 expect_code 0; expect_text out ''
-expect_line err 'done: 3 of 3 frames in pics/%04d.png and pics/#.exr; 3 on time at 4 frames/s, .* samples a frame'
+expect_line err 'done: 3 of 3 frames in pics/%04d.png and pics/#.exr; 3 on time at 4 frames/s, .* samples a frame; RMSE [0-9.a-z() ]*'
 expect_text <(ls pics) "$(printf '%s\n' 0001.png 0002.png 0003.png 1.exr 2.exr 3.exr manifest.ndjson sheet.png)"
 [[ $(wc -l <pics/manifest.ndjson) -eq 4 ]] || complain "the manifest has not four lines"
 

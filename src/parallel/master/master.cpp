@@ -263,6 +263,7 @@ FinishedFrame Master::finish(PendingFrame& pending) {
   frame.late_ranks = assembly.late_ranks();
   frame.overdue_pixels = std::exchange(overdue_pixels_, 0);
   frame.global_balance = !frame.order.owners.empty();
+  frame.error = errors_.add(frame.order.cut, frame.ranks, frame.image.pixels.size());
   const DeliveryTime time = clock_->delivery_time(frame.order, frame.ranks);
   frame.finished_s = time.finished_s;
   frame.late_ms = time.late_ms;

@@ -16,6 +16,7 @@
 #include "parallel/clock/host_time.h"
 #include "parallel/clock/reserve_estimator.h"
 #include "parallel/master/frame_assembly.h"
+#include "parallel/master/measured_error.h"
 #include "parallel/network/communicator.h"
 #include "parallel/protocol/messages.h"
 #include "parallel/settings/session_settings.h"
@@ -58,6 +59,7 @@ struct FinishedFrame {
   double finished_s = 0;        // delivered, since the start of the sequence (work clock: virtual)
   bool global_balance = false;  // a new partition was in force from this frame on
   double late_ms = 0;           // after its deadline; <= 0: on time; 0 without a rate
+  std::optional<FrameError> error = {};  // measured; empty: by no rank
 };
 using FrameSink = std::function<void(FinishedFrame&&)>;
 
@@ -131,6 +133,7 @@ class Master {
   std::unique_ptr<DeliveryClock> clock_;
   ReserveEstimator reserve_;
   GlobalBalancer balancer_;
+  ShotErrors errors_;
   CameraSource source_;
   FrameSink sink_;
   std::map<int, PendingFrame> frames_;  // by frame index

@@ -11,6 +11,7 @@
 #include "base/wire.h"
 #include "parallel/network/communicator.h"
 #include "parallel/protocol/clock_line.h"
+#include "parallel/protocol/error_sums.h"
 #include "parallel/protocol/handshake_state.h"
 #include "parallel/protocol/tile_cost.h"
 #include "pipeline/casting/cast_choice.h"
@@ -96,6 +97,7 @@ struct StageTimes {
   double sampling = 0;
   double casting = 0;
   double reconstruction = 0;
+  double measuring = 0;  // the picture's error
   double balancing = 0;
   double idle = 0;  // wall time spent waiting
 };
@@ -111,7 +113,8 @@ struct RankReport {
   double mean_weight = 0;               // Q_k
   double pace = 1;                      // frame_clock.h
   std::uint64_t candidates_in_region = 0;
-  RayCounts rays;
+  RayCounts rays;   // of the picture
+  ErrorSums error;  // of the pixels sent
   CastEvidence evidence;
   StageTimes cpu_ms;
   std::uint64_t tiles_given = 0;

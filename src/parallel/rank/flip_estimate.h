@@ -27,6 +27,11 @@ class FlipEstimate {
   // `picture`.
   bool is_at_most(double target, RankSampling& sampler, PictureRefresh& picture, FrameClock& clock);
 
+  // Returns the number of samples that is expected to reach the last target; empty before that is known.
+  std::optional<double> foretold_samples() const {
+    return enough_ < kNever ? std::optional(enough_) : std::nullopt;
+  }
+
  private:
   // A part of the image as it was at the last look.
   struct Block {

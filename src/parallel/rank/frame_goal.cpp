@@ -17,12 +17,30 @@ void FrameGoal::begin_frame(bool has_new_picture) {
 }
 
 bool FrameGoal::is_reached(RankSampling& sampler, PictureRefresh& picture, FrameClock& clock) {
-  const std::uint64_t own_pixels = sampler.region().pixel_count();
-  const std::uint64_t sample_share = (stop_.samples * own_pixels + image_pixels_ - 1) / image_pixels_;
-  return (stop_.samples > 0 && sampler.in_region() >= sample_share) ||
+  return (stop_.samples > 0 && sampler.in_region() >= sample_share(sampler)) ||
          (stop_.weight > 0 && sampler.sampler().is_refined_to(stop_.weight)) ||
          (stop_.seconds > 0 && clock.frame_seconds() >= stop_.seconds) ||
          (stop_.flip > 0 && flip_.is_at_most(stop_.flip, sampler, picture, clock));
+}
+
+// What this rank takes of the samples asked for.
+std::uint64_t FrameGoal::sample_share(const RankSampling& sampler) const {
+  return (stop_.samples * sampler.region().pixel_count() + image_pixels_ - 1) / image_pixels_;
+}
+
+// The rule that is nearest ends the frame.
+SamplingProgress FrameGoal::progress(const RankSampling& sampler, const FrameClock& clock) const {
+  const auto samples = static_cast<double>(sampler.in_region());
+  const std::size_t pixels = sampler.region().pixel_count();
+  SamplingProgress progress{.samples_per_pixel = pixels > 0 ? samples / static_cast<double>(pixels) : 0};
+  const auto reach = [&](double share) {
+    progress.share = std::max(progress.share.value_or(0), std::min(share, 1.0));
+  };
+  if (stop_.samples > 0)
+    reach(samples / static_cast<double>(std::max<std::uint64_t>(1, sample_share(sampler))));
+  if (stop_.seconds > 0) reach(clock.frame_seconds() / stop_.seconds);
+  if (const std::optional<double> enough = flip_.foretold_samples()) reach(samples / *enough);
+  return progress;
 }
 
 bool FrameGoal::all_done() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "parallel/clock/frame_clock.h"
@@ -10,6 +11,12 @@
 #include "parallel/settings/session_settings.h"
 
 namespace pprt {
+
+// How far a rank is in a frame without a rate.
+struct SamplingProgress {
+  std::optional<double> share = {};  // of the samples or the time until a stop rule ends it; empty: not known
+  double samples_per_pixel = 0;      // of the rank's region
+};
 
 // Every bundle says whether its sender has reached its goal. The frame ends when all ranks have.
 class FrameGoal {
@@ -23,6 +30,8 @@ class FrameGoal {
   // its pixels. May reconstruct `picture`, to estimate how good it is.
   bool is_reached(RankSampling& sampler, PictureRefresh& picture, FrameClock& clock);
 
+  SamplingProgress progress(const RankSampling& sampler, const FrameClock& clock) const;
+
   // Records whether this rank has reached its goal after a round, and what another rank says of its own.
   void set_done(bool done) { done_ = done; }
   void receive(int from, bool done) { peer_done_[static_cast<std::size_t>(from)] = done; }
@@ -31,6 +40,8 @@ class FrameGoal {
   bool all_done() const;
 
  private:
+  std::uint64_t sample_share(const RankSampling& sampler) const;
+
   const StopRules stop_;
   std::uint64_t image_pixels_;
   FlipEstimate flip_;

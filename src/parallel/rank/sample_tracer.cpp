@@ -43,6 +43,12 @@ Sample SampleTracer::trace(double x, double y, std::span<const KnownLights> know
   return sample;
 }
 
+Color SampleTracer::look(double x, double y) {
+  const RaySample ray = probe_.trace(x, y);
+  poll_(ray.rays);
+  return is_finite(ray.color) ? ray.color : Color(0, 0, 0);
+}
+
 bool SampleTracer::is_visible(const Vec3f& hit, bool at_infinity) {
   poll_(1);
   clock_.spend(Work::kRay, 1);

@@ -36,6 +36,9 @@ class SampleTracer {
   // the square that textures are filtered over, pixels.
   Sample trace(double x, double y, std::span<const KnownLights> known = {}, double footprint = 1);
 
+  // Returns the colour at an image point, for a measurement: no sample is made, and nothing is charged.
+  Color look(double x, double y);
+
   // Whether nothing hides a hit point from the eye.
   bool is_visible(const Vec3f& hit, bool at_infinity);
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "parallel/clock/make_clocks.h"
+#include "parallel/rank/error_probes.h"
 
 namespace pprt {
 namespace {
@@ -67,6 +68,7 @@ void Worker::render(const FrameOrder& order) {
   sample(order);
   const double sampling_ended_s = clock_->sampling_end_seconds();
   reconstruct(order.carry == Carry::kAccumulate);
+  measure(order);
   send_choices(order);
   send_pixels(order, sampling_ended_s);
 }
@@ -82,6 +84,7 @@ void Worker::sample(const FrameOrder& order) {
     begin_packet(order, round);
     const Packet packet = sample_packet(has_rate);
     exchange_and_set_goal(!has_rate && packet.idle && !packet.traced);
+    if (!has_rate && told_) told_(goal_.progress(sampler_, *clock_));
     if (clock_->sampling_over() || (!has_rate && goal_.all_done())) break;
     if (const auto growth = clock_->expected_growth(begin, sampler_.sampler().size()))
       sampler_.expect_growth(*growth);
@@ -199,6 +202,22 @@ void Worker::reconstruct(bool rests) {
   timer_.end_stage(&StageTimes::reconstruction);
 }
 
+// Nothing of the picture comes after: on the work clock, too, it is the same without.
+void Worker::measure(const FrameOrder& order) {
+  rays_ = tracer_.rays();
+  error_ = {};
+  if (!settings_.measures_error) return;
+  const ProbeStream stream{.seed = settings_.seed,
+                           .frame = static_cast<std::uint64_t>(order.number),
+                           .rank = static_cast<std::uint64_t>(network_.rank())};
+  const Region& region = sampler_.region();
+  const ProbePlan plan = plan_probes(samples_new(), sampler_.in_region(), region.pixel_count());
+  error_ = measure_error(region, picture_.pixels(), plan, stream,
+                         [this](double x, double y) { return tracer_.look(x, y); });
+  error_.rays = (tracer_.rays() - rays_).traced();
+  timer_.end_stage(&StageTimes::measuring);
+}
+
 void Worker::send_choices(const FrameOrder& order) {
   std::vector<TransferChoice> choices = ownership_.take_choices();
   if (choices.empty()) return;
@@ -268,7 +287,8 @@ RankReport Worker::make_report(double sampling_ended_s) {
           .mean_weight = refined.mean_weight,
           .pace = clock_->pace(),
           .candidates_in_region = static_cast<std::uint64_t>(triangles),
-          .rays = tracer_.rays(),
+          .rays = rays_,
+          .error = error_,
           .evidence = reprojection_.evidence(),
           .cpu_ms = timer_.times(),
           .tiles_given = ownership_.given().size(),

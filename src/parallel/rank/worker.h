@@ -27,8 +27,10 @@
 // work clock all ranks take the same rounds and wait for each other after each (exchange_policy.h).
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "base/probe.h"
@@ -61,6 +63,9 @@ class Worker {
   // for messages that make no sense.
   void render(const FrameOrder& order);
 
+  // Without a rate: `told` is called after each packet of samples.
+  void tell_progress(std::function<void(const SamplingProgress&)> told) { told_ = std::move(told); }
+
  private:
   // Prepare: what the frame takes over from the one before, its seeds, and the others'.
   void prepare(const FrameOrder& order);
@@ -88,6 +93,7 @@ class Worker {
 
   // Reconstruct and report.
   void reconstruct(bool rests);
+  void measure(const FrameOrder& order);
   void send_choices(const FrameOrder& order);
   void send_pixels(const FrameOrder& order, double sampling_ended_s);
   std::size_t send_part(PixelMessage& message);
@@ -108,9 +114,12 @@ class Worker {
   Reprojection reprojection_;
   AnchorSearch anchors_;
   FrameGoal goal_;
+  std::function<void(const SamplingProgress&)> told_;  // of the progress; empty: nobody
   PictureRefresh picture_;
   bool takes_evidence_ = false;        // samples tell how far the picture was from them
   double reconstructed_ = 1;           // share of the region in this frame
+  RayCounts rays_;                     // of the picture
+  ErrorSums error_;                    // of the pixels
   std::optional<Camera> last_camera_;  // of the last frame that was not left out
 };
 

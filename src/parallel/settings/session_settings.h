@@ -74,6 +74,7 @@ struct SessionSettings {
   std::uint64_t seed = 1;
   bool is_still = false;          // there is one frame
   bool report_samples = false;    // every sample of a frame comes to the master with the pixels
+  bool measures_error = false;    // probes measure how wrong each frame is; the picture is the same
   bool report_transfers = false;  // tile transfers come to the master, before the pixels
   // A frame's camera is asked for when rank 0 has done its part of the frame before, not a frame ahead. Then
   // the picture follows the camera at once, and ranks may have to wait for rank 0.

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/system/host_cores.h"
 #include "cli/options/version.h"
 #include "image/contact_sheet.h"
 #include "image/metrics.h"
@@ -96,7 +97,11 @@ FrameRecorder::FrameRecorder(const RunIdentity& run, const CompiledScene& scene,
       progress_(progress) {
   progress_.begin({.frames = static_cast<int>(plan_.frames.size()),
                    .finished_before = static_cast<int>(finished_before_.size()),
-                   .frames_per_second = plan_.settings.frames_per_second});
+                   .frames_per_second = plan_.settings.frames_per_second,
+                   .width = plan_.settings.width,
+                   .height = plan_.settings.height,
+                   .ranks = run.ranks,
+                   .cores = is_hurried(plan_.settings) ? usable_cores() : run.ranks});
   if (plan_.report.compare_serial) serial_.emplace(scene, plan_.settings);
   ledger_.write(run_record(run, scene.effects()));
 }
@@ -119,6 +124,11 @@ void FrameRecorder::record(FinishedFrame&& frame) {
                   .metadata = std::move(metadata),
                   .layers = std::move(layers)});
   note_written(writer_.take_finished());
+}
+
+void FrameRecorder::sampled(const SamplingProgress& now) {
+  const std::scoped_lock lock(mutex_);
+  progress_.sampled(now);
 }
 
 void FrameRecorder::status() const {

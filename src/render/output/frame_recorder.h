@@ -36,6 +36,9 @@ class FrameRecorder {
     return writer_.error().has_value() || manifest_error_ || (trace_ && trace_->failed());
   }
 
+  // Reports how far a frame without a rate is.
+  void sampled(const SamplingProgress& now);
+
   // Prints a line of status; may be called from any thread.
   void status() const;
 

@@ -175,6 +175,7 @@ RenderPlan plan_of(const RenderOptions& options, Sources& sources) {
   settings.width = base.width, settings.height = base.height;
   settings.is_still = frames.size() == 1 && !is_live;
   settings.late_orders = is_live;
+  settings.measures_error = true;
   settings.report_transfers = !options.report.trace.empty();
   settings.report_samples =
       options.report.compare_serial || std::any_of(output.layers.begin(), output.layers.end(), needs_samples);

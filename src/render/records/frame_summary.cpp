@@ -13,6 +13,7 @@ void add(const StageTimes& times, StageTimes& sum) {
   sum.moving += times.moving;
   sum.casting += times.casting;
   sum.reconstruction += times.reconstruction;
+  sum.measuring += times.measuring;
   sum.balancing += times.balancing;
   sum.idle += times.idle;
 }
@@ -62,6 +63,7 @@ FrameSummary summarize(const FinishedFrame& frame) {
   summary.stale_tiles = frame.stale_tiles;
   summary.overdue_pixels = frame.overdue_pixels;
   summary.repartitioned = frame.global_balance;
+  summary.error = frame.error;
   for (const RankReport& rank : frame.ranks) add(rank, summary);
   std::tie(summary.mean_weight, summary.mean_weight_deviation) = mean_weight_over_ranks(frame.ranks);
   return summary;
@@ -72,6 +74,7 @@ void RunTotals::add(const FrameSummary& frame) {
   samples_ += frame.samples;
   non_finite_ += frame.non_finite;
   rays_ += frame.rays;
+  if (frame.error) error_.add(frame.error->own);
   late_ms_.insert(std::upper_bound(late_ms_.begin(), late_ms_.end(), frame.late_ms), frame.late_ms);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "base/ray_counts.h"
@@ -39,8 +40,9 @@ struct FrameSummary {
   RayCounts rays;
   StageTimes cpu_ms;
   BytesSent bytes;
-  std::uint64_t tiles_moved = 0;  // by local balancing
-  bool repartitioned = false;     // a new partition was in force from this frame on
+  std::uint64_t tiles_moved = 0;         // by local balancing
+  bool repartitioned = false;            // a new partition was in force from this frame on
+  std::optional<FrameError> error = {};  // measured
 };
 
 FrameSummary summarize(const FinishedFrame& frame);
@@ -57,6 +59,7 @@ class RunTotals {
   std::uint64_t non_finite() const { return non_finite_; }
   const RayCounts& rays() const { return rays_; }
   double samples_per_frame() const;
+  const MeanErrorEstimate& error() const { return error_; }  // measured, over the frames
 
   // Lateness in milliseconds: the nearest-rank percentile (`share` 0 to 1), and the maximum; 0 without
   // frames.
@@ -68,6 +71,7 @@ class RunTotals {
   std::uint64_t samples_ = 0;
   std::uint64_t non_finite_ = 0;
   RayCounts rays_;
+  MeanErrorEstimate error_;
   std::vector<double> late_ms_;  // ascending
 };
 

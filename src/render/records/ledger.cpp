@@ -22,6 +22,21 @@ Json rays_record(const RayCounts& rays) {
           {"visibility", rays.visibility}};
 }
 
+Json interval_record(const RmseInterval& error) {
+  return {{"rmse", error.rmse}, {"low", error.low}, {"high", error.high}};
+}
+
+Json error_record(const FrameError& error) {
+  Json record = interval_record(error.frame.interval());
+  record["shot"] = interval_record(error.shot);
+  record["shot"]["frames"] = error.shot_frames;
+  record["share"] = error.share;
+  record["probes"] = error.probes;
+  record["samples"] = error.samples;
+  record["rays"] = error.rays;
+  return record;
+}
+
 // Returns the first line, or its beginning where it is longer than any that a run begins with.
 std::string first_line(const std::filesystem::path& path) {
   std::string begin(std::size_t{1} << 16, '\0');
@@ -41,39 +56,42 @@ bool ends_with_line(const std::filesystem::path& path) {
 }  // namespace
 
 Json frame_record(const FrameSummary& frame) {
-  return {{"record", "frame"},
-          {"frame", frame.number},
-          {"cut", frame.camera_cut},
-          {"deadline_s", frame.deadline_s},
-          {"finished_s", frame.finished_s},
-          {"late_ms", frame.late_ms},
-          {"late_ranks", frame.late_ranks},
-          {"lost_ranks", frame.lost_ranks},
-          {"stale_tiles", frame.stale_tiles},
-          {"overdue_pixels", frame.overdue_pixels},
-          {"samples_new", frame.samples_new},
-          {"samples_cast", frame.samples_cast},
-          {"samples", frame.samples},
-          {"samples_received", frame.samples_received},
-          {"samples_received_twice", frame.samples_received_twice},
-          {"mean_weight", frame.mean_weight},
-          {"mean_weight_dev", frame.mean_weight_deviation},
-          {"rays", rays_record(frame.rays)},
-          {"cpu_ms",
-           {{"moving", frame.cpu_ms.moving},
-            {"sampling", frame.cpu_ms.sampling},
-            {"casting", frame.cpu_ms.casting},
-            {"reconstruction", frame.cpu_ms.reconstruction},
-            {"balancing", frame.cpu_ms.balancing},
-            {"idle", frame.cpu_ms.idle}}},
-          {"bytes",
-           {{"samples", frame.bytes.samples},
-            {"progress", frame.bytes.progress},
-            {"balance", frame.bytes.balance},
-            {"pixels", frame.bytes.pixels}}},
-          {"tiles_moved", frame.tiles_moved},
-          {"global_balance", frame.repartitioned},
-          {"non_finite", frame.non_finite}};
+  Json record = {{"record", "frame"},
+                 {"frame", frame.number},
+                 {"cut", frame.camera_cut},
+                 {"deadline_s", frame.deadline_s},
+                 {"finished_s", frame.finished_s},
+                 {"late_ms", frame.late_ms},
+                 {"late_ranks", frame.late_ranks},
+                 {"lost_ranks", frame.lost_ranks},
+                 {"stale_tiles", frame.stale_tiles},
+                 {"overdue_pixels", frame.overdue_pixels},
+                 {"samples_new", frame.samples_new},
+                 {"samples_cast", frame.samples_cast},
+                 {"samples", frame.samples},
+                 {"samples_received", frame.samples_received},
+                 {"samples_received_twice", frame.samples_received_twice},
+                 {"mean_weight", frame.mean_weight},
+                 {"mean_weight_dev", frame.mean_weight_deviation},
+                 {"rays", rays_record(frame.rays)},
+                 {"cpu_ms",
+                  {{"moving", frame.cpu_ms.moving},
+                   {"sampling", frame.cpu_ms.sampling},
+                   {"casting", frame.cpu_ms.casting},
+                   {"reconstruction", frame.cpu_ms.reconstruction},
+                   {"measuring", frame.cpu_ms.measuring},
+                   {"balancing", frame.cpu_ms.balancing},
+                   {"idle", frame.cpu_ms.idle}}},
+                 {"bytes",
+                  {{"samples", frame.bytes.samples},
+                   {"progress", frame.bytes.progress},
+                   {"balance", frame.bytes.balance},
+                   {"pixels", frame.bytes.pixels}}},
+                 {"tiles_moved", frame.tiles_moved},
+                 {"global_balance", frame.repartitioned},
+                 {"non_finite", frame.non_finite}};
+  if (frame.error) record["error"] = error_record(*frame.error);
+  return record;
 }
 
 Json summary_record(const RunTotals& totals, bool has_rate) {
@@ -89,6 +107,10 @@ Json summary_record(const RunTotals& totals, bool has_rate) {
   record["samples"] = totals.samples();
   record["rays"] = rays_record(totals.rays());
   record["non_finite"] = totals.non_finite();
+  if (totals.error().count() > 0) {
+    record["error"] = interval_record(totals.error().mean().interval());
+    record["error"]["frames"] = totals.error().count();
+  }
   return record;
 }
 

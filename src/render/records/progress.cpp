@@ -6,6 +6,7 @@
 
 #include "cli/process/exit.h"
 #include "cli/process/launched.h"
+#include "render/records/advice.h"
 #include "render/records/ledger.h"
 
 namespace pprt {
@@ -26,6 +27,28 @@ std::string grouped(double value) {
 std::string lateness(double late_ms) {
   return late_ms <= 0 ? fmt::format("{:.0f} ms before its deadline", -late_ms)
                       : fmt::format("{:.0f} ms after its deadline", late_ms);
+}
+
+// "; RMSE 0.0117 (0.0101 to 0.0135)", "; RMSE at most 0.0042", or nothing.
+std::string measured(const MeanErrorEstimate& error) {
+  if (error.count() == 0) return "";
+  const RmseInterval interval = error.mean().interval();
+  if (interval.low <= 0) return fmt::format("; RMSE at most {:.4f}", interval.high);
+  return fmt::format("; RMSE {:.4f} ({:.4f} to {:.4f})", interval.rmse, interval.low, interval.high);
+}
+
+RunFigures figures_of(const RunScope& scope, const RunTotals& totals) {
+  const double pixels = static_cast<double>(scope.width) * scope.height;
+  return {.frames_per_second = scope.frames_per_second,
+          .frames = totals.frames(),
+          .late = totals.frames() - totals.on_time(),
+          .late_p95_ms = totals.late_ms(0.95),
+          .least_rmse = totals.error().mean().interval().low,
+          .samples_per_pixel = pixels > 0 ? totals.samples_per_frame() / pixels : 0,
+          .width = scope.width,
+          .height = scope.height,
+          .ranks = scope.ranks,
+          .cores = scope.cores};
 }
 
 // Returns how the JSON object for the end begins.
@@ -57,6 +80,12 @@ double Pace::seconds_for(int frames) const {
   return rate > 0 ? frames / rate : 0;
 }
 
+double seconds_left(double elapsed_s, double share, int further, const Pace& pace) {
+  const double frame_s = elapsed_s / share;
+  const bool has_pace = pace.frames_per_second() > 0;
+  return frame_s - elapsed_s + (has_pace ? pace.seconds_for(further) : further * frame_s);
+}
+
 ProgressReporter::ProgressReporter(ProgressKind kind) : kind_(kind) {
   if (kind == ProgressKind::kAuto && on_terminal()) kind_ = ProgressKind::kTty;
   if (launcher_rank() != 0) kind_ = ProgressKind::kNone;
@@ -65,12 +94,14 @@ ProgressReporter::ProgressReporter(ProgressKind kind) : kind_(kind) {
 void ProgressReporter::begin(const RunScope& scope) {
   scope_ = scope;
   begun_ = true;
-  pace_ = Pace(std::chrono::steady_clock::now());
+  frame_begun_ = sampling_told_ = std::chrono::steady_clock::now();
+  pace_ = Pace(frame_begun_);
 }
 
 void ProgressReporter::frame_done(const FrameSummary& frame, const RunTotals& totals) {
   done_ = totals.frames();
-  pace_.frame(std::chrono::steady_clock::now());
+  frame_begun_ = sampling_told_ = std::chrono::steady_clock::now();
+  pace_.frame(frame_begun_);
   if (kind_ == ProgressKind::kTty) print_message(fmt::format("{}{}{}", kOverLine, line(totals), kLineEnd));
   if (kind_ != ProgressKind::kJson) return;
   const Json record = {{"event", "frame"},
@@ -85,6 +116,28 @@ void ProgressReporter::frame_done(const FrameSummary& frame, const RunTotals& to
                        {"frames_per_second", pace_.frames_per_second()},
                        {"seconds_left", pace_.seconds_for(frames_left())}};
   print_message(fmt::format("{}\n", record.dump()));
+}
+
+void ProgressReporter::sampled(const SamplingProgress& now) {
+  constexpr std::chrono::milliseconds kOnTerminal(250), kInJson(1000);
+  if (kind_ != ProgressKind::kTty && kind_ != ProgressKind::kJson) return;
+  const Pace::Time time = std::chrono::steady_clock::now();
+  if (time - sampling_told_ < (kind_ == ProgressKind::kTty ? kOnTerminal : kInJson)) return;
+  sampling_told_ = time;
+  const double elapsed_s = std::chrono::duration<double>(time - frame_begun_).count();
+  const double share = now.share.value_or(0);
+  const double left_s = share > 0 ? seconds_left(elapsed_s, share, frames_left() - 1, pace_) : 0;
+  if (kind_ == ProgressKind::kJson) {
+    Json record = {{"event", "sampling"}, {"samples_per_pixel", now.samples_per_pixel}};
+    if (share > 0) record["share"] = share, record["seconds_left"] = left_s;
+    return print_message(fmt::format("{}\n", record.dump()));
+  }
+  const std::string end = share > 0 ? fmt::format("{:.0f} %  {} left", 100 * share, minutes(left_s))
+                                    : fmt::format("{} elapsed", minutes(elapsed_s));
+  print_message(fmt::format("{}frame {} of {}  {:.1f} samples a pixel  {}{}", kOverLine,
+                            scope_.finished_before + done_ + 1, scope_.frames, now.samples_per_pixel, end,
+                            kLineEnd));
+  line_shown_ = true;
 }
 
 void ProgressReporter::status(const RunTotals& totals) const {
@@ -102,7 +155,7 @@ void ProgressReporter::stopping() const {
 
 void ProgressReporter::finish(RunEnd end, int written, const RunTotals& totals, const std::string& where) {
   done_ = written;
-  if (kind_ == ProgressKind::kTty && totals.frames() > 0) print_message("\r\033[K");
+  if (kind_ == ProgressKind::kTty && (line_shown_ || totals.frames() > 0)) print_message("\r\033[K");
   if (kind_ == ProgressKind::kNone || kind_ == ProgressKind::kJson) return;
   const std::string there =
       scope_.finished_before > 0 ? fmt::format(" ({} were there already)", scope_.finished_before) : "";
@@ -114,8 +167,11 @@ void ProgressReporter::finish(RunEnd end, int written, const RunTotals& totals, 
                           scope_.frames_per_second, lateness(totals.worst_late_ms()));
     }
     text += fmt::format("; {} samples a frame", grouped(totals.samples_per_frame()));
+    text += measured(totals.error());
   }
   print_message(fmt::format("{}\n", text));
+  const std::string advice = advice_on(figures_of(scope_, totals));
+  if (!advice.empty()) print_message(fmt::format("advice: {}\n", advice));
 }
 
 void ProgressReporter::fail(const std::string& why) {

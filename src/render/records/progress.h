@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "base/words.h"
+#include "parallel/rank/frame_goal.h"
 #include "render/records/frame_summary.h"
 
 namespace pprt {
@@ -58,11 +59,18 @@ class Pace {
   int frames_ = 0;
 };
 
+// Returns the seconds until a run ends that has `further` frames to make after the one at hand. That one has
+// taken `elapsed_s` for a share of its work, more than 0.
+double seconds_left(double elapsed_s, double share, int further, const Pace& pace);
+
 // What a run sets out to do.
 struct RunScope {
   int frames = 0;                // to make in all
   int finished_before = 0;       // of these, by an earlier run
   double frames_per_second = 0;  // asked for; 0: no rate
+  int width = 0, height = 0;     // of the pictures, pixels
+  int ranks = 1;
+  int cores = 1;  // that this host's processes may use
 };
 
 // Reports one run; of the ranks of an MPI launcher only the first prints anything. With kJson the last object
@@ -73,6 +81,9 @@ class ProgressReporter {
 
   void begin(const RunScope& scope);
   void frame_done(const FrameSummary& frame, const RunTotals& totals);
+
+  // Reports how far a frame without a rate is, once a while.
+  void sampled(const SamplingProgress& now);
 
   // Prints one line with the time elapsed, when a signal asks for it.
   void status(const RunTotals& totals) const;
@@ -99,9 +110,11 @@ class ProgressReporter {
   RunScope scope_;
   int done_ = 0;
   bool begun_ = false;
+  bool line_shown_ = false;  // on a terminal, that is to be written over
   bool end_printed_ = false;
   std::string overheard_;  // the last of it, which may go on
   Pace pace_{std::chrono::steady_clock::now()};
+  Pace::Time frame_begun_ = std::chrono::steady_clock::now(), sampling_told_ = frame_begun_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 

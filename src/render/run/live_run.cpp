@@ -204,12 +204,19 @@ class LiveRunner {
                         .figures = {.number = frame.order.number,
                                     .slack_ms = -frame.late_ms,
                                     .samples = samples,
-                                    .late_ranks = frame.late_ranks},
+                                    .late_ranks = frame.late_ranks,
+                                    .rmse = measured_rmse(frame)},
                         .rests = frame.order.carry == Carry::kAccumulate,
                         .is_partial = !frame.late_ranks.empty() && shows_samples(shot),
                         .overlaid = overlay_of(frame, shot, grid)};
     if (is_recorded) record(std::move(frame), shot.script_frame);
     view_.show(std::move(picture));
+  }
+
+  static std::optional<std::array<double, 3>> measured_rmse(const FinishedFrame& frame) {
+    if (!frame.error) return std::nullopt;
+    const RmseInterval& shot = frame.error->shot;
+    return std::array{shot.rmse, shot.low, shot.high};
   }
 
   // Late ranks' samples are missing.

@@ -109,7 +109,13 @@ TEST_CASE("a frame's record has every figure once, and counts and times as sums 
     r.mean_weight = 0.25, r.candidates_in_region = 1;
     r.rays.primary = 15, r.rays.shadow = 70, r.rays.reflection = 4, r.rays.refraction = 5;
     r.rays.visibility = 16;
-    r.cpu_ms = {.moving = 6, .sampling = 1, .casting = 2, .reconstruction = 3, .balancing = 4, .idle = 5};
+    r.cpu_ms = {.moving = 6,
+                .sampling = 1,
+                .casting = 2,
+                .reconstruction = 3,
+                .measuring = 7,
+                .balancing = 4,
+                .idle = 5};
     r.bytes_samples = 640, r.bytes_progress = 17, r.bytes_balance = 18, r.bytes_pixels = 1200;
   }
   CHECK(frame_record(summarize(frame)) == Json::parse(R"({
@@ -118,9 +124,36 @@ TEST_CASE("a frame's record has every figure once, and counts and times as sums 
     "samples_new":20, "samples_cast":6, "samples":22, "samples_received":24, "samples_received_twice":26,
     "mean_weight":0.25, "mean_weight_dev":0.0,
     "rays":{"primary":30, "shadow":140, "reflection":8, "refraction":10, "visibility":32},
-    "cpu_ms":{"moving":12.0, "sampling":2.0, "casting":4.0, "reconstruction":6.0, "balancing":8.0, "idle":10.0},
+    "cpu_ms":{"moving":12.0, "sampling":2.0, "casting":4.0, "reconstruction":6.0, "measuring":14.0, "balancing":8.0, "idle":10.0},
     "bytes":{"samples":1280, "progress":34, "balance":36, "pixels":2400},
     "tiles_moved":28, "global_balance":true, "non_finite":2})"));
+}
+
+TEST_CASE("a frame's record has its measured error, and so have a shot and a run") {
+  const ErrorEstimate estimate{.squared = 0.0004, .variance = 1e-8, .third = 0.5e-12};
+  FrameSummary frame;
+  CHECK_FALSE(frame_record(frame).contains("error"));
+  frame.error = {.frame = estimate,
+                 .own = estimate,
+                 .shot = {.rmse = 0.5, .low = 0.25, .high = 0.75},
+                 .shot_frames = 2,
+                 .share = 0.875,
+                 .probes = 50,
+                 .samples = 400,
+                 .rays = 900};
+  const Json record = frame_record(frame)["error"];
+  CHECK(record["rmse"].get<double>() == Approx(0.02));
+  CHECK(record["low"].get<double>() == Approx(std::sqrt(0.0004 - 1.96e-4)));
+  CHECK(record["high"].get<double>() == Approx(std::sqrt(0.0004 + 1.5 * 1.96e-4)));  // skewness 0.5
+  CHECK(record["shot"] == Json::parse(R"({"rmse":0.5, "low":0.25, "high":0.75, "frames":2})"));
+  CHECK((record["share"] == 0.875 && record["probes"] == 50 && record["samples"] == 400));
+  CHECK(record["rays"] == 900);
+  RunTotals totals;
+  totals.add(frame), totals.add(frame), totals.add(FrameSummary());
+  const Json run = summary_record(totals, false)["error"];
+  CHECK(run["frames"] == 2);
+  CHECK(run["high"].get<double>() ==
+        Approx(std::sqrt(0.0004 + 1.96e-4 / std::sqrt(2) * (1 + 0.5 / std::sqrt(2)))));
 }
 
 TEST_CASE("a run's summary sums its frames") {

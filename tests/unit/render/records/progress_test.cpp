@@ -26,6 +26,15 @@ TEST_CASE("the pace is the mean rate of the frames after the first") {
   CHECK(pace.seconds_for(0) == 0);
 }
 
+TEST_CASE("the time left is the rest of the frame at hand, and further frames at the pace or like this one") {
+  Pace pace(at(0));
+  CHECK(seconds_left(3, 0.25, 0, pace) == Approx(9));
+  CHECK(seconds_left(3, 0.25, 2, pace) == Approx(9 + 24));
+  CHECK(seconds_left(3, 1, 0, pace) == 0);
+  pace.frame(at(5));
+  CHECK(seconds_left(3, 0.25, 2, pace) == Approx(9 + 10));
+}
+
 TEST_CASE("frames that come at the same time have no pace") {
   Pace pace(at(1));
   pace.frame(at(1));

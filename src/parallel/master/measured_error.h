@@ -1,0 +1,63 @@
+// How wrong frames are, from what all ranks have measured (docs/decisions/0034-measured-error.md).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+
+#include "parallel/protocol/messages.h"
+
+namespace pprt {
+
+// An RMSE on the display scale, over all pixels and channels, with its 95 % interval.
+struct RmseInterval {
+  double rmse = 0, low = 0, high = 0;
+};
+
+// An estimate of a mean squared error, with moments of its distribution about the true one.
+struct ErrorEstimate {
+  double squared = 0;   // chance may make it negative
+  double variance = 0;  // standard error, squared
+  double third = 0;     // third central moment
+
+  RmseInterval interval() const;
+};
+
+// The mean of independent estimates.
+class MeanErrorEstimate {
+ public:
+  void add(const ErrorEstimate& estimate);
+  int count() const { return count_; }
+  ErrorEstimate mean() const;
+
+ private:
+  ErrorEstimate sum_;
+  int count_ = 0;
+};
+
+// What was measured of a frame, and of the shot so far: the frames since the last camera cut.
+struct FrameError {
+  ErrorEstimate frame;        // its own, with the moments of the last frames of the shot
+  ErrorEstimate own;          // with its own moments
+  RmseInterval shot;          // root of the mean squared error of the frames of the shot
+  int shot_frames = 0;        // that were measured
+  double share = 0;           // of the picture: late ranks measure nothing
+  std::uint64_t probes = 0;   // pixels
+  std::uint64_t samples = 0;  // eye rays
+  std::uint64_t rays = 0;     // of all kinds
+};
+
+// Puts together the measurements of all ranks, frame by frame.
+class ShotErrors {
+ public:
+  // `cut`: a shot begins. Empty where no rank has measured.
+  std::optional<FrameError> add(bool cut, std::span<const RankReport> ranks, std::size_t pixels);
+
+ private:
+  MeanErrorEstimate shot_;
+  std::deque<ErrorEstimate> last_;  // of the shot
+};
+
+}  // namespace pprt

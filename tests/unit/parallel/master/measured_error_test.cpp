@@ -1,0 +1,77 @@
+#include "parallel/master/measured_error.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <vector>
+
+namespace pprt::measured_error_test {
+namespace {
+
+RankReport report_of(double squared, double variance, double third, double pixels) {
+  RankReport report;
+  report.error = {.squared = squared,
+                  .variance = variance,
+                  .third = third,
+                  .pixels = pixels,
+                  .probes = 5,
+                  .samples = 40,
+                  .rays = 90};
+  return report;
+}
+
+}  // namespace
+
+TEST_CASE("measured error: sums of the ranks over their pixels") {
+  ShotErrors errors;
+  const std::vector<RankReport> ranks = {report_of(3, 4, 8, 60), report_of(1, 5, 19, 40)};
+  const FrameError error = errors.add(true, ranks, 100).value();
+  CHECK(error.own.squared == Approx(0.04));
+  CHECK(error.own.variance == Approx(9e-4));
+  CHECK(error.own.third == Approx(27e-6));
+  CHECK(error.share == 1);
+  CHECK((error.probes == 10 && error.samples == 80 && error.rays == 180));
+  CHECK(error.shot.rmse == Approx(0.2));
+}
+
+TEST_CASE("measured error: a late rank's part of the picture is not measured") {
+  ShotErrors errors;
+  const std::vector<RankReport> ranks = {report_of(3, 4, 8, 75), RankReport()};
+  const FrameError error = errors.add(true, ranks, 100).value();
+  CHECK(error.share == 0.75);
+  CHECK(error.own.squared == Approx(0.04));
+  CHECK_FALSE(errors.add(false, std::vector<RankReport>(2), 100));
+}
+
+TEST_CASE("measured error: the upper bound is farther off where the distribution is skewed") {
+  const double deviation = 0.001;
+  const auto interval = [&](double skewness) {
+    return ErrorEstimate{0.0036, deviation * deviation, skewness * std::pow(deviation, 3)}.interval();
+  };
+  CHECK(interval(0).rmse == Approx(0.06));
+  CHECK(interval(0).low == Approx(std::sqrt(0.0036 - 1.96 * deviation)));
+  CHECK(interval(0).high == Approx(std::sqrt(0.0036 + 1.96 * deviation)));
+  CHECK(interval(0.5).low == interval(0).low);
+  CHECK(interval(0.5).high == Approx(std::sqrt(0.0036 + 1.5 * 1.96 * deviation)));
+  CHECK(interval(7).high == interval(1).high);
+  CHECK(interval(-1).high == interval(0).high);
+  CHECK(ErrorEstimate{-0.1, 0, 0}.interval().rmse == 0);
+}
+
+TEST_CASE("measured error: the frames of a shot narrow its interval, and a cut begins another shot") {
+  ShotErrors errors;
+  const std::vector<RankReport> small = {report_of(4, 16, 0, 100)}, large = {report_of(16, 48, 0, 100)};
+  errors.add(true, small, 100);
+  const FrameError second = errors.add(false, large, 100).value();
+  CHECK(second.shot_frames == 2);
+  CHECK(second.shot.rmse == Approx(std::sqrt(0.10)));
+  CHECK(second.shot.high == Approx(std::sqrt(0.10 + 1.96 * std::sqrt((0.0016 + 0.0048) / 4))));
+  // Its own figure has the mean of both variances.
+  CHECK(second.frame.squared == Approx(0.16));
+  CHECK(second.frame.variance == Approx(0.0032));
+  CHECK(second.own.variance == Approx(0.0048));
+  const FrameError after_cut = errors.add(true, large, 100).value();
+  CHECK(after_cut.shot_frames == 1);
+  CHECK(after_cut.frame.variance == Approx(0.0048));
+}
+
+}  // namespace pprt::measured_error_test

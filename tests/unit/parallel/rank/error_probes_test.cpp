@@ -1,0 +1,205 @@
+// The measured error of pictures that are given by formulas, against their true error.
+#include "parallel/rank/error_probes.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <vector>
+
+#include "parallel/master/measured_error.h"
+#include "pipeline/core/display_values.h"
+
+namespace pprt::error_probes_test {
+namespace {
+
+constexpr int kWidth = 96, kHeight = 64, kTile = 8;
+
+Color grey(double value) {
+  return Color(static_cast<float>(value));
+}
+
+// A frame of a film: discs before a gradient, which move from frame to frame.
+struct Discs {
+  double shift = 0;
+  Color operator()(double x, double y) const {
+    const double u = std::remainder(x + shift, 23), v = std::remainder(y + 0.3 * shift, 19);
+    return std::hypot(u, v) < 5.3 ? Color(0.9f, 0.7f, 0.2f) : grey(0.1 + 0.002 * x + 0.003 * y);
+  }
+};
+
+// Vertical twigs an eighth of a pixel wide, none of which is on the middle of a pixel.
+struct Twigs {
+  Color operator()(double x, double) const {
+    const double within = x / 6 - std::floor(x / 6);
+    return grey(within > 0.3 && within < 0.3 + 0.125 / 6 ? 1 : 0.25);
+  }
+};
+
+// The picture of one sample a pixel, in its middle.
+template <typename Scene>
+PixelBlock picture_of(const Scene& scene) {
+  PixelBlock block{{0, 0, kWidth, kHeight}, {}};
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) block.colors.push_back(scene(x + 0.5, y + 0.5));
+  return block;
+}
+
+// By 32 x 32 points a pixel.
+template <typename Scene>
+double true_squared_error(const Scene& scene, const PixelBlock& shown) {
+  constexpr int kSide = 32;
+  double sum = 0;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      Vec3d mean(0, 0, 0);
+      for (int i = 0; i < kSide * kSide; ++i)
+        mean += Vec3d(scene(x + (i % kSide + 0.5) / kSide, y + (i / kSide + 0.5) / kSide));
+      sum += display_error(shown.at(x, y), Color(mean / (kSide * kSide)));
+    }
+  }
+  return sum / (kWidth * kHeight);
+}
+
+// Two ranks: the left and the right half.
+std::vector<Region> halves() {
+  const TileGrid grid(kWidth, kHeight, kTile);
+  std::vector<Region> regions;
+  for (int rank = 0; rank < 2; ++rank) {
+    std::vector<std::uint8_t> owned;
+    for (int tile = 0; tile < grid.tile_count(); ++tile)
+      owned.push_back(tile % grid.columns() * 2 / grid.columns() == rank ? 1 : 0);
+    regions.emplace_back(grid, owned);
+  }
+  return regions;
+}
+
+template <typename Scene>
+std::vector<RankReport> reports_of(const Scene& scene, const PixelBlock& shown, std::uint64_t probes,
+                                   std::uint64_t seed, std::uint64_t frame) {
+  static const std::vector<Region> regions = halves();
+  std::vector<RankReport> reports(2);
+  for (std::size_t rank = 0; rank < 2; ++rank)
+    reports[rank].error = measure_error(regions[rank], shown, {probes, 2}, {seed, frame, rank}, scene);
+  return reports;
+}
+
+bool holds(const RmseInterval& interval, double squared) {
+  const double rmse = std::sqrt(squared);
+  return interval.low <= rmse && rmse <= interval.high;
+}
+
+}  // namespace
+
+TEST_CASE("error probes: one eye ray in a hundred, at least two probes, more rays each in finer pictures") {
+  const auto planned = [](std::uint64_t traced, std::uint64_t samples, std::size_t pixels) {
+    const ProbePlan plan = plan_probes(traced, samples, pixels);
+    return std::pair(plan.probes, plan.side);
+  };
+  CHECK(planned(0, 0, 0) == std::pair<std::uint64_t, int>(2, 2));
+  CHECK(planned(1600, 1600, 6000) == std::pair<std::uint64_t, int>(2, 2));
+  CHECK(planned(80'000, 80'000, 60'000) == std::pair<std::uint64_t, int>(100, 2));
+  CHECK(planned(90'000, 90'000, 10'000) == std::pair<std::uint64_t, int>(50, 3));
+  CHECK(planned(320'000, 320'000, 20'000) == std::pair<std::uint64_t, int>(100, 4));
+  CHECK(planned(3200, 320'000, 10'000) == std::pair<std::uint64_t, int>(2, 4));
+  std::uint64_t looks = 0;
+  const auto look = [&](double, double) { return ++looks, Color(0, 0, 0); };
+  const ErrorSums sums = measure_error(halves()[0], picture_of(Twigs()), {10, 3}, {}, look);
+  CHECK(sums.probes == 10);
+  CHECK(sums.samples == 10 * 2 * 9);
+  CHECK(looks == sums.samples);
+  CHECK(sums.pixels == kWidth * kHeight / 2);
+}
+
+TEST_CASE("error probes: a rank looks at its own pixels alone, elsewhere in every frame") {
+  const Region region = halves()[1];
+  std::vector<double> first, second;
+  for (const std::uint64_t frame : {1, 2}) {
+    measure_error(region, picture_of(Discs()), {40, 2}, {1, frame, 1}, [&](double x, double y) {
+      CHECK(region.owns_point(x, y));
+      (frame == 1 ? first : second).push_back(x);
+      return Color(0, 0, 0);
+    });
+  }
+  CHECK(first != second);
+}
+
+TEST_CASE("error probes: a region without pixels has no error") {
+  const TileGrid grid(kWidth, kHeight, kTile);
+  const Region none(grid, std::vector<std::uint8_t>(static_cast<std::size_t>(grid.tile_count())));
+  CHECK(measure_error(none, {}, {}, {}, Discs()).pixels == 0);
+}
+
+TEST_CASE("error probes: what a display does not show is no error") {
+  const PixelBlock shown{{0, 0, kWidth, kHeight}, std::vector<Color>(kWidth * kHeight, Color(3, 1, -2))};
+  const auto beyond = [](double, double) { return Color(1, 7, -1); };
+  CHECK(measure_error(halves()[0], shown, {5, 2}, {}, beyond).squared == 0);
+  const auto half = [](double, double) { return grey(0.5); };
+  const ErrorSums sums = measure_error(halves()[0], shown, {5, 2}, {}, half);
+  CHECK(sums.squared == Approx(0.25 * sums.pixels));
+  CHECK(sums.variance == Approx(0).margin(1e-6));
+}
+
+TEST_CASE("error probes: the mean of many measurements is the true error, whatever the picture missed") {
+  const auto relative_bias = [](const auto& scene) {
+    const PixelBlock shown = picture_of(scene);
+    const double squared = true_squared_error(scene, shown);
+    constexpr int kSeeds = 3000;
+    double sum = 0, squares = 0;
+    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+      const ErrorSums sums = measure_error(halves()[0], shown, {20, 2}, {seed, 1, 0}, scene);
+      const ErrorSums other = measure_error(halves()[1], shown, {20, 2}, {seed, 1, 1}, scene);
+      const double found = (sums.squared + other.squared) / (kWidth * kHeight);
+      sum += found, squares += found * found;
+    }
+    const double mean = sum / kSeeds, deviation = std::sqrt((squares / kSeeds - mean * mean) / kSeeds);
+    INFO("true " << squared << ", measured " << mean << " +- " << deviation);
+    CHECK(std::abs(mean - squared) < 3 * deviation);
+    CHECK(deviation < 0.03 * squared);
+    return mean / squared - 1;
+  };
+  CHECK(std::abs(relative_bias(Discs())) < 0.1);
+  CHECK(std::abs(relative_bias(Twigs())) < 0.1);
+}
+
+TEST_CASE("error probes: the 95 % interval of single frames and of the frames so far holds the true error") {
+  constexpr int kFrames = 24, kShots = 150, kProbes = 24;
+  std::vector<PixelBlock> shown;
+  std::vector<double> squared;
+  for (int frame = 0; frame < kFrames; ++frame) {
+    shown.push_back(picture_of(Discs{1.7 * frame}));
+    squared.push_back(true_squared_error(Discs{1.7 * frame}, shown.back()));
+  }
+  int single = 0, running = 0;
+  for (std::uint64_t seed = 1; seed <= kShots; ++seed) {
+    ShotErrors errors;
+    double sum = 0;
+    for (int frame = 0; frame < kFrames; ++frame) {
+      const auto f = static_cast<std::size_t>(frame);
+      const auto error = errors.add(frame == 0, reports_of(Discs{1.7 * frame}, shown[f], kProbes, seed, f),
+                                    kWidth * kHeight);
+      REQUIRE(error);
+      sum += squared[f];
+      single += holds(error->frame.interval(), squared[f]);
+      running += holds(error->shot, sum / (frame + 1));
+    }
+  }
+  const double frames = kFrames * kShots;
+  INFO("single frames " << single / frames << ", frames so far " << running / frames);
+  CHECK(single / frames > 0.90);
+  CHECK(running / frames > 0.93);
+  CHECK(running / frames < 0.98);
+}
+
+TEST_CASE("error probes: they see twigs that no sample has met") {
+  const PixelBlock shown = picture_of(Twigs());
+  for (const Color& c : shown.colors) REQUIRE(c == grey(0.25));  // nothing of the twigs
+  const double squared = true_squared_error(Twigs(), shown);
+  ShotErrors errors;
+  std::optional<FrameError> error;
+  for (std::uint64_t frame = 0; frame < 48; ++frame)
+    error = errors.add(frame == 0, reports_of(Twigs(), shown, 24, 1, frame), kWidth * kHeight);
+  REQUIRE(error);
+  CHECK(error->shot.low > 0.5 * std::sqrt(squared));
+  CHECK(holds(error->shot, squared));
+}
+
+}  // namespace pprt::error_probes_test
