@@ -20,7 +20,7 @@ class Program {
     program.child.stderr.on("data", (data) => { program.text += data; });
     program.ended = new Promise((resolve) => program.child.on("exit", resolve));
     programs.push(program);
-    program.url = await until("the address", () => program.text.match(/http:\S+/)?.[0]);
+    program.url = await until("the address", () => program.text.match(/http:\S+/)?.[0], 60);
     return program;
   }
 
@@ -55,6 +55,40 @@ async function drag(page, right, down, more) {
   const [x, y] = await middle(page);
   await page.drag([x, y], [x + right, y + down], 8, more);
 }
+
+// Programs that want all the time of a core, for at most so many seconds.
+function keepBusy(count, seconds) {
+  return Array.from({length: count}, () =>
+    spawn("timeout", [String(seconds), "sh", "-c", "while :; do :; done"], {stdio: "ignore"}));
+}
+
+// Spheres before a bright background, lit from all sides: nothing in it is black.
+function writeBrightScene() {
+  const lights = [[4, 3, 2], [-4, 3, 2], [4, -3, 2], [-4, -3, 2], [0, 0, 6], [0, 0, -6]];
+  const spheres = Array.from({length: 125}, (_, i) =>
+    [i % 5, Math.floor(i / 5) % 5, Math.floor(i / 25)].map((v) => 0.6 * v - 1.2));
+  writeFileSync(join(directory, "bright.nff"), [
+    "b 0.9 0.8 0.7", "v", "from 4.6 0.4 2", "at 0 0 0", "up 0 0 1", "angle 45", "hither 0.01", "resolution 320 240",
+    ...lights.map((at) => `l ${at.join(" ")}`), "f 0.9 0.9 0.4 0.5 0.3 5 0.3 1.3",
+    ...spheres.map((at) => `s ${at.join(" ")} 0.2`), ""].join("\n"));
+  writeFileSync(join(directory, "round.anim"), `animation { scene "bright.nff" frames 40 fps 12 resolution <320, 240>
+    camera { key 1 { from <4.6, 0.4, 2> at <0, 0, 0> up <0, 0, 1> angle 45 } key 20 { from <0, 4, 2> } key 40 { from <-4.6, 1, 2> } } }`);
+}
+
+// Notes from now on the number of each frame that has a black square of 8x8 pixels.
+const watchForBlack = (page) => page.evaluate(`pictures = 0, black = []; {
+  const before = tell;
+  tell = (header) => {
+    before(header);
+    if (!header.type) return;
+    ++pictures;
+    const {data, width, height} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    const brightest = (x, y) => Math.max(...Array.from({length: 64}, (_, i) => data[4 * ((y + (i >> 3)) * width + x + i % 8)]));
+    for (let y = 0; y < height; y += 8) for (let x = 0; x < width; x += 8) {
+      if (brightest(x, y) < 12) return black.push(header.frames.at(-1).number);
+    }
+  };
+} 1`);
 
 function noError(page) {
   assert.deepEqual(page.errors, []);
@@ -275,6 +309,30 @@ const cases = {
     assert.deepEqual(unnamed, []);
     noError(page);
     await program.end();
+  },
+
+  "no tile is black after a jump, on two and four ranks beside busy programs": async (browser) => {
+    writeBrightScene();
+    for (const ranks of [2, 4]) {
+      const busy = keepBusy(3, 60);
+      const program = await Program.start("round.anim", "-np", String(ranks));
+      const page = await open(browser, program);
+      await watchForBlack(page);
+      await take(page);
+      for (let i = 0; i < 20; ++i) {
+        const before = await frame(page);
+        await page.evaluate(`connection.send({do: "seek", frame: ${1 + i * 17 % 40}})`);
+        await sleep(150);
+        if (i % 3 === 0) await page.evaluate(`connection.send({do: "rate", fps: ${[12, 30, 60, 24][i / 3 % 4]}})`);
+        if (i % 4 === 1) await page.evaluate('connection.send({do: "play"})');
+        await page.until(`Number(document.body.dataset.frame) > ${before + 3}`, 60);
+      }
+      assert.ok(await page.evaluate("pictures > 40"));
+      assert.deepEqual(await page.evaluate("black"), []);
+      noError(page);
+      await program.end();
+      for (const child of busy) child.kill();
+    }
   },
 
   "two processes serve one sequence after the other, and sleep in between": async (browser) => {

@@ -64,6 +64,9 @@ class LatticeRefiner {
   // Returns the nodes at the corners of the region's base squares, some of which belong to other regions.
   std::vector<Vec2d> base_points() const;
 
+  // Returns those without a sample. Squares between them are black.
+  std::vector<Vec2d> missing_base() const;
+
   // Returns the image point of the next sample, pixels. It may lie up to eight pixels beyond the right and
   // lower border. Empty when nothing is worth a sample.
   std::optional<Vec2d> next_point();
@@ -122,7 +125,6 @@ class LatticeRefiner {
 
   bool next_nodes();
   bool next_tile();
-  bool knows_base() const;
   bool leave_pass();
   bool start_pass();
   bool start_grid_pass();
@@ -159,7 +161,7 @@ class LatticeRefiner {
   Pass pass_;
   std::size_t grid_levels_ = 0;  // taken whole, the base not counted
   bool has_base_ = false, has_grid_ = false;
-  bool is_region_new_ = false;  // its base may be unknown
+  bool is_region_new_ = false;  // its base may be missing
   double growth_ = 0;           // samples that a pass takes, for each that its candidates promise
   float last_threshold_ = 0;
   int tile_ = 0;                     // of the pass
