@@ -344,7 +344,7 @@ const cases = {
   },
 
   "frame all, a point to turn round, the axes, legends, and who is late": async (browser) => {
-    const program = await Program.start(...scene);
+    const program = await Program.start(...scene, "--threads", "1");
     const page = await open(browser, program);
     await take(page);
     await page.press("Home");
