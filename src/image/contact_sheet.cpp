@@ -1,9 +1,11 @@
 #include "image/contact_sheet.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
+#include <string>
 
 namespace pprt {
 namespace {
@@ -52,6 +54,38 @@ void require_usable(std::span<const Image> pictures, const ContactSheetLayout& l
   }
 }
 
+// Digits of 3x5 dots, rows from the top; the highest of three bits is the left one.
+constexpr std::array<std::array<std::uint8_t, 5>, 10> kDigits = {{{7, 5, 5, 5, 7},
+                                                                  {2, 6, 2, 2, 7},
+                                                                  {7, 1, 7, 4, 7},
+                                                                  {7, 1, 7, 1, 7},
+                                                                  {5, 5, 7, 1, 1},
+                                                                  {7, 4, 7, 1, 7},
+                                                                  {7, 4, 7, 5, 7},
+                                                                  {7, 1, 1, 1, 1},
+                                                                  {7, 5, 7, 5, 7},
+                                                                  {7, 5, 7, 1, 7}}};
+constexpr int kDot = 2, kDigitPitch = 4 * kDot, kLabelHeight = 7 * kDot;  // pixels, with a dot around
+
+// White digits on black in the lower left corner, as far as there is room.
+void draw_number(Image& picture, int number) {
+  const std::string digits = std::to_string(number);
+  const int width = static_cast<int>(digits.size()) * kDigitPitch + kDot, top = picture.height - kLabelHeight;
+  for (int y = std::max(0, top); y < picture.height; ++y) {
+    for (int x = 0; x < std::min(width, picture.width); ++x) {
+      const int row = (y - top) / kDot - 1, left = x / kDot - 1;  // in dots
+      const auto digit = static_cast<std::size_t>(std::max(left, 0) / 4);
+      const bool is_inside = row >= 0 && row < 5 && left >= 0 && left % 4 < 3 && digit < digits.size();
+      const bool is_lit =
+          is_inside &&
+          ((kDigits[static_cast<std::size_t>(digits[digit] - '0')][static_cast<std::size_t>(row)] >>
+            (2 - left % 4)) &
+           1) != 0;
+      picture.at(x, y) = Color(is_lit ? 1.0F : 0.0F);
+    }
+  }
+}
+
 }  // namespace
 
 Image resize(const Image& image, int width, int height) {
@@ -82,7 +116,8 @@ Image thumbnail(const Image& picture, int width) {
   return resize(picture, width, thumbnail_height(picture, width));
 }
 
-Image contact_sheet(std::span<const Image> pictures, const ContactSheetLayout& layout) {
+Image contact_sheet(std::span<const Image> pictures, const ContactSheetLayout& layout,
+                    std::span<const int> numbers) {
   require_usable(pictures, layout);
   const auto columns = std::min(static_cast<std::size_t>(layout.columns), pictures.size());
   const std::size_t rows = (pictures.size() + columns - 1) / columns;
@@ -99,8 +134,9 @@ Image contact_sheet(std::span<const Image> pictures, const ContactSheetLayout& l
   const int pitch = layout.thumbnail_width + layout.gap;
   Image page(layout.gap + static_cast<int>(columns) * pitch, row_tops.back());
   for (std::size_t i = 0; i < pictures.size(); ++i) {
-    copy_into(page, thumbnail(pictures[i], layout.thumbnail_width),
-              layout.gap + static_cast<int>(i % columns) * pitch, row_tops[i / columns]);
+    Image small = thumbnail(pictures[i], layout.thumbnail_width);
+    if (i < numbers.size()) draw_number(small, numbers[i]);
+    copy_into(page, small, layout.gap + static_cast<int>(i % columns) * pitch, row_tops[i / columns]);
   }
   return page;
 }

@@ -23,7 +23,8 @@ Image thumbnail(const Image& picture, int width);
 
 // Arranges thumbnails in reading order. A row is as high as its highest picture; fewer pictures than columns
 // make a narrower page. Throws std::invalid_argument when there is no picture, one is empty, or a measure is
-// out of range.
-Image contact_sheet(std::span<const Image> pictures, const ContactSheetLayout& layout = {});
+// out of range. `numbers`: of the pictures, which their lower left corners show; none: nothing is shown.
+Image contact_sheet(std::span<const Image> pictures, const ContactSheetLayout& layout = {},
+                    std::span<const int> numbers = {});
 
 }  // namespace pprt

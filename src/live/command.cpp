@@ -48,16 +48,34 @@ Vec3d point_in(const Json& object, const char* name) {
   return {at(0), at(1), at(2)};
 }
 
-LookFrom look_from(const Json& object) {
-  LookFrom look;
-  look.number = static_cast<std::uint32_t>(whole_in(object, "number", 0, std::numeric_limits<int>::max()));
-  look.view.from = point_in(object, "from");
-  look.view.at = point_in(object, "at");
-  look.view.up = point_in(object, "up");
-  look.view.angle_degrees = number_in(object, "angle", 0.1, 170);
-  const std::string_view defect = camera_defect(look.view.from, look.view.at, look.view.up);
+View camera_in(const Json& object) {
+  View view;
+  view.from = point_in(object, "from");
+  view.at = point_in(object, "at");
+  view.up = point_in(object, "up");
+  view.angle_degrees = number_in(object, "angle", 0.1, 170);
+  const std::string_view defect = camera_defect(view.from, view.at, view.up);
   if (!defect.empty()) throw CommandError(std::string(defect));
-  return look;
+  return view;
+}
+
+LookFrom look_from(const Json& object) {
+  return {
+      .number = static_cast<std::uint32_t>(whole_in(object, "number", 0, std::numeric_limits<int>::max())),
+      .view = camera_in(object)};
+}
+
+int key_frame_in(const Json& object, const char* name) {
+  return whole_in(object, name, 1, kLastKeyFrame);
+}
+
+SetKey set_key(const Json& object) {
+  SetKey key{.frame = key_frame_in(object, "frame")};
+  const auto view = object.find("view");
+  if (view == object.end()) return key;
+  if (!view->is_object()) throw CommandError("'view' is no camera");
+  key.view = camera_in(*view);
+  return key;
 }
 
 template <class Value>
@@ -102,10 +120,12 @@ LiveCommand parse_command(std::string_view text) {
                    whole_in(object, "height", 1, kLongestLiveSide)};
   }
   if (word == "overlay") return ShowOverlay{word_in<Overlay>(object, "name")};
-  if (word == "key") return SetKey{whole_in(object, "frame", 1, kLastKeyFrame)};
-  if (word == "drop") return DropKey{whole_in(object, "frame", 1, kLastKeyFrame)};
+  if (word == "pivot") return FindPivot{number_in(object, "x", 0, 1), number_in(object, "y", 0, 1)};
+  if (word == "key") return set_key(object);
+  if (word == "drop") return DropKey{key_frame_in(object, "frame")};
+  if (word == "move") return MoveKey{key_frame_in(object, "frame"), key_frame_in(object, "to")};
   if (word == "undo") return UndoKeys{};
-  if (word == "script") return SendScript{};
+  if (word == "redo") return RedoKeys{};
   if (word == "film") return PlayFilm{flag_in(object, "on")};
   if (word == "photo") return TakePhoto{word_in<PhotoFormat>(object, "format")};
   throw CommandError("there is no such command");

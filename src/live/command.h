@@ -4,13 +4,17 @@
 //   {"do":"look","number":17,"from":[x,y,z],"at":[x,y,z],"up":[x,y,z],"angle":45}
 //   {"do":"play"}  {"do":"pause"}  {"do":"step","by":-1}  {"do":"seek","frame":12}      the script
 //   {"do":"rate","fps":24}  {"do":"size","width":512,"height":384}  {"do":"overlay","name":"samples"}
-//   {"do":"key","frame":49}  {"do":"drop","frame":49}  {"do":"undo"}  {"do":"script"}    the recorded film
+//   {"do":"pivot","x":0.5,"y":0.5}   what is seen there, in shares of the picture from its upper left
+//   {"do":"key","frame":49}          the recorded film: the camera as it is, or one that "view" gives as
+//   "look" does
+//   {"do":"drop","frame":49}  {"do":"move","frame":49,"to":60}  {"do":"undo"}  {"do":"redo"}
 //   {"do":"film","on":true}          play the recorded film in the script's place
 //   {"do":"photo","format":"png"}    a picture at full quality, or "exr"
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <variant>
@@ -60,16 +64,24 @@ struct ShowOverlay {
   Overlay overlay = Overlay::kNone;
 };
 
-// A key of the film that the pilot records: the camera as it is.
+// Asks what is seen at a point of the picture, in shares of its width and height.
+struct FindPivot {
+  double x = 0.5, y = 0.5;
+};
+
+// A key of the film that the pilot records.
 struct SetKey {
   int frame = 1;
+  std::optional<View> view = {};  // empty: the camera as it is
 };
 struct DropKey {
   int frame = 1;
 };
+struct MoveKey {
+  int frame = 1, to = 1;
+};
 struct UndoKeys {};
-// The film as a script; anybody may ask for it.
-struct SendScript {};
+struct RedoKeys {};
 struct PlayFilm {
   bool on = true;
 };
@@ -84,9 +96,9 @@ struct TakePhoto {
   PhotoFormat format = PhotoFormat::kPng;
 };
 
-using LiveCommand =
-    std::variant<TakeCamera, GiveCamera, PassCamera, LookFrom, PlayScript, StepScript, SeekScript, SetRate,
-                 SetSize, ShowOverlay, SetKey, DropKey, UndoKeys, PlayFilm, TakePhoto, SendScript>;
+using LiveCommand = std::variant<TakeCamera, GiveCamera, PassCamera, LookFrom, PlayScript, StepScript,
+                                 SeekScript, SetRate, SetSize, ShowOverlay, FindPivot, SetKey, DropKey,
+                                 MoveKey, UndoKeys, RedoKeys, PlayFilm, TakePhoto>;
 
 // A message that is none, in words for the person at the page.
 class CommandError : public std::runtime_error {

@@ -29,6 +29,7 @@ std::string to_text(const FrameHeader& header) {
                {"size", {shot.view.width, shot.view.height}},
                {"script_frame", shot.script_frame},
                {"position", shot.position},
+               {"by_hand", shot.by_hand},
                {"at_rest", header.is_at_rest},
                {"flip", header.flip ? Json(*header.flip) : Json()},
                {"type", header.type}};

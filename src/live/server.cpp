@@ -247,7 +247,7 @@ class LiveServer::Impl::Visit : public std::enable_shared_from_this<Visit> {
 
   void run() {
     parser_.header_limit(kMostHeaderBytes);
-    stream_.expires_after(nanoseconds(server_.settings_.patience_s));
+    stream_.expires_after(nanoseconds(server_.settings_.request_patience_s));
     http::async_read(stream_, buffer_, parser_, [self = shared_from_this()](error_code error, std::size_t) {
       if (!error) self->answer();
     });

@@ -15,10 +15,11 @@ struct LiveServerSettings {
   std::uint16_t port = 0;  // 0: any that is free
   std::string page = {};   // HTML
   std::size_t most_clients = 64;
-  std::size_t most_strangers = 64;        // connections that have not said the token yet
+  std::size_t most_strangers = 16;        // connections that have not said the token yet, besides the clients
   std::size_t most_message_bytes = 4096;  // from a client
   int most_messages_per_second = 300;     // from a client, acknowledgements not counted
-  double patience_s = 10;                 // for a request, and for a client that takes in nothing
+  double request_patience_s = 5;          // for a stranger's request and its answer
+  double patience_s = 10;                 // for a client that takes in nothing
 };
 
 // A picture for all clients: a text before it says what it shows.

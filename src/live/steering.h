@@ -1,8 +1,9 @@
 // Who has the camera, and what the next frame shows.
 //
-// A script plays, or the picture rests. One client at a time may take the camera: the pilot. The pilot moves
-// it by hand, plays the script or steps through it, sets rate and size, and records keys of a film. All
-// others watch.
+// A script plays, or the picture rests. Where something else than the camera moves, the script plays again
+// and again, and goes on while the camera is moved by hand. One client at a time may take the camera: the
+// pilot. The pilot moves it by hand, plays the script or steps through it, sets rate and size, and records
+// keys of a film. All others watch.
 #pragma once
 
 #include <condition_variable>
@@ -37,18 +38,27 @@ struct LiveShow {
   View home = {};                              // what is shown first; its size is that of the pictures
   std::vector<ScriptFrame> script = {};        // empty: there is none
   double frames_per_second = 24;               // between kSlowestRate and kFastestRate
+  bool moves = false;                          // something besides the camera, as the script goes on
+  std::optional<Box3d> bounds = {};            // of what there is to see
+  int ranks = 1;
   // Every frame of the script is to be shown once, whether or not anybody watches; pictures keep their size.
   bool records = false;
   // Throw std::exception for a view, or a size, that cannot be rendered.
   std::function<void(const View&)> require_camera = [](const View&) {};
   std::function<void(int width, int height)> require_size = [](int, int) {};
+  // Returns what the camera sees at an image point, pixels, as it stands in that frame of the script; 0: as
+  // it began. Empty: the background.
+  std::function<std::optional<Vec3d>(const View&, double x, double y, int moment)> seen_at =
+      [](const View&, double, double, int) { return std::nullopt; };
 };
 
 // A frame to be rendered.
 struct LiveShot {
   View view = {};
   int script_frame = 0;      // number; 0: by hand, or of the recorded film
-  int position = 0;          // in what plays, from 1; 0: by hand
+  int moment = 0;            // number of the frame of the script in which what moves stands so; 0: none yet
+  int position = 0;          // in what plays, from 1; 0: nothing has played
+  bool by_hand = false;      // the camera is the pilot's
   bool cut = false;          // it does not follow the shot before
   std::uint32_t camera = 0;  // counts the cameras shown
   std::uint32_t look = 0;    // the number of the pilot's last LookFrom
@@ -128,22 +138,31 @@ class Steering {
   void obey(int client, const SetRate& command);
   void obey(int client, const SetSize& command);
   void obey(int client, const ShowOverlay& command);
+  void obey(int client, const FindPivot& command);
   void obey(int client, const SetKey& command);
   void obey(int client, const DropKey& command);
+  void obey(int client, const MoveKey& command);
   void obey(int client, const UndoKeys&);
+  void obey(int client, const RedoKeys&);
   void obey(int client, const PlayFilm& command);
   void obey(int client, const TakePhoto& command);
-  void obey(int client, const SendScript&);
   void note_change();
   void give_back();
+  void leave_hand();
   void jump_to(int position);
+  void end_of_play();
   void show_position(int position);
   void keys_changed();
   std::optional<int> first_unseen() const;
+  bool rolls() const { return show_.moves && !plays_film_; }
+  bool loops() const { return show_.moves && !show_.records; }
   int frames() const;
+  int line() const;
+  int moment() const;
   ScriptFrame frame_at(int position) const;
   Animation film() const;
   std::string state() const;
+  std::string film_text() const;
   bool wants_frames() const;
 
   const LiveShow show_;

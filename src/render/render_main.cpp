@@ -18,6 +18,7 @@ bool read_options(CLI::App& app, pprt::RenderOptions& options, const std::vector
   try {
     if (!pprt::parse_command_line(app, pprt::with_long_np(words))) return false;
     if (app["--config"]->count() > 0) options.config = app["--config"]->results().front();
+    pprt::put_in_order(options.source);
     pprt::check_usage(options);
   } catch (const pprt::UsageError& e) {
     pprt::ProgressReporter(options.progress).fail(e.what());
@@ -53,7 +54,7 @@ int main(int argc, char** argv) {
     pprt::RenderOptions options;
     pprt::add_render_options(app, options);
     add_examples(app);
-    pprt::add_common_flags(app);
+    pprt::add_common_flags(app, pprt::usual_options());
     if (argc == 1) return say_first_steps();
     const std::vector<std::string> words = pprt::user_words(argc, argv);
     if (!read_options(app, options, words)) return pprt::kExitDone;

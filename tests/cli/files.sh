@@ -6,7 +6,7 @@ work=(--clock work --budget 400000)
 # Frames in both formats, a manifest and a contact sheet; nothing else is left behind.
 run pprt-render ball.anim "${work[@]}" --frames 1-3 -o pics/%04d.png -o pics/#.exr --contact-sheet pics/sheet.png
 expect_code 0; expect_text out ''
-expect_line err 'done: 3 of 3 frames in pics/%04d.png and pics/#.exr; 3 on time at 4 frames/s, .* samples a frame; RMSE [0-9.a-z() ]*'
+expect_line err 'done: 3 of 3 frames in pics/0001.png to pics/0003.png, pics/1.exr to pics/3.exr; 3 on time at 4 frames/s, .* samples a frame; RMSE [0-9.a-z() ]*'
 expect_text <(ls pics) "$(printf '%s\n' 0001.png 0002.png 0003.png 1.exr 2.exr 3.exr manifest.ndjson sheet.png)"
 [[ $(wc -l <pics/manifest.ndjson) -eq 4 ]] || complain "the manifest has not four lines"
 
@@ -21,7 +21,7 @@ run pprt-render ball.anim "${work[@]}" --frames 2-2 -o pics/%04d.png --overwrite
 # Resuming renders what is missing and nothing else; its sheet shows all frames.
 run pprt-render ball.anim "${work[@]}" -o r/%04d.png; expect_code 0
 run pprt-render ball.anim "${work[@]}" -o r/%04d.png --resume; expect_code 0
-expect_text err 'done: 0 of 12 frames (12 were there already) in r/%04d.png'
+expect_text err 'done: 0 of 12 frames (12 were there already) in r/0001.png to r/0012.png'
 rm r/0007.png
 run pprt-render ball.anim "${work[@]}" -o r/%04d.png --resume --contact-sheet r/sheet.png; expect_code 0
 expect_line err 'done: 1 of 12 frames (11 were there already) .*'; expect_file r/0007.png; expect_file r/sheet.png
@@ -33,7 +33,7 @@ run pprt-render ball.anim "${work[@]}" -o r/%04d.png -o r/%04d.exr --frames 2-3 
 expect_line err 'done: 2 of 2 frames in .*'; expect_file r/0003.exr; expect_no_file r/0004.exr
 run pprt-render ball.anim "${work[@]}" -o part/%04d.png --frames 1-3 --stats part.ndjson; expect_code 0
 run pprt-render ball.anim "${work[@]}" -o part/%04d.png --frames 2-5 --resume --stats part.ndjson; expect_code 0
-expect_line err 'done: 2 of 4 frames (2 were there already) in part/%04d.png; .*'
+expect_line err 'done: 2 of 4 frames (2 were there already) in part/0002.png to part/0005.png; .*'
 [[ $(grep -c '"record":"frame"' part.ndjson) -eq 5 ]] || complain "resuming did not append to the ledger: $(cat part.ndjson)"
 
 # What ends before it has begun harms nothing that is there.
@@ -58,12 +58,12 @@ expect_text err "pprt-render: error: cannot write 'file/sheet.png': Not a direct
 run pprt-render ball.anim "${work[@]}" --frames 1-3 -o grown/%d.png; expect_code 0
 run pprt-render ball.anim "${work[@]}" --frames 4-6 -o grown/%d.png; expect_code 0
 run pprt-render ball.anim "${work[@]}" --frames 1-6 -o grown/%d.png --resume; expect_code 0
-expect_text err 'done: 0 of 6 frames (6 were there already) in grown/%d.png'
+expect_text err 'done: 0 of 6 frames (6 were there already) in grown/1.png to grown/6.png'
 # A frame that is replaced is told of anew; the others stay.
 run pprt-render ball.anim "${work[@]}" --frames 2 -o grown/%d.png --overwrite; expect_code 0
 [[ $(wc -l <grown/manifest.ndjson) -eq 7 ]] || complain "the manifest has not seven lines: $(cat grown/manifest.ndjson)"
 run pprt-render ball.anim "${work[@]}" --frames 1-6 -o grown/%d.png --resume; expect_code 0
-expect_text err 'done: 0 of 6 frames (6 were there already) in grown/%d.png'
+expect_text err 'done: 0 of 6 frames (6 were there already) in grown/1.png to grown/6.png'
 # One of other options begins anew.
 run pprt-render ball.anim "${work[@]}" --seed 2 --frames 7 -o grown/%d.png; expect_code 0
 [[ $(wc -l <grown/manifest.ndjson) -eq 2 ]] || complain "the manifest was not begun anew: $(cat grown/manifest.ndjson)"
@@ -155,4 +155,21 @@ run pprt-render ball.nff --samples 500 -o still.exr; expect_code 0
 [[ $(compression_of hurried/1.exr)$(compression_of worked/1.exr)$(compression_of still.exr) == 133 ]] ||
   complain "compressions are not run lengths, ZIP and ZIP: $(compression_of hurried/1.exr)$(compression_of worked/1.exr)$(compression_of still.exr)"
 
+# A still has samples, not samples a frame.
+run pprt-render ball.nff --clock work --samples 300 -o still.png; expect_code 0
+expect_line err 'done: 1 of 1 frame in still.png; [0-9,]* samples'
+# A name for one frame gets the first of a script.
+run pprt-render ball.anim "${work[@]}" -o first.png; expect_code 0
+expect_line err "pprt-render: 'first.png' has no place for a number: only frame 1 of 12 is rendered; -o 'first_%04d.png' gives all, -o 'first.mp4' a film"
+expect_line err 'done: 1 of 1 frame in first.png; .*'
+# A script may stand before its scene.
+run pprt-render ball.anim ball.nff "${work[@]}" --frames 1 -o swapped.png; expect_code 0
+expect_same swapped.png first.png
+# A directory is made, but not two that lie in each other.
+run pprt-render ball.nff --samples 300 -o near/a.png; expect_code 0; expect_file near/a.png
+for option in "-o far/away/a.png" "-o b.png --contact-sheet far/away/s.png" "-o c.png --stats far/away/l.ndjson"; do
+  run pprt-render ball.nff --samples 300 $option; expect_code 2
+  expect_line err "pprt-render: error: cannot write 'far/away/.*': there is no directory 'far'; make it first"
+  expect_no_file far
+done
 finish

@@ -61,6 +61,7 @@ done
 
 # Nothing that lies at a temporary name is written to, and no name is an option or an address.
 cp ball.nff precious
+mkdir http:
 ln -s precious plain.mp4.part
 for film in plain.mp4 -y.mp4 a:b.mp4 http://x/y.mp4 concat:z.mp4 %03d.mp4; do
   command -v ffmpeg >/dev/null || break
@@ -130,4 +131,13 @@ run pprt-render ball.nff "${work[@]}" --fps 0 --samples 300 -o s.png --film s.mp
 expect_usage "--budget needs a frame rate (--fps)"
 run pprt-render ball.nff --samples 300 -o s.png --film s.mp4; expect_code 0
 expect_text <(film_facts s.mp4) h264,16,16,25/1,1
+# A film alone keeps no frames; where -o names them they stay.
+for words in "-o alone/a.mp4" "--film alone/b.gif"; do
+  run pprt-render ball.anim "${work[@]}" --frames 1-3 $words; expect_code 0
+  expect_line err 'done: 3 of 3 frames in alone/[ab]\.\(mp4\|gif\); .*'
+done
+expect_text <(ls -A alone) "$(printf '%s\n' a.mp4 b.gif)"
+run pprt-render ball.anim "${work[@]}" --frames 1-2 -o both.mkv -o both/%d.png; expect_code 0
+expect_line err 'done: 2 of 2 frames in both/1.png to both/2.png, both.mkv; .*'
+expect_file both/2.png; expect_file both.mkv
 finish

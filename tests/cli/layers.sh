@@ -29,17 +29,17 @@ cmp -s full1/3.regions.png full3/3.regions.png && complain "one rank and three h
 
 # A frame is finished when its layers are there.
 run pprt-render ball.anim "${work[@]}" --frames 1-2 -o p/%04d.png --layers samples --resume; expect_code 0
-expect_text err 'done: 0 of 2 frames (2 were there already) in p/%04d.png'
+expect_text err 'done: 0 of 2 frames (2 were there already) in p/0001.png to p/0002.png'
 rm p/0002.samples.png
 run pprt-render ball.anim "${work[@]}" --frames 1-2 -o p/%04d.png --layers samples,id --resume; expect_code 0
 expect_line err 'done: 1 of 2 frames (1 were there already) .*'; expect_file p/0002.samples.png
 run pprt-render ball.anim "${work[@]}" --frames 1-2 -o p/%04d.png --layers depth --resume; expect_code 0
 expect_line err 'done: 2 of 2 frames in .*'; expect_file p/0001.depth.png
 run pprt-render ball.anim "${work[@]}" --frames 1-2 -o e/%d.exr --layers age --resume; expect_code 0
-expect_text err 'done: 0 of 2 frames (2 were there already) in e/%d.exr'
+expect_text err 'done: 0 of 2 frames (2 were there already) in e/1.exr to e/2.exr'
 run pprt-render ball.anim "${work[@]}" --frames 1-2 -o x/%d.exr; expect_code 0
 run pprt-render ball.anim "${work[@]}" --frames 1-2 -o x/%d.exr --layers age --resume; expect_code 0
-expect_line err 'done: 2 of 2 frames in x/%d.exr; .*'
+expect_line err 'done: 2 of 2 frames in x/1.exr to x/2.exr; .*'
 
 # No file is replaced unasked, and nothing that is no layer is taken for one.
 run pprt-render ball.anim "${work[@]}" --frames 1-1 -o q/%d.png; expect_code 0

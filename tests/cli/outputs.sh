@@ -175,6 +175,6 @@ for np in 1 2; do
   sed "s/ball.nff/$latin.nff/" ball.anim >"$latin.anim"
   run pprt-render "${more[@]}" --progress json; expect_code 0
   run pprt-render "${more[@]}" --resume; expect_code 0
-  expect_text err "done: 0 of 2 frames (2 were there already) in $latin$np/%02d.png"
+  expect_text err "done: 0 of 2 frames (2 were there already) in $latin$np/01.png to $latin$np/02.png"
 done
 finish

@@ -9,7 +9,7 @@ expect_line out '{"record":"run","format":2,"version":.*"ranks":1,"size":\[32,24
 expect_line out '{"record":"frame","frame":1,"cut":false,"deadline_s":0.25,.*,"non_finite":0,"error":{.*}}'
 expect_line out '{"record":"frame","frame":2,"cut":false,"deadline_s":0.5,.*,"non_finite":0,"error":{.*}}'
 expect_line out '{"record":"summary","frames":2,"on_time":2,"late_ms":{.*},.*,"non_finite":0,"error":{.*}}'
-expect_line err 'done: 2 of 2 frames in frame_%04d.png; .*'
+expect_line err 'done: 2 of 2 frames in frame_0001.png to frame_0002.png; .*'
 
 # The same ledger on ranks of their own; only the master speaks.
 run pprt-render ball.anim --clock work --budget 400000 --frames 1-2 --overwrite -np 3 --stats -; expect_code 0

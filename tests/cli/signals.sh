@@ -22,7 +22,7 @@ stopped_by() {
   wait "$pid" || code=$?
   expect_code "$expected"
   expect_line err 'frame [0-9]* of 60000  [0-9.]* of 4/s  worst [0-9]* ms early  [0-9,]* samples a frame  [0-9:]* left  [0-9.]* s elapsed'
-  expect_line err 'stopped: [0-9]* of 60000 frames in out_frames/%05d.png; .*'
+  expect_line err 'stopped: [0-9]* of 60000 frames in out_frames/0.*.png; .*'
   # Every picture is whole and told of in the manifest, and nothing else lies about.
   local pictures others
   pictures=$(find out_frames -name '?????.png' | wc -l)

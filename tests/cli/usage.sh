@@ -5,7 +5,7 @@ source "$(dirname "$0")/check.sh"
 run pprt-render; expect_code 2; expect_text out ''
 expect_text err 'pprt-render needs a scene. To begin with:
   pprt-render spd:tree -s 256x256 -o tree.png
-More commands: pprt-render --examples. All options: pprt-render --help'
+More commands: pprt-render --examples. All options: pprt-render --help all'
 run pprt-render --seed 1; expect_usage "SCENE is required"
 run pprt-render --bogus ball.nff; expect_usage "there is no option --bogus"
 run pprt-render ball.nff ball.anim third; expect_usage "'third' is one argument too many"
@@ -83,7 +83,9 @@ run pprt-render ball.nff --fps nan; expect_usage "--fps: value nan is not a numb
 run pprt-render --config none.ini; expect_usage "none.ini was not readable (missing?)"
 
 run pprt-render --version; expect_code 0; expect_line out 'pprt-render [0-9]*\.[0-9]*\.[0-9]*'; expect_text err ''
-run pprt-render --help; expect_code 0; expect_line out '  --contact-sheet FILE .*'; expect_text err ''
+run pprt-render --help all; expect_code 0; expect_line out '  --contact-sheet FILE .*'; expect_text err ''
+run pprt-render --help; expect_code 0; expect_line out '  --live \[ADDRESS:\]PORT'
+[[ $(grep -c '^  -' out) == 12 ]] || complain "'$command': there are not twelve options: $(cat out)"
 for program in pprt-convert pprt-compare pprt-study; do
   run "$program"; expect_code 2; expect_line err "try '$program --help'"
   run "$program" --help; expect_code 0; expect_text err ''

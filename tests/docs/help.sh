@@ -3,9 +3,9 @@
 set -euo pipefail
 program=$1
 shift
-for subcommand in "" "$@"; do
+for words in --help "--help all" "${@/%/ --help}"; do
   # shellcheck disable=SC2086
-  "$program" $subcommand --help | awk -v name="${program##*/} $subcommand" '
+  "$program" $words | awk -v name="${program##*/} $words" '
     length($0) > 79 { print name ": more than 79 columns: " $0; bad = 1 }
     { ++lines } /^$/ { lines = 0; ++groups }
     lines > 23 { print name ": more than a screen, at: " $0; bad = 1 }

@@ -25,7 +25,7 @@ options_in_page() {
        }' "$page"
 }
 
-help=$("$program" --help)
+help=$("$program" --help all)
 for subcommand in "$@"; do help+=$'\n'$("$program" "$subcommand" --help); done
 if differences=$(diff <(options_in_help <<<"$help" | sort -u) <(options_in_page | sort -u)); then exit 0; fi
 echo "options in the help of $program only (<) or in $page only (>):"

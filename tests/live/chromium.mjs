@@ -58,7 +58,7 @@ export class Chromium {
   }
 
   // Opens a page in a window of this size.
-  async open(url, {width = 1200, height = 800, dark = false, downloads = this.home} = {}) {
+  async open(url, {width = 1200, height = 800, dark = false, touch = false, downloads = this.home} = {}) {
     const {browserContextId} = await this.call("Target.createBrowserContext");
     const {targetId} = await this.call("Target.createTarget", {url: "about:blank", browserContextId, width, height});
     const {sessionId} = await this.call("Target.attachToTarget", {targetId, flatten: true});
@@ -66,6 +66,7 @@ export class Chromium {
     await this.call("Browser.setDownloadBehavior", {behavior: "allow", downloadPath: downloads, browserContextId});
     for (const domain of ["Page", "Runtime", "Log", "Network"]) await page.call(`${domain}.enable`);
     await page.call("Emulation.setDeviceMetricsOverride", {width, height, deviceScaleFactor: 1, mobile: width < 600});
+    if (touch) await page.call("Emulation.setTouchEmulationEnabled", {enabled: true});
     await page.call("Emulation.setEmulatedMedia", {features: [{name: "prefers-color-scheme", value: dark ? "dark" : "light"}]});
     await page.go(url);
     return page;

@@ -1,64 +1,14 @@
 // The live page in a real browser: node page.mjs CASE. `pprt-render` is on the PATH.
 import assert from "node:assert/strict";
-import {execFileSync, spawn} from "node:child_process";
-import {existsSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync} from "node:fs";
-import {tmpdir} from "node:os";
+import {execFileSync} from "node:child_process";
+import {existsSync, readdirSync, readFileSync, rmSync, writeFileSync} from "node:fs";
 import {join} from "node:path";
 
 import {Chromium, sleep, until} from "./chromium.mjs";
-
-const directory = mkdtempSync(join(tmpdir(), "pprt-live-"));
-
-const programs = [];  // all that were started
-
-// pprt-render with a live view on a free port.
-class Program {
-  static async start(...words) {
-    const program = new Program();
-    program.text = "";
-    program.child = spawn("pprt-render", ["--live", "0", ...words], {stdio: ["ignore", "ignore", "pipe"], cwd: directory});
-    program.child.stderr.on("data", (data) => { program.text += data; });
-    program.ended = new Promise((resolve) => program.child.on("exit", resolve));
-    programs.push(program);
-    program.url = await until("the address", () => program.text.match(/http:\S+/)?.[0]);
-    return program;
-  }
-
-  async end() {
-    this.child.kill("SIGINT");
-    return this.ended;
-  }
-}
-
-const scene = ["spd:tree:5", "--size", "160x120", "--fps", "12"];
-
-// What the canvas shows, as a text that differs when it does.
-const shown = (page) => page.evaluate("canvas.toDataURL()");
-const camera = async (page) => Number(await page.evaluate("document.body.dataset.camera"));
-const frame = async (page) => Number(await page.evaluate("document.body.dataset.frame"));
-const stateIs = (page, condition) => page.until(`state && (${condition})`);
-const middle = (page) => page.evaluate(
-  "(() => { const r = canvas.getBoundingClientRect(); return [r.x + r.width / 2, r.y + r.height / 2]; })()");
-
-async function open(browser, program, settings) {
-  const page = await browser.open(program.url, {downloads: directory, ...settings});
-  await page.until("document.body.dataset.frame && state");
-  return page;
-}
-
-async function take(page) {
-  await page.click("take");
-  await page.until("pilot.isPilot && pilot.camera !== null");
-}
-
-async function drag(page, right, down, more) {
-  const [x, y] = await middle(page);
-  await page.drag([x, y], [x + right, y + down], 8, more);
-}
-
-function noError(page) {
-  assert.deepEqual(page.errors, []);
-}
+import {
+  directory, programs, Program, scene, shown, camera, frame, stateIs, middle, open, take, drag, keepBusy,
+  writeBrightScene, watchForBlack, noError
+} from "./stage.mjs";
 
 const cases = {
   "a script plays, and the token is needed": async (browser) => {
@@ -263,18 +213,190 @@ const cases = {
 
   "a telephone's width, and a list of the keys": async (browser) => {
     const program = await Program.start(...scene);
-    const page = await open(browser, program, {width: 360, height: 740, dark: true});
+    const page = await open(browser, program, {width: 360, height: 740, dark: true, touch: true});
     assert.ok(await page.evaluate("document.documentElement.scrollWidth <= innerWidth"));
+    assert.ok(await page.evaluate(`(() => {
+      const box = element("key").getBoundingClientRect();
+      return box.width > 0 && box.top >= 0 && box.left >= 0 && box.bottom <= innerHeight && box.right <= innerWidth;
+    })()`), "the key button is in sight");
+    await page.evaluate('element("picture").dispatchEvent(new PointerEvent("pointerdown", {pointerId: 1}))').catch(() => {});
+    await page.until("element('note').textContent.includes('Tap')");
+    await page.evaluate("document.querySelector('dt').click()");
+    await page.until("element('note').textContent.includes('Rays from the eye')");
     const dark = await page.evaluate("getComputedStyle(document.body).backgroundColor");
     await page.click("theme");
     assert.notEqual(await page.evaluate("getComputedStyle(document.body).backgroundColor"), dark);
     await page.press("?");
     assert.ok(await page.evaluate("element('help').open"));
+    assert.deepEqual(await page.evaluate(`[...document.querySelectorAll("#help th")].slice(0, 4)
+      .map((cell) => getComputedStyle(cell).display !== "none")`), [true, false, true, false], "help speaks of touch");
     const unnamed = await page.evaluate(`[...document.querySelectorAll("button, input, select, canvas")].filter((e) =>
       !(e.textContent.trim() || e.getAttribute("aria-label") || e.closest("label") || e.getAttribute("aria-hidden"))).map((e) => e.id)`);
     assert.deepEqual(unnamed, []);
     noError(page);
     await program.end();
+  },
+
+  "what moves goes on under the hand that takes the camera, again and again": async (browser) => {
+    writeFileSync(join(directory, "ball.nff"), "f 1 0.2 0.1 1 0 0 0 0\ns 0 0 0 0.4\n");
+    writeFileSync(join(directory, "floor.nff"), "b 0.5 0.6 0.7\nv\nfrom 0 -6 2\nat 0 0 0\nup 0 0 1\nangle 45\n" +
+      "hither 0.1\nresolution 160 120\nl 5 -5 9\nf 0.5 0.5 0.5 1 0 0 0 0\np 4\n-9 -9 -1\n9 -9 -1\n9 9 -1\n-9 9 -1\n");
+    writeFileSync(join(directory, "roll.anim"), `animation { scene "floor.nff" frames 30 fps 12 resolution <160, 120>
+      object "ball.nff" { key 1 { translate <-2, 0, 0> } key 30 { translate <2, 0, 0> } } }`);
+    const program = await Program.start("roll.anim");
+    const page = await open(browser, program);
+    const before = await page.evaluate("shown.position");
+    await take(page);
+    await drag(page, 30, 5);
+    await page.until("shown.look === look && shown.by_hand");
+    const steered = await page.evaluate("shown.view.from");
+    const pictures = new Set();
+    const end = await frame(page) + 40;  // more than the script has
+    while (await frame(page) < end) pictures.add(await shown(page)), await sleep(60);
+    assert.ok(pictures.size > 10, "the ball rolls");
+    assert.deepEqual(await page.evaluate("shown.view.from"), steered);
+    assert.ok(await page.evaluate("state.plays"));
+    assert.match(await page.evaluate("element('position').textContent"), /^\d+ of 30, by hand$/);
+    // A key stands where the ball is.
+    await page.press(" ");
+    await stateIs(page, "!state.plays");
+    await page.until("Number(element('key-at').textContent) === shown.position");
+    await page.press("k");
+    await stateIs(page, "state.keys.length === 1 && state.keys[0] === shown.position");
+    noError(page);
+    await program.end();
+  },
+
+  "keys are moved on the time line, undone and done again, also after the slider had the focus": async (browser) => {
+    const program = await Program.start(...scene);
+    const page = await open(browser, program);
+    await page.evaluate("sayWhoHasIt(), 1");
+    await page.until("element('note').textContent.includes('Take the camera first')");
+    await take(page);
+    await page.until("element('note').textContent === ''");
+    await page.press("k");
+    await stateIs(page, "state.keys.length === 1");
+    await page.press("k");
+    await stateIs(page, "String(state.keys) === '1,25'");
+    const place = (f) => page.evaluate(`(() => {
+      const mark = document.querySelector('#marks [data-frame="${f}"]').getBoundingClientRect();
+      const line = element("marks").getBoundingClientRect();
+      return [mark.x + mark.width / 2, mark.y + mark.height / 2, line.width / (state.line - 1)];
+    })()`);
+    const [x, y, step] = await place(25);
+    await page.drag([x, y], [x - 10 * step, y]);
+    await stateIs(page, "String(state.keys) === '1,15'");
+    const ctrl = 2, shift = 8;
+    await page.press("z", {modifiers: ctrl});
+    await stateIs(page, "String(state.keys) === '1,25'");
+    await page.press("Z", {modifiers: ctrl | shift});
+    await stateIs(page, "String(state.keys) === '1,15'");
+    await page.evaluate("document.querySelector('#marks [data-frame=\"15\"]').focus(), 1");
+    await page.press("ArrowRight");
+    await stateIs(page, "String(state.keys) === '1,16'");
+    await page.press("ArrowRight");
+    await stateIs(page, "String(state.keys) === '1,17'");
+
+    // The playhead of the film is where the next key stands.
+    await page.evaluate("element('scrub').focus(), element('scrub').value = 9, element('scrub').dispatchEvent(new Event('input')), 1");
+    await page.until("shown.position === 9 && element('key-at').textContent === '9'");
+    await page.press("k");
+    await stateIs(page, "String(state.keys) === '1,9,17'");
+    await drag(page, 40, 0);
+    await page.until("element('position').textContent === '9 of 17, by hand'");
+    await page.evaluate("element('scrub').focus(), 1");
+    await page.press("u");
+    await stateIs(page, "String(state.keys) === '1,17'");
+    noError(page);
+    await program.end();
+  },
+
+  "keys that were not saved outlive the program": async (browser) => {
+    const program = await Program.start(...scene);
+    const page = await open(browser, program);
+    await take(page);
+    await page.press("k");
+    await drag(page, 50, 5);
+    await page.until("shown.look === look");
+    await page.press("k");
+    await stateIs(page, "state.keys.length === 2");
+    const keys = await page.evaluate("JSON.stringify(film.keys)");
+    const script = await page.evaluate("film.script");
+    assert.equal(await page.evaluate("JSON.stringify(unsaved.get()?.keys)"), keys, "the browser keeps them");
+    program.child.kill("SIGKILL");
+    await page.until("!element('banner').hidden");
+    await page.click("save");
+    const file = join(directory, "film.anim");
+    await until("the script without the program", () => existsSync(file));
+    assert.equal(readFileSync(file, "utf8"), script);
+
+    // On the same port the browser finds what it has kept.
+    await page.evaluate("unsaved.put(film), 1");
+    const {port} = new URL(program.url);
+    const again = await Program.start("--live", port, ...scene);
+    await page.go(again.url);
+    await page.until("state && !element('offer').hidden");
+    assert.match(await page.evaluate("element('offer-text').textContent"), /^2 keys /);
+    await page.click("restore");
+    await page.until(`JSON.stringify(film.keys) === ${JSON.stringify(keys)}`);
+    assert.ok(await page.evaluate("element('offer').hidden"));
+    await again.end();
+  },
+
+  "frame all, a point to turn round, the axes, legends, and who is late": async (browser) => {
+    const program = await Program.start(...scene, "--threads", "1");
+    const page = await open(browser, program);
+    await take(page);
+    await page.press("Home");
+    await page.until("shown.look === look && !shown.view.at.every((v, i) => v === pilot.home.at[i])");
+    const [least, most] = await page.evaluate("hello.bounds");
+    const at = await page.evaluate("pilot.camera.at");
+    at.forEach((v, i) => assert.ok(Math.abs(v - (least[i] + most[i]) / 2) < 1e-9));
+    await page.press("h");
+    await page.until("shown.look === look");
+    const axes = await page.evaluate("element('cross').toDataURL()");
+    const [x, y] = await middle(page);
+    await page.mouse("mousePressed", x + 20, y + 25, {clickCount: 1});
+    await page.mouse("mouseReleased", x + 20, y + 25, {clickCount: 1, buttons: 0});
+    await page.mouse("mousePressed", x + 20, y + 25, {clickCount: 2});
+    await page.mouse("mouseReleased", x + 20, y + 25, {clickCount: 2, buttons: 0});
+    await page.until("shown.look === look && !pilot.camera.at.every((v, i) => v === pilot.home.at[i])");
+    assert.deepEqual(await page.evaluate("pilot.camera.from"), await page.evaluate("pilot.home.from"));
+    await drag(page, 60, 10);
+    assert.notEqual(await page.evaluate("element('cross').toDataURL()"), axes);
+    await page.evaluate('connection.send({do: "overlay", name: "regions"}), 1');
+    await page.until("element('legend').textContent.includes('One rank renders the whole picture')");
+    await page.evaluate('connection.send({do: "overlay", name: "age"}), 1');
+    await page.until("element('legend').textContent.includes('Frames since')");
+    const late = (ranks) => page.evaluate(`tell({...shown, frames: [{number: 1, slack_ms: -1, samples: 0, late: [${ranks}]}]}), element("late").textContent`);
+    assert.equal(await late("0"), "rank 0");
+    assert.equal(await late("0, 2"), "ranks 0, 2");
+    noError(page);
+    await program.end();
+  },
+
+  "no tile is black after a jump, on two and four ranks beside busy programs": async (browser) => {
+    writeBrightScene();
+    for (const ranks of [2, 4]) {
+      const busy = keepBusy(3, 60);
+      const program = await Program.start("round.anim", "-np", String(ranks));
+      const page = await open(browser, program);
+      await watchForBlack(page);
+      await take(page);
+      for (let i = 0; i < 20; ++i) {
+        const before = await frame(page);
+        await page.evaluate(`connection.send({do: "seek", frame: ${1 + i * 17 % 40}})`);
+        await sleep(150);
+        if (i % 3 === 0) await page.evaluate(`connection.send({do: "rate", fps: ${[12, 30, 60, 24][i / 3 % 4]}})`);
+        if (i % 4 === 1) await page.evaluate('connection.send({do: "play"})');
+        await page.until(`Number(document.body.dataset.frame) > ${before + 3}`, 60);
+      }
+      assert.ok(await page.evaluate("pictures > 40"));
+      assert.deepEqual(await page.evaluate("black"), []);
+      noError(page);
+      await program.end();
+      for (const child of busy) child.kill();
+    }
   },
 
   "two processes serve one sequence after the other, and sleep in between": async (browser) => {

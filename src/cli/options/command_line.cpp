@@ -7,6 +7,7 @@
 #include <optional>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 #include "base/diagnostics.h"
 #include "base/nearest_word.h"
@@ -23,11 +24,29 @@
 namespace pprt {
 namespace {
 
-void use_help(CLI::App& app) {
-  app.formatter_fn([](const CLI::App* of, const std::string& name, CLI::AppFormatMode) {
+void use_help(CLI::App& app, std::vector<std::string> usual = {}) {
+  const auto text = [usual = std::move(usual)](const CLI::App* of, const std::string& name,
+                                               CLI::AppFormatMode) {
     // CLI11 passes a pointer to const, but its getters are not const; the table only reads.
-    return help_text(option_table(*const_cast<CLI::App*>(of)), name.empty() ? of->get_name() : name);
-  });
+    return help_text(option_table(*const_cast<CLI::App*>(of)), name.empty() ? of->get_name() : name, usual);
+  };
+  app.formatter_fn(text);
+}
+
+// Removes the word of "--help all". Returns whether there was one.
+bool take_help_all(std::vector<std::string>& words) {
+  for (auto word = words.begin(); word != words.end(); ++word) {
+    if (*word == "--help=all") {
+      *word = "--help";
+      return true;
+    }
+    const bool is_help = *word == "--help" || *word == "-h";
+    if (is_help && word + 1 != words.end() && *(word + 1) == "all") {
+      words.erase(word + 1);
+      return true;
+    }
+  }
+  return false;
 }
 
 // Adds --completion. Like --version it prints and ends the parsing, whatever else the command line lacks.
@@ -110,11 +129,12 @@ std::optional<std::string> parse_problem(CLI::App& app, std::vector<std::string>
 
 }  // namespace
 
-void add_common_flags(CLI::App& app) {
-  app.set_help_flag("-h,--help", "Print this help and exit");
+void add_common_flags(CLI::App& app, std::vector<std::string> usual) {
+  app.set_help_flag("-h,--help", usual.empty() ? "Print this help and exit"
+                                               : "Print this help and exit; --help all: with all options");
   app.set_version_flag("--version", app.get_name() + " " + kVersion, "Print the version and exit");
   add_completion(app);
-  use_help(app);
+  use_help(app, std::move(usual));
   for (CLI::App* subcommand : app.get_subcommands({})) use_help(*subcommand);
 }
 
@@ -123,6 +143,7 @@ bool parse_command_line(CLI::App& app, int argc, const char* const* argv) {
 }
 
 bool parse_command_line(CLI::App& app, std::vector<std::string> words) {
+  if (take_help_all(words)) use_help(app);
   std::reverse(words.begin(), words.end());  // the order that CLI11 wants
   try {
     const std::optional<std::string> problem = parse_problem(app, words);

@@ -8,7 +8,8 @@
 namespace pprt {
 
 // Adds --help, --version and --completion. Call it after all other options and subcommands are added.
-void add_common_flags(CLI::App& app);
+// `usual`: the options that --help lists, by their long names; "--help all" lists all. Empty: both do.
+void add_common_flags(CLI::App& app, std::vector<std::string> usual = {});
 
 // Parses into the options bound to `app`. Returns false when --help, --version or --completion has been
 // printed, and nothing is left to do. Throws UsageError for a command line that makes no sense. `words`

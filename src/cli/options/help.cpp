@@ -65,15 +65,26 @@ std::vector<std::string> headings(const OptionTable& table) {
   return groups;
 }
 
+std::string usual_options(const OptionTable& table, std::span<const std::string> usual) {
+  std::string text = "\nUsual options:\n";
+  for (const std::string& name : usual) {
+    for (const OptionRow& row : table.rows)
+      if (row.names.back() == name) text += entry(row);
+  }
+  return text + "\nAll options: " + table.program + " --help all\n";
+}
+
 }  // namespace
 
-std::string help_text(const OptionTable& table, const std::string& usage_name) {
+std::string help_text(const OptionTable& table, const std::string& usage_name,
+                      std::span<const std::string> usual) {
   std::string text = wrapped(table.description, 0) + "\n" + usage(table, usage_name);
   const auto has_positional = [&](const OptionRow& row) { return row.positional; };
   if (std::any_of(table.rows.begin(), table.rows.end(), has_positional)) text += "\n";
   for (const OptionRow& row : table.rows) {
     if (row.positional) text += entry(row);
   }
+  if (!usual.empty()) return text + usual_options(table, usual);
   for (const std::string& heading : headings(table)) {
     text += "\n" + heading + ":\n";
     for (const OptionRow& row : table.rows) {

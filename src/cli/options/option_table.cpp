@@ -29,6 +29,12 @@ ValueKind value_kind(const CLI::Option& option, const std::optional<OptionWords>
   return path ? ValueKind::kPath : ValueKind::kAny;
 }
 
+// "N:INT in [1 - 4096]", with what the checks say, -> "N"; "[ADDRESS:]PORT" stays whole.
+std::string label_of(const std::string& type) {
+  const std::size_t optional_part = type.starts_with('[') ? type.find(']') : 0;
+  return type.substr(0, type.find(':', std::min(optional_part, type.size())));
+}
+
 OptionRow row_of(CLI::Option& option) {
   OptionRow row;
   row.positional = option.get_positional();
@@ -41,8 +47,8 @@ OptionRow row_of(CLI::Option& option) {
   }
   row.group = option.get_group();
   std::optional<OptionWords> words = words_of(option);
-  const std::string type = option.get_type_name();  // "N:INT in [1 - 4096]", with what the checks say
-  row.label = type.substr(0, type.find(':'));
+  const std::string type = option.get_type_name();
+  row.label = label_of(type);
   row.description = option.get_description();
   row.value = value_kind(option, words, row.label);
   if (row.value == ValueKind::kNone) row.label.clear();

@@ -55,3 +55,11 @@ function zoomed(camera, factor) {
 function rolled(camera, angle) {
   return {...camera, up: turned(axesOf(camera).up, axesOf(camera).forward, -angle)};
 }
+
+// All of a box in the picture, in the same direction. `aspect`: width of the picture by its height.
+function framing(camera, [least, most], aspect) {
+  const middle = scale(add(least, most), 0.5), radius = length(subtract(most, least)) / 2;
+  const half = Math.atan(Math.tan(camera.angle * Math.PI / 360) * Math.min(1, aspect));
+  const away = normalized(subtract(camera.from, camera.at));
+  return {...camera, at: middle, from: add(middle, scale(away, Math.max(radius, 1e-9) / Math.sin(half)))};
+}

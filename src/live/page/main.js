@@ -9,6 +9,8 @@ let hello = null;       // what the program has told at the beginning
 let state = null;       // what it told last
 let look = 0;           // number of the last camera that was sent
 let shown = null;       // header of the frame on the screen
+let film = {keys: [], script: ""};  // the recorded one
+let unsaved = null;     // where this browser keeps it
 let photos = 0;         // taken
 let keyFrame = true;    // the field of the next key's frame follows the keys
 let lostNumber = 0;     // the number that this viewer had when it lost the connection, with the camera
@@ -22,7 +24,9 @@ const pilot = new Pilot(canvas, (camera) => {
     waiting = null;
   });
   waiting = camera;
-});
+}, (x, y) => connection.send({do: "pivot", x, y}));
+const compass = new Cross(element("cross"));
+const marks = new FilmMarks(element("marks"), (command) => connection.send(command));
 
 // --- What comes
 
@@ -42,10 +46,8 @@ const connection = new Connection({
   text: (message) => {
     if (message.hello) welcome(message.hello);
     if (message.state) update(message.state);
-    if (message.script) {
-      download(new Blob([message.script], {type: "text/plain"}), "film.anim");
-      say("The script is saved as film.anim.");
-    }
+    if (message.film) takeFilm(message.film);
+    if (message.pivot) pilot.turnRound(message.pivot);
     if (message.error) say(message.error);
     if (message.end) end(message.end);
   },
@@ -84,14 +86,19 @@ function tell(header) {
   const whole = header.frames.filter((frame) => frame.late.length === 0).pop();
   if (whole) element("samples").textContent = whole.samples.toLocaleString("en");
   element("flip").textContent = header.flip === null ? "–" : header.flip.toFixed(4);
-  element("late").textContent = last.late.length > 0 ? last.late.join(", ") : "none";
+  element("late").textContent = last.late.length === 0 ? "none" :
+    `${last.late.length === 1 ? "rank" : "ranks"} ${last.late.join(", ")}`;
   const median = lag.median();
   element("lag").textContent =
     median === null ? "–" : `${median.toFixed(0)} ms (${(median * rate / 1000).toFixed(1)})`;
   const frames = state ? state.frames : 0;
   const inPlay = header.position > 0 && frames > 0;
-  element("position").textContent = inPlay ? `${header.position} of ${frames}` : header.camera > 1 ? "by hand" : "first view";
-  if (inPlay && document.activeElement !== element("scrub")) element("scrub").value = header.position;
+  const isByHand = inPlay ? header.by_hand : header.camera > 1;
+  element("position").textContent = (inPlay ? `${header.position} of ${frames}` : isByHand ? "" : "first view") +
+    (isByHand ? `${inPlay ? ", " : ""}by hand` : "");
+  if (inPlay && !isScrubbing) element("scrub").value = header.position;
+  followPlayhead();
+  compass.draw(pilot.camera ?? header.view);
   document.body.dataset.camera = header.camera;
   document.body.dataset.frame = last.number;
 }
@@ -99,6 +106,8 @@ function tell(header) {
 function welcome(message) {
   hello = message;
   pilot.home = hello.home;
+  pilot.bounds = hello.bounds ?? null;
+  unsaved = new UnsavedFilm(hello.title);
   look = 0;
   lag.forget();
   element("title").textContent = hello.title;
@@ -114,7 +123,10 @@ function update(message) {
     gauge.forget();
   }
   const isPilot = state.pilot === hello.you;
-  if (isPilot && !pilot.isPilot) look = 0, lag.forget();
+  if (isPilot && !pilot.isPilot) {
+    look = 0, lag.forget();
+    if (element("note").textContent === wantsCamera()) element("note").replaceChildren();
+  }
   pilot.isPilot = isPilot;
   // The program may take some seconds to notice that a connection is lost.
   if (lostNumber && state.pilot === 0) connection.send({do: "take"});
@@ -138,17 +150,18 @@ function update(message) {
   element("rate-text").textContent = `${state.rate} ${state.rate === 1 ? "frame" : "frames"}/s`;
   fillSizes();
   element("overlay").value = state.overlay;
+  showLegend();
   element("photo").disabled = state.photo;
   if (state.photo) say("The photo is being taken: the frames wait.");
   if (before && before.photo && !state.photo && !isPilot) say("The photo is taken.");
 
   element("play-shape").setAttribute("d", state.plays ? "M3 2h4v12H3zM9 2h4v12H9z" : "M4 2l9 6-9 6z");
   element("play").setAttribute("aria-label", state.plays ? "Pause" : "Play");
-  for (const id of ["back", "forth", "scrub"]) element(id).disabled = state.frames === 0;
-  element("play").disabled = state.frames === 0 && state.keys.length === 0;
-  element("scrub").max = Math.max(1, state.frames);
+  const isEmpty = state.frames === 0 && state.keys.length === 0;
+  for (const id of ["back", "play", "forth", "scrub"]) element(id).disabled = isEmpty;
+  element("scrub").max = Math.max(1, state.line);
   element("undo").disabled = !state.undo;
-  element("save").disabled = state.keys.length === 0;
+  element("redo").disabled = !state.redo;
   element("plays-film").checked = state.film;
   element("plays-film").disabled = state.keys.length === 0;
   showKeys();
@@ -190,21 +203,65 @@ function showKeys() {
       button.onclick = act;
       item.append(button);
     };
-    add(frame, `Show the key at frame ${frame}`, () => {
-      connection.send({do: "film", on: true});
-      connection.send({do: "seek", frame});
-    });
+    add(frame, `Show the key at frame ${frame}`, () => showKey(frame));
     add("✕", `Drop the key at frame ${frame}`, () => connection.send({do: "drop", frame}));
     return item;
   }));
-  const span = Math.max(1, state.frames - 1);
-  element("marks").replaceChildren(...(state.film ? state.keys : []).map((frame) => {
-    const mark = document.createElement("i");
-    mark.style.left = `${100 * (frame - 1) / span}%`;
-    return mark;
-  }));
-  const last = state.keys[state.keys.length - 1];
-  if (keyFrame) element("key-frame").value = last ? last + Math.round(2 * state.rate) : 1;
+  marks.show(state.keys, state.line);
+  followPlayhead();
+}
+
+// In the film, which shows the key's camera.
+function showKey(frame) {
+  connection.send({do: "film", on: true});
+  connection.send({do: "seek", frame});
+}
+
+// The next key stands at the frame that is shown. Without anything that plays it follows the last one.
+function followPlayhead() {
+  if (keyFrame && state) {
+    const last = state.keys[state.keys.length - 1];
+    const next = last ? last + Math.round(2 * state.rate) : 1;
+    const frame = state.frames > 0 ? Math.max(1, shown?.position ?? 1) : next;
+    if (document.activeElement !== element("key-frame")) element("key-frame").value = frame;
+  }
+  element("key-at").textContent = element("key-frame").value;
+}
+
+// --- The film's keys, here and in this browser
+
+function takeFilm(message) {
+  const before = film.keys.length;
+  film = message;
+  element("save").disabled = film.keys.length === 0;
+  if (pilot.isPilot && film.keys.length > 0) unsaved.put(film);
+  if (pilot.isPilot && film.keys.length === 0 && before > 0) unsaved.forget();
+  offerUnsaved();
+}
+
+// Keys that this browser has and the program has not.
+function offerUnsaved() {
+  const kept = film.keys.length === 0 && !pilot.isPilot ? unsaved.get() : null;
+  element("offer").hidden = !kept;
+  if (!kept) return;
+  const keys = kept.keys.length === 1 ? "A key" : `${kept.keys.length} keys`;
+  element("offer-text").textContent = `${keys} of an earlier film of this scene ${kept.keys.length === 1 ? "was" : "were"} not saved.`;
+}
+
+function saveFilm(saved) {
+  download(new Blob([saved.script], {type: "text/plain"}), "film.anim");
+  unsaved.forget();
+  offerUnsaved();
+  say("The script is saved as film.anim.");
+}
+
+// Fewer than the program takes in a second.
+async function putBack(kept) {
+  connection.send({do: "take"});
+  for (const {frame, view} of kept.keys) {
+    connection.send({do: "key", frame, view});
+    if (frame % 10 === 0) await new Promise((resolve) => setTimeout(resolve, 100));
+  }
 }
 
 // --- What is shown beside the picture
@@ -218,12 +275,28 @@ function say(text) {
   noteTimer = setTimeout(() => element("note").replaceChildren(), 5000);
 }
 
+const isTouched = matchMedia("(pointer: coarse)").matches;
+const wantsCamera = () => isTouched ? "Tap “Take the camera” first." : "Take the camera first: t";
 function sayWhoHasIt() {
-  say(state && state.pilot > 0 ? `Viewer number ${state.pilot} has the camera.` : "Take the camera first: t");
+  say(state && state.pilot > 0 ? `Viewer number ${state.pilot} has the camera.` : wantsCamera());
 }
 canvas.addEventListener("pointerdown", () => { if (!pilot.isPilot) sayWhoHasIt(); });
 
-// Nothing more can be asked for.
+// What the colours over the picture mean.
+const legends = {
+  samples: () => "A yellow dot for each ray from the eye that the picture is made of.",
+  triangulation: () => "Yellow lines join neighbouring samples.",
+  regions: () => hello.ranks > 1 ? `A colour for the part of each of the ${hello.ranks} ranks. The parts follow the work.` :
+    "One rank renders the whole picture: there is one region. --threads or -np makes more.",
+  age: () => "Frames since what is shown was traced: 0 <i></i> 31.",
+};
+function showLegend() {
+  const text = legends[state.overlay]?.() ?? "";
+  element("legend").hidden = !text;
+  element("legend").innerHTML = text;
+}
+
+// Nothing more can be asked for, but what was recorded can be saved.
 function end(text) {
   warn(text);
   pilot.isPilot = false;
@@ -259,21 +332,31 @@ function download(blob, name) {
 
 // --- What is done
 
+function inFilmOrScript(command) {
+  if (state.frames === 0) connection.send({do: "film", on: true});
+  connection.send(command);
+}
+
 const actions = {
   take: () => connection.send({do: pilot.isPilot ? "give" : "take"}),
   // Without a script the film plays.
-  play: () => {
-    if (state.frames === 0) connection.send({do: "film", on: true});
-    connection.send({do: state.plays ? "pause" : "play"});
-  },
-  back: () => connection.send({do: "step", by: -1}),
-  forth: () => connection.send({do: "step", by: 1}),
+  play: () => inFilmOrScript({do: state.plays ? "pause" : "play"}),
+  back: () => inFilmOrScript({do: "step", by: -1}),
+  forth: () => inFilmOrScript({do: "step", by: 1}),
   key: () => {
     keyFrame = true;
     connection.send({do: "key", frame: Number(element("key-frame").value)});
   },
   undo: () => connection.send({do: "undo"}),
-  save: () => connection.send({do: "script"}),
+  redo: () => connection.send({do: "redo"}),
+  save: () => saveFilm(film),
+  keep: () => saveFilm(unsaved.get()),
+  restore: () => putBack(unsaved.get()),
+  forget: () => {
+    unsaved.forget();
+    offerUnsaved();
+  },
+  cross: () => pilot.frameAll(),
   photo: () => connection.send({do: "photo", format: element("format").value}),
   theme: () => {
     const dark = document.documentElement.dataset.theme ?
@@ -295,26 +378,50 @@ for (const [id, command] of Object.entries(settings)) {
   element(id).addEventListener("change", (event) => connection.send(command(event.target.value)));
 }
 element("pass").addEventListener("change", () => { element("pass").value = ""; });
-element("scrub").addEventListener("input", (event) => connection.send({do: "seek", frame: Number(event.target.value)}));
+let isScrubbing = false;
+element("scrub").addEventListener("pointerdown", () => { isScrubbing = true; });
+element("scrub").addEventListener("pointerup", () => { isScrubbing = false; });
+element("scrub").addEventListener("input", (event) => inFilmOrScript({do: "seek", frame: Number(event.target.value)}));
 element("plays-film").addEventListener("change", (event) => {
   connection.send({do: "film", on: event.target.checked});
   if (event.target.checked) connection.send({do: "play"});
 });
-element("key-frame").addEventListener("input", () => { keyFrame = false; });
+element("key-frame").addEventListener("input", () => {
+  keyFrame = false;
+  followPlayhead();
+});
+for (const term of document.querySelectorAll("aside [title]:not(button)")) {
+  term.addEventListener("click", () => say(term.title));
+}
 
 const shortcuts = {t: "take", " ": "play", b: "back", n: "forth", k: "key", u: "undo", s: "save", p: "photo", "?": "help-button"};
+// What an element does itself with a key.
+function isForElement(target, key) {
+  if (target.tagName === "BUTTON") return key === " " || key === "Enter";
+  if (target.type === "checkbox") return key === " ";
+  if (target.type === "range") return /^(Arrow.*|Home|End|Page.*)$/.test(key);
+  return /^(INPUT|SELECT|TEXTAREA)$/.test(target.tagName);
+}
+
+// Ctrl-Z undoes, Ctrl-Shift-Z and Ctrl-Y do it again.
+function undoOf(event) {
+  if (!(event.ctrlKey || event.metaKey) || event.altKey) return null;
+  const key = event.key.toLowerCase();
+  return key === "z" ? (event.shiftKey ? "redo" : "undo") : key === "y" ? "redo" : null;
+}
+
 document.addEventListener("keydown", (event) => {
-  const inField = /^(INPUT|SELECT|TEXTAREA)$/.test(event.target.tagName);
-  const pressesButton = event.target.tagName === "BUTTON" && (event.key === " " || event.key === "Enter");
-  if (inField || pressesButton || event.ctrlKey || event.metaKey || element("help").open) return;
-  if (pilot.key(event)) return event.preventDefault();
+  if (isForElement(event.target, event.key) || element("help").open) return;
+  const undo = undoOf(event);
+  if ((event.ctrlKey || event.metaKey) && !undo) return;
+  if (!undo && pilot.key(event)) return event.preventDefault();
   const overlay = element("overlay");
   if (event.key === "o" && pilot.isPilot) {
     overlay.selectedIndex = (overlay.selectedIndex + 1) % overlay.length;
     return overlay.dispatchEvent(new Event("change"));
   }
-  const button = element(shortcuts[event.key]);
-  const needsCamera = button ? !["take", "help-button"].includes(button.id) : /^Arrow|^[-+=,.\[\]ho]$/.test(event.key);
+  const button = element(undo ?? shortcuts[event.key]);
+  const needsCamera = button ? !["take", "save", "help-button"].includes(button.id) : /^(Arrow.*|Home|[-+=,.\[\]ho])$/.test(event.key);
   if (needsCamera && !pilot.isPilot) return sayWhoHasIt();
   if (!button || button.matches(":disabled")) return;
   event.preventDefault();

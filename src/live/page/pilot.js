@@ -1,10 +1,13 @@
 // The camera by hand: mouse, touch and keys become cameras.
 
 class Pilot {
-  // `steer(camera)` is called for each new camera. Gestures do nothing until `isPilot`.
-  constructor(canvas, steer) {
+  // `steer(camera)` is called for each new camera, `findPivot(x, y)` for a point to turn round. Gestures do
+  // nothing until `isPilot`.
+  constructor(canvas, steer, findPivot) {
     this.canvas = canvas;
     this.steer = steer;
+    this.findPivot = findPivot;
+    this.bounds = null;  // of the scene: least and greatest coordinates
     this.isPilot = false;
     this.camera = null;  // shown, or steered to
     this.home = null;
@@ -16,6 +19,23 @@ class Pilot {
     }
     canvas.addEventListener("wheel", (event) => this.wheel(event), {passive: false});
     canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+    canvas.addEventListener("dblclick", (event) => this.choosePivot(event));
+  }
+
+  // Asks for the point under the pointer, in shares of the picture.
+  choosePivot(event) {
+    if (!this.isPilot) return;
+    const box = this.canvas.getBoundingClientRect();
+    this.findPivot((event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height);
+  }
+
+  // Looks at this point, and turns round it from now on.
+  turnRound(point) {
+    return this.change((camera) => ({...camera, at: point}));
+  }
+
+  frameAll() {
+    return this.bounds ? this.change(framing, this.bounds, this.canvas.width / this.canvas.height) : false;
   }
 
   turnTo(camera) {
@@ -84,6 +104,7 @@ class Pilot {
       case ",": return this.change(rolled, -step);
       case ".": return this.change(rolled, step);
       case "h": return this.turnTo(this.home);
+      case "Home": return this.frameAll();
       default: return false;
     }
   }

@@ -13,6 +13,8 @@
 
 namespace pprt {
 
+inline constexpr int kMostThreads = 256;  // ranks in a process, by command line
+
 class ProcessRanks {
  public:
   // The run is this process alone.

@@ -16,6 +16,9 @@ class PictureRefresh {
   // Reconstructs the region's pixels, and those of further tiles that the samples cover.
   void reconstruct(Sampler& sampler, std::span<const std::int32_t> further_tiles);
 
+  // The next picture shows something else: it is reconstructed as a whole.
+  void forget() { tiles_.clear(); }
+
   // Brings a picture up to date that shows the same as before, with more samples. Before each tile it asks
   // whether time is over. The tiles that have waited longest come first. Returns the share of the tiles that
   // were reconstructed: all of them where the region has changed, none where no sample has come.

@@ -39,6 +39,13 @@ void RankSampling::trace_seeds() {
   }
 }
 
+void RankSampling::trace_missing_base() {
+  for (const Vec2d& point : sampler_->missing_base()) {
+    insert(trace(point), rank_, traits_.work.own);
+    ++counts_.traced;
+  }
+}
+
 // A sample for which other frames' shadow rays were enough is as old as they are. Coarse samples stay in
 // finer pictures, so none is filtered over more than a pixel.
 Sample RankSampling::trace(const Vec2d& point) {

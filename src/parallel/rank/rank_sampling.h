@@ -47,6 +47,9 @@ class RankSampling {
   // Traces the first samples of the region. A foreign one counts as its owner's.
   void trace_seeds();
 
+  // Traces what nothing can stand in for, whatever time is left: without it parts of the region are black.
+  void trace_missing_base();
+
   // Traces one sample where it is wanted most. False when nothing is, or when the region is full. Unless
   // null, `evidence` learns how far the picture at that point was from the sample.
   bool refine(CastEvidence* evidence);

@@ -192,6 +192,7 @@ void Worker::take_in(const std::vector<Inbox::Arrived>& bundles) {
 
 // Under a resting camera a tile shows what it showed until it is its turn.
 void Worker::reconstruct(bool rests) {
+  sampler_.trace_missing_base();
   reconstructed_ = 1;
   if (rests && ownership_.given().empty()) {
     reconstructed_ = picture_.refresh(sampler_.sampler(), [this] { return clock_->reconstruction_over(); });

@@ -70,6 +70,7 @@ void Worker::begin_anew(const FrameOrder& order, bool keeps_samples, bool eye_re
 void Worker::begin_picture(int begun_in, bool keep_learned) {
   bundles_.begin_picture(begun_in);
   sampler_.begin_picture(keep_learned);
+  picture_.forget();
 }
 
 // Sends seeds to the ranks that they concern and each cast sample to the rank whose tile it landed in; then

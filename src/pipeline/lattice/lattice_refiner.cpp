@@ -133,6 +133,13 @@ std::vector<Vec2d> LatticeRefiner::base_points() const {
   return points;
 }
 
+std::vector<Vec2d> LatticeRefiner::missing_base() const {
+  std::vector<Vec2d> points;
+  for (const LatticeNode& node : own_.base_nodes())
+    if (!store_.is_sampled(node)) points.push_back(point_of(node));
+  return points;
+}
+
 double LatticeRefiner::samples_left() const {
   const auto now = static_cast<double>(samples_);
   return expected_ > now ? expected_ - now : now;
@@ -165,7 +172,7 @@ std::optional<Vec2d> LatticeRefiner::next_point() {
 bool LatticeRefiner::next_nodes() {
   next_ = 0;
   nodes_.clear();
-  if (std::exchange(is_region_new_, false) && !knows_base()) return leave_pass();
+  if (std::exchange(is_region_new_, false) && !missing_base().empty()) return leave_pass();
   if (level_ == pass_.end_level && !next_tile()) return start_pass();
   if (!surfaces_wanted_.empty()) return true;
   const std::size_t level = level_++;
@@ -192,14 +199,6 @@ bool LatticeRefiner::next_tile() {
     return true;
   }
   return false;
-}
-
-// Squares without their corners are black. Samples usually come with the tiles of a new region, but those of
-// a late rank do not.
-bool LatticeRefiner::knows_base() const {
-  const std::vector<LatticeNode> corners = own_.base_nodes();
-  return std::all_of(corners.begin(), corners.end(),
-                     [this](const LatticeNode& corner) { return store_.is_sampled(corner); });
 }
 
 // Begins another pass before this one has ended.

@@ -64,6 +64,9 @@ class LatticeRefiner {
   // Returns the nodes at the corners of the region's base squares, some of which belong to other regions.
   std::vector<Vec2d> base_points() const;
 
+  // Returns those without a sample. Squares between them are black.
+  std::vector<Vec2d> missing_base() const;
+
   // Returns the image point of the next sample, pixels. It may lie up to eight pixels beyond the right and
   // lower border. Empty when nothing is worth a sample.
   std::optional<Vec2d> next_point();
@@ -125,7 +128,6 @@ class LatticeRefiner {
 
   bool next_nodes();
   bool next_tile();
-  bool knows_base() const;
   bool leave_pass();
   bool start_pass();
   void choose_fineness();
@@ -174,7 +176,7 @@ class LatticeRefiner {
   bool has_fineness_ = false;
   bool has_looked_ = false;                        // for unsampled surfaces
   std::vector<UnsampledSurface> surfaces_wanted_;  // of the tile, in this pass
-  bool is_region_new_ = false;                     // its base may be unknown
+  bool is_region_new_ = false;                     // its base may be missing
   double growth_ = 0;  // samples that a pass takes, for each that its candidates promise
   float last_threshold_ = 0;
   int tile_ = 0;                     // of the pass

@@ -30,6 +30,7 @@ class LatticeSampler final : public Sampler {
 
   void clear(bool keep_learned) override;
   std::vector<SeedPoint> seeds() const override;
+  std::vector<Vec2d> missing_base() const override { return refiner_.missing_base(); }
   std::optional<Vec2d> next_point() override { return refiner_.next_point(); }
   double footprint(const Vec2d& point) const override;
   bool insert(const Sample& sample) override;

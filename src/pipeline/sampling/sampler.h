@@ -52,6 +52,10 @@ class Sampler {
   // needs.
   virtual std::vector<SeedPoint> seeds() const = 0;
 
+  // Returns the points without whose samples parts of the region have no colour. A late rank gets tiles
+  // without their samples.
+  virtual std::vector<Vec2d> missing_base() const { return {}; }
+
   // Returns the image point of the sample that is wanted most, pixels. Empty when none is worth its time. The
   // same point is not returned again, whether a sample is inserted there or not.
   virtual std::optional<Vec2d> next_point() = 0;

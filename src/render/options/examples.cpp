@@ -45,7 +45,7 @@ std::string scenes_folder() {
 std::string first_steps() {
   return "pprt-render needs a scene. To begin with:\n"
          "  pprt-render spd:tree -s 256x256 -o tree.png\n"
-         "More commands: pprt-render --examples. All options: pprt-render --help\n";
+         "More commands: pprt-render --examples. All options: pprt-render --help all\n";
 }
 
 std::string examples() {

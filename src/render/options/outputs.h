@@ -20,7 +20,11 @@ struct OutputFiles {
   std::filesystem::path contact_sheet;  // empty: none
   std::filesystem::path film;           // empty: none
   double film_rate = 25;                // frames/s
+  bool keeps_frames = true;             // otherwise they are for the film alone
 };
+
+// Whether a file's name is that of a film: .mp4, .mkv or .gif.
+bool is_film_name(const std::filesystem::path& file);
 
 // What the run reports about its frames.
 struct Reports {

@@ -13,6 +13,7 @@
 #include "cli/options/typed_options.h"
 #include "cli/scenes/scene_source.h"
 #include "layers/layer.h"
+#include "parallel/network/process_ranks.h"
 #include "trace/effects.h"
 
 namespace pprt {
@@ -55,21 +56,20 @@ void add_positionals(CLI::App& app, RenderOptions& o) {
 }
 
 void add_threads_option(CLI::App& app, RenderOptions& o) {
-  constexpr std::uint64_t kMost = 256;
-  static const CLI::Validator is_count = count_from(1, kMost);
+  static const CLI::Validator is_count = count_from(1, kMostThreads);
   const auto check = [](std::string& text) {
     if (text == "auto") return std::string();
     const std::string problem = is_count(text);
     return problem.empty() ? problem : problem + ", nor auto";
   };
   const auto set = [&o](const std::string& text) {
-    o.ranks.threads = text == "auto" ? std::nullopt : std::optional(std::stoi(text));
+    o.ranks.threads = text == "auto" ? RankOptions::kAllCores : std::stoi(text);
   };
   app.add_option_function<std::string>(
          "--threads", set,
-         "Number of ranks in each process, as threads that share the scene; auto: one for each core")
+         "Number of ranks in each process, as threads that share the scene; auto, the default "
+         "without -np and without --clock work: one for each core")
       ->check(CLI::Validator(check, "", ""))
-      ->default_str("1")
       ->type_name("N")
       ->group(kRun);
 }
@@ -78,7 +78,6 @@ void add_run_options(CLI::App& app, RenderOptions& o) {
   app.add_option("--np", o.ranks.processes,
                  "Number of processes (also -np N, as in mpirun); starts mpirun if more than one")
       ->check(count_from(1, 4096))
-      ->capture_default_str()
       ->type_name("N")
       ->group(kRun);
   add_threads_option(app, o);
@@ -142,13 +141,18 @@ void add_image_options(CLI::App& app, RenderOptions& o) {
       ->group(group);
   const auto set_outputs = [&o](const std::vector<std::string>& names) {
     o.output.pictures.clear();
-    for (const std::string& name : names)
-      o.output.pictures.push_back(parse_frame_pattern(name, FrameCount::kOne));
+    for (const std::string& name : names) {
+      if (is_film_name(name)) {
+        o.output.film = name;
+      } else {
+        o.output.pictures.push_back(parse_frame_pattern(name, FrameCount::kOne));
+      }
+    }
   };
   app.add_option_function<std::vector<std::string>>(
          "-o,--output", set_outputs,
-         "File names of the frames, .exr or .png, with %04d or #### for the frame number; may be "
-         "given twice (default: " +
+         "File names of the frames, .exr or .png, with %04d or #### for the frame number, or of a film; may "
+         "be given twice (default: " +
              std::string(kDefaultOutput) + ")")
       ->type_name("PATTERN")
       ->type_size(1)
@@ -175,7 +179,9 @@ void add_image_options(CLI::App& app, RenderOptions& o) {
       ->type_name("FILE")
       ->group(group);
   app.add_option("--film", o.output.film,
-                 "Make a film of the finished frames, .mp4, .mkv or .gif (needs ffmpeg)")
+                 "Make a film of the finished frames, .mp4, .mkv or .gif (needs ffmpeg); they are kept where "
+                 "-o names "
+                 "them")
       ->type_name("FILE")
       ->group(group);
   auto* overwrite = app.add_flag("--overwrite", o.overwrite, "Replace existing files")->group(group);
@@ -267,6 +273,23 @@ void add_render_options(CLI::App& app, RenderOptions& options) {
   add_live_options(app, options);
   add_effect_options(app, options);
   add_report_options(app, options);
+}
+
+std::vector<std::string> usual_options() {
+  return {"--size",    "--output", "--frames", "--film", "--overwrite", "--fps",
+          "--quality", "--clock",  "--live",   "--np",   "--examples",  "--help"};
+}
+
+void put_in_order(SourceOptions& source) {
+  if (is_script_name(source.input) && !source.script.empty() && !is_script_name(source.script))
+    std::swap(source.input, source.script);
+}
+
+std::optional<int> ranks_in_process(const RenderOptions& options, bool is_launched) {
+  const RankOptions& ranks = options.ranks;
+  const bool wants_one = ranks.processes || is_launched || options.method.clock == ClockKind::kWork;
+  const int threads = ranks.threads.value_or(wants_one ? 1 : RankOptions::kAllCores);
+  return threads == RankOptions::kAllCores ? std::nullopt : std::optional(threads);
 }
 
 std::vector<std::string> with_long_np(std::vector<std::string> words) {

@@ -33,10 +33,12 @@ struct SourceOptions {
 
 // Where the run takes place.
 struct RankOptions {
-  int processes = 1;
-  std::optional<int> threads = 1;  // ranks in each process; empty: as many as it has cores
-  std::string hostfile;            // empty: none
-  bool go_on = false;              // without ranks that do not answer
+  static constexpr int kAllCores = 0;
+
+  std::optional<int> processes;  // empty: this one, unless a launcher has started more
+  std::optional<int> threads;    // ranks in each process, or kAllCores; empty: see ranks_in_process()
+  std::string hostfile;          // empty: none
+  bool go_on = false;            // without ranks that do not answer
 };
 
 // What ends a frame: the deadline of a rate, or the first stop rule that holds.
@@ -74,6 +76,10 @@ struct RenderOptions {
 
 inline constexpr const char* kDefaultOutput = "frame_%04d.png";
 
+// Returns how many ranks a process has; empty: as many as it has cores. Unless the options tell, it has one
+// where they name the number of processes or count work, and where a launcher has started it.
+std::optional<int> ranks_in_process(const RenderOptions& options, bool is_launched);
+
 // Throws UsageError with the first contradiction that can be found in the options alone.
 void check_usage(const RenderOptions& options);
 
@@ -83,6 +89,12 @@ bool needs_triangulation(const SessionSettings& method, WeightRule weights);
 // Binds the options to their names, with the help text in groups. While `app` parses, a value that cannot be
 // parsed throws UsageError or CLI::ParseError.
 void add_render_options(CLI::App& app, RenderOptions& options);
+
+// Returns the names of the options that --help lists first.
+std::vector<std::string> usual_options();
+
+// Puts a script that stands before its scene behind it.
+void put_in_order(SourceOptions& source);
 
 // Returns the words with mpirun's spelling "-np" as "--np".
 std::vector<std::string> with_long_np(std::vector<std::string> words);

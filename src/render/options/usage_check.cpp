@@ -13,8 +13,7 @@ void require_picture_name(const std::filesystem::path& sheet) {
 }
 
 void require_film_name(const std::filesystem::path& film) {
-  const std::filesystem::path end = film.extension();
-  if (film.empty() || end == ".mp4" || end == ".mkv" || end == ".gif") return;
+  if (film.empty() || is_film_name(film)) return;
   throw UsageError("--film " + film.string() + ": want a name that ends in .mp4, .mkv or .gif");
 }
 
@@ -33,6 +32,11 @@ void require_live_usage(const RenderOptions& options) {
 }
 
 }  // namespace
+
+bool is_film_name(const std::filesystem::path& file) {
+  const std::filesystem::path end = file.extension();
+  return end == ".mp4" || end == ".mkv" || end == ".gif";
+}
 
 bool needs_triangulation(const SessionSettings& method, WeightRule weights) {
   return method.cast == CastChoice::kPaper || weights == WeightRule::kPaper ||

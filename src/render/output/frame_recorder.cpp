@@ -1,6 +1,7 @@
 #include "render/output/frame_recorder.h"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -20,13 +21,6 @@
 
 namespace pprt {
 namespace {
-
-// "a/%04d.png and b/#.exr"
-std::string names_of(const std::vector<FramePattern>& pictures) {
-  std::string names;
-  for (const FramePattern& picture : pictures) names += (names.empty() ? "" : " and ") + picture.text;
-  return names;
-}
 
 // Appends the record's entries: nested ones as "rays.primary" and the like, lists as text.
 void append_metadata(Metadata& metadata, const std::string& prefix, const Json& record) {
@@ -194,7 +188,8 @@ void FrameRecorder::write_contact_sheet() const {
     const Image picture = read_image(file_name(plan_.output.pictures.front(), frame));
     thumbnails.push_back(thumbnail(picture, layout.thumbnail_width));
   }
-  write_image(sheet, contact_sheet(thumbnails, layout));
+  const std::vector<int> numbers(written_.begin(), written_.end());
+  write_image(sheet, contact_sheet(thumbnails, layout, numbers));
 }
 
 void FrameRecorder::make_film() const {
@@ -202,6 +197,32 @@ void FrameRecorder::make_film() const {
   std::vector<std::filesystem::path> pictures;
   for (const int frame : written_) pictures.push_back(file_name(plan_.output.pictures.front(), frame));
   write_film(plan_.output.film, pictures, plan_.output.film_rate);
+}
+
+// Those of a run that was stopped are there for --resume.
+void FrameRecorder::remove_frames_of_film() const {
+  if (plan_.output.keeps_frames) return;
+  std::error_code stays;
+  std::filesystem::remove_all(file_name(plan_.output.pictures.front(), 1).parent_path(), stays);
+}
+
+// "a/0001.png to a/0024.png, b/1.exr to b/24.exr, film.mp4"
+std::string FrameRecorder::where(bool has_failed) const {
+  const OutputFiles& output = plan_.output;
+  const bool has_film = !has_failed && !output.film.empty() && !written_.empty();
+  std::vector<std::string> names;
+  for (const FramePattern& picture : output.pictures) {
+    if (has_film && !output.keeps_frames) break;
+    if (has_failed || written_.empty()) {
+      names.push_back(picture.text);
+      continue;
+    }
+    const std::string first = file_name(picture, *written_.begin()).string();
+    const std::string last = file_name(picture, *written_.rbegin()).string();
+    names.push_back(first == last ? first : first + " to " + last);
+  }
+  if (has_film) names.push_back(output.film.string());
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 int FrameRecorder::frames_in_place() const {
@@ -223,7 +244,6 @@ std::size_t FrameRecorder::settle_files() {
 }
 
 void FrameRecorder::finish(bool stopped) {
-  const std::string where = names_of(plan_.output.pictures);
   try {
     writer_.finish();
     const std::size_t removed = settle_files();
@@ -240,10 +260,11 @@ void FrameRecorder::finish(bool stopped) {
     ledger_.write(summary_record(totals_, plan_.settings.frames_per_second > 0));
   } catch (...) {
     settle_files();
-    progress_.finish(RunEnd::kFailed, frames_in_place(), totals_, where);
+    progress_.finish(RunEnd::kFailed, frames_in_place(), totals_, where(true));
     throw;
   }
-  progress_.finish(stopped ? RunEnd::kStopped : RunEnd::kDone, frames_in_place(), totals_, where);
+  progress_.finish(stopped ? RunEnd::kStopped : RunEnd::kDone, frames_in_place(), totals_, where(false));
+  if (!stopped) remove_frames_of_film();
 }
 
 }  // namespace pprt

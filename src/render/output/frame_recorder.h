@@ -55,7 +55,9 @@ class FrameRecorder {
   std::size_t settle_files();
   void write_contact_sheet() const;
   void make_film() const;
-  int frames_in_place() const;  // that this run has written
+  void remove_frames_of_film() const;
+  std::string where(bool has_failed) const;  // the files are
+  int frames_in_place() const;               // that this run has written
 
   const RenderPlan& plan_;
   const CompiledScene& scene_;

@@ -93,6 +93,21 @@ void require_references(const RenderPlan& plan) {
   }
 }
 
+// A missing directory is made. If the one that it would lie in is missing as well, a name was probably
+// mistyped.
+void require_near(const fs::path& file) {
+  const fs::path directory = file.lexically_normal().parent_path(), outer = directory.parent_path();
+  if (directory.empty() || fs::exists(directory) || outer.empty() || fs::exists(outer)) return;
+  throw UsageError(fmt::format("cannot write '{}': there is no directory '{}'; make it first", file.string(),
+                               outer.string()));
+}
+
+void require_near_files(const RenderPlan& plan) {
+  for (const FramePattern& picture : plan.output.pictures)
+    if (plan.output.keeps_frames) require_near(file_name(picture, plan.frames.front().number));
+  for (const NamedFile& file : files_of_the_run(plan)) require_near(file.path);
+}
+
 void require_writable_files(const RenderPlan& plan) {
   for (const FramePattern& file : files_of_a_frame(plan.output)) {
     require_writable(file_name(file, plan.frames.front().number));
@@ -105,6 +120,7 @@ void require_writable_files(const RenderPlan& plan) {
 
 void check_files(const RenderPlan& plan) {
   if (plan.output.pictures.empty()) return;
+  require_near_files(plan);
   require_distinct_files(plan);
   require_new_files(plan);
   require_continuable_lines(plan);

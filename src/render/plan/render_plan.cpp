@@ -129,10 +129,21 @@ void require_live_rate(double fps, bool has_stop_rule) {
   if (has_stop_rule) throw UsageError("--live has a rate: it takes no --time, --samples or --quality");
 }
 
+// Returns where frames stand until a film alone is made of them.
+FramePattern frames_of_film(const std::filesystem::path& film) {
+  FramePattern frames = parse_frame_pattern("%06d.png", FrameCount::kMany);
+  frames.before = film.string() + ".frames/";
+  frames.text = frames.before + frames.text;
+  return frames;
+}
+
 // `is_live`: nothing is written unless it is named.
 OutputFiles named_files(OutputFiles output, bool is_live, std::size_t frame_count) {
-  if (output.pictures.empty() && !is_live)
-    output.pictures.push_back(parse_frame_pattern(kDefaultOutput, FrameCount::kOne));
+  if (output.pictures.empty() && !is_live) {
+    output.keeps_frames = output.film.empty() || !output.layers.empty();
+    output.pictures.push_back(output.keeps_frames ? parse_frame_pattern(kDefaultOutput, FrameCount::kOne)
+                                                  : frames_of_film(output.film));
+  }
   if (frame_count > 1) {
     for (const FramePattern& picture : output.pictures) require_field(picture);
   }
@@ -143,6 +154,24 @@ OutputFiles named_files(OutputFiles output, bool is_live, std::size_t frame_coun
 bool turns(const RenderOptions& options, const Sources& sources) {
   return sources.is_model && !sources.script && !sources.scene.scene.movement.times && !options.live &&
          !options.output.film.empty();
+}
+
+// Whether the only picture's name has room for one frame, of several that nobody has asked for.
+bool asks_for_first_frame(const RenderOptions& options, std::size_t frame_count) {
+  const OutputFiles& output = options.output;
+  return frame_count > 1 && !options.frames && !options.live && output.pictures.size() == 1 &&
+         !output.pictures.front().digits && output.film.empty() && output.contact_sheet.empty();
+}
+
+// Tells how to get the others.
+std::string only_first_frame(const std::string& picture, int length) {
+  const std::filesystem::path name(picture);
+  const std::filesystem::path stem = name.parent_path() / name.stem();
+  return fmt::format(
+      "pprt-render: '{}' has no place for a number: only frame 1 of {} is rendered; -o '{}_%04d{}' gives "
+      "all, "
+      "-o '{}.mp4' a film\n",
+      picture, length, stem.string(), name.extension().string(), stem.string());
 }
 
 RenderPlan plan_of(const RenderOptions& options, Sources& sources) {
@@ -165,6 +194,11 @@ RenderPlan plan_of(const RenderOptions& options, Sources& sources) {
   const int judged = std::min(length, kMostJudged);
   const FrameRange range = frames_to_render(options.frames, length);
   std::vector<PlannedFrame> frames = planned_frames(sources, base, range, range.last - range.first + 1);
+  std::string warnings = sources.warnings();
+  if (asks_for_first_frame(options, frames.size())) {
+    frames.resize(1);
+    warnings += only_first_frame(options.output.pictures.front().text, length);
+  }
 
   // Their files, and how the ranks make them.
   OutputFiles output = named_files(options.output, is_live, frames.size());
@@ -196,7 +230,7 @@ RenderPlan plan_of(const RenderOptions& options, Sources& sources) {
           .goes_on = options.ranks.go_on,
           .live = options.live,
           .compile = options.compile,
-          .warnings = sources.warnings(),
+          .warnings = std::move(warnings),
           .scene = std::move(sources.scene.scene)};
 }
 

@@ -166,7 +166,8 @@ void ProgressReporter::finish(RunEnd end, int written, const RunTotals& totals, 
       text += fmt::format("; {} on time at {:g} frames/s, the slowest {}", totals.on_time(),
                           scope_.frames_per_second, lateness(totals.worst_late_ms()));
     }
-    text += fmt::format("; {} samples a frame", grouped(totals.samples_per_frame()));
+    text += fmt::format("; {} samples{}", grouped(totals.samples_per_frame()),
+                        scope_.frames == 1 ? "" : " a frame");
     text += measured(totals.error());
   }
   print_message(fmt::format("{}\n", text));
@@ -218,7 +219,8 @@ std::string ProgressReporter::line(const RunTotals& totals) const {
   } else {
     text += fmt::format("  {}/s", rate);
   }
-  text += fmt::format("  {} samples a frame", grouped(totals.samples_per_frame()));
+  text += fmt::format("  {} samples{}", grouped(totals.samples_per_frame()),
+                      scope_.frames == 1 ? "" : " a frame");
   return text + fmt::format("  {} left", minutes(pace_.seconds_for(frames_left())));
 }
 

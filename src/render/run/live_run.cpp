@@ -23,16 +23,47 @@
 namespace pprt {
 namespace {
 
-LiveShow show_of(const RenderPlan& plan, const CompiledScene& scene) {
+// Returns the time of what moves in a frame of the script; empty: there is no such frame.
+std::optional<double> time_at(const RenderPlan& plan, int frame) {
+  const int place = frame - plan.frames.front().number;
+  if (place < 0 || place >= static_cast<int>(plan.frames.size())) return std::nullopt;
+  return plan.frames[static_cast<std::size_t>(place)].time;
+}
+
+std::optional<Vec3d> seen_at(const RenderPlan& plan, const CompiledScene& scene, const View& view,
+                             const Vec2d& point, int moment) {
+  const Camera camera = scene.camera(view);
+  Tracer tracer(scene, camera);
+  tracer.set_time(time_at(plan, moment).value_or(plan.frames.front().time));
+  const float depth = tracer.first_hit(point.x, point.y).depth;
+  if (!std::isfinite(depth)) return std::nullopt;
+  return view.from + ray_direction(camera, point.x, point.y) * depth;  // the compiled space has the same axes
+}
+
+// Whether something but the camera moves while the frames play.
+bool moves(const RenderPlan& plan, const CompiledScene& scene) {
+  const double first = plan.frames.front().time;
+  return std::any_of(plan.frames.begin(), plan.frames.end(),
+                     [&](const PlannedFrame& frame) { return scene.moves_between(first, frame.time); });
+}
+
+LiveShow show_of(const RenderPlan& plan, const CompiledScene& scene, int ranks) {
   LiveShow show{.title = plan.scene.name,
                 .scene_name = plan.scene_name,
                 .objects = plan.objects,
                 .home = plan.frames.front().view,
                 .script = {},
                 .frames_per_second = plan.settings.frames_per_second,
+                .moves = moves(plan, scene),
+                .bounds = bounds(plan.scene),
+                .ranks = ranks,
                 .records = !plan.output.pictures.empty(),
                 .require_camera = [&scene](const View& view) { scene.camera(view); },
-                .require_size = [](int width, int height) { require_memory(width, height, true); }};
+                .require_size = [](int width, int height) { require_memory(width, height, true); },
+                .seen_at =
+                    [&](const View& view, double x, double y, int moment) {
+                      return seen_at(plan, scene, view, {x, y}, moment);
+                    }};
   if (plan.script_name.empty() && plan.frames.size() < 2) return show;
   for (const PlannedFrame& frame : plan.frames) show.script.push_back({frame.number, frame.view, frame.cut});
   return show;
@@ -102,7 +133,7 @@ class LiveRunner {
         ranks_(ranks),
         recorder_(recorder),
         run_sequence_(run_sequence),
-        view_(*plan.live, show_of(plan, scene)) {
+        view_(*plan.live, show_of(plan, scene, ranks)) {
     time_ = plan.frames.front().time;
     if (recorder == nullptr) return;
     for (const PlannedFrame& frame : plan.frames)
@@ -164,7 +195,7 @@ class LiveRunner {
       const std::optional<LiveShot> shot = view_.steering().next_shot();
       if (!shot) return std::nullopt;
       shots.push_back(*shot);
-      const double before = std::exchange(time_, time_of(*shot));
+      const double before = std::exchange(time_, time_at(plan_, shot->moment).value_or(time_));
       return FrameRequest{.number = ++number_,
                           .camera = camera_of(shot->view),
                           .cut = shot->cut,
@@ -179,13 +210,6 @@ class LiveRunner {
       deliver(std::move(frame), shot, grid);
     };
     run_sequence_(settings, source, sink, [] { return false; });
-  }
-
-  // What moves stands still while the script does.
-  double time_of(const LiveShot& shot) const {
-    const int place = shot.script_frame - plan_.frames.front().number;
-    const bool is_planned = place >= 0 && place < static_cast<int>(plan_.frames.size());
-    return is_planned ? plan_.frames[static_cast<std::size_t>(place)].time : time_;
   }
 
   // A film goes through cameras that nobody has seen. One that is none is left out.

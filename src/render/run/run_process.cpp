@@ -302,7 +302,7 @@ int run_mpi_process(const PlanMaker& make_plan, std::optional<int> threads, LogL
   meet_others(processes);
   require_rank(processes, told_rank);
   if (processes.rank() == 0) tell_launcher({.event = RankEvent::kMet});
-  const int share = std::max(1, processes.cores_on_host() / processes.ranks_on_host());
+  const int share = std::clamp(processes.cores_on_host() / processes.ranks_on_host(), 1, kMostThreads);
   ProcessRanks ranks(processes, threads.value_or(share));
   set_up_log(log, ranks.ranks().first);
   JobBroadcast broadcast(&processes);
@@ -342,7 +342,7 @@ int run_process(const PlanMaker& make_plan, std::optional<int> threads, LogLevel
   keep_freed_memory();
   if (started_by_mpi_launcher()) return run_mpi_process(make_plan, threads, log, progress);
   set_up_log(log, 0);
-  ProcessRanks ranks(threads.value_or(usable_cores()));
+  ProcessRanks ranks(threads.value_or(std::min(usable_cores(), kMostThreads)));
   JobBroadcast broadcast(nullptr);
   return run_first_process(ranks, make_plan, progress, broadcast);
 }

@@ -45,6 +45,28 @@ TEST_CASE("thumbnails stand in reading order with gaps between and around") {
   }
 }
 
+TEST_CASE("thumbnails bear their numbers") {
+  const std::vector<Image> pictures(2, Image(32, 16, Color(0.5F)));
+  const ContactSheetLayout layout{.columns = 2, .gap = 0, .thumbnail_width = 32};
+  const std::vector<int> numbers = {1, 42};
+  const Image page = contact_sheet(pictures, layout, numbers);
+  const auto row = [&](int left, int y) {  // dots of two pixels
+    std::string dots;
+    for (int x = left; x < left + 18; x += 2)
+      dots += page.at(x, y).x == 1 ? '#' : page.at(x, y).x == 0 ? '.' : ' ';
+    return dots;
+  };
+  const std::vector<std::string> one = {".....    ", "..#..    ", ".##..    ", "..#..    ",
+                                        "..#..    ", ".###.    ", ".....    "};
+  const std::vector<std::string> two = {".........", ".#.#.###.", ".#.#...#.", ".###.###.",
+                                        "...#.#...", "...#.###.", "........."};
+  for (int i = 0; i < 7; ++i) {
+    CHECK(row(0, 2 + 2 * i) == one[static_cast<std::size_t>(i)]);
+    CHECK(row(32, 2 + 2 * i) == two[static_cast<std::size_t>(i)]);
+  }
+  CHECK(contact_sheet(std::vector<Image>(1, Image(4, 1)), {.thumbnail_width = 4}, numbers).width == 12);
+}
+
 TEST_CASE("few pictures make a narrow page") {
   const std::vector<Image> pictures(1, Image(4, 4));
   CHECK(contact_sheet(pictures, {.columns = 8, .gap = 0, .thumbnail_width = 4}).width == 4);

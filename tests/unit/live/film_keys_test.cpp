@@ -46,6 +46,33 @@ TEST_CASE("film keys: each change can be undone, the last first") {
   CHECK_FALSE(film.can_undo());
 }
 
+TEST_CASE("film keys: what was undone comes again, until something else is changed") {
+  FilmKeys film;
+  film.set(1, view_from(1));
+  film.set(5, view_from(5));
+  film.undo();
+  CHECK(film.redo());
+  CHECK(frames_of(film) == std::vector<double>{1, 5});
+  CHECK_FALSE(film.redo());
+  film.undo();
+  film.set(9, view_from(9));
+  CHECK_FALSE(film.can_redo());
+}
+
+TEST_CASE("film keys: a key that is moved replaces the one that is there") {
+  FilmKeys film;
+  for (const int frame : {1, 5, 9}) film.set(frame, view_from(frame));
+  CHECK(film.move(1, 7));
+  CHECK(frames_of(film) == std::vector<double>{5, 7, 9});
+  CHECK(film.move(7, 9));
+  CHECK(frames_of(film) == std::vector<double>{5, 9});
+  CHECK(film.keys()[1].from.x == 1);
+  CHECK_FALSE(film.move(7, 8));
+  CHECK(film.move(5, 5));
+  CHECK(film.undo());
+  CHECK(frames_of(film) == std::vector<double>{5, 7, 9});
+}
+
 TEST_CASE("film keys: there are so many and no more, in the list and to undo") {
   FilmKeys film;
   for (int n = 1; n <= static_cast<int>(FilmKeys::kMost); ++n) REQUIRE(film.set(n, view_from(n)));

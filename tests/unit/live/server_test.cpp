@@ -224,7 +224,7 @@ TEST_CASE("live server: what is too long, too much or no text ends a client, and
 }
 
 TEST_CASE("live server: malformed, oversized and slow requests are closed, and others answered meanwhile") {
-  Stage stage({.patience_s = 0.3});
+  Stage stage({.request_patience_s = 0.3});
   tcp::socket slow = stage.connection();
   asio::write(slow, asio::buffer(std::string("GET / HT")));
   CHECK(stage.reply("\r\n\r\n\r\n\x01\x02\x03\r\n\r\n").empty());
@@ -234,6 +234,18 @@ TEST_CASE("live server: malformed, oversized and slow requests are closed, and o
   error_code error;
   asio::read(slow, asio::dynamic_buffer(rest), error);  // returns: the server has closed
   CHECK(rest.empty());
+}
+
+TEST_CASE("live server: strangers are closed soon, and clients stay") {
+  Stage stage({.request_patience_s = 0.3, .patience_s = 60});
+  Client viewer(stage);
+  REQUIRE(comes_true([&] { return stage.joined == 1; }));
+  tcp::socket idle = stage.connection();
+  std::string nothing;
+  error_code error;
+  asio::read(idle, asio::dynamic_buffer(nothing), error);  // returns: the server has closed
+  CHECK(error == asio::error::eof);
+  CHECK(stage.left == 0);
 }
 
 TEST_CASE("live server: more connections than allowed are closed") {
@@ -247,7 +259,7 @@ TEST_CASE("live server: more connections than allowed are closed") {
 }
 
 TEST_CASE("live server: connections that say nothing keep nobody out") {
-  Stage stage({.most_strangers = 3, .patience_s = 60});
+  Stage stage({.most_clients = 1, .most_strangers = 3, .request_patience_s = 60});
   std::vector<tcp::socket> idle;
   for (int i = 0; i < 8; ++i) idle.push_back(stage.connection());
   CHECK(has_status(stage.get("/" + stage.server().token() + "/"), 200));

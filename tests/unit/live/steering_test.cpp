@@ -22,11 +22,15 @@ View view_from(double x) {
 // A steering, and what it has told.
 class Stage {
  public:
-  explicit Stage(int script_frames = 0, bool records = false)
+  explicit Stage(int script_frames = 0, bool records = false, bool moves = false)
       : steering(
-            show(script_frames, records),
+            show(script_frames, records, moves),
             {.tell = [this](int client, std::string text) { told.emplace_back(client, Json::parse(text)); },
-             .tell_all = [this](std::string text) { state = Json::parse(text)["state"]; }}) {
+             .tell_all =
+                 [this](std::string text) {
+                   const Json message = Json::parse(text);
+                   (message.contains("film") ? film : state) = message.begin().value();
+                 }}) {
     steering.next_run();
   }
 
@@ -48,13 +52,17 @@ class Stage {
   }
 
   std::vector<std::pair<int, Json>> told;
-  Json state;
+  Json state, film;
   Steering steering;
 
  private:
-  static LiveShow show(int script_frames, bool records) {
+  static LiveShow show(int script_frames, bool records, bool moves) {
     LiveShow show{.title = "a scene", .scene_name = "spd:tree", .home = view_from(-1)};
-    show.records = records;
+    show.records = records, show.moves = moves;
+    show.seen_at = [](const View& view, double x, double y, int moment) -> std::optional<Vec3d> {
+      if (y > 24) return std::nullopt;
+      return Vec3d(view.from.x, x, moment);
+    };
     for (int n = 1; n <= script_frames; ++n)
       show.script.push_back({.number = 10 + n, .view = view_from(n), .cut = n == 3});
     show.require_size = [](int width, int) {
@@ -87,7 +95,8 @@ TEST_CASE("steering: a script plays to its end and stays there") {
 TEST_CASE("steering: a client is told who it is, and all who has the camera") {
   Stage stage(2);
   stage.steering.joined(4);
-  REQUIRE(stage.told.size() == 1);
+  REQUIRE(stage.told.size() == 2);
+  CHECK(stage.told[1].second["film"]["keys"] == Json::array());
   const Json hello = stage.told[0].second["hello"];
   CHECK((hello["you"] == 4 && hello["title"] == "a scene"));
   CHECK(hello["home"]["from"] == Json({-1.0, 0.0, 0.0}));
@@ -129,7 +138,8 @@ TEST_CASE("steering: the camera by hand, and back to the script where it was lef
   stage.look(1, 17, 5.5);
   const LiveShot by_hand = stage.shot();
   CHECK((by_hand.view.from.x == 5.5 && by_hand.view.angle_degrees == 40 && by_hand.view.width == 64));
-  CHECK((by_hand.look == 17 && by_hand.pilot == 1 && by_hand.script_frame == 0 && by_hand.position == 0));
+  CHECK((by_hand.look == 17 && by_hand.pilot == 1 && by_hand.script_frame == 0));
+  CHECK((by_hand.by_hand && by_hand.position == 1));  // where the script was left
   CHECK((by_hand.camera == 2 && !by_hand.cut));
   CHECK(stage.shot().camera == 2);
   stage.say(1, R"({"do":"give"})");
@@ -283,8 +293,7 @@ TEST_CASE("steering: keys make a film, which plays and is saved") {
   stage.look(1, 3, 2), stage.shot();
   stage.say(1, R"({"do":"key","frame":5})");
   CHECK(stage.state["keys"] == Json({1, 5, 9}));
-  stage.say(2, R"({"do":"script"})");  // anybody may have it
-  const auto script = stage.told.back().second["script"].get<std::string>();
+  const auto script = stage.film["script"].get<std::string>();
   CHECK(script.find("scene \"spd:tree\"") != std::string::npos);
   CHECK(script.find("frames 9 fps 24 resolution <64, 48>") != std::string::npos);
   CHECK(script.find("key 5 { from <2, 0, 0> at <0, 0, 9> up <0, 1, 0> angle 40 }") != std::string::npos);
@@ -308,8 +317,7 @@ TEST_CASE("steering: keys make a film, which plays and is saved") {
   stage.say(1, R"({"do":"undo"})");
   stage.say(1, R"({"do":"undo"})");
   CHECK(stage.state["keys"].empty());
-  stage.say(1, R"({"do":"script"})");
-  CHECK(stage.error() == "the film has no key yet");
+  CHECK(stage.film["keys"].empty());
   CHECK(stage.state["film"] == false);
   stage.say(1, R"({"do":"undo"})");
   CHECK(stage.error() == "there is nothing to undo");
@@ -365,6 +373,93 @@ TEST_CASE("steering: given back, the script plays on, not the film") {
   const LiveShot back = stage.shot();
   CHECK((back.position == 3 && back.script_frame == 13 && back.cut));
   CHECK(stage.state["film"] == false);
+}
+
+TEST_CASE("steering: what moves plays again and again, and goes on under a camera by hand") {
+  Stage stage(3, false, true);
+  stage.steering.joined(1);
+  for (const int n : {1, 2, 3, 1}) {
+    const LiveShot shot = stage.shot();
+    CHECK((shot.moment == 10 + n && shot.script_frame == 10 + n && shot.view.from.x == n));
+  }
+  CHECK(stage.state["plays"] == true);
+  stage.say(1, R"({"do":"take"})");
+  const LiveShot taken = stage.shot();
+  CHECK((taken.moment == 12 && taken.view.from.x == 1 && taken.script_frame == 0 && taken.by_hand));
+  stage.look(1, 1, 7);
+  const LiveShot steered = stage.shot();
+  CHECK((steered.moment == 13 && steered.view.from.x == 7 && steered.position == 3 && !steered.cut));
+  const LiveShot again = stage.shot();
+  CHECK((again.moment == 11 && again.view.from.x == 7 && again.cut));
+
+  // The camera stays the pilot's while time stands still or is chosen.
+  stage.say(1, R"({"do":"pause"})");
+  CHECK((stage.shot().moment == 11 && stage.shot().view.from.x == 7));
+  stage.say(1, R"({"do":"seek","frame":3})");
+  const LiveShot sought = stage.shot();
+  CHECK((sought.moment == 13 && sought.view.from.x == 7));
+  stage.say(1, R"({"do":"play"})");
+  CHECK((stage.shot().moment == 11 && stage.shot().view.from.x == 7));
+  stage.say(1, R"({"do":"give"})");
+  const LiveShot back = stage.shot();
+  CHECK((back.moment == 13 && back.view.from.x == 3 && back.cut));
+}
+
+TEST_CASE("steering: a film of what moves lasts as long as it does") {
+  Stage stage(5, false, true);
+  stage.steering.joined(1);
+  stage.say(1, R"({"do":"take"})");
+  stage.look(1, 1, 2), stage.shot();
+  stage.say(1, R"({"do":"key","frame":1})");
+  stage.look(1, 2, 4), stage.shot();
+  stage.say(1, R"({"do":"key","frame":3})");
+  CHECK(stage.film["script"].get<std::string>().find("frames 5 ") != std::string::npos);
+  stage.say(1, R"({"do":"film","on":true})");
+  stage.say(1, R"({"do":"play"})");
+  for (const int n : {1, 2, 3, 4, 5, 1}) {
+    const LiveShot shot = stage.shot();
+    CHECK((shot.moment == 10 + n && shot.position == n && shot.script_frame == 0));
+  }
+}
+
+TEST_CASE("steering: where frames are recorded, what moves plays once") {
+  Stage stage(2, true, true);
+  stage.shot(), stage.shot();
+  CHECK(stage.steering.is_played_out());
+}
+
+TEST_CASE("steering: keys move, are put back from a copy, and come again after an undo") {
+  Stage stage;
+  stage.steering.joined(1);
+  stage.say(1, R"({"do":"take"})");
+  stage.say(1, R"({"do":"key","frame":1})");
+  stage.say(1, R"({"do":"key","frame":9,"view":{"from":[5,0,0],"at":[0,0,9],"up":[0,1,0],"angle":40}})");
+  CHECK(stage.film["keys"][1]["view"]["from"] == Json({5.0, 0.0, 0.0}));
+  stage.say(1, R"({"do":"move","frame":9,"to":4})");
+  CHECK(stage.state["keys"] == Json({1, 4}));
+  CHECK(stage.film["keys"][1]["view"]["from"] == Json({5.0, 0.0, 0.0}));
+  CHECK(stage.state["line"] == 4 + 2 * 24);  // room for the next key
+  stage.say(1, R"({"do":"undo"})");
+  CHECK((stage.state["keys"] == Json({1, 9}) && stage.state["redo"] == true));
+  stage.say(1, R"({"do":"redo"})");
+  CHECK((stage.state["keys"] == Json({1, 4}) && stage.state["redo"] == false));
+  stage.say(1, R"({"do":"move","frame":8,"to":4})");
+  CHECK(stage.error() == "there is no key at frame 8");
+  stage.say(1, R"({"do":"redo"})");
+  CHECK(stage.error() == "there is nothing to do again");
+  stage.say(1, R"({"do":"key","frame":9,"view":{"from":[1e7,0,0],"at":[0,0,9],"up":[0,1,0],"angle":40}})");
+  CHECK(stage.error() == "too far away");
+}
+
+TEST_CASE("steering: the pilot is told what is seen at a point") {
+  Stage stage(3, false, true);
+  stage.steering.joined(1);
+  stage.shot(), stage.shot();
+  stage.say(1, R"({"do":"take"})");
+  stage.say(1, R"({"do":"pivot","x":0.25,"y":0.5})");
+  CHECK(stage.told.back().second["pivot"] == Json({2.0, 16.0, 12.0}));
+  stage.say(1, R"({"do":"pivot","x":0.25,"y":0.75})");
+  CHECK(stage.error() == "there is nothing to turn round");
 }
 
 TEST_CASE("steering: a size that memory cannot hold is refused") {

@@ -34,8 +34,10 @@ class Pair {
         sent_[static_cast<std::size_t>(message.from)].push_back(pixels);
         pictures_.try_emplace(pixels.frame_index, partition_.grid).first->second.paste(message.from, pixels);
       }));
+      auto clock = std::make_unique<SetClock>(80, kPeriod, now_);
+      clocks_.push_back(clock.get());
       workers_.push_back(std::make_unique<Worker>(*communicators_[r], *inboxes_[r], settings_, partition_,
-                                                  probe(r), std::make_unique<SetClock>(80, kPeriod, now_)));
+                                                  probe(r), std::move(clock)));
     }
   }
 
@@ -57,6 +59,10 @@ class Pair {
     if (asleep) return;
     while (next_of_late_ < orders_.size()) workers_[1]->render(orders_[next_of_late_++]);
     inboxes_[0]->pump();
+  }
+
+  void forbid_refresh() {
+    for (SetClock* clock : clocks_) clock->forbid_refresh();
   }
 
   const Partition& partition() const { return partition_; }
@@ -140,6 +146,7 @@ class Pair {
   Camera cameras_[2];
   std::vector<std::unique_ptr<LocalCommunicator>> communicators_;
   std::vector<std::unique_ptr<Inbox>> inboxes_;
+  std::vector<SetClock*> clocks_;  // the workers'
   std::vector<std::unique_ptr<Worker>> workers_;
   std::vector<FrameOrder> orders_;
   std::size_t next_of_late_ = 0;
@@ -208,6 +215,16 @@ BOTH_SAMPLERS_TEST_CASE("late rank: one that missed the beginning of the others'
   pair.step({3, Carry::kAccumulate});
   CHECK(pair.last_of(1).report.samples_cast > 100);
   CHECK(pair.last_of(0).report.samples_received > 0);
+  pair.check_last_frame_is_whole();
+}
+
+BOTH_SAMPLERS_TEST_CASE(
+    "late rank: where it joins a new picture at rest it shows nothing of the one before") {
+  Pair pair(sampler);
+  pair.step(kFirst);
+  pair.forbid_refresh();
+  pair.step({30, Carry::kNothing}, true);
+  pair.step({30, Carry::kAccumulate});
   pair.check_last_frame_is_whole();
 }
 

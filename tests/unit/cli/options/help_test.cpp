@@ -83,4 +83,23 @@ TEST_CASE("help lists options in groups, in their order, within 79 columns") {
         "  -h,--help             Help\n");
 }
 
+TEST_CASE("usual options are listed alone, in their own order") {
+  const std::vector<std::string> usual = {"--output", "--count"};
+  const std::string text = help_text(sample_table(), "make-thing", usual);
+  CHECK(text.substr(text.find("Usual")) ==
+        "Usual options:\n"
+        "  -o,--output FILE      Where to\n"
+        "  -n,--count N          How often [3]\n"
+        "\n"
+        "All options: make-thing --help all\n");
+}
+
+TEST_CASE("the label of a value may have an optional part with a colon") {
+  CLI::App app("", "make-thing");
+  std::string text;
+  app.add_option("--live", text, "Where")->type_name("[ADDRESS:]PORT");
+  const OptionTable table = option_table(app);
+  CHECK(table.rows.back().label == "[ADDRESS:]PORT");
+}
+
 }  // namespace pprt::help_test

@@ -24,7 +24,7 @@ class SetClock final : public FrameClock {
   bool packet_over() override { return left_-- == 0; }
   bool sampling_over() override { return packets_ >= kPackets; }
   bool is_fine_enough() const override { return false; }
-  bool reconstruction_over() override { return false; }
+  bool reconstruction_over() override { return !may_refresh_; }
   void end_sampling(double) override {}
   double pace() const override { return 1; }
   double sampling_share() const override { return packets_ < kPackets ? 0.25 : 1; }
@@ -41,6 +41,9 @@ class SetClock final : public FrameClock {
 
   int readings() const { return readings_; }
 
+  // From now on no time is left for the reconstruction of a resting picture.
+  void forbid_refresh() { may_refresh_ = false; }
+
  private:
   static constexpr int kPackets = 6;
 
@@ -50,6 +53,7 @@ class SetClock final : public FrameClock {
   mutable int readings_ = 0;
   int packets_ = 0;
   int left_ = 0;
+  bool may_refresh_ = true;
 };
 
 }  // namespace pprt

@@ -19,14 +19,15 @@ constexpr double kNow = 0;  // all the time
 // Three ranks; the middle third of the image is rank 1's, which is real.
 class Scene {
  public:
-  explicit Scene(SamplerChoice sampler, BalanceMode balance = BalanceMode::kLocal)
+  explicit Scene(SamplerChoice sampler, BalanceMode balance = BalanceMode::kLocal,
+                 int samples_per_packet = 20)
       : settings_(make_settings(sampler, balance)) {
     for (int rank = 0; rank < 3; ++rank) {
       communicators_.push_back(std::make_unique<LocalCommunicator>(network_, rank));
     }
     inbox_ = std::make_unique<Inbox>(
         *communicators_[1], 0.1, [](const Message&) {}, [this] { ++looks_; });
-    auto clock = std::make_unique<SetClock>(20, kPeriod, kNow);
+    auto clock = std::make_unique<SetClock>(samples_per_packet, kPeriod, kNow);
     clock_ = clock.get();
     worker_ = std::make_unique<Worker>(*communicators_[1], *inbox_, settings_, partition_, probe(),
                                        std::move(clock));
@@ -61,15 +62,16 @@ class Scene {
     return bundles;
   }
 
-  // Rank 1's report of the frame rendered last.
-  RankReport report() {
-    std::optional<RankReport> report;
+  // What rank 1 has sent of the frame rendered last.
+  PixelMessage pixels() {
+    std::optional<PixelMessage> pixels;
     while (const std::optional<Message> m = communicators_[0]->receive()) {
-      if (m->tag == Tag::kPixels) report = decode_pixels(m->payload).report;
+      if (m->tag == Tag::kPixels) pixels = decode_pixels(m->payload);
     }
-    REQUIRE(report);
-    return *report;
+    REQUIRE(pixels);
+    return *pixels;
   }
+  RankReport report() { return pixels().report; }
 
   void set_rays(std::uint32_t of_a_sample) { rays_ = of_a_sample; }
 
@@ -207,6 +209,20 @@ BOTH_SAMPLERS_TEST_CASE(
       CHECK(times_told(bundles, lost) == 0);
     }
   }
+}
+
+// Where a rank is late, those of the tile are of a picture that it has not begun.
+BOTH_SAMPLERS_TEST_CASE("worker: a tile that comes without its samples is not black, even without time") {
+  Scene scene(sampler, BalanceMode::kLocal, 0);
+  const int tile = 2 * 12 + 3;  // rank 0's, beside rank 1's
+  scene.render(Carry::kNothing);
+  scene.send(0, {.round = 5, .tiles = {.given = {{.tile = tile, .owner = 1, .version = 1}}}});
+  scene.render(Carry::kAccumulate);
+  const PixelMessage pixels = scene.pixels();
+  REQUIRE(std::any_of(pixels.tiles.begin(), pixels.tiles.end(),
+                      [](const TileReport& report) { return report.tile == tile; }));
+  CHECK(std::all_of(pixels.colors.begin(), pixels.colors.end(),
+                    [](const Color& color) { return color.z > 0.19F; }));
 }
 
 BOTH_SAMPLERS_TEST_CASE(

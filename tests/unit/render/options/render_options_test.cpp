@@ -28,7 +28,27 @@ TEST_CASE("mpirun's -np is accepted anywhere on the command line") {
   CHECK(parse({"-np", "32", "spd:tree"}).ranks.processes == 32);
   CHECK(parse({"spd:tree", "a.anim", "-np", "3", "--fps", "4"}).ranks.processes == 3);
   CHECK(parse({"spd:tree", "--np", "3"}).ranks.processes == 3);
-  CHECK(parse({"spd:tree"}).ranks.processes == 1);
+  CHECK_FALSE(parse({"spd:tree"}).ranks.processes);
+}
+
+TEST_CASE(
+    "all cores are used unless processes are named, counted work is to be the same, or a launcher is at "
+    "work") {
+  const auto ranks = [](std::vector<std::string> words, bool is_launched = false) {
+    words.insert(words.begin(), "spd:tree");
+    return ranks_in_process(parse(std::move(words)), is_launched).value_or(-1);
+  };
+  constexpr int kAll = -1;
+  CHECK(ranks({}) == kAll);
+  CHECK(ranks({"--fps", "24"}) == kAll);
+  CHECK(ranks({"--clock", "work"}) == 1);
+  CHECK(ranks({"-np", "2"}) == 1);
+  CHECK(ranks({"-np", "1"}) == 1);
+  CHECK(ranks({}, true) == 1);
+  for (const bool is_launched : {false, true}) {
+    CHECK(ranks({"--threads", "auto", "--clock", "work", "-np", "2"}, is_launched) == kAll);
+    CHECK(ranks({"--threads", "3"}, is_launched) == 3);
+  }
 }
 
 TEST_CASE("scene and script may stand among the options, in their order") {
@@ -44,6 +64,24 @@ TEST_CASE("the option --output may be given twice and takes one word each time")
   REQUIRE(options.output.pictures.size() == 2);
   CHECK((options.output.pictures[0].text == "%d.png" && options.output.pictures[1].text == "%d.exr"));
   CHECK(options.source.input == "spd:tree");
+}
+
+TEST_CASE("the option --output takes a film's name as --film does") {
+  const RenderOptions film = parse({"spd:tree", "-o", "turn.mp4"});
+  CHECK((film.output.film == "turn.mp4" && film.output.pictures.empty()));
+  const RenderOptions both = parse({"spd:tree", "-o", "%d.png", "-o", "turn.gif"});
+  CHECK((both.output.film == "turn.gif" && both.output.pictures.size() == 1));
+}
+
+TEST_CASE("a script before its scene is taken for what it is") {
+  for (const auto& words : {std::vector<std::string>{"a.anim", "b.nff"}, {"b.nff", "a.anim"}}) {
+    SourceOptions source = parse(words).source;
+    put_in_order(source);
+    CHECK((source.input == "b.nff" && source.script == "a.anim"));
+  }
+  SourceOptions alone = parse({"a.anim"}).source;
+  put_in_order(alone);
+  CHECK((alone.input == "a.anim" && alone.script.empty()));
 }
 
 TEST_CASE("numbers outside their range and unknown words are refused") {

@@ -208,6 +208,28 @@ TEST_CASE("a script may name its scene, relative to its own directory") {
                     Contains("names no scene"));
 }
 
+TEST_CASE("a name without a place for the number gets the first frame, and it is said how to get more") {
+  const Files files;
+  RenderOptions options = scripted(files);
+  options.output.pictures = {pattern("out/one.png")};
+  const RenderPlan plan = plan_render(options);
+  CHECK((plan.frames.size() == 1 && plan.frames[0].number == 1));
+  CHECK(plan.warnings ==
+        "pprt-render: 'out/one.png' has no place for a number: only frame 1 of 10 is rendered; "
+        "-o 'out/one_%04d.png' gives all, -o 'out/one.mp4' a film\n");
+}
+
+TEST_CASE("frames of a film alone stand beside it for a while") {
+  const Files files;
+  RenderOptions options = scripted(files);
+  options.output.film = "films/a.mp4", options.output.pictures.clear();
+  const RenderPlan plan = plan_render(options);
+  CHECK_FALSE(plan.output.keeps_frames);
+  CHECK(file_name(plan.output.pictures.at(0), 7) == "films/a.mp4.frames/000007.png");
+  options.output.pictures = {pattern("%d.png")};
+  CHECK(plan_render(options).output.keeps_frames);
+}
+
 TEST_CASE("options that contradict each other are usage errors that say why") {
   const Files files;
   const auto refuse = [&](const std::function<void(RenderOptions&)>& change, const std::string& message) {
@@ -222,7 +244,7 @@ TEST_CASE("options that contradict each other are usage errors that say why") {
   refuse([](RenderOptions& o) { o.end.budget = 10; }, "--clock work");
   refuse([](RenderOptions& o) { o.end.budget = 10, o.method.clock = ClockKind::kWork, o.end.fps = 0; },
          "--budget needs a frame rate");
-  refuse([](RenderOptions& o) { o.output.pictures = {pattern("one.png")}; }, "one.png");
+  refuse([](RenderOptions& o) { o.output.pictures = {pattern("one.png")}, o.frames = {1, 2}; }, "one.png");
   refuse([](RenderOptions& o) { o.report.compare_serial = true; },
          "--compare-serial tells the ledger: it needs --stats");
 }
