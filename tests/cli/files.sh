@@ -157,7 +157,7 @@ run pprt-render ball.nff --samples 500 -o still.exr; expect_code 0
 
 # A still has samples, not samples a frame.
 run pprt-render ball.nff --clock work --samples 300 -o still.png; expect_code 0
-expect_line err 'done: 1 of 1 frame in still.png; [0-9,]* samples'
+expect_line err 'done: 1 of 1 frame in still.png; [0-9,]* samples; RMSE [0-9.a-z() ]*'
 # A name for one frame gets the first of a script.
 run pprt-render ball.anim "${work[@]}" -o first.png; expect_code 0
 expect_line err "pprt-render: 'first.png' has no place for a number: only frame 1 of 12 is rendered; -o 'first_%04d.png' gives all, -o 'first.mp4' a film"

@@ -21,7 +21,7 @@ mpirun_by_hand -np 3 pprt-render broken.nff --bogus 2>told || code=$?
 [[ $code == 2 && $(grep -c -- --bogus told) == 1 ]] || { cat told >&2; fail "a usage error ended with code $code"; }
 for what in --help --write-config; do
   mpirun_by_hand -np 3 pprt-render broken.nff $what >told || fail "$what failed"
-  [[ $(grep -c 'max-depth' told) == 1 ]] || { cat told >&2; fail "$what was not told once"; }
+  [[ $(grep -cE 'Usage: |max-depth' told) == 1 ]] || { cat told >&2; fail "$what was not told once"; }
 done
 code=0
 pprt-render no-such.nff -np 4 -o none.png 2>told || code=$?

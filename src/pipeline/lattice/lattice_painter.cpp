@@ -233,8 +233,8 @@ void LatticePainter::gather(const LatticeNode& corner, int side, const SquareCor
 
 // Whether all points of a square of whole pixels see one primitive.
 bool LatticePainter::is_uniform(const LatticeNode& corner, int pixels) const {
-  const int x = corner.x / kPixelSide, y = corner.y / kPixelSide, tile = visibility_.tile_pixels();
-  return visibility_.tile(x, y).is_uniform(x % tile, y % tile, pixels);
+  const int x = corner.x / kPixelSide, y = corner.y / kPixelSide;
+  return visibility_.tile(x, y).is_uniform(visibility_.in_tile(x), visibility_.in_tile(y), pixels);
 }
 
 // The pixels of a square with samples at its corners only, in which several surfaces are seen.
@@ -254,10 +254,10 @@ void LatticePainter::paint_mixed(const LatticeNode& corner, int side, const Squa
 // Returns the surfaces seen at the points of a pixel, its border included, and their shares: points on the
 // border count half, and a quarter in a corner.
 LatticePainter::SeenInPixel LatticePainter::seen_in(const LatticeNode& corner) const {
-  const int density = visibility_.points_per_side(), tile = visibility_.tile_pixels();
+  const int density = visibility_.points_per_side();
   const int pixel_x = corner.x / kPixelSide, pixel_y = corner.y / kPixelSide;
   const VisibleTile& seen = visibility_.tile(pixel_x, pixel_y);
-  const int left = pixel_x % tile * density, top = pixel_y % tile * density;
+  const int left = visibility_.in_tile(pixel_x) * density, top = visibility_.in_tile(pixel_y) * density;
   SeenInPixel found;
   std::array<std::uint16_t, 8> numbers;
   found.shares.fill(0);

@@ -49,6 +49,8 @@ LatticeRefiner::LatticeRefiner(const Region& region, PrimitiveShapes shapes, Lat
 }
 
 void LatticeRefiner::clear() {
+  sees_mirrors_ = false;
+  visibility_.limit(VisibilityBuffer::kNoLimit);
   visibility_.forget(VisibilityBuffer::kFine);
   estimates_.clear();
   share_.clear();
@@ -61,6 +63,12 @@ void LatticeRefiner::restart() {
   const double as_many = static_cast<double>(samples_);
   growth_ = kFirstGrowth;  // of the last, small passes until now
   errors_.fade(kShareOfLast);
+  // Where a sample says little of its surface, as in mirrors, it does not pay to know surfaces.
+  constexpr float kMirrors = 0.4F;
+  if (share_.of_one() < kMirrors) {
+    sees_mirrors_ = true;
+    visibility_.limit(0);
+  }
   forget_samples();
   expect(as_many);
 }
@@ -97,6 +105,9 @@ void LatticeRefiner::set_region(const Region& region) {
     }
   });
   has_base_ = has_looked_ = false;
+  surfaces_wanted_.clear();
+  nodes_.clear();  // they stay candidates
+  next_ = 0;
   is_region_new_ = true;
   if (order_ == LatticeOrder::kLevels) grid_levels_ = 0;
 }
@@ -232,16 +243,20 @@ void LatticeRefiner::start(const Pass& pass) {
   level_ = pass_.end_level;
 }
 
-// Where there are few samples finer edges would not show. What they cost does not grow with the samples.
+// Where there are few samples finer edges would not show. What they cost does not grow with the samples, nor
+// does what it costs to see. A picture that begins without an estimate of its samples is a still's: it gets
+// all.
 void LatticeRefiner::choose_fineness() {
   constexpr double kVeryFew = 0.07, kFew = 0.4;  // samples a pixel
-  const double samples =
-      (static_cast<double>(samples_) + samples_left()) / static_cast<double>(region().pixel_count());
+  constexpr double kItems = 3.5;                // for each sample
   if (std::exchange(has_fineness_, true) || expected_ == 0) return;
-  const VisibilityBuffer::Fineness fineness = samples < kVeryFew ? VisibilityBuffer::kCoarse
-                                              : samples < kFew   ? VisibilityBuffer::kMiddle
-                                                                 : VisibilityBuffer::kFine;
+  const double samples = static_cast<double>(samples_) + samples_left();
+  const double per_pixel = samples / static_cast<double>(region().pixel_count());
+  const VisibilityBuffer::Fineness fineness = per_pixel < kVeryFew ? VisibilityBuffer::kCoarse
+                                              : per_pixel < kFew   ? VisibilityBuffer::kMiddle
+                                                                   : VisibilityBuffer::kFine;
   if (fineness != visibility_.fineness()) visibility_.forget(fineness);
+  if (!sees_mirrors_) visibility_.limit(static_cast<std::size_t>(kItems * samples));
 }
 
 // Takes a whole level, while the levels so far are but a part of all samples to come.

@@ -82,7 +82,8 @@ void LatticeRefiner::insert_wanted(const RaySample& sample) {
   estimates_.learn(class_of(predicted.basis, predicted.variance, near.level),
                    effect * detail_of(predicted.variance), effect * std::sqrt(error));
   if (predicted.basis != Basis::kAllAround && predicted.basis != Basis::kNothing) learn_share(at, seen);
-  if (at.area == 0) errors_.note(at.node, error, rays);  // others' are no worse for a surface that was not known
+  if (at.area == 0)
+    errors_.note(at.node, error, rays);  // others' are no worse for a surface that was not known
   set_sample(at.node, NodeValue(seen, visibility_.surface_of(sample.primitive)));
   if (at.area > 0) return;
   const float worth = worth_around(at, error, predicted.variance, predicted.basis);
@@ -270,7 +271,13 @@ double LatticeRefiner::weigh(std::vector<TileWeights>& weights) const {
     TileWeights& here = weights[static_cast<std::size_t>(grid.tile_at(x, y))];
     here.count += count, here.total_weight += root;
   });
-  const std::array<std::int64_t, 256>& of = store_.candidates();
+  std::array<std::int64_t, 256> of = store_.candidates();
+  unsampled_surfaces_.for_each([&](const UnsampledSurface& surface) {
+    const Vec2d at = point_of(surface.node);
+    TileWeights& here = weights[static_cast<std::size_t>(grid.tile_at(at.x, at.y))];
+    ++here.count, ++of[surface.priority];
+    here.total_weight += std::sqrt(static_cast<double>(least_worth(surface.priority)));
+  });
   double worth = 0;
   for (std::size_t i = kLeastCandidate + 1; i <= kGreatestCandidate; ++i)
     worth += static_cast<double>(of[i]) * static_cast<double>(least_worth(static_cast<NodeState>(i)));

@@ -61,9 +61,11 @@ struct Prediction {
 
 // Returns the primitive seen at a node. Only if the visibility is known.
 inline std::uint32_t seen_at(VisibilityBuffer& visibility, const LatticeNode& node) {
-  const int interval = kPixelSide / visibility.points_per_side();
-  if ((node.x | node.y) % interval != 0) return visibility.at(point_of(node));
-  return visibility.at(node.x / interval, node.y / interval);
+  constexpr int kLog2Side = 4;
+  static_assert(1 << kLog2Side == kPixelSide);
+  const int shift = kLog2Side - visibility.log2_points_per_side();
+  if (((node.x | node.y) & ((1 << shift) - 1)) != 0) return visibility.at(point_of(node));
+  return visibility.at(node.x >> shift, node.y >> shift);
 }
 
 // Reads a lattice. The references must outlive the object.

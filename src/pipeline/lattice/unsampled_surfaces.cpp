@@ -14,8 +14,9 @@ std::span<UnsampledSurface> UnsampledSurfaces::find(VisibilityBuffer& visibility
                                                     const SurfaceSamples& samples,
                                                     const LatticeNode& corner) {
   constexpr int kBasePixels = kBaseSide / kPixelSide;
-  const int density = visibility.points_per_side(), tile_pixels = visibility.tile_pixels();
-  const int x_in_tile = corner.x / kPixelSide % tile_pixels, y_in_tile = corner.y / kPixelSide % tile_pixels;
+  const int density = visibility.points_per_side();
+  const int x_in_tile = visibility.in_tile(corner.x / kPixelSide);
+  const int y_in_tile = visibility.in_tile(corner.y / kPixelSide);
   const VisibleTile& tile = visibility.tile(corner.x / kPixelSide, corner.y / kPixelSide);
   found_.clear();
   if (tile.is_uniform(x_in_tile, y_in_tile, kBasePixels)) return {};

@@ -40,6 +40,13 @@ class UnsampledSurfaces {
 
   void keep(int tile, const UnsampledSurface& surface);
 
+  // Calls visit(surface) for all that are kept.
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for (const std::vector<UnsampledSurface>& all : of_tile_)
+      for (const UnsampledSurface& surface : all) visit(surface);
+  }
+
   // How many there are of each priority.
   const std::array<std::int64_t, 256>& counts() const { return counts_; }
 

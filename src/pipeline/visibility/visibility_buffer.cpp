@@ -1,6 +1,7 @@
 #include "pipeline/visibility/visibility_buffer.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -31,9 +32,10 @@ VisibilityBuffer::VisibilityBuffer(int right, int bottom, PrimitiveShapes shapes
 
 void VisibilityBuffer::forget(const Fineness& fineness) {
   constexpr std::uint32_t kMost = 1 << 20;
-  state_ =
-      shapes_.project && shapes_.count > 0 && shapes_.count <= kMost ? State::kNotAsked : State::kUnknown;
-  density_ = fineness.points_per_side, share_points_ = fineness.share_points;
+  const bool has_shapes = shapes_.project && shapes_.count > 0 && shapes_.count <= kMost;
+  state_ = has_shapes && most_items_ > 0 ? State::kNotAsked : State::kUnknown;
+  density_ = fineness.points_per_side, log2_density_ = std::countr_zero(static_cast<unsigned>(density_)),
+  share_points_ = fineness.share_points;
   columns_ = (right_ + tile_pixels() - 1) / tile_pixels(),
   rows_ = (bottom_ + tile_pixels() - 1) / tile_pixels();
   is_seen_.assign(static_cast<std::size_t>(columns_ * rows_), 0);
@@ -47,6 +49,7 @@ bool VisibilityBuffer::project_all() {
     shapes_.project(primitive, asked_);
     if (asked_.kind == ImageShape::Kind::kUnknown) return false;
     add(primitive, asked_);
+    if (items_.size() > most_items_) return false;
   }
   assign_to_tiles();
   if (tiles_.size() < is_seen_.size()) tiles_.resize(is_seen_.size());

@@ -71,6 +71,8 @@ struct PrimitiveShapes {
 
 class VisibilityBuffer {
  public:
+  static constexpr std::size_t kNoLimit = ~std::size_t{0};
+
   // For the points (0, 0) to (right, bottom), pixels.
   VisibilityBuffer(int right, int bottom, PrimitiveShapes shapes);
 
@@ -87,21 +89,28 @@ class VisibilityBuffer {
   void forget(const Fineness& fineness);
   void forget() { forget(fineness()); }
 
+  // Counts as not known where more quadrics and facets than this are in the picture: then rasterising them
+  // would take longer than it is worth. 0: they are not even projected.
+  void limit(std::size_t items) {
+    if (items == 0) state_ = State::kUnknown;
+    most_items_ = items;
+  }
+
   Fineness fineness() const { return {density_, share_points_}; }
 
   std::uint32_t surface_of(std::uint32_t primitive) const { return shapes_.surface_of(primitive); }
 
   int points_per_side() const { return density_; }
+  int log2_points_per_side() const { return log2_density_; }
   bool has_shares() const { return share_points_ > 0; }
 
-  // Whether what is seen can be known: every primitive has a shape (image_shape.h), and they are not too
-  // many.
+  // Whether what is seen is known: every primitive has a shape (image_shape.h), and they are not too many.
   bool is_known() { return state_ == State::kKnown || (state_ == State::kNotAsked && project_all()); }
 
   // Returns the tile that holds a pixel. Only if is_known().
   const VisibleTile& tile(int pixel_x, int pixel_y) {
-    const auto number =
-        static_cast<std::size_t>(pixel_y / tile_pixels() * columns_ + pixel_x / tile_pixels());
+    const auto number = static_cast<std::size_t>((pixel_y >> log2_tile_pixels()) * columns_ +
+                                                 (pixel_x >> log2_tile_pixels()));
     if (!is_seen_[number]) see(number);
     return *tiles_[number];
   }
@@ -113,7 +122,10 @@ class VisibilityBuffer {
   // They are told by the tile's own numbers. Shares sum up to 1. Only if is_known().
   void shares(int pixel_x, int pixel_y, std::span<const std::uint16_t> numbers, std::span<float> shares);
 
-  int tile_pixels() const { return kTileIntervals / density_; }
+  int tile_pixels() const { return kTileIntervals >> log2_density_; }
+
+  // Returns a pixel's place in its tile.
+  int in_tile(int pixel) const { return pixel & (tile_pixels() - 1); }
 
   // Returns the surface at a point of the picture, counted in intervals; 0: the background. Only if
   // is_known().
@@ -126,6 +138,10 @@ class VisibilityBuffer {
   }
 
  private:
+  static constexpr int kLog2Intervals = 6;
+  static_assert(1 << kLog2Intervals == kTileIntervals);
+  int log2_tile_pixels() const { return kLog2Intervals - log2_density_; }
+
   enum class State : std::uint8_t { kNotAsked, kKnown, kUnknown };
 
   // A quadric or a facet.
@@ -153,11 +169,13 @@ class VisibilityBuffer {
   void find_surfaces(VisibleTile& tile);
 
   int right_, bottom_;
+  int log2_density_ = 2;
   int density_ = 4;             // points along a pixel's side
   int share_points_ = 64;       // Fineness
   int columns_ = 0, rows_ = 0;  // of tiles
   PrimitiveShapes shapes_;
   State state_ = State::kNotAsked;
+  std::size_t most_items_ = kNoLimit;
   std::vector<Item> items_;
   std::vector<ProjectedQuadric> quadrics_;
   std::vector<ProjectedFacet> facets_;

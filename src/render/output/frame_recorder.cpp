@@ -42,8 +42,11 @@ void append_metadata(Metadata& metadata, const std::string& prefix, const Json& 
   }
 }
 
+// Leaves out what rests on the frames before: a resumed run's files equal those of an undisturbed one.
 Metadata header_metadata(Json record) {
   record.erase("record");
+  if (const auto error = record.find("error"); error != record.end())
+    for (const char* field : {"low", "high", "shot"}) error->erase(field);
   Metadata metadata;
   append_metadata(metadata, "pprt", record);
   return metadata;

@@ -161,4 +161,26 @@ TEST_CASE("visibility buffer: nothing is known where a shape is unknown, and all
   CHECK_FALSE(VisibilityBuffer(kSize, kSize, {}).is_known());
 }
 
+TEST_CASE(
+    "visibility buffer: more shapes than are worth it count as not known, and none are asked for at a limit "
+    "of 0") {
+  int asked = 0;
+  const PrimitiveShapes two = shapes_of({{8, 8, 40, 40, 1}, {8, 8, 20, 20, 2}});  // of two facets each
+  const auto count = [&](std::uint32_t primitive, ImageShape& shape) {
+    ++asked;
+    two.project(primitive, shape);
+  };
+  VisibilityBuffer buffer(kSize, kSize, {count, 2});
+  buffer.limit(3);
+  CHECK_FALSE(buffer.is_known());
+  buffer.limit(4);
+  buffer.forget();
+  CHECK(buffer.is_known());
+  const int before = asked;
+  buffer.limit(0);
+  buffer.forget();
+  CHECK_FALSE(buffer.is_known());
+  CHECK(asked == before);
+}
+
 }  // namespace pprt::visibility_buffer_test
