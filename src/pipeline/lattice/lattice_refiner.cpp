@@ -95,6 +95,16 @@ void LatticeRefiner::forget_samples() {
 
 // The region.
 
+// The nodes that the pass has not come to stay candidates, which a later one finds by `greatest_`.
+void LatticeRefiner::leave_nodes() {
+  for (; !pass_.takes_all && next_ < nodes_.size(); ++next_) {
+    NodeState& greatest = greatest_in(store_.tile_at(nodes_[next_]), level_ - 1);
+    greatest = std::max(greatest, store_.state(nodes_[next_]));
+  }
+  nodes_.clear();
+  next_ = 0;
+}
+
 void LatticeRefiner::set_region(const Region& region) {
   const LatticeRegion before = std::exchange(own_, LatticeRegion(store_, region));
   own_.for_each_change(before, [&](const LatticeNode& corner, bool is_own) {
@@ -106,8 +116,7 @@ void LatticeRefiner::set_region(const Region& region) {
   });
   has_base_ = has_looked_ = false;
   surfaces_wanted_.clear();
-  nodes_.clear();  // they stay candidates
-  next_ = 0;
+  leave_nodes();
   is_region_new_ = true;
   if (order_ == LatticeOrder::kLevels) grid_levels_ = 0;
 }

@@ -127,6 +127,7 @@ class LatticeRefiner {
   double samples_left() const;
 
   bool next_nodes();
+  void leave_nodes();
   bool next_tile();
   bool leave_pass();
   bool start_pass();
