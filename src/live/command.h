@@ -4,9 +4,9 @@
 //   {"do":"look","number":17,"from":[x,y,z],"at":[x,y,z],"up":[x,y,z],"angle":45}
 //   {"do":"play"}  {"do":"pause"}  {"do":"step","by":-1}  {"do":"seek","frame":12}      the script
 //   {"do":"rate","fps":24}  {"do":"size","width":512,"height":384}  {"do":"overlay","name":"samples"}
-//   {"do":"pivot","x":0.5,"y":0.5}   what is seen there, in shares of the picture from its upper left
-//   {"do":"key","frame":49}          the recorded film: the camera as it is, or one that "view" gives as
-//   "look" does
+//   {"do":"pivot","x":0.5,"y":0.5}   tells what is seen there. Shares of the picture, from its upper left.
+//   {"do":"key","frame":49}          keys the camera in the recorded film. "view" gives another, as in
+//   "look".
 //   {"do":"drop","frame":49}  {"do":"move","frame":49,"to":60}  {"do":"undo"}  {"do":"redo"}
 //   {"do":"film","on":true}          play the recorded film in the script's place
 //   {"do":"photo","format":"png"}    a picture at full quality, or "exr"

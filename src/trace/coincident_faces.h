@@ -23,9 +23,9 @@ inline bool is_coincident(const ScenePart& part, const RTCHit& hit) {
   return !part.coincides.empty() && part.coincides[hit.primID];
 }
 
-// Replaces a hit on such a triangle by that on the face which is seen there: the nearest, and of those that
-// are equally near, but for the rounding of their vertices, the one earlier in the description. Opaque ones
-// come before others, so that a glass does not hide what it stands on. Origin and direction are in the
+// Replaces a hit on such a triangle by that on the face which is seen there. The nearest is. Faces count as
+// equally near within the rounding of their vertices: of these the first in the description is seen. Opaque
+// ones come before others, so that a glass does not hide what it stands on. Origin and direction are in the
 // space of `body`.
 void choose_coincident_face(const CompiledScene::Impl& scene, std::uint32_t body, const Vec3d& origin,
                             const Vec3d& direction, RTCHit& hit);

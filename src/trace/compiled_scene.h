@@ -128,8 +128,8 @@ class Tracer {
   // Returns the largest primitive number that a RaySample may have.
   std::uint32_t primitive_count() const;
 
-  // Returns for each primitive number of a RaySample, 0 included, the surface that it is a part of: polygons
-  // that go on into each other are one, which has the number of its first.
+  // Returns the surface that each primitive is a part of, by the number of a RaySample from 0 on. Polygons
+  // that go on into each other are one surface. It has the number of its first primitive.
   std::span<const std::uint32_t> surfaces() const;
 
   // Projects a primitive of a RaySample to the image, into `shape`, whose storage is reused.

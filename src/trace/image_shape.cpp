@@ -78,9 +78,10 @@ bool solve(const QuadraticForm& a, const LinearForm& b, double c, double size, I
 
 constexpr ImageBounds kNowhere = {1, 1, 0, 0};
 
-// Returns the box about a sphere's ellipse, discriminant >= 0. With the equation's greatest value over all y,
-// (by + axy x)^2 / (-4 ayy) more than at y = 0, its ends are the roots of a quadratic in x; those in y alike.
-// Grown by what rounding may take from it: a 2^-20th of its distance from the image's corner.
+// Returns the box about a sphere's ellipse, discriminant >= 0. Over all y the discriminant is at most
+// (by + axy x)^2 / (-4 ayy) more than at y = 0. That maximum is a quadratic in x, whose roots are the ends in
+// x. The ends in y are found alike. The box is grown by what rounding may take from it: a 2^-20th of its
+// distance from the image's corner.
 ImageBounds bounds_of(const ImageQuadric& sphere) {
   const QuadraticForm& q = sphere.discriminant;
   const double determinant = 4 * q.per_xx * q.per_yy - q.per_xy * q.per_xy;

@@ -13,8 +13,8 @@ using EightNumbers = std::uint16_t __attribute__((vector_size(kPoints * sizeof(s
 
 constexpr PerPoint kLanesOfRow = {0, 1, 2, 3, 4, 5, 6, 7};
 
-// A facet's edges are moved outwards by so much, pixels, that rounding leaves no gap between neighbours:
-// forms are floats of points at most 2^12 pixels away, whose rounding is 2^-11 of a pixel.
+// A facet's edges are moved outwards by so much, pixels: rounding leaves no gap between neighbours then.
+// Forms are floats of points at most 2^12 pixels away. Their rounding is 2^-11 of a pixel.
 constexpr float kOverlap = 0x1p-10F;
 
 // Eight points of a row of a tile.

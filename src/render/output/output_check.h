@@ -8,11 +8,10 @@
 
 namespace pprt {
 
-// Changes nothing. Throws UsageError:
-// - when two outputs are the same file, or an output is a file that was read (base/file_table.h)
-// - when a file exists that may neither be replaced nor gone on with
-// - when a reference does not exist
-// Throws std::runtime_error when a file cannot be written, or when a film is wanted and there is no ffmpeg.
+// Changes nothing. Throws UsageError when two outputs are the same file, or an output is a file that was read
+// (base/file_table.h). Throws it when a file exists that may neither be replaced nor gone on with. Throws it
+// when a reference does not exist. Throws std::runtime_error when a file cannot be written, or when a film is
+// wanted and there is no ffmpeg.
 void check_files(const RenderPlan& plan);
 
 // Returns the names of the frames' files that an existing manifest must forget, because they are written

@@ -79,10 +79,10 @@ constexpr double triangle_offset(double longest_edge, double twice_area, double 
 // Returns the height that two triangles may be apart so that Embree's rounding decides which of them a ray
 // meets first. `offset`: their triangle_offset.
 //
-// Counted from: triangle_offset of each, for the corners' rounding and that of the normal, and 10 u d for a
-// ray of length d: each vertex relative to the origin errs by u d, sqrt(3) u d together; each of the two dot
-// products whose quotient is the hit's distance by 3 u d; the quotient by 2 u d. Rays in a scene are shorter
-// than 2. Test: coincident_faces_test.cpp.
+// Counted from: each triangle_offset covers the rounding of corners and normal. Embree adds 10 u d on a ray
+// of length d. A vertex relative to the origin errs by u d, and by sqrt(3) u d in all. The distance is a
+// quotient of two dot products. Each of these errs by 3 u d, the quotient by 2 u d. Rays in a scene are
+// shorter than 2. Test: coincident_faces_test.cpp.
 constexpr double coincidence_bound(double offset, double other_offset) {
   return offset + other_offset + 2 * 10 * kFloatRounding * 2;
 }
