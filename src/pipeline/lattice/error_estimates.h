@@ -42,9 +42,6 @@ class ErrorEstimates {
   // Returns the factor that turns detail_of() into the error to expect, up to a common factor.
   float factor(NodeClass c) const { return factors_[c]; }
 
-  // Returns the error over the detail in the mean of all: factors are relative to it.
-  float of_all() const { return all_.error / all_.detail; }
-
   // Notes the error found at a node, where `detail` was to be expected, both times the area it stands for.
   // Factors stay as they are until update().
   void learn(NodeClass c, float detail, float error);

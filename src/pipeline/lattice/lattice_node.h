@@ -82,29 +82,29 @@ inline LatticeLevel level_of(const LatticeNode& node) {
   return {2 * half, is_center ? LatticeKind::kCenter : LatticeKind::kMiddle};
 }
 
-// What is seen at a node: colour, linear, and the primitive's number.
+// What is seen at a node: colour, linear, and the surface's number (Probe::surfaces).
 class NodeValue {
  public:
   NodeValue() = default;
   // The last lane of `channels` does not count.
-  NodeValue(const float4& channels, std::uint32_t primitive) {
+  NodeValue(const float4& channels, std::uint32_t surface) {
     int4 bits = std::bit_cast<int4>(channels);
-    bits[3] = std::bit_cast<std::int32_t>(primitive);
+    bits[3] = std::bit_cast<std::int32_t>(surface);
     lanes_ = std::bit_cast<float4>(bits);
   }
 
   // Red, green, blue and 0.
   float4 channels() const { return std::bit_cast<float4>(std::bit_cast<int4>(lanes_) & int4{-1, -1, -1, 0}); }
-  std::uint32_t primitive() const { return std::bit_cast<std::uint32_t>(std::bit_cast<int4>(lanes_)[3]); }
+  std::uint32_t surface() const { return std::bit_cast<std::uint32_t>(std::bit_cast<int4>(lanes_)[3]); }
 
  private:
   float4 lanes_;
 };
 
-// Whether all values, one at least, lie on the same primitive.
-inline bool is_on_one_primitive(std::span<const NodeValue> values) {
+// Whether all values, one at least, lie on the same surface.
+inline bool is_on_one_surface(std::span<const NodeValue> values) {
   for (const NodeValue& value : values.subspan(1))
-    if (value.primitive() != values.front().primitive()) return false;
+    if (value.surface() != values.front().surface()) return false;
   return true;
 }
 

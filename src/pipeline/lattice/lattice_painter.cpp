@@ -171,7 +171,7 @@ void LatticePainter::fill(const LatticeNode& corner, int side, const SquareCorne
 
 // Returns the mean over a pixel or a square of it.
 float4 LatticePainter::mean_of_refined(const LatticeNode& corner, int side, const SquareCorners& corners) {
-  if (side <= finest_side_ || !is_refined(corner, side)) return mean_of(corners);
+  if (side <= finest_side_ || !is_refined(corner, side)) return Surroundings(corners).mean();
   const int half = side / 2;
   const std::array<SquareCorners, 4> parts = quarters_within_pixel(corner, side, corners);
   return (mean_of_refined(corner, half, parts[0]) +
@@ -179,11 +179,6 @@ float4 LatticePainter::mean_of_refined(const LatticeNode& corner, int side, cons
           mean_of_refined({corner.x, corner.y + half}, half, parts[2]) +
           mean_of_refined({corner.x + half, corner.y + half}, half, parts[3])) *
          0.25F;
-}
-
-// Returns the mean over a square of at most a pixel with samples at its corners only.
-float4 LatticePainter::mean_of(const SquareCorners& corners) {
-  return Surroundings(corners).mean();
 }
 
 // Returns the mean over a pixel in which several surfaces are seen: each by its share and by what the samples
@@ -199,10 +194,10 @@ float4 LatticePainter::mean_of_mixed(const LatticeNode& corner, const SquareCorn
   for (std::size_t i = 0; i < seen.count; ++i) {
     if (seen.shares[i] <= 0) continue;
     const auto end = sums_.begin() + static_cast<std::ptrdiff_t>(summed_);
-    const auto found = std::find_if(sums_.begin(), end,
-                                    [&](const SurfaceSum& s) { return s.primitive == seen.primitives[i]; });
+    const auto found =
+        std::find_if(sums_.begin(), end, [&](const SurfaceSum& s) { return s.surface == seen.surfaces[i]; });
     const float4 color = found != end ? found->sum * (1 / found->weight)
-                                      : color_at(seen.primitives[i], middle, 0.5F, 0.5F, corners);
+                                      : color_at(seen.surfaces[i], middle, 0.5F, 0.5F, corners);
     mean += color * seen.shares[i];
   }
   return mean;
@@ -222,16 +217,16 @@ void LatticePainter::gather(const LatticeNode& corner, int side, const SquareCor
   const auto area = static_cast<float>(side * side);
   for (const NodeValue& value : corners) {
     std::size_t i = 0;
-    while (i < summed_ && sums_[i].primitive != value.primitive()) ++i;
+    while (i < summed_ && sums_[i].surface != value.surface()) ++i;
     if (i == summed_) {
       if (summed_ == sums_.size()) continue;
-      sums_[summed_++] = SurfaceSum{value.primitive(), float4{}, 0};
+      sums_[summed_++] = SurfaceSum{value.surface(), float4{}, 0};
     }
     sums_[i].sum += value.channels() * area, sums_[i].weight += area;
   }
 }
 
-// Whether all points of a square of whole pixels see one primitive.
+// Whether all points of a square of whole pixels see one surface.
 bool LatticePainter::is_uniform(const LatticeNode& corner, int pixels) const {
   const int x = corner.x / kPixelSide, y = corner.y / kPixelSide;
   return visibility_.tile(x, y).is_uniform(visibility_.in_tile(x), visibility_.in_tile(y), pixels);
@@ -274,7 +269,7 @@ LatticePainter::SeenInPixel LatticePainter::seen_in(const LatticeNode& corner) c
   }
   const float each = 0.25F / static_cast<float>(density * density);
   for (std::size_t i = 0; i < found.count; ++i)
-    found.primitives[i] = seen.surfaces()[numbers[i]], found.shares[i] *= each;
+    found.surfaces[i] = seen.surfaces()[numbers[i]], found.shares[i] *= each;
   if (found.count > 1 && visibility_.has_shares())
     visibility_.shares(pixel_x, pixel_y, {numbers.data(), found.count}, {found.shares.data(), found.count});
   return found;
@@ -289,18 +284,18 @@ float4 LatticePainter::mixed_mean(const LatticeNode& corner, const LatticeNode& 
   const float u = static_cast<float>(middle.x - square.x) * per_side;
   const float v = static_cast<float>(middle.y - square.y) * per_side;
   const SeenInPixel seen = seen_in(corner);
-  if (seen.count == 1) return color_at(seen.primitives[0], middle, u, v, corners);
+  if (seen.count == 1) return color_at(seen.surfaces[0], middle, u, v, corners);
   float4 sum{};
   for (std::size_t i = 0; i < seen.count; ++i)
-    if (seen.shares[i] > 0) sum += color_at(seen.primitives[i], middle, u, v, corners) * seen.shares[i];
+    if (seen.shares[i] > 0) sum += color_at(seen.surfaces[i], middle, u, v, corners) * seen.shares[i];
   return sum;
 }
 
 // Returns what a surface shows at a point of a square: bilinear among the corners on it, else what a sample
 // near by does.
-float4 LatticePainter::color_at(std::uint32_t primitive, const LatticeNode& at, float u, float v,
+float4 LatticePainter::color_at(std::uint32_t surface, const LatticeNode& at, float u, float v,
                                 const SquareCorners& corners) {
-  const SurfaceColors& colors = colors_of(primitive, at, corners);
+  const SurfaceColors& colors = colors_of(surface, at, corners);
   constexpr float kLeast = 1e-3F;  // where the weights of all corners on the surface vanish
   const std::array<float, 4> weights = {(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v};
   float4 sum{}, all{};
@@ -315,22 +310,22 @@ float4 LatticePainter::color_at(std::uint32_t primitive, const LatticeNode& at, 
   return all + (on_surface - all) * colors.share;
 }
 
-const LatticePainter::SurfaceColors& LatticePainter::colors_of(std::uint32_t primitive, const LatticeNode& at,
+const LatticePainter::SurfaceColors& LatticePainter::colors_of(std::uint32_t surface, const LatticeNode& at,
                                                                const SquareCorners& corners) {
   for (std::size_t i = 0; i < known_colors_; ++i)
-    if (colors_[i].primitive == primitive) return colors_[i];
+    if (colors_[i].surface == surface) return colors_[i];
   if (known_colors_ == colors_.size()) known_colors_ = 0;
   SurfaceColors& found = colors_[known_colors_++];
-  found = SurfaceColors{primitive, 0, 1, {}};
+  found = SurfaceColors{surface, 0, 1, {}};
   for (std::size_t i = 0; i < corners.size(); ++i)
-    if (corners[i].primitive() == primitive) found.on_it |= 1U << i;
+    if (corners[i].surface() == surface) found.on_it |= 1U << i;
   const int level = errors_.near(at).level;
   if (found.on_it != 0) {
     found.share =
         share_.of(basis_of(static_cast<std::size_t>(std::popcount(found.on_it)), corners.size()), level);
     return found;
   }
-  const NodeValue* near = surfaces_.nearest(at, primitive);
+  const NodeValue* near = surfaces_.nearest(at, surface);
   found.share = near != nullptr ? share_.of(Basis::kNearSample, level) : 0;
   if (near != nullptr) found.elsewhere = near->channels();
   return found;

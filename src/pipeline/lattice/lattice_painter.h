@@ -36,24 +36,22 @@ class LatticePainter {
   bool is_refined(const LatticeNode& corner, int side) const;
   int finest_side(const LatticeNode& pixel) const;
   float4 mean_of_refined(const LatticeNode& corner, int side, const SquareCorners& corners);
-  static float4 mean_of(const SquareCorners& corners);
 
   // A surface within a square: what it shows at a point (u, v), 0 to 1 from the square's upper left corner.
   struct SurfaceColors {
-    std::uint32_t primitive = 0;
+    std::uint32_t surface = 0;
     unsigned on_it = 0;     // corners, a bit each
     float share = 1;        // SurfaceShare
     float4 elsewhere = {};  // its colour if there is none
   };
-  const SurfaceColors& colors_of(std::uint32_t primitive, const LatticeNode& at,
-                                 const SquareCorners& corners);
-  float4 color_at(std::uint32_t primitive, const LatticeNode& at, float u, float v,
+  const SurfaceColors& colors_of(std::uint32_t surface, const LatticeNode& at, const SquareCorners& corners);
+  float4 color_at(std::uint32_t surface, const LatticeNode& at, float u, float v,
                   const SquareCorners& corners);
   float4 mixed_mean(const LatticeNode& corner, const LatticeNode& square, int square_side,
                     const SquareCorners& corners);
   // The surfaces seen in a pixel, and the share of each.
   struct SeenInPixel {
-    std::array<std::uint32_t, 8> primitives;
+    std::array<std::uint32_t, 8> surfaces;
     std::array<float, 8> shares;
     std::size_t count = 0;
   };
@@ -80,7 +78,7 @@ class LatticePainter {
   std::array<SurfaceColors, 16> colors_;  // of the surfaces met in a square
   std::size_t known_colors_ = 0;
   struct SurfaceSum {
-    std::uint32_t primitive = 0;
+    std::uint32_t surface = 0;
     float4 sum{};
     float weight = 0;
   };

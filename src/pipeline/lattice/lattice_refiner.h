@@ -97,8 +97,8 @@ class LatticeRefiner {
   }
 
  private:
-  static constexpr float kUnpredicted =
-      1.0F / 32;  // squared error that a sample without a prediction counts as
+  // Squared error that a sample without a prediction counts as.
+  static constexpr float kUnpredicted = 1.0F / 32;
 
   // A node whose sample is wanted, and what is known of it.
   struct Wanted {

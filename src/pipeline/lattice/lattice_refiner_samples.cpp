@@ -1,6 +1,7 @@
 // What a sample is worth, and what is learned from it.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "pipeline/core/display_values.h"
@@ -136,7 +137,7 @@ std::optional<LatticeNode> LatticeRefiner::next_surface() {
     UnsampledSurface surface = surfaces_wanted_.back();
     surfaces_wanted_.pop_back();
     if (store_.is_sampled(surface.node) || !own_.owns(surface.node) ||
-        surfaces_.has(surface.node, surface.primitive))
+        surfaces_.has(surface.node, surface.surface))
       continue;
     const float worth = worth_of_surface(surface);
     if (worth < pass_.threshold) {

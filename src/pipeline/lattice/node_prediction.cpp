@@ -46,18 +46,11 @@ Surroundings NodePredictor::around(const LatticeNode& node, const LatticeLevel& 
 
 // Without visibility all around are taken for one surface.
 Prediction NodePredictor::predict(const LatticeNode& node, const Surroundings& around) {
-  if (!visibility_.is_known()) {
-    Prediction found;
-    found.around = found.on_surface = around.mean();
-    found.value = NodeValue(found.around, around[0].primitive());
-    found.variance = around.variance();
-    found.basis = Basis::kAllAround;
-    return found;
-  }
-  const std::uint32_t seen = seen_at(visibility_, node);
+  const bool is_known = visibility_.is_known();
+  const std::uint32_t seen = is_known ? seen_at(visibility_, node) : around[0].surface();
   Prediction found;
   found.around = found.on_surface = around.mean();
-  if (is_on_one_primitive({&around[0], around.count()}) && around[0].primitive() == seen) {
+  if (!is_known || (is_on_one_surface({&around[0], around.count()}) && around[0].surface() == seen)) {
     found.value = NodeValue(found.around, seen);
     found.variance = around.variance();
     found.basis = Basis::kAllAround;
@@ -65,7 +58,7 @@ Prediction NodePredictor::predict(const LatticeNode& node, const Surroundings& a
   }
   Surroundings same;
   for (std::size_t i = 0; i < around.count(); ++i)
-    if (around[i].primitive() == seen) same.add(around[i]);
+    if (around[i].surface() == seen) same.add(around[i]);
   if (same.count() > 0) {
     found.variance = same.variance();
     found.basis = basis_of(same.count(), around.count());

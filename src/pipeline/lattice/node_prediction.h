@@ -59,7 +59,7 @@ struct Prediction {
   float4 around{}, on_surface{};  // the mean of all around, and the colour that those on the surface make
 };
 
-// Returns the primitive seen at a node. Only if the visibility is known.
+// Returns the surface seen at a node. Only if the visibility is known.
 inline std::uint32_t seen_at(VisibilityBuffer& visibility, const LatticeNode& node) {
   constexpr int kLog2Side = 4;
   static_assert(1 << kLog2Side == kPixelSide);

@@ -1,8 +1,8 @@
-// Where each surface that is seen near a base square has been sampled: a few samples for each primitive,
+// Where each surface that is seen near a base square has been sampled: a few samples for each surface,
 // found by it. What is too thin for the corners of a square takes its colour from here.
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -24,19 +24,19 @@ class SurfaceSamples {
     samples_.clear();
   }
 
-  // Notes a sample, unless its square has kMost of its primitive.
+  // Notes a sample, unless its square has kMost of its surface.
   void add(const LatticeNode& node, const NodeValue& value) {
     std::uint32_t& first = first_[square_of(node)];
     int same = 0;
     for (std::uint32_t i = first; i != kNone; i = samples_[i].next)
-      same += samples_[i].value.primitive() == value.primitive() ? 1 : 0;
+      same += samples_[i].value.surface() == value.surface() ? 1 : 0;
     if (same >= kMost) return;
     samples_.push_back({node, first, value});
     first = static_cast<std::uint32_t>(samples_.size() - 1);
   }
 
-  // Returns the nearest sample on a primitive in the node's square or one beside it; null: there is none.
-  const NodeValue* nearest(const LatticeNode& node, std::uint32_t primitive) const {
+  // Returns the nearest sample on a surface in the node's square or one beside it; null: there is none.
+  const NodeValue* nearest(const LatticeNode& node, std::uint32_t surface) const {
     const int column = node.x / kBaseSide, row = node.y / kBaseSide;
     const NodeValue* found = nullptr;
     int least = 1 << 30;
@@ -45,7 +45,7 @@ class SurfaceSamples {
       for (std::uint32_t i = first_[static_cast<std::size_t>(y * columns_ + x)]; i != kNone;
            i = samples_[i].next) {
         const Known& known = samples_[i];
-        if (known.value.primitive() != primitive) continue;
+        if (known.value.surface() != surface) continue;
         const int dx = known.node.x - node.x, dy = known.node.y - node.y, distance = dx * dx + dy * dy;
         if (distance < least) least = distance, found = &known.value;
       }
@@ -58,10 +58,10 @@ class SurfaceSamples {
     return found;
   }
 
-  // Whether the square of a node holds a sample on a primitive.
-  bool has(const LatticeNode& corner, std::uint32_t primitive) const {
+  // Whether the square of a node holds a sample on a surface.
+  bool has(const LatticeNode& corner, std::uint32_t surface) const {
     for (std::uint32_t i = first_[square_of(corner)]; i != kNone; i = samples_[i].next)
-      if (samples_[i].value.primitive() == primitive) return true;
+      if (samples_[i].value.surface() == surface) return true;
     return false;
   }
 

@@ -41,12 +41,12 @@ std::span<UnsampledSurface> UnsampledSurfaces::find(VisibilityBuffer& visibility
     points.count += run, points.x += run * (begin + end - 1) / 2, points.y += run * y;
   });
   for (const std::uint16_t number : numbers_) {
-    const std::uint32_t primitive = tile.surfaces()[number];
+    const std::uint32_t surface = tile.surfaces()[number];
     Points& points = points_[number];
-    if (samples.has(corner, primitive)) continue;
+    if (samples.has(corner, surface)) continue;
     points.unsampled = static_cast<int>(found_.size()), points.least = 1 << 30;
     found_.push_back(
-        {corner, primitive, static_cast<float>(points.count) / static_cast<float>(density * density)});
+        {corner, surface, static_cast<float>(points.count) / static_cast<float>(density * density)});
   }
   if (!found_.empty()) {
     for_each_run([&](const Points& points, std::uint16_t number, int y, int begin, int end) {

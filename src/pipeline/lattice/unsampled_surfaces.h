@@ -17,7 +17,7 @@ namespace pprt {
 // A surface of a base square on which there is no sample.
 struct UnsampledSurface {
   LatticeNode node;
-  std::uint32_t primitive = 0;
+  std::uint32_t surface = 0;
   float area = 0;      // square pixels
   float variance = 0;  // of the colours around, on the display scale
   NodeState priority = kLeastCandidate;

@@ -33,8 +33,8 @@ inline constexpr std::array<std::array<float, kMostSharePoints>, 2> kSharePoints
 
 // Raises `nearest` to the nearness of a shape at the points of a pixel with this upper left corner.
 template <class Shape>
-PPRT_CLONED_FOR_WIDE_REGISTERS void raise(const Shape& shape, float left, float top,
-                                          std::span<PerPoint> nearest) {
+PPRT_CLONED_FOR_WIDE_REGISTERS void raise_nearness(const Shape& shape, float left, float top,
+                                                   std::span<PerPoint> nearest) {
   for (std::size_t i = 0; i < nearest.size(); ++i) {
     const PerPoint n = nearness(shape, load<PerPoint>(kSharePoints[0].data() + i * kPoints) + left,
                                 load<PerPoint>(kSharePoints[1].data() + i * kPoints) + top);

@@ -178,14 +178,8 @@ void VisibilityBuffer::find_surfaces(VisibleTile& tile) {
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t surface = shapes_.surface_of(tile.primitives_[i]);
     tile.surfaces_[i] = surface;
-    // Primitives ascend, and a surface has the number of its first one, which need not be in the tile.
-    std::size_t first = i;
-    if (surface != tile.primitives_[i]) {
-      const auto [place, is_new] = first_of_surface_.try_emplace(surface, i);
-      first = place->second;
-    } else if (!shapes_.surfaces.empty()) {
-      first_of_surface_.try_emplace(surface, i);
-    }
+    const std::size_t first =
+        shapes_.surfaces.empty() ? i : first_of_surface_.try_emplace(surface, i).first->second;
     tile.first_of_surface_[i] = static_cast<std::uint16_t>(first);
     is_one_each = is_one_each && first == i;
   }
@@ -276,7 +270,7 @@ void VisibilityBuffer::shares(int pixel_x, int pixel_y, std::span<const std::uin
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     for (std::size_t k = 0; k < vectors; ++k) near[k] = PerPoint{};
     for_each_item(seen, numbers[i], {x, y, x + 1, y + 1}, [&](const auto& shape, const Vec2f& from) {
-      raise(shape, from.x, from.y, {near.data(), vectors});
+      raise_nearness(shape, from.x, from.y, {near.data(), vectors});
     });
     for (std::size_t k = 0; k < vectors; ++k) {
       const auto is_nearer = near[k] > nearest[k];

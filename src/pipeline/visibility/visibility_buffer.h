@@ -114,6 +114,7 @@ class VisibilityBuffer {
     if (!is_seen_[number]) see(number);
     return *tiles_[number];
   }
+
   // Returns the surface at an image point, pixels: of the primitives at the points around it the nearest
   // there. Only if is_known().
   std::uint32_t at(const Vec2d& point);

@@ -33,7 +33,7 @@ NodeValue value_at(const LatticeNode& node) {
 bool is_value_at(const NodeValue& value, const LatticeNode& node) {
   const NodeValue wanted = value_at(node);
   const float4 difference = value.channels() - wanted.channels();
-  return value.primitive() == wanted.primitive() && difference[0] == 0 && difference[1] == 0 &&
+  return value.surface() == wanted.surface() && difference[0] == 0 && difference[1] == 0 &&
          difference[2] == 0 && difference[3] == 0;
 }
 

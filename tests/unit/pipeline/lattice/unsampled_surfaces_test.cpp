@@ -83,7 +83,7 @@ TEST_CASE(
   UnsampledSurfaces unsampled(4);
   const std::span<UnsampledSurface> found = unsampled.find(visibility, samples, {kBaseSide, kBaseSide});
   REQUIRE(found.size() == 1);
-  CHECK(found[0].primitive == 3);
+  CHECK(found[0].surface == 3);
   CHECK(found[0].area == Approx(8 * kWidth).epsilon(0.3));
   CHECK(is_on_twig(point_of(found[0].node).x));
   samples.add(found[0].node, NodeValue(float4{}, 3));

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 namespace pprt::visibility_buffer_test {
@@ -137,6 +138,25 @@ TEST_CASE("visibility buffer: a tile of more primitives than 16 bits count shows
   CHECK(buffer.at(4 * 45, 4 * 45) == kMany + 2);
   CHECK(buffer.at(Vec2d(39.9, 45.03)) == 0);
   CHECK(buffer.at(Vec2d(40.1, 45.03)) == kMany + 2);
+}
+
+TEST_CASE(
+    "visibility buffer: a surface has one number in a tile, whichever of its primitives is met first there") {
+  constexpr std::uint32_t kMany = 70'000;  // more than 16 bits count: what is seen gets numbers by place
+  std::vector<Rectangle> rectangles(kMany, {30, 30, 31, 31, 0.5});
+  rectangles.push_back({29, 29, 33, 33, 1});
+  rectangles.push_back({17, 17, 20, 20, 1});  // before it in the tile
+  std::vector<std::uint32_t> surfaces(kMany + 3);
+  std::iota(surfaces.begin(), surfaces.end(), 0U);
+  surfaces[kMany + 2] = kMany + 1;
+  PrimitiveShapes shapes = shapes_of(rectangles);
+  shapes.surfaces = surfaces;
+  VisibilityBuffer buffer(kSize, kSize, shapes);
+  REQUIRE(buffer.is_known());
+  const VisibleTile& tile = buffer.tile(18, 18);
+  const auto number_at = [&](int x, int y) { return tile.row(4 * (y - 16))[4 * (x - 16)]; };
+  REQUIRE(number_at(18, 18) != number_at(31, 31));
+  CHECK(tile.first_of_surface()[number_at(18, 18)] == tile.first_of_surface()[number_at(31, 31)]);
 }
 
 TEST_CASE("visibility buffer: nothing is known where a shape is unknown, and all anew after forget()") {
