@@ -40,6 +40,8 @@ struct Probe {
   std::function<Carried(RaySample& sample)> carry = {};
   // By primitive number, 0 included: the surface that it is a part of. Empty: each is one of its own.
   std::span<const std::uint32_t> surfaces = {};
+  // Whether samples depend on `footprint`: the scene has textures.
+  bool has_textures = false;
 };
 
 }  // namespace pprt

@@ -18,6 +18,7 @@ inline Probe probe_of(Tracer& tracer) {
                    return tracer.trace(x, y, known, footprint);
                  }};
   probe.surfaces = tracer.surfaces();
+  probe.has_textures = tracer.scene().effects().has(Effect::kTextures);
   if (tracer.scene().moves()) {
     probe.set_time = [&tracer](double time) { return tracer.set_time(time); };
     probe.carry = [&tracer](RaySample& sample) { return tracer.carry(sample); };

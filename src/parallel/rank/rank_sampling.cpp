@@ -50,7 +50,8 @@ void RankSampling::trace_missing_base() {
 // finer pictures, so none is filtered over more than a pixel.
 Sample RankSampling::trace(const Vec2d& point) {
   const std::span<const KnownLights> known = sampler_->known_lights(point);
-  Sample sample = tracer_.trace(point.x, point.y, known, std::min(1.0, sampler_->footprint(point)));
+  const double footprint = tracer_.probe().has_textures ? std::min(1.0, sampler_->footprint(point)) : 1;
+  Sample sample = tracer_.trace(point.x, point.y, known, footprint);
   for (const KnownLights& at : known) {
     if (at.primitive != sample.ray.primitive) continue;
     sample.frame = at.frame;

@@ -28,21 +28,23 @@ class DiscTracer {
       : conditions_(conditions), rank_(rank), random_(static_cast<unsigned>(rank)) {}
 
   Probe probe() {
-    return {[this](const Camera& camera) {
-              camera_ = camera;
-              if (++frame_ == 3 && rank_ == conditions_.sleeper) {
-                std::this_thread::sleep_for(std::chrono::duration<double>(conditions_.sleeps_s));
-              }
-            },
-            [this](double x, double y) { return trace(x, y); },
-            [](const Vec3f&, bool) { return true; },
-            [this] { return counts_; },
-            conditions_.tells_shapes ? [this](std::uint32_t p, ImageShape& shape) { view(p, shape); }
-                                     : std::function<void(std::uint32_t, ImageShape&)>(),
-            0,
-            [this](double x, double y, std::span<const KnownLights> known, double footprint) {
-              return trace(x, y, known, footprint);
-            }};
+    Probe probe = {[this](const Camera& camera) {
+                     camera_ = camera;
+                     if (++frame_ == 3 && rank_ == conditions_.sleeper) {
+                       std::this_thread::sleep_for(std::chrono::duration<double>(conditions_.sleeps_s));
+                     }
+                   },
+                   [this](double x, double y) { return trace(x, y); },
+                   [](const Vec3f&, bool) { return true; },
+                   [this] { return counts_; },
+                   conditions_.tells_shapes ? [this](std::uint32_t p, ImageShape& shape) { view(p, shape); }
+                                            : std::function<void(std::uint32_t, ImageShape&)>(),
+                   conditions_.tells_shapes ? 2U : 0U,
+                   [this](double x, double y, std::span<const KnownLights> known, double footprint) {
+                     return trace(x, y, known, footprint);
+                   }};
+    probe.has_textures = true;  // footprints are noted
+    return probe;
   }
 
   std::vector<Traced> take_traced() { return std::move(traced_); }
