@@ -15,7 +15,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "base/vector.h"
 #include "pipeline/core/simd.h"
@@ -32,7 +31,7 @@ struct LatticeNode {
 };
 
 // Whether the node is a corner of base squares: these belong to no level.
-inline bool is_base(const LatticeNode& node) {
+constexpr bool is_base(const LatticeNode& node) {
   return (node.x | node.y) % kBaseSide == 0;
 }
 
@@ -76,7 +75,7 @@ inline std::size_t index_of(const LatticeLevel& level) {
 }
 
 // Returns the level of a node that is no corner of a base square.
-inline LatticeLevel level_of(const LatticeNode& node) {
+constexpr LatticeLevel level_of(const LatticeNode& node) {
   const int half = 1 << std::countr_zero(static_cast<unsigned>(node.x | node.y));
   const bool is_center = (node.x & half) != 0 && (node.y & half) != 0;
   return {2 * half, is_center ? LatticeKind::kCenter : LatticeKind::kMiddle};
@@ -100,12 +99,5 @@ class NodeValue {
  private:
   float4 lanes_;
 };
-
-// Whether all values, one at least, lie on the same surface.
-inline bool is_on_one_surface(std::span<const NodeValue> values) {
-  for (const NodeValue& value : values.subspan(1))
-    if (value.surface() != values.front().surface()) return false;
-  return true;
-}
 
 }  // namespace pprt

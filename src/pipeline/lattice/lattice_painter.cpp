@@ -18,6 +18,15 @@ PackedColors pack(const std::array<float4, 4>& colors) {
   return {float4{a[0], a[1], a[2], b[0]}, float4{b[1], b[2], c[0], c[1]}, float4{c[2], d[0], d[1], d[2]}};
 }
 
+float4 mean_of(const SquareCorners& corners) {
+  return ((corners[0].channels() + corners[1].channels()) + (corners[2].channels() + corners[3].channels())) *
+         0.25F;
+}
+
+float4 in_the_middle(const std::array<float4, 4>& corners) {
+  return ((corners[0] + corners[1]) + (corners[2] + corners[3])) * 0.25F;
+}
+
 }  // namespace
 
 void LatticePainter::paint(const PixelRect& part, PixelBlock& pixels) {
@@ -105,7 +114,8 @@ std::array<SquareCorners, 4> LatticePainter::quarters_within_pixel(const Lattice
       {{center.x, corner.y}, {corner.x, center.y}, {corner.x + side, center.y}, {center.x, corner.y + side}}};
   constexpr std::array<std::array<std::size_t, 2>, 4> kEnds = {{{0, 1}, {0, 2}, {1, 3}, {2, 3}}};
   const NodeValue* seen = store_.sample_at(center);
-  Surroundings around(corners);
+  Surroundings around;
+  for (const NodeValue& value : corners) around.add(value);
   std::array<NodeValue, 4> shown;
   for (std::size_t i = 0; i < middles.size(); ++i) {
     if (const NodeValue* sample = store_.sample_at(middles[i])) {
@@ -171,7 +181,7 @@ void LatticePainter::fill(const LatticeNode& corner, int side, const SquareCorne
 
 // Returns the mean over a pixel or a square of it.
 float4 LatticePainter::mean_of_refined(const LatticeNode& corner, int side, const SquareCorners& corners) {
-  if (side <= finest_side_ || !is_refined(corner, side)) return Surroundings(corners).mean();
+  if (side <= finest_side_ || !is_refined(corner, side)) return mean_of(corners);
   const int half = side / 2;
   const std::array<SquareCorners, 4> parts = quarters_within_pixel(corner, side, corners);
   return (mean_of_refined(corner, half, parts[0]) +
@@ -197,7 +207,7 @@ float4 LatticePainter::mean_of_mixed(const LatticeNode& corner, const SquareCorn
     const auto found =
         std::find_if(sums_.begin(), end, [&](const SurfaceSum& s) { return s.surface == seen.surfaces[i]; });
     const float4 color = found != end ? found->sum * (1 / found->weight)
-                                      : color_at(seen.surfaces[i], middle, 0.5F, 0.5F, corners);
+                                      : in_the_middle(colors_of(seen.surfaces[i], middle, corners).corners);
     mean += color * seen.shares[i];
   }
   return mean;
@@ -252,27 +262,38 @@ LatticePainter::SeenInPixel LatticePainter::seen_in(const LatticeNode& corner) c
   const int density = visibility_.points_per_side();
   const int pixel_x = corner.x / kPixelSide, pixel_y = corner.y / kPixelSide;
   const VisibleTile& seen = visibility_.tile(pixel_x, pixel_y);
-  const int left = visibility_.in_tile(pixel_x) * density, top = visibility_.in_tile(pixel_y) * density;
+  const int in_tile_x = visibility_.in_tile(pixel_x), in_tile_y = visibility_.in_tile(pixel_y);
   SeenInPixel found;
-  std::array<std::uint16_t, 8> numbers;
-  found.shares.fill(0);
-  for (int y = 0; y <= density; ++y) {
-    const std::uint16_t* row = seen.row(top + y) + left;
-    const float down = y == 0 || y == density ? 1 : 2;
-    for (int x = 0; x <= density; ++x) {
+  if (seen.is_uniform(in_tile_x, in_tile_y, 1)) {
+    found.surfaces[0] = seen.at(in_tile_x * density, in_tile_y * density), found.shares[0] = 1;
+    found.count = 1;
+    return found;
+  }
+  NumbersInPixel points;
+  const auto* first = seen.row(in_tile_y * density) + in_tile_x * density;
+  density == 2 ? count_points<2>(first, points) : count_points<4>(first, points);
+  found.count = points.count, found.shares = points.shares;
+  for (std::size_t i = 0; i < found.count; ++i) found.surfaces[i] = seen.surfaces()[points.numbers[i]];
+  if (found.count > 1 && visibility_.has_shares())
+    visibility_.shares(pixel_x, pixel_y, {points.numbers.data(), points.count},
+                       {found.shares.data(), found.count});
+  return found;
+}
+
+// `first`: the point at the pixel's upper left corner.
+template <int kDensity>
+void LatticePainter::count_points(const std::uint16_t* first, NumbersInPixel& found) {
+  constexpr float kEach = 0.25F / (kDensity * kDensity);
+  for (int y = 0; y <= kDensity; ++y, first += kTileStride) {
+    const float down = y == 0 || y == kDensity ? kEach : 2 * kEach;
+    for (int x = 0; x <= kDensity; ++x) {
       std::size_t i = 0;
-      while (i < found.count && numbers[i] != row[x]) ++i;
-      if (i == numbers.size()) continue;
-      if (i == found.count) numbers[found.count++] = row[x];
-      found.shares[i] += x == 0 || x == density ? down : 2 * down;
+      while (i < found.count && found.numbers[i] != first[x]) ++i;
+      if (i == kMostInPixel) continue;
+      if (i == found.count) found.numbers[i] = first[x], found.shares[i] = 0, ++found.count;
+      found.shares[i] += x == 0 || x == kDensity ? down : 2 * down;
     }
   }
-  const float each = 0.25F / static_cast<float>(density * density);
-  for (std::size_t i = 0; i < found.count; ++i)
-    found.surfaces[i] = seen.surfaces()[numbers[i]], found.shares[i] *= each;
-  if (found.count > 1 && visibility_.has_shares())
-    visibility_.shares(pixel_x, pixel_y, {numbers.data(), found.count}, {found.shares.data(), found.count});
-  return found;
 }
 
 // Returns the mean over a pixel of a square: the surfaces seen in it by their shares, each with its colour in
@@ -283,31 +304,15 @@ float4 LatticePainter::mixed_mean(const LatticeNode& corner, const LatticeNode& 
   const LatticeNode middle{corner.x + kPixelSide / 2, corner.y + kPixelSide / 2};
   const float u = static_cast<float>(middle.x - square.x) * per_side;
   const float v = static_cast<float>(middle.y - square.y) * per_side;
-  const SeenInPixel seen = seen_in(corner);
-  if (seen.count == 1) return color_at(seen.surfaces[0], middle, u, v, corners);
-  float4 sum{};
-  for (std::size_t i = 0; i < seen.count; ++i)
-    if (seen.shares[i] > 0) sum += color_at(seen.surfaces[i], middle, u, v, corners) * seen.shares[i];
-  return sum;
-}
-
-// Returns what a surface shows at a point of a square: bilinear among the corners on it, else what a sample
-// near by does.
-float4 LatticePainter::color_at(std::uint32_t surface, const LatticeNode& at, float u, float v,
-                                const SquareCorners& corners) {
-  const SurfaceColors& colors = colors_of(surface, at, corners);
-  constexpr float kLeast = 1e-3F;  // where the weights of all corners on the surface vanish
   const std::array<float, 4> weights = {(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v};
-  float4 sum{}, all{};
-  float weight = 0;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const float4 channels = corners[i].channels();
-    all += channels * weights[i];
-    if ((colors.on_it >> i & 1U) == 0) continue;
-    sum += channels * (weights[i] + kLeast), weight += weights[i] + kLeast;
+  const SeenInPixel seen = seen_in(corner);
+  float4 sum{};
+  for (std::size_t i = 0; i < seen.count; ++i) {
+    if (seen.shares[i] <= 0) continue;
+    const SurfaceColors& colors = colors_of(seen.surfaces[i], middle, corners);
+    for (std::size_t k = 0; k < weights.size(); ++k) sum += colors.corners[k] * (weights[k] * seen.shares[i]);
   }
-  const float4 on_surface = weight > 0 ? sum * (1 / weight) : colors.elsewhere;
-  return all + (on_surface - all) * colors.share;
+  return sum;
 }
 
 const LatticePainter::SurfaceColors& LatticePainter::colors_of(std::uint32_t surface, const LatticeNode& at,
@@ -315,20 +320,39 @@ const LatticePainter::SurfaceColors& LatticePainter::colors_of(std::uint32_t sur
   for (std::size_t i = 0; i < known_colors_; ++i)
     if (colors_[i].surface == surface) return colors_[i];
   if (known_colors_ == colors_.size()) known_colors_ = 0;
-  SurfaceColors& found = colors_[known_colors_++];
-  found = SurfaceColors{surface, 0, 1, {}};
-  for (std::size_t i = 0; i < corners.size(); ++i)
-    if (corners[i].surface() == surface) found.on_it |= 1U << i;
-  const int level = errors_.near(at).level;
-  if (found.on_it != 0) {
-    found.share =
-        share_.of(basis_of(static_cast<std::size_t>(std::popcount(found.on_it)), corners.size()), level);
-    return found;
+  return colors_[known_colors_++] = colors_anew(surface, at, corners);
+}
+
+// A corner on another surface takes the colour of those beside it that lie on this one, else of that across,
+// else of a sample near by: as far as it is known to say something (SurfaceShare).
+LatticePainter::SurfaceColors LatticePainter::colors_anew(std::uint32_t surface, const LatticeNode& at,
+                                                          const SquareCorners& corners) const {
+  SurfaceColors colors{surface, {}};
+  std::array<float, 4> on_it;
+  float all = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    colors.corners[i] = corners[i].channels();
+    on_it[i] = corners[i].surface() == surface ? 1 : 0;
+    all += on_it[i];
   }
-  const NodeValue* near = surfaces_.nearest(at, surface);
-  found.share = near != nullptr ? share_.of(Basis::kNearSample, level) : 0;
-  if (near != nullptr) found.elsewhere = near->channels();
-  return found;
+  const int level = errors_.near(at).level;
+  const NodeValue* near = all > 0 ? nullptr : surfaces_.nearest(at, surface);
+  if (all == 0 && near == nullptr) return colors;
+  const float share =
+      share_.of(near != nullptr ? Basis::kNearSample : basis_of(static_cast<std::size_t>(all), 4), level);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (on_it[i] > 0) continue;
+    const std::size_t beside = i ^ 1U, above = i ^ 2U, across = i ^ 3U;
+    const float adjacent = on_it[beside] + on_it[above];
+    const float4 channels =
+        near != nullptr ? near->channels()
+        : adjacent > 0
+            ? (corners[beside].channels() * on_it[beside] + corners[above].channels() * on_it[above]) *
+                  (1 / adjacent)
+            : corners[across].channels();
+    colors.corners[i] += (channels - colors.corners[i]) * share;
+  }
+  return colors;
 }
 
 }  // namespace pprt

@@ -37,25 +37,31 @@ class LatticePainter {
   int finest_side(const LatticeNode& pixel) const;
   float4 mean_of_refined(const LatticeNode& corner, int side, const SquareCorners& corners);
 
-  // A surface within a square: what it shows at a point (u, v), 0 to 1 from the square's upper left corner.
+  // What a surface is taken to show at the corners of a square.
   struct SurfaceColors {
     std::uint32_t surface = 0;
-    unsigned on_it = 0;     // corners, a bit each
-    float share = 1;        // SurfaceShare
-    float4 elsewhere = {};  // its colour if there is none
+    std::array<float4, 4> corners;
   };
   const SurfaceColors& colors_of(std::uint32_t surface, const LatticeNode& at, const SquareCorners& corners);
-  float4 color_at(std::uint32_t surface, const LatticeNode& at, float u, float v,
-                  const SquareCorners& corners);
+  SurfaceColors colors_anew(std::uint32_t surface, const LatticeNode& at, const SquareCorners& corners) const;
   float4 mixed_mean(const LatticeNode& corner, const LatticeNode& square, int square_side,
                     const SquareCorners& corners);
+  static constexpr std::size_t kMostInPixel = 8;
+  // The primitives seen in a pixel, by their tile's own numbers, and the share of each.
+  struct NumbersInPixel {
+    std::array<std::uint16_t, kMostInPixel> numbers;
+    std::array<float, kMostInPixel> shares;
+    std::size_t count = 0;
+  };
   // The surfaces seen in a pixel, and the share of each.
   struct SeenInPixel {
-    std::array<std::uint32_t, 8> surfaces;
-    std::array<float, 8> shares;
+    std::array<std::uint32_t, kMostInPixel> surfaces;
+    std::array<float, kMostInPixel> shares;
     std::size_t count = 0;
   };
   SeenInPixel seen_in(const LatticeNode& corner) const;
+  template <int kDensity>
+  static void count_points(const std::uint16_t* first, NumbersInPixel& found);
 
   float4 mean_of_mixed(const LatticeNode& pixel, const SquareCorners& corners);
   void gather(const LatticeNode& corner, int side, const SquareCorners& corners);

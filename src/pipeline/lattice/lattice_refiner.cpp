@@ -134,8 +134,8 @@ void LatticeRefiner::begin_square(const LatticeNode& corner) {
       at.level = {2 * kBaseSide, LatticeKind::kMiddle};
     } else {
       at.level = level_of(at.node);
-      at.around = known_around(at.node, at.level);
-      if (at.around.count() > 0) predicted = predictor_.predict(node, at.around);
+      const Surroundings around = known_around(at.node, at.level);
+      if (around.count() > 0) predicted = predictor_.predict(node, around);
     }
     make_candidates(at.node, at.level, worth_around(at, kUnpredicted, predicted.variance, Basis::kAllAround));
   }

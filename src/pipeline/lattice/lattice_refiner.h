@@ -104,7 +104,6 @@ class LatticeRefiner {
   struct Wanted {
     LatticeNode node;
     LatticeLevel level;
-    Surroundings around;
     Prediction predicted;
     bool is_base = false;  // a corner of a base square: nothing predicts it
     float area = 0;        // if it stands for a surface that no sample lies on, square pixels

@@ -36,8 +36,7 @@ float effect_of(const LatticeLevel& level) {
 // Whether a node is worth a sample in this pass. Keeps its priority otherwise.
 bool LatticeRefiner::is_wanted(const LatticeNode& node, const LatticeLevel& level) {
   wanted_.node = node, wanted_.level = level, wanted_.is_base = false;
-  wanted_.around = predictor_.around(node, level);
-  wanted_.predicted = predictor_.predict(node, wanted_.around);
+  wanted_.predicted = predictor_.predict(node, predictor_.around(node, level));
   if (pass_.takes_all) return true;
   const float worth = worth_of(node, level);
   if (worth >= pass_.threshold) return true;
@@ -146,8 +145,7 @@ std::optional<LatticeNode> LatticeRefiner::next_surface() {
       continue;
     }
     wanted_.node = surface.node, wanted_.is_base = false, wanted_.area = surface.area;
-    wanted_.around = base_corners(surface.node);
-    wanted_.predicted = predictor_.predict(surface.node, wanted_.around);
+    wanted_.predicted = predictor_.predict(surface.node, base_corners(surface.node));
     wanted_.predicted.variance = surface.variance, wanted_.predicted.basis = Basis::kNothing;
     has_wanted_ = true;
     return surface.node;
@@ -190,10 +188,10 @@ bool LatticeRefiner::insert(const Vec2d& point, const RaySample& sample) {
   }
   ++samples_;
   at.level = level_of(at.node);
-  at.around = known_around(at.node, at.level);
+  const Surroundings around = known_around(at.node, at.level);
   float error = kUnpredicted;
-  if (at.around.count() > 0) {
-    at.predicted = predictor_.predict(at.node, at.around);
+  if (around.count() > 0) {
+    at.predicted = predictor_.predict(at.node, around);
     error = squared_error(seen, at.predicted.value.channels());
   }
   errors_.note(at.node, error, rays);

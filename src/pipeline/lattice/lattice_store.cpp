@@ -16,21 +16,30 @@ int covered(int pixels) {
   return (pixels + kBasePixels - 1) / kBasePixels * kBasePixels;
 }
 
-// Returns a bit for each of 32 states: whether it is at least `least`.
+// Returns a bit for each of 16 states: whether it is at least `least`.
+constexpr std::size_t kStatesAtOnce = 16;
 std::uint32_t at_least(const NodeState* states, NodeState least) {
-  using Sixteen = std::uint8_t __attribute__((vector_size(16)));
-  using Words = std::uint64_t __attribute__((vector_size(16)));
+  using Sixteen = std::uint8_t __attribute__((vector_size(kStatesAtOnce)));
+  using Words = std::uint64_t __attribute__((vector_size(kStatesAtOnce)));
   std::uint32_t bits = 0;
-  for (int half = 0; half < 2; ++half) {
-    const auto is = std::bit_cast<Words>(load<Sixteen>(states + 16 * half) >= (Sixteen{} + least));
-    for (int word = 0; word < 2; ++word) {
-      // Gathers the lowest bits of eight bytes in the highest byte.
-      const std::uint64_t lowest = is[word] & 0x0101010101010101U;
-      const auto byte = static_cast<std::uint32_t>((lowest * 0x0102040810204080U) >> 56);
-      bits |= byte << (16 * half + 8 * word);
-    }
+  const auto is = std::bit_cast<Words>(load<Sixteen>(states) >= (Sixteen{} + least));
+  for (int word = 0; word < 2; ++word) {
+    // Gathers the lowest bits of eight bytes in the highest byte.
+    const std::uint64_t lowest = is[word] & 0x0101010101010101U;
+    const auto byte = static_cast<std::uint32_t>((lowest * 0x0102040810204080U) >> 56);
+    bits |= byte << (8 * word);
   }
   return bits;
+}
+
+// Calls visit(place) for the states from `first` to before `end` that are at least `least`. They are a
+// multiple of sixteen.
+template <class Visit>
+void for_each_at_least(NodeState least, const NodeState* states, std::size_t first, std::size_t end,
+                       const Visit& visit) {
+  for (; first < end; first += kStatesAtOnce)
+    for (std::uint32_t bits = at_least(states + first, least); bits != 0; bits &= bits - 1)
+      visit(first + static_cast<std::size_t>(std::countr_zero(bits)));
 }
 
 // Returns the slots of a level's nodes in the block of a pixel or a cell. Sides of two sizes have the same.
@@ -45,26 +54,9 @@ std::span<const std::uint8_t> slots_of(const LatticeLevel& level) {
   return is_whole ? std::span<const std::uint8_t>(kMiddles) : kCellMiddles;
 }
 
-// Returns a bit for every `step`-th of 32 pixels, from the `first` on.
-std::uint32_t every(int step, int first) {
-  std::uint32_t bits = 0;
-  for (int x = first; x < LatticeStore::kTilePixels; x += step) bits |= std::uint32_t{1} << x;
-  return bits;
-}
-
-// The pixels of a tile's rows whose corners are nodes of a level: which row, and a bit for each pixel.
-template <class Visit>
-void for_each_row(const LatticeLevel& level, const Visit& visit) {
-  const int side = level.side / kPixelSide, half = side / 2;
-  const std::uint32_t between = every(side, half), at_corners = every(side, 0);
-  if (level.kind == LatticeKind::kCenter) {
-    for (int y = half; y < LatticeStore::kTilePixels; y += side) visit(y, between);
-    return;
-  }
-  for (int y = 0; y < LatticeStore::kTilePixels; y += half) visit(y, y % side == 0 ? between : at_corners);
-}
-
 }  // namespace
+
+constinit const CornerOrder kCornerOrder;
 
 const std::array<std::int64_t, 256> LatticeStore::kRoots = [] {
   std::array<std::int64_t, 256> roots{};
@@ -129,7 +121,7 @@ NodeState& LatticeStore::state_for_writing(const LatticeNode& node) {
   if (!is_cell_corner(node)) return cell_block_for_writing(node).states[slot_in_cell(node)];
   const std::size_t number = tile_of(node), pixel = pixel_in_tile(node), slot = cell_of(node);
   Tile& tile = tile_for_writing(number);
-  if (slot == 0) return tile.corner_states[pixel];
+  if (slot == 0) return tile.corner_states[place_of_pixel(pixel)];
   if (slot == kCenterSlot) return tile.center_states[pixel];
   return pixel_block_for_writing(number, pixel).states[slot];
 }
@@ -150,8 +142,9 @@ void LatticeStore::set_sample(const LatticeNode& node, const NodeValue& value) {
   const std::size_t number = tile_of(node), pixel = pixel_in_tile(node), slot = cell_of(node);
   Tile& tile = tile_for_writing(number);
   if (slot == 0) {
-    change(node, tile.corner_states[pixel], kSampled);
-    tile.corners[pixel] = value;
+    const std::size_t place = place_of_pixel(pixel);
+    change(node, tile.corner_states[place], kSampled);
+    tile.corners[place] = value;
     return;
   }
   PixelBlock& own = pixel_block_for_writing(number, pixel);
@@ -225,11 +218,9 @@ void LatticeStore::collect(int tile, const LatticeLevel& level, NodeState least,
     return;
   }
   if (level == LatticeLevel{kPixelSide, LatticeKind::kCenter}) {
-    for (int row = 0; row < kTilePixels; ++row) {
-      const NodeState* states = &from.center_states[static_cast<std::size_t>(row) * kTilePixels];
-      for (std::uint32_t bits = at_least(states, least); bits != 0; bits &= bits - 1)
-        add(pixel_corner(first, std::countr_zero(bits), row), kCenterSlot, kCellSide);
-    }
+    for_each_at_least(least, from.center_states.data(), 0, kTileArea, [&](std::size_t pixel) {
+      add(corner_in(static_cast<std::uint16_t>(pixel)), kCenterSlot, kCellSide);
+    });
     return;
   }
   const std::span<const std::uint8_t> slots = slots_of(level);
@@ -253,24 +244,20 @@ void LatticeStore::collect(int tile, const LatticeLevel& level, NodeState least,
 void LatticeStore::collect_corners(int tile, const LatticeLevel& level, NodeState least,
                                    std::vector<LatticeNode>& nodes) const {
   const Tile& from = tiles_[static_cast<std::size_t>(tile)];
-  const LatticeNode first = corner_of(tile);
-  for_each_row(level, [&](int row, std::uint32_t pixels) {
-    const NodeState* states = &from.corner_states[static_cast<std::size_t>(row) * kTilePixels];
-    for (std::uint32_t bits = pixels & at_least(states, least); bits != 0; bits &= bits - 1)
-      nodes.push_back(pixel_corner(first, std::countr_zero(bits), row));
-  });
+  const std::size_t i = index_of(level);
+  const auto& [place_of_pixel, pixel_at_place, first_place] = kCornerOrder;
+  for_each_at_least(least, from.corner_states.data(), first_place[i], first_place[i + 1],
+                    [&](std::size_t place) { nodes.push_back(corner_of(tile, pixel_at_place[place])); });
 }
 
 void LatticeStore::collect_all(int tile, const LatticeLevel& level, std::vector<LatticeNode>& nodes) const {
   nodes.clear();
   if (level.side <= kPixelSide) return collect_all_between_corners(tile, level, nodes);
-  const LatticeNode first = corner_of(tile);
-  for_each_row(level, [&](int row, std::uint32_t pixels) {
-    for (std::uint32_t bits = pixels; bits != 0; bits &= bits - 1) {
-      const LatticeNode node = pixel_corner(first, std::countr_zero(bits), row);
-      if (has(node)) nodes.push_back(node);
-    }
-  });
+  const std::size_t i = index_of(level);
+  for (std::size_t place = kCornerOrder.first_place[i]; place < kCornerOrder.first_place[i + 1]; ++place) {
+    const LatticeNode node = corner_of(tile, kCornerOrder.pixel_at_place[place]);
+    if (has(node)) nodes.push_back(node);
+  }
 }
 
 void LatticeStore::collect_all_between_corners(int tile, const LatticeLevel& level,

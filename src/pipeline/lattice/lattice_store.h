@@ -63,9 +63,40 @@ class BlockPool {
   std::uint32_t used_ = kNone + 1;
 };
 
+// The order of the corners of pixels in a tile of kTilePixels x kTilePixels: those of base squares, then
+// level by level. Pixels are numbered row by row.
+struct CornerOrder {
+  static constexpr int kTilePixels = 32;
+  static constexpr std::size_t kCount = std::size_t{kTilePixels} * kTilePixels;
+
+  std::array<std::uint16_t, kCount> place_of_pixel{}, pixel_at_place{};
+  std::array<std::uint16_t, kLatticeLevels.size() + 1> first_place{};  // by level; the last one is the end
+
+  constexpr CornerOrder() {
+    std::size_t place = 0;
+    const auto append = [&](const auto& is_next) {
+      for (std::size_t pixel = 0; pixel < kCount; ++pixel) {
+        const int number = static_cast<int>(pixel), x = number % kTilePixels, y = number / kTilePixels;
+        if (!is_next(LatticeNode{kPixelSide * x, kPixelSide * y})) continue;
+        place_of_pixel[pixel] = static_cast<std::uint16_t>(place);
+        pixel_at_place[place++] = static_cast<std::uint16_t>(pixel);
+      }
+    };
+    append([](const LatticeNode& node) { return is_base(node); });
+    for (std::size_t level = 0; level < kLatticeLevels.size(); ++level) {
+      first_place[level] = static_cast<std::uint16_t>(place);
+      if (kLatticeLevels[level].side <= kPixelSide) continue;
+      append(
+          [&](const LatticeNode& node) { return !is_base(node) && level_of(node) == kLatticeLevels[level]; });
+    }
+    first_place[kLatticeLevels.size()] = static_cast<std::uint16_t>(place);
+  }
+};
+extern const CornerOrder kCornerOrder;
+
 class LatticeStore {
  public:
-  static constexpr int kTilePixels = 32;
+  static constexpr int kTilePixels = CornerOrder::kTilePixels;
   static constexpr int kCells = 4;  // in a row of a pixel
   static constexpr int kCellSide = kPixelSide / kCells;
 
@@ -96,14 +127,14 @@ class LatticeStore {
       return state_in_cell(node);
     const Tile& tile = tiles_[tile_of(node)];
     const std::size_t pixel = pixel_in_tile(node), slot = cell_of(node);
-    if (slot == 0) return tile.corner_states[pixel];
+    if (slot == 0) return tile.corner_states[place_of_pixel(pixel)];
     if (slot == kCenterSlot) return tile.center_states[pixel];
     const std::uint32_t block = tile.blocks[pixel];
     return block == kNone ? kNotWanted : pixel_blocks_[block].states[slot];
   }
   bool is_sampled(const LatticeNode& node) const { return state(node) == kSampled; }
   bool is_corner_sampled(const LatticeNode& corner) const {
-    return tiles_[tile_of(corner)].corner_states[pixel_in_tile(corner)] == kSampled;
+    return tiles_[tile_of(corner)].corner_states[place_in_tile(corner)] == kSampled;
   }
 
   // Changes the state of a node that holds no sample. Makes storage where there is none.
@@ -123,7 +154,10 @@ class LatticeStore {
       return sample_in_cell(node);
     const Tile& tile = tiles_[tile_of(node)];
     const std::size_t pixel = pixel_in_tile(node), slot = cell_of(node);
-    if (slot == 0) return tile.corner_states[pixel] == kSampled ? &tile.corners[pixel] : nullptr;
+    if (slot == 0) {
+      const std::size_t i = place_of_pixel(pixel);
+      return tile.corner_states[i] == kSampled ? &tile.corners[i] : nullptr;
+    }
     const std::uint32_t number = tile.blocks[pixel];
     if (number == kNone) return nullptr;
     const PixelBlock& block = pixel_blocks_[number];
@@ -138,13 +172,13 @@ class LatticeStore {
   // Null: nothing is.
   const NodeValue* kept_at(const LatticeNode& corner) const {
     const Tile& tile = tiles_[tile_of(corner)];
-    const std::size_t i = pixel_in_tile(corner);
+    const std::size_t i = place_in_tile(corner);
     const bool is_kept = tile.corner_states[i] == kSampled || tile.predicted_in[i] == round_;
     return is_kept ? &tile.corners[i] : nullptr;
   }
   void keep_prediction(const LatticeNode& corner, const NodeValue& value) {
     Tile& tile = tile_for_writing(tile_of(corner));
-    const std::size_t i = pixel_in_tile(corner);
+    const std::size_t i = place_in_tile(corner);
     tile.corners[i] = value, tile.predicted_in[i] = round_;
   }
   void forget_predictions();
@@ -212,10 +246,13 @@ class LatticeStore {
   struct PixelCells {
     std::array<std::uint32_t, kSlots> blocks, last_values;  // of each cell
   };
+  // Corners of pixels lie level by level, and row by row in each: where few are known, these share lines of
+  // memory.
   struct Tile {
     std::array<NodeValue, kTileArea> corners;
-    std::array<NodeState, kTileArea> corner_states, center_states;  // of each pixel
+    std::array<NodeState, kTileArea> corner_states;
     std::array<std::uint8_t, kTileArea> predicted_in;    // the round of the prediction in `corners`
+    std::array<NodeState, kTileArea> center_states;      // of each pixel
     std::array<std::uint32_t, kTileArea> blocks, cells;  // of each pixel
   };
   struct Cell {
@@ -237,6 +274,12 @@ class LatticeStore {
     const auto y = static_cast<unsigned>(node.y) / kPixelSide % kTilePixels;
     return std::size_t{y} * kTilePixels + x;
   }
+  // Where the upper left corner of a pixel is kept in its tile.
+  static std::size_t place_of_pixel(std::size_t pixel) { return kCornerOrder.place_of_pixel[pixel]; }
+  static std::size_t place_in_tile(const LatticeNode& corner) {
+    return place_of_pixel(pixel_in_tile(corner));
+  }
+
   static bool is_cell_corner(const LatticeNode& node) { return ((node.x | node.y) & (kCellSide - 1)) == 0; }
   // The cell that a node lies in, and the slot of its upper left corner in the pixel's block.
   static std::size_t cell_of(const LatticeNode& node) {

@@ -1,7 +1,5 @@
 #include "pipeline/lattice/node_prediction.h"
 
-#include "pipeline/core/display_values.h"
-
 namespace pprt {
 
 // Whether all corners of the base square around a node are known. Those of another rank's need not be.
@@ -50,7 +48,7 @@ Prediction NodePredictor::predict(const LatticeNode& node, const Surroundings& a
   const std::uint32_t seen = is_known ? seen_at(visibility_, node) : around[0].surface();
   Prediction found;
   found.around = found.on_surface = around.mean();
-  if (!is_known || (is_on_one_surface({&around[0], around.count()}) && around[0].surface() == seen)) {
+  if (!is_known || around.are_on(seen)) {
     found.value = NodeValue(found.around, seen);
     found.variance = around.variance();
     found.basis = Basis::kAllAround;

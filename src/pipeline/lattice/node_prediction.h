@@ -19,37 +19,46 @@
 
 namespace pprt {
 
-// Some nodes around a point, two to eight.
+// Some nodes around a point, at most eight, and what they have in common.
 class Surroundings {
  public:
-  Surroundings() = default;
-  explicit Surroundings(const std::array<NodeValue, 4>& values) : count_(values.size()) {
-    std::copy(values.begin(), values.end(), values_.begin());
+  void add(const NodeValue& value) {
+    values_[count_++] = value;
+    differ_ |= value.surface() ^ values_[0].surface();
+    const float4 channels = value.channels(), shown = on_display(channels);
+    sum_ += channels, shown_ += shown, squares_ += shown * shown;
   }
-
-  void add(const NodeValue& value) { values_[count_++] = value; }
 
   // Adds the middle of a side of a square whose corners are values 0 to 3. The side's ends are a and b.
   void add_middle(const NodeValue& value, std::size_t a, std::size_t b) {
     const float4 all =
         (values_[0].channels() + values_[1].channels()) + (values_[2].channels() + values_[3].channels());
-    off_center_ += (values_[a].channels() + values_[b].channels()) * 0.5F - all * 0.25F;
+    sum_ += all * 0.25F - (values_[a].channels() + values_[b].channels()) * 0.5F;
     add(value);
   }
-
-  // Mean over the channels of the variance of the colours on the display scale.
-  float variance() const;
 
   std::size_t count() const { return count_; }
   const NodeValue& operator[](std::size_t i) const { return values_[i]; }
 
+  // Whether all nodes, one at least, lie on this surface.
+  bool are_on(std::uint32_t surface) const { return differ_ == 0 && values_[0].surface() == surface; }
+
   // Mean colour, exact at the centre of what changes evenly: a middle counts by how it differs from its ends.
-  float4 mean() const;
+  float4 mean() const { return sum_ * (1.0F / static_cast<float>(count_)); }
+
+  // Mean over the channels of the variance of the colours on the display scale.
+  float variance() const {
+    const float each = 1.0F / static_cast<float>(count_);
+    const float4 mean = shown_ * each, variances = squares_ * each - mean * mean;
+    return std::max((variances[0] + variances[1] + variances[2]) * (1.0F / 3), 0.0F);
+  }
 
  private:
   std::array<NodeValue, 8> values_;  // the first count_ of them
   std::size_t count_ = 0;
-  float4 off_center_{};  // sum over the middles: what even change makes of the difference to the centre
+  std::uint32_t differ_ = 0;  // bits in which the surfaces do
+  float4 sum_{};  // of the colours, less what even change makes of the middles' distance from the centre
+  float4 shown_{}, squares_{};  // sums of the colours on the display scale, and of their squares
 };
 
 struct Prediction {
@@ -100,22 +109,5 @@ class NodePredictor {
   LocalErrors& errors_;
   const SurfaceShare& share_;
 };
-
-inline float4 Surroundings::mean() const {
-  float4 sum = -off_center_;
-  for (std::size_t i = 0; i < count_; ++i) sum += values_[i].channels();
-  return sum * (1.0F / static_cast<float>(count_));
-}
-
-inline float Surroundings::variance() const {
-  float4 sum{}, squares{};
-  for (std::size_t i = 0; i < count_; ++i) {
-    const float4 shown = on_display(values_[i].channels());
-    sum += shown, squares += shown * shown;
-  }
-  const float each = 1.0F / static_cast<float>(count_);
-  const float4 mean = sum * each, variances = squares * each - mean * mean;
-  return std::max((variances[0] + variances[1] + variances[2]) * (1.0F / 3), 0.0F);
-}
 
 }  // namespace pprt

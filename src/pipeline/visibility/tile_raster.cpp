@@ -1,6 +1,7 @@
 #include "pipeline/visibility/tile_raster.h"
 
 #include <limits>
+#include <type_traits>
 
 #include "pipeline/core/simd.h"
 #include "pipeline/silhouettes/shape_nearness.h"
@@ -9,6 +10,8 @@ namespace pprt {
 namespace {
 
 using EightIds = std::uint32_t __attribute__((vector_size(kPoints * sizeof(std::uint32_t))));
+using EightInts = std::int32_t __attribute__((vector_size(kPoints * sizeof(std::int32_t))));
+using FourWords = std::uint64_t __attribute__((vector_size(kPoints * sizeof(std::uint32_t))));
 using EightNumbers = std::uint16_t __attribute__((vector_size(kPoints * sizeof(std::uint16_t))));
 
 constexpr PerPoint kLanesOfRow = {0, 1, 2, 3, 4, 5, 6, 7};
@@ -16,6 +19,11 @@ constexpr PerPoint kLanesOfRow = {0, 1, 2, 3, 4, 5, 6, 7};
 // A facet's edges are moved outwards by so much, pixels: rounding leaves no gap between neighbours then.
 // Forms are floats of points at most 2^12 pixels away. Their rounding is 2^-11 of a pixel.
 constexpr float kOverlap = 0x1p-10F;
+
+// Rounds towards zero numbers that an int holds.
+PerPoint whole_part(const PerPoint& v) {
+  return __builtin_convertvector(__builtin_convertvector(v, EightInts), PerPoint);
+}
 
 // Eight points of a row of a tile.
 struct Row {
@@ -35,12 +43,34 @@ Row row_of(const TileTarget& to, int row) {
   return {to.nearest + row * kTileStride, to.numbers + row * kTileStride};
 }
 
+// The row or column of blocks that a row or column of points lies in.
+static_assert(kBlockSide == kPoints);
+std::size_t block_of(int point) {
+  return static_cast<std::size_t>(point / kBlockSide);
+}
+
 float row_y(const TileTarget& to, int row) {
   return to.corner.y + to.step * static_cast<float>(row);
 }
 
 PerPoint points_x(const TileTarget& to, int first) {
   return (kLanesOfRow + static_cast<float>(first)) * to.step + to.corner.x;
+}
+
+// The points of eight rows, half-open: as TileTarget::points_within() finds them in one.
+struct SpansOfRows {
+  PerPoint begin, end;
+};
+
+SpansOfRows spans_within(const PerPoint& low, const PerPoint& high, const TileTarget& to) {
+  constexpr float kLast = kTileIntervals;
+  const PerPoint least{}, most = least + (kLast + 1), last = least + kLast, before = least - 1;
+  PerPoint begin = to.per_step * (low > 0 ? low : least), end = to.per_step * high;
+  begin = begin < most ? begin : most;
+  end = end < last ? end : last;
+  end = end > before ? end : before;
+  const PerPoint whole = whole_part(begin);
+  return {whole < begin ? whole + 1 : whole, whole_part(end + 1)};
 }
 
 // The part of a row in which a quadric's discriminant is not negative. Where that is two parts, all of it.
@@ -60,53 +90,113 @@ Interval within_discriminant(const NearQuadratic& d, float y, const Interval& bo
           std::min(box.high, (-half - root) * per_square + kMargin)};
 }
 
+// Returns a bit for each word of a row's numbers: whether all of them are 0. Words: eight or four in a
+// vector.
+template <class Words>
+std::uint32_t zero_words(const std::array<std::uint16_t, kTileIntervals>& numbers) {
+  using Word = std::remove_cvref_t<decltype(Words{}[0])>;
+  constexpr int kWords = sizeof(Words) / sizeof(Word);
+  Words bit{}, found{};
+  for (int i = 0; i < kWords; ++i) bit[i] = Word{1} << i;
+  for (std::size_t i = 0; i < numbers.size(); i += sizeof(Words) / sizeof(numbers[0]), bit <<= kWords)
+    found |= load<Words>(numbers.data() + i) == 0 ? bit : Words{};
+  Word all = 0;
+  for (int i = 0; i < kWords; ++i) all |= found[i];
+  return static_cast<std::uint32_t>(all);
+}
+
+// Returns the least nearness of the points in a block.
+float least_of(std::size_t row, std::size_t column, const float* points) {
+  PerPoint least = PerPoint{} + std::numeric_limits<float>::infinity();
+  const float* at = points + (row * kTileStride + column) * kBlockSide;
+  const int rows = row + 1 < kBlocks ? kBlockSide : 1, columns = column + 1 < kBlocks ? kBlockSide : 1;
+  for (int y = 0; y < rows; ++y, at += kTileStride) {
+    const PerPoint here = load<PerPoint>(at);
+    least = here < least ? here : least;
+  }
+  float found = least[0];
+  for (int x = 1; x < columns; ++x) found = std::min(found, least[x]);
+  return found;
+}
+
 }  // namespace
 
+void clear_points(float* nearest, std::uint32_t* numbers) {
+  for (int row = 0; row <= kTileIntervals; ++row, nearest += kTileStride, numbers += kTileStride) {
+    std::fill_n(nearest, kTileStride, 0.0F);
+    std::fill_n(numbers, kTileStride, 0U);
+  }
+}
+
 PPRT_CLONED_FOR_WIDE_REGISTERS
-void rasterise(const ProjectedQuadric& q, std::uint32_t number, const TileTarget& to) {
+BlockSet rasterise(const ProjectedQuadric& q, std::uint32_t number, const TileTarget& to) {
+  BlockSet changed{};
   const PointSpan rows = to.rows();
   for (int row = rows.begin; row < rows.end; ++row) {
+    const unsigned blocks = to.blocks[block_of(row)];
+    if (blocks == 0) continue;
     const float y = row_y(to, row);
     const Interval box = {to.box.x0 + to.corner.x, to.box.x1 + to.corner.x};
     const Interval in = within_discriminant(q.discriminant, y, box);
     const PointSpan span = to.points_within(in.low - to.corner.x, in.high - to.corner.x);
     Row at = row_of(to, row);
-    for (int i = span.begin & ~(kPoints - 1); i < span.end; i += kPoints)
+    unsigned met = 0;
+    for (int i = span.begin & ~(kPoints - 1); i < span.end; i += kPoints) {
+      const unsigned block = blocks & 1U << block_of(i);
+      if (block == 0) continue;
       at.show(i, nearness(q, points_x(to, i), PerPoint{} + y), number);
+      met |= block;
+    }
+    changed[block_of(row)] |= static_cast<std::uint16_t>(met);
   }
+  return changed;
 }
 
 // Along a row an edge function is linear, and so is the nearness: the points between the edges need no test.
+// The ends of eight rows are found at once, for slivers leave most rows of a tile empty.
 PPRT_CLONED_FOR_WIDE_REGISTERS
-void rasterise(const ProjectedFacet& f, std::uint32_t number, const TileTarget& to) {
+BlockSet rasterise(const ProjectedFacet& f, std::uint32_t number, const TileTarget& to) {
   std::array<float, 3> per_edge{}, overlap{};
   for (std::size_t e = 0; e < 3; ++e) {
     per_edge[e] = f.edges[e].per_x != 0 ? 1 / f.edges[e].per_x : 0;
     overlap[e] = kOverlap * (std::fabs(f.edges[e].per_x) + std::fabs(f.edges[e].per_y));
   }
+  BlockSet changed{};
   const PointSpan rows = to.rows();
-  for (int row = rows.begin; row < rows.end; ++row) {
-    const float y = row_y(to, row);
-    float low = to.box.x0 + to.corner.x, high = to.box.x1 + to.corner.x;
+  for (int first = rows.begin & ~(kPoints - 1); first < rows.end; first += kPoints) {
+    const unsigned blocks = to.blocks[block_of(first)];
+    if (blocks == 0) continue;
+    unsigned met = 0;
+    const PerPoint y = (kLanesOfRow + static_cast<float>(first)) * to.step + to.corner.y;
+    PerPoint low = PerPoint{} + (to.box.x0 + to.corner.x), high = PerPoint{} + (to.box.x1 + to.corner.x);
     for (std::size_t e = 0; e < 3; ++e) {
-      const float at_zero = f.edges[e].constant + f.edges[e].per_y * y + overlap[e];
-      const float end = -at_zero * per_edge[e];
+      const PerPoint at_zero = f.edges[e].constant + f.edges[e].per_y * y + overlap[e];
+      const PerPoint end = -at_zero * per_edge[e];
       if (f.edges[e].per_x > 0) {
-        low = std::max(low, end);
+        low = low < end ? end : low;
       } else if (f.edges[e].per_x < 0) {
-        high = std::min(high, end);
-      } else if (at_zero < 0) {
-        high = low - 1;
+        high = end < high ? end : high;
+      } else {
+        high = at_zero < 0 ? low - 1 : high;
       }
     }
-    const PointSpan span = to.points_within(low - to.corner.x, high - to.corner.x);
-    Row at = row_of(to, row);
-    for (int i = span.begin & ~(kPoints - 1); i < span.end; i += kPoints) {
-      const PerPoint place = kLanesOfRow + static_cast<float>(i);
-      const auto is_in = (place >= static_cast<float>(span.begin)) & (place < static_cast<float>(span.end));
-      at.show(i, is_in ? value(f.nearness, points_x(to, i), PerPoint{} + y) : PerPoint{}, number);
+    const SpansOfRows spans = spans_within(low - to.corner.x, high - to.corner.x, to);
+    for (int row = std::max(first, rows.begin); row < std::min(first + kPoints, rows.end); ++row) {
+      const float begin = spans.begin[row - first], end = spans.end[row - first];
+      Row at = row_of(to, row);
+      for (int i = static_cast<int>(begin) & ~(kPoints - 1); static_cast<float>(i) < end; i += kPoints) {
+        const unsigned block = blocks & 1U << block_of(i);
+        if (block == 0) continue;
+        const PerPoint place = kLanesOfRow + static_cast<float>(i);
+        const auto is_in = (place >= begin) & (place < end);
+        const PerPoint n = value(f.nearness, points_x(to, i), PerPoint{} + row_y(to, row));
+        at.show(i, is_in ? n : PerPoint{}, number);
+        met |= block;
+      }
     }
+    changed[block_of(first)] = static_cast<std::uint16_t>(met);
   }
+  return changed;
 }
 
 bool misses(const ProjectedFacet& f, const TileTarget& to) {
@@ -119,32 +209,25 @@ bool misses(const ProjectedFacet& f, const TileTarget& to) {
   });
 }
 
-bool DepthBlocks::may_show(float nearest, int x0, int y0, int x1, int y1, const float* points) {
-  for (int row = y0 / kSide; row <= y1 / kSide; ++row) {
-    for (int column = x0 / kSide; column <= x1 / kSide; ++column) {
-      const auto block = static_cast<std::size_t>(row * kBlocks + column);
-      if (is_new_[block] != 0) {
-        PerPoint least = PerPoint{} + std::numeric_limits<float>::infinity();
-        const int rows = row + 1 < kBlocks ? kSide : 1;
-        for (int y = 0; y < rows; ++y) {
-          const PerPoint at = load<PerPoint>(points + (row * kSide + y) * kTileStride + column * kSide);
-          least = at < least ? at : least;
-        }
-        least_[block] = least[0];
-        const int columns = column + 1 < kBlocks ? kSide : 1;
-        for (int x = 1; x < columns; ++x) least_[block] = std::min(least_[block], least[x]);
-        is_new_[block] = 0;
-      }
-      if (nearest >= least_[block]) return true;
+PPRT_CLONED_FOR_WIDE_REGISTERS
+bool DepthBlocks::find_shown(const PointSpan& columns, const PointSpan& rows, const float* points,
+                             float nearest, BlockSet& shown) {
+  shown.fill(0);
+  const auto first_column = static_cast<std::size_t>(columns.begin / kBlockSide);
+  const auto last_column = static_cast<std::size_t>((columns.end - 1) / kBlockSide);
+  const auto last_row = static_cast<std::size_t>((rows.end - 1) / kBlockSide);
+  unsigned any = 0;
+  for (auto row = static_cast<std::size_t>(rows.begin / kBlockSide); row <= last_row; ++row) {
+    unsigned found = 0;
+    for (std::size_t column = first_column; column <= last_column; ++column) {
+      if ((is_new_[row] >> column & 1U) != 0) least_[row][column] = least_of(row, column, points);
+      found |= static_cast<unsigned>(nearest >= least_[row][column]) << column;
     }
+    is_new_[row] &= static_cast<std::uint16_t>(~((2U << last_column) - (1U << first_column)));
+    shown[row] = static_cast<std::uint16_t>(found);
+    any |= found;
   }
-  return false;
-}
-
-void DepthBlocks::touch(int x0, int y0, int x1, int y1) {
-  for (int row = y0 / kSide; row <= y1 / kSide; ++row)
-    for (int column = x0 / kSide; column <= x1 / kSide; ++column)
-      is_new_[static_cast<std::size_t>(row * kBlocks + column)] = 1;
+  return any != 0;
 }
 
 PPRT_CLONED_FOR_WIDE_REGISTERS void narrow(const std::uint32_t* from, std::size_t count, std::uint16_t* to) {
@@ -167,14 +250,7 @@ PPRT_CLONED_FOR_WIDE_REGISTERS void mark_uniform(const std::uint16_t* numbers, i
       }
       store(all, differ.data() + i);
     }
-    std::uint32_t marks = 0;
-    for (int column = 0, i = 0; column < pixels; ++column, i += density) {
-      int all = differ[static_cast<std::size_t>(i)] | differ[static_cast<std::size_t>(i + 1)];
-      if (density == 4)
-        all |= differ[static_cast<std::size_t>(i + 2)] | differ[static_cast<std::size_t>(i + 3)];
-      marks |= static_cast<std::uint32_t>(all == 0) << column;
-    }
-    uniform[p] = marks;
+    uniform[p] = density == 2 ? zero_words<EightIds>(differ) : zero_words<FourWords>(differ);
   }
 }
 

@@ -22,6 +22,12 @@ struct PointSpan {
   int begin = 0, end = 0;
 };
 
+// Blocks of 8 x 8 points; the last row and column of blocks hold one row and one column of points.
+inline constexpr int kBlockSide = 8, kBlocks = kTileIntervals / kBlockSide + 1;
+
+// Blocks of a tile: a bit for each column, row by row.
+using BlockSet = std::array<std::uint16_t, kBlocks>;
+
 // A tile that is rasterised, and where it lies to a shape. Points lie `step` pixels apart; there are
 // kTileIntervals + 1 in a row, and kTileStride places.
 struct TileTarget {
@@ -30,43 +36,52 @@ struct TileTarget {
   ImageBounds box;  // about the shape within the tile, from the tile's corner, pixels
   float* nearest;
   std::uint32_t* numbers;
+  BlockSet blocks;  // in which the shape is shown
 
   // Returns the points of an interval of coordinates from the tile's corner, pixels.
   PointSpan points_within(float low, float high) const {
     constexpr float kLast = kTileIntervals;
-    const float first = std::ceil(per_step * std::max(low, 0.0F));
-    const float last = std::floor(std::min(per_step * high, kLast));
-    return {static_cast<int>(std::min(first, kLast + 1)), static_cast<int>(std::max(last, -1.0F)) + 1};
+    const float begin = std::min(per_step * std::max(low, 0.0F), kLast + 1);
+    const float last = std::max(std::min(per_step * high, kLast), -1.0F) + 1;  // floor(x) is floor(x + 1) - 1
+    const int whole = static_cast<int>(begin);
+    return {static_cast<float>(whole) < begin ? whole + 1 : whole, static_cast<int>(last)};
   }
   PointSpan columns() const { return points_within(box.x0, box.x1); }
   PointSpan rows() const { return points_within(box.y0, box.y1); }
 };
 
+// Shows nothing at any point.
+void clear_points(float* nearest, std::uint32_t* numbers);
+
 // Shows a shape at the points where it is nearer than what is there; where it is as near, if its number is
-// lower.
-void rasterise(const ProjectedQuadric& q, std::uint32_t number, const TileTarget& to);
-void rasterise(const ProjectedFacet& f, std::uint32_t number, const TileTarget& to);
+// lower. Returns the blocks whose points may have changed.
+BlockSet rasterise(const ProjectedQuadric& q, std::uint32_t number, const TileTarget& to);
+BlockSet rasterise(const ProjectedFacet& f, std::uint32_t number, const TileTarget& to);
 
 // Whether an edge of a facet keeps all of it out of the tile.
 bool misses(const ProjectedFacet& f, const TileTarget& to);
 
-// The least nearness of the points in blocks of 8 x 8: what is not nearer is hidden there.
+// The least nearness of the points in each block: what is not nearer is hidden there.
 class DepthBlocks {
  public:
-  void clear() { least_.fill(0), is_new_.fill(0); }
+  void clear() {
+    for (auto& row : least_) row.fill(0);
+    is_new_.fill(0);
+  }
 
-  // Whether a shape that is nowhere nearer than `nearest` may be seen in the blocks of these points,
-  // inclusive.
-  bool may_show(float nearest, int x0, int y0, int x1, int y1, const float* points);
+  // Finds the blocks of these points in which a shape may be seen. Returns whether there are any. `nearest`:
+  // no point of the shape is nearer.
+  bool find_shown(const PointSpan& columns, const PointSpan& rows, const float* points, float nearest,
+                  BlockSet& shown);
 
-  // The points have come nearer.
-  void touch(int x0, int y0, int x1, int y1);
+  // Points of these blocks have come nearer.
+  void touch(const BlockSet& blocks) {
+    for (std::size_t row = 0; row < blocks.size(); ++row) is_new_[row] |= blocks[row];
+  }
 
  private:
-  static constexpr int kSide = 8, kBlocks = kTileIntervals / kSide + 1;  // the last hold one point
-
-  std::array<float, std::size_t{kBlocks} * kBlocks> least_;
-  std::array<std::uint8_t, std::size_t{kBlocks} * kBlocks> is_new_;
+  std::array<std::array<float, kBlocks>, kBlocks> least_;
+  BlockSet is_new_;
 };
 
 // Copies numbers below 2^16; a multiple of eight of them.

@@ -127,8 +127,7 @@ void VisibilityBuffer::see(std::size_t number) {
     tile.surfaces_.assign(1, 0), tile.first_of_surface_.assign(1, 0);
     return;
   }
-  std::fill(nearest_.begin(), nearest_.end(), 0.0F);
-  std::fill(numbers_.begin(), numbers_.end(), 0U);
+  clear_points(nearest_.data(), numbers_.data());
   order_.clear();
   for (std::uint32_t i = first; i < end; ++i) {
     const Item& item = items_[of_tile_[i]];
@@ -153,18 +152,13 @@ void VisibilityBuffer::see(std::size_t number) {
     const ImageBounds box = {item.bounds.x0 - x, item.bounds.y0 - y, std::min(item.bounds.x1 - x, side),
                              std::min(item.bounds.y1 - y, side)};
     const Vec2f corner(static_cast<float>(left - item.origin.x), static_cast<float>(top - item.origin.y));
-    const TileTarget to{1 / density, density, corner, box, nearest_.data(), numbers_.data()};
+    TileTarget to{1 / density, density, corner, box, nearest_.data(), numbers_.data(), {}};
     const PointSpan columns = to.columns(), rows = to.rows();
     if (columns.begin >= columns.end || rows.begin >= rows.end) continue;
-    if (!blocks_.may_show(nearest, columns.begin, rows.begin, columns.end - 1, rows.end - 1, nearest_.data()))
-      continue;
-    if (item.is_quadric) {
-      rasterise(quadrics_[item.shape], own, to);
-    } else {
-      if (misses(facets_[item.shape], to)) continue;
-      rasterise(facets_[item.shape], own, to);
-    }
-    blocks_.touch(columns.begin, rows.begin, columns.end - 1, rows.end - 1);
+    if (!item.is_quadric && misses(facets_[item.shape], to)) continue;
+    if (!blocks_.find_shown(columns, rows, nearest_.data(), nearest, to.blocks)) continue;
+    blocks_.touch(item.is_quadric ? rasterise(quadrics_[item.shape], own, to)
+                                  : rasterise(facets_[item.shape], own, to));
   }
   compress(tile);
   find_surfaces(tile);
@@ -172,32 +166,35 @@ void VisibilityBuffer::see(std::size_t number) {
 
 // Numbers each surface by the first of its primitives, and marks the pixels that see one only.
 void VisibilityBuffer::find_surfaces(VisibleTile& tile) {
-  const std::size_t count = tile.primitives_.size();
-  tile.surfaces_.resize(count), tile.first_of_surface_.resize(count);
+  tile.surfaces_.clear(), tile.first_of_surface_.clear();
   bool is_one_each = true;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t surface = shapes_.surface_of(tile.primitives_[i]);
-    tile.surfaces_[i] = surface;
-    const std::size_t first =
-        shapes_.surfaces.empty() ? i : first_of_surface_.try_emplace(surface, i).first->second;
-    tile.first_of_surface_[i] = static_cast<std::uint16_t>(first);
-    is_one_each = is_one_each && first == i;
+  for (const std::uint32_t primitive : tile.primitives_) {
+    const std::uint32_t surface = shapes_.surface_of(primitive);
+    tile.first_of_surface_.push_back(static_cast<std::uint16_t>(tile.surfaces_.size()));
+    tile.surfaces_.push_back(surface);
+    is_one_each = is_one_each && surface == primitive;
   }
-  first_of_surface_.clear();
   if (is_one_each) {
     mark_uniform(tile.points_.data(), density_, tile.uniform_.data());
     return;
   }
-  on_surface_.resize(tile.points_.size());
-  for (std::size_t i = 0; i < on_surface_.size(); ++i)
-    on_surface_[i] = tile.first_of_surface_[tile.points_[i]];
+  constexpr std::uint16_t kNone = 0xFFFF;
+  if (first_of_surface_.empty()) first_of_surface_.assign(shapes_.surfaces.size(), kNone);
+  for (std::uint16_t& number : tile.first_of_surface_) {
+    std::uint16_t& first = first_of_surface_[tile.surfaces_[number]];
+    if (first == kNone) first = number;
+    number = first;
+  }
+  for (const std::uint32_t surface : tile.surfaces_) first_of_surface_[surface] = kNone;
+  on_surface_.clear();
+  for (const std::uint16_t number : tile.points_) on_surface_.push_back(tile.first_of_surface_[number]);
   mark_uniform(on_surface_.data(), density_, tile.uniform_.data());
 }
 
-// Keeps the points as 16 bits. Of more than 2^16 primitives in a tile those that are seen get new numbers:
+// Keeps the points as 16 bits. Of more primitives in a tile those that are seen get new numbers:
 // they are no more than there are points.
 void VisibilityBuffer::compress(VisibleTile& tile) {
-  constexpr std::size_t kMost = std::size_t{1} << 16;
+  constexpr std::size_t kMost = (std::size_t{1} << 16) - 1;
   if (tile.primitives_.size() > kMost) {
     std::vector<std::uint32_t> new_number(tile.primitives_.size(), 0);
     std::vector<std::uint32_t> seen(1, 0), first_item(1, 0);

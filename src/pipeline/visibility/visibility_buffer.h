@@ -13,7 +13,6 @@
 #include <functional>
 #include <memory>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "base/image_shape.h"
@@ -194,7 +193,7 @@ class VisibilityBuffer {
   std::vector<float> nearest_;          // of the tile being rasterised
   std::vector<std::uint32_t> numbers_;  // the same
   std::vector<std::uint16_t> on_surface_;
-  std::unordered_map<std::uint32_t, std::size_t> first_of_surface_;
+  std::vector<std::uint16_t> first_of_surface_;  // in the tile, by surface
   ImageShape asked_;
 };
 
