@@ -7,6 +7,7 @@
 // Nearness is 1 / depth along the direction of view, per unit of length; 0 at infinity.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -38,6 +39,19 @@ struct ImageBounds {
 inline constexpr ImageBounds kEverywhere = {
     -std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity(),
     std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity()};
+
+inline constexpr ImageBounds kNowhere = {1, 1, 0, 0};
+
+// Returns the box about two boxes that are somewhere.
+inline ImageBounds around(const ImageBounds& a, const ImageBounds& b) {
+  return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
+}
+
+// A box about all of a primitive that may be seen, and how many quadrics or facets that is at most.
+struct ShapeBounds {
+  ImageBounds box = kNowhere;
+  std::uint32_t parts = 0;
+};
 
 // A projected triangle. It covers the points at which no edge function is negative.
 struct ImageFacet {

@@ -25,6 +25,9 @@ struct Probe {
   std::function<RayCounts()> counts;
   // Projects a primitive of a RaySample into `shape`; empty: not available.
   std::function<void(std::uint32_t primitive, ImageShape& shape)> project = {};
+  // Replaces `bounds` by boxes about the projections of primitives: of as many after the first `first` ones.
+  // Empty: not available.
+  std::function<void(std::uint32_t first, std::span<ShapeBounds> bounds)> bound = {};
   // Largest primitive number in a RaySample; 0: not known.
   std::uint32_t primitives = 0;
   // Traces the eye ray through image point (x, y), pixels, but sends no shadow rays from its first hit to

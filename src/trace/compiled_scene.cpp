@@ -272,7 +272,7 @@ CompiledScene compile(const SceneDescription& scene, const CompileOptions& optio
   std::erase_if(impl->parts, [](const ScenePart& part) { return part.materials.empty(); });
   if (impl->parts.empty()) reject(scene.name, {}, "no object of the scene has any extent");
   impl->moves = impl->bodies.size() > 1 || !impl->light_nodes.empty();
-  if (impl->moves) number_parts(scene.order.size(), *impl);
+  number_parts(scene.order.size(), *impl);
   find_coincident_faces(*impl);
   find_light_contacts(radius_about_origin(impl->normalisation, extent.measured), *impl);
   impl->surfaces = connected_surfaces(impl->parts, static_cast<std::uint32_t>(scene.order.size()));

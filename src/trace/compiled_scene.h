@@ -135,6 +135,9 @@ class Tracer {
   // Projects a primitive of a RaySample to the image, into `shape`, whose storage is reused.
   void project(std::uint32_t primitive, ImageShape& shape) const;
 
+  // Replaces `bounds` by boxes about the projections of as many primitives after the first `first` ones.
+  void bound(std::uint32_t first, std::span<ShapeBounds> bounds) const;
+
   const RayCounts& counts() const { return counts_; }
 
  private:

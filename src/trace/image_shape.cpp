@@ -76,8 +76,6 @@ bool solve(const QuadraticForm& a, const LinearForm& b, double c, double size, I
   return true;
 }
 
-constexpr ImageBounds kNowhere = {1, 1, 0, 0};
-
 // Returns the box about a sphere's ellipse, discriminant >= 0. Over all y the discriminant is at most
 // (by + axy x)^2 / (-4 ayy) more than at y = 0. That maximum is a quadratic in x, whose roots are the ends in
 // x. The ends in y are found alike. The box is grown by what rounding may take from it: a 2^-20th of its
@@ -115,13 +113,8 @@ float nearest_of(const ImageQuadric& sphere) {
   return static_cast<float>((std::sqrt(discriminant) - middle + slope) * kGrowth);
 }
 
-ImageBounds around(const ImageBounds& a, const ImageBounds& b) {
-  return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
-}
-
 // These equations are those of quadrics.h for the ray d / n from the eye, multiplied by n^2.
-bool project(const SphereRecord& sphere, const Camera& camera, ImageQuadric& seen) {
-  const EyeRay ray(camera);
+bool project(const SphereRecord& sphere, const Camera& camera, const EyeRay& ray, ImageQuadric& seen) {
   const Vec3d from_center = camera.eye - sphere.center;
   const double distance2 = from_center.dot(from_center);
   seen.has_ends = false;
@@ -134,7 +127,7 @@ bool project(const SphereRecord& sphere, const Camera& camera, ImageQuadric& see
 
 // The box about a cone is that about spheres of its ends: it lies in their convex hull. Where one of them is
 // not wholly before the eye it is unknown.
-void bound(const ConeRecord& cone, const Camera& camera, ImageQuadric& seen) {
+void bound(const ConeRecord& cone, const Camera& camera, const EyeRay& ray, ImageQuadric& seen) {
   constexpr double kLeastRadius = 0x1p-40;  // of an apex, to the distance of the eye
   ImageBounds box = kNowhere;
   float nearest = 0;
@@ -143,7 +136,7 @@ void bound(const ConeRecord& cone, const Camera& camera, ImageQuadric& seen) {
     const double radius = std::max(cone.base_radius + cone.radius_change * end,
                                    kLeastRadius * std::sqrt(from_center.dot(from_center)));
     ImageQuadric sphere;
-    if (!project(SphereRecord{center, radius}, camera, sphere)) return;
+    if (!project(SphereRecord{center, radius}, camera, ray, sphere)) return;
     if (sphere.bounds.x0 > sphere.bounds.x1 || sphere.bounds.x0 == kEverywhere.x0) return;
     box = end == 0 ? sphere.bounds : around(box, sphere.bounds);
     nearest = std::max(nearest, sphere.nearest);
@@ -151,8 +144,7 @@ void bound(const ConeRecord& cone, const Camera& camera, ImageQuadric& seen) {
   seen.bounds = box, seen.nearest = nearest;
 }
 
-bool project(const ConeRecord& cone, const Camera& camera, ImageQuadric& seen) {
-  const EyeRay ray(camera);
+bool project(const ConeRecord& cone, const Camera& camera, const EyeRay& ray, ImageQuadric& seen) {
   const Vec3d from_base = camera.eye - cone.base;
   const Vec3d aside = from_base.cross(cone.axis);
   const double length2 = cone.axis.dot(cone.axis), height = from_base.dot(cone.axis);
@@ -164,7 +156,7 @@ bool project(const ConeRecord& cone, const Camera& camera, ImageQuadric& seen) {
   seen.height = height;
   seen.top = length2;
   seen.bounds = kEverywhere, seen.nearest = std::numeric_limits<float>::infinity();
-  bound(cone, camera, seen);
+  bound(cone, camera, ray, seen);
   // (d x axis) . aside = d . (axis x aside)
   const Vec3d b = cone.axis.cross(aside) * length2 - cone.axis * (cone.radius_change * radius);
   return solve(difference(scaled(ray.cross_squared(cone.axis), length2), square(growth)), ray.dot(b),
@@ -173,8 +165,8 @@ bool project(const ConeRecord& cone, const Camera& camera, ImageQuadric& seen) {
 
 // An edge function is the plane through the eye and two vertices. It needs no division, so vertices may lie
 // behind the eye. Returns nothing when the facet is seen edge-on.
-std::optional<ImageFacet> project(const std::array<Vec3d, 3>& vertices, const Camera& camera) {
-  const EyeRay ray(camera);
+std::optional<ImageFacet> project(const std::array<Vec3d, 3>& vertices, const Camera& camera,
+                                  const EyeRay& ray) {
   const Vec3d a = vertices[0] - camera.eye, b = vertices[1] - camera.eye, c = vertices[2] - camera.eye;
   const double volume = a.dot(b.cross(c)), size = std::fabs(volume);
   const double largest2 = a.dot(a) * b.dot(b) * c.dot(c);
@@ -220,16 +212,19 @@ void project(const ScenePart& part, const BodyPlace* body, std::size_t first, st
   shape.quadric.front = part.faces != VisibleFaces::kBack;
   shape.quadric.back = part.faces != VisibleFaces::kFront;
   bool known = true;
-  if (const auto* spheres = std::get_if<std::vector<SphereRecord>>(&part.shape)) {
+  const auto* spheres = std::get_if<std::vector<SphereRecord>>(&part.shape);
+  const auto* cones = std::get_if<std::vector<ConeRecord>>(&part.shape);
+  if (spheres || cones) {
     shape.kind = ImageShape::Kind::kQuadric;
-    known = project((*spheres)[first], body ? seen_from(*body, camera) : camera, shape.quadric);
-  } else if (const auto* cones = std::get_if<std::vector<ConeRecord>>(&part.shape)) {
-    shape.kind = ImageShape::Kind::kQuadric;
-    known = project((*cones)[first], body ? seen_from(*body, camera) : camera, shape.quadric);
+    const Camera own = body ? seen_from(*body, camera) : camera;
+    const EyeRay ray(own);
+    known = spheres ? project((*spheres)[first], own, ray, shape.quadric)
+                    : project((*cones)[first], own, ray, shape.quadric);
   } else {
     shape.kind = ImageShape::Kind::kFacets;
     const Mesh& mesh = std::get<Mesh>(part.shape);
     const Vec3d eye = body ? body->from_world.point(camera.eye) : camera.eye;
+    const EyeRay ray(camera);
     for (std::size_t i = first; i < last; ++i) {
       std::array<Vec3d, 3> corners;
       for (std::size_t k = 0; k < 3; ++k) corners[k] = Vec3d(mesh.vertices[mesh.triangles[i][k]]);
@@ -237,7 +232,7 @@ void project(const ScenePart& part, const BodyPlace* body, std::size_t first, st
       if (body) {
         for (Vec3d& corner : corners) corner = body->to_world.point(corner);
       }
-      if (const auto facet = project(corners, camera)) {
+      if (const auto facet = project(corners, camera, ray)) {
         shape.facets.push_back(*facet);
       }
     }
@@ -251,24 +246,18 @@ void project_primitive(const Pose& pose, std::uint32_t primitive, const Camera& 
   shape.kind = ImageShape::Kind::kFacets;
   shape.facets.clear();
   const CompiledScene::Impl& scene = pose.scene();
-  const auto within = [&](const ScenePart& part) {
-    // Within a part, primitives are in the description's order.
-    const auto [first, last] =
-        std::equal_range(part.primitives.begin(), part.primitives.end(), primitive - 1);
-    if (first == last) return false;
-    project(part, pose.place_of(part), static_cast<std::size_t>(first - part.primitives.begin()),
-            static_cast<std::size_t>(last - part.primitives.begin()), camera, shape);
-    return true;
-  };
-  if (scene.moves) {
-    if (primitive - 1 >= scene.part_of_primitive.size()) return;
-    const std::uint32_t number = scene.part_of_primitive[primitive - 1];
-    if (number == kNoPart) return;
-    const BodyPlace* body = pose.place_of(scene.parts[number]);
-    if (!body || body->is_shown) within(pose.part(number));
-    return;
-  }
-  std::any_of(scene.parts.begin(), scene.parts.end(), within);
+  if (primitive - 1 >= scene.part_of_primitive.size()) return;
+  const std::uint32_t number = scene.part_of_primitive[primitive - 1];
+  if (number == kNoPart) return;
+  const ScenePart& part = pose.part(number);
+  const BodyPlace* body = pose.place_of(part);
+  if (body && !body->is_shown) return;
+  // Within a part, primitives are in the description's order.
+  const auto first = std::lower_bound(part.primitives.begin(), part.primitives.end(), primitive - 1);
+  const auto last =
+      std::find_if(first, part.primitives.end(), [&](std::uint32_t other) { return other != primitive - 1; });
+  project(part, body, static_cast<std::size_t>(first - part.primitives.begin()),
+          static_cast<std::size_t>(last - part.primitives.begin()), camera, shape);
 }
 
 }  // namespace pprt

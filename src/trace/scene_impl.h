@@ -101,7 +101,7 @@ class CompiledScene::Impl {
   std::vector<LightNode> light_nodes;            // empty: no light moves
   std::vector<Vec3d> light_positions;            // in the space of its node, if lights move
   std::vector<CompiledBody> bodies;              // destroyed before the parts that they read
-  std::vector<std::uint32_t> part_of_primitive;  // by place in the order, if something moves; kNoPart: none
+  std::vector<std::uint32_t> part_of_primitive;  // by place in the order; kNoPart: none
 
   BuildFigures figures;
 };

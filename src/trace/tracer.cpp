@@ -8,6 +8,7 @@
 #include "trace/pose.h"
 #include "trace/ray_tree.h"
 #include "trace/scene_impl.h"
+#include "trace/shape_bounds.h"
 #include "trace/textures/ray_cone.h"
 
 namespace pprt {
@@ -118,6 +119,10 @@ void Tracer::project(std::uint32_t primitive, ImageShape& shape) const {
   } else {
     shape.kind = ImageShape::Kind::kUnknown;
   }
+}
+
+void Tracer::bound(std::uint32_t first, std::span<ShapeBounds> bounds) const {
+  bound_primitives(*pose_, first, camera_, bounds);
 }
 
 }  // namespace pprt

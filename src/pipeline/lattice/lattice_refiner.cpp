@@ -263,7 +263,7 @@ void LatticeRefiner::choose_fineness() {
                                               : per_pixel < kFew   ? VisibilityBuffer::kMiddle
                                                                    : VisibilityBuffer::kFine;
   if (fineness != visibility_.fineness()) visibility_.forget(fineness);
-  if (!sees_mirrors_) visibility_.limit(static_cast<std::size_t>(kItems * samples));
+  if (!sees_mirrors_) visibility_.limit(static_cast<std::size_t>(kItems * samples), region().bounds());
 }
 
 // Takes a whole level, while the levels so far are but a part of all samples to come.

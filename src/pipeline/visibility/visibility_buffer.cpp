@@ -12,6 +12,13 @@
 namespace pprt {
 namespace {
 
+// Whether a box meets a rectangle of pixels.
+bool meets(const ImageBounds& box, const PixelRect& pixels) {
+  return box.x0 <= box.x1 && box.x1 >= static_cast<float>(pixels.x0) &&
+         box.y1 >= static_cast<float>(pixels.y0) && box.x0 <= static_cast<float>(pixels.x1) &&
+         box.y0 <= static_cast<float>(pixels.y1);
+}
+
 // Returns an upper bound of a facet's nearness.
 float nearest_of(const ImageFacet& facet) {
   const ImageBounds& b = facet.bounds;
@@ -28,6 +35,7 @@ float nearest_of(const ImageFacet& facet) {
 VisibilityBuffer::VisibilityBuffer(int right, int bottom, PrimitiveShapes shapes)
     : right_(right), bottom_(bottom), shapes_(std::move(shapes)) {
   forget(kFine);
+  limit(kNoLimit);
 }
 
 void VisibilityBuffer::forget(const Fineness& fineness) {
@@ -41,22 +49,54 @@ void VisibilityBuffer::forget(const Fineness& fineness) {
   is_seen_.assign(static_cast<std::size_t>(columns_ * rows_), 0);
 }
 
-// Projects all primitives. False where one has no shape.
-bool VisibilityBuffer::project_all() {
+// Finds the tiles that each primitive may meet. False where a primitive is known to have no shape, or where
+// they are too many: bounding eight primitives costs as much as one of the part of the picture.
+bool VisibilityBuffer::bound_all() {
+  constexpr std::size_t kAtOnce = 1024, kPerItem = 8;
   items_.clear(), quadrics_.clear(), facets_.clear();
-  state_ = State::kUnknown;
-  for (std::uint32_t primitive = 1; primitive <= shapes_.count; ++primitive) {
-    shapes_.project(primitive, asked_);
-    if (asked_.kind == ImageShape::Kind::kUnknown) return false;
-    add(primitive, asked_);
-    if (items_.size() > most_items_) return false;
+  items_of_.assign(shapes_.count, {});
+  bounds_.resize(shapes_.count);
+  state_ = State::kKnown;
+  std::size_t items = 0;
+  for (std::size_t first = 0; first < bounds_.size(); first += kAtOnce) {
+    const std::span<ShapeBounds> now(bounds_.data() + first, std::min(kAtOnce, bounds_.size() - first));
+    if (shapes_.bound) shapes_.bound(static_cast<std::uint32_t>(first), now);
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      if (!shapes_.bound || now[i].box.x0 == kEverywhere.x0)
+        bound_by_projection(static_cast<std::uint32_t>(first + i + 1), now[i]);
+      if (meets(now[i].box, within_)) items += now[i].parts;
+    }
+    if (items + (shapes_.bound ? first / kPerItem : 0) > most_items_) state_ = State::kUnknown;
+    if (state_ == State::kUnknown) return false;
   }
   assign_to_tiles();
   if (tiles_.size() < is_seen_.size()) tiles_.resize(is_seen_.size());
   nearest_.resize(kTilePlaces);
   numbers_.resize(kTilePlaces);
-  state_ = State::kKnown;
   return true;
+}
+
+void VisibilityBuffer::bound_by_projection(std::uint32_t primitive, ShapeBounds& bounds) {
+  bounds = {};
+  const ItemRange& of = project(primitive);
+  for (std::uint32_t i = of.begin; i < of.end; ++i) {
+    bounds.box = bounds.parts++ == 0 ? items_[i].bounds : around(bounds.box, items_[i].bounds);
+  }
+}
+
+// Projects a primitive when it is asked for first.
+const VisibilityBuffer::ItemRange& VisibilityBuffer::project(std::uint32_t primitive) {
+  ItemRange& of = items_of_[primitive - 1];
+  if (of.is_projected) return of;
+  of = {static_cast<std::uint32_t>(items_.size()), 0, true};
+  shapes_.project(primitive, asked_);
+  if (asked_.kind == ImageShape::Kind::kUnknown) {
+    state_ = State::kUnknown;
+  } else {
+    add(primitive, asked_);
+  }
+  of.end = static_cast<std::uint32_t>(items_.size());
+  return of;
 }
 
 void VisibilityBuffer::add(std::uint32_t primitive, const ImageShape& shape) {
@@ -67,13 +107,10 @@ void VisibilityBuffer::add(std::uint32_t primitive, const ImageShape& shape) {
     };
     return Vec2d(middle(b.x0, b.x1, right_), middle(b.y0, b.y1, bottom_));
   };
-  const auto is_in_picture = [this](const ImageBounds& b) {
-    return b.x1 >= 0 && b.y1 >= 0 && b.x0 <= static_cast<float>(right_) &&
-           b.y0 <= static_cast<float>(bottom_) && b.x0 <= b.x1;
-  };
+  const PixelRect picture = {0, 0, right_, bottom_};
   if (shape.kind == ImageShape::Kind::kQuadric) {
     const ImageBounds& box = shape.quadric.bounds;
-    if (!is_in_picture(box)) return;
+    if (!meets(box, picture)) return;
     const Vec2d origin = origin_of(box);
     items_.push_back(
         {primitive, static_cast<std::uint32_t>(quadrics_.size()), true, shape.quadric.nearest, origin, box});
@@ -81,7 +118,7 @@ void VisibilityBuffer::add(std::uint32_t primitive, const ImageShape& shape) {
     return;
   }
   for (const ImageFacet& facet : shape.facets) {
-    if (!is_in_picture(facet.bounds)) continue;
+    if (!meets(facet.bounds, picture)) continue;
     const Vec2d origin = origin_of(facet.bounds);
     items_.push_back({primitive, static_cast<std::uint32_t>(facets_.size()), false, nearest_of(facet), origin,
                       facet.bounds});
@@ -97,46 +134,60 @@ VisibilityBuffer::TileRange VisibilityBuffer::tiles_that_meet(const ImageBounds&
   return {tile(b.x0 - 1, columns_), tile(b.y0 - 1, rows_), tile(b.x1 + 1, columns_), tile(b.y1 + 1, rows_)};
 }
 
-// By counting, so that each tile's items are in the order of primitives: of two equally near ones the first
-// is seen.
+// By counting, so that each tile's primitives are in order: of two equally near ones the first is seen.
 void VisibilityBuffer::assign_to_tiles() {
-  const auto for_each_tile = [this](const Item& item, const auto& visit) {
-    const TileRange tiles = tiles_that_meet(item.bounds);
+  const PixelRect picture = {0, 0, right_, bottom_};
+  const auto for_each_tile = [&](const ShapeBounds& bounds, const auto& visit) {
+    if (!meets(bounds.box, picture)) return;
+    const TileRange tiles = tiles_that_meet(bounds.box);
     for (int y = tiles.y0; y <= tiles.y1; ++y)
       for (int x = tiles.x0; x <= tiles.x1; ++x) visit(static_cast<std::size_t>(y * columns_ + x));
   };
   first_of_tile_.assign(is_seen_.size() + 1, 0);
-  for (const Item& item : items_) for_each_tile(item, [this](std::size_t t) { ++first_of_tile_[t + 1]; });
+  for (const ShapeBounds& bounds : bounds_)
+    for_each_tile(bounds, [this](std::size_t t) { ++first_of_tile_[t + 1]; });
   for (std::size_t t = 1; t < first_of_tile_.size(); ++t) first_of_tile_[t] += first_of_tile_[t - 1];
   of_tile_.resize(first_of_tile_.back());
   std::vector<std::uint32_t> next(first_of_tile_.begin(), first_of_tile_.end() - 1);
-  for (std::size_t i = 0; i < items_.size(); ++i)
-    for_each_tile(items_[i], [&](std::size_t t) { of_tile_[next[t]++] = static_cast<std::uint32_t>(i); });
+  for (std::size_t i = 0; i < bounds_.size(); ++i)
+    for_each_tile(bounds_[i],
+                  [&](std::size_t t) { of_tile_[next[t]++] = static_cast<std::uint32_t>(i + 1); });
+}
+
+// Lists the items that may meet a tile, and numbers their primitives.
+void VisibilityBuffer::list_items(std::size_t number, VisibleTile& tile) {
+  tile.primitives_.assign(1, 0);
+  tile.items_.clear(), tile.first_item_.assign(1, 0);
+  order_.clear();
+  const auto column = static_cast<int>(number) % columns_, row = static_cast<int>(number) / columns_;
+  for (std::uint32_t i = first_of_tile_[number]; i < first_of_tile_[number + 1]; ++i) {
+    const std::uint32_t primitive = of_tile_[i];
+    const ItemRange of = project(primitive);
+    for (std::uint32_t item = of.begin; item < of.end; ++item) {
+      const TileRange tiles = tiles_that_meet(items_[item].bounds);
+      if (column < tiles.x0 || column > tiles.x1 || row < tiles.y0 || row > tiles.y1) continue;
+      if (tile.primitives_.back() != primitive) {
+        tile.primitives_.push_back(primitive);
+        tile.first_item_.push_back(static_cast<std::uint32_t>(tile.items_.size()));
+      }
+      tile.items_.push_back(item);
+      order_.push_back({items_[item].nearest, item, static_cast<std::uint32_t>(tile.primitives_.size() - 1)});
+    }
+  }
 }
 
 void VisibilityBuffer::see(std::size_t number) {
   is_seen_[number] = 1;
   if (!tiles_[number]) tiles_[number] = std::make_unique_for_overwrite<VisibleTile>();
   VisibleTile& tile = *tiles_[number];
-  tile.primitives_.assign(1, 0);
-  tile.first_item_.assign(1, 0);
-  const std::uint32_t first = first_of_tile_[number], end = first_of_tile_[number + 1];
-  if (first == end) {
+  list_items(number, tile);
+  if (order_.empty()) {
     tile.points_.fill(0);
     tile.uniform_.fill(~0U);
     tile.surfaces_.assign(1, 0), tile.first_of_surface_.assign(1, 0);
     return;
   }
   clear_points(nearest_.data(), numbers_.data());
-  order_.clear();
-  for (std::uint32_t i = first; i < end; ++i) {
-    const Item& item = items_[of_tile_[i]];
-    if (item.primitive != tile.primitives_.back()) {
-      tile.primitives_.push_back(item.primitive);
-      tile.first_item_.push_back(i);
-    }
-    order_.push_back({item.nearest, of_tile_[i], static_cast<std::uint32_t>(tile.primitives_.size() - 1)});
-  }
   // The nearest first, for they hide others. The order changes nothing else: of equally near points that of
   // the first primitive is seen.
   std::sort(order_.begin(), order_.end(), [](const Numbered& a, const Numbered& b) {
@@ -217,8 +268,8 @@ void VisibilityBuffer::for_each_item(const VisibleTile& tile, std::uint16_t numb
                                      const Visit& visit) const {
   const std::uint32_t primitive = tile.primitives_[number];
   if (primitive == 0) return;
-  for (std::uint32_t i = tile.first_item_[number]; i < of_tile_.size(); ++i) {
-    const Item& item = items_[of_tile_[i]];
+  for (std::uint32_t i = tile.first_item_[number]; i < tile.items_.size(); ++i) {
+    const Item& item = items_[tile.items_[i]];
     if (item.primitive != primitive) return;
     const ImageBounds& b = item.bounds;
     if (b.x0 > within.x1 || b.x1 < within.x0 || b.y0 > within.y1 || b.y1 < within.y0) continue;

@@ -17,6 +17,7 @@
 
 #include "base/image_shape.h"
 #include "base/vector.h"
+#include "pipeline/core/tile_grid.h"
 #include "pipeline/silhouettes/projected_shape_cache.h"
 #include "pipeline/visibility/tile_raster.h"
 
@@ -52,7 +53,8 @@ class VisibleTile {
   std::array<std::uint32_t, 32> uniform_;  // pixels of a row of pixels, a bit each
   std::vector<std::uint32_t> primitives_, surfaces_;
   std::vector<std::uint16_t> first_of_surface_;
-  std::vector<std::uint32_t> first_item_;  // of each primitive, in VisibilityBuffer::of_tile_
+  std::vector<std::uint32_t> items_;       // by primitive: their numbers in VisibilityBuffer::items_
+  std::vector<std::uint32_t> first_item_;  // of each primitive, in items_
 };
 
 // The shapes of a scene's primitives, numbered from 1 to `count`, as Probe::project makes them. None: nothing
@@ -61,6 +63,8 @@ struct PrimitiveShapes {
   ProjectedShapeCache::View project = {};
   std::uint32_t count = 0;
   std::span<const std::uint32_t> surfaces = {};
+  // Bounds them, as Probe::bound. Empty: their projections do.
+  std::function<void(std::uint32_t first, std::span<ShapeBounds> bounds)> bound = {};
 
   // Primitives from other ranks may have any number.
   std::uint32_t surface_of(std::uint32_t primitive) const {
@@ -88,12 +92,13 @@ class VisibilityBuffer {
   void forget(const Fineness& fineness);
   void forget() { forget(fineness()); }
 
-  // Counts as not known where more quadrics and facets than this are in the picture: then rasterising them
-  // would take longer than it is worth. 0: they are not even projected.
-  void limit(std::size_t items) {
+  // Counts as not known where more quadrics and facets than this are in a part of the picture: then
+  // rasterising them would take longer than it is worth. 0: they are not even bounded.
+  void limit(std::size_t items, const PixelRect& within) {
     if (items == 0) state_ = State::kUnknown;
-    most_items_ = items;
+    most_items_ = items, within_ = within;
   }
+  void limit(std::size_t items) { limit(items, {0, 0, right_, bottom_}); }
 
   Fineness fineness() const { return {density_, share_points_}; }
 
@@ -104,7 +109,8 @@ class VisibilityBuffer {
   bool has_shares() const { return share_points_ > 0; }
 
   // Whether what is seen is known: every primitive has a shape (image_shape.h), and they are not too many.
-  bool is_known() { return state_ == State::kKnown || (state_ == State::kNotAsked && project_all()); }
+  // That one has no shape may show late: a primitive is projected when a tile that it may meet is asked for.
+  bool is_known() { return state_ == State::kKnown || (state_ == State::kNotAsked && bound_all()); }
 
   // Returns the tile that holds a pixel. Only if is_known().
   const VisibleTile& tile(int pixel_x, int pixel_y) {
@@ -161,10 +167,18 @@ class VisibilityBuffer {
   void for_each_item(const VisibleTile& tile, std::uint16_t number, const ImageBounds& within,
                      const Visit& visit) const;
   TileRange tiles_that_meet(const ImageBounds& bounds) const;
-  bool project_all();
+  // The items of a primitive: numbers that follow each other.
+  struct ItemRange {
+    std::uint32_t begin = 0, end = 0;
+    bool is_projected = false;
+  };
+  bool bound_all();
+  void bound_by_projection(std::uint32_t primitive, ShapeBounds& bounds);
+  const ItemRange& project(std::uint32_t primitive);
   void add(std::uint32_t primitive, const ImageShape& shape);
   void assign_to_tiles();
   void see(std::size_t tile);
+  void list_items(std::size_t number, VisibleTile& tile);
   void compress(VisibleTile& tile);
   void find_surfaces(VisibleTile& tile);
 
@@ -176,10 +190,13 @@ class VisibilityBuffer {
   PrimitiveShapes shapes_;
   State state_ = State::kNotAsked;
   std::size_t most_items_ = kNoLimit;
+  PixelRect within_;
+  std::vector<ShapeBounds> bounds_;  // of each primitive
+  std::vector<ItemRange> items_of_;  // of each primitive
   std::vector<Item> items_;
   std::vector<ProjectedQuadric> quadrics_;
   std::vector<ProjectedFacet> facets_;
-  std::vector<std::uint32_t> first_of_tile_, of_tile_;  // items by tile
+  std::vector<std::uint32_t> first_of_tile_, of_tile_;  // primitives that may meet each tile
   std::vector<std::uint8_t> is_seen_;                   // per tile
   std::vector<std::unique_ptr<VisibleTile>> tiles_;     // null: never rasterised
   // Of the tile being rasterised. An item, and its primitive's number in the tile.

@@ -240,9 +240,11 @@ class LatticePicture {
   explicit LatticePicture(const Subject& subject)
       : camera_(subject.camera),
         tracer_(tracer_of(subject)),
-        sampler_(Region::whole({camera_.width, camera_.height, kTilePixels}),
-                 {[this](std::uint32_t primitive, ImageShape& shape) { tracer_.project(primitive, shape); },
-                  tracer_.primitive_count(), tracer_.surfaces()}) {}
+        sampler_(
+            Region::whole({camera_.width, camera_.height, kTilePixels}),
+            {[this](std::uint32_t primitive, ImageShape& shape) { tracer_.project(primitive, shape); },
+             tracer_.primitive_count(), tracer_.surfaces(),
+             [this](std::uint32_t first, std::span<ShapeBounds> bounds) { tracer_.bound(first, bounds); }}) {}
 
   // Whether so few samples leave parts of the picture black.
   bool is_too_coarse(double density) const {
