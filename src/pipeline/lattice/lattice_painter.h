@@ -46,7 +46,7 @@ class LatticePainter {
   SurfaceColors colors_anew(std::uint32_t surface, const LatticeNode& at, const SquareCorners& corners) const;
   float4 mixed_mean(const LatticeNode& corner, const LatticeNode& square, int square_side,
                     const SquareCorners& corners);
-  static constexpr std::size_t kMostInPixel = 8;
+  static constexpr std::size_t kMostInPixel = VisibilityBuffer::kMostInPixel;
   // The primitives seen in a pixel, by their tile's own numbers, and the share of each.
   struct NumbersInPixel {
     std::array<std::uint16_t, kMostInPixel> numbers;

@@ -13,7 +13,6 @@ namespace pprt {
 
 // Points of a pixel, in shares of its side: Sobol's first two dimensions, whose beginnings fall evenly, too.
 inline constexpr int kMostSharePoints = 64, kMostShareVectors = kMostSharePoints / kPoints;
-using SharePoints = std::array<PerPoint, kMostShareVectors>;
 
 constexpr float share_point(std::uint32_t i, bool is_second) {
   std::uint32_t bits = 0;
@@ -31,15 +30,32 @@ inline constexpr std::array<std::array<float, kMostSharePoints>, 2> kSharePoints
   return points;
 }();
 
-// Raises `nearest` to the nearness of a shape at the points of a pixel with this upper left corner.
-template <class Shape>
-PPRT_CLONED_FOR_WIDE_REGISTERS void raise_nearness(const Shape& shape, float left, float top,
-                                                   std::span<PerPoint> nearest) {
-  for (std::size_t i = 0; i < nearest.size(); ++i) {
-    const PerPoint n = nearness(shape, load<PerPoint>(kSharePoints[0].data() + i * kPoints) + left,
-                                load<PerPoint>(kSharePoints[1].data() + i * kPoints) + top);
-    nearest[i] = n > nearest[i] ? n : nearest[i];
+// What is nearest at each point of a pixel: a number of its own, 0 for nothing.
+class NearestInPixel {
+ public:
+  explicit NearestInPixel(int points);
+
+  // Shows a shape where it is nearer. `left`, `top`: the pixel's corner.
+  template <class Shape>
+  PPRT_CLONED_FOR_WIDE_REGISTERS void show(const Shape& shape, float left, float top, std::int32_t number) {
+    for (std::size_t i = 0; i < vectors_; ++i) {
+      const PerPoint n = nearness(shape, load<PerPoint>(kSharePoints[0].data() + i * kPoints) + left,
+                                  load<PerPoint>(kSharePoints[1].data() + i * kPoints) + top);
+      const auto is_nearer = n > nearest_[i];
+      nearest_[i] = is_nearer ? n : nearest_[i];
+      numbers_[i] = is_nearer ? Numbers{} + number : numbers_[i];
+    }
   }
-}
+
+  // Replaces `counts` by how many points show each number, from 0 on.
+  void count(std::span<int> counts) const;
+
+ private:
+  using Numbers = std::int32_t __attribute__((vector_size(kPoints * sizeof(std::int32_t))));
+
+  std::size_t vectors_;
+  std::array<PerPoint, kMostShareVectors> nearest_;
+  std::array<Numbers, kMostShareVectors> numbers_;
+};
 
 }  // namespace pprt

@@ -311,31 +311,21 @@ void VisibilityBuffer::shares(int pixel_x, int pixel_y, std::span<const std::uin
                               std::span<float> shares) {
   const VisibleTile& seen = tile(pixel_x, pixel_y);
   const auto x = static_cast<float>(pixel_x), y = static_cast<float>(pixel_y);
-  const auto vectors = static_cast<std::size_t>(share_points_ / kPoints);
-  SharePoints nearest, near;
-  std::array<EightIds, kMostShareVectors> owner;  // of a point, by its place in `numbers` and from 1
-  for (std::size_t k = 0; k < vectors; ++k) nearest[k] = PerPoint{}, owner[k] = EightIds{};
+  NearestInPixel nearest(share_points_);
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    for (std::size_t k = 0; k < vectors; ++k) near[k] = PerPoint{};
     for_each_item(seen, numbers[i], {x, y, x + 1, y + 1}, [&](const auto& shape, const Vec2f& from) {
-      raise_nearness(shape, from.x, from.y, {near.data(), vectors});
+      nearest.show(shape, from.x, from.y, static_cast<std::int32_t>(i + 1));
     });
-    for (std::size_t k = 0; k < vectors; ++k) {
-      const auto is_nearer = near[k] > nearest[k];
-      nearest[k] = is_nearer ? near[k] : nearest[k];
-      owner[k] = is_nearer ? EightIds{} + static_cast<std::uint32_t>(i + 1) : owner[k];
-    }
   }
-  std::fill(shares.begin(), shares.end(), 0.0F);
-  const auto background = std::find(numbers.begin(), numbers.end(), 0) - numbers.begin();
-  float all = 0;
-  for (std::size_t k = 0; k < vectors; ++k) {
-    for (int lane = 0; lane < kPoints; ++lane) {
-      const auto place = owner[k][lane] == 0 ? static_cast<std::size_t>(background) : owner[k][lane] - 1;
-      if (place < numbers.size()) shares[place] += 1, all += 1;
-    }
+  std::array<int, kMostInPixel + 1> counts;
+  nearest.count({counts.data(), numbers.size() + 1});
+  int all = 0;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const int points = counts[i + 1] + (numbers[i] == 0 ? counts[0] : 0);
+    shares[i] = static_cast<float>(points), all += points;
   }
-  for (float& share : shares) share = all > 0 ? share / all : 1 / static_cast<float>(numbers.size());
+  const float each = all > 0 ? 1 / static_cast<float>(all) : 0;
+  for (float& share : shares) share = all > 0 ? share * each : 1 / static_cast<float>(numbers.size());
 }
 
 }  // namespace pprt

@@ -74,7 +74,7 @@ struct PrimitiveShapes {
 
 class VisibilityBuffer {
  public:
-  static constexpr std::size_t kNoLimit = ~std::size_t{0};
+  static constexpr std::size_t kNoLimit = ~std::size_t{0}, kMostInPixel = 8;
 
   // For the points (0, 0) to (right, bottom), pixels.
   VisibilityBuffer(int right, int bottom, PrimitiveShapes shapes);
@@ -125,7 +125,7 @@ class VisibilityBuffer {
   std::uint32_t at(const Vec2d& point);
 
   // Replaces `shares` by the part of a pixel in which each of some primitives is seen, where no others are.
-  // They are told by the tile's own numbers. Shares sum up to 1. Only if is_known().
+  // They are told by the tile's own numbers, at most kMostInPixel. Shares sum up to 1. Only if is_known().
   void shares(int pixel_x, int pixel_y, std::span<const std::uint16_t> numbers, std::span<float> shares);
 
   int tile_pixels() const { return kTileIntervals >> log2_density_; }
