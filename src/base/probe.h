@@ -25,9 +25,6 @@ struct Probe {
   std::function<RayCounts()> counts;
   // Projects a primitive of a RaySample into `shape`; empty: not available.
   std::function<void(std::uint32_t primitive, ImageShape& shape)> project = {};
-  // Replaces `bounds` by boxes about the projections of primitives: of as many after the first `first` ones.
-  // Empty: not available.
-  std::function<void(std::uint32_t first, std::span<ShapeBounds> bounds)> bound = {};
   // Largest primitive number in a RaySample; 0: not known.
   std::uint32_t primitives = 0;
   // Traces the eye ray through image point (x, y), pixels, but sends no shadow rays from its first hit to
@@ -43,6 +40,9 @@ struct Probe {
   std::function<Carried(RaySample& sample)> carry = {};
   // By primitive number, 0 included: the surface that it is a part of. Empty: each is one of its own.
   std::span<const std::uint32_t> surfaces = {};
+  // Replaces `bounds` by boxes about the projections of primitives: of as many after the first `first` ones.
+  // Empty: not available.
+  std::function<void(std::uint32_t first, std::span<ShapeBounds> bounds)> bound = {};
   // Whether samples depend on `footprint`: the scene has textures.
   bool has_textures = false;
 };

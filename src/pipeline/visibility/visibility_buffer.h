@@ -86,7 +86,7 @@ class VisibilityBuffer {
 
     friend bool operator==(const Fineness&, const Fineness&) = default;
   };
-  static constexpr Fineness kCoarse = {2, 0}, kMiddle = {2, 32}, kFine = {4, 64};
+  static constexpr Fineness kCoarse = {2, 16}, kMiddle = {2, 32}, kFine = {4, 64};
 
   // The eye or what it sees has moved: all is to be seen anew.
   void forget(const Fineness& fineness);
