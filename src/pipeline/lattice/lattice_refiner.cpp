@@ -87,22 +87,21 @@ void LatticeRefiner::forget_samples() {
   pass_ = {};
   tiles_left_ = {};
   level_ = pass_.end_level;
-  wanted_.clear();
+  nodes_.clear();
   next_ = 0;
   std::fill(greatest_.begin(), greatest_.end(), kNotWanted);
+  has_wanted_ = false;
 }
 
 // The region.
 
 // The nodes that the pass has not come to stay candidates, which a later one finds by `greatest_`.
 void LatticeRefiner::leave_nodes() {
-  for (; !pass_.takes_all && next_ < wanted_.size(); ++next_) {
-    const LatticeNode& node = wanted_[next_].node;
-    if (wanted_[next_].area > 0) continue;  // all surfaces are looked for anew
-    NodeState& greatest = greatest_in(store_.tile_at(node), level_ - 1);
-    greatest = std::max(greatest, store_.state(node));
+  for (; !pass_.takes_all && next_ < nodes_.size(); ++next_) {
+    NodeState& greatest = greatest_in(store_.tile_at(nodes_[next_]), level_ - 1);
+    greatest = std::max(greatest, store_.state(nodes_[next_]));
   }
-  wanted_.clear();
+  nodes_.clear();
   next_ = 0;
 }
 
@@ -170,39 +169,42 @@ double LatticeRefiner::samples_left() const {
 
 std::optional<Vec2d> LatticeRefiner::next_point() {
   for (;;) {
-    if (next_ == wanted_.size()) {
+    if (const std::optional<LatticeNode> node = next_surface()) return point_of(*node);
+    if (next_ == nodes_.size()) {
       if (!next_nodes()) return std::nullopt;
       continue;
     }
-    const LatticeNode& node = wanted_[next_++].node;
+    const LatticeNode node = nodes_[next_++];
     // By now the node may hold another region's sample, or its square may have gone.
     if (store_.is_sampled(node) || !(pass_.takes_base ? own_.needs_base(node) : own_.owns(node))) continue;
+    wanted_.area = 0;
+    if (pass_.takes_base) {
+      wanted_.node = node, wanted_.is_base = true;
+    } else if (!is_wanted(node, kLatticeLevels[level_ - 1])) {
+      continue;
+    }
+    has_wanted_ = true;
     return point_of(node);
   }
 }
 
-// Finds the wanted nodes of the next level, in the next tile or pass if need be. False when no pass is left.
-// Nodes of a level do not predict each other, so they are judged together.
+// Collects the nodes of the next level, in the next tile or pass if need be. False when no pass is left.
 bool LatticeRefiner::next_nodes() {
   next_ = 0;
-  wanted_.clear();
+  nodes_.clear();
   if (std::exchange(is_region_new_, false) && !missing_base().empty()) return leave_pass();
   if (level_ == pass_.end_level && !next_tile()) return start_pass();
-  if (want_surfaces()) return true;
+  if (!surfaces_wanted_.empty()) return true;
   const std::size_t level = level_++;
-  nodes_.clear();
   if (pass_.takes_base) {
-    want_base(tile_);
-    return true;
-  }
-  if (pass_.takes_all) {
+    collect_base(tile_);
+  } else if (pass_.takes_all) {
     store_.collect_all(tile_, kLatticeLevels[level], nodes_);
+    std::erase_if(nodes_, [&](const LatticeNode& node) { return !own_.owns(node); });
   } else if (NodeState& greatest = greatest_in(tile_, level); greatest >= pass_.least) {
     greatest = pass_.least;  // no greater one will be left; new ones may come
     store_.collect(tile_, kLatticeLevels[level], pass_.least, nodes_);
   }
-  for (const LatticeNode& node : nodes_)
-    if (own_.owns(node) && !store_.is_sampled(node)) want(node, kLatticeLevels[level]);
   return true;
 }
 
@@ -225,12 +227,12 @@ bool LatticeRefiner::leave_pass() {
   return start_pass();
 }
 
-void LatticeRefiner::want_base(int tile) {
+void LatticeRefiner::collect_base(int tile) {
   const LatticeNode corner = store_.corner_of(tile);
   constexpr int kTileSide = kPixelSide * LatticeStore::kTilePixels;
   for (int y = corner.y; y < corner.y + kTileSide; y += kBaseSide) {
     for (int x = corner.x; x < corner.x + kTileSide; x += kBaseSide)
-      if (store_.has({x, y}) && own_.needs_base({x, y})) wanted_.push_back({.node = {x, y}, .is_base = true});
+      if (store_.has({x, y}) && own_.needs_base({x, y})) nodes_.push_back({x, y});
   }
 }
 

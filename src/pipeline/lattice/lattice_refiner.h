@@ -102,9 +102,9 @@ class LatticeRefiner {
 
   // A node whose sample is wanted, and what is known of it.
   struct Wanted {
-    LatticeNode node = {};
-    LatticeLevel level = {};
-    Prediction predicted = {};
+    LatticeNode node;
+    LatticeLevel level;
+    Prediction predicted;
     bool is_base = false;  // a corner of a base square: nothing predicts it
     float area = 0;        // if it stands for a surface that no sample lies on, square pixels
   };
@@ -119,7 +119,7 @@ class LatticeRefiner {
     double promised = 0;                // samples that its candidates were expected to lead to
   };
 
-  void insert_wanted(const Wanted& at, const RaySample& sample);
+  void insert_wanted(const RaySample& sample);
   void forget_samples();
   void begin_square(const LatticeNode& corner);
   void leave_square(const LatticeNode& corner);
@@ -135,19 +135,19 @@ class LatticeRefiner {
   bool start_refinement_pass();
   void start(const Pass& pass);
   void learn_growth();
-  void want_base(int tile);
-  bool want_surfaces();
-  void want(const LatticeNode& node, const LatticeLevel& level);
+  void collect_base(int tile);
   NodeState& greatest_in(int tile, std::size_t level) {
     return greatest_[static_cast<std::size_t>(tile) * kLatticeLevels.size() + level];
   }
   Surroundings known_around(const LatticeNode& node, const LatticeLevel& level) const;
-  float worth_of(const Wanted& at);
+  bool is_wanted(const LatticeNode& node, const LatticeLevel& level);
+  float worth_of(const LatticeNode& node, const LatticeLevel& level);
   float worth_around(const Wanted& at, float squared_error, float variance, Basis basis);
   void learn_share(const Wanted& at, const float4& seen);
   void set_sample(const LatticeNode& node, const NodeValue& value);
   void look_for_unsampled();
   void look_for_unsampled(const LatticeNode& square, int tile);
+  std::optional<LatticeNode> next_surface();
   float worth_of_surface(const UnsampledSurface& surface);
   Surroundings base_corners(const LatticeNode& node);
   void make_candidates(const LatticeNode& node, const LatticeLevel& level, float worth_per_area);
@@ -184,9 +184,10 @@ class LatticeRefiner {
   std::span<const int> tiles_left_;  // for the pass after this one
   std::size_t level_ = 0;            // of the pass, in the tile
   std::vector<LatticeNode> nodes_;   // of the level in the tile
-  std::vector<Wanted> wanted_;       // of them, or of the tile's surfaces
-  std::size_t next_ = 0;             // of the wanted ones
+  std::size_t next_ = 0;
   std::vector<NodeState> greatest_;  // per tile and level: no candidate has a greater priority
+  Wanted wanted_;
+  bool has_wanted_ = false;  // next_point() has returned it
 };
 
 }  // namespace pprt

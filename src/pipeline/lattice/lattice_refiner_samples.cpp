@@ -33,35 +33,37 @@ float effect_of(const LatticeLevel& level) {
 
 }  // namespace
 
-// Adds a node to the wanted ones if it is worth a sample in this pass. Keeps its priority otherwise.
-void LatticeRefiner::want(const LatticeNode& node, const LatticeLevel& level) {
-  const Wanted at{
-      .node = node, .level = level, .predicted = predictor_.predict(node, predictor_.around(node, level))};
-  const float worth = pass_.takes_all ? 0 : worth_of(at);
-  if (pass_.takes_all || worth >= pass_.threshold) {
-    wanted_.push_back(at);
-  } else {
-    store_.set_state(node, priority_of(worth));
-  }
+// Whether a node is worth a sample in this pass. Keeps its priority otherwise.
+bool LatticeRefiner::is_wanted(const LatticeNode& node, const LatticeLevel& level) {
+  wanted_.node = node, wanted_.level = level, wanted_.is_base = false;
+  wanted_.predicted = predictor_.predict(node, predictor_.around(node, level));
+  if (pass_.takes_all) return true;
+  const float worth = worth_of(node, level);
+  if (worth >= pass_.threshold) return true;
+  store_.set_state(node, priority_of(worth));
+  return false;
 }
 
 // Returns the expected error at a node times its area, per time. Flat squares below a pixel come late, and
 // only near errors: something thin may pass between their corners.
-float LatticeRefiner::worth_of(const Wanted& at) {
+float LatticeRefiner::worth_of(const LatticeNode& node, const LatticeLevel& level) {
   constexpr float kFlat = 1e-5F, kShareOfFlat = 0.1F;
   constexpr int kLeastLevel = 5;  // mean squared errors of 2^-10
-  const LocalErrors::Mean& near = errors_.near(at.node);
+  const Wanted& at = wanted_;
+  const LocalErrors::Mean& near = errors_.near(node);
   const bool is_flat =
-      at.level.side <= kPixelSide && at.predicted.variance < kFlat && at.predicted.basis == Basis::kAllAround;
+      level.side <= kPixelSide && at.predicted.variance < kFlat && at.predicted.basis == Basis::kAllAround;
   if (is_flat && near.level < kLeastLevel) return 0;
   const Prediction& predicted = at.predicted;
   const float factor = estimates_.factor(class_of(predicted.basis, predicted.variance, near.level));
-  const float worth = effect_of(at.level) * detail_of(predicted.variance) * factor / (kInsertion + near.rays);
+  const float worth = effect_of(level) * detail_of(predicted.variance) * factor / (kInsertion + near.rays);
   return is_flat ? kShareOfFlat * worth : worth;
 }
 
-// Takes in the sample of a wanted node.
-void LatticeRefiner::insert_wanted(const Wanted& at, const RaySample& sample) {
+// Takes in the sample of the wanted node.
+void LatticeRefiner::insert_wanted(const RaySample& sample) {
+  const Wanted& at = wanted_;
+  has_wanted_ = false;
   const float4 seen{sample.color.x, sample.color.y, sample.color.z, 0};
   const auto rays = static_cast<float>(sample.rays);
   ++samples_;
@@ -128,9 +130,8 @@ void LatticeRefiner::look_for_unsampled(const LatticeNode& square, int tile) {
   }
 }
 
-// Wants the surfaces of the tile that are worth a sample in this pass, and keeps the others. False where none
-// is.
-bool LatticeRefiner::want_surfaces() {
+// Returns the next surface of the tile that is worth a sample in this pass. Keeps the others.
+std::optional<LatticeNode> LatticeRefiner::next_surface() {
   while (!surfaces_wanted_.empty()) {
     UnsampledSurface surface = surfaces_wanted_.back();
     surfaces_wanted_.pop_back();
@@ -143,13 +144,13 @@ bool LatticeRefiner::want_surfaces() {
       unsampled_surfaces_.keep(tile_, surface);
       continue;
     }
-    Wanted at{.node = surface.node,
-              .predicted = predictor_.predict(surface.node, base_corners(surface.node)),
-              .area = surface.area};
-    at.predicted.variance = surface.variance, at.predicted.basis = Basis::kNothing;
-    wanted_.push_back(at);
+    wanted_.node = surface.node, wanted_.is_base = false, wanted_.area = surface.area;
+    wanted_.predicted = predictor_.predict(surface.node, base_corners(surface.node));
+    wanted_.predicted.variance = surface.variance, wanted_.predicted.basis = Basis::kNothing;
+    has_wanted_ = true;
+    return surface.node;
   }
-  return !wanted_.empty();
+  return std::nullopt;
 }
 
 Surroundings LatticeRefiner::base_corners(const LatticeNode& node) {
@@ -172,18 +173,19 @@ float LatticeRefiner::worth_of_surface(const UnsampledSurface& surface) {
 bool LatticeRefiner::insert(const Vec2d& point, const RaySample& sample) {
   Wanted at;
   at.node = node_at(point);
-  if (next_ > 0 && wanted_[next_ - 1].node == at.node && !store_.is_sampled(at.node)) {
-    insert_wanted(wanted_[next_ - 1], sample);
+  if (has_wanted_ && wanted_.node == at.node) {
+    insert_wanted(sample);
     return true;
   }
   if (point_of(at.node) != point || !store_.has(at.node) || store_.is_sampled(at.node)) return false;
-  if (is_base(at.node)) {
-    at.is_base = true;
-    insert_wanted(at, sample);
-    return true;
-  }
   const float4 seen{sample.color.x, sample.color.y, sample.color.z, 0};
   const auto rays = static_cast<float>(sample.rays);
+  if (is_base(at.node)) {
+    at.is_base = true;
+    wanted_ = at;
+    insert_wanted(sample);
+    return true;
+  }
   ++samples_;
   at.level = level_of(at.node);
   const Surroundings around = known_around(at.node, at.level);
