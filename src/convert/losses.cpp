@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <set>
 #include <utility>
 
+#include "parser/text/text_input.h"
 #include "scene/description/shading_rules.h"
 
 namespace pprt {
@@ -31,6 +33,15 @@ std::string counted(std::size_t count, const char* one, const char* many) {
   return fmt::format("{} {}", count, count == 1 ? one : many);
 }
 
+// Forgets a texture of some term of a material, for its mean.
+void drop(std::optional<TextureIndex>& texture, const std::vector<Rgb>& means, bool is_used,
+          std::set<TextureIndex>& dropped, const std::function<void(const Rgb&)>& tint) {
+  if (!texture) return;
+  if (is_used) dropped.insert(*texture);
+  tint(means[*texture]);
+  texture.reset();
+}
+
 void drop_textures(PlainScene& plain, const std::vector<bool>& used) {
   SceneDescription& scene = plain.scene;
   std::vector<Rgb> means;
@@ -38,12 +49,11 @@ void drop_textures(PlainScene& plain, const std::vector<bool>& used) {
   std::set<TextureIndex> dropped;
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     Material& m = scene.materials[i];
-    if (!m.texture) continue;
-    if (used[i]) dropped.insert(*m.texture);
-    const Rgb& mean = means[*m.texture];
-    m.color *= mean;
-    if (m.terms) m.terms->ambient *= mean, m.terms->diffuse *= mean;
-    m.texture.reset();
+    drop(m.texture, means, used[i], dropped, [&](const Rgb& mean) {
+      m.color *= mean;
+      if (m.terms) m.terms->ambient *= mean, m.terms->diffuse *= mean;
+    });
+    drop(m.emission_texture, means, used[i], dropped, [&](const Rgb& mean) { m.emission *= mean; });
   }
   if (dropped.empty()) return;
   plain.losses.push_back(counted(dropped.size(), "texture is not kept: its surfaces get its mean colour",
@@ -63,6 +73,42 @@ void tell_highlights(PlainScene& plain, const std::vector<bool>& used) {
                                  "materials with a coloured highlight and mirror: they become white"));
 }
 
+void drop_emission(PlainScene& plain, const std::vector<bool>& used) {
+  std::size_t lamps = 0;
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    Material& m = plain.scene.materials[i];
+    lamps += used[i] && m.emission != Rgb(0, 0, 0);
+    m.emission = Rgb(0, 0, 0);
+  }
+  if (lamps == 0) return;
+  plain.losses.push_back(counted(lamps, "material that gives off light: NFF has none, so it does not glow",
+                                 "materials that give off light: NFF has none, so they do not glow"));
+}
+
+void drop_sky(PlainScene& plain) {
+  if (!plain.scene.sky) return;
+  plain.scene.background = ground_color(plain.scene);
+  plain.scene.sky.reset();
+  plain.losses.emplace_back("the sky is not kept: the background has the colour below its horizon");
+}
+
+// Puts suns where their rays are parallel within a hundredth of a degree.
+void bring_suns_near(PlainScene& plain) {
+  constexpr double kFar = 1e4;  // sizes of the scene
+  SceneDescription& scene = plain.scene;
+  const Box3d box = bounds(scene);
+  const double distance = std::min(kFar * box.size().length(), 0.1 * kLargestNumber);
+  std::size_t suns = 0;
+  for (Light& light : scene.lights) {
+    if (!light.is_sun) continue;
+    light.position = box.center() + light.position.normalized() * distance;
+    light.is_sun = false;
+    ++suns;
+  }
+  if (suns == 0) return;
+  plain.losses.push_back(counted(suns, "sun becomes a light far away", "suns become lights far away"));
+}
+
 }  // namespace
 
 PlainScene for_nff(SceneDescription scene) {
@@ -70,6 +116,9 @@ PlainScene for_nff(SceneDescription scene) {
   const std::vector<bool> used = used_materials(plain.scene);
   drop_textures(plain, used);
   tell_highlights(plain, used);
+  drop_emission(plain, used);
+  drop_sky(plain);
+  bring_suns_near(plain);
   if (!plain.scene.ambient) return plain;
   plain.losses.emplace_back("the ambient light and its colours are not kept: NFF has none");
   if (plain.scene.lights.empty()) return plain;

@@ -14,8 +14,8 @@ struct PlainScene {
   std::vector<std::string> losses;  // a line each
 };
 
-// Returns the scene for NFF: no textures but their mean colours, and lights that have the brightness as
-// written when a reader of NFF weakens them.
+// Returns the scene for NFF: no textures but their mean colours, no emission, no sky, suns as lights far
+// away. Lights have the brightness as written when a reader of NFF weakens them.
 PlainScene for_nff(SceneDescription scene);
 
 // Returns the scene for meshes: no ambient light, and where the format has no textures their mean colours.

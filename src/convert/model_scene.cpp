@@ -59,7 +59,7 @@ std::optional<std::string> complete_view(SceneDescription& scene, UpAxis up) {
 }
 
 std::optional<std::string> complete_background(SceneDescription& scene) {
-  if (scene.background) return std::nullopt;
+  if (scene.background || scene.sky) return std::nullopt;
   scene.background = Rgb(0.18, 0.2, 0.23);
   return "no background: a grey one is added";
 }
@@ -75,7 +75,8 @@ ParsedScene load_object(const std::string& path, const MeshLimits& limits) {
 Model load_model(const std::string& path, const ModelOptions& options) {
   Model model{.parsed = load_object(path, options.limits)};
   SceneDescription& scene = model.parsed.scene;
-  const std::optional<std::string> view = complete_view(scene, options.up), lights = complete_lights(scene);
+  const std::optional<std::string> view = complete_view(scene, options.up);
+  const std::optional<std::string> lights = options.adds_lights ? complete_lights(scene) : std::nullopt;
   model.is_lit_anew = lights.has_value();
   for (const auto& added : {view, lights}) {
     if (added) model.parsed.warnings += scene.name + ": " + *added + "\n";

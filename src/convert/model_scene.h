@@ -13,7 +13,8 @@ namespace pprt {
 
 struct ModelOptions {
   MeshLimits limits = {};
-  UpAxis up = UpAxis::kY;  // of an added view
+  UpAxis up = UpAxis::kY;   // of an added view
+  bool adds_lights = true;  // where it has none
 };
 
 struct Model {

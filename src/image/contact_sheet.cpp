@@ -65,26 +65,8 @@ constexpr std::array<std::array<std::uint8_t, 5>, 10> kDigits = {{{7, 5, 5, 5, 7
                                                                   {7, 1, 1, 1, 1},
                                                                   {7, 5, 7, 5, 7},
                                                                   {7, 5, 7, 1, 7}}};
-constexpr int kDot = 2, kDigitPitch = 4 * kDot, kLabelHeight = 7 * kDot;  // pixels, with a dot around
-
-// White digits on black in the lower left corner, as far as there is room.
-void draw_number(Image& picture, int number) {
-  const std::string digits = std::to_string(number);
-  const int width = static_cast<int>(digits.size()) * kDigitPitch + kDot, top = picture.height - kLabelHeight;
-  for (int y = std::max(0, top); y < picture.height; ++y) {
-    for (int x = 0; x < std::min(width, picture.width); ++x) {
-      const int row = (y - top) / kDot - 1, left = x / kDot - 1;  // in dots
-      const auto digit = static_cast<std::size_t>(std::max(left, 0) / 4);
-      const bool is_inside = row >= 0 && row < 5 && left >= 0 && left % 4 < 3 && digit < digits.size();
-      const bool is_lit =
-          is_inside &&
-          ((kDigits[static_cast<std::size_t>(digits[digit] - '0')][static_cast<std::size_t>(row)] >>
-            (2 - left % 4)) &
-           1) != 0;
-      picture.at(x, y) = Color(is_lit ? 1.0F : 0.0F);
-    }
-  }
-}
+constexpr int kDot = 2, kDigitPitch = 4 * kDot;  // pixels
+static_assert(kNumberHeight == 7 * kDot);        // with a dot around
 
 }  // namespace
 
@@ -116,6 +98,27 @@ Image thumbnail(const Image& picture, int width) {
   return resize(picture, width, thumbnail_height(picture, width));
 }
 
+int number_width(int number) {
+  return static_cast<int>(std::to_string(number).size()) * kDigitPitch + kDot;
+}
+
+void draw_number(Image& picture, int number, int left, int top) {
+  const std::string digits = std::to_string(number);
+  for (int y = std::max(0, top); y < std::min(top + kNumberHeight, picture.height); ++y) {
+    for (int x = std::max(0, left); x < std::min(left + number_width(number), picture.width); ++x) {
+      const int row = (y - top) / kDot - 1, column = (x - left) / kDot - 1;  // in dots
+      const auto digit = static_cast<std::size_t>(std::max(column, 0) / 4);
+      const bool is_inside = row >= 0 && row < 5 && column >= 0 && column % 4 < 3 && digit < digits.size();
+      const bool is_lit =
+          is_inside &&
+          ((kDigits[static_cast<std::size_t>(digits[digit] - '0')][static_cast<std::size_t>(row)] >>
+            (2 - column % 4)) &
+           1) != 0;
+      picture.at(x, y) = Color(is_lit ? 1.0F : 0.0F);
+    }
+  }
+}
+
 Image contact_sheet(std::span<const Image> pictures, const ContactSheetLayout& layout,
                     std::span<const int> numbers) {
   require_usable(pictures, layout);
@@ -135,7 +138,7 @@ Image contact_sheet(std::span<const Image> pictures, const ContactSheetLayout& l
   Image page(layout.gap + static_cast<int>(columns) * pitch, row_tops.back());
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     Image small = thumbnail(pictures[i], layout.thumbnail_width);
-    if (i < numbers.size()) draw_number(small, numbers[i]);
+    if (i < numbers.size()) draw_number(small, numbers[i], 0, small.height - kNumberHeight);
     copy_into(page, small, layout.gap + static_cast<int>(i % columns) * pitch, row_tops[i / columns]);
   }
   return page;

@@ -1,4 +1,4 @@
-// Resizes pictures and arranges many of them on one page.
+// Resizes pictures, draws numbers into them, and arranges many of them on one page.
 #pragma once
 
 #include <span>
@@ -10,6 +10,13 @@ namespace pprt {
 // Returns the picture at another size, pixels, at least 1. Each new pixel is the mean over the area that it
 // covers (box filter). The picture must not be empty.
 Image resize(const Image& image, int width, int height);
+
+inline constexpr int kNumberHeight = 14;  // pixels, with the ground around the digits
+// Returns the width of a number that is not negative, likewise.
+int number_width(int number);
+
+// Draws white digits on black, as far as they lie in the picture. `left`, `top`: of the ground, pixels.
+void draw_number(Image& picture, int number, int left, int top);
 
 // Measures of a contact sheet, pixels.
 struct ContactSheetLayout {

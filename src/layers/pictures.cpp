@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+
+#include "image/contact_sheet.h"
 
 namespace pprt {
 namespace {
@@ -148,6 +151,36 @@ Image region_picture(const Image& frame, const TileGrid& grid, std::span<const s
   paint(picture, region_borders(grid, owners, scale, 5), Color(0, 0, 0));
   paint(picture, region_borders(grid, owners, scale, 2), Color(1, 1, 1));
   return picture;
+}
+
+// A number stands on the tile of the rank that is nearest to the middle of its tiles.
+void label_ranks(Image& picture, const TileGrid& grid, std::span<const std::int32_t> owners) {
+  struct Tiles {
+    Vec2d sum{0, 0};
+    double count = 0;
+    Vec2d nearest{0, 0};
+    double distance = std::numeric_limits<double>::infinity();  // squared
+  };
+  const auto middle = [&](int tile) {
+    const PixelRect r = grid.pixels(tile);
+    return Vec2d(0.5 * (r.x0 + r.x1), 0.5 * (r.y0 + r.y1));
+  };
+  std::map<std::int32_t, Tiles> ranks;
+  for (int tile = 0; tile < grid.tile_count(); ++tile) {
+    Tiles& own = ranks[owners[static_cast<std::size_t>(tile)]];
+    own.sum += middle(tile), ++own.count;
+  }
+  for (int tile = 0; tile < grid.tile_count(); ++tile) {
+    Tiles& own = ranks[owners[static_cast<std::size_t>(tile)]];
+    const double distance = (middle(tile) - own.sum / own.count).length2();
+    if (distance < own.distance) own.distance = distance, own.nearest = middle(tile);
+  }
+  for (const auto& [rank, own] : ranks) {
+    if (rank < 0) continue;
+    const Vec2d at = own.nearest * (static_cast<double>(picture.width) / grid.width);
+    draw_number(picture, rank, static_cast<int>(at.x) - number_width(rank) / 2,
+                static_cast<int>(at.y) - kNumberHeight / 2);
+  }
 }
 
 Image heat_picture(std::span<const float> values, int width, int height, double low, double high) {

@@ -29,6 +29,9 @@ Image black_on_white(const CoverageMask& mask);
 // rank per tile; negative: no rank, and no tint.
 Image region_picture(const Image& frame, const TileGrid& grid, std::span<const std::int32_t> owners);
 
+// Writes the number of each rank into its region, in a picture of any size of region_picture().
+void label_ranks(Image& picture, const TileGrid& grid, std::span<const std::int32_t> owners);
+
 // Draws a measure from `low` (dark) to `high` (light), both positive. Equal factors make equal steps.
 Image heat_picture(std::span<const float> values, int width, int height, double low, double high);
 

@@ -339,6 +339,7 @@ Animation Steering::film() const {
   film.height = run_.height;
   film.keys = keys_.keys();
   film.objects = show_.objects;
+  film.daylight = show_.daylight;
   return film;
 }
 

@@ -35,6 +35,7 @@ struct LiveShow {
   std::string title;                           // of the scene, for people
   std::optional<std::string> scene_name = {};  // as a script names the scene; empty: no script can
   std::vector<ObjectMotion> objects = {};      // that a script moves, named as there
+  Daylight daylight = {};                      // of a script
   View home = {};                              // what is shown first; its size is that of the pictures
   std::vector<ScriptFrame> script = {};        // empty: there is none
   double frames_per_second = 24;               // between kSlowestRate and kFastestRate

@@ -139,6 +139,18 @@ void SceneBuilder::add_named_light() {
   scene_.light_nodes.back().track = name_;
 }
 
+void SceneBuilder::add_sun() {
+  if (vector_at(0) == Vec3d(0, 0, 0)) return error(keyword_.data(), "the direction to the sun is zero");
+  add_light();
+  scene_.lights.back().is_sun = true;
+}
+
+void SceneBuilder::set_sky() {
+  const Sky sky{.up = vector_at(0), .horizon = color_at(3), .zenith = color_at(6)};
+  if (sky.up == Vec3d(0, 0, 0)) return error(keyword_.data(), "the direction to the zenith is zero");
+  scene_.sky = sky;
+}
+
 // --- Materials
 
 // NFF's materials reflect a fixed share of the ambient light.
@@ -171,16 +183,35 @@ void SceneBuilder::use(const Material& material) {
   has_material_ = true;
 }
 
+void SceneBuilder::require_material() {
+  if (has_material_) return;
+  deviation(Deviation::kNoMaterial);
+  Material white;
+  white.terms.emplace();
+  use(white);
+}
+
+// What the current material gives off, until the next one.
+void SceneBuilder::set_emission() {
+  require_material();
+  material_.emission = color_at(0);
+  material_.emission_texture.reset();
+}
+
+void SceneBuilder::set_textured_emission() {
+  set_emission();
+  material_.emission_texture = texture();
+}
+
 // Returns the current material, with the directive's texture if it has one.
 MaterialIndex SceneBuilder::material() {
-  if (!has_material_) {
-    deviation(Deviation::kNoMaterial);
-    Material white;
-    white.terms.emplace();
-    use(white);
-  }
+  require_material();
   Material m = material_;
-  if (!mesh_.texture_points.empty()) m.texture = texture();
+  if (mesh_.texture_points.empty()) {
+    m.emission_texture.reset();
+  } else if (name_ != kNoTexture) {
+    m.texture = texture();
+  }
   return materials_.intern(scene_.materials, m);
 }
 
@@ -194,6 +225,7 @@ void SceneBuilder::stand_in_node(std::size_t primitives) {
   scene_.nodes.insert(scene_.nodes.end(), primitives, nodes_.back().node);
 }
 
+// `name_` is the texture's.
 TextureIndex SceneBuilder::texture() {
   const auto found = textures_.find(name_);
   if (found != textures_.end()) return found->second;

@@ -57,11 +57,15 @@ class SceneBuilder {
   std::size_t rows() const { return rows_; }
   void add_view();
   void set_background() { scene_.background = color_at(0); }
+  void set_sky();
   void set_ambient() { scene_.ambient = color_at(0); }
   void add_light();
   void add_named_light();
+  void add_sun();
   void set_fill();
   void set_material();
+  void set_emission();
+  void set_textured_emission();
   void add_sphere();
   void add_cone();
   void corner();  // of a polygon
@@ -135,6 +139,7 @@ class SceneBuilder {
   }
   int whole(double value, const char* what, int least, int most);
   void use(const Material& material);
+  void require_material();
   MaterialIndex material();
   void stand_in_node(std::size_t primitives);
   SourceLocation location_in_scene();
@@ -196,6 +201,10 @@ struct action<grammar::background_keyword> : with_text<&SceneBuilder::begin> {};
 template <>
 struct action<grammar::background> : without_text<&SceneBuilder::set_background> {};
 template <>
+struct action<grammar::sky_keyword> : with_text<&SceneBuilder::begin> {};
+template <>
+struct action<grammar::sky> : without_text<&SceneBuilder::set_sky> {};
+template <>
 struct action<grammar::ambient_keyword> : with_text<&SceneBuilder::begin> {};
 template <>
 struct action<grammar::ambient> : without_text<&SceneBuilder::set_ambient> {};
@@ -203,6 +212,10 @@ template <>
 struct action<grammar::light_keyword> : with_text<&SceneBuilder::begin> {};
 template <>
 struct action<grammar::light> : without_text<&SceneBuilder::add_light> {};
+template <>
+struct action<grammar::sun_keyword> : with_text<&SceneBuilder::begin> {};
+template <>
+struct action<grammar::sun> : without_text<&SceneBuilder::add_sun> {};
 template <>
 struct action<grammar::named_light_keyword> : with_text<&SceneBuilder::begin> {};
 template <>
@@ -215,6 +228,15 @@ template <>
 struct action<grammar::material_keyword> : with_text<&SceneBuilder::begin> {};
 template <>
 struct action<grammar::material> : without_text<&SceneBuilder::set_material> {};
+
+template <>
+struct action<grammar::emission_keyword> : with_text<&SceneBuilder::begin> {};
+template <>
+struct action<grammar::emission> : without_text<&SceneBuilder::set_emission> {};
+template <>
+struct action<grammar::textured_emission_keyword> : with_text<&SceneBuilder::begin> {};
+template <>
+struct action<grammar::textured_emission> : without_text<&SceneBuilder::set_textured_emission> {};
 
 template <>
 struct action<grammar::sphere_keyword> : with_text<&SceneBuilder::begin> {};

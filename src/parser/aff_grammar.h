@@ -136,11 +136,18 @@ struct view : seq<view_keyword, word<"from">, point, word<"at">, point, word<"up
 
 struct background_keyword : keyword<'b'> {};
 struct background : seq<background_keyword, color> {};
+// A sky and a sun are words of this program, not of BART. So is what a material gives off.
+struct sky_keyword : keyword<'b', 's'> {};
+struct sky : seq<sky_keyword, three<"x of the zenith", "y of the zenith", "z of the zenith">,
+                 three<"red of the horizon", "green of the horizon", "blue of the horizon">,
+                 three<"red of the zenith", "green of the zenith", "blue of the zenith">> {};
 struct ambient_keyword : keyword<'a', 'm'> {};
 struct ambient : seq<ambient_keyword, color> {};
 
 struct light_keyword : keyword<'l'> {};
 struct light : seq<light_keyword, point, more_color> {};
+struct sun_keyword : keyword<'l', 's'> {};
+struct sun : seq<sun_keyword, point, more_color> {};
 struct named_light_keyword : keyword<'l', 'a'> {};
 struct named_light : seq<named_light_keyword, name<"the light's name">, point, more_color> {};
 
@@ -155,6 +162,11 @@ struct material
           three<"red of the diffuse colour", "green of the diffuse colour", "blue of the diffuse colour">,
           three<"red of the specular colour", "green of the specular colour", "blue of the specular colour">,
           num<"Shine">, num<"T">, num<"the index of refraction">> {};
+
+struct emission_keyword : keyword<'f', 'e'> {};
+struct emission : seq<emission_keyword, color> {};
+struct textured_emission_keyword : keyword<'f', 'e', 't'> {};
+struct textured_emission : seq<textured_emission_keyword, name<"the texture">, color> {};
 
 struct sphere_keyword : keyword<'s'> {};
 struct sphere : seq<sphere_keyword, point, num<"the radius">> {};
@@ -250,17 +262,18 @@ struct track : seq<track_keyword, name<"the name of the track">, open_brace, sta
 struct times_keyword : keyword<'a'> {};
 struct times : seq<times_keyword, num<"the start">, num<"the end">, num<"the number of frames">> {};
 
-struct directive : sor<mesh, track, static_begin, animated_begin, close_brace, include, material, light, view,
-                       background, ambient, named_light, fill, sphere, cone, patch, polygon, smooth_textured,
-                       textured, moving, detail, times> {};
+struct directive : sor<mesh, track, static_begin, animated_begin, close_brace, include, material, emission,
+                       textured_emission, light, sun, view, background, sky, ambient, named_light, fill,
+                       sphere, cone, patch, polygon, smooth_textured, textured, moving, detail, times> {};
 struct end_of_directives : eof {};
 struct file : seq<gap, star<directive, gap>, end_of_directives> {};
 
 // Where reading continues after a problem: at a keyword that stands at the beginning of a line, or at a
 // brace.
 struct any_keyword
-    : sor<view_keyword, background_keyword, ambient_keyword, light_keyword, named_light_keyword, fill_keyword,
-          material_keyword, sphere_keyword, cone_keyword, polygon_keyword, patch_keyword, textured_keyword,
+    : sor<view_keyword, background_keyword, sky_keyword, ambient_keyword, light_keyword, sun_keyword,
+          named_light_keyword, fill_keyword, material_keyword, emission_keyword, textured_emission_keyword,
+          sphere_keyword, cone_keyword, polygon_keyword, patch_keyword, textured_keyword,
           smooth_textured_keyword, moving_keyword, mesh_keyword, include_keyword, detail_keyword,
           static_keyword, animated_keyword, track_keyword, times_keyword> {};
 struct line_of_directive : seq<one<'\n', '\r'>, gap, at<any_keyword>> {};

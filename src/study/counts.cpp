@@ -85,6 +85,19 @@ std::string json_line(const std::string& scene, const RayCounts& counts) {
   return line.dump() + "\n";
 }
 
+// Returns what to tell of a scene that stands beside no published number.
+std::string why_not_comparable(const std::string& scene, int corners) {
+  const std::string database = scene.substr(0, scene.rfind(':'));
+  for (const auto& [name, counts] : kPublished) {
+    if (name == scene)
+      return fmt::format("{}: nothing is published for {} corners, only for {}\n", scene, corners,
+                         kPublishedCorners);
+    if (name.starts_with(database + ":"))
+      return fmt::format("{}: nothing is published for this size, only for {}\n", scene, name);
+  }
+  return fmt::format("{}: nothing is published for this scene\n", scene);
+}
+
 // Traces one ray through each pixel corner of the scene's view.
 RayCounts count_rays(const SceneDescription& scene, int corners, bool two_sided) {
   if (!scene.view) throw InputError(scene.name + ": error: the scene has no view");
@@ -120,6 +133,7 @@ bool study_counts(const CountsOptions& options) {
     const auto published = std::find_if(kPublished.begin(), kPublished.end(),
                                         [&](const auto& row) { return row.first == scene; });
     const bool comparable = options.corners == kPublishedCorners && published != kPublished.end();
+    if (!comparable && !options.json) std::cerr << why_not_comparable(scene, options.corners);
     const std::string table = table_lines(scene, counts, comparable ? &published->second : nullptr,
                                           options.tolerance_percent, all_within);
     std::cout << (options.json ? json_line(scene, counts) : table) << std::flush;

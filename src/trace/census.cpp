@@ -61,6 +61,10 @@ std::string reason(Effect effect, const Inventory& held) {
                                   : "no patch";
     case Effect::kTextures:
       return materials(held.textured, "with a texture");
+    case Effect::kEmission:
+      return materials(held.emitting, held.emitting > 1 ? "that give off light" : "that gives off light");
+    case Effect::kSky:
+      return held.has_sky ? "the background is a sky" : "the background is of one colour";
   }
   return {};
 }
@@ -87,7 +91,9 @@ std::string census_text(const CompiledScene::Impl& scene) {
         fmt::format("; {} with Ks + T above 1, brighter than what is seen in {}", n, n == 1 ? "it" : "them");
   }
   text += '\n';
-  text += fmt::format("lights      {}\n", scene.inventory.lights);
+  text += fmt::format("lights      {}", scene.inventory.lights);
+  if (const std::size_t n = scene.inventory.suns; n > 0) text += ", of them " + counted(n, "sun", "suns");
+  text += '\n';
   if (scene.moves) {
     const std::size_t n = scene.inventory.moving_nodes, t = scene.inventory.moving_triangles;
     text += fmt::format(

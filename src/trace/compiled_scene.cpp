@@ -42,9 +42,12 @@ double radius_about_origin(const Normalisation& map, const Box3d& box) {
 }
 
 // `ambient`: the ambient light; `reflected`: what materials reflect of it that do not say how much.
-ShadingMaterial shading_material(const Material& m, const Rgb& ambient, const Rgb& reflected) {
+ShadingMaterial shading_material(const Material& m, const Rgb& ambient, const Rgb& reflected,
+                                 EffectSet effects) {
   ShadingMaterial result;
   result.ambient = to_color(m.terms ? m.terms->ambient * ambient : m.color * reflected);
+  if (effects.has(Effect::kEmission)) result.emission = to_color(m.emission);
+  result.unlit = result.ambient + result.emission;
   result.diffuse = to_color(m.terms ? m.terms->diffuse : m.color * m.diffuse);
   result.specular_color = to_color(m.terms ? m.terms->specular : Rgb(m.specular, m.specular, m.specular));
   result.specular = static_cast<float>(m.specular);
@@ -139,10 +142,13 @@ void add_materials(const SceneDescription& scene, CompiledScene::Impl& impl) {
   const Rgb ambient = scene.ambient.value_or(Rgb(1, 1, 1));
   const double weight = scene.ambient ? 1 : light_weight(scene.lights.size());
   for (const Material& m : scene.materials) {
-    ShadingMaterial& material =
-        impl.materials.emplace_back(shading_material(m, ambient, ambient * (kAmbientReflectance * weight)));
-    if (has_textures && m.texture && *m.texture < impl.textures.size())
-      material.texture = &impl.textures[*m.texture];
+    ShadingMaterial& material = impl.materials.emplace_back(
+        shading_material(m, ambient, ambient * (kAmbientReflectance * weight), impl.effects));
+    const auto picture = [&](const std::optional<TextureIndex>& texture) {
+      return has_textures && texture && *texture < impl.textures.size() ? &impl.textures[*texture] : nullptr;
+    };
+    material.texture = picture(m.texture);
+    material.emission_texture = picture(m.emission_texture);
   }
 }
 
@@ -150,12 +156,20 @@ void add_lights(const SceneDescription& scene, CompiledScene::Impl& impl) {
   const double weight = scene.ambient ? 1 : light_weight(scene.lights.size());
   for (const Light& l : scene.lights) {
     if (!is_finite(l.position)) reject(scene.name, l.location, "the position of a light is not finite");
-    impl.lights.push_back({light_in_reach(l.position - impl.normalisation.center, impl.normalisation.scale),
+    if (l.is_sun && l.position == Vec3d(0, 0, 0)) reject(scene.name, l.location, "the sun has no direction");
+    impl.lights.push_back({compiled_place(l, Affine(), impl.normalisation),
                            to_color(l.color.value_or(Rgb(1, 1, 1)) * weight),
                            {}});
-    impl.light_positions.push_back(l.position);
   }
   impl.light_nodes = scene.light_nodes;
+  if (!impl.light_nodes.empty()) impl.lights_in_nodes = scene.lights;
+}
+
+void set_background(const SceneDescription& scene, CompiledScene::Impl& impl) {
+  impl.background = to_color(ground_color(scene));
+  if (!impl.effects.has(Effect::kSky)) return;
+  impl.sky = {Vec3f(scene.sky->up.normalized()), to_color(scene.sky->horizon),
+              to_color(scene.sky->zenith) - to_color(scene.sky->horizon)};
 }
 
 void number_parts(std::size_t primitives, CompiledScene::Impl& impl) {
@@ -188,6 +202,11 @@ void find_light_contacts(double radius, CompiledScene::Impl& impl) {
 }
 
 }  // namespace
+
+Vec3d compiled_place(const Light& light, const Affine& to_world, const Normalisation& map) {
+  const Vec3d place = place_of(light, to_world);
+  return light.is_sun ? sun_in_reach(place) : light_in_reach(place - map.center, map.scale);
+}
 
 CompiledScene::CompiledScene(std::unique_ptr<const Impl> impl) : impl_(std::move(impl)) {}
 CompiledScene::CompiledScene(CompiledScene&&) noexcept = default;
@@ -263,7 +282,7 @@ CompiledScene compile(const SceneDescription& scene, const CompileOptions& optio
   impl->normalisation = extent.normalisation;
   // Enlarged by far more than the rounding of the sum, so that rays may start on the sphere.
   impl->radius = radius_about_origin(impl->normalisation, extent.shown) * (1 + 0x1p-20);
-  impl->background = to_color(scene.background.value_or(Rgb(0, 0, 0)));
+  set_background(scene, *impl);
   impl->movement = scene.movement;
   add_materials(scene, *impl);
   add_lights(scene, *impl);

@@ -23,6 +23,8 @@ constexpr std::array kNames = {
     EffectName{Effect::kRefraction, "refraction"},
     EffectName{Effect::kSmoothNormals, "smooth-normals"},
     EffectName{Effect::kTextures, "textures"},
+    EffectName{Effect::kEmission, "emission"},
+    EffectName{Effect::kSky, "sky"},
 };
 
 std::vector<bool> materials_in_use(const SceneDescription& scene) {
@@ -95,7 +97,10 @@ Inventory take_inventory(const SceneDescription& scene) {
                       .patches = scene.patches.size(),
                       .triangles = scene.triangles.size(),
                       .moving_triangles = scene.moving_triangles.size(),
-                      .lights = scene.lights.size()};
+                      .lights = scene.lights.size(),
+                      .has_sky = scene.sky.has_value()};
+  inventory.suns = static_cast<std::size_t>(
+      std::count_if(scene.lights.begin(), scene.lights.end(), [](const Light& l) { return l.is_sun; }));
   inventory.smooth_meshes = static_cast<std::size_t>(std::count_if(
       scene.meshes.begin(), scene.meshes.end(), [](const TriangleMesh& m) { return !m.normals.empty(); }));
   inventory.moving_nodes = static_cast<std::size_t>(
@@ -109,7 +114,8 @@ Inventory take_inventory(const SceneDescription& scene) {
     if (material.specular > 0) ++inventory.reflecting;
     if (has_highlight(material)) ++inventory.highlighting;
     if (material.transmittance > 0) ++inventory.transmitting;
-    if (material.texture) ++inventory.textured;
+    if (material.has_picture()) ++inventory.textured;
+    if (material.emission != Rgb(0, 0, 0)) ++inventory.emitting;
     if (std::max(material.specular, 0.0) + std::max(material.transmittance, 0.0) > 1) ++inventory.brightening;
   }
   return inventory;
@@ -124,6 +130,8 @@ EffectSet effects_called_for(const Inventory& inventory) {
   if (inventory.patches + inventory.smooth_meshes + inventory.moving_triangles > 0)
     effects.add(Effect::kSmoothNormals);
   if (inventory.textured > 0) effects.add(Effect::kTextures);
+  if (inventory.emitting > 0) effects.add(Effect::kEmission);
+  if (inventory.has_sky) effects.add(Effect::kSky);
   return effects;
 }
 

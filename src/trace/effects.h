@@ -18,6 +18,8 @@ enum class Effect : std::uint8_t {
   kRefraction = 1 << 3,     // a material with T > 0
   kSmoothNormals = 1 << 4,  // the scene has a patch, or a mesh with normals
   kTextures = 1 << 5,       // a material with a texture
+  kEmission = 1 << 6,       // a material that gives off light
+  kSky = 1 << 7,            // the background is a sky
 };
 
 // A set of effects, one bit each.
@@ -28,7 +30,7 @@ class EffectSet {
   constexpr bool has(Effect e) const { return (bits_ & static_cast<unsigned>(e)) != 0; }
   constexpr void add(Effect e) { bits_ |= static_cast<unsigned>(e); }
   constexpr unsigned bits() const { return bits_; }
-  static constexpr EffectSet all() { return EffectSet(63); }
+  static constexpr EffectSet all() { return EffectSet(255); }
 
   friend constexpr bool operator==(EffectSet, EffectSet) = default;
   friend constexpr EffectSet operator&(EffectSet a, EffectSet b) { return EffectSet(a.bits_ & b.bits_); }
@@ -37,7 +39,8 @@ class EffectSet {
   unsigned bits_ = 0;
 };
 
-// Returns the option's word: shadows, highlights, reflection, refraction, smooth-normals, textures.
+// Returns the option's word: shadows, highlights, reflection, refraction, smooth-normals, textures,
+// emission, sky.
 std::string_view name(Effect effect);
 // Returns all effects, in the order of their bits.
 std::vector<Effect> every_effect();
@@ -47,7 +50,7 @@ EffectSet parse_effects(std::string_view list);
 // Returns the words of a set, separated by commas, or "none". parse_effects reads it back.
 std::string to_string(EffectSet effects);
 
-// Returns the effects that the scene's lights, materials and patches call for.
+// Returns the effects that the scene's lights, materials, patches and background call for.
 EffectSet effects_called_for(const SceneDescription& scene);
 
 }  // namespace pprt

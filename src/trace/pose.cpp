@@ -191,9 +191,9 @@ void Pose::place_lights(double time) {
     const LightNode& at = scene_.light_nodes[i];
     if (at.node == 0 && at.track.empty()) continue;
     const auto moved = track_at(scene_.movement, at.track, time);
-    const Vec3d position = moved ? moved->to_parent.origin : scene_.light_positions[i];
-    own_lights_[i].position = light_in_reach(
-        nodes[at.node].to_parent.point(position) - scene_.normalisation.center, scene_.normalisation.scale);
+    Light light = scene_.lights_in_nodes[i];
+    if (moved) light.position = moved->to_parent.origin;
+    own_lights_[i].position = compiled_place(light, nodes[at.node].to_parent, scene_.normalisation);
   }
 }
 

@@ -62,8 +62,8 @@ struct Surface {
   double offset = 0;       // distance from the surface at which a leaving ray starts
   bool entering = true;    // whether the ray comes from outside
   const ShadingMaterial* material = nullptr;
-  Color ambient{0, 0, 0}, diffuse{0, 0, 0};  // of the material, times its texture
-  Vec3d rise{0, 0, 0};                       // from the position to the smooth surface, see rise_to_smooth
+  Color unlit{0, 0, 0}, diffuse{0, 0, 0};  // of the material, times its pictures
+  Vec3d rise{0, 0, 0};                     // from the position to the smooth surface, see rise_to_smooth
   // Only where the scene has textures.
   RayCone cone;          // of the ray that comes
   double curvature = 0;  // mean, > 0 where the smooth surface bulges towards the ray
@@ -98,16 +98,20 @@ double curvature_of(const ScenePart& part, std::uint32_t primitive, const Surfac
   return mean_curvature(mesh, primitive) * (normal.dot(shading) < 0 ? -1 : 1);
 }
 
-// Multiplies a placed surface's colours by its texture, filtered over what its cone covers.
-void apply_texture(const Mesh& mesh, std::uint32_t triangle, const TrianglePoint& at, const BodyPlace* body,
-                   const Vec3d& direction, Surface& surface) {
+// Multiplies a placed surface's colours by its pictures, filtered over what its cone covers.
+void apply_pictures(const Mesh& mesh, std::uint32_t triangle, const TrianglePoint& at, const BodyPlace* body,
+                    const Vec3d& direction, Surface& surface) {
   TextureGradients gradients = texture_gradients(mesh, triangle);
   if (body) gradients = {body->gradient(gradients.u), body->gradient(gradients.v)};
-  const Color tint =
-      surface.material->texture->over(footprint(surface.cone.width, direction, surface.normal, gradients),
-                                      texture_point(mesh, triangle, at.u, at.v));
-  surface.ambient *= tint;
-  surface.diffuse *= tint;
+  const TextureFootprint area = footprint(surface.cone.width, direction, surface.normal, gradients);
+  const auto tint = [&](const TextureImage* picture) {
+    return picture == nullptr ? Color(1, 1, 1)
+                              : picture->over(area, texture_point(mesh, triangle, at.u, at.v));
+  };
+  const ShadingMaterial& material = *surface.material;
+  const Color color = tint(material.texture);
+  surface.unlit = material.ambient * color + material.emission * tint(material.emission_texture);
+  surface.diffuse *= color;
 }
 
 // Recomputes a hit from its primitive. `along` is the ray's direction, unit; `cone` its cone where it starts.
@@ -157,15 +161,15 @@ Surface surface_at(const Pose& pose, const RTCRayHit& found, const Vec3d& along,
   }
   const ShadingMaterial& material = scene.materials[part.materials[primitive]];
   surface.material = &material;
-  surface.ambient = material.ambient;
+  surface.unlit = material.unlit;
   surface.diffuse = material.diffuse;
   const bool has_textures = scene.effects.has(Effect::kTextures);
   if (has_textures) surface.curvature = curvature_of(part, primitive, point, surface.shading, is_smooth);
   if (body) place(*body, along, surface);
   if (!has_textures) return surface;
   surface.cone = cone.after((surface.position - start()).dot(along));
-  if (material.texture != nullptr && mesh != nullptr && !mesh->texture_points.empty())
-    apply_texture(*mesh, primitive, at, body, along, surface);
+  if (material.has_picture() && mesh != nullptr && !mesh->texture_points.empty())
+    apply_pictures(*mesh, primitive, at, body, along, surface);
   return surface;
 }
 
@@ -212,7 +216,7 @@ class RayTree {
     ++counts_.primary;
     RTCRayHit found;
     if (!see(pose_, sender_, origin, direction, found)) {
-      sample.color = scene_.background;
+      sample.color = background_along(direction);
       sample.hit = direction;
       sample.at_infinity = true;
       return;
@@ -227,7 +231,7 @@ class RayTree {
         ((has(Effect::kHighlights) || has(Effect::kReflection)) && material.specular > 0) ||
         (has(Effect::kRefraction) && material.transmittance > 0);
     const SeenLights lights = lights_known(known, sample.primitive);
-    sample.color = surface.ambient + from_lights<true>(surface, d, lights, sample.lights);
+    sample.color = surface.unlit + from_lights<true>(surface, d, lights, sample.lights);
     if (has_secondary_rays()) {
       if (1 < scene_.options.max_depth) sample.color += from_secondary_rays(surface, d, 2);
     }
@@ -267,20 +271,27 @@ class RayTree {
     });
   }
 
+  // Returns what a ray sees that meets nothing.
+  Color background_along(const Vec3f& direction) const {
+    if (!has(Effect::kSky)) return scene_.background;
+    const float height = direction.dot(scene_.sky.up);
+    return height < 0 ? scene_.background : scene_.sky.at(height);
+  }
+
   // Returns the colour of a secondary ray.
   Color follow(const Vec3d& origin, const Vec3d& direction, const RayCone& cone, int depth) {
     const Vec3f d(direction);
     RTCRayHit found;
-    if (!see(pose_, sender_, Vec3f(origin), d, found)) return scene_.background;
+    if (!see(pose_, sender_, Vec3f(origin), d, found)) return background_along(d);
     const Vec3d exact(d);
     return shade(surface_at(pose_, found, exact, cone), exact, depth);
   }
 
-  // Returns the colour of a surface seen along `direction`, by NFF's model: ambient light, direct light, and
-  // the secondary rays that `depth` allows. An eye ray has depth 1.
+  // Returns the colour of a surface seen along `direction`, by NFF's model: emitted, ambient and direct
+  // light, and the secondary rays that `depth` allows. An eye ray has depth 1.
   Color shade(const Surface& surface, const Vec3d& direction, int depth) {
     SeenLights unused;
-    Color color = surface.ambient + from_lights<false>(surface, direction, {}, unused);
+    Color color = surface.unlit + from_lights<false>(surface, direction, {}, unused);
     if (has_secondary_rays()) {
       if (depth < scene_.options.max_depth) color += from_secondary_rays(surface, direction, depth + 1);
     }

@@ -22,6 +22,7 @@ namespace pprt {
 // A material prepared for shading: products are multiplied out. The lights' weight is in ShadingLight.
 struct ShadingMaterial {
   Color ambient{0, 0, 0};  // colour reflected from the ambient light
+  Color unlit{0, 0, 0};    // the same and what it gives off: all that is seen of it without lights
   Color diffuse{0, 0, 0};  // colour times Kd
   float specular = 0;      // Ks
   float shine = 0;         // 0: no highlight
@@ -32,6 +33,19 @@ struct ShadingMaterial {
   bool reflects_totally = false;          // follows the mirrored ray where none is refracted
   Color specular_color{0, 0, 0};          // in place of `specular`, its largest component
   const TextureImage* texture = nullptr;  // times ambient and diffuse
+  Color emission{0, 0, 0};
+  const TextureImage* emission_texture = nullptr;  // times emission
+
+  bool has_picture() const { return texture != nullptr || emission_texture != nullptr; }
+};
+
+// The background above the horizon.
+struct ShadingSky {
+  Vec3f up{0, 1, 0};                      // unit
+  Color horizon{0, 0, 0}, rise{0, 0, 0};  // rise: from the horizon to the zenith
+
+  // Returns the colour at the sine of an elevation.
+  Color at(float height) const { return horizon + rise * height; }
 };
 
 // A light prepared for shading.
@@ -87,8 +101,9 @@ class CompiledScene::Impl {
 
   EmbreeDevice device;
   Normalisation normalisation;
-  double radius = 1;  // of a sphere about the origin that contains the compiled scene
-  Color background{0, 0, 0};
+  double radius = 1;          // of a sphere about the origin that contains the compiled scene
+  Color background{0, 0, 0};  // below the horizon, if the background is a sky
+  ShadingSky sky;
   std::vector<TextureImage> textures;
   std::vector<ShadingMaterial> materials;
   std::vector<ShadingLight> lights;
@@ -99,7 +114,7 @@ class CompiledScene::Impl {
   bool moves = false;  // more than the camera
   Movement movement;
   std::vector<LightNode> light_nodes;            // empty: no light moves
-  std::vector<Vec3d> light_positions;            // in the space of its node, if lights move
+  std::vector<Light> lights_in_nodes;            // each in the space of its node, if lights move
   std::vector<CompiledBody> bodies;              // destroyed before the parts that they read
   std::vector<std::uint32_t> part_of_primitive;  // by place in the order; kNoPart: none
 
@@ -107,6 +122,9 @@ class CompiledScene::Impl {
 };
 
 inline constexpr std::uint32_t kNoPart = ~std::uint32_t{0};
+
+// Returns where a light of a node stands in the compiled space.
+Vec3d compiled_place(const Light& light, const Affine& to_world, const Normalisation& map);
 
 // Returns the text of CompiledScene::census().
 std::string census_text(const CompiledScene::Impl& scene);

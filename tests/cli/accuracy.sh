@@ -15,6 +15,7 @@ for method in delaunay uniform control auto 'paper weights' 'area only' 'varianc
   done
 done
 [[ $(find kept -type f | wc -l) -ge 4 ]] || complain "converged frames are not kept"
+grep -q 'A quick trial (--quick)' all/index.html || complain "the page does not tell that it was quick"
 ! grep -qE '<(script|link)|src="[^d]' all/index.html || complain "the page needs other files"
 if command -v gnuplot >/dev/null; then
   for figure in ratios error-time error-samples ablations; do expect_file "all/$figure.svg"; done

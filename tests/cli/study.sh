@@ -31,6 +31,11 @@ grep -q '^# cpu: .' all/frames.csv || complain "frames.csv does not tell the pro
 grep -q '"command": "pprt-study paper -o all --quick --ranks 2,9 --frames 5"' all/provenance.json ||
   complain "provenance.json does not tell the command: $(cat all/provenance.json)"
 
+# What is quick says so first, a list of contents stands above, and the page's address is told.
+[[ $(grep -oE 'A quick trial|<nav>|>Findings</h2>|How this was measured</h2>' all/index.html | paste -sd,) == '<nav>,A quick trial,>Findings</h2>,How this was measured</h2>' ]] ||
+  complain "the page does not begin with contents, the warning and the findings"
+expect_line err "pprt-study: the page is file://$PWD/all/index.html"
+
 # The same figures again, whatever the hour.
 figures_of() { grep -v '^#' "$1"; }
 run pprt-study paper -o again --quick --ranks 2,9 --frames 5; expect_code 0
@@ -68,4 +73,11 @@ expect_line err "pprt-study: error: --machine: 'sp3' is none of cluster, sp2; di
 run pprt-study paper -o x --frames 2; expect_code 2; expect_no_file x
 touch file
 run pprt-study paper -o file/x --quick; expect_code 1; expect_line err "pprt-study: error: cannot write 'file/x/provenance.json': .*"
+# Counts of what nobody has published stand alone, and why is told.
+run pprt-study counts spd:tree:1 --corners 513; expect_code 0
+expect_text err 'spd:tree:1: nothing is published for this size, only for spd:tree:11'
+run pprt-study counts spd:tetra --corners 9; expect_code 0
+expect_text err 'spd:tetra:6: nothing is published for 9 corners, only for 513'
+run pprt-study counts spd:jacks:1 --corners 9 --json; expect_code 0; expect_text err ''
+run pprt-study counts spd:jacks:1 --corners 9; expect_text err 'spd:jacks:1: nothing is published for this scene'
 finish

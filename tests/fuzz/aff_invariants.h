@@ -21,7 +21,10 @@ inline void require_indices_in_range(const SceneDescription& scene) {
   for (std::size_t i = 0; i < scene.order.size(); ++i) {
     require(material_of(scene, scene.order[i]) < scene.materials.size() && scene.nodes[i] < nodes.size());
   }
-  for (const Material& m : scene.materials) require(!m.texture || *m.texture < scene.textures.size());
+  for (const Material& m : scene.materials) {
+    for (const auto& texture : {m.texture, m.emission_texture})
+      require(!texture || *texture < scene.textures.size());
+  }
   for (const auto& [number, t] : scene.triangles) {
     const TriangleMesh& mesh = scene.meshes[number];
     for (std::size_t i = 0; i < 3; ++i) {

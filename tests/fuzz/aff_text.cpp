@@ -129,7 +129,7 @@ class AffText {
   }
 
   void directive() {
-    switch (pick(18)) {
+    switch (pick(22)) {
       case 0:
         simple("s", 4);
         break;
@@ -177,6 +177,18 @@ class AffText {
         break;
       case 15:
         transform();
+        break;
+      case 17:
+        simple("ls", pick(2) == 0 ? 3 : 6);
+        break;
+      case 18:
+        simple("bs", 9);
+        break;
+      case 19:
+        simple("fe", 3);
+        break;
+      case 20:
+        word("fet"), name(), numbers(3);
         break;
       case 16:
         word("a 0 2"), word(std::to_string(pick(4)));

@@ -146,6 +146,32 @@ const cases = {
     assert.ok(!readFileSync(join(directory, "film_1.png")).equals(readFileSync(join(directory, "film_7.png"))));
   },
 
+  "a model is steered under a script's sun and sky, and its keys make the film": async (browser) => {
+    writeFileSync(join(directory, "tent.obj"), `${["-2 0 2", "2 0 2", "0 2 0", "2 0 -2", "-2 0 -2"].map((v) => `v ${v}\n`).join("")}
+      ${["1 2 3", "2 4 3", "4 5 3", "5 1 3"].map((f) => `f ${f}\n`).join("")}`);
+    writeFileSync(join(directory, "day.anim"), `animation { scene "tent.obj" resolution <160, 120> fps 12
+      sun { from <-2, 3, 1> color <1, .9, .8> } sky { up <0, 1, 0> horizon <.8, .8, .9> zenith <.1, .3, .7> } }`);
+    const program = await Program.start("day.anim");
+    const page = await open(browser, program);
+    await take(page);
+    await page.click("key");
+    await stateIs(page, "state.keys.length === 1");
+    await drag(page, 70, 15);
+    await page.until("shown.look === look");
+    await page.evaluate("element('key-frame').value = 5, keyFrame = false");
+    await page.click("key");
+    await stateIs(page, "state.keys.length === 2");
+    await page.click("save");
+    await until("the script", () => existsSync(join(directory, "film.anim")));
+    noError(page);
+    await program.end();
+
+    const run = (...words) => execFileSync("pprt-render", words, {cwd: directory, encoding: "utf8", stdio: ["ignore", "pipe", "ignore"]});
+    assert.match(run("--census", "film.anim"), /lights +1, of them 1 sun\n[^]*simulated +shadows,sky\n/);
+    run("film.anim", "--clock", "work", "-o", "film_%d.png");
+    assert.ok(!readFileSync(join(directory, "film_1.png")).equals(readFileSync(join(directory, "film_5.png"))));
+  },
+
   "a reload and a lost connection are no loss": async (browser) => {
     const program = await Program.start(...scene);
     const page = await open(browser, program);

@@ -98,9 +98,11 @@ void add_lights(json& document, const SceneDescription& scene) {
     const Rgb shown(light_of(color.x), light_of(color.y), light_of(color.z));
     const double brightest = std::max({shown.x, shown.y, shown.z});
     const Rgb hue = brightest > 0 ? shown / brightest : shown;
-    const double distance2 = std::max((light.position - box.center()).length2(), least_distance2(box));
-    lights.push_back(
-        {{"type", "point"}, {"color", {hue.x, hue.y, hue.z}}, {"intensity", brightest * distance2}});
+    const double distance2 =
+        light.is_sun ? 1 : std::max((light.position - box.center()).length2(), least_distance2(box));
+    lights.push_back({{"type", light.is_sun ? "directional" : "point"},
+                      {"color", {hue.x, hue.y, hue.z}},
+                      {"intensity", brightest * distance2}});
     node_called(document, light_name(i))["extensions"][kExtension]["light"] = i;
   }
   document["extensions"][kExtension]["lights"] = std::move(lights);

@@ -11,11 +11,9 @@
 namespace pprt {
 namespace {
 
-constexpr double kFar = 100;  // radii of the scene, from which the sun's rays are parallel within .6 degrees
-
 // A light with its brightness in the middle of the scene, linear.
 struct LightAtWork {
-  Vec3d place{0, 0, 0};  // in its space
+  Light light;  // in its space, without a colour
   std::array<double, 3> brightness{};
 };
 
@@ -25,20 +23,17 @@ double brightest(const LightAtWork& light) {
 
 LightAtWork at_work(const tinygltf::Light& from, const ModelSpace& space, const Affine& to_world,
                     const Box3d& box) {
-  LightAtWork light;
-  const Affine map = to_world * space.map;
+  LightAtWork result;
   double intensity = std::max(from.intensity, 0.0);
   if (from.type == "directional") {
-    const Vec3d back = space.map.vector({0, 0, 1}).normalized();
-    const Vec3d to_middle = inverse(to_world).point(box.center());
-    light.place = to_middle + back * (kFar * 0.5 * box.size().length());
+    result.light = {.position = {0, 0, 1}, .is_sun = true};
   } else {
-    light.place = space.map.origin;
-    intensity /= std::max((map.origin - box.center()).length2(), least_distance2(box));
+    const Vec3d place = (to_world * space.map).origin;
+    intensity /= std::max((place - box.center()).length2(), least_distance2(box));
   }
   for (std::size_t i = 0; i < 3; ++i)
-    light.brightness[i] = intensity * (i < from.color.size() ? std::max(from.color[i], 0.0) : 1.0);
-  return light;
+    result.brightness[i] = intensity * (i < from.color.size() ? std::max(from.color[i], 0.0) : 1.0);
+  return result;
 }
 
 }  // namespace
@@ -66,10 +61,8 @@ void add_gltf_lights(const tinygltf::Model& model, const std::vector<PlacedGltfL
     Rgb color;
     for (int c = 0; c < 3; ++c)
       color[c] = display_value(lights[i].brightness[static_cast<std::size_t>(c)] * scale);
-    const bool is_white = color == Rgb(1, 1, 1);
-    // The space of a light whose place is given in it.
-    builder.add_light(lights[i].place, is_white ? std::nullopt : std::optional<Rgb>(color),
-                      {placed[i].space.node, {}});
+    if (color != Rgb(1, 1, 1)) lights[i].light.color = color;
+    builder.add(lights[i].light, placed[i].space);
   }
 }
 

@@ -15,7 +15,7 @@ struct PlacedGltfLight {
 };
 
 // Adds lights to a scene that has its meshes. Their intensities are those in the middle of the scene at the
-// animation's start, as display values; the brightest is 1. The sun stands far away.
+// animation's start, as display values; the brightest is 1.
 void add_gltf_lights(const tinygltf::Model& model, const std::vector<PlacedGltfLight>& placed,
                      GltfLosses& losses, ModelBuilder& builder);
 

@@ -39,7 +39,7 @@ inline constexpr std::array<std::string_view, static_cast<std::size_t>(GltfLoss:
     "materials with a normal map: they are smooth",
     "materials with a picture of occlusion: it is not shown",
     "materials with a picture of metal and roughness: its mean counts",
-    "materials that glow by a picture besides that of their colour: its mean glows",
+    "materials that glow by a picture placed otherwise than that of their colour: its mean glows",
     "materials with coloured glass or metal: what is seen through or in them keeps its colours",
     "meshes with colours at their vertices besides a texture: their mean counts",
     "meshes with a skin stand in the pose that they are bound in",

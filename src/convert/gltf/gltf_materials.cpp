@@ -10,7 +10,6 @@
 #include "convert/model/display_values.h"
 #include "image/atomic_file.h"
 #include "image/image_io.h"
-#include "scene/description/shading_rules.h"
 
 namespace pprt {
 namespace {
@@ -145,7 +144,7 @@ GltfSurface GltfMaterials::read(const tinygltf::Material& from) {
   surface.base = first_three(pbr.baseColorFactor, 1);
   surface.picture =
       picture_of(pbr.baseColorTexture.index, pbr.baseColorTexture.texCoord, pbr.baseColorTexture.extensions);
-  const bool is_pictured = surface.picture.texture >= 0;
+  surface.is_coloured = surface.picture.texture >= 0;
 
   // Which part of the light is mirrored, let through, or reflected to all sides.
   double metal = share(pbr.metallicFactor), rough = share(pbr.roughnessFactor);
@@ -156,9 +155,9 @@ GltfSurface GltfMaterials::read(const tinygltf::Material& from) {
   }
   double alpha = pbr.baseColorFactor.size() == 4 ? share(pbr.baseColorFactor[3]) : 1;
   const bool is_blended = from.alphaMode == "BLEND", is_masked = from.alphaMode == "MASK";
-  if (is_masked && !is_pictured) surface.is_hidden = alpha < from.alphaCutoff;
-  if (is_masked && is_pictured) surface.cutoff = alpha > 0 ? from.alphaCutoff / alpha : 2;
-  if (is_blended && is_pictured) {
+  if (is_masked && !surface.is_coloured) surface.is_hidden = alpha < from.alphaCutoff;
+  if (is_masked && surface.is_coloured) surface.cutoff = alpha > 0 ? from.alphaCutoff / alpha : 2;
+  if (is_blended && surface.is_coloured) {
     const double seen = mean(surface.picture.texture)[3];
     if (seen < 1) losses_.add(GltfLoss::kAlphaPicture);
     alpha *= seen;
@@ -185,7 +184,7 @@ GltfSurface GltfMaterials::read(const tinygltf::Material& from) {
   return surface;
 }
 
-// Ambient light shows what glows: the scene's is 1, and each material says what it reflects of it.
+// What is unlit shows by ambient light: the scene's is 1, and each material says what it reflects of it.
 void GltfMaterials::set_glow(const tinygltf::Material& from, GltfSurface& surface) {
   Material& m = surface.material;
   if (from.extensions.contains("KHR_materials_unlit")) {
@@ -199,23 +198,24 @@ void GltfMaterials::set_glow(const tinygltf::Material& from, GltfSurface& surfac
   const double strength =
       number_in(from.extensions, "KHR_materials_emissive_strength", "emissiveStrength", 1);
   if (glow == std::array<double, 3>{0, 0, 0}) return;
-  for (double& v : glow) v *= std::max(strength, 0.0);
-  if (const int texture = from.emissiveTexture.index; texture >= 0 && texture != surface.picture.texture) {
-    const bool is_black = surface.base == std::array<double, 3>{0, 0, 0};
-    if (is_black || (surface.picture.texture < 0 && surface.material.color == Rgb(0, 0, 0))) {
-      surface.picture = picture_of(texture, from.emissiveTexture.texCoord, from.emissiveTexture.extensions);
+  for (double& v : glow) v *= std::isfinite(strength) ? std::max(strength, 0.0) : 1;
+  if (from.emissiveTexture.index >= 0) {
+    const GltfPicture picture = picture_of(from.emissiveTexture.index, from.emissiveTexture.texCoord,
+                                           from.emissiveTexture.extensions);
+    if (!surface.is_coloured) surface.picture = picture;
+    if (surface.picture.is_placed_as(picture)) {
+      surface.emission_texture = picture.texture;
     } else {
-      const std::array<double, 4> picture = mean(texture);
-      for (std::size_t i = 0; i < 3; ++i) glow[i] *= light_of(picture[i]);
+      const std::array<double, 4> color = mean(picture.texture);
+      for (std::size_t i = 0; i < 3; ++i) glow[i] *= light_of(color[i]);
       losses_.add(GltfLoss::kGlowPicture);
     }
   }
-  m.terms = {.ambient = m.color * kAmbientReflectance + display_color(glow),
-             .diffuse = m.color,
-             .specular = Rgb(m.specular, m.specular, m.specular)};
+  for (int i = 0; i < 3; ++i) m.emission[i] = unbounded_display_value(glow[static_cast<std::size_t>(i)]);
 }
 
-void GltfMaterials::put_on(const GltfPicture& picture, Material& material, ModelMesh& mesh) {
+void GltfMaterials::put_on(const GltfSurface& surface, Material& material, ModelMesh& mesh) {
+  const GltfPicture& picture = surface.picture;
   const double cosine = std::cos(picture.turn), sine = std::sin(picture.turn);
   Vec2d low(0, 0), high(1, 1);
   for (Vec2d& place : mesh.texture_points) {
@@ -240,8 +240,9 @@ void GltfMaterials::put_on(const GltfPicture& picture, Material& material, Model
     losses_.add(GltfLoss::kBorder);
     low = Vec2d(0, 0), tiles = Vec2d(1, 1);
   }
-  material.texture = tiled(picture.texture, low, tiles);
-  if (sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST && material.texture)
+  if (surface.is_coloured) material.texture = tiled(picture.texture, low, tiles);
+  if (surface.emission_texture >= 0) material.emission_texture = tiled(surface.emission_texture, low, tiles);
+  if (sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST && material.has_picture())
     losses_.add(GltfLoss::kHardTexels);
   for (Vec2d& place : mesh.texture_points) place = (place - low) / tiles;
 }

@@ -24,14 +24,22 @@ struct GltfPicture {
   int coordinates = 0;  // the set of a mesh
   Vec2d offset{0, 0}, scale{1, 1};
   double turn = 0;  // radians, counter-clockwise
+
+  // Whether another picture lies at the same places.
+  bool is_placed_as(const GltfPicture& other) const {
+    return coordinates == other.coordinates && offset == other.offset && scale == other.scale &&
+           turn == other.turn;
+  }
 };
 
 struct GltfSurface {
   Material material;                    // without its texture
   std::array<double, 3> base{1, 1, 1};  // the factor of its colour, linear
-  GltfPicture picture;
-  std::optional<double> cutoff = {};  // of a picture's alpha, below which there is nothing
-  bool is_hidden = false;             // its alpha lies below the cutoff everywhere
+  GltfPicture picture;                  // that of its colour, or else that of its emission
+  int emission_texture = -1;            // placed as `picture`
+  bool is_coloured = false;             // by `picture`
+  std::optional<double> cutoff = {};    // of a picture's alpha, below which there is nothing
+  bool is_hidden = false;               // its alpha lies below the cutoff everywhere
 };
 
 // Reads the materials and pictures of a file, each once.
@@ -56,8 +64,8 @@ class GltfMaterials {
   // Returns the same with another factor of its colour, linear.
   static Material recoloured(const GltfSurface& surface, const std::array<double, 3>& factor);
 
-  // Sets the texture of a material, and the coordinates of a mesh that are its own in `mesh`.
-  void put_on(const GltfPicture& picture, Material& material, ModelMesh& mesh);
+  // Sets the textures of a material, and the coordinates of a mesh that are its own in `mesh`.
+  void put_on(const GltfSurface& surface, Material& material, ModelMesh& mesh);
 
   // Returns the place of a texture that is no picture of the file.
   TextureIndex add(Texture texture);

@@ -93,7 +93,7 @@ void add_gltf_primitive(const tinygltf::Model& model, const tinygltf::Primitive&
     for (std::size_t i = 0; i < points.size(); ++i)
       mesh.texture_points.emplace_back(points.at(i, 0), points.at(i, 1));
     mesh.texture_points.resize(mesh.positions.size(), Vec2d(0, 0));
-    materials.put_on(picture, material, mesh);
+    materials.put_on(surface, material, mesh);
     materials.cut(surface, material, mesh);
     if (mesh.corners.empty()) return;  // all of it is a hole
   }
@@ -101,7 +101,7 @@ void add_gltf_primitive(const tinygltf::Model& model, const tinygltf::Primitive&
     const GltfNumbers colors = numbers(model, color);
     if (colors.components < 3) throw std::runtime_error("a mesh has colours that are none");
     std::optional<Texture> painted;
-    if (!material.texture) painted = paint(mesh, colors);
+    if (!material.has_picture()) painted = paint(mesh, colors);
     if (painted) {
       material.texture = materials.add(std::move(*painted));
     } else {

@@ -36,6 +36,7 @@ Material to_material(const aiMaterial& from) {
   } else if (from.Get(AI_MATKEY_BASE_COLOR, base) == aiReturn_SUCCESS) {
     material.color = to_rgb(aiColor3D(base.r, base.g, base.b));
   }
+  if (from.Get(AI_MATKEY_COLOR_EMISSIVE, color) == aiReturn_SUCCESS) material.emission = to_rgb(color);
   float value = 0;
   // The PLY reader invents a highlight without a size.
   if (from.Get(AI_MATKEY_COLOR_SPECULAR, color) == aiReturn_SUCCESS &&
@@ -64,8 +65,13 @@ std::string picture_path(const aiMaterial& from) {
   return {};
 }
 
+std::string emission_path(const aiMaterial& from) {
+  aiString path;
+  return from.GetTexture(aiTextureType_EMISSIVE, 0, &path) == aiReturn_SUCCESS ? path.C_Str() : "";
+}
+
 std::unique_ptr<aiMaterial> to_assimp(const Material& m, const std::string& name_in_file,
-                                      bool physically_based, const std::string& picture) {
+                                      bool physically_based, const MaterialPictures& pictures) {
   auto material = std::make_unique<aiMaterial>();
   const aiString name(name_in_file);
   const aiColor3D diffuse = to_color(m.terms ? m.terms->diffuse : m.color * m.diffuse);
@@ -73,15 +79,23 @@ std::unique_ptr<aiMaterial> to_assimp(const Material& m, const std::string& name
   const auto mirror = static_cast<float>(m.specular);
   material->AddProperty(&name, AI_MATKEY_NAME);
   material->AddProperty(&opacity, 1, AI_MATKEY_OPACITY);
-  const aiString file(picture);
-  if (!picture.empty()) material->AddProperty(&file, AI_MATKEY_TEXTURE_DIFFUSE(0));
+  const aiString file(pictures.color), light(pictures.emission);
+  if (file.length > 0) material->AddProperty(&file, AI_MATKEY_TEXTURE_DIFFUSE(0));
+  if (light.length > 0) material->AddProperty(&light, AI_MATKEY_TEXTURE_EMISSIVE(0));
+  Rgb emission = m.emission;
+  for (int i = 0; i < 3; ++i) {
+    emission[i] = std::clamp(emission[i], 0.0, 1.0);
+    if (physically_based) emission[i] = light_of(emission[i]);
+  }
+  const aiColor3D emitted = to_color(emission);
+  if (emission != Rgb(0, 0, 0)) material->AddProperty(&emitted, 1, AI_MATKEY_COLOR_EMISSIVE);
   if (physically_based) {
     // Of a physically based material, what is mirrored or let through is not reflected to all sides.
     const double left = (1 - m.transmittance) * (1 - m.specular);
-    const auto light = [&](float v) {
+    const auto light_share = [&](float v) {
       return static_cast<float>(light_of(left > 0 ? std::min(static_cast<double>(v) / left, 1.0) : v));
     };
-    const aiColor4D base(light(diffuse.r), light(diffuse.g), light(diffuse.b), 1);
+    const aiColor4D base(light_share(diffuse.r), light_share(diffuse.g), light_share(diffuse.b), 1);
     const auto glass = static_cast<float>(effective_refractive_index(m));
     const auto through = static_cast<float>(std::min(m.transmittance / std::max(1 - m.specular, 1e-9), 1.0));
     if (m.transmittance > 0) {
@@ -92,7 +106,7 @@ std::unique_ptr<aiMaterial> to_assimp(const Material& m, const std::string& name
     material->AddProperty(&base, 1, AI_MATKEY_BASE_COLOR);
     material->AddProperty(&mirror, 1, AI_MATKEY_METALLIC_FACTOR);
     material->AddProperty(&roughness, 1, AI_MATKEY_ROUGHNESS_FACTOR);
-    if (!picture.empty()) material->AddProperty(&file, AI_MATKEY_TEXTURE(aiTextureType_BASE_COLOR, 0));
+    if (file.length > 0) material->AddProperty(&file, AI_MATKEY_TEXTURE(aiTextureType_BASE_COLOR, 0));
     return material;
   }
   const aiColor3D specular = m.terms ? to_color(m.terms->specular) : aiColor3D(mirror, mirror, mirror);

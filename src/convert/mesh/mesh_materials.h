@@ -18,9 +18,17 @@ Material to_material(const aiMaterial& from);
 // file; empty without.
 std::string picture_path(const aiMaterial& from);
 
+// Returns the same of the picture that its light has.
+std::string emission_path(const aiMaterial& from);
+
+// Paths of a material's pictures, as picture_path() returns them.
+struct MaterialPictures {
+  std::string color, emission;
+};
+
 // Returns a material for a file. Phong's model is that of NFF without the mirror. Formats with only
-// physically based materials get smooth metal for it. `picture`: as picture_path() returns it.
+// physically based materials get smooth metal for it. They hold an emission of at most 1.
 std::unique_ptr<aiMaterial> to_assimp(const Material& material, const std::string& name,
-                                      bool physically_based, const std::string& picture);
+                                      bool physically_based, const MaterialPictures& pictures);
 
 }  // namespace pprt

@@ -127,12 +127,16 @@ class SceneReader {
     const bool has_places = from.mTextureCoords[0] != nullptr;
     if (const std::string path = picture_path(material); !path.empty() && has_places)
       own.texture = texture(path);
+    if (const std::string path = emission_path(material); !path.empty() && has_places) {
+      own.emission_texture = texture(path);
+      if (own.emission_texture && own.emission == Rgb(0, 0, 0)) own.emission = Rgb(1, 1, 1);
+    }
     ModelMesh mesh;
     for (unsigned i = 0; i < from.mNumVertices; ++i) {
       mesh.positions.push_back(to_vector(from.mVertices[i]));
       if (from.mNormals != nullptr) mesh.normals.push_back(to_vector(from.mNormals[i]));
       // Assimp's second coordinate runs upwards.
-      if (own.texture)
+      if (own.has_picture())
         mesh.texture_points.emplace_back(from.mTextureCoords[0][i].x, 1 - from.mTextureCoords[0][i].y);
     }
     for (const aiFace& face : std::span(from.mFaces, from.mNumFaces)) {
@@ -183,11 +187,14 @@ class SceneReader {
     for (unsigned i = 0; i < from_.mNumLights; ++i) {
       const aiLight& from = *from_.mLights[i];
       if (std::string_view(from.mName.C_Str()) != node.mName.C_Str()) continue;
-      if (from.mType == aiLightSource_POINT || from.mType == aiLightSource_SPOT) {
-        builder_.add_light(to_vector(from.mPosition), light_color(from.mColorDiffuse), space);
+      Light light{.position = to_vector(from.mPosition), .color = light_color(from.mColorDiffuse)};
+      light.is_sun = from.mType == aiLightSource_DIRECTIONAL;
+      if (light.is_sun) light.position = -to_vector(from.mDirection);
+      if (light.is_sun || from.mType == aiLightSource_POINT || from.mType == aiLightSource_SPOT) {
+        builder_.add(light, space);
       } else {
         builder_.notes().push_back("the light '" + printable(from.mName.C_Str()) +
-                                   "' is neither a point nor a spot: left out");
+                                   "' is neither a point, nor a spot, nor a sun: left out");
       }
     }
   }

@@ -202,12 +202,15 @@ class AssimpScene {
     if (to) return *to;
     to = static_cast<unsigned>(used_materials_.size());
     const Material& from = scene_.materials[index];
-    std::string picture;
-    if (from.texture && format_.has_textures)
-      picture = format_.is_gltf ? "*" + std::to_string(*from.texture) : pictures_[*from.texture];
+    const MaterialPictures pictures{path_of(from.texture), path_of(from.emission_texture)};
     used_materials_.push_back(
-        to_assimp(from, "material_" + std::to_string(index + 1), format_.is_gltf, picture).release());
+        to_assimp(from, "material_" + std::to_string(index + 1), format_.is_gltf, pictures).release());
     return *to;
+  }
+
+  std::string path_of(const std::optional<TextureIndex>& texture) const {
+    if (!texture || !format_.has_textures) return {};
+    return format_.is_gltf ? "*" + std::to_string(*texture) : pictures_[*texture];
   }
 
   void add_pictures() {
@@ -251,6 +254,13 @@ class AssimpScene {
     own(std::vector<aiCamera*>{camera.release()}, to_->mCameras, to_->mNumCameras);
   }
 
+  // Returns a turn of -z, along which nodes shine.
+  static Affine looking_along(const Vec3d& direction) {
+    const Vec3d back = -direction.normalized();
+    const Vec3d aside = (std::abs(back.y) < 0.9 ? Vec3d(0, 1, 0) : Vec3d(1, 0, 0)).cross(back).normalized();
+    return {aside, back.cross(aside), back, {0, 0, 0}};
+  }
+
   void add_lights() {
     std::vector<aiLight*> lights;
     for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
@@ -258,12 +268,13 @@ class AssimpScene {
       auto light = std::make_unique<aiLight>();
       const std::string name = light_name(i);
       light->mName = name;
-      light->mType = aiLightSource_POINT;
+      light->mType = from.is_sun ? aiLightSource_DIRECTIONAL : aiLightSource_POINT;
+      light->mDirection = {0, 0, -1};
       light->mColorDiffuse = light->mColorSpecular = to_color(from.color.value_or(Rgb(1, 1, 1)));
       light->mAttenuationConstant = 1;
       light->mAttenuationLinear = light->mAttenuationQuadratic = 0;
       const LightNode at = scene_.light_nodes.empty() ? LightNode() : scene_.light_nodes[i];
-      add_node(at.node, name, translation(from.position));
+      add_node(at.node, name, from.is_sun ? looking_along(-from.position) : translation(from.position));
       const auto track = scene_.movement.tracks.find(at.track);
       if (track != scene_.movement.tracks.end()) add_movement(track->second, name);
       lights.push_back(light.release());

@@ -76,11 +76,12 @@ void ModelBuilder::add(const ModelMesh& mesh, const Material& material, const Mo
     if (corner >= mesh.positions.size()) reject("a face names a vertex that is not there");
   }
   Material own = material;
-  if (mesh.texture_points.empty()) own.texture.reset();
+  if (mesh.texture_points.empty()) own.texture.reset(), own.emission_texture.reset();
   const MaterialIndex index = table_.intern(scene_.materials, own);
   const bool mirrored = space.map.determinant() < 0;
   const std::vector<PatchVertex> vertices = vertices_of(mesh, space);
-  own.texture ? textured_mesh(mesh, vertices, mirrored, index) : polygons(mesh, vertices, mirrored, index);
+  own.has_picture() ? textured_mesh(mesh, vertices, mirrored, index)
+                    : polygons(mesh, vertices, mirrored, index);
   scene_.nodes.resize(scene_.order.size(), space.node);
 }
 
@@ -188,10 +189,11 @@ void ModelBuilder::aim(View& view, const Affine& map) const {
   view.up = map.vector(camera_.up).normalized();
 }
 
-void ModelBuilder::add_light(const Vec3d& place, const std::optional<Rgb>& color, const ModelSpace& space) {
-  const Vec3d position = space.map.point(place);
-  if (!is_in_range(position)) reject("a light's place is not finite, or beyond 1e100");
-  scene_.lights.push_back({position, color, {}});
+void ModelBuilder::add(Light light, const ModelSpace& space) {
+  light.position = place_of(light, space.map);
+  if (!is_in_range(light.position)) reject("a light's place is not finite, or beyond 1e100");
+  if (light.is_sun && light.position == Vec3d(0, 0, 0)) return note(1, "sun without a direction: left out");
+  scene_.lights.push_back(light);
   scene_.light_nodes.push_back({.node = space.node});
 }
 

@@ -70,8 +70,8 @@ class ModelBuilder {
   // Takes the first usable camera as the view.
   void add(const ModelCamera& camera, const ModelSpace& space);
 
-  // Adds a light at a place in its node's space.
-  void add_light(const Vec3d& place, const std::optional<Rgb>& color, const ModelSpace& space);
+  // Adds a light, whose place is given in its node's space.
+  void add(Light light, const ModelSpace& space);
 
   // Returns the scene, in which only that moves which has keys.
   ReadMesh finish(std::vector<std::string> files) &&;

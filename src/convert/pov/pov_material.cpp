@@ -8,9 +8,6 @@
 namespace pprt {
 namespace {
 
-// Largest transmittance written: it leaves POV-Ray a share of the surface to light, which is compensated.
-constexpr double kLargestTransmittance = 1 - 0x1p-10;
-
 // Share of the diffuse colour that a channel gets which reflects ambient light only. A display shows none of
 // it.
 constexpr double kLeastPigment = 0x1p-20;
@@ -84,6 +81,7 @@ PovMaterial pov_material(const SceneDescription& scene, const Material& m) {
   const double per_opacity = 1 / (1 - result.transmit);
   result.ambient *= per_opacity;
   result.diffuse *= per_opacity;
+  if (m.emission != Rgb(0, 0, 0)) result.emission = m.emission / (1 - kLargestTransmittance);
   if (m.specular > 0) result.reflection = specular;
   if (has_highlight(m)) set_highlight(scene, m, specular, result);
   return result;
@@ -92,19 +90,23 @@ PovMaterial pov_material(const SceneDescription& scene, const Material& m) {
 PovPictures pov_pictures(const SceneDescription& scene, const std::string& stem) {
   PovPictures result;
   std::vector<PovPicture>& files = result.files;
-  for (const Material& m : scene.materials) {
-    std::optional<std::size_t>& at = result.materials.emplace_back();
-    if (!m.texture) continue;
-    const Rgb tint = pov_material(scene, m).pigment;
+  const auto is_taken = [&](const std::string& name) {
+    return std::any_of(files.begin(), files.end(), [&](const PovPicture& f) { return f.name == name; });
+  };
+  const auto file_of = [&](std::optional<TextureIndex> texture, const Rgb& tint) {
+    std::optional<std::size_t> at;
+    if (!texture) return at;
     const auto equal = std::find_if(files.begin(), files.end(), [&](const PovPicture& f) {
-      return f.texture == *m.texture && f.tint == tint;
+      return f.texture == *texture && f.tint == tint;
     });
     at = static_cast<std::size_t>(equal - files.begin());
-    if (equal != files.end()) continue;
-    const auto is_taken = [&](const std::string& name) {
-      return std::any_of(files.begin(), files.end(), [&](const PovPicture& f) { return f.name == name; });
-    };
-    files.push_back({picture_name(stem, scene.textures[*m.texture], is_taken), *m.texture, tint});
+    if (equal == files.end())
+      files.push_back({picture_name(stem, scene.textures[*texture], is_taken), *texture, tint});
+    return at;
+  };
+  for (const Material& m : scene.materials) {
+    result.materials.push_back(file_of(m.texture, pov_material(scene, m).pigment));
+    result.emissions.push_back(file_of(m.emission_texture, Rgb(1, 1, 1)));
   }
   return result;
 }

@@ -11,6 +11,9 @@
 
 namespace pprt {
 
+// Largest transmittance written: it leaves POV-Ray a share of the surface to light, which is compensated.
+inline constexpr double kLargestTransmittance = 1 - 0x1p-10;
+
 // The parameters of a pigment and its finish. POV-Ray multiplies ambient and diffuse light by the pigment's
 // colour.
 struct PovMaterial {
@@ -22,6 +25,8 @@ struct PovMaterial {
   Rgb reflection{0, 0, 0};
   // The colour of a layer above that lets light pass. It colours all but the reflection.
   std::optional<Rgb> filter;
+  // What a layer above all gives off, which lets kLargestTransmittance through.
+  std::optional<Rgb> emission;
   bool lost_highlight = false;  // the highlight's colour; POV-Ray's is white, of the mean brightness
   bool lost_ambient = false;    // a channel that the texture's picture cannot hold
 };
@@ -39,6 +44,7 @@ struct PovPicture {
 struct PovPictures {
   std::vector<PovPicture> files;                      // with distinct names
   std::vector<std::optional<std::size_t>> materials;  // the file of each material
+  std::vector<std::optional<std::size_t>> emissions;  // the file of the light that it gives off
 };
 
 // Returns the files for the textures of a scene that is written as STEM.pov.

@@ -106,7 +106,18 @@ class PovWriter {
         "//   povray +I... +W", static_cast<std::size_t>(scene_.view->width), " +H",
         static_cast<std::size_t>(scene_.view->height), " -A\n#version 3.7;\n",
         "global_settings { assumed_gamma srgb max_trace_level 5 adc_bailout 0 ambient_light rgb 1 }\n",
-        "background { ", scene_.background.value_or(Rgb(0, 0, 0)), " }\n\n");
+        "background { ", ground_color(scene_), " }\n");
+    if (scene_.sky) sky(*scene_.sky);
+    put("\n");
+  }
+
+  // The gradient runs from the nadir to the zenith. There it would begin anew, so it is a little longer.
+  void sky(const Sky& sky) {
+    constexpr double kLonger = 1 + 0x1p-20;
+    const Vec3d up = sky.up.normalized();
+    const Rgb ground = ground_color(scene_);
+    put("sky_sphere { pigment { gradient ", up, " color_map { [0 ", ground, "] [0.5 ", ground, "] [0.5 ",
+        sky.horizon, "] [1 ", sky.zenith, "] } scale ", 2 * kLonger, " translate ", -up * kLonger, " } }\n");
   }
 
   // The view's angle spans the centres of the first and the last row, at whatever size the image is rendered.
@@ -123,31 +134,64 @@ class PovWriter {
   void lights() {
     const double weight = scene_.ambient ? 1 : light_weight(scene_.lights.size());
     for (const Light& light : scene_.lights) {
-      put("light_source { ", point(light.position), " ", light.color.value_or(Rgb(1, 1, 1)) * weight, " }\n");
+      const Rgb color = light.color.value_or(Rgb(1, 1, 1)) * weight;
+      if (light.is_sun) {
+        sun(light, color);
+      } else {
+        put("light_source { ", point(light.position), " ", color, " }\n");
+      }
     }
     put("\n");
   }
 
-  // A material with a texture also gets one that shows it, for triangles with texture points.
+  // Nothing is farther away than its place. POV-Ray ignores hits beyond ten times that.
+  void sun(const Light& light, const Rgb& color) {
+    constexpr double kFar = 1e6;
+    const Vec3d at = point(scene_.view->from);
+    put("light_source { ", at + light.position.normalized() * kFar, " ", color, " parallel point_at ", at,
+        " }\n");
+  }
+
+  // A material with a picture also gets a texture that shows it, for triangles with texture points.
   void material(std::size_t index) {
     const Material& m = scene_.materials[index];
     const PovMaterial pov = pov_material(scene_, m);
     losses_.lost_highlights += pov.lost_highlight;
     losses_.lost_ambient += pov.lost_ambient;
-    put("#declare Material_", index + 1, " = texture {\n  pigment { ", pov.pigment);
-    if (pov.transmit > 0) put(" transmit ", pov.transmit);
-    put(" }\n");
+    put("#declare Material_", index + 1, " = ");
+    layers(m, pov, std::nullopt, std::nullopt);
+    if (!m.has_picture()) return;
+    put("#declare Textured_", index + 1, " = ");
+    layers(m, pov, pictures_.materials[index], pictures_.emissions[index]);
+  }
+
+  // Files of the colour and of the emission, where there are any.
+  void layers(const Material& m, const PovMaterial& pov, std::optional<std::size_t> color,
+              std::optional<std::size_t> emission) {
+    pigment(color, pov.pigment, pov.transmit);
     finish(m, pov);
-    if (pov.filter) {
+    if (pov.filter)
       put("texture {\n  pigment { ", *pov.filter, " filter 1 }\n  finish { ambient 0 diffuse 0 }\n}\n");
+    if (!pov.emission) return;
+    pigment(emission, Rgb(1, 1, 1), kLargestTransmittance);
+    put("  finish { ambient 0 diffuse 0 emission ");
+    amount(*pov.emission);
+    put(" }\n}\n");
+  }
+
+  // A picture is that of the pigment alone: layers of textures that are mapped as a whole are refused.
+  void pigment(std::optional<std::size_t> file, const Rgb& color, double transmit) {
+    put("texture {\n");
+    if (!file) {
+      put("  pigment { ", color);
+      if (transmit > 0) put(" transmit ", transmit);
+      return put(" }\n");
     }
-    if (!pictures_.materials[index]) return;
-    put("#declare Textured_", index + 1, " = texture {\n  uv_mapping\n  pigment { image_map { png ");
-    quoted(pictures_.files[*pictures_.materials[index]].name);
+    put("  pigment { uv_mapping image_map { png ");
+    quoted(pictures_.files[*file].name);
     put(" gamma srgb interpolate 2");
-    if (pov.transmit > 0) put(" transmit all ", pov.transmit);
+    if (transmit > 0) put(" transmit all ", transmit);
     put(" } }\n");
-    finish(m, pov);
   }
 
   void finish(const Material& m, const PovMaterial& pov) {
@@ -197,7 +241,7 @@ class PovWriter {
     corners_.clear();
     texture_points_.clear();
     for (const PatchVertex& v : corners) corners_.push_back(v.position);
-    if (pictures_.materials[mesh.material] && !mesh.texture_points.empty()) {
+    if (scene_.materials[mesh.material].has_picture() && !mesh.texture_points.empty()) {
       for (const std::uint32_t at : t.corners.texture_point) {
         const Vec2d& p = mesh.texture_points[at];
         texture_points_.emplace_back(p.x, 1 - p.y);

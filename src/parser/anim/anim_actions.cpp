@@ -15,6 +15,7 @@ namespace {
 constexpr int kMaxNesting = 100;            // levels of operands; each takes some 2 kB of the call stack
 constexpr std::size_t kMostKeys = 100'000;  // key, hold and cut statements
 constexpr std::size_t kMostObjects = 10'000;
+constexpr std::size_t kMostSuns = 1'000;
 constexpr std::size_t kMostNames = 100'000;  // declared names
 
 // The keywords of statements and the block of each. The fields come last.
@@ -49,6 +50,11 @@ constexpr Word kWords[] = {
     {"rotate", Block::kObjectKey},
     {"scale", Block::kObjectKey},
     {"visible", Block::kObjectKey},
+    {"sun", Block::kAnimation},
+    {"sky", Block::kAnimation},
+    {"color", Block::kLight},
+    {"horizon", Block::kLight},
+    {"zenith", Block::kLight},
 };
 
 constexpr std::string_view name_of(Block block) {
@@ -65,6 +71,8 @@ constexpr std::string_view name_of(Block block) {
       return "object { ... }";
     case Block::kObjectKey:
       return "the { ... } of an object's key";
+    case Block::kLight:
+      return "the { ... } of a sun or sky";
   }
   return {};
 }
@@ -83,6 +91,23 @@ std::vector<std::string_view> candidates_in(Block block) {
 
 bool is_name_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+constexpr FieldOwner kOwners[] = {FieldOwner::kCamera, FieldOwner::kObject, FieldOwner::kSun,
+                                  FieldOwner::kSky};
+
+constexpr std::string_view name_of(FieldOwner owner) {
+  switch (owner) {
+    case FieldOwner::kCamera:
+      return "the camera's";
+    case FieldOwner::kObject:
+      return "an object's";
+    case FieldOwner::kSun:
+      return "a sun's";
+    case FieldOwner::kSky:
+      return "the sky's";
+  }
+  return {};
 }
 
 std::string_view leading_name(std::string_view text) {
@@ -203,13 +228,13 @@ void ScriptReader::check_version() {
 }
 
 void ScriptReader::begin_animation(const char* place) {
-  in_object_ = false;
+  owner_ = FieldOwner::kCamera;
   if (script_.has_animation) problems_.error(place, "a script has one animation");
   script_.has_animation = true;
 }
 
 void ScriptReader::begin_camera(const char* place) {
-  in_object_ = false;
+  owner_ = FieldOwner::kCamera;
   if (script_.has_camera) problems_.error(place, "an animation has one camera");
   script_.has_camera = true;
 }
@@ -218,7 +243,25 @@ void ScriptReader::begin_object(std::string_view name) {
   if (script_.objects.size() >= kMostObjects)
     throw ParseFailure{name.data(), fmt::format("more than {} objects", kMostObjects), true};
   script_.objects.push_back({.name = std::string(name), .place = name.data(), .keys = {}});
-  in_object_ = true;
+  owner_ = FieldOwner::kObject;
+}
+
+void ScriptReader::begin_light(FieldOwner owner, const char* place) {
+  owner_ = owner;
+  begin_key(WrittenKey::Kind::kKey, place);
+}
+
+void ScriptReader::end_sun() {
+  if (script_.suns.size() >= kMostSuns)
+    throw ParseFailure{key_.place, fmt::format("more than {} suns", kMostSuns), true};
+  script_.suns.push_back(key_);
+  owner_ = FieldOwner::kCamera;
+}
+
+void ScriptReader::end_sky() {
+  if (script_.sky) problems_.error(key_.place, "'sky' is given twice");
+  script_.sky = key_;
+  owner_ = FieldOwner::kCamera;
 }
 
 void ScriptReader::begin_key(WrittenKey::Kind kind, const char* place) {
@@ -243,16 +286,16 @@ void ScriptReader::set_field() {
     problems_.error(field_place_, fmt::format("'{}' is given twice in this key", kFieldWords[field_]));
   field = take();
   const auto which = static_cast<Field>(field_);
-  if (!in_object_ && !is_of_camera(which)) {
-    problems_.error(field_place_, fmt::format("'{}' is an object's, not the camera's", kFieldWords[field_]));
-  } else if (in_object_ && !is_of_object(which)) {
-    problems_.error(field_place_, fmt::format("'{}' is the camera's, not an object's", kFieldWords[field_]));
-  }
+  if (is_of(owner_, which)) return;
+  const auto* owner =
+      std::find_if(std::begin(kOwners), std::end(kOwners), [&](FieldOwner o) { return is_of(o, which); });
+  problems_.error(field_place_,
+                  fmt::format("'{}' is {}, not {}", kFieldWords[field_], name_of(*owner), name_of(owner_)));
 }
 
 void ScriptReader::end_key() {
   if (keys_++ >= kMostKeys) throw ParseFailure{key_.place, fmt::format("more than {} keys", kMostKeys), true};
-  (in_object_ ? script_.objects.back().keys : script_.keys).push_back(key_);
+  (owner_ == FieldOwner::kObject ? script_.objects.back().keys : script_.keys).push_back(key_);
 }
 
 void ScriptReader::set_scene(std::string_view name) {

@@ -22,7 +22,7 @@ struct ParseFailure {
 };
 
 // The block that is being read; messages name it when a word does not belong there.
-enum class Block { kTop, kAnimation, kCamera, kKey, kObject, kObjectKey };
+enum class Block { kTop, kAnimation, kCamera, kKey, kObject, kObjectKey, kLight };
 
 // Collects the script while it is read. Values of expressions are kept on a stack.
 class ScriptReader {
@@ -48,7 +48,11 @@ class ScriptReader {
   void begin_animation(const char* place);
   void begin_camera(const char* place);
   void begin_object(std::string_view name);
-  void end_object() { in_object_ = false; }
+  void end_object() { owner_ = FieldOwner::kCamera; }
+  void begin_sun(const char* place) { begin_light(FieldOwner::kSun, place); }
+  void begin_sky(const char* place) { begin_light(FieldOwner::kSky, place); }
+  void end_sun();
+  void end_sky();
   void begin_key(WrittenKey::Kind kind, const char* place);
   void set_in_seconds() { key_.in_seconds = true; }
   void set_when();
@@ -77,6 +81,7 @@ class ScriptReader {
   };
 
   Value take();
+  void begin_light(FieldOwner owner, const char* place);
   void given_twice(std::string_view word);
   template <typename T>
   void set(std::optional<T>& into, std::string_view word, T value) {
@@ -91,8 +96,8 @@ class ScriptReader {
   std::vector<Call> calls_;
   int depth_ = 0;
   std::string_view declared_;
-  std::size_t keys_ = 0;    // of camera and objects
-  bool in_object_ = false;  // the last one of the script
+  std::size_t keys_ = 0;                    // of camera and objects
+  FieldOwner owner_ = FieldOwner::kCamera;  // of the fields at hand; an object is the last one of the script
   WrittenKey key_;
   std::size_t field_ = 0;
   const char* field_place_ = nullptr;
@@ -184,6 +189,8 @@ struct action<grammar::object_item> : recovering {};
 template <>
 struct action<grammar::key_item> : recovering {};
 template <>
+struct action<grammar::light_item> : recovering {};
+template <>
 struct action<grammar::unary> : limiting_depth {};
 
 template <>
@@ -238,6 +245,14 @@ struct action<grammar::object> : plainly<&ScriptReader::end_object> {};
 template <>
 struct action<grammar::object_key> : plainly<&ScriptReader::end_key> {};
 template <>
+struct action<grammar::sun_word> : with_place<&ScriptReader::begin_sun> {};
+template <>
+struct action<grammar::sky_word> : with_place<&ScriptReader::begin_sky> {};
+template <>
+struct action<grammar::sun> : plainly<&ScriptReader::end_sun> {};
+template <>
+struct action<grammar::sky> : plainly<&ScriptReader::end_sky> {};
+template <>
 struct action<grammar::hold> : plainly<&ScriptReader::end_key> {};
 template <>
 struct action<grammar::spline_kind> : with_text<&ScriptReader::set_spline> {};
@@ -290,5 +305,7 @@ template <>
 struct action<grammar::unknown_in_key> : unknown_in<Block::kKey> {};
 template <>
 struct action<grammar::unknown_in_object> : unknown_in<Block::kObject> {};
+template <>
+struct action<grammar::unknown_in_light> : unknown_in<Block::kLight> {};
 
 }  // namespace pprt::anim

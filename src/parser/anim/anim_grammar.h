@@ -51,6 +51,8 @@ struct fps_word : TAO_PEGTL_KEYWORD("fps") {};
 struct resolution_word : TAO_PEGTL_KEYWORD("resolution") {};
 struct camera_word : TAO_PEGTL_KEYWORD("camera") {};
 struct object_word : TAO_PEGTL_KEYWORD("object") {};
+struct sun_word : TAO_PEGTL_KEYWORD("sun") {};
+struct sky_word : TAO_PEGTL_KEYWORD("sky") {};
 struct spline_word : TAO_PEGTL_KEYWORD("spline") {};
 struct key_word : TAO_PEGTL_KEYWORD("key") {};
 struct hold_word : TAO_PEGTL_KEYWORD("hold") {};
@@ -60,8 +62,10 @@ struct field_word
           TAO_PEGTL_KEYWORD("angle"), TAO_PEGTL_KEYWORD("tension"), TAO_PEGTL_KEYWORD("continuity"),
           TAO_PEGTL_KEYWORD("bias"), TAO_PEGTL_KEYWORD("ease_in"), TAO_PEGTL_KEYWORD("ease_out"),
           TAO_PEGTL_KEYWORD("translate"), TAO_PEGTL_KEYWORD("rotate"), TAO_PEGTL_KEYWORD("scale"),
-          TAO_PEGTL_KEYWORD("visible")> {};
-struct in_animation_word : sor<scene_word, frames_word, fps_word, resolution_word, camera_word, object_word> {
+          TAO_PEGTL_KEYWORD("visible"), TAO_PEGTL_KEYWORD("color"), TAO_PEGTL_KEYWORD("horizon"),
+          TAO_PEGTL_KEYWORD("zenith")> {};
+struct in_animation_word
+    : sor<scene_word, frames_word, fps_word, resolution_word, camera_word, object_word, sun_word, sky_word> {
 };
 struct in_camera_word : sor<spline_word, key_word, hold_word, cut_word> {};
 struct above_key_word : sor<declare_word, version_word, animation_word, in_animation_word, in_camera_word> {};
@@ -171,6 +175,14 @@ struct close_object : mark<'}'> {};
 struct object : seq<token<object_word>, open_object_quote, object_name, token<close_object_quote>,
                     open_object, star<object_item>, close_object> {};
 
+// sun, sky
+struct unknown_in_light : sor<identifier, quoted, any> {};
+struct light_item : sor<field, seq<not_at<sor<above_key_word, one<'}'>, eof>>, unknown_in_light, skip>> {};
+struct open_light : sor<mark<'{'>, no_brace_before_field> {};
+struct close_light : mark<'}'> {};
+struct sun : seq<token<sun_word>, open_light, star<light_item>, close_light> {};
+struct sky : seq<token<sky_word>, open_light, star<light_item>, close_light> {};
+
 // animation
 struct scene_name : plus<not_one<'"', '\n', '\r'>> {};
 struct open_quote : one<'"'> {};
@@ -180,7 +192,7 @@ struct frames : seq<token<frames_word>, expression> {};
 struct fps : seq<token<fps_word>, expression> {};
 struct resolution : seq<token<resolution_word>, expression> {};
 struct unknown_in_animation : sor<identifier, quoted, any> {};
-struct animation_item : sor<declaration, camera, object, scene, frames, fps, resolution,
+struct animation_item : sor<declaration, camera, object, sun, sky, scene, frames, fps, resolution,
                             seq<not_at<sor<animation_word, one<'}'>, eof>>, unknown_in_animation, skip>> {};
 struct no_brace_before_animation_word : at<in_animation_word> {};
 struct open_animation : sor<mark<'{'>, no_brace_before_animation_word> {};

@@ -55,6 +55,10 @@ inline constexpr const char* expected<grammar::open_object> = "'{' with the keys
 template <>
 inline constexpr const char* expected<grammar::close_object> = "'}' at the end of the object";
 template <>
+inline constexpr const char* expected<grammar::open_light> = "'{' with the fields of the sun or the sky";
+template <>
+inline constexpr const char* expected<grammar::close_light> = "'}' at the end of the sun or the sky";
+template <>
 inline constexpr const char* expected<grammar::open_animation> = "'{' after 'animation'";
 template <>
 inline constexpr const char* expected<grammar::close_animation> = "'}' at the end of the animation";

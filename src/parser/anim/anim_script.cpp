@@ -257,6 +257,7 @@ Animation interpret(const WrittenScript& script, std::string_view file_name, Pro
   for (const WrittenKey& key : script.keys) reader.read(key);
   for (const WrittenObject& object : script.objects)
     animation.objects.push_back(interpret_object(object, animation, script.fps.has_value(), problems));
+  animation.daylight = interpret_daylight(script, problems);
   set_frame_count(script, animation, problems);
   return animation;
 }

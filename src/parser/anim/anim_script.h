@@ -30,19 +30,34 @@ enum Field : std::size_t {
   kRotate,
   kScale,
   kVisible,
+  // A sun has from and color, a sky up, horizon and zenith.
+  kColor,
+  kHorizon,
+  kZenith,
   kFieldCount
 };
 
 // The keywords of the fields, in the order of Field.
 inline constexpr std::array<std::string_view, kFieldCount> kFieldWords = {
-    "from",    "at",       "up",        "angle",  "tension", "continuity", "bias",
-    "ease_in", "ease_out", "translate", "rotate", "scale",   "visible"};
+    "from",     "at",        "up",     "angle", "tension", "continuity", "bias",    "ease_in",
+    "ease_out", "translate", "rotate", "scale", "visible", "color",      "horizon", "zenith"};
 
-constexpr bool is_of_camera(Field field) {
-  return field < kTranslate;
-}
-constexpr bool is_of_object(Field field) {
-  return field >= kTranslate || field == kTension || field == kContinuity || field == kBias;
+// What has fields.
+enum class FieldOwner { kCamera, kObject, kSun, kSky };
+
+constexpr bool is_of(FieldOwner owner, Field field) {
+  switch (owner) {
+    case FieldOwner::kCamera:
+      return field < kTranslate;
+    case FieldOwner::kObject:
+      return (field >= kTranslate && field <= kVisible) || field == kTension || field == kContinuity ||
+             field == kBias;
+    case FieldOwner::kSun:
+      return field == kFrom || field == kColor;
+    case FieldOwner::kSky:
+      return field == kUp || field == kHorizon || field == kZenith;
+  }
+  return false;
 }
 
 // A key, hold or cut statement.
@@ -71,6 +86,8 @@ struct WrittenScript {
   std::optional<SplineKind> spline;
   std::vector<WrittenKey> keys;  // of the camera
   std::vector<WrittenObject> objects;
+  std::vector<WrittenKey> suns;  // without a time
+  std::optional<WrittenKey> sky;
 };
 
 // Checks every value and copies omitted camera fields from key to key. A value in error is reported and left
@@ -80,6 +97,9 @@ Animation interpret(const WrittenScript& script, std::string_view file_name, Pro
 // The same for the keys of an object; `animation` has its rate already.
 ObjectMotion interpret_object(const WrittenObject& object, const Animation& animation, bool fps_given,
                               Problems& problems);
+
+// The same for the suns and the sky.
+Daylight interpret_daylight(const WrittenScript& script, Problems& problems);
 
 // Returns a value as a number, if it is one; reports a vector. `what` names it in the message.
 std::optional<double> number(const Value& value, std::string_view what, Problems& problems);

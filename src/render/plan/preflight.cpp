@@ -32,11 +32,13 @@ struct Seen {
   bool several = false;     // two objects in one picture
   bool stands_out = false;  // a colour that is not the background's
   bool varied = false;      // two colours in one picture
+
+  bool enough() const { return stands_out && varied; }
 };
 
 // Traces side x side rays through the middles of equal parts of the picture, no more than it has pixels.
-// Stops when two colours have been seen.
-void look(Tracer& tracer, const View& view, int side, const Level& background, Seen& seen) {
+// Stops when two colours have been seen. `background`: empty for a sky, which no object looks like.
+void look(Tracer& tracer, const View& view, int side, const std::optional<Level>& background, Seen& seen) {
   const int columns = std::min(side, view.width), rows = std::min(side, view.height);
   std::optional<Level> first;
   std::optional<std::uint32_t> first_primitive;
@@ -48,9 +50,9 @@ void look(Tracer& tracer, const View& view, int side, const Level& background, S
       const Level level = level_of(sample.color);
       seen.object = seen.object || !sample.at_infinity;
       seen.several = seen.several || (first_primitive && *first_primitive != sample.primitive);
-      seen.stands_out = seen.stands_out || level != background;
-      seen.varied = first && *first != level;
-      if (seen.varied) return;
+      seen.stands_out = seen.stands_out || (!sample.at_infinity && level != background);
+      seen.varied = seen.varied || (first && *first != level);
+      if (seen.enough()) return;
       first = level;
       first_primitive = sample.primitive;
     }
@@ -60,7 +62,8 @@ void look(Tracer& tracer, const View& view, int side, const Level& background, S
 Seen look_at_frames(const RenderPlan& plan, const CompiledScene& scene) {
   const double share = kMostRays / static_cast<double>(plan.script_frames.size());
   const int fine = std::max(kCoarse, static_cast<int>(std::sqrt(share)));
-  const Level background = level_of(Color(plan.scene.background.value_or(Rgb(0, 0, 0))));
+  std::optional<Level> background;
+  if (!scene.effects().has(Effect::kSky)) background = level_of(Color(ground_color(plan.scene)));
   Tracer tracer(scene, Camera());
   Seen seen;
   for (const int side : {kCoarse, fine}) {
@@ -68,7 +71,7 @@ Seen look_at_frames(const RenderPlan& plan, const CompiledScene& scene) {
       tracer.set_camera(scene.camera(frame.view));
       tracer.set_time(frame.time);
       look(tracer, frame.view, side, background, seen);
-      if (seen.varied) return seen;
+      if (seen.enough()) return seen;
     }
   }
   return seen;

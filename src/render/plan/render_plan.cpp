@@ -108,7 +108,7 @@ std::string script_keys(const Sources& sources) {
   std::string keys = fmt::format("{} {} {}\n", times.start, times.end, times.frames);
   if (!sources.script) return keys;
   Animation camera = sources.script->animation;
-  camera.scene.reset(), camera.objects.clear();  // in whatever way the scene came to be
+  camera.scene.reset(), camera.objects.clear(), camera.daylight = {};  // in whatever way the scene came to be
   camera.fps = 0, camera.width.reset(), camera.height.reset();
   return keys + anim_script(camera);
 }
@@ -217,6 +217,7 @@ RenderPlan plan_of(const RenderOptions& options, Sources& sources) {
 
   return {.scene_name = absolute_scene_name(sources.scene_path),
           .objects = absolute_objects(sources),
+          .daylight = sources.script ? sources.script->animation.daylight : Daylight(),
           .script_name = sources.script ? sources.script->animation.name : "",
           .script_length = length,
           .script_frames = planned_frames(sources, base, {1, length}, judged),

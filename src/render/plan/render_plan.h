@@ -28,6 +28,7 @@ struct PlannedFrame {
 struct RenderPlan {
   std::optional<std::string> scene_name;    // as a script in any directory names it; empty: none can
   std::vector<ObjectMotion> objects;        // that the script moves, named so that any script can
+  Daylight daylight;                        // of the script
   std::string script_name;                  // empty: none
   int script_length = 1;                    // frames of the script or of the scene's own animation
   std::vector<PlannedFrame> script_frames;  // by which it is judged: all, or kMostJudged at equal distances

@@ -49,7 +49,9 @@ Sources read_sources(const SourceOptions& options) {
                   ParsedScene()};
   const OtherReader models = [&](const std::string& name) -> std::optional<ParsedScene> {
     if (!is_model_name(name)) return std::nullopt;
-    Model model = load_model(name, model_options(options));
+    ModelOptions wanted = model_options(options);
+    wanted.adds_lights = !script || script->animation.daylight.suns.empty();
+    Model model = load_model(name, wanted);
     sources.is_model = true, sources.is_lit_anew = model.is_lit_anew;
     return std::move(model.parsed);
   };
@@ -60,6 +62,7 @@ Sources read_sources(const SourceOptions& options) {
   } else {
     sources.scene = load_scene(options.input, reading);
   }
+  if (script) add(script->animation.daylight, sources.scene.scene);
   if (!sources.is_model) return sources;
   if (const std::optional<std::string> added = complete_background(sources.scene.scene))
     sources.scene.warnings += sources.scene.scene.name + ": " + *added + "\n";

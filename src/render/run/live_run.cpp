@@ -51,6 +51,7 @@ LiveShow show_of(const RenderPlan& plan, const CompiledScene& scene, int ranks) 
   LiveShow show{.title = plan.scene.name,
                 .scene_name = plan.scene_name,
                 .objects = plan.objects,
+                .daylight = plan.daylight,
                 .home = plan.frames.front().view,
                 .script = {},
                 .frames_per_second = plan.settings.frames_per_second,

@@ -86,4 +86,10 @@ void check_cameras(const Animation& animation, const View& base, Diagnostics& pr
   }
 }
 
+void add(const Daylight& daylight, SceneDescription& scene) {
+  scene.lights.insert(scene.lights.end(), daylight.suns.begin(), daylight.suns.end());
+  if (!scene.light_nodes.empty()) scene.light_nodes.resize(scene.lights.size());
+  if (daylight.sky) scene.sky = daylight.sky;
+}
+
 }  // namespace pprt

@@ -62,6 +62,15 @@ struct ObjectMotion {
   std::vector<ObjectKey> keys;  // strictly sorted by frame; none: it rests
 };
 
+// What a script lights a scene by.
+struct Daylight {
+  std::vector<Light> suns;  // beside the scene's own lights
+  std::optional<Sky> sky;   // in place of the scene's own
+};
+
+// Adds it to a scene.
+void add(const Daylight& daylight, SceneDescription& scene);
+
 // Lower bound of fps: a frame lasts at most 1000 s, so that every animation ends.
 inline constexpr double kLeastFramesPerSecond = 0.001;
 
@@ -76,6 +85,7 @@ struct Animation {
   SplineKind spline = SplineKind::kTcb;
   std::vector<CameraKey> keys;  // empty: the scene's own view throughout
   std::vector<ObjectMotion> objects = {};
+  Daylight daylight = {};
 };
 
 // Returns the view at a frame (1 .. frames, fractions allowed). `base` is the scene's own view: it gives

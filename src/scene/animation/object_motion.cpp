@@ -87,7 +87,9 @@ void add_moving(SceneDescription& scene, const SceneDescription& other, const st
   const auto first_material = static_cast<MaterialIndex>(scene.materials.size());
   scene.materials.insert(scene.materials.end(), other.materials.begin(), other.materials.end());
   for (std::size_t i = first_material; i < scene.materials.size(); ++i) {
-    if (scene.materials[i].texture) *scene.materials[i].texture += first_texture;
+    for (auto* texture : {&scene.materials[i].texture, &scene.materials[i].emission_texture}) {
+      if (*texture) **texture += first_texture;
+    }
   }
   const auto first_mesh = static_cast<std::uint32_t>(scene.meshes.size());
   for (TriangleMesh mesh : other.meshes) {

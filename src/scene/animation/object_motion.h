@@ -12,8 +12,8 @@ namespace pprt {
 // last one all stand still.
 MotionTrack track_of(const ObjectMotion& object, const FrameTimes& times);
 
-// Adds the objects of another scene under a node that the track called `name` moves. Its view, background and
-// lights do not count.
+// Adds the objects of another scene under a node that the track called `name` moves. Its view, background,
+// sky and lights do not count.
 void add_moving(SceneDescription& scene, const SceneDescription& other, const std::string& name);
 
 }  // namespace pprt

@@ -82,7 +82,7 @@ class Settler {
       if (scene_.movement.tracks.contains(at.track)) {
         at.node = keep(base);
       } else {
-        scene_.lights[i].position = base.map.point(scene_.lights[i].position);
+        scene_.lights[i].position = place_of(scene_.lights[i], base.map);
         at = {.node = base.node};
       }
     }

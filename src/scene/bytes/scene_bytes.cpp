@@ -162,9 +162,12 @@ void fields_of(Archive& archive, T& v) {
   } else if constexpr (std::is_same_v<T, TermColors>) {
     archive(v.ambient, v.diffuse, v.specular);
   } else if constexpr (std::is_same_v<T, Material>) {
-    archive(v.color, v.diffuse, v.specular, v.shine, v.transmittance, v.refractive_index, v.terms, v.texture);
+    archive(v.color, v.diffuse, v.specular, v.shine, v.transmittance, v.refractive_index, v.terms, v.texture,
+            v.emission, v.emission_texture);
   } else if constexpr (std::is_same_v<T, Light>) {
-    archive(v.position, v.color, v.location);
+    archive(v.position, v.color, v.location, v.is_sun);
+  } else if constexpr (std::is_same_v<T, Sky>) {
+    archive(v.up, v.horizon, v.zenith);
   } else if constexpr (std::is_same_v<T, View>) {
     archive(v.from, v.at, v.up, v.angle_degrees, v.hither, v.width, v.height, v.location);
   } else if constexpr (std::is_same_v<T, Sphere>) {
@@ -193,7 +196,7 @@ void fields_of(Archive& archive, T& v) {
     archive(v.background, v.view, v.lights, v.materials);
     archive(v.spheres, v.cones, v.polygons, v.patches, v.polygon_vertices, v.patch_vertices);
     archive(v.meshes, v.triangles, v.moving_triangles, v.order);
-    archive(v.ambient, v.textures, v.movement, v.nodes, v.light_nodes);
+    archive(v.ambient, v.sky, v.textures, v.movement, v.nodes, v.light_nodes);
   }
 }
 

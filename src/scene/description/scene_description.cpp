@@ -23,7 +23,9 @@ std::size_t hash(const Material& m) {
   if (m.terms) {
     for (const Rgb& c : {m.terms->ambient, m.terms->diffuse, m.terms->specular}) add(c.x), add(c.y), add(c.z);
   }
+  for (const double v : {m.emission.x, m.emission.y, m.emission.z}) add(v);
   if (m.texture) add(*m.texture);
+  if (m.emission_texture) add(*m.emission_texture);
   return static_cast<std::size_t>(h);
 }
 
@@ -133,6 +135,13 @@ std::array<PatchVertex, 3> corners_of(const SceneDescription& scene, const Trian
     if (!mesh.normals.empty()) corners[i].normal = mesh.normals[triangle.corners.normal[i]];
   }
   return corners;
+}
+
+Vec3d place_of(const Light& light, const Affine& map) {
+  if (!light.is_sun) return map.point(light.position);
+  const Vec3d turned = map.vector(light.position);
+  const double largest = std::max({std::abs(turned.x), std::abs(turned.y), std::abs(turned.z)});
+  return largest > 0 && std::isfinite(turned.x + turned.y + turned.z) ? turned : light.position;
 }
 
 SourceLocation location_of(const SceneDescription& scene, PrimitiveRef ref) {

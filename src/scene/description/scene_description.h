@@ -39,16 +39,29 @@ struct Material {
   double refractive_index = 1;  // meaningless (often 0) on opaque materials
   // Not in NFF. With terms, colour and Kd mean nothing, and Ks is the largest component of the specular one.
   std::optional<TermColors> terms = {};
-  std::optional<TextureIndex> texture = {};  // times the ambient and the diffuse term
+  std::optional<TextureIndex> texture = {};           // times the ambient and the diffuse term
+  Rgb emission{0, 0, 0};                              // light that it gives off, the same in all directions
+  std::optional<TextureIndex> emission_texture = {};  // times the emission, at the same texture points
+
+  bool has_picture() const { return texture || emission_texture; }
 
   friend bool operator==(const Material&, const Material&) = default;
 };
 
-// NFF "l": positional, without attenuation.
+// NFF "l": without attenuation. A sun is infinitely far away: its rays are parallel.
 struct Light {
-  Vec3d position{0, 0, 0};
-  std::optional<Rgb> color;  // absent: white, and written back without a colour
-  SourceLocation location;
+  Vec3d position{0, 0, 0};        // of a sun: the direction to it, of any length
+  std::optional<Rgb> color = {};  // absent: white, and written back without a colour
+  SourceLocation location = {};
+  bool is_sun = false;
+};
+
+// A background that changes evenly with the sine of the elevation above the horizon.
+struct Sky {
+  Vec3d up{0, 1, 0};  // to the zenith, of any length but 0
+  Rgb horizon{1, 1, 1}, zenith{1, 1, 1};
+
+  friend bool operator==(const Sky&, const Sky&) = default;
 };
 
 // NFF "v". The angle spans the centres of the first and last pixel, across rows and columns alike (SPD's
@@ -169,6 +182,7 @@ struct SceneDescription {
 
   // What NFF does not have.
   std::optional<Rgb> ambient;  // the ambient light; lights then count as written, not by NFF's rules
+  std::optional<Sky> sky;      // in place of the background above the horizon
   std::vector<Texture> textures;
   Movement movement;
   std::vector<NodeIndex> nodes;        // in whose space each of `order` stands; empty: all in the world's
@@ -193,6 +207,15 @@ void add_patch(SceneDescription& scene, std::span<const PatchVertex> vertices, M
                SourceLocation location = {});
 void add_mesh(SceneDescription& scene, TriangleMesh mesh, std::span<const TriangleCorners> triangles);
 void add_moving_triangle(SceneDescription& scene, MovingTriangle triangle);
+
+// Returns the background; under a sky, below its horizon. Without one of its own it goes on as the horizon.
+inline Rgb ground_color(const SceneDescription& scene) {
+  return scene.background.value_or(scene.sky ? scene.sky->horizon : Rgb(0, 0, 0));
+}
+
+// Returns a light's position, or the direction to a sun, in the space that a map leads to. A map that leaves
+// no direction, or one without end, does not turn a sun.
+Vec3d place_of(const Light& light, const Affine& map);
 
 // Returns the material of a primitive; `ref` must be in range.
 MaterialIndex material_of(const SceneDescription& scene, PrimitiveRef ref);

@@ -3,11 +3,15 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace pprt {
 
 using TextureIndex = std::uint32_t;  // into the scene's textures
+
+// The name of no texture in AFF, where a mesh has texture points for its emission alone.
+inline constexpr std::string_view kNoTexture = "-";
 
 // Display values as in a file, 255 for 1. Repeated without end in both directions.
 struct Texture {

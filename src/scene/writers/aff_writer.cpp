@@ -83,6 +83,7 @@ class AffWriter {
   void run() {
     names_.of(kCameraTrack);  // no other movement gets this name
     if (scene_.background) out_.line("b", *scene_.background);
+    if (scene_.sky) out_.line("bs", scene_.sky->up, scene_.sky->horizon, scene_.sky->zenith);
     if (scene_.view) out_.view_lines(*scene_.view);
     const double weight = scene_.ambient ? 1 : light_weight(scene_.lights.size());
     out_.line("am", scene_.ambient.value_or(Rgb(weight, weight, weight)));
@@ -163,7 +164,7 @@ class AffWriter {
     if (scene_.movement.tracks.contains(at.track)) {
       out_.line("la", std::string_view(names_.of(at.track)), light.position, color);
     } else {
-      out_.line("l", light.position, color);
+      out_.line(light.is_sun ? "ls" : "l", light.position, color);
     }
   }
 
@@ -210,6 +211,11 @@ class AffWriter {
     } else {
       out_.line("f", m.color, m.diffuse, m.specular, m.shine, m.transmittance, m.refractive_index);
     }
+    if (m.emission_texture) {
+      out_.line("fet", std::string_view(texture_files_.at(*m.emission_texture)), m.emission);
+    } else if (m.emission != Rgb(0, 0, 0)) {
+      out_.line("fe", m.emission);
+    }
   }
 
   void write_moving(const MovingTriangle& triangle) {
@@ -233,13 +239,15 @@ class AffWriter {
 
   void write_mesh(std::size_t begin, std::size_t end) {
     const TriangleMesh& mesh = scene_.meshes[scene_.triangles[scene_.order[begin].index].mesh];
-    const std::optional<TextureIndex> texture = scene_.materials[mesh.material].texture;
-    const bool is_textured = texture && !mesh.texture_points.empty();
+    const Material& material = scene_.materials[mesh.material];
+    const std::optional<TextureIndex> texture = material.texture;
+    const bool is_textured = material.has_picture() && !mesh.texture_points.empty();
     out_.text("m\n");
     out_.vertex_lines("vertices", mesh.positions);
     if (!mesh.normals.empty()) out_.vertex_lines("normals", mesh.normals);
     if (is_textured) {
-      out_.line("texturecoords", mesh.texture_points.size(), std::string_view(texture_files_.at(*texture)));
+      out_.line("texturecoords", mesh.texture_points.size(),
+                texture ? std::string_view(texture_files_.at(*texture)) : kNoTexture);
       for (const Vec2d& p : mesh.texture_points) out_.line("", p);
     }
     out_.line("triangles", end - begin);

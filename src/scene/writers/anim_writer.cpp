@@ -94,6 +94,22 @@ void write_object(const ObjectMotion& object, ScriptOutput& out) {
   out.text("  }\n");
 }
 
+void write_daylight(const Daylight& daylight, ScriptOutput& out) {
+  const auto vector = [](const Rgb& c) { return Vec3d(c.x, c.y, c.z); };
+  for (const Light& sun : daylight.suns) {
+    out.text("  sun {");
+    out.field("from", sun.position);
+    if (sun.color) out.field("color", vector(*sun.color));
+    out.text(" }\n");
+  }
+  if (!daylight.sky) return;
+  out.text("  sky {");
+  out.field("up", daylight.sky->up);
+  out.field("horizon", vector(daylight.sky->horizon));
+  out.field("zenith", vector(daylight.sky->zenith));
+  out.text(" }\n");
+}
+
 }  // namespace
 
 std::string anim_script(const Animation& animation) {
@@ -119,6 +135,7 @@ std::string anim_script(const Animation& animation) {
   }
   out.text("\n");
   for (const ObjectMotion& object : animation.objects) write_object(object, out);
+  write_daylight(animation.daylight, out);
   if (!animation.keys.empty()) {
     out.text("  camera {\n   ");
     out.word("spline");

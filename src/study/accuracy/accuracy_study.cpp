@@ -330,6 +330,10 @@ void study_accuracy(const AccuracyOptions& asked, const std::string& command_lin
     measure(scene, results);
     results.rates_setup = rates_setup(scene, kRound);
   }
+  if (options.quick)
+    output.note(
+        "A quick trial (--quick): small pictures and few repeats. It shows that the study works; its figures "
+        "say little.");
   write_accuracy(results, options.size / 2, output);
   output.finish();
 }

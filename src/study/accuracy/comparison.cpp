@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <string_view>
 
 #include "study/report/plot.h"
 
@@ -210,8 +211,10 @@ Table means_table(const std::vector<SceneCurves>& scenes) {
   for (const std::string& method : rivals(scenes.front())) {
     for (const auto& word : kWords<Measure>) {
       const RatioRows rows = rows_of_ratios(scenes, method, word.value);
-      for (const auto& [name, cells] :
-           {std::pair("geometric mean", rows.means), std::pair("worst", rows.worst)}) {
+      const bool is_mean = scenes.size() > 1;
+      for (const auto& [name, cells] : {std::pair(is_mean ? "geometric mean" : "the only one", rows.means),
+                                        std::pair("worst", rows.worst)}) {
+        if (!is_mean && std::string_view(name) == "worst") continue;
         std::vector<Cell> row = {method, std::string(word_for(word.value)), name};
         row.insert(row.end(), cells.begin(), cells.end());
         table.rows.push_back(std::move(row));

@@ -128,6 +128,11 @@ void write_ratios(const std::vector<SceneCurves>& scenes, StudyOutput& output) {
       "picture. Each method shows its best picture so far. The geometric mean and the worst ratio at a "
       "budget "
       "are over the scenes that have a picture.");
+  add_plot("ratios",
+           "Ratios of RMSE: medians of the repeats with their spread. The control is the uniform method "
+           "again: its ratio "
+           "shows the noise.",
+           scenes, output, ratio_panel);
   output.paragraph("RMSE, the root mean square error on the display scale:");
   output.add_table("ratios", ratio_table(scenes, Measure::kRmse));
   output.paragraph("FLIP, the mean of the differences that a viewer notices:");
@@ -142,11 +147,6 @@ void write_ratios(const std::vector<SceneCurves>& scenes, StudyOutput& output) {
                                  to_sentence(budget_ranges(s, kDelaunayMethod, Measure::kRmse), "delaunay"),
                                  losses(s)));
   }
-  add_plot("ratios",
-           "Ratios of RMSE: medians of the repeats with their spread. The control is the uniform method "
-           "again: its ratio "
-           "shows the noise.",
-           scenes, output, ratio_panel);
 }
 
 void write_curves(const std::vector<SceneCurves>& scenes, const std::vector<Method>& methods,

@@ -138,9 +138,11 @@ std::vector<Picture> region_maps(const std::vector<Place>& places) {
   constexpr int kWidth = 384;  // pixels
   std::vector<Picture> pictures;
   for (const Place& place : places) {
-    const Image map = region_picture(cost_map(place), *place.grid, place.figures->owners);
+    const Image drawn = region_picture(cost_map(place), *place.grid, place.figures->owners);
+    Image map = thumbnail(drawn, kWidth);
+    label_ranks(map, *place.grid, place.figures->owners);
     pictures.push_back({.caption = fmt::format("{}, frame {}", *place.trace, place.frame->number),
-                        .png = encode_png(thumbnail(map, kWidth), {}, PictureKind::kDrawn),
+                        .png = encode_png(map, {}, PictureKind::kDrawn),
                         .file = fmt::format("regions-{}-{}.png", *place.trace, place.frame->number)});
   }
   return pictures;
@@ -180,15 +182,16 @@ void write_page(const BalanceOptions& options, const std::string& command_line,
                                  trace.result.name, header.scene, header.ranks, header.grid.width,
                                  header.grid.height, header.grid.tile_size, word_for(trace.result.balance)));
   }
+  output.heading("Frame by frame");
+  output.add_figure(plot_of(results), "The loads of the ranks, and the tiles that changed hands.");
   output.heading("Mean over the frames; tiles and repartitions in all");
   output.add_table("traces", traces_table(results));
   output.paragraph("A rank's load is the time until its tiles have the mean weight of the whole image.");
-  output.heading("Frame by frame");
-  output.add_figure(plot_of(results), "The loads of the ranks, and the tiles that changed hands.");
   output.write_table("frames", frames_table(results));
   output.heading("Who owned each tile");
   output.paragraph(
-      "A hue is a rank. Light tiles are costly; six halvings of the cost lie between the most "
+      "A hue is a rank, whose number stands in its region. Light tiles are costly; six halvings of the cost "
+      "lie between the most "
       "costly tile and the darkest.");
   for (const std::vector<Place>& of_trace : drawn) output.add_gallery(region_maps(of_trace));
   output.finish();

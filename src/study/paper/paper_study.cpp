@@ -267,9 +267,8 @@ void study_paper(const PaperOptions& asked, const std::string& command_line) {
   const PaperResults results =
       run_paper(options, [](const std::string& line) { fmt::print(stderr, "pprt-study: {}\n", line); });
   output.write_table("frames", frames_table(results));
-  output.paragraph(kPaperReference);
-  output.paragraph(setup_text(results, options));
   if (options.quick) output.note(kQuickNote);
+  output.paragraph(kPaperReference);
   output.heading("Findings");
   output.add_table("findings", findings_table(findings(results)));
   write_figures(Runs(results), results, options, output);
@@ -277,6 +276,7 @@ void study_paper(const PaperOptions& asked, const std::string& command_line) {
   output.add_gallery(results.pattern_pictures);
   output.heading("Frames, patterns and regions (the paper's figure 4)");
   output.add_gallery(results.sequence_pictures);
+  output.section("How this was measured", setup_text(results, options));
   output.finish();
 }
 

@@ -7,6 +7,7 @@
 #include "image/contact_sheet.h"
 #include "image/image_io.h"
 #include "layers/frame_layers.h"
+#include "layers/pictures.h"
 #include "parallel/balance/partition.h"
 #include "study/paper/runs.h"
 
@@ -67,6 +68,7 @@ void add_pictures(const PaperOptions& options, const PaperRun& run, const Finish
     for (const Shown& view : exhibit.views) {
       Image picture = view ? layers.picture(*view, frame.image) : frame.image;
       if (picture.width > kDrawingWidth) picture = thumbnail(picture, kDrawingWidth);
+      if (view == Layer::kRegions) label_ranks(picture, grid, frame.owners);
       const PictureKind kind = view ? PictureKind::kDrawn : PictureKind::kRendered;
       (results.*exhibit.gallery)
           .push_back({caption_of(run, number, view), encode_png(picture, {}, kind), ""});

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "base/printable.h"
 #include "base/system/subprocess.h"
 #include "cli/options/version.h"
 #include "image/atomic_file.h"
@@ -125,6 +126,8 @@ void StudyOutput::finish() {
   heading("Provenance");
   Page::table(table_of<Fact>(provenance_, {{"", &Fact::first}, {"", &Fact::second}}));
   write_whole_file(directory_ / "index.html", html());
+  fmt::print(stderr, "pprt-study: the page is file://{}\n",
+             printable((std::filesystem::absolute(directory_) / "index.html").lexically_normal().string()));
   if (!missing_.empty()) {
     fmt::print(stderr, "pprt-study: warning: {}: tables and page are written without plots\n", missing_);
   }

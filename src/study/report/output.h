@@ -42,7 +42,8 @@ class StudyOutput : public Page {
   // Writes NAME.svg and shows it. Without gnuplot the page notes the missing plot.
   void add_figure(const Plot& plot, std::string_view caption);
 
-  // Writes index.html, which ends with the provenance. Warns on standard error when plots are missing.
+  // Writes index.html, which ends with the provenance. Tells its address, and warns when plots are missing,
+  // on standard error.
   void finish();
 
  private:

@@ -25,6 +25,8 @@ div.gallery { display: flex; flex-wrap: wrap; gap: 1rem; } div.gallery figure { 
 div.gallery img { width: 100%; }
 figure img { max-width: 100%; image-rendering: pixelated; border: 1px solid #ddd; }
 pre { background: #f6f6f6; padding: 0.6rem 0.9rem; font-size: 0.8rem; overflow-x: auto; }
+nav { font-size: 0.85rem; columns: 18rem; border: 1px solid #e4e4e4; padding: 0.5rem 1rem; }
+nav a { display: block; color: #0072b2; text-decoration: none; }
 p.note { background: #fff4dd; border-left: 4px solid #e69f00; padding: 0.5rem 1rem; }
 )css";
 
@@ -68,6 +70,18 @@ std::string to_base64(std::string_view bytes) {
   return text;
 }
 
+void Page::heading(std::string_view text) {
+  headings_.emplace_back(text);
+  element("h2", fmt::format(" id=\"part-{}\"", headings_.size()), text);
+}
+
+std::string Page::contents() const {
+  std::string list;
+  for (std::size_t i = 0; i < headings_.size(); ++i)
+    list += fmt::format("<a href=\"#part-{}\">{}</a>\n", i + 1, escape_html(headings_[i]));
+  return list.empty() ? list : "<nav>\n" + list + "</nav>\n";
+}
+
 void Page::element(std::string_view tag, std::string_view attributes, std::string_view text) {
   body_ += fmt::format("<{0}{1}>{2}</{0}>\n", tag, attributes, escape_html(text));
 }
@@ -102,8 +116,8 @@ std::string Page::html() const {
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width\">\n<title>{0}</title>\n<style>{1}</style>\n"
-      "</head>\n<body>\n<h1>{0}</h1>\n{2}</body>\n</html>\n",
-      escape_html(title_), kStyle, body_);
+      "</head>\n<body>\n<h1>{0}</h1>\n{2}{3}</body>\n</html>\n",
+      escape_html(title_), kStyle, contents(), body_);
 }
 
 }  // namespace pprt

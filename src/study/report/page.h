@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "study/report/table.h"
 
@@ -21,12 +22,12 @@ struct Picture {
   std::string file;  // name in the study's directory; empty: on the page only
 };
 
-// Collects a report from top to bottom. Escapes all text; takes SVG as it is.
+// Collects a report from top to bottom, under a list of its headings. Escapes all text; takes SVG as it is.
 class Page {
  public:
   explicit Page(std::string title) : title_(std::move(title)) {}
 
-  void heading(std::string_view text) { element("h2", "", text); }
+  void heading(std::string_view text);
   void section(std::string_view title, std::string_view text) { heading(title), paragraph(text); }
   void paragraph(std::string_view text) { element("p", "", text); }
   void note(std::string_view text) { element("p", " class=\"note\"", text); }  // highlighted
@@ -41,8 +42,11 @@ class Page {
  private:
   void element(std::string_view tag, std::string_view attributes, std::string_view text);
 
+  std::string contents() const;
+
   std::string title_;
   std::string body_;
+  std::vector<std::string> headings_;
 };
 
 }  // namespace pprt

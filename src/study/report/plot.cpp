@@ -74,8 +74,16 @@ const char* colour_of(const Curve& curve, std::size_t place) {
 }
 
 // Indexed by CurveStyle.
-constexpr std::array kStyles = {"lines lw 2", "linespoints lw 2 pt 7 ps 0.5", "points pt 8 ps 0.9 lw 1.5",
+constexpr std::array kStyles = {"lines", "linespoints pt 7 ps 0.5", "points pt 8 ps 0.9 lw 1.5",
                                 "lines lw 1 dt 2"};
+
+// Where curves lie on one another, what lies below shows on both sides of the line above, or in its gaps.
+std::string line_of(CurveStyle style, std::size_t place) {
+  constexpr std::array kLines = {" lw 3", " lw 2 dt (12,5)", " lw 2 dt (5,4)", " lw 2 dt (2,3)"};
+  const bool is_line = style == CurveStyle::kLine || style == CurveStyle::kMarkedLine;
+  return std::string(kStyles[static_cast<std::size_t>(style)]) +
+         (is_line ? kLines[place % kLines.size()] : "");
+}
 
 std::string plot_curves(const Panel& panel, std::size_t at) {
   std::string list;
@@ -88,8 +96,7 @@ std::string plot_curves(const Panel& panel, std::size_t at) {
           ", {} using 1:3:4 with filledcurves fs transparent solid 0.15 noborder lc rgb '{}' notitle", block,
           colour);
     }
-    list += fmt::format(", {} using 1:2 with {} lc rgb '{}' {}", block,
-                        kStyles[static_cast<std::size_t>(curve.style)], colour,
+    list += fmt::format(", {} using 1:2 with {} lc rgb '{}' {}", block, line_of(curve.style, i), colour,
                         curve.name.empty() ? "notitle" : "title " + in_quotes(curve.name));
   }
   return list;

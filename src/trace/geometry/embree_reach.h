@@ -52,4 +52,10 @@ inline Vec3d light_in_reach(const Vec3d& from_center, double scale) {
   return from_center * (largest * scale > kFarthestLight ? kFarthestLight / largest : scale);
 }
 
+// Returns the place of a sun. From anywhere in reach it is seen in the same direction, to 2^-20.
+inline Vec3d sun_in_reach(const Vec3d& direction) {
+  const double largest = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
+  return direction / largest * kFarthestLight;
+}
+
 }  // namespace pprt

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <iostream>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -45,6 +46,20 @@ k ball { transl 6 -1 -1 0 0 0 0 0 0 0 0 0 0 0 0 1 1 0 0 0 0 0 2 2 0 0 0 0 0 3 3 
 xs 1 2 1 0 0 1 0 0 5 0 { s 0 0 0 1 }
 )");
 }
+
+// What is told on standard error meanwhile.
+class Told {
+ public:
+  Told() : before_(std::cerr.rdbuf(text_.rdbuf())) {}
+  ~Told() { std::cerr.rdbuf(before_); }
+  Told(const Told&) = delete;
+  Told& operator=(const Told&) = delete;
+  std::string text() const { return text_.str(); }
+
+ private:
+  std::ostringstream text_;
+  std::streambuf* before_;
+};
 
 ConvertOptions at(const Folder& folder, const std::string& output, std::optional<double> time) {
   return {.input = folder.file("a.aff"),
@@ -205,6 +220,26 @@ TEST_CASE("a scene is loaded from a database or from a file") {
   CHECK(load_scene(folder.file("one.nff")).scene.spheres.size() == 1);
   CHECK_THROWS_AS(load_scene("spd:nothing"), InputError);
   CHECK_THROWS_AS(load_scene(folder.file("missing.nff")), InputError);
+}
+
+TEST_CASE("NFF gets a light far away for a sun, the ground's colour for a sky, and no lamps") {
+  const Folder folder;
+  write_whole_file(folder.file("a.aff"), R"(
+v from 0 0 9 at 0 0 0 up 0 1 0 angle 45 hither 1 resolution 8 8
+am 1 1 1  ls 0 2 0  b .25 .5 .75  bs 0 1 0 1 1 1 0 0 1
+fm .5 .5 .5 .5 .5 .5 0 0 0 0 0 0 fe 1 1 1 s 0 0 0 1
+)");
+  const Told told;
+  convert(at(folder, "b.nff", {}));
+  const SceneDescription back = load_scene(folder.file("b.nff")).scene;
+  REQUIRE(back.lights.size() == 1);
+  CHECK((!back.lights[0].is_sun && back.lights[0].position.y > 1e4));
+  CHECK(back.background == Rgb(.25, .5, .75));
+  CHECK(told.text().find("1 sun becomes a light far away") != std::string::npos);
+  CHECK(told.text().find("the sky is not kept: the background has the colour below its horizon") !=
+        std::string::npos);
+  CHECK(told.text().find("1 material that gives off light: NFF has none, so it does not glow") !=
+        std::string::npos);
 }
 
 }  // namespace pprt::convert_test

@@ -133,7 +133,7 @@ TEST_CASE("gltf: a linear factor and a texture of the same grey are alike") {
   CHECK(m.color.z == 0);
 }
 
-TEST_CASE("gltf: lights differ by their intensities, and the sun is far away") {
+TEST_CASE("gltf: lights differ by their intensities, and the sun is one") {
   GltfSample sample;
   sample.node({{"mesh", sample.triangle()}});
   const double x = 0.5, y = 0.5;  // the middle
@@ -150,7 +150,7 @@ TEST_CASE("gltf: lights differ by their intensities, and the sun is far away") {
   CHECK(lights[1].color.value().x == Approx(display_value(0.25 / 100)));
   CHECK(lights[2].color.value().y == Approx(display_value(25.0 / 100)));
   CHECK(lights[0].position == Vec3d(x, y, 2));
-  CHECK(lights[2].position.z == Approx(100 * std::sqrt(0.5)));
+  CHECK((lights[2].is_sun && lights[2].position == Vec3d(0, 0, 1) && !lights[1].is_sun));
   CHECK(read.scene.ambient == Rgb(1, 1, 1));
   CHECK(read.notes == Notes{"1 spot lights: they shine to all sides",
                             "2 lights that weaken with the distance: they are as bright everywhere as in the "
@@ -257,15 +257,41 @@ TEST_CASE("gltf: what glows is bright without light, and unlit shows its colour"
   GltfSample sample;
   sample.triangle_of(colored({0, 0, 0, 1}, {{"emissiveFactor", {1, 0.5, 0}}}));
   const Material lamp = material_of(sample.read());
-  REQUIRE(lamp.terms);
-  CHECK(lamp.terms->ambient.x == 1);
-  CHECK(lamp.terms->ambient.y == Approx(display_value(0.5)));
-  CHECK(lamp.terms->diffuse == Rgb(0, 0, 0));
+  CHECK(lamp.emission.x == 1);
+  CHECK(lamp.emission.y == Approx(display_value(0.5)));
+  CHECK((lamp.emission.z == 0 && lamp.color == Rgb(0, 0, 0)));
   GltfSample unlit;
   unlit.triangle_of(colored({0, 1, 0, 1}, {{"extensions", {{"KHR_materials_unlit", json::object()}}}}));
   const Material flat = material_of(unlit.read());
   REQUIRE(flat.terms);
   CHECK((flat.terms->ambient == Rgb(0, 1, 0) && flat.terms->diffuse == Rgb(0, 0, 0)));
+}
+
+TEST_CASE("gltf: a picture glows as its own, beside that of the colour or alone, as strong as it is told") {
+  GltfSample sample;
+  write_image(sample.folder() / "color.png", stripes(2, 2));
+  write_image(sample.folder() / "glow.png", stripes(4, 4));
+  const int color = sample.texture("color.png"), glow = sample.texture("glow.png");
+  json lamp = {{"emissiveFactor", {1, 0.5, 0}},
+               {"emissiveTexture", {{"index", glow}}},
+               {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 4}}}}}};
+  sample.triangle_of(lamp);
+  lamp["pbrMetallicRoughness"]["baseColorTexture"]["index"] = color;
+  sample.triangle_of(lamp);
+  const ReadMesh read = sample.read();
+  CHECK(read.notes.empty());
+  const auto of = [&](std::size_t i) {
+    return read.scene.materials[material_of(read.scene, read.scene.order.at(i))];
+  };
+  const auto width = [&](const std::optional<TextureIndex>& texture) {
+    return read.scene.textures.at(texture.value()).width;
+  };
+  CHECK((!of(0).texture && width(of(0).emission_texture) == 4));
+  CHECK((width(of(1).texture) == 2 && width(of(1).emission_texture) == 4));
+  CHECK(of(1).emission.x == Approx(unbounded_display_value(4)));
+  CHECK(unbounded_display_value(4) == Approx(1.055 * std::pow(4, 1 / 2.4) - 0.055));
+  CHECK(of(1).emission.y == Approx(unbounded_display_value(2)));
+  CHECK(read.scene.meshes.at(0).texture_points.at(1) == Vec2d(1, 0));
 }
 
 TEST_CASE("gltf: glass has its index, and metal mirrors as far as it is smooth") {
@@ -384,7 +410,8 @@ TEST_CASE("gltf: every loss is told") {
                                                                                                      1e7};
   sample.triangle_of(cut);
   sample.triangle_of(pictured(half_hard, {{"alphaMode", "BLEND"}, {"occlusionTexture", {{"index", plain}}}}));
-  json glowing = pictured(plain, {{"emissiveFactor", {1, 1, 1}}, {"emissiveTexture", {{"index", hard}}}});
+  json glowing = pictured(
+      plain, {{"emissiveFactor", {1, 1, 1}}, {"emissiveTexture", {{"index", hard}, {"texCoord", 1}}}});
   glowing["pbrMetallicRoughness"]["metallicRoughnessTexture"]["index"] = plain;
   sample.triangle_of(glowing);
   json far = pictured(border, json::object());

@@ -162,6 +162,31 @@ TEST_CASE("camera and lights are kept by Collada") {
   CHECK(*read.scene.lights[1].color == Rgb(1, 0.5, 0));
 }
 
+TEST_CASE("lamps and suns are kept by the mesh formats that have them") {
+  const TemporaryDirectory folder;
+  SceneDescription scene = make_spd("mount", 2);
+  for (Material& m : scene.materials) m.emission = {0.5, 0.25, 0};
+  scene.lights = {{{1, 2, 2}, Rgb(1, 0.5, 0), {}, true}};
+  for (const std::string extension : {".obj", ".dae", ".gltf", ".glb"}) {
+    CAPTURE(extension);
+    const ReadMesh read = read_mesh(put(folder, write_mesh(scene, extension, "mesh", {1, {}})));
+    CHECK(read.notes.empty());
+    for (const Material& m : read.scene.materials) {
+      CHECK(m.emission.x == Approx(0.5).epsilon(1e-5));
+      CHECK(m.emission.y == Approx(0.25).epsilon(1e-5));
+      CHECK(m.emission.z == 0);
+    }
+    if (extension == ".obj") continue;  // has no lights
+    REQUIRE(read.scene.lights.size() == 1);
+    CHECK(read.scene.lights[0].is_sun);
+    check_near(read.scene.lights[0].position.normalized(), Vec3d(1, 2, 2) / 3, 1e-6);
+    CHECK(read.scene.lights[0].color->z == 0);
+  }
+  for (Material& m : scene.materials) m.emission = {0, 0, 0};  // the control
+  const ReadMesh dark = read_mesh(put(folder, write_mesh(scene, ".glb", "mesh", {1, {}})));
+  CHECK(dark.scene.materials[0].emission == Rgb(0, 0, 0));
+}
+
 TEST_CASE("a camera of Collada has its angle, whether or not that has a sid") {
   const TemporaryDirectory folder;
   const auto edges = [&](const std::string& optics) {

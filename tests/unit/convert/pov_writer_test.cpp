@@ -263,8 +263,7 @@ TEST_CASE("for POV-Ray a texture is a picture, whose v runs up") {
   std::ostringstream out;
   write_pov(scene, out, "a");
   CHECK(contains(out.str(), R"(#declare Textured_1 = texture {
-  uv_mapping
-  pigment { image_map { png "a-red__blue_.png" gamma srgb interpolate 2 } }
+  pigment { uv_mapping image_map { png "a-red__blue_.png" gamma srgb interpolate 2 } }
   finish { ambient rgb <0.5, 0.25, 0.25> diffuse 0.5 }
 }
 mesh {
@@ -325,6 +324,44 @@ TEST_CASE("for POV-Ray a stretched ball keeps the map that stretches it") {
   scene.nodes = {1};
   CHECK(objects(scene) ==
         "sphere { <0, 0, 0>, 1 matrix <2, 0, 0, 0, 1, 0, 0, 0, 3, 5, 6, 7> texture { Material_1 } }\n");
+}
+
+TEST_CASE("for POV-Ray what gives off light has a layer that does, with its picture") {
+  SceneDescription scene = textured();
+  CHECK_FALSE(contains(pov(scene), "emission"));
+  scene.materials[0].emission = {0.5, 0.25, 1};
+  const std::string plain = R"(texture {
+  pigment { rgb <1, 1, 1> transmit 0.9990234375 }
+  finish { ambient 0 diffuse 0 emission rgb <512, 256, 1024> }
+}
+)";
+  CHECK(contains(pov(scene), plain + "#declare Textured_1"));
+  CHECK(contains(pov(scene), plain + "mesh {"));
+  scene.textures.push_back({"lamp", 1, 1, {9, 9, 9}});
+  scene.materials[0].emission_texture = TextureIndex{1};
+  CHECK(contains(pov(scene), R"(texture {
+  pigment { uv_mapping image_map { png "scene-lamp.png" gamma srgb interpolate 2 transmit all 0.9990234375 } }
+  finish { ambient 0 diffuse 0 emission rgb <512, 256, 1024> }
+}
+mesh {)"));
+  scene.materials[0].texture.reset();  // then it glows alone, at the same points
+  CHECK(contains(pov(scene), "#declare Textured_1 = texture {\n  pigment { rgb <1, 1, 1> }"));
+  CHECK(contains(pov(scene), "uv_vectors <-1, -2>"));
+}
+
+TEST_CASE("for POV-Ray a sun is parallel, and a sky is one") {
+  SceneDescription scene = with_terms({{0, 0, 0}, {1, 1, 1}, {0, 0, 0}}, Rgb(1, 1, 1));
+  add_sphere(scene, {{0, 0, 0}, 1, 0, {}});
+  CHECK_FALSE(contains(pov(scene), "parallel"));
+  CHECK_FALSE(contains(pov(scene), "sky_sphere"));
+  scene.lights[0] = {{0, 2, 0}, Rgb(0.5, 1, 0.25), {}, true};
+  scene.background = Rgb(0, 0.5, 0);
+  scene.sky = Sky{.up = {0, 2, 0}, .horizon = {1, 1, 1}, .zenith = {0, 0, 1}};
+  CHECK(contains(pov(scene),
+                 "light_source { <0, 1e+06, 40000> rgb <0.5, 1, 0.25> parallel point_at <0, 0, 40000> }"));
+  CHECK(contains(pov(scene),
+                 "sky_sphere { pigment { gradient <0, 1, 0> color_map { [0 rgb <0, 0.5, 0>] [0.5 "
+                 "rgb <0, 0.5, 0>] [0.5 rgb <1, 1, 1>] [1 rgb <0, 0, 1>] } scale "));
 }
 
 }  // namespace pprt::pov_writer_test

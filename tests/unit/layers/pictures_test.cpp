@@ -55,6 +55,22 @@ TEST_CASE("layer pictures: each region has a colour, with a border only between 
   CHECK(picture.at(100, 512) == left);
 }
 
+TEST_CASE("layer pictures: each region has its rank's number, on a tile of its own") {
+  Image picture(64, 64, Color(0.5f));
+  const std::vector<std::int32_t> owners = {0, 1, 1, -1};  // rank 1: the right upper and the left lower tile
+  label_ranks(picture, kFourByFour, owners);
+  const auto is_labelled = [&](int x, int y) {
+    bool found = false;
+    for (int j = 0; j < 32; ++j) {
+      for (int i = 0; i < 32; ++i) found = found || picture.at(x + i, y + j) == kWhite;
+    }
+    return found;
+  };
+  CHECK(is_labelled(0, 0));
+  CHECK(is_labelled(32, 0) != is_labelled(0, 32));
+  CHECK_FALSE(is_labelled(32, 32));
+}
+
 TEST_CASE("layer pictures: heat grows lighter with every factor") {
   const std::vector<float> values = {0, 1, 10, 100, 1000};
   const Image picture = heat_picture(values, 5, 1, 1, 100);

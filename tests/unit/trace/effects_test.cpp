@@ -65,6 +65,22 @@ TEST_CASE("a scene without lights traces no shadow ray") {
   CHECK_THAT(compile(scene).census(), Catch::Contains("shadows         no   no light"));
 }
 
+TEST_CASE("emission and a sky are called for where a scene has them") {
+  SceneDescription scene = make_spd("tree", 2);
+  scene.sky = Sky();
+  Material lamp;
+  lamp.emission.y = 0.5;
+  scene.materials.push_back(lamp);
+  CHECK(to_string(effects_called_for(scene)) == "shadows,sky");  // nothing has the material
+  scene.spheres.at(0).material = static_cast<MaterialIndex>(scene.materials.size() - 1);
+  CHECK(to_string(effects_called_for(scene)) == "shadows,emission,sky");
+  const std::string census = compile(scene).census();
+  CHECK_THAT(census, Catch::Contains("emission        yes  1 material that gives off light\n"));
+  CHECK_THAT(census, Catch::Contains("sky             yes  the background is a sky\n"));
+  CHECK_THAT(compile(make_spd("tree", 2)).census(),
+             Catch::Contains("sky             no   the background is"));
+}
+
 TEST_CASE("a material that no object uses calls for nothing") {
   SceneDescription scene = make_spd("tree", 2);
   Material glass;

@@ -131,6 +131,22 @@ TEST_CASE("moving bodies: lights move with their node, or by a track of their ow
     check_pose(scene_of(kView + "am 1 1 1 a 1 3 9 " + kFloor + kMatte + kBall + light), 1.5, 3);
 }
 
+TEST_CASE("moving bodies: a sun turns with its node and does not move with it") {
+  const std::string sun = "x body { ls .5 1 .3 .8 .7 .6 }";
+  const SceneDescription scene =
+      scene_of(kView + "am 1 1 1 a 1 3 9 " + kFloor + kMatte + kBall + sun + " k body {" +
+               keys("rot", "0 0 1 @", 20) + keys("transl", "@ 0 0", 50) + "}");
+  check_pose(scene, 1.5, 3);
+  const Light still = still_at(scene, 2).lights.at(0);
+  CHECK(still.is_sun);
+  CHECK(still.position.length() == Approx(Vec3d(.5, 1, .3).length()));  // at 100 along x
+  const Light sun_alone{.position = {0, 2, 0}, .is_sun = true};
+  for (const double scale : {0.0, HUGE_VAL, 1e-320}) {  // no map takes it its direction
+    const Vec3d direction = place_of(sun_alone, scaling({scale, scale, scale}));
+    CHECK((direction.x == 0 && direction.y > 0 && direction.y < 3));
+  }
+}
+
 TEST_CASE("moving bodies: what is hidden, or flattened, does not show and casts no shadow") {
   const std::string hidden = moving(kMatte + kBall, "visibility 2 0 1 2 0");
   check_pose(scene_of(hidden), 2.5, 1.5);

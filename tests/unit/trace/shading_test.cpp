@@ -293,4 +293,72 @@ TEST_CASE("shading: facets hide no light from the smooth surface that their norm
   }
 }
 
+TEST_CASE("what gives off light adds it, also in a mirror, and costs no ray") {
+  Material lamp = colored(0.5, 0.5, 0.5);
+  lamp.emission = {0.25, 0.5, 3};
+  SceneDescription scene = scene_with(lamp, {{0, 0, 1000}});
+  add_square(scene, 1, 0);
+  const CompiledScene compiled = compile(scene);
+  Tracer tracer(compiled, compiled.camera(*scene.view));
+  const RaySample seen = tracer.trace(32, 32);
+  const double lit = 0.5 * (ambient(1) + 0.5);
+  CHECK(seen.color.x == Approx(lit + 0.25));
+  CHECK(seen.color.z == Approx(lit + 3));
+  CHECK((seen.rays == 2 && !seen.eye_dependent));  // as without: the eye ray and the shadow ray
+
+  Material mirror = colored(0, 0, 0);
+  mirror.specular = 0.5;
+  scene.materials.push_back(mirror);
+  scene.lights.clear();
+  add_square(scene, 2, -1, 1);
+  View below = view_from({1.8, 0, -0.5}, {1.4, 0, -1});  // by the mirror to the lamp's back
+  CHECK(look(compile(scene), below).color.z == Approx(0.5 * (0.5 * ambient(1) + 3)));
+  CompileOptions without;
+  without.effects = parse_effects("reflection");
+  CHECK(look(compile(scene, without), below).color.z == Approx(0.5 * 0.5 * ambient(1)));
+}
+
+TEST_CASE("a sun shines along one direction everywhere, and what is between hides it") {
+  SceneDescription scene = scene_with(Material(), {});
+  scene.lights = {{{3, 0, 4}, Rgb(1, 0.5, 0), {}, true}};
+  add_square(scene, 1000, 0);
+  add_sphere(scene, {{6, 0, 8}, 1, 0, {}});
+  const CompiledScene compiled = compile(scene);
+  for (const double x : {-500.0, 20.0, 900.0}) {
+    const Color color = look(compiled, view_from({x, 0, 2}, {x + 1, 0, 0})).color;
+    CHECK(color.x == Approx(ambient(1) + 0.5 * 0.8).epsilon(1e-6));
+    CHECK(color.y == Approx(ambient(1) + 0.5 * 0.5 * 0.8).epsilon(1e-6));
+  }
+  CHECK(look(compiled, view_from({1, 0, 2}, {0, 0, 0})).color.x == Approx(ambient(1)));  // the ball's shadow
+  scene.lights[0].is_sun = false;  // the control: a light in that place
+  CHECK(look(compile(scene), view_from({-500, 0, 2}, {-499, 0, 0})).color.x < 0.1);
+  CHECK_THAT(compiled.census(), Catch::Contains("lights      1, of them 1 sun\n"));
+}
+
+TEST_CASE("a sky runs from the horizon to the zenith, and mirrors show it") {
+  Material mirror = colored(0, 0, 0);
+  mirror.specular = 0.5;
+  SceneDescription scene = scene_with(mirror);
+  scene.lights.clear();
+  scene.background = Rgb(0.25, 0, 0);
+  scene.sky = Sky{.up = {0, 0, 5}, .horizon = {0, 1, 0}, .zenith = {0, 0, 1}};
+  add_square(scene, 1, 0);
+  const CompiledScene compiled = compile(scene);
+  const auto seen = [&](const Vec3d& direction) {
+    return look(compiled, view_from({5, 5, 5}, Vec3d(5, 5, 5) + direction)).color;
+  };
+  for (const double degrees : {1.0, 30.0, 85.0}) {
+    const double sine = std::sin(degrees * kDegree);
+    const Color color = seen({std::cos(degrees * kDegree), 0, sine});
+    CHECK(color.y == Approx(1 - sine).margin(1e-5));
+    CHECK(color.z == Approx(sine).margin(1e-5));
+  }
+  CHECK(seen({1, 0, -0.01}) == Color(0.25, 0, 0));
+  CHECK(look(compiled, slanted(60)).color.z == Approx(0.5 * 0.5).epsilon(1e-5));  // 30 degrees up
+  CompileOptions without;
+  without.effects = parse_effects("reflection");
+  CHECK(look(compile(scene, without), slanted(60)).color == Color(0.125, 0, 0));
+  CHECK_FALSE(look(compiled, view_from({5, 5, 5}, {5, 6, 6})).eye_dependent);
+}
+
 }  // namespace pprt::shading_test

@@ -91,6 +91,24 @@ TEST_CASE("textures: they multiply the ambient and the diffuse term, and neither
   CHECK(close(seen_at(scene, 0.5, 0.5), Color(0.5F, 0.25F, 0.1F)));
 }
 
+TEST_CASE("textures: what gives off light has a picture of its own, which is not that of the colour") {
+  SceneDescription scene =
+      textured_square({.ambient = {.5, .5, .5}, .diffuse = {0, 0, 0}, .specular = {0, 0, 0}});
+  Material& m = scene.materials[0];
+  m.emission = {.25, .25, 2};
+  CHECK(close(seen_at(scene, -0.5, 0.5), Color(.75F, .25F, 2)));  // even, over a red texel
+  scene.textures.push_back({"glow", 1, 2, {0, 255, 0, 255, 255, 255}});
+  m.emission_texture = 1;
+  CHECK(close(seen_at(scene, -0.5, 0.5), Color(.5F, .25F, 0)));
+  CHECK(close(seen_at(scene, -0.5, -0.5), Color(.25F, .25F, 2.5F)));
+  m.texture.reset();
+  CHECK(compile(scene).effects().has(Effect::kTextures));
+  CHECK(close(seen_at(scene, -0.5, 0.5), Color(.5F, .75F, .5F)));
+  CompileOptions without;
+  without.effects = parse_effects("textures");
+  CHECK(close(seen_at(scene, -0.5, 0.5, without), Color(.5F, .5F, .5F)));
+}
+
 TEST_CASE("textures: an effect that can be left out") {
   const SceneDescription scene =
       textured_square({.ambient = {.5, .4, .3}, .diffuse = {0, 0, 0}, .specular = {0, 0, 0}});

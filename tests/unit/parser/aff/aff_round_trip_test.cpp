@@ -1,4 +1,5 @@
 // What is written as AFF reads back as the same scene.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <sstream>
 
@@ -37,6 +38,8 @@ std::vector<Vec3d> marks(const SceneDescription& scene, double time) {
 
 constexpr const char* kScene = R"(
 b .1 .2 .3
+bs .1 1 0  .9 .8 .7  .1 .2 .5
+ls 0 .1 -2 .6 .5 .4
 v from 0 1 9 at 0 0.1 0 up 0 1 0 angle 33.3 hither 1 resolution 64 48
 am .5 .6 .7
 a -1 5 7
@@ -58,27 +61,40 @@ x top {
 x inner { m vertices 4  0 0 0  1 0 0  1 1 0  0 1 0  normals 1  0 0 1
   texturecoords 4 wood.ppm  0 0  1 0  1 1  0 1
   triangles 2  0 1 2  0 0 0  0 1 2   0 2 3  0 0 0  0 2 3 }
+fe .4 .5 4
 m vertices 3  0 0 0  1 0 0  1 1 0  triangles 1  2 1 0
+fet glow.ppm .3 .2 .1
+tt - 0 0 0 0 0  1 0 0 1 0  0 1 0 0 1
 )";
 
 }  // namespace
 
 TEST_CASE("a scene with every directive reads back as it was written") {
   const SceneDescription scene = without_resting_nodes(parsed(kScene));
-  const SceneDescription back = without_resting_nodes(parsed(written(scene, {"other.png"})));
+  const SceneDescription back = without_resting_nodes(parsed(written(scene, {"other.png", "light.png"})));
 
   CHECK(back.background == scene.background);
   CHECK(back.ambient == scene.ambient);
+  CHECK(back.sky == scene.sky);
+  CHECK(scene.sky->horizon == Rgb(.9, .8, .7));
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    CHECK(back.lights[i].is_sun == scene.lights[i].is_sun);
+    CHECK(back.lights[i].position == scene.lights[i].position);
+  }
+  CHECK(std::count_if(scene.lights.begin(), scene.lights.end(), [](const Light& l) { return l.is_sun; }) ==
+        1);
   CHECK(back.materials.size() == scene.materials.size());
   for (std::size_t i = 0; i < scene.materials.size(); ++i) CHECK(back.materials[i] == scene.materials[i]);
-  REQUIRE(back.textures.size() == 1);
+  CHECK(back.materials.back().emission == Rgb(.3, .2, .1));
+  CHECK((!back.materials.back().texture && back.materials.back().emission_texture));
+  REQUIRE(back.textures.size() == 2);
   CHECK(back.textures[0].name == "other.png");
   CHECK(back.meshes[0].texture_points == scene.meshes[0].texture_points);
   CHECK((back.movement.times->start == -1 && back.movement.times->end == 5 &&
          back.movement.times->frames == 7));
   CHECK(back.order == scene.order);
   REQUIRE(back.movement.tracks.size() == 4);
-  CHECK(back.light_nodes[1].track == "lamp");
+  CHECK(back.light_nodes[2].track == "lamp");
   for (const double time : {-1.0, 0.0, 0.7, 1.9, 3.0, 4.0}) {
     CAPTURE(time);
     const std::vector<Vec3d> a = marks(scene, time), b = marks(back, time);

@@ -5,6 +5,7 @@
 
 #include "base/diagnostics.h"
 #include "parser/aff_parser.h"
+#include "scene/animation/resting_nodes.h"
 #include "unit/image/temporary_directory.h"
 
 namespace pprt::aff_scene_test {
@@ -371,6 +372,37 @@ k a { rot 4 0 0 0 1 0 0 0 0 1 0 0 1 0 0 0 0 2 0 0 1 0 0 0 0 3 0 0 1 0 0 0 0 visi
     }
   }
   CHECK(parsed(whole).meshes.size() == 1);
+}
+
+TEST_CASE("aff: a sun has a direction, in the space of its transform, and a sky its horizon and zenith") {
+  const SceneDescription scene =
+      parsed("bs 0 0 2 .9 .8 .7 .1 .2 .5 ls 0 1 0 xs 1 1 1 0 0 1 90 5 6 7 { ls 1 0 0 .5 .5 .5 } l 0 1 0");
+  CHECK(scene.sky == Sky{.up = {0, 0, 2}, .horizon = {.9, .8, .7}, .zenith = {.1, .2, .5}});
+  CHECK_FALSE(scene.background);
+  CHECK(ground_color(scene) == Rgb(.9, .8, .7));
+  REQUIRE(scene.lights.size() == 3);
+  CHECK((scene.lights[0].is_sun && !scene.lights[0].color && scene.lights[1].is_sun &&
+         !scene.lights[2].is_sun));
+  const SceneDescription settled = without_resting_nodes(scene);
+  CHECK((settled.lights[1].position - Vec3d(0, 1, 0)).length() < 1e-12);  // turned, and not moved
+  CHECK(report("ls 0 0 0").find("a.aff:1:1: error: the direction to the sun is zero") == 0);
+  CHECK(report("bs 0 0 0 1 1 1 1 1 1").find("a.aff:1:1: error: the direction to the zenith is zero") == 0);
+  CHECK(report("bs 0 1 0 1 1 1 1 1").find("expected a number for blue of the zenith of 'bs'") !=
+        std::string::npos);
+}
+
+TEST_CASE("aff: a material gives off light until the next, with a picture or without") {
+  const SceneDescription scene = parsed(
+      kMaterial + "s 0 0 0 1 fe .1 .2 3 s 0 0 0 1 fet glow .5 .5 .5 s 0 0 0 1\n" +
+      "tt wood 0 0 0 0 0 1 0 0 1 0 0 1 0 0 1 tt - 0 0 0 0 0 1 0 0 1 0 0 1 0 0 1\n" + kMaterial + "s 0 0 0 1");
+  const auto of = [&](std::size_t i) { return scene.materials[material_of(scene, scene.order[i])]; };
+  REQUIRE(scene.order.size() == 6);
+  CHECK((of(0).emission == Rgb(0, 0, 0) && of(5) == of(0)));
+  CHECK((of(1).emission == Rgb(.1, .2, 3) && of(1).terms == of(0).terms));
+  CHECK((of(2).emission == Rgb(.5, .5, .5) && !of(2).has_picture()));  // a ball has no place for a picture
+  CHECK((of(3).emission_texture && of(3).texture && *of(3).texture != *of(3).emission_texture));
+  CHECK((of(4).emission_texture == of(3).emission_texture && !of(4).texture));
+  CHECK(scene.textures.size() == 2);
 }
 
 }  // namespace pprt::aff_scene_test

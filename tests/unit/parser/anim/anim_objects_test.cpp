@@ -79,4 +79,32 @@ TEST_CASE("anim: objects are written as they were read") {
   CHECK(a.shape.bias == b.shape.bias);
 }
 
+TEST_CASE("anim: suns come beside the scene's lights, a sky in place of its own") {
+  const Animation script =
+      parsed("animation { sun { from <0, 1, 0> } sky { up <0, 1, 0> horizon <1, 1, 1> zenith <0, 0, 1> } }");
+  SceneDescription scene;
+  scene.lights = {{{1, 2, 3}, {}, {}}};
+  scene.sky = Sky();
+  add(script.daylight, scene);
+  REQUIRE(scene.lights.size() == 2);
+  CHECK((!scene.lights[0].is_sun && scene.lights[1].is_sun && scene.light_nodes.empty()));
+  CHECK(scene.sky->zenith == Rgb(0, 0, 1));
+}
+
+TEST_CASE("anim: what a sun or a sky lacks is told with its place") {
+  const auto report = [](const std::string& body) { return script_report("animation { " + body + " }"); };
+  const auto has = [](const std::string& text, const char* part) {
+    INFO(text);
+    CHECK(text.find(part) != std::string::npos);
+  };
+  has(report("sun { color <1, 1, 1> }"), "a.anim:1:13: error: 'sun' lacks 'from'");
+  has(report("sun { from <0, 0, 0> }"), "'from' is a direction: it must not be zero");
+  has(report("sun { from 3 }"), "'from' is a vector of three: <x, y, z>");
+  has(report("sun { up <0, 1, 0> }"), "'up' is the camera's, not a sun's");
+  has(report("sky { up <0, 1, 0> horizon <1, 1, 1> }"), "'sky' lacks 'zenith'");
+  has(report("sky { tint 3 }"), "unknown word 'tint'");
+  has(report("camera { key 1 { zenith <1, 2, 3> } }"), "'zenith' is the sky's, not the camera's");
+  has(report("sky { } sky { }"), "'sky' is given twice");
+}
+
 }  // namespace pprt::anim_objects_test

@@ -38,6 +38,8 @@ TEST_CASE("anim writer: a script with every statement reads back the same") {
   const Animation animation = parse_animation(R"(
 animation {
   scene "spd:tree:5" frames 90 fps 23.976 resolution <320, 200>
+  sun { from <1, 2/3, -3> } sky { up <0, 0, 1> horizon <.9, .8, .7> zenith <.1, .2, .5> }
+  sun { color <.3, .2, .1> from <0, 1, 0> }
   camera {
     spline catmull_rom
     key 1 { at <0, 0, 1/3> up <0, 0, 1> }
@@ -57,6 +59,13 @@ animation {
   CHECK(again.width == 320);
   CHECK(again.height == 200);
   CHECK(again.spline == SplineKind::kCatmullRom);
+  REQUIRE(again.daylight.suns.size() == 2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    CHECK(again.daylight.suns[i].position == animation.daylight.suns[i].position);
+    CHECK(again.daylight.suns[i].color == animation.daylight.suns[i].color);
+  }
+  CHECK(again.daylight.suns[0].position.y == 2.0 / 3);
+  CHECK(again.daylight.sky == Sky{.up = {0, 0, 1}, .horizon = {.9, .8, .7}, .zenith = {.1, .2, .5}});
   REQUIRE(again.keys.size() == animation.keys.size());
   for (std::size_t i = 0; i < again.keys.size(); ++i) check_equal(again.keys[i], animation.keys[i]);
 }

@@ -10,9 +10,10 @@ namespace {
 // Something of every kind.
 constexpr const char* kEverything = R"(
 v from 1 2 3 at 4 5 6 up 0 1 0 angle 40 hither 1 resolution 8 6
-b .1 .2 .3 am 2 2 2 l 1 2 3 .1 .2 .3 la lamp 4 5 6 a 0 1 5
+b .1 .2 .3 am 2 2 2 l 1 2 3 .1 .2 .3 la lamp 4 5 6 a 0 1 5 ls 0 1 .5 .9 .8 .7
+bs 0 1 0 .9 .8 .7 .1 .2 .5
 fm .1 .2 .3 .4 .5 .6 .7 .8 .9 10 .11 1.2
-s 1 2 3 4 c 0 0 0 1 0 0 5 .5
+fet wood .5 .6 .7 s 1 2 3 4 c 0 0 0 1 0 0 5 .5
 x body { xs 1 2 3 0 0 1 30 4 5 6 {
 m vertices 3 0 0 0 1 0 0 0 1 0 normals 1 0 0 1 texturecoords 3 wood 0 0 1 0 0 1 triangles 1 0 1 2 0 0 0 0 1 2
 } tpa 2 0 0 0 0 0 0 1 1 0 0 0 0 1 0 1 0 0 0 1 1 0 0 4 0 0 1 1 0 4 0 0 1 0 1 4 0 1 0 }
@@ -41,6 +42,9 @@ TEST_CASE("scene bytes: a scene arrives as it was sent, whatever it holds") {
   CHECK(back.moving_triangles.at(0).keys.at(1).positions ==
         scene.moving_triangles.at(0).keys.at(1).positions);
   CHECK(back.light_nodes.at(1).track == "lamp");
+  CHECK((!back.lights.at(1).is_sun && back.lights.at(2).is_sun));
+  CHECK(back.sky == scene.sky);
+  CHECK(back.sky->zenith == Rgb(.1, .2, .5));
   CHECK(back.movement.times->frames == 5);
   const auto here = placements_at(scene.movement, 1.3), there = placements_at(back.movement, 1.3);
   REQUIRE(there.size() == here.size());

@@ -42,7 +42,15 @@ TEST_CASE("every field tells materials apart") {
     changed.color[channel] = 0.125;
     CHECK(is_new(changed));
   }
-  CHECK(materials.size() == 9);
+  for (int channel = 0; channel < 3; ++channel) {
+    Material changed;
+    changed.emission[channel] = 0.125;
+    CHECK(is_new(changed));
+  }
+  Material pictured;
+  pictured.emission_texture = 0;
+  CHECK(is_new(pictured));
+  CHECK(materials.size() == 13);
 }
 
 TEST_CASE("zero and minus zero are one value") {

@@ -172,6 +172,7 @@ TEST_CASE("comparison: the table of means has all methods and measures") {
   CHECK(number("other", "geometric mean", at_100) == Approx(4 * own).epsilon(0.01));  // of 2 and 8
   CHECK(number("other", "worst", at_100) == Approx(8 * own).epsilon(0.01));
   CHECK(means_table({}).rows.empty());
+  for (const auto& row : means_table({a}).rows) CHECK(to_text(row[2]) == "the only one");
 }
 
 TEST_CASE("comparison: each measure has rows of its own") {

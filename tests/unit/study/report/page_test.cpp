@@ -31,7 +31,7 @@ TEST_CASE("page: text cannot become markup") {
   page.gallery(std::vector<Picture>{{evil, "png", ""}});
   const std::string html = page.html();
   CHECK(count(html, "<script") == 0);
-  CHECK(count(html, "&lt;script&gt;") == 10);
+  CHECK(count(html, "&lt;script&gt;") == 11);
 }
 
 TEST_CASE("page: bytes are encoded as base 64") {
@@ -42,6 +42,18 @@ TEST_CASE("page: bytes are encoded as base 64") {
   CHECK(to_base64("foo") == "Zm9v");
   CHECK(to_base64("foobar") == "Zm9vYmFy");
   CHECK(to_base64("\xff\xef\xbf") == "/++/");
+}
+
+TEST_CASE("page: its headings stand above it, each a way to its part") {
+  Page page("A study");
+  page.paragraph("first");
+  page.heading("A & B");
+  page.section("C", "text");
+  const std::string html = page.html();
+  CHECK(html.find("<nav>\n<a href=\"#part-1\">A &amp; B</a>\n<a href=\"#part-2\">C</a>\n</nav>") <
+        html.find("<p>first</p>"));
+  CHECK(count(html, "<h2 id=\"part-2\">C</h2>") == 1);
+  CHECK(count(Page("Nothing").html(), "<nav>") == 0);
 }
 
 TEST_CASE("page: it needs no other file") {
@@ -75,7 +87,7 @@ TEST_CASE("provenance: it stands above a CSV as comments of one line each, and e
   CHECK(csv.find("\n# seed: a <1>\n# date: ") != std::string::npos);
   CHECK(csv.ends_with("\nx\n1.5\n"));
   const std::string html = read_whole_file(directory.path() / "index.html");
-  CHECK(html.find("<h2>Provenance</h2>") > html.find("<td class=\"number\">1.5</td>"));
+  CHECK(html.find("<h2 id=\"part-1\">Provenance</h2>") > html.find("<td class=\"number\">1.5</td>"));
   CHECK(count(html, "<td>seed</td><td>a &lt;1&gt;</td>") == 1);
   CHECK(read_whole_file(directory.path() / "provenance.json").find("\"seed\": \"a <1>\"") !=
         std::string::npos);

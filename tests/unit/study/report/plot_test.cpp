@@ -57,6 +57,17 @@ TEST_CASE("plot: axes, titles and styles reach the gnuplot script") {
   CHECK(contains(script, "$p0c1 using 1:2 with lines lw 1 dt 2"));
 }
 
+TEST_CASE("plot: curves that lie on one another can be told apart without their colours") {
+  Plot plot = small_plot();
+  Panel& panel = plot.panels[0];
+  panel.curves.assign(4, {"c", {{1, 1}, {2, 2}}});
+  const std::string script = gnuplot_script(plot);
+  for (const char* line :
+       {"$p0c0 using 1:2 with lines lw 3 lc", "$p0c1 using 1:2 with lines lw 2 dt (12,5) lc",
+        "$p0c2 using 1:2 with lines lw 2 dt (5,4) lc", "$p0c3 using 1:2 with lines lw 2 dt (2,3) lc"})
+    CHECK(contains(script, line));
+}
+
 TEST_CASE("plot: text cannot leave its quotes") {
   Plot plot = small_plot();
   plot.panels[0].curves[0].name = "'; system('touch x');'\nEOD";
