@@ -143,10 +143,14 @@ FlipReference::FlipReference(const Image& reference, double pixels_per_degree)
   seen_ = std::make_shared<const flip::Seen>(flip::seen(reference, pixels_per_degree));
 }
 
-double FlipReference::mean(const Image& image) const {
+std::vector<double> FlipReference::map(const Image& image) const {
   require_same_size(image.width, image.height, width_, height_);
   require_measurable(image);
-  const std::vector<double> errors = flip::error_map(flip::seen(image, pixels_per_degree_), *seen_);
+  return flip::error_map(flip::seen(image, pixels_per_degree_), *seen_);
+}
+
+double FlipReference::mean(const Image& image) const {
+  const std::vector<double> errors = map(image);
   return std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size());
 }
 

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "image/image.h"
 
@@ -59,6 +60,9 @@ class FlipReference {
  public:
   explicit FlipReference(const Image& reference, double pixels_per_degree = kFlipPixelsPerDegree);
   double mean(const Image& image) const;
+
+  // Returns FLIP of each pixel, row by row.
+  std::vector<double> map(const Image& image) const;
 
  private:
   int width_, height_;

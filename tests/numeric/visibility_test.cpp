@@ -61,6 +61,61 @@ TEST_CASE("visibility: at every point the primitive that an eye ray hits, at hom
   }
 }
 
+TEST_CASE("visibility: boxes hold all that is projected, at home, far away, tiny, and from within") {
+  for (const SceneDescription& at_home : spd_scenes()) {
+    for (const SceneDescription& scene :
+         {at_home, moved(at_home, {1e6, -1e6, 1e6}, 1), moved(at_home, {0, 0, 0}, 1e-6)}) {
+      INFO(scene.name);
+      const CompiledScene compiled = compile(scene);
+      View view = square(*scene.view);
+      for (const bool is_within : {false, true}) {
+        if (is_within) view.from = view.from * 0.2 + view.at * 0.8;
+        Tracer tracer(compiled, compiled.camera(view));
+        std::vector<ShapeBounds> bounds(tracer.primitive_count());
+        tracer.bound(0, bounds);
+        ImageShape shape;
+        std::size_t outside = 0, tight = 0, shown = 0;
+        for (std::uint32_t i = 0; i < bounds.size(); ++i) {
+          tracer.project(i + 1, shape);
+          if (shape.kind == ImageShape::Kind::kUnknown) continue;
+          std::vector<ImageBounds> boxes;
+          if (shape.kind == ImageShape::Kind::kQuadric) boxes = {shape.quadric.bounds};
+          for (const ImageFacet& facet : shape.facets) boxes.push_back(facet.bounds);
+          const ImageBounds& all = bounds[i].box;
+          std::uint32_t parts = 0;
+          for (const ImageBounds& b : boxes) {
+            if (b.x0 > b.x1 || b.x0 == kEverywhere.x0) continue;
+            ++shown, ++parts;
+            outside += all.x0 <= b.x0 && all.y0 <= b.y0 && all.x1 >= b.x1 && all.y1 >= b.y1 ? 0 : 1;
+            tight += all.x1 - all.x0 < 4 * (b.x1 - b.x0) + 1 ? 1 : 0;
+          }
+          outside += parts > bounds[i].parts ? 1 : 0;
+        }
+        REQUIRE((is_within || shown > 0));
+        CHECK(outside == 0);
+        if (!is_within) CHECK(tight > shown / 3);  // the control: they are no boxes about everything
+        // With and without them the same is seen.
+        PrimitiveShapes shapes = shapes_of(tracer);
+        VisibilityBuffer without(kSize, kSize, shapes);
+        shapes.bound = [&tracer](std::uint32_t first, std::span<ShapeBounds> of) { tracer.bound(first, of); };
+        VisibilityBuffer with(kSize, kSize, shapes);
+        with.forget(VisibilityBuffer::kCoarse), without.forget(VisibilityBuffer::kCoarse);
+        int differ = 0;
+        for (int y = 0; with.is_known() && without.is_known() && y <= 2 * kSize; ++y)
+          for (int x = 0; x <= 2 * kSize; ++x) differ += with.at(x, y) != without.at(x, y) ? 1 : 0;
+        CHECK(differ == 0);
+        // A part of them is bounded alike.
+        std::vector<ShapeBounds> some(std::min<std::size_t>(bounds.size() - 1, 10));
+        tracer.bound(1, some);
+        for (std::size_t i = 0; i < some.size(); ++i) {
+          CHECK(some[i].parts == bounds[i + 1].parts);
+          CHECK(some[i].box.x0 == bounds[i + 1].box.x0);
+        }
+      }
+    }
+  }
+}
+
 TEST_CASE("visibility: facets that share their edges leave no gap") {
   constexpr int kRows = 40;
   SceneDescription scene = scene_with(Material(), {});

@@ -18,6 +18,8 @@
 #include "parser/anim/anim_parser.h"
 #include "scene/animation/resting_nodes.h"
 #include "scene/writers/nff_writer.h"
+#include "study/accuracy/comparison.h"
+#include "study/accuracy/crops.h"
 #include "study/accuracy/page.h"
 #include "study/accuracy/pictures.h"
 #include "study/accuracy/planner.h"
@@ -189,7 +191,11 @@ class Steps {
   Stopwatch watch_;
 };
 
-// Measures the methods: curves and flicker. Returns what the curves are judged by.
+std::vector<Method>::const_iterator find_method(const std::vector<Method>& methods, const std::string& name) {
+  return std::find_if(methods.begin(), methods.end(), [&](const Method& m) { return m.name == name; });
+}
+
+// Measures the methods: curves, flicker and crops. Returns what the curves are judged by.
 Reference measure_methods(const StudiedScene& studied, Steps& steps, AccuracyResults& results) {
   const AccuracyOptions& options = studied.options;
   const Subject subject = studied.subject(options.size);
@@ -208,6 +214,12 @@ Reference measure_methods(const StudiedScene& studied, Steps& steps, AccuracyRes
   append(results.renderers, renderers.get());
   append(results.flicker, measure_flicker(slow_orbit(studied), results.methods, options.seed));
   steps.done("flicker");
+  const std::string leading = leading_method(results.curves.back());
+  std::vector<Method> shown = {*find_method(results.methods, leading),
+                               *find_method(results.methods, kUniform)};
+  append(results.crops, crops_at_equal_time(studied.name, subject, converged.image, shown,
+                                            results.curves.back().one_sample_s, options.seed));
+  steps.done("crops");
   return converged;
 }
 
@@ -219,7 +231,7 @@ void measure(const StudiedScene& studied, AccuracyResults& results) {
   const Reference converged = measure_methods(studied, steps, results);
   if (options.only_curves) return;
   const Subject large = studied.subject(options.size), small = studied.subject(options.size / 2);
-  const std::vector<Method> methods = {delaunay_method(), uniform_method()};
+  const std::vector<Method> methods = {default_method(), uniform_method()};
   results.small_curves.push_back(measure_curves(name, small,
                                                 reference_of(studied, small, options.reference_cells),
                                                 {methods, 1, options.seed, options.busy_threads}));

@@ -178,22 +178,31 @@ std::vector<std::string> rivals(const SceneCurves& curves) {
   return names;
 }
 
+std::string leading_method(const SceneCurves& curves) {
+  std::vector<std::string> names = rivals(curves);
+  const auto is_control = [](const std::string& name) { return name == kControl; };
+  if (std::find(names.begin(), names.end(), kDefaultMethod) != names.end()) return kDefaultMethod;
+  const auto first = std::find_if_not(names.begin(), names.end(), is_control);
+  return first != names.end() ? *first : kControl;
+}
+
 Table ratio_table(const std::vector<SceneCurves>& scenes, Measure measure) {
   Columns<SceneCurves> columns = {
       {"scene", &SceneCurves::scene},
       {"ms for one sample a pixel", [](const SceneCurves& s) { return 1e3 * s.one_sample_s; }}};
   for (const double share : budgets_of_ratios()) {
     columns.push_back({budget_name(share), [=](const SceneCurves& s) {
-                         return with_digits(ratio_at_equal_time(s, kDelaunayMethod, measure, share).median,
+                         return with_digits(ratio_at_equal_time(s, leading_method(s), measure, share).median,
                                             2);
                        }});
   }
   columns.push_back({"break-even", [=](const SceneCurves& s) {
-                       return to_sentence(budget_ranges(s, kDelaunayMethod, measure), kDelaunayMethod);
+                       const std::string method = leading_method(s);
+                       return to_sentence(budget_ranges(s, method, measure), method);
                      }});
   Table table = table_of(scenes, columns);
   if (scenes.size() < 2) return table;
-  const RatioRows rows = rows_of_ratios(scenes, kDelaunayMethod, measure);
+  const RatioRows rows = rows_of_ratios(scenes, leading_method(scenes.front()), measure);
   for (const auto& [name, cells] :
        {std::pair("geometric mean", rows.means), std::pair("worst", rows.worst)}) {
     std::vector<Cell> row = {name, kNoValue};

@@ -66,9 +66,12 @@ std::string to_sentence(const std::vector<BudgetRange>& ranges, const std::strin
 // Returns the methods in the order of their first points, without the uniform one.
 std::vector<std::string> rivals(const SceneCurves& curves);
 
-// Returns one row per scene: delaunay over uniform at 10 to 400 %, and the break-even points. With several
-// scenes two rows follow, at each budget over the scenes that have a picture: the geometric mean, and the
-// worst ratio, which is the largest.
+// Returns the method that the tables are about: the default, or the first rival where it is not compared.
+std::string leading_method(const SceneCurves& curves);
+
+// Returns one row per scene: the leading method over uniform at 10 to 400 %, and the break-even points. With
+// several scenes two rows follow, at each budget over the scenes that have a picture: the geometric mean, and
+// the worst ratio, which is the largest.
 Table ratio_table(const std::vector<SceneCurves>& scenes, Measure measure);
 
 // Returns two rows per method and measure: the geometric mean of these ratios over the scenes, and the worst.

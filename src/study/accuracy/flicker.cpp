@@ -1,5 +1,7 @@
 #include "study/accuracy/flicker.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,48 +10,12 @@
 
 #include "image/image_io.h"
 #include "image/metrics.h"
+#include "study/accuracy/equal_time.h"
 #include "study/accuracy/statistics.h"
 #include "study/report/plot.h"
 
 namespace pprt {
 namespace {
-
-constexpr double kNoLimit = 1e9;  // seconds
-
-// The method's picture with so many samples per pixel, or nothing where it cannot make so few.
-std::optional<Rendering> picture_with(double density, const Method& method, const Subject& subject,
-                                      std::uint64_t seed) {
-  const std::array densities = {density};
-  std::optional<Rendering> picture;
-  method.run({subject, densities, kNoLimit, seed, [&](Rendering&& r) { picture = std::move(r); }});
-  if (picture) replace_non_finite(picture->image);
-  return picture;
-}
-
-// The least CPU time of some pictures: a disturbance only adds to it. NaN without a picture.
-double least_seconds(double density, const Method& method, const Subject& subject, std::uint64_t seed) {
-  constexpr int kPictures = 3;
-  double least = kNoValue;
-  for (int i = 0; i < kPictures; ++i) {
-    const std::optional<Rendering> picture = picture_with(density, method, subject, seed);
-    if (picture) least = std::fmin(least, picture->seconds);
-  }
-  return least;
-}
-
-// Samples per pixel with which the method's picture takes so long; nothing where that is too short a time.
-std::optional<double> density_in(double seconds, const Method& method, const Subject& subject,
-                                 std::uint64_t seed) {
-  constexpr int kTrials = 5;  // each finds the density for the next
-  constexpr double kMost = 16;
-  double density = 0.25;
-  for (int trial = 0; trial < kTrials; ++trial) {
-    const double taken = least_seconds(density, method, subject, seed);
-    if (std::isnan(taken)) return std::nullopt;
-    density = std::min(kMost, density * seconds / taken);
-  }
-  return density;
-}
 
 double one_sample_seconds(const SlowOrbit& orbit, const Method& uniform, std::uint64_t seed) {
   std::vector<double> seconds;
@@ -117,6 +83,27 @@ Table flicker_table(const std::vector<FlickerPoint>& points) {
                               {"samples a pixel", &P::samples},
                               {"flicker", &P::flicker},
                               {"flicker / uniform", &P::ratio}});
+}
+
+Table flicker_ratios(const std::vector<FlickerPoint>& points, const std::string& method) {
+  Table table{{"scene"}};
+  for (const double budget : kFlickerBudgets) table.columns.push_back(fmt::format("{:g} %", 100 * budget));
+  std::vector<std::vector<double>> at_budget(kFlickerBudgets.size());
+  const auto cell = [](double ratio) {
+    return std::isnan(ratio) ? Cell(kNoValue) : Cell(fmt::format("{:.2f}", ratio));
+  };
+  for (const FlickerPoint& point : points) {
+    if (point.method != method) continue;
+    if (table.rows.empty() || to_text(table.rows.back().front()) != point.scene)
+      table.rows.push_back({Cell(point.scene)});
+    at_budget[table.rows.back().size() - 1].push_back(point.ratio);
+    table.rows.back().push_back(cell(point.ratio));
+  }
+  if (table.rows.size() < 2) return table;
+  std::vector<Cell> means = {Cell("geometric mean")};
+  for (const std::vector<double>& ratios : at_budget) means.push_back(cell(geometric_mean(ratios)));
+  table.rows.push_back(std::move(means));
+  return table;
 }
 
 }  // namespace pprt

@@ -44,4 +44,8 @@ std::vector<FlickerPoint> measure_flicker(const SlowOrbit& orbit, std::span<cons
 
 Table flicker_table(const std::vector<FlickerPoint>& points);
 
+// Returns one row per scene: a method's ratios at each budget. With several scenes their geometric mean
+// follows.
+Table flicker_ratios(const std::vector<FlickerPoint>& points, const std::string& method);
+
 }  // namespace pprt

@@ -293,8 +293,15 @@ void run_lattice(const CurveTask& task) {
 
 }  // namespace
 
+Method default_method() {
+  return {kDefaultMethod,
+          "this renderer's default: what is visible, then nodes of a lattice where the picture is expected "
+          "to be wrong",
+          run_lattice};
+}
+
 Method delaunay_method() {
-  return refinement(kDelaunayMethod, "this renderer on one rank: the heaviest triangle is refined", {});
+  return refinement(kDelaunayMethod, "--sampler delaunay: the heaviest triangle is refined", {});
 }
 
 Method uniform_method() {
@@ -316,10 +323,10 @@ Image uniform_picture_in(double seconds, const Subject& subject) {
 }
 
 std::vector<Method> accuracy_methods() {
-  return {delaunay_method(),
+  return {default_method(),
           uniform_method(),
           {kControl, "the uniform method again: its difference to the first is noise", run_uniform},
-          {"auto", "nodes of a lattice by learned errors: a grid first, then where it is wrong", run_lattice},
+          delaunay_method(),
           refinement("paper weights", "delaunay with the paper's weights, nothing learned from errors found",
                      {.learned = false}),
           refinement("area only", "paper weights without the variance of colours",

@@ -43,11 +43,17 @@ struct Method {
 };
 
 // Names in tables and legends. Samplers of pprt-render have the words of --sampler.
+inline constexpr const char* kDefaultMethod = "auto";
 inline constexpr const char* kDelaunayMethod = "delaunay";
 inline constexpr const char* kUniform = "uniform";
 inline constexpr const char* kControl = "control";
 
-// This renderer on one rank: seeds, then the heaviest triangle again and again, then reconstruction.
+// This renderer's default on one rank: what is visible, then the lattice's nodes that are worth most, then
+// painting.
+Method default_method();
+
+// This renderer's triangulation on one rank: seeds, then the heaviest triangle again and again, then
+// reconstruction.
 Method delaunay_method();
 
 // A grid of m x n samples at the centres of its cells. With fewer samples than pixels the picture is bilinear
@@ -57,7 +63,7 @@ Method uniform_method();
 // Returns the picture of a uniform grid that takes about so much CPU time.
 Image uniform_picture_in(double seconds, const Subject& subject);
 
-// Returns both, the uniform method again as a control, the default sampler, and the triangulation
+// Returns the default first, the uniform method, the same again as a control, the triangulation, and that
 // without one of its parts.
 std::vector<Method> accuracy_methods();
 

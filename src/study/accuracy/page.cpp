@@ -60,10 +60,21 @@ Panel curves_panel(const SceneCurves& scene, const Abscissa& x, const std::vecto
   return panel;
 }
 
+// Returns the leading method, then those of these that are compared with it.
+std::vector<std::string> leading_and(const SceneCurves& scene, const std::vector<std::string>& others) {
+  std::vector<std::string> names = {leading_method(scene)};
+  const std::vector<std::string> known = rivals(scene);
+  for (const std::string& other : others) {
+    const bool is_known = other == kUniform || std::find(known.begin(), known.end(), other) != known.end();
+    if (is_known && other != names.front()) names.push_back(other);
+  }
+  return names;
+}
+
 Panel ratio_panel(const SceneCurves& scene) {
   constexpr double kStep = 1.1;
-  Panel panel{scene.scene, {kTime.label, 10}, {"error of delaunay / uniform at equal time"}};
-  for (const char* method : {kDelaunayMethod, kControl}) {
+  Panel panel{scene.scene, {kTime.label, 10}, {"error / uniform's at equal time"}};
+  for (const std::string& method : leading_and(scene, {kDelaunayMethod, kControl})) {
     Curve curve{method};
     for (const double share : shares_by(kStep)) {
       const Spread s = ratio_at_equal_time(scene, method, Measure::kRmse, share);
@@ -78,7 +89,7 @@ Panel ratio_panel(const SceneCurves& scene) {
 Panel perceived_panel(const SceneCurves& scene) {
   Panel panel = log_panel(scene.scene, kTime.label, "FLIP, 1 - SSIM");
   int colour = 0;
-  for (const std::string method : {kDelaunayMethod, kUniform}) {
+  for (const std::string& method : leading_and(scene, {kUniform})) {
     for (const auto& [measure, style] :
          {std::pair(Measure::kFlip, CurveStyle::kLine), std::pair(Measure::kSsim, CurveStyle::kMarkedLine)}) {
       Curve curve = median_curve(scene, method, kTime, measure);
@@ -113,21 +124,26 @@ Table references_table(const std::vector<SceneCurves>& scenes) {
 std::string losses(const SceneCurves& scene) {
   std::string text;
   for (const double share : kBudgets) {
-    const double ratio = ratio_at_equal_time(scene, kDelaunayMethod, Measure::kRmse, share).median;
+    const double ratio = ratio_at_equal_time(scene, leading_method(scene), Measure::kRmse, share).median;
     if (ratio > 1) text += fmt::format("{}{:g} % ({:.2f})", text.empty() ? "" : ", ", 100 * share, ratio);
   }
   return text.empty() ? "It loses at none of the budgets." : "It loses at " + text + ".";
 }
 
-void write_ratios(const std::vector<SceneCurves>& scenes, StudyOutput& output) {
-  output.section(
-      "The triangulation against the uniform grid at equal time",
-      "Error of the picture by delaunay over that of the uniform picture that takes the same CPU time. Both "
-      "use one thread and the same tracing kernel. Below 1, delaunay is better. Times are shares of the "
-      "time of one sample per pixel, reconstruction included; for very small shares neither method has a "
-      "picture. Each method shows its best picture so far. The geometric mean and the worst ratio at a "
-      "budget "
-      "are over the scenes that have a picture.");
+void write_ratios(const AccuracyResults& results, StudyOutput& output) {
+  const std::vector<SceneCurves>& scenes = results.curves;
+  const std::string leading = leading_method(scenes.front());
+  output.section("Against the uniform grid at equal time",
+                 fmt::format("Error of the picture by {0} over that of the uniform picture that takes the "
+                             "same CPU time. Both use one "
+                             "thread and the same tracing kernel. Below 1, {0} is better. Times are shares "
+                             "of the time of one sample "
+                             "per pixel, reconstruction included; for very small shares neither method has a "
+                             "picture. Each method "
+                             "shows its best picture so far. The geometric mean and the worst ratio at a "
+                             "budget are over the scenes "
+                             "that have a picture.",
+                             leading));
   add_plot("ratios",
            "Ratios of RMSE: medians of the repeats with their spread. The control is the uniform method "
            "again: its ratio "
@@ -139,20 +155,27 @@ void write_ratios(const std::vector<SceneCurves>& scenes, StudyOutput& output) {
   output.add_table("ratios-flip", ratio_table(scenes, Measure::kFlip));
   output.paragraph("1 - SSIM, what the structural similarity lacks of 1:");
   output.add_table("ratios-ssim", ratio_table(scenes, Measure::kSsim));
+  output.paragraph("Flicker, the error of the change from frame to frame of a slow orbit:");
+  output.add_table("ratios-flicker", flicker_ratios(results.flicker, leading));
+  output.paragraph(
+      "One place of each scene: converged, then by both methods in the same time, each with the map of its "
+      "FLIP:");
+  output.add_gallery(results.crops);
   output.paragraph("All methods over the scenes:");
   output.add_table("means", means_table(scenes));
   output.paragraph("Budgets by RMSE:");
   for (const SceneCurves& s : scenes) {
     output.paragraph(fmt::format("{}: {} {}", s.scene,
-                                 to_sentence(budget_ranges(s, kDelaunayMethod, Measure::kRmse), "delaunay"),
-                                 losses(s)));
+                                 to_sentence(budget_ranges(s, leading, Measure::kRmse), leading), losses(s)));
   }
 }
 
 void write_curves(const std::vector<SceneCurves>& scenes, const std::vector<Method>& methods,
                   StudyOutput& output) {
   const auto both_over = [](const Abscissa& x) {
-    return [x](const SceneCurves& s) { return curves_panel(s, x, {kDelaunayMethod, kUniform}); };
+    return [x](const SceneCurves& s) {
+      return curves_panel(s, x, leading_and(s, {kDelaunayMethod, kUniform}));
+    };
   };
   output.heading("Error against time and against samples");
   add_plot("error-time", "Root mean square error on the display scale against CPU time of one thread.",
@@ -161,9 +184,9 @@ void write_curves(const std::vector<SceneCurves>& scenes, const std::vector<Meth
            both_over(kSamples));
   add_plot("perceived", "Perceived error: mean FLIP (67 pixels per degree) and 1 - SSIM against CPU time.",
            scenes, output, perceived_panel);
-  output.heading("What each part of the method is worth");
-  add_plot("ablations", "delaunay, and the same without one of its parts.", scenes, output,
-           [](const SceneCurves& s) { return curves_panel(s, kTime, ablations(s)); });
+  output.heading("What each part of the triangulation is worth");
+  add_plot("ablations", "The default, the triangulation (delaunay), and that without one of its parts.",
+           scenes, output, [](const SceneCurves& s) { return curves_panel(s, kTime, ablations(s)); });
   output.table(table_of<Method>(methods, {{"method", &Method::name}, {"what it is", &Method::description}}));
   const std::vector<Comparison> all = comparisons(scenes);
   output.section("Errors at equal time",
@@ -191,7 +214,7 @@ Panel renderers_panel(const SceneCurves& own, const std::vector<RendererPoint>& 
                           "RMSE against its own converged picture");
   const auto percent = [](const auto& point) { return 100 * point.share; };
   int colour = 0;
-  for (const char* method : {kDelaunayMethod, kUniform}) {
+  for (const char* method : {kDefaultMethod, kUniform}) {
     panel.curves.push_back(curve_over(method, points_of(own, method, 0), percent, &CurvePoint::rmse,
                                       CurveStyle::kLine, colour++));
   }
@@ -282,7 +305,7 @@ void write_flicker(const AccuracyResults& results, StudyOutput& output) {
 }  // namespace
 
 void write_accuracy(const AccuracyResults& results, int small_size, StudyOutput& output) {
-  write_ratios(results.curves, output);
+  write_ratios(results, output);
   write_curves(results.curves, results.methods, output);
   write_flicker(results, output);
   if (results.rates.empty()) return;

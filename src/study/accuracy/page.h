@@ -10,6 +10,7 @@
 #include "study/accuracy/other_renderers.h"
 #include "study/accuracy/rates.h"
 #include "study/report/output.h"
+#include "study/report/page.h"
 
 namespace pprt {
 
@@ -18,6 +19,7 @@ struct AccuracyResults {
   std::vector<Method> methods;
   std::vector<SceneCurves> curves;
   std::vector<FlickerPoint> flicker;
+  std::vector<Picture> crops;
   std::vector<SceneCurves> small_curves;  // at the size of the other renderers' pictures
   std::vector<RendererPoint> renderers;
   std::vector<EffectCost> effects;

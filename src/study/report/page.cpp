@@ -22,7 +22,7 @@ tr.good td:first-child { border-left: 4px solid #009e73; } tr.bad td:first-child
 figure { margin: 1rem 0; } figure svg { width: 100%; height: auto; }
 figcaption { font-size: 0.85rem; color: #555; }
 div.gallery { display: flex; flex-wrap: wrap; gap: 1rem; } div.gallery figure { margin: 0; width: 18.5rem; }
-div.gallery img { width: 100%; }
+div.gallery img { width: 100%; } div.gallery figure.wide { width: 100%; }
 figure img { max-width: 100%; image-rendering: pixelated; border: 1px solid #ddd; }
 pre { background: #f6f6f6; padding: 0.6rem 0.9rem; font-size: 0.8rem; overflow-x: auto; }
 nav { font-size: 0.85rem; columns: 18rem; border: 1px solid #e4e4e4; padding: 0.5rem 1rem; }
@@ -106,8 +106,9 @@ void Page::gallery(std::span<const Picture> pictures) {
   body_ += "<div class=\"gallery\">\n";
   for (const Picture& picture : pictures) {
     body_ += fmt::format(
-        "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
-        escape_html(picture.caption), to_base64(picture.png));
+        "<figure{2}><img alt=\"{0}\" "
+        "src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
+        escape_html(picture.caption), to_base64(picture.png), picture.is_wide ? " class=\"wide\"" : "");
   }
   body_ += "</div>\n";
 }

@@ -18,8 +18,9 @@ std::string to_base64(std::string_view bytes);
 
 struct Picture {
   std::string caption;
-  std::string png;   // bytes of the file
-  std::string file;  // name in the study's directory; empty: on the page only
+  std::string png;       // bytes of the file
+  std::string file;      // name in the study's directory; empty: on the page only
+  bool is_wide = false;  // takes a row of its own
 };
 
 // Collects a report from top to bottom, under a list of its headings. Escapes all text; takes SVG as it is.

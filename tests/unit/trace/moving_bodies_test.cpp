@@ -1,5 +1,6 @@
 // Bodies that move are instances of one hierarchy: every picture must be that of the scene at rest at that
 // time, built anew.
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <string>
@@ -329,6 +330,11 @@ TEST_CASE("moving bodies: projected shapes cover what eye rays hit") {
       ++hits;
       ImageShape shape;
       tracer.project(sample.primitive, shape);
+      std::array<ShapeBounds, 1> bounds;
+      tracer.bound(sample.primitive - 1, bounds);
+      const ImageBounds& box = bounds[0].box;
+      CHECK((box.x0 <= x && x <= box.x1 && box.y0 <= y && y <= box.y1));
+      CHECK(box.x1 - box.x0 < 2 * kSize);
       const double nearness = 1 / (Vec3d(sample.hit) - tracer.camera().eye).dot(tracer.camera().forward);
       if (shape.kind == ImageShape::Kind::kQuadric) {
         const double root = std::sqrt(std::max(0.0, shape.quadric.discriminant.at(x, y)));

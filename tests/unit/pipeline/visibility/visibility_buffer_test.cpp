@@ -203,4 +203,48 @@ TEST_CASE(
   CHECK(asked == before);
 }
 
+TEST_CASE("visibility buffer: what is bounded is projected when a tile that it may meet is seen first") {
+  const std::vector<Rectangle> rectangles = {{2, 2, 14, 14, 1}, {40, 40, 60, 60, 1}, {4, 4, 60, 60, 0.5}};
+  const PrimitiveShapes all = shapes_of(rectangles);
+  std::vector<std::uint32_t> asked;
+  PrimitiveShapes shapes = all;
+  shapes.project = [&](std::uint32_t primitive, ImageShape& shape) {
+    asked.push_back(primitive);
+    all.project(primitive, shape);
+  };
+  shapes.bound = [&](std::uint32_t first, std::span<ShapeBounds> bounds) {
+    for (std::size_t i = 0; i < bounds.size(); ++i) {
+      const Rectangle& r = rectangles.at(first + i);
+      bounds[i] = {{static_cast<float>(r.x0), static_cast<float>(r.y0), static_cast<float>(r.x1),
+                    static_cast<float>(r.y1)},
+                   2};
+    }
+  };
+  VisibilityBuffer buffer(kSize, kSize, shapes), eager(kSize, kSize, all);
+  REQUIRE((buffer.is_known() && eager.is_known()));
+  CHECK(asked.empty());
+  buffer.tile(0, 0);
+  CHECK(asked == std::vector<std::uint32_t>{1, 3});
+  int wrong = 0;
+  for (int y = 0; y <= 4 * kSize; ++y)
+    for (int x = 0; x <= 4 * kSize; ++x) wrong += buffer.at(x, y) != eager.at(x, y) ? 1 : 0;
+  CHECK(wrong == 0);
+  CHECK(asked == std::vector<std::uint32_t>{1, 3, 2});
+  // The limit is about a part of the picture: four triangles of the first and the third meet it.
+  buffer.limit(3, {0, 0, 20, 20});
+  buffer.forget();
+  CHECK_FALSE(buffer.is_known());
+  buffer.limit(4, {0, 0, 20, 20});
+  buffer.forget();
+  CHECK(buffer.is_known());
+  // What may be anywhere is projected at once, and whether it has a shape is known then.
+  shapes.bound = [](std::uint32_t, std::span<ShapeBounds> bounds) {
+    for (ShapeBounds& bound : bounds) bound = {kEverywhere, 2};
+  };
+  asked.clear();
+  VisibilityBuffer anywhere(kSize, kSize, shapes);
+  CHECK(anywhere.is_known());
+  CHECK(asked == std::vector<std::uint32_t>{1, 2, 3});
+}
+
 }  // namespace pprt::visibility_buffer_test

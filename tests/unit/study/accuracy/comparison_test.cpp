@@ -146,6 +146,23 @@ TEST_CASE("comparison: the tables of ratios end with the geometric mean and the 
   CHECK(ratio_table({scene("a", 0.1, 0.5)}, measure).rows.size() == 1);
 }
 
+TEST_CASE("comparison: tables are about the default, or the first rival where it is not compared") {
+  SceneCurves curves = made_up({{0.1, 0.1}, {10, 0.01}}, Measure::kRmse);
+  CHECK(leading_method(curves) == kDelaunayMethod);
+  CurvePoint point = curves.points.front();
+  for (const char* method : {kControl, kDefaultMethod}) {
+    for (const double share : {0.1, 10.0}) {
+      point.method = method, point.share = share, point.rmse = 0.2 * 0.05 / std::sqrt(share);
+      curves.points.push_back(point);
+    }
+  }
+  CHECK(leading_method(curves) == kDefaultMethod);
+  CHECK(to_text(ratio_table({curves}, Measure::kRmse).rows.at(0).at(5)) == "0.20");  // at 100 %
+  std::erase_if(curves.points,
+                [](const CurvePoint& p) { return p.method != kControl && p.method != kUniform; });
+  CHECK(leading_method(curves) == kControl);
+}
+
 TEST_CASE("comparison: the table of means has all methods and measures") {
   SceneCurves a = made_up({{0.1, 0.1}, {10, 0.01}}, Measure::kFlip);
   const std::size_t made = a.points.size();
@@ -197,10 +214,10 @@ TEST_CASE("methods: some are chosen by their words, the uniform method and the c
   };
   CHECK(names("control") == std::vector<std::string>{"uniform", "control"});
   CHECK(names("area-only,delaunay") ==
-        std::vector<std::string>{"delaunay", "uniform", "control", "area only"});
+        std::vector<std::string>{"uniform", "control", "delaunay", "area only"});
   CHECK(methods_of("paper-weights,paper-weights").size() == 3);
   CHECK_THROWS_WITH(methods_of("delauney"),
-                    "--methods delauney: 'delauney' is none of delaunay, uniform, control, auto, "
+                    "--methods delauney: 'delauney' is none of auto, uniform, control, delaunay, "
                     "paper-weights, area-only, variance-only, no-pixel-rule, pixel-area, mean-of-samples, "
                     "pixel-centers, stratified-random; did you mean 'delaunay'?");
   CHECK_THROWS_AS(methods_of("uniform,"), UsageError);

@@ -68,6 +68,28 @@ TEST_CASE("flicker: controls, the uniform grid twice, and seeds that change") {
   }
 }
 
+TEST_CASE("flicker: one method's ratios, a row for each scene, and their geometric mean") {
+  std::vector<FlickerPoint> points;
+  for (const auto& [scene, ratio] : {std::pair("a", 0.5), std::pair("b", 2.0)}) {
+    for (const double budget : kFlickerBudgets) {
+      points.push_back({scene, "other", budget, 1, 1, 1, 9});
+      points.push_back({scene, "asked", budget, 1, 1, 1, budget == 1.0 ? ratio * ratio : ratio});
+    }
+  }
+  const Table table = flicker_ratios(points, "asked");
+  REQUIRE(table.rows.size() == 3);
+  CHECK(table.columns == std::vector<std::string>{"scene", "25 %", "50 %", "100 %"});
+  const auto text = [&](std::size_t row, std::size_t column) { return to_text(table.rows[row].at(column)); };
+  CHECK(text(0, 0) == "a");
+  CHECK(text(0, 1) == "0.50");
+  CHECK(text(0, 3) == "0.25");
+  CHECK(text(1, 3) == "4.00");
+  CHECK(text(2, 0) == "geometric mean");
+  CHECK(text(2, 1) == "1.00");
+  points.resize(2 * kFlickerBudgets.size());
+  CHECK(flicker_ratios(points, "asked").rows.size() == 1);
+}
+
 TEST_CASE("flicker: a method that has no picture in so little time has no value") {
   const TreeSetup tree(32);
   const Method slow = {"slow", "", [](const CurveTask& task) {
