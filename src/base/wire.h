@@ -48,6 +48,9 @@ class WireWriter {
     append(colors.data(), colors.size_bytes());
   }
 
+  // Makes room for so many bytes.
+  void reserve(std::size_t bytes) { bytes_.reserve(bytes); }
+
   Bytes take() { return std::move(bytes_); }
 
  private:

@@ -232,8 +232,9 @@ void fields_of(Code& code, Either<Bundle> auto& bundle) {
 }
 
 template <typename Message>
-Bytes encode_fields(const Message& message) {
+Bytes encode_fields(const Message& message, std::size_t expected_bytes = 0) {
   WireWriter out;
+  out.reserve(expected_bytes);
   MessageWriter code(out);
   fields_of(code, message);
   return out.take();
@@ -268,8 +269,12 @@ Bytes encode(const ClockPing& ping) {
 Bytes encode(const ClockPong& pong) {
   return encode_fields(pong);
 }
+// Makes room at once: a buffer that grows copies all of a large message.
 Bytes encode(const PixelMessage& pixels) {
-  return encode_fields(pixels);
+  constexpr std::size_t kRest = 1024;  // of the report and the counts
+  return encode_fields(pixels, kRest + pixels.colors.size() * sizeof(Color) +
+                                   pixels.tiles.size() * sizeof(TileReport) +
+                                   pixels.samples.size() * sizeof(Sample));
 }
 Bytes encode(const RoundSent& sent) {
   return encode_fields(sent);

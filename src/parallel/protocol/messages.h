@@ -126,9 +126,8 @@ struct RankReport {
   double sampling_ended_s = 0;  // wall clock: since the start of the sequence
 };
 
-// About the most pixels in one message: pictures of usual size take one a rank. 12 MB, far below the 2 GB
-// that MPI can count, and small beside a picture of many.
-inline constexpr std::size_t kPixelsInMessage = std::size_t{1} << 20;
+// About the most pixels in one message: 384 KB, which stay in the caches until they are sent.
+inline constexpr std::size_t kPixelsInMessage = std::size_t{1} << 15;
 
 // Rank to master: the pixels of its tiles and of those it has given away in this frame. Tile after tile, rows
 // from the top. Those of a large region come in several messages, of which the last has the report and the
