@@ -16,19 +16,16 @@ namespace {
 // A triangle in double.
 struct Corners {
   std::array<Vec3d, 3> at;
-  Vec3d normal{0, 0, 1};  // unit
-  double twice_area = 0;
+  Vec3d across;  // along the normal; as long as twice the area
 
   Corners(const Mesh& mesh, std::uint32_t triangle)
       : at{Vec3d(mesh.vertices[mesh.triangles[triangle][0]]),
            Vec3d(mesh.vertices[mesh.triangles[triangle][1]]),
-           Vec3d(mesh.vertices[mesh.triangles[triangle][2]])} {
-    const Vec3d across = (at[1] - at[0]).cross(at[2] - at[0]);
-    twice_area = across.length();
-    normal = across * (1 / twice_area);
-  }
+           Vec3d(mesh.vertices[mesh.triangles[triangle][2]])},
+        across((at[1] - at[0]).cross(at[2] - at[0])) {}
 
-  double height(const Vec3d& point) const { return (point - at[0]).dot(normal); }
+  double twice_area() const { return across.length(); }
+  Vec3d normal() const { return across * (1 / twice_area()); }
 
   double longest_edge() const {
     return std::sqrt(
@@ -39,18 +36,20 @@ struct Corners {
   template <std::size_t kCount>
   bool excludes(const std::array<Vec3d, kCount>& points, double margin) const {
     for (std::size_t i = 0; i < 3; ++i) {
-      const Vec3d side = at[(i + 1) % 3] - at[i], inwards = normal.cross(side);
+      const Vec3d side = at[(i + 1) % 3] - at[i], inwards = across.cross(side);
       double farthest = inwards.dot(points[0] - at[i]);
       for (std::size_t k = 1; k < kCount; ++k) farthest = std::max(farthest, inwards.dot(points[k] - at[i]));
-      if (farthest < 0 && margin >= 0) return true;  // the commonest case, without the rest
-      if (farthest < margin * side.length()) return true;
+      if (farthest < 0 && margin >= 0) return true;  // the commonest case, without the root
+      if (farthest < margin * std::sqrt(across.length2() * side.length2())) return true;
     }
     return false;
   }
 
   bool lies_in_plane_of(const Corners& other, double bound) const {
-    return std::all_of(at.begin(), at.end(),
-                       [&](const Vec3d& corner) { return std::abs(other.height(corner)) <= bound; });
+    const Vec3d normal = other.normal();
+    return std::all_of(at.begin(), at.end(), [&](const Vec3d& corner) {
+      return std::abs((corner - other.at[0]).dot(normal)) <= bound;
+    });
   }
 };
 
@@ -59,10 +58,10 @@ struct FaceBox {
   std::array<float, 6> low, high;
 
   bool meets(const FaceBox& other) const {
-    for (std::size_t i = 0; i < low.size(); ++i) {
-      if (low[i] > other.high[i] || other.low[i] > high[i]) return false;
-    }
-    return true;
+    int apart = 0;
+    for (std::size_t i = 0; i < low.size(); ++i)  // without branches: any of the six may decide
+      apart |= static_cast<int>(low[i] > other.high[i]) | static_cast<int>(other.low[i] > high[i]);
+    return apart == 0;
   }
   void extend(const FaceBox& other) {
     for (std::size_t i = 0; i < low.size(); ++i) {
@@ -76,25 +75,28 @@ struct FaceBox {
 struct Face {
   FaceBox box;
   std::uint32_t part = 0, triangle = 0;
-  float offset = 0;  // its own
+  std::uint32_t primitive = 0;  // place in the order
+  float offset = 0;             // its own
 };
+static_assert(sizeof(Face) == 64);
 
 // Enlarges the box by half of what two triangles may be apart, in place and in direction, and still coincide.
-Face new_face(const Mesh& mesh, std::uint32_t part, std::uint32_t triangle) {
+FaceBox face_box(const Mesh& mesh, std::uint32_t triangle) {
   const Corners corners(mesh, triangle);
-  Face face{{}, part, triangle, mesh.facets[triangle].offset};
-  const auto offset = static_cast<double>(face.offset);
+  const Vec3d normal = corners.normal();
+  const auto offset = static_cast<double>(mesh.facets[triangle].offset);
   const double bound = coincidence_bound(offset, offset);
-  const double tilt = std::min(1.0, 2 * bound * corners.longest_edge() / corners.twice_area);
+  const double tilt = std::min(1.0, 2 * bound * corners.longest_edge() / corners.twice_area());
+  FaceBox box;
   for (std::size_t i = 0; i < 3; ++i) {
     const int axis = static_cast<int>(i);
     const auto [least, most] = std::minmax({corners.at[0][axis], corners.at[1][axis], corners.at[2][axis]});
-    face.box.low[i] = static_cast<float>(least - bound);
-    face.box.high[i] = static_cast<float>(most + bound);
-    face.box.low[3 + i] = static_cast<float>(std::abs(corners.normal[axis]) - tilt);
-    face.box.high[3 + i] = static_cast<float>(std::abs(corners.normal[axis]) + tilt);
+    box.low[i] = static_cast<float>(least - bound);
+    box.high[i] = static_cast<float>(most + bound);
+    box.low[3 + i] = static_cast<float>(std::abs(normal[axis]) - tilt);
+    box.high[3 + i] = static_cast<float>(std::abs(normal[axis]) + tilt);
   }
-  return face;
+  return box;
 }
 
 // Finds pairs by a hierarchy of boxes that is held against itself. Where objects overlap without end there
@@ -108,16 +110,15 @@ class PairFinder {
     for (std::uint32_t part = 0; part < parts.size(); ++part) {
       const auto* mesh = std::get_if<Mesh>(&parts[part].shape);
       if (mesh == nullptr) continue;
-      for (std::uint32_t i = 0; i < mesh->triangles.size(); ++i) faces_.push_back(new_face(*mesh, part, i));
+      for (std::uint32_t i = 0; i < mesh->triangles.size(); ++i)
+        faces_.push_back({face_box(*mesh, i), part, i, parts[part].primitives[i], mesh->facets[i].offset});
     }
   }
 
   void run() {
     if (faces_.size() < 2) return;
-    std::vector<Key> keys(faces_.size());
-    for (std::uint32_t i = 0; i < keys.size(); ++i) keys[i].face = i;
     nodes_.reserve(faces_.size());
-    build(keys);
+    build(0, static_cast<std::uint32_t>(faces_.size()));
     pairs_left_ = kPairsPerFace * faces_.size();
     compare(0, 0);
     if (pairs_left_ > 0) return;
@@ -125,58 +126,56 @@ class PairFinder {
   }
 
  private:
-  static constexpr std::size_t kLeaf = 4;
+  static constexpr std::uint32_t kLeaf = 4;
   static constexpr std::size_t kPairsPerFace = 256;  // a mesh without coincident faces has about twelve
-
-  struct Key {
-    float middle = 0;
-    std::uint32_t face = 0;
-  };
 
   // The first child follows its parent.
   struct Node {
     FaceBox box;
-    std::uint32_t second = 0;  // child; 0: a leaf
-    std::array<std::uint32_t, kLeaf> faces{};
-    std::uint32_t count = 0;  // of a leaf's faces
+    std::uint32_t second = 0;          // child; 0: a leaf
+    std::uint32_t first = 0, end = 0;  // a leaf's faces
   };
 
-  // Along the axis where the middles of a few are farthest apart.
-  std::size_t axis_of(std::span<const Key> keys) const {
-    const std::size_t step = std::max<std::size_t>(1, keys.size() / 32);
-    std::size_t best = 0;
-    float widest = -1;
-    for (std::size_t axis = 0; axis < 6; ++axis) {
-      float least = faces_[keys[0].face].box.middle(axis), most = least;
-      for (std::size_t i = 0; i < keys.size(); i += step) {
-        const float middle = faces_[keys[i].face].box.middle(axis);
-        least = std::min(least, middle), most = std::max(most, middle);
+  // Parts the faces where the middles of some are farthest apart, halfway. Returns the first of the second
+  // half. Many may have the same middle, as the faces of boxes have few directions.
+  std::uint32_t divide(std::uint32_t first, std::uint32_t end) {
+    const std::uint32_t step = std::max<std::uint32_t>(1, (end - first) / 32);
+    std::array<float, 6> least, most;
+    for (std::size_t axis = 0; axis < 6; ++axis) least[axis] = most[axis] = faces_[first].box.middle(axis);
+    for (std::uint32_t i = first + step; i < end; i += step) {
+      for (std::size_t axis = 0; axis < 6; ++axis) {
+        const float middle = faces_[i].box.middle(axis);
+        least[axis] = std::min(least[axis], middle);
+        most[axis] = std::max(most[axis], middle);
       }
-      if (most - least > widest) widest = most - least, best = axis;
     }
-    return best;
+    std::size_t axis = 0;
+    for (std::size_t i = 1; i < 6; ++i) {
+      if (most[i] - least[i] > most[axis] - least[axis]) axis = i;
+    }
+    const float halfway = (least[axis] + most[axis]) / 2;
+    const auto begin = faces_.begin();
+    const auto half = std::partition(begin + first, begin + end,
+                                     [&](const Face& face) { return face.box.middle(axis) < halfway; });
+    const auto found = static_cast<std::uint32_t>(half - begin);
+    return found == first || found == end ? first + (end - first) / 2 : found;
   }
 
-  std::uint32_t build(std::span<Key> keys) {
+  std::uint32_t build(std::uint32_t first, std::uint32_t end) {
     const auto number = static_cast<std::uint32_t>(nodes_.size());
     nodes_.emplace_back();
-    if (keys.size() <= kLeaf) {
+    if (end - first <= kLeaf) {
       Node& leaf = nodes_[number];
-      leaf.count = static_cast<std::uint32_t>(keys.size());
-      leaf.box = faces_[keys[0].face].box;
-      for (std::size_t i = 0; i < keys.size(); ++i) {
-        leaf.faces[i] = keys[i].face;
-        leaf.box.extend(faces_[keys[i].face].box);
-      }
+      leaf.first = first, leaf.end = end;
+      leaf.box = faces_[first].box;
+      for (std::uint32_t i = first + 1; i < end; ++i) leaf.box.extend(faces_[i].box);
       return number;
     }
-    const std::size_t axis = axis_of(keys), half = keys.size() / 2;
-    for (Key& key : keys) key.middle = faces_[key.face].box.middle(axis);
-    std::nth_element(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(half), keys.end(),
-                     [](const Key& a, const Key& b) { return a.middle < b.middle; });
-    const std::uint32_t first = build(keys.first(half)), second = build(keys.subspan(half));
+    const std::uint32_t half = divide(first, end);
+    build(first, half);
+    const std::uint32_t second = build(half, end);
     nodes_[number].second = second;
-    nodes_[number].box = nodes_[first].box;
+    nodes_[number].box = nodes_[number + 1].box;
     nodes_[number].box.extend(nodes_[second].box);
     return number;
   }
@@ -199,23 +198,21 @@ class PairFinder {
   }
 
   void compare_faces(const Node& a, const Node& b) {
-    for (std::uint32_t i = 0; i < a.count; ++i) {
-      for (std::uint32_t k = &a == &b ? i + 1 : 0; k < b.count; ++k) {
-        const Face &face = faces_[a.faces[i]], &other = faces_[b.faces[k]];
-        if (!coincide(face, other)) continue;
-        mark(face, other);
-        mark(other, face);
+    for (std::uint32_t i = a.first; i < a.end; ++i) {
+      for (std::uint32_t k = &a == &b ? i + 1 : b.first; k < b.end; ++k) {
+        if (!coincide(faces_[i], faces_[k])) continue;
+        mark(faces_[i], faces_[k]);
+        mark(faces_[k], faces_[i]);
       }
     }
   }
 
   bool coincide(const Face& a, const Face& b) {
-    const ScenePart &part = parts_[a.part], &other = parts_[b.part];
-    if (part.primitives[a.triangle] == other.primitives[b.triangle] || !a.box.meets(b.box)) return false;
+    if (a.primitive == b.primitive || !a.box.meets(b.box)) return false;
     if (pairs_left_ == 0) return false;
     --pairs_left_;
-    const Corners here(std::get<Mesh>(part.shape), a.triangle);
-    const Corners there(std::get<Mesh>(other.shape), b.triangle);
+    const Corners here(std::get<Mesh>(parts_[a.part].shape), a.triangle);
+    const Corners there(std::get<Mesh>(parts_[b.part].shape), b.triangle);
     // Neighbours share a side, or parts of it, within the rounding of their corners.
     constexpr double kMargin = 4 * kOriginRounding;
     if (here.excludes(there.at, kMargin) || there.excludes(here.at, kMargin)) return false;
@@ -256,13 +253,14 @@ class FacesAtPoint {
     const ScenePart& part = scene_.parts[part_number];
     if (part.coincides.empty() || !part.coincides[triangle]) return;
     const Corners corners(std::get<Mesh>(part.shape), triangle);
-    const double cosine = corners.normal.dot(direction_);
+    const Vec3d normal = corners.normal();
+    const double cosine = normal.dot(direction_);
     if ((part.faces == VisibleFaces::kFront && cosine >= 0) ||
         (part.faces == VisibleFaces::kBack && cosine <= 0))
       return;
-    const double height = corners.height(point_);
+    const double height = (point_ - corners.at[0]).dot(normal);
     if (std::abs(height) > bound_) return;
-    if (corners.excludes(std::array{point_ - corners.normal * height}, -2 * kOriginRounding)) return;
+    if (corners.excludes(std::array{point_ - normal * height}, -2 * kOriginRounding)) return;
     const auto reach = [](const Vec3d& corner) { return origin_rounding(sum_of_coordinates(corner)); };
     const bool is_glass = scene_.materials[part.materials[triangle]].transmittance > 0;
     faces_.push_back({part_number,

@@ -16,13 +16,7 @@
 #include "base/diagnostics.h"
 #include "cli/options/command_line.h"
 #include "cli/options/config_text.h"
-#include "cli/scenes/scene_source.h"
 #include "render/options/render_options.h"
-
-// Stands for that of cli/scenes/scene_source.cpp, which needs all readers of scenes.
-std::vector<std::string> pprt::generated_scenes() {
-  return {"spd:tree", "spd:balls"};
-}
 
 namespace {
 

@@ -124,8 +124,11 @@ inline double extent(const ConeRecord& cone) {
 }
 
 // Projects a point that lies on the surface up to rounding onto it. Returns the point and its normal.
+// Rounding may put a point of a tiny sphere at its centre, where any normal will do.
 inline SurfacePoint on_surface(const SphereRecord& sphere, const Vec3d& near) {
-  const Vec3d normal = unit(near - sphere.center);
+  const Vec3d aside = near - sphere.center;
+  const bool has_direction = aside.dot(aside) >= std::numeric_limits<double>::min();
+  const Vec3d normal = has_direction ? unit(aside) : Vec3d(0, 0, 1);
   return {sphere.center + normal * sphere.radius, normal};
 }
 

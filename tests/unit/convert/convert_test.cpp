@@ -9,6 +9,7 @@
 
 #include "base/diagnostics.h"
 #include "cli/scenes/scene_source.h"
+#include "convert/model_scene.h"
 #include "image/atomic_file.h"
 #include "image/image_io.h"
 #include "scene/writers/nff_writer.h"
@@ -107,6 +108,22 @@ TEST_CASE("a scene without a view gets one, but no lights") {
   // The middle is looked at from afar, but for the shift that makes the margins even.
   CHECK((scene.view->at - Vec3d(0.5, 0, 0)).length() < 0.2 * (scene.view->at - scene.view->from).length());
   CHECK(scene.lights.empty());
+}
+
+TEST_CASE("what moves is fitted into the view where it is when it begins") {
+  SceneDescription scene;
+  scene.materials = {{}};
+  add_sphere(scene, {{0, 0, 0}, 1, 0, {}});
+  scene.nodes = {1};
+  scene.movement.nodes.push_back({.parent = 0, .track = "away"});
+  MotionTrack& track = scene.movement.tracks["away"];
+  for (const double time : {-10.0, 0.0, 10.0, 20.0, 30.0}) {
+    VectorKey& key = track.translation.emplace_back();
+    key.time = time, key.value = {10 * time, 0, 0};
+  }
+  scene.movement.times = FrameTimes{.start = 10, .end = 12, .frames = 3};
+  REQUIRE(complete_view(scene, UpAxis::kY));
+  CHECK((scene.view->at - Vec3d(100, 0, 0)).length() < 1);
 }
 
 TEST_CASE("an output name that ends in .pov is written in POV-Ray's language") {

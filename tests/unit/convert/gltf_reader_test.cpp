@@ -370,6 +370,27 @@ TEST_CASE("gltf: sparse, strided and whole numbers, strips and mirrored nodes ar
   CHECK(read.notes == Notes{"2 points, lines and faces without extent left out"});
 }
 
+TEST_CASE("gltf: all triangles of strips and fans show the side of the first") {
+  // A zigzag, and the corners of a pentagon around the first.
+  const std::vector<float> zigzag = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0},
+                           pentagon = {0, 0, 0, 1, 0, 0, 2, 1, 0, 1, 2, 0, 0, 2, 0};
+  for (const int mode : {5, 6}) {
+    GltfSample sample;
+    const int corners = sample.numbers(mode == 5 ? zigzag : pentagon, "VEC3");
+    sample.node({{"mesh", sample.triangle({{"mode", mode}, {"attributes", {{"POSITION", corners}}}})}});
+    const ReadMesh read = sample.read();
+    REQUIRE(read.scene.polygons.size() == 3);
+    double area = 0;
+    for (const Polygon& polygon : read.scene.polygons) {
+      const auto v = read.scene.vertices(polygon);
+      const Vec3d normal = (v[1] - v[0]).cross(v[2] - v[0]);
+      CHECK(normal.z > 0);
+      area += 0.5 * normal.z;
+    }
+    CHECK(area == Approx(mode == 5 ? 1.5 : 0.5 + 1.5 + 1));
+  }
+}
+
 TEST_CASE("gltf: what is hidden is left out, unless it appears") {
   const json hidden = {{"KHR_node_visibility", {{"visible", false}}}};
   GltfSample sample;
@@ -393,6 +414,19 @@ TEST_CASE("gltf: what is hidden is left out, unless it appears") {
   CHECK(read.scene.primitive_count() == 2);
   CHECK_FALSE(track_at(read.scene.movement, "ghost", 0.5)->visible);
   CHECK(track_at(read.scene.movement, "ghost", 1)->visible);
+}
+
+TEST_CASE("gltf: a movement of what the scene does not have is left out") {
+  GltfSample sample;
+  sample.node({{"mesh", sample.triangle()}});
+  const int elsewhere = sample.add("nodes", {{"name", "elsewhere"}, {"mesh", 0}});
+  sample.move(elsewhere, "translation", "LINEAR", {0, 1}, {0, 0, 0, 1, 0, 0});
+  const Movement alone = sample.read().scene.movement;
+  CHECK((alone.tracks.empty() && !alone.times));
+  const int shown = sample.node({{"name", "shown"}, {"mesh", 0}});
+  sample.move(shown, "translation", "LINEAR", {0, 1}, {0, 0, 0, 1, 0, 0});
+  const Movement both = sample.read().scene.movement;
+  CHECK((both.tracks.size() == 1 && both.tracks.contains("shown") && both.times));
 }
 
 TEST_CASE("gltf: every loss is told") {

@@ -129,8 +129,9 @@ TEST_CASE("the chord error holds with the least N, for odd N") {
 }
 
 TEST_CASE("with a chord error each object is divided as its own size needs") {
-  const Fineness fineness{1, 0.001};
+  const Fineness fineness{5, 0.001};
   CHECK(divisions(Sphere{{0, 0, 0}, 0.0005, 0, {}}, fineness) == 1);
+  CHECK(divisions(Cone{{0, 0, 0}, 0.0005, {1, 0, 0}, 0.0004, 0, {}}, fineness) == 1);
   CHECK(divisions(Sphere{{0, 0, 0}, 100, 0, {}}, fineness) >
         divisions(Sphere{{0, 0, 0}, 1, 0, {}}, fineness));
   CHECK(divisions(Sphere{{0, 0, 0}, 1e30, 0, {}}, fineness) == kMaxDivisions);

@@ -293,6 +293,9 @@ TEST_CASE("steering: keys make a film, which plays and is saved") {
   stage.look(1, 3, 2), stage.shot();
   stage.say(1, R"({"do":"key","frame":5})");
   CHECK(stage.state["keys"] == Json({1, 5, 9}));
+  const Json copy = {
+      {"from", {2.0, 0.0, 0.0}}, {"at", {0.0, 0.0, 9.0}}, {"up", {0.0, 1.0, 0.0}}, {"angle", 40.0}};
+  CHECK(stage.film["keys"][1] == Json({{"frame", 5}, {"view", copy}}));
   const auto script = stage.film["script"].get<std::string>();
   CHECK(script.find("scene \"spd:tree\"") != std::string::npos);
   CHECK(script.find("frames 9 fps 24 resolution <64, 48>") != std::string::npos);

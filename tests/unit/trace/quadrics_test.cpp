@@ -189,6 +189,17 @@ TEST_CASE("the tip of a cone has a normal") {
   CHECK(tip.normal == Vec3d(0, 0, 1));
 }
 
+TEST_CASE("what rounding puts at a sphere's centre has a normal, and a place on it") {
+  const Vec3d center(0.25, -3, 1e-30);
+  for (const double radius : {1e-9, 1e-48, 1e-200}) {
+    for (const double aside : {0.0, 1e-170, -1e-162, 1e-100}) {
+      const SurfacePoint point = on_surface(SphereRecord{center, radius}, center + Vec3d(0, 0, aside));
+      CHECK(point.normal.length() == Approx(1));
+      CHECK((point.position - center).length() <= radius * 1.001);
+    }
+  }
+}
+
 TEST_CASE("bounds hold every point of a cone and touch it") {
   const ConeRecord cone{{1, 0, 0}, {0, 0, 2}, 0.5, 0.25};
   const Box3d box = bounds(cone);

@@ -352,6 +352,50 @@ BOTH_SAMPLERS_TEST_CASE("global balancing: tiles of a lost rank go to the others
   }
 }
 
+TEST_CASE("global balancing: a frame that is not whole tells nothing") {
+  SessionSettings settings{.sampler = SamplerChoice::kAuto};
+  settings.balance = BalanceMode::kCombined;
+  GlobalBalancer balancer = balancer_of_two(settings);
+  FrameReports torn = reports_of_two(1000, 9);
+  torn.is_whole = false;
+  CHECK_FALSE(repartitions(balancer, torn));
+  CHECK_FALSE(repartitions(balancer, reports_of_two(1000, 1)));
+  CHECK(repartitions(balancer, reports_of_two(1000, 9)));
+}
+
+TEST_CASE("global balancing: a resting picture of more samples than pixels is not cut anew") {
+  SessionSettings settings{.sampler = SamplerChoice::kAuto};
+  settings.balance = BalanceMode::kGlobal;
+  settings.frames_per_second = 25;
+  settings.width = 40, settings.height = 10;
+  for (const std::uint64_t samples : {400U, 401U}) {
+    GlobalBalancer balancer(settings, traits_of(settings.sampler), TileGrid(40, 10, 10), 2, 1e12);
+    FrameReports frame = reports_of_two(1, 4);
+    frame.accumulates = true, frame.samples = samples;
+    CHECK(repartitions(balancer, frame, Carry::kAccumulate) == (samples == 400));
+  }
+}
+
+TEST_CASE("global balancing: each new owner is told what its tiles were found to be") {
+  SessionSettings settings{.sampler = SamplerChoice::kAuto};
+  settings.balance = BalanceMode::kGlobal;
+  GlobalBalancer balancer = balancer_of_two(settings);
+  FrameReports frame = reports_of_two(4, 1);
+  for (std::size_t rank = 0; rank < 2; ++rank)
+    for (TileReport& tile : frame.tiles[rank]) tile.cost = 100 + tile.tile, tile.total_weight = 8 + tile.tile;
+  frame.tiles[1][1].triangles = 0;
+  balancer.consider(frame);
+  FrameOrder order;
+  balancer.add_partition(order);
+  CHECK((order.columns == 4 && order.generation == 1));
+  REQUIRE(order.owners == std::vector<std::int32_t>{0, 0, 1, 1});
+  const std::vector<std::vector<TileEstimate>> found = balancer.estimates_for(order);
+  REQUIRE((found.size() == 2 && found[0].size() == 2 && found[1].size() == 2));
+  CHECK((found[0][1].cost == 101 && found[0][1].average_weight == 9.0 / 4));
+  CHECK((found[1][0].cost == 102 && found[1][0].average_weight == 10.0 / 4));
+  CHECK((found[1][1].cost == 103 && found[1][1].average_weight == 0));
+}
+
 TEST_CASE("global balancing: on a lattice, a partition from accumulated samples serves no new picture") {
   const auto is_made = [](SamplerChoice sampler, bool accumulated, Carry next) {
     SessionSettings settings{.sampler = sampler};

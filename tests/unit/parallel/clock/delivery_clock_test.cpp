@@ -44,4 +44,23 @@ TEST_CASE("a frame is prepared beside the one before until that one is due, but 
   CHECK(clock.may_overlap(2));
 }
 
+TEST_CASE("on the work clock a frame is finished when its slowest rank has done its work") {
+  const WorkDeliveryClock clock(4, 5'000'000);  // units are a tenth of a second
+  CHECK(clock.deadline_s(0, 0) == Approx(0.25));
+  CHECK(clock.deadline_s(2, 0) == Approx(0.75));
+  CHECK(clock.deadline_s(2, 3) == Approx(1.5));  // frames of the script that nobody renders pass, too
+  std::vector<RankReport> ranks(3);
+  ranks[0].finished_s = 0.08, ranks[1].finished_s = 0.13, ranks[2].finished_s = 0.1;
+  FrameOrder order;
+  order.deadline_s = 0.75;
+  CHECK(clock.delivery_time(order, ranks).finished_s == Approx(0.5 + 0.13));
+  CHECK(clock.delivery_time(order, ranks).late_ms == Approx(30));
+  ranks.erase(ranks.begin() + 1);
+  CHECK(clock.delivery_time(order, ranks).late_ms == Approx(0).margin(1e-9));
+  const WorkDeliveryClock without_rate(0, 0);
+  CHECK(without_rate.deadline_s(2, 3) == 0);
+  CHECK(without_rate.delivery_time(FrameOrder(), ranks).finished_s == Approx(0.1));
+  CHECK(without_rate.delivery_time(FrameOrder(), ranks).late_ms == 0);
+}
+
 }  // namespace pprt::delivery_clock_test

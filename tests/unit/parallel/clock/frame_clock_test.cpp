@@ -1,4 +1,5 @@
 #include "parallel/clock/make_clocks.h"
+#include "parallel/clock/work_clock.h"
 #include "parallel/exchange/samplers.h"
 
 #include <catch2/catch.hpp>
@@ -246,6 +247,44 @@ TEST_CASE("wall clock: the slowest of the last eight reconstructions counts", "[
   CHECK(left_after(40) == Approx(1.25 * 0.04));
   for (int frame = 0; frame < 7; ++frame) CHECK(left_after(10) == Approx(1.25 * 0.04));
   CHECK(left_after(10) == Approx(1.25 * 0.01));
+}
+
+TEST_CASE("work clock: rounds share what a frame leaves beside its reconstruction and the last exchange") {
+  constexpr std::size_t kFew = 1000;
+  constexpr auto kBudget = static_cast<WorkUnits>(24 * 1'000'000);
+  WorkClock clock(kBudget, kFew, 2);
+  const WorkUnits reconstruction = 2 * kFew * price(Work::kPixel);
+  const WorkUnits sampling = kBudget - kBudget / 24 - reconstruction;
+  clock.begin_frame({});
+  CHECK(clock.sampling_share() == Approx(1.0 / 24));
+  std::uint64_t rays = 0;
+  for (int round = 1; round <= kRoundsPerFrame; ++round) {
+    CHECK_FALSE(clock.sampling_over());
+    clock.begin_packet(0);
+    CHECK(clock.sampling_share() == Approx(round / 24.0));
+    for (; !clock.packet_over(); ++rays) clock.spend(Work::kRay, 1);
+    const WorkUnits end = sampling * static_cast<WorkUnits>(round) / 24, ray = 2 * price(Work::kRay);
+    CHECK(rays * ray >= end);
+    CHECK(rays * ray < end + ray);
+  }
+  CHECK(clock.sampling_over());
+  CHECK(clock.frame_seconds() == Approx(static_cast<double>(2 * rays * price(Work::kRay)) / 5e7));
+  CHECK(clock.affordable(Work::kRay, 0.25) == kBudget / 4 / (2 * price(Work::kRay)));
+  clock.end_frame(0, 1);
+  CHECK(clock.frame_seconds() == 0);
+  CHECK(clock.used_ns() == static_cast<std::int64_t>(2 * rays * price(Work::kRay)));
+}
+
+TEST_CASE("work clock: without a rate a round has its fixed units, and sampling has no end") {
+  WorkClock clock(0, 1000);
+  clock.begin_frame({});
+  for (int round = 1; round <= 2 * kRoundsPerFrame; ++round) {
+    clock.begin_packet(0);
+    CHECK_FALSE(clock.packet_over());
+    clock.spend(Work::kRay, kUnitsPerFreeRound / price(Work::kRay) + 1);
+    CHECK(clock.packet_over());
+    CHECK_FALSE(clock.sampling_over());
+  }
 }
 
 TEST_CASE("work clock: a cast sample is priced with its visibility ray, a fresh one without its rays") {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <set>
+#include <utility>
 
 #include "unit/parallel/exchange/exchange_ranks.h"
 
@@ -107,6 +109,30 @@ TEST_CASE("exchange: after a repartition each rank is sent the seeds that its tr
     for (const ExchangingRank& r : run.ranks())
       CHECK(r.exchange.seed_peers() == seed_peers_of(next, r.rank, r.seeds));
   }
+}
+
+TEST_CASE("exchange: with tiles that lie apart go the samples that each needs, not those between") {
+  const TileGrid grid(200, 150, 10);
+  const Partition partition = random_rectangles(grid, 3, 1);
+  const SeedPattern seeds = seed_pattern(grid.width, grid.height, 1);
+  const auto sent_with = [&](const std::vector<int>& tiles) {
+    SampleMesh mesh(Region::whole(grid));
+    MeshExchange exchange(mesh, seeds, partition, 0);
+    for (const Vec2d& point : seeds.points) {
+      Sample sample;
+      sample.x = point.x, sample.y = point.y;
+      exchange.insert(sample, 0);
+    }
+    exchange.introduce(tiles, 1);
+    std::set<std::pair<double, double>> places;
+    for (const Sample& sample : exchange.take_outbox(1)) places.emplace(sample.x, sample.y);
+    return places;
+  };
+  const int first = 0, last = grid.tile_count() - 1;
+  std::set<std::pair<double, double>> each = sent_with({first});
+  each.merge(sent_with({last}));
+  CHECK(each.size() < seeds.points.size() / 4);
+  CHECK(sent_with({first, last}) == each);
 }
 
 TEST_CASE("exchange: seed peers are mutual, and no rank is its own") {

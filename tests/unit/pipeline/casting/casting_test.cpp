@@ -275,4 +275,20 @@ TEST_CASE("casting: a sample goes where its object is, and is dropped where it i
   CHECK(cast().samples.size() == 3);
 }
 
+TEST_CASE("casting: of what is there no more only what would be in view counts as hidden") {
+  const std::vector<Sample> samples = {look(straight(), 20, 10.5, 1), look(straight(), 44, 10.5, 1)};
+  CastSettings settings{.method = CastMethod::kVerified};
+  settings.carry = [](RaySample&) { return Carried::kNothing; };
+  const auto cast = [&](const Camera& next, int frame) {
+    return cast_samples(samples, Region::whole(kGrid), next, frame, settings);
+  };
+  CHECK(cast(straight(), 2).hidden == 2);
+  const CastResult late = cast(straight(), 1000);
+  CHECK((late.too_old == 2 && late.hidden == 0));
+  Camera away = straight();
+  away.forward = -away.forward, away.right = -away.right;
+  const CastResult behind = cast(away, 2);
+  CHECK((behind.out_of_view == 2 && behind.hidden == 0));
+}
+
 }  // namespace pprt::casting_test
