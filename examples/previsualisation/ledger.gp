@@ -1,12 +1,24 @@
-# Draws film/ledger.png from film/ledger.ndjson: when frames were ready, their samples, and how fine they are.
+# Draws film/ledger.png from film/ledger.ndjson: when frames were ready and how wrong they are, their samples, and how
+# fine they are.
 figure(name) = "< sed -n 's/.*\"frame\":\\([0-9]*\\),.*\"".name."\":\\([-0-9.e]*\\)[,}].*/\\1 \\2/p' film/ledger.ndjson"
+error = "< sed -n 's/.*\"frame\":\\([0-9]*\\),.*\"shot\":{\"rmse\":\\([-0-9.e]*\\),\"low\":\\([-0-9.e]*\\),\"high\":\\([-0-9.e]*\\)[,}].*/\\1 \\2 \\3 \\4/p' film/ledger.ndjson"
 set terminal pngcairo size 800, 700 font "sans,10"
 set output "film/ledger.png"
 set multiplot layout 3, 1
 set grid
+set key bottom right
+set title "ready, milliseconds before the deadline; right: measured RMSE of the shot so far, and its 95 % interval"
+set ytics nomirror
+set y2tics
+set y2range [0:*]
+set style fill transparent solid 0.25 noborder
+plot figure("late_ms") using 1:(-$2) with impulses linewidth 3 title "ready", \
+     0 linecolor rgb "red" linewidth 2 notitle, \
+     error using 1:3:4 axes x1y2 with filledcurves linecolor rgb "orange" notitle, \
+     error using 1:2 axes x1y2 with lines linewidth 2 linecolor rgb "dark-orange" title "RMSE"
+unset y2tics
+set ytics mirror
 unset key
-set title "ready, milliseconds before the deadline"
-plot figure("late_ms") using 1:(-$2) with impulses linewidth 3, 0 linecolor rgb "red" linewidth 2
 set title "samples, new and carried"
 set yrange [0:*]
 set key bottom right

@@ -12,6 +12,7 @@
 #include "study/balance/balance_study.h"
 #include "study/counts.h"
 #include "study/paper/paper_study.h"
+#include "study/rate/rate_study.h"
 
 namespace {
 
@@ -140,6 +141,28 @@ CLI::App& add_balance(CLI::App& app, pprt::BalanceOptions& options) {
   return command;
 }
 
+CLI::App& add_rate(CLI::App& app, pprt::RateOptions& options) {
+  CLI::App& command = *app.add_subcommand("rate", "Finds the frame rate that shows a movement best");
+  pprt::take_path_or(*add(command, "FILM", "", options.inputs,
+                          "FILE.anim, with a scene where it names none, or a scene that moves by itself")
+                          ->required(),
+                     pprt::generated_scenes());
+  add(command, "-o,--output", "DIR", options.directory, "Directory for tables, plots and index.html");
+  command.add_flag("--quick", options.quick, "A trial: small pictures of a short time");
+  add(command, "--size", "N", options.size, "Pictures of N x N pixels (default: 192; quick: 64)")
+      ->check(CLI::Range(16, 1024));
+  add(command, "--ranks", "N", options.ranks, "Number of ranks")
+      ->check(CLI::Range(1, 512))
+      ->capture_default_str();
+  add(command, "--seconds", "S", options.seconds,
+      "Length of the film that is judged (default: 1; quick: 0.25)")
+      ->check(pprt::number_between(0.05, 60));
+  add(command, "--reference", "N", options.reference_cells,
+      "True pictures have 2 N x N samples a pixel (default: 3; quick: 2)")
+      ->check(CLI::Range(2, 64));
+  return command;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -150,10 +173,12 @@ int main(int argc, char** argv) {
     pprt::PaperOptions paper;
     pprt::AccuracyOptions accuracy;
     pprt::BalanceOptions balance;
+    pprt::RateOptions rate;
     add_counts(app, counts);
     const CLI::App& paper_command = add_paper(app, paper);
     const CLI::App& accuracy_command = add_accuracy(app, accuracy);
     const CLI::App& balance_command = add_balance(app, balance);
+    const CLI::App& rate_command = add_rate(app, rate);
     pprt::add_common_flags(app);
     if (!pprt::parse_command_line(app, argc, argv)) return pprt::kExitDone;
     const std::string command_line = fmt::format("{}", fmt::join(argv, argv + argc, " "));
@@ -163,6 +188,8 @@ int main(int argc, char** argv) {
       pprt::study_accuracy(accuracy, command_line);
     } else if (balance_command.parsed()) {
       pprt::study_balance(balance, command_line);
+    } else if (rate_command.parsed()) {
+      pprt::study_rate(rate, command_line);
     } else {
       return pprt::study_counts(counts) ? pprt::kExitDone : pprt::kExitFailure;
     }

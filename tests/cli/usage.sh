@@ -20,7 +20,17 @@ run pprt-render ball.nff --budget 5; expect_usage "--budget counts work: it need
 run pprt-render ball.nff --budget 5 --clock work; expect_usage "--budget needs a frame rate (--fps)"
 run pprt-render ball.nff --fps 1e-308; expect_usage "--fps 1e-308: want 0, for no rate, or at least 0.001"
 run pprt-render ball.nff --fps 4 --samples 10
-expect_usage "--time, --samples and --quality end frames without a rate, but the rate is 4 frames/s; --fps 0 turns it off"
+flips="--time, --samples and a FLIP as --quality end frames without a rate, but the rate is 4 frames/s; --fps 0 turns it off"
+expect_usage "$flips"
+run pprt-render ball.nff --fps 4 --quality 0.02; expect_usage "$flips"
+run pprt-render ball.nff --quality rmse=7
+expect_usage "--quality rmse=7: want a FLIP or rmse=E, each from 1e-06 to 1, such as 0.02 or rmse=0.01"
+run pprt-render ball.anim --film-time 5 --fps 4
+expect_usage "--film-time is the time of all frames: it cannot be used with --fps"
+run pprt-render ball.anim --film-time 5 --time 1
+expect_usage "--film-time is the time of all frames: it cannot be used with --time, --samples or --quality"
+run pprt-render ball.nff --film-time 5
+expect_usage "--film-time divides a film's time among its frames, and there is one: --time ends it"
 for size in 1e9x1 0x5 16x 99999x2; do
   run pprt-render ball.nff -s $size
   expect_usage "--size $size: want WIDTHxHEIGHT in pixels, each from 1 to 16384, such as 256x256"

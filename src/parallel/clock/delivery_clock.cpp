@@ -7,7 +7,7 @@ namespace pprt {
 
 // Only deadlines make the ranks wait for a common start.
 void WallDeliveryClock::begin_sequence(double start_s) {
-  start_s_ = keeps_deadlines() ? start_s : std::min(start_s, now_());
+  start_s_ = has_deadlines() ? start_s : std::min(start_s, now_());
 }
 
 // A rank that prepares a frame cannot deliver one. Where ranks share cores nobody begins before that deadline
@@ -43,9 +43,8 @@ DeliveryTime WorkDeliveryClock::delivery_time(const FrameOrder& order,
   for (const RankReport& r : ranks) slowest_s = std::max(slowest_s, r.finished_s);
   if (frames_per_second_ <= 0) return {.finished_s = slowest_s, .late_ms = 0};
   const double period_s = 1 / frames_per_second_, budget_s = budget_ / kWorkUnitsPerSecond;
-  const auto periods_before = std::lround(order.deadline_s * frames_per_second_) - 1;
-  return {.finished_s = static_cast<double>(periods_before) * period_s + slowest_s,
-          .late_ms = 1e3 * (slowest_s - budget_s)};
+  return {.finished_s = order.deadline_s - order.periods * period_s + slowest_s,
+          .late_ms = 1e3 * (slowest_s - order.periods * budget_s)};
 }
 
 }  // namespace pprt

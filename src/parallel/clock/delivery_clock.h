@@ -28,6 +28,9 @@ class DeliveryClock {
   // Seconds since the sequence began, in real time; work clock: 0, for nothing is decided by it.
   virtual double now_s() const = 0;
 
+  // Whether frames have deadlines in real time.
+  virtual bool has_deadlines() const = 0;
+
   // Whether a frame is delivered at its deadline with what has come, instead of when it is whole.
   virtual bool keeps_deadlines() const = 0;
 
@@ -48,12 +51,18 @@ class DeliveryClock {
 // Real time. `now` tells the time as monotonic_seconds() does.
 class WallDeliveryClock final : public DeliveryClock {
  public:
-  WallDeliveryClock(double frames_per_second, double ranks_per_core, std::function<double()> now)
-      : frames_per_second_(frames_per_second), ranks_per_core_(ranks_per_core), now_(std::move(now)) {}
+  // `awaits_all`: frames are delivered whole, be it late.
+  WallDeliveryClock(double frames_per_second, double ranks_per_core, bool awaits_all,
+                    std::function<double()> now)
+      : frames_per_second_(frames_per_second),
+        ranks_per_core_(ranks_per_core),
+        awaits_all_(awaits_all),
+        now_(std::move(now)) {}
 
   void begin_sequence(double start_s) override;
   double now_s() const override { return now_() - start_s_; }
-  bool keeps_deadlines() const override { return frames_per_second_ > 0; }
+  bool has_deadlines() const override { return frames_per_second_ > 0; }
+  bool keeps_deadlines() const override { return has_deadlines() && !awaits_all_; }
   bool may_overlap(int index) const override;
   double deadline_s(int index, int frames_left_out) const override;
   double units_per_frame() const override;
@@ -62,6 +71,7 @@ class WallDeliveryClock final : public DeliveryClock {
  private:
   double frames_per_second_;  // 0: no rate
   double ranks_per_core_;
+  bool awaits_all_;
   std::function<double()> now_;
   double start_s_ = 0;
 };
@@ -74,6 +84,7 @@ class WorkDeliveryClock final : public DeliveryClock {
 
   void begin_sequence(double) override {}
   double now_s() const override { return 0; }
+  bool has_deadlines() const override { return false; }
   bool keeps_deadlines() const override { return false; }
   // An order must not depend on what happens to have come: the frame before must be whole.
   bool may_overlap(int) const override { return false; }

@@ -17,12 +17,12 @@ class FrameClock {
 
   // --- Frames
 
-  // Whether a frame may begin. Where ranks share cores it may not before the deadline of the frame before:
-  // a rank that is ready would take the time of those that still reconstruct.
+  // Whether a frame may begin. Some orders say when. Where ranks share cores it may not before the deadline
+  // of the frame before: a rank that is ready would take the time of those that still reconstruct.
   virtual bool may_begin(const FrameOrder& order) const = 0;
 
   // Whether the order's deadline has passed, so that the rank leaves the frame out. Never for the first
-  // frame.
+  // frame, nor for one that is awaited.
   virtual bool is_past(const FrameOrder& order) const = 0;
 
   // A frame begins.

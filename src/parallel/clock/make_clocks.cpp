@@ -50,7 +50,7 @@ std::unique_ptr<DeliveryClock> make_delivery_clock(const SessionSettings& settin
                                                    std::function<double()> now) {
   const double rate = settings.frames_per_second;
   if (is_reproducible(settings)) return std::make_unique<WorkDeliveryClock>(rate, settings.budget_units);
-  return std::make_unique<WallDeliveryClock>(rate, ranks_per_core, std::move(now));
+  return std::make_unique<WallDeliveryClock>(rate, ranks_per_core, settings.awaits_all, std::move(now));
 }
 
 }  // namespace pprt

@@ -22,11 +22,14 @@ constexpr double kMostForRefreshing = 0.35;
 }  // namespace
 
 bool WallClock::may_begin(const FrameOrder& order) const {
-  return ranks_per_core_ <= 1 || sequence_.now_s() >= order.deadline_s - period_s_;
+  const double now = sequence_.now_s();
+  const bool is_turn = ranks_per_core_ <= 1 || now >= order.deadline_s - order.periods * usual_period_s_;
+  return is_turn && now >= order.not_before_s;
 }
 
 bool WallClock::is_past(const FrameOrder& order) const {
-  return order.deadline_s > 0 && order.index > 0 && sequence_.now_s() >= order.deadline_s;
+  return order.deadline_s > 0 && order.index > 0 && !order.is_awaited &&
+         sequence_.now_s() >= order.deadline_s;
 }
 
 void WallClock::begin_frame(const FrameOrder& order) {
@@ -34,6 +37,8 @@ void WallClock::begin_frame(const FrameOrder& order) {
   sampling_began_s_ = frame_began_s_;
   is_sampling_ = false;
   deadline_s_ = order.deadline_s;
+  period_s_ = order.periods * usual_period_s_;
+  effort_ = order.effort;
   reserve_s_ = order.reserve_s;
   is_at_rest_ = order.carry == Carry::kAccumulate;
   take_turns();
@@ -131,6 +136,13 @@ void WallClock::take_turns() {
   saved_s_ += kMostForRefreshing * period_s_;
   is_turn_ = saved_s_ >= reconstruction_s();
   if (is_turn_) saved_s_ = 0;
+}
+
+void WallClock::set_stop() {
+  stop_s_ = 0;
+  if (deadline_s_ <= 0) return;
+  const double latest_s = deadline_s_ - left_for_the_rest();
+  stop_s_ = effort_ < 1 ? frame_began_s_ + effort_ * std::max(0.0, latest_s - frame_began_s_) : latest_s;
 }
 
 // Predicted seconds: as in the slowest of the last frames, and a quarter more.

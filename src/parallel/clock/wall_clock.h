@@ -31,6 +31,7 @@ class WallClock final : public FrameClock {
   // can be reconstructed in parts. Otherwise the frames in which it is take turns with others.
   WallClock(const SequenceClock& sequence, double period_s, double ranks_per_core, bool refreshes_in_parts)
       : sequence_(sequence),
+        usual_period_s_(period_s),
         period_s_(period_s),
         ranks_per_core_(ranks_per_core),
         refreshes_in_parts_(refreshes_in_parts) {}
@@ -62,17 +63,19 @@ class WallClock final : public FrameClock {
 
  private:
   void take_turns();
-  void set_stop() { stop_s_ = deadline_s_ > 0 ? deadline_s_ - left_for_the_rest() : 0; }
+  void set_stop();
   double left_for_the_rest() const;
   double reconstruction_s() const;
 
   // All times are seconds since the sequence began.
   const SequenceClock& sequence_;
-  double period_s_;
+  double usual_period_s_;
+  double period_s_;  // of this frame
   double ranks_per_core_;
   bool refreshes_in_parts_;
   double frame_began_s_ = 0;
   double deadline_s_ = 0;  // 0: no rate
+  double effort_ = 1;      // share of the sampling time that the frame takes
   double reserve_s_ = 0;   // for what follows reconstruction
   bool is_at_rest_ = false;
   double stop_s_ = 0;  // when sampling must stop; 0: no rate

@@ -4,15 +4,18 @@
 
 namespace pprt {
 
-void WorkClock::begin_frame(const FrameOrder&) {
+void WorkClock::begin_frame(const FrameOrder& order) {
   round_ = 0;
+  budget_ = static_cast<WorkUnits>(order.periods * static_cast<double>(usual_budget_));
+  effort_ = order.effort;
 }
 
 void WorkClock::begin_packet(std::uint64_t) {
   ++round_;
   // Besides reconstruction, a round's worth is kept for what the last exchange brings.
   const WorkUnits kept = reconstruction_ + budget_ / kRoundsPerFrame;
-  const WorkUnits sampling = budget_ > kept ? budget_ - kept : 0;
+  const WorkUnits most = budget_ > kept ? budget_ - kept : 0;
+  const WorkUnits sampling = effort_ < 1 ? static_cast<WorkUnits>(effort_ * static_cast<double>(most)) : most;
   round_end_ = budget_ > 0 ? sampling * static_cast<WorkUnits>(round_) / kRoundsPerFrame
                            : static_cast<WorkUnits>(round_) * kUnitsPerFreeRound;
 }

@@ -16,7 +16,10 @@ class WorkClock final : public FrameClock {
   // `budget`: work units of one frame, 0 without a rate. `region_pixels`: pixels that this rank reconstructs.
   // `slowness`: how many times its price each piece of work takes this rank.
   WorkClock(WorkUnits budget, std::size_t region_pixels, double slowness = 1)
-      : budget_(budget), slowness_(slowness), reconstruction_(cost(Work::kPixel, region_pixels)) {}
+      : usual_budget_(budget),
+        budget_(budget),
+        slowness_(slowness),
+        reconstruction_(cost(Work::kPixel, region_pixels)) {}
 
   bool may_begin(const FrameOrder&) const override { return true; }
   bool is_past(const FrameOrder&) const override { return false; }
@@ -50,7 +53,9 @@ class WorkClock final : public FrameClock {
     return static_cast<WorkUnits>(slowness_ * static_cast<double>(price(work) * count));
   }
 
-  WorkUnits budget_;  // a frame's; 0: no rate
+  WorkUnits usual_budget_;  // 0: no rate
+  WorkUnits budget_;        // of this frame
+  double effort_ = 1;       // share of the sampling time that the frame takes
   double slowness_;
   WorkUnits reconstruction_;  // what it will cost
   WorkUnits frame_units_ = 0;

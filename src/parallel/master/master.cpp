@@ -30,6 +30,7 @@ Master::Master(Communicator& network, const SessionSettings& settings, const Par
       reserve_(settings.frames_per_second > 0 ? 1 / settings.frames_per_second : 0, ranks_per_core),
       balancer_(settings, traits_of(settings.sampler), partition.grid, network.size(),
                 clock_->units_per_frame()),
+      effort_(settings.stop.rmse),
       source_(std::move(source)),
       sink_(std::move(sink)) {}
 
@@ -103,11 +104,23 @@ FrameOrder Master::make_order(const FrameRequest& request) {
   order.report_samples = settings_.report_samples || request.report_samples;
   if (order.carry == Carry::kNothing) evidence_ = {}, evidence_since_ = order.index;
   order.evidence = evidence_;
-  order.deadline_s = clock_->deadline_s(order.index, request.left_out);
+  if (settings_.frames_per_second > 0) set_times(request, order);
   order.reserve_s = reserve_.reserve_s();
   order.lost = lost_;
   balancer_.add_partition(order);
   return order;
+}
+
+// A frame that is good enough early leaves the rest of its period to nobody.
+void Master::set_times(const FrameRequest& request, FrameOrder& order) {
+  const double period_s = 1 / settings_.frames_per_second;
+  further_periods_ += request.periods - 1;
+  order.deadline_s = clock_->deadline_s(order.index, request.left_out) + further_periods_ * period_s;
+  order.periods = request.periods;
+  order.is_awaited = settings_.awaits_all;
+  if (settings_.stop.rmse <= 0) return;
+  order.effort = effort_.for_frame(order.cut, order.carry == Carry::kAccumulate);
+  order.not_before_s = order.deadline_s - order.periods * period_s;
 }
 
 Carry Master::carry_into(const FrameRequest& request) const {
@@ -243,7 +256,7 @@ void Master::learn_from(const PendingFrame& frame) {
     if (order.index >= evidence_since_) evidence_ += r.evidence;
   }
   balancer_.consider(std::move(reports));
-  if (clock_->keeps_deadlines()) reserve_.learn(frame.after_sampling_s);
+  if (clock_->has_deadlines()) reserve_.learn(frame.after_sampling_s);
 }
 
 FinishedFrame Master::finish(PendingFrame& pending) {
@@ -264,6 +277,7 @@ FinishedFrame Master::finish(PendingFrame& pending) {
   frame.overdue_pixels = std::exchange(overdue_pixels_, 0);
   frame.global_balance = !frame.order.owners.empty();
   frame.error = errors_.add(frame.order.cut, frame.ranks, frame.image.pixels.size());
+  if (frame.error) effort_.learn(frame.order, *frame.error);
   const DeliveryTime time = clock_->delivery_time(frame.order, frame.ranks);
   frame.finished_s = time.finished_s;
   frame.late_ms = time.late_ms;

@@ -16,6 +16,7 @@
 #include "parallel/clock/host_time.h"
 #include "parallel/clock/reserve_estimator.h"
 #include "parallel/master/frame_assembly.h"
+#include "parallel/master/frame_effort.h"
 #include "parallel/master/measured_error.h"
 #include "parallel/network/communicator.h"
 #include "parallel/protocol/messages.h"
@@ -34,6 +35,7 @@ struct FrameRequest {
   bool report_samples = false;   // they come with the pixels, as where the settings ask for them
   double time = 0;               // of what moves in the scene, seconds
   bool moves = false;            // something stands elsewhere than in the request before
+  double periods = 1;            // its time, by the usual time of a frame; with a rate
 };
 
 // Answers at once with the next frame's camera; empty: the sequence is over. SessionSettings::late_orders
@@ -117,6 +119,7 @@ class Master {
   void order_next();
   FrameOrder make_order(const FrameRequest& request);
   Carry carry_into(const FrameRequest& request) const;
+  void set_times(const FrameRequest& request, FrameOrder& order);
   void send(const FrameOrder& order);
   void handle_transfers(const Message& message);
   void handle_overdue(int from, const PixelMessage& pixels);
@@ -134,6 +137,7 @@ class Master {
   ReserveEstimator reserve_;
   GlobalBalancer balancer_;
   ShotErrors errors_;
+  FrameEffort effort_;
   CameraSource source_;
   FrameSink sink_;
   std::map<int, PendingFrame> frames_;  // by frame index
@@ -147,7 +151,8 @@ class Master {
   bool order_is_due_ = false;           // but too many frames are not delivered yet
   bool ended_ = false;
   int next_index_ = 0;
-  int last_cut_ = 0;  // index of the frame
+  int last_cut_ = 0;            // index of the frame
+  double further_periods_ = 0;  // of the frames ordered, beside one each
 };
 
 }  // namespace pprt

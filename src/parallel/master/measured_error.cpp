@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace pprt {
 namespace {
@@ -21,6 +22,7 @@ ErrorSums sum_of(std::span<const RankReport> ranks) {
   for (const RankReport& rank : ranks) {
     const ErrorSums& e = rank.error;
     sum.squared += e.squared, sum.variance += e.variance, sum.third += e.third, sum.pixels += e.pixels;
+    sum.unexpected += e.unexpected;
     sum.probes += e.probes, sum.samples += e.samples, sum.rays += e.rays;
   }
   return sum;
@@ -57,18 +59,24 @@ std::optional<FrameError> ShotErrors::add(bool cut, std::span<const RankReport> 
                    .own = per_pixel(sums),
                    .shot = {},
                    .shot_frames = 0,
+                   .unexpected = 0,
                    .share = sums.pixels / static_cast<double>(pixels),
                    .probes = sums.probes,
                    .samples = sums.samples,
                    .rays = sums.rays};
   shot_.add(error.own);
   last_.push_back(error.own);
-  if (last_.size() > kPooledFrames) last_.pop_front();
+  unexpected_.push_back(sums.unexpected / sums.pixels);
+  if (last_.size() > kPooledFrames) last_.pop_front(), unexpected_.pop_front();
   error.frame.squared = error.own.squared;
   for (const ErrorEstimate& e : last_) {
     error.frame.variance += e.variance / static_cast<double>(last_.size());
     error.frame.third += e.third / static_cast<double>(last_.size());
   }
+  const double unexpected = std::accumulate(unexpected_.begin(), unexpected_.end(), 0.0);
+  const double squared = std::accumulate(last_.begin(), last_.end(), 0.0,
+                                         [](double sum, const ErrorEstimate& e) { return sum + e.squared; });
+  error.unexpected = squared > 0 ? std::clamp(unexpected / squared, 0.0, 1.0) : 0;
   error.shot = shot_.mean().interval();
   error.shot_frames = shot_.count();
   return error;

@@ -39,12 +39,13 @@ class MeanErrorEstimate {
 
 // What was measured of a frame, and of the shot so far: the frames since the last camera cut.
 struct FrameError {
-  ErrorEstimate frame;        // its own, with the moments of the last frames of the shot
-  ErrorEstimate own;          // with its own moments
-  RmseInterval shot;          // root of the mean squared error of the frames of the shot
-  int shot_frames = 0;        // that were measured
-  double share = 0;           // of the picture: late ranks measure nothing
-  std::uint64_t probes = 0;   // pixels
+  ErrorEstimate frame;       // its own, with the moments of the last frames of the shot
+  ErrorEstimate own;         // with its own moments
+  RmseInterval shot;         // root of the mean squared error of the frames of the shot
+  int shot_frames = 0;       // that were measured
+  double unexpected = 0;     // share of the squared error of the last frames where the picture showed nothing
+  double share = 0;          // of the picture: late ranks measure nothing
+  std::uint64_t probes = 0;  // pixels
   std::uint64_t samples = 0;  // eye rays
   std::uint64_t rays = 0;     // of all kinds
 };
@@ -58,6 +59,7 @@ class ShotErrors {
  private:
   MeanErrorEstimate shot_;
   std::deque<ErrorEstimate> last_;  // of the shot
+  std::deque<double> unexpected_;   // squared errors of the same frames, per pixel
 };
 
 }  // namespace pprt

@@ -11,6 +11,7 @@ struct ErrorSums {
   double squared = 0;         // estimate of the sum of squared errors; chance may make it negative
   double variance = 0;        // of that estimate
   double third = 0;           // third central moment of that estimate
+  double unexpected = 0;      // part of `squared` at pixels around which the picture shows nothing
   double pixels = 0;          // of the region; 0: nothing was measured
   std::uint64_t probes = 0;   // pixels at which the error was measured
   std::uint64_t samples = 0;  // eye rays for that

@@ -172,7 +172,7 @@ void get_owners(WireReader& in, FrameOrder& order) {
 }
 
 // What a bundle holds besides what all hold.
-constexpr std::uint8_t kDone = 1, kHasProgress = 2, kHasNews = 4, kAllFlags = 7;
+constexpr std::uint8_t kDone = 1, kHasProgress = 2, kHasNews = 4, kHasError = 8, kAllFlags = 15;
 
 // Lists of values that travel in another form.
 struct MessageWriter : FieldWriter {
@@ -222,7 +222,8 @@ void fields_of(Code& code, Either<PixelMessage> auto& pixels) {
 template <typename Code>
 void fields_of(Code& code, Either<FrameOrder> auto& order) {
   code(order.end, order.index, order.number, order.cut, order.carry, order.report_samples, order.time,
-       order.camera, order.evidence, order.deadline_s, order.reserve_s, order.generation);
+       order.camera, order.evidence, order.deadline_s, order.not_before_s, order.periods, order.effort,
+       order.is_awaited, order.reserve_s, order.generation);
 }
 
 // All but the flags, and what they announce.
@@ -337,7 +338,7 @@ Bytes encode(const Bundle& bundle) {
   WireWriter out;
   const bool has_progress = bundle.progress.mean_weight > 0, has_news = !bundle.tiles.empty();
   out.put(static_cast<std::uint8_t>((bundle.done ? kDone : 0) | (has_progress ? kHasProgress : 0) |
-                                    (has_news ? kHasNews : 0)));
+                                    (has_news ? kHasNews : 0) | (bundle.squared_error ? kHasError : 0)));
   MessageWriter code(out);
   fields_of(code, bundle);
   if (has_progress) {
@@ -346,6 +347,7 @@ Bytes encode(const Bundle& bundle) {
                          static_cast<float>(p.future_cost), static_cast<float>(p.pace)});
   }
   if (has_news) put_news(out, bundle.tiles);
+  if (bundle.squared_error) out.put(*bundle.squared_error);
   put_as<WireSample>(out, bundle.samples);
   return out.take();
 }
@@ -365,6 +367,7 @@ Bundle decode_bundle(std::span<const std::byte> bytes) {
     bundle.progress = {p.mean_weight, p.target_weight, p.future_cost, p.pace};
   }
   if ((flags & kHasNews) != 0) bundle.tiles = get_news(in);
+  if ((flags & kHasError) != 0) in.get(bundle.squared_error.emplace());
   get_as<WireSample>(in, bundle.samples);
   in.expect_end();
   return bundle;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -42,6 +43,10 @@ struct FrameOrder {
   double time = 0;                   // of what moves in the scene, seconds
   CastEvidence evidence;             // of all ranks, in frames before
   double deadline_s = 0;             // since the start of the sequence; 0: no rate
+  double not_before_s = 0;           // when the frame may begin at the earliest, likewise
+  double periods = 1;                // its time, by the usual time of a frame
+  double effort = 1;                 // share of its sampling time that makes it good enough
+  bool is_awaited = false;           // no rank leaves the frame out, late or not
   std::uint32_t generation = 0;      // of the partition in force from this frame on
   std::vector<std::int32_t> owners;  // per tile, row by row, when that partition is a new one
   std::int32_t columns = 0;          // tiles a row of it
@@ -75,6 +80,7 @@ struct Bundle {
   HandshakeState handshake = {};
   TileNews tiles = {};
   std::vector<Sample> samples = {};
+  std::optional<double> squared_error = {};  // found in the sender's region, summed over its pixels
 };
 
 // Work clock. A rank to the master: all its bundles of a round are sent.

@@ -48,7 +48,8 @@ void BundleExchange::send(int rank, bool concerns, Content content) {
                       .progress = content.progress,
                       .handshake = handshake_.send(rank),
                       .tiles = std::move(content.tiles),
-                      .samples = std::move(content.samples)};
+                      .samples = std::move(content.samples),
+                      .squared_error = content.squared_error};
   Bytes bytes = encode(bundle);
   if (concerns) count(bundle, bytes.size());
   if (policy_->counts_bundles()) receivers_.push_back(rank);

@@ -33,6 +33,7 @@ class BundleExchange {
     RankProgress progress = {};  // of the sender
     TileNews tiles = {};
     std::vector<Sample> samples = {};
+    std::optional<double> squared_error = {};  // found in the sender's region
   };
 
   // The references must outlive the exchange.

@@ -17,7 +17,7 @@ enum class Purpose : std::uint64_t { kCandidate, kChoice, kPlace };
 class Random {
  public:
   Random(const ProbeStream& stream, Purpose purpose)
-      : hash_(mixed(mixed(stream.seed, kProbes), mixed(stream.frame, stream.rank))),
+      : hash_(mixed(mixed(stream.seed + stream.batch, kProbes), mixed(stream.frame, stream.rank))),
         purpose_(static_cast<std::uint64_t>(purpose)) {}
   double operator()(std::uint64_t index) const { return uniform(hash_, purpose_, index); }
 
@@ -30,6 +30,7 @@ class Random {
 struct Candidate {
   int x = 0, y = 0;
   double weight = 0;
+  bool is_even = false;
 };
 
 // Returns how much a pixel differs from those near it within the tile: about how much eye rays vary there,
@@ -44,6 +45,9 @@ double contrast(const PixelBlock& shown, const PixelRect& tile, int x, int y) {
   }
   return std::sqrt(sum);
 }
+
+// Below it the eye sees no structure: 24 pixels that differ by a display's step each.
+constexpr double kEvenContrast = 5.0 / 255;
 
 // Returns one pixel of each of `count` equal parts of the region, which is taken tile by tile.
 std::vector<Candidate> candidates(const Region& region, const PixelBlock& shown, std::uint64_t count,
@@ -60,7 +64,8 @@ std::vector<Candidate> candidates(const Region& region, const PixelBlock& shown,
       if (at >= area) break;
       const int pixel = static_cast<int>(at);
       const int x = rect.x0 + pixel % rect.width(), y = rect.y0 + pixel / rect.width();
-      chosen.push_back({x, y, contrast(shown, rect, x, y)});
+      const double found = contrast(shown, rect, x, y);
+      chosen.push_back({x, y, found, found < kEvenContrast});
     }
     before += area;
   }
@@ -96,22 +101,24 @@ Color displayed(const Color& c) {
 
 }  // namespace
 
-ProbePlan plan_probes(std::uint64_t traced, std::uint64_t samples, std::size_t pixels) {
-  constexpr std::uint64_t kOneIn = 100;
+ProbePlan plan_probes(std::uint64_t traced, std::uint64_t samples, std::size_t pixels, double share) {
   constexpr double kLeastSide = 2, kMostSide = 4;
   ProbePlan plan;
   const double density = static_cast<double>(samples) / static_cast<double>(std::max<std::size_t>(1, pixels));
   plan.side = static_cast<int>(std::lround(std::clamp(std::sqrt(density), kLeastSide, kMostSide)));
-  plan.probes = std::max(plan.probes, traced / (kOneIn * (plan.samples() / plan.probes)));
+  const double per_probe = static_cast<double>(plan.samples()) / static_cast<double>(plan.probes);
+  const double probes = share * static_cast<double>(traced) / per_probe;
+  plan.probes = std::max(plan.probes, static_cast<std::uint64_t>(probes));
   return plan;
 }
 
-ErrorSums measure_error(const Region& region, const PixelBlock& shown, const ProbePlan& plan,
-                        const ProbeStream& stream, const std::function<Color(double x, double y)>& look) {
+std::vector<PixelProbe> trace_probes(const Region& region, const PixelBlock& shown, const ProbePlan& plan,
+                                     const ProbeStream& stream,
+                                     const std::function<Color(double x, double y)>& look) {
   constexpr std::uint64_t kCandidatesPerProbe = 16;
-  const std::uint64_t pixels = region.pixel_count(), probes = plan.probes;
+  const std::uint64_t pixels = region.pixel_count(), count = plan.probes;
   if (pixels == 0) return {};
-  std::vector<Candidate> all = candidates(region, shown, std::min(pixels, probes * kCandidatesPerProbe),
+  std::vector<Candidate> all = candidates(region, shown, std::min(pixels, count * kCandidatesPerProbe),
                                           Random(stream, Purpose::kCandidate));
   normalize(all);
   const Random choice(stream, Purpose::kChoice), place(stream, Purpose::kPlace);
@@ -127,22 +134,42 @@ ErrorSums measure_error(const Region& region, const PixelBlock& shown, const Pro
     return sum / static_cast<float>(plan.side * plan.side);
   };
 
-  ErrorSums sums{.pixels = static_cast<double>(pixels), .probes = probes};
-  const double per_probe = static_cast<double>(pixels) / static_cast<double>(all.size() * probes);
+  const double per_candidate = static_cast<double>(pixels) / static_cast<double>(all.size());
+  std::vector<PixelProbe> probes;
+  probes.reserve(count);
   std::size_t at = 0;
   double below = 0;  // weight of the candidates before
-  std::vector<double> parts;
-  for (std::uint64_t i = 0; i < probes; ++i) {
-    const double target = (static_cast<double>(i) + choice(i)) / static_cast<double>(probes);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const double target = (static_cast<double>(i) + choice(i)) / static_cast<double>(count);
     while (at + 1 < all.size() && below + all[at].weight <= target) below += all[at++].weight;
-    const Color p = displayed(shown.at(all[at].x, all[at].y));
-    const Color first = p - estimate(all[at]), second = p - estimate(all[at]);
+    const Color first = estimate(all[at]), second = estimate(all[at]);
+    probes.push_back({all[at].x, all[at].y, per_candidate / all[at].weight, all[at].is_even, first, second});
+  }
+  return probes;
+}
+
+ErrorSums error_by(std::span<const PixelProbe> probes, const Region& region, const PixelBlock& shown) {
+  ErrorSums sums{.pixels = static_cast<double>(region.pixel_count()), .probes = probes.size()};
+  std::vector<double> parts;
+  parts.reserve(probes.size());
+  for (const PixelProbe& probe : probes) {
+    const Color p = displayed(shown.at(probe.x, probe.y));
+    const Color first = p - probe.first, second = p - probe.second;
     const double product =
         static_cast<double>(first.x * second.x + first.y * second.y + first.z * second.z) / 3;
-    parts.push_back(per_probe * product / all[at].weight);
+    parts.push_back(probe.weight * product / static_cast<double>(probes.size()));
+    if (probe.is_even) sums.unexpected += parts.back();
   }
-  fill(parts, sums);
-  sums.samples = drawn / 2;
+  if (parts.size() > 1) fill(parts, sums);
+  return sums;
+}
+
+ErrorSums measure_error(const Region& region, const PixelBlock& shown, const ProbePlan& plan,
+                        const ProbeStream& stream, const std::function<Color(double x, double y)>& look) {
+  if (region.pixel_count() == 0) return {};
+  const std::vector<PixelProbe> probes = trace_probes(region, shown, plan, stream, look);
+  ErrorSums sums = error_by(probes, region, shown);
+  sums.samples = plan.samples();
   return sums;
 }
 

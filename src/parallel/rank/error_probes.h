@@ -8,7 +8,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
+#include <vector>
 
+#include "base/vector.h"
 #include "parallel/protocol/error_sums.h"
 #include "pipeline/core/pixel_block.h"
 #include "pipeline/core/region.h"
@@ -23,19 +26,36 @@ struct ProbePlan {
   std::uint64_t samples() const { return 2 * static_cast<std::uint64_t>(side * side) * probes; }
 };
 
-// Plans for a frame in which a rank has traced `traced` samples: one eye ray in a hundred measures. A pixel's
+// Plans for a frame in which a rank has traced `traced` samples: a share of the eye rays measures. A pixel's
 // estimates take about as many eye rays as its picture, which has `samples` in `pixels`: 4 to 16.
-ProbePlan plan_probes(std::uint64_t traced, std::uint64_t samples, std::size_t pixels);
+ProbePlan plan_probes(std::uint64_t traced, std::uint64_t samples, std::size_t pixels, double share = 0.01);
 
 // The address of a measurement's random numbers.
 struct ProbeStream {
   std::uint64_t seed = 0;
   std::uint64_t frame = 0;
   std::uint64_t rank = 0;
+  std::uint64_t batch = 0;  // of a frame that is measured several times
 };
 
-// Measures the pixels of `region` in `shown` at some of them. `look` returns the colour at an image point.
-// Returns all but `rays`.
+// A pixel of a region with two independent estimates of its true colour.
+struct PixelProbe {
+  int x = 0, y = 0;
+  double weight = 1;     // of its squared error in the mean over probes that estimates the region's sum
+  bool is_even = false;  // the picture showed nothing around it when the probe was traced
+  Color first, second;
+};
+
+// Traces probes at pixels of `region`, chosen by what is `shown` now. They measure any picture of the same
+// scene. `look` returns the colour at an image point.
+std::vector<PixelProbe> trace_probes(const Region& region, const PixelBlock& shown, const ProbePlan& plan,
+                                     const ProbeStream& stream,
+                                     const std::function<Color(double x, double y)>& look);
+
+// Returns what the probes tell of the pixels of `region` in `shown`: all but `samples` and `rays`.
+ErrorSums error_by(std::span<const PixelProbe> probes, const Region& region, const PixelBlock& shown);
+
+// Measures the pixels of `region` in `shown` by new probes. Returns all but `rays`.
 ErrorSums measure_error(const Region& region, const PixelBlock& shown, const ProbePlan& plan,
                         const ProbeStream& stream, const std::function<Color(double x, double y)>& look);
 

@@ -5,13 +5,14 @@
 
 namespace pprt {
 
-FrameGoal::FrameGoal(const SessionSettings& settings, int ranks)
+FrameGoal::FrameGoal(const SessionSettings& settings, int rank, int ranks, SampleTracer& tracer)
     : stop_(settings.stop),
       image_pixels_(static_cast<std::uint64_t>(settings.width) * static_cast<std::uint64_t>(settings.height)),
+      rmse_(settings, rank, ranks, tracer),
       peer_done_(static_cast<std::size_t>(ranks), 0) {}
 
-void FrameGoal::begin_frame(bool has_new_picture) {
-  if (has_new_picture) flip_.forget();
+void FrameGoal::begin_frame(int number, bool has_new_picture) {
+  if (has_new_picture) flip_.forget(), rmse_.begin_picture(number);
   done_ = false;
   std::fill(peer_done_.begin(), peer_done_.end(), std::uint8_t{0});
 }
@@ -20,7 +21,17 @@ bool FrameGoal::is_reached(RankSampling& sampler, PictureRefresh& picture, Frame
   return (stop_.samples > 0 && sampler.in_region() >= sample_share(sampler)) ||
          (stop_.weight > 0 && sampler.sampler().is_refined_to(stop_.weight)) ||
          (stop_.seconds > 0 && clock.frame_seconds() >= stop_.seconds) ||
-         (stop_.flip > 0 && flip_.is_at_most(stop_.flip, sampler, picture, clock));
+         (stop_.flip > 0 && flip_.is_at_most(stop_.flip, sampler, picture, clock)) ||
+         (stop_.rmse > 0 && rmse_.is_reached(sampler, picture, clock));
+}
+
+void FrameGoal::receive(int from, bool done, std::optional<double> squared_error) {
+  peer_done_[static_cast<std::size_t>(from)] = done;
+  if (squared_error) rmse_.receive(from, *squared_error);
+}
+
+std::optional<ErrorSums> FrameGoal::measure(const Region& region, const PixelBlock& shown) const {
+  return stop_.rmse > 0 ? rmse_.measure(region, shown) : std::nullopt;
 }
 
 // What this rank takes of the samples asked for.
@@ -40,6 +51,7 @@ SamplingProgress FrameGoal::progress(const RankSampling& sampler, const FrameClo
     reach(samples / static_cast<double>(std::max<std::uint64_t>(1, sample_share(sampler))));
   if (stop_.seconds > 0) reach(clock.frame_seconds() / stop_.seconds);
   if (const std::optional<double> enough = flip_.foretold_samples()) reach(samples / *enough);
+  if (const std::optional<double> enough = rmse_.foretold_samples()) reach(samples / *enough);
   return progress;
 }
 

@@ -8,6 +8,7 @@
 #include "parallel/clock/frame_clock.h"
 #include "parallel/rank/flip_estimate.h"
 #include "parallel/rank/rank_sampling.h"
+#include "parallel/rank/rmse_goal.h"
 #include "parallel/settings/session_settings.h"
 
 namespace pprt {
@@ -21,20 +22,30 @@ struct SamplingProgress {
 // Every bundle says whether its sender has reached its goal. The frame ends when all ranks have.
 class FrameGoal {
  public:
-  FrameGoal(const SessionSettings& settings, int ranks);
+  // `tracer` must outlive it.
+  FrameGoal(const SessionSettings& settings, int rank, int ranks, SampleTracer& tracer);
 
   // `has_new_picture`: no sample of the frame before is left.
-  void begin_frame(bool has_new_picture);
+  void begin_frame(int number, bool has_new_picture);
 
-  // Whether a stop rule is reached in this rank's region. Of a number of samples a rank takes the share of
-  // its pixels. May reconstruct `picture`, to estimate how good it is.
+  // Whether a stop rule is reached in this rank's region, or an RMSE in the whole picture. Of a number of
+  // samples a rank takes the share of its pixels. May reconstruct `picture`, to find out how good it is.
   bool is_reached(RankSampling& sampler, PictureRefresh& picture, FrameClock& clock);
 
   SamplingProgress progress(const RankSampling& sampler, const FrameClock& clock) const;
 
   // Records whether this rank has reached its goal after a round, and what another rank says of its own.
   void set_done(bool done) { done_ = done; }
-  void receive(int from, bool done) { peer_done_[static_cast<std::size_t>(from)] = done; }
+  void receive(int from, bool done, std::optional<double> squared_error);
+
+  // The sum of squared errors found in this rank's region, which all ranks need; empty: none yet.
+  std::optional<double> squared_error() const { return rmse_.found(); }
+
+  // Whether it has changed since the last call.
+  bool take_news() { return rmse_.take_news(); }
+
+  // Returns how wrong a picture of the region is where an RMSE ended it.
+  std::optional<ErrorSums> measure(const Region& region, const PixelBlock& shown) const;
 
   bool is_done() const { return done_; }
   bool all_done() const;
@@ -45,6 +56,7 @@ class FrameGoal {
   const StopRules stop_;
   std::uint64_t image_pixels_;
   FlipEstimate flip_;
+  RmseGoal rmse_;
   bool done_ = false;
   std::vector<std::uint8_t> peer_done_;  // per rank
 };

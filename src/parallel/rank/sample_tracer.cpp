@@ -17,6 +17,7 @@ bool is_finite(const Color& c) {
 
 void SampleTracer::begin_frame(const FrameOrder& order) {
   rays_before_ = probe_.counts();
+  looked_ = {};
   non_finite_ = 0;
   frame_number_ = order.number;
   probe_.set_camera(order.camera);
@@ -44,7 +45,9 @@ Sample SampleTracer::trace(double x, double y, std::span<const KnownLights> know
 }
 
 Color SampleTracer::look(double x, double y) {
+  const RayCounts before = probe_.counts();
   const RaySample ray = probe_.trace(x, y);
+  looked_ += probe_.counts() - before;
   poll_(ray.rays);
   return is_finite(ray.color) ? ray.color : Color(0, 0, 0);
 }

@@ -36,7 +36,8 @@ class SampleTracer {
   // the square that textures are filtered over, pixels.
   Sample trace(double x, double y, std::span<const KnownLights> known = {}, double footprint = 1);
 
-  // Returns the colour at an image point, for a measurement: no sample is made, and nothing is charged.
+  // Returns the colour at an image point, for a measurement: no sample is made, nothing is charged, and its
+  // rays are not among rays().
   Color look(double x, double y);
 
   // Whether nothing hides a hit point from the eye.
@@ -46,8 +47,9 @@ class SampleTracer {
   bool moves() const { return moves_; }
 
   const Probe& probe() const { return probe_; }
-  RayCounts rays() const { return probe_.counts() - rays_before_; }  // in this frame
-  std::uint64_t non_finite() const { return non_finite_; }           // colours in this frame
+  RayCounts rays() const { return probe_.counts() - rays_before_ - looked_; }  // of samples, in this frame
+  const RayCounts& looked() const { return looked_; }                          // of looks, in this frame
+  std::uint64_t non_finite() const { return non_finite_; }                     // colours in this frame
   int frame_number() const { return frame_number_; }
 
  private:
@@ -61,7 +63,7 @@ class SampleTracer {
   bool moves_ = false;
   std::uint64_t next_id_ = 0;
   std::uint64_t non_finite_ = 0;
-  RayCounts rays_before_;
+  RayCounts rays_before_, looked_;
 };
 
 }  // namespace pprt

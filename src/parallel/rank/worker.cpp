@@ -40,7 +40,7 @@ Worker::Worker(Communicator& network, Inbox& inbox, const SessionSettings& setti
                  timer_),
       reprojection_(sampler_, tracer_, *clock_, timer_),
       anchors_(tracer_.probe().primitives),
-      goal_(settings_, network.size()) {}
+      goal_(settings_, network.rank(), network.size(), tracer_) {}
 
 void Worker::render(const FrameOrder& order) {
   timer_.begin_frame();
@@ -49,7 +49,7 @@ void Worker::render(const FrameOrder& order) {
   ownership_.begin_frame();
   reprojection_.begin_frame();
   anchors_.begin_frame();
-  goal_.begin_frame(order.carry != Carry::kAccumulate);
+  goal_.begin_frame(order.number, order.carry != Carry::kAccumulate);
   for (const int rank : order.lost) bundles_.give_up(rank);
 
   bundles_.await([&] { return clock_->may_begin(order); });
@@ -121,7 +121,7 @@ bool Worker::has_reached_goal() {
 
 // A goal counts when it still holds after what the others have sent: not in the round that reached it.
 void Worker::exchange_and_set_goal(bool is_done) {
-  const bool changes = goal_.is_done() != is_done;
+  const bool changes = goal_.take_news() || goal_.is_done() != is_done;
   goal_.set_done(is_done);
   exchange_bundles(changes);
 }
@@ -162,7 +162,8 @@ void Worker::send_bundles(bool concerns_all) {
                   {.done = goal_.is_done(),
                    .progress = progress,
                    .tiles = news_for(rank, transfers, gains),
-                   .samples = std::move(samples)});
+                   .samples = std::move(samples),
+                   .squared_error = goal_.squared_error()});
   }
 }
 
@@ -174,7 +175,7 @@ void Worker::take_in(const std::vector<Inbox::Arrived>& bundles) {
     news.append(bundle.tiles);
     if (bundle.frame_index != now.frame_index) continue;
     ownership_.receive_progress(from, bundle.progress);
-    goal_.receive(from, bundle.done);
+    goal_.receive(from, bundle.done, bundle.squared_error);
   }
   ownership_.apply(news);
   for (const auto& [from, bundle] : bundles) {
@@ -205,17 +206,21 @@ void Worker::reconstruct(bool rests) {
 
 // Nothing of the picture comes after: on the work clock, too, it is the same without.
 void Worker::measure(const FrameOrder& order) {
-  rays_ = tracer_.rays();
   error_ = {};
   if (!settings_.measures_error) return;
   const ProbeStream stream{.seed = settings_.seed,
                            .frame = static_cast<std::uint64_t>(order.number),
                            .rank = static_cast<std::uint64_t>(network_.rank())};
   const Region& region = sampler_.region();
-  const ProbePlan plan = plan_probes(samples_new(), sampler_.in_region(), region.pixel_count());
-  error_ = measure_error(region, picture_.pixels(), plan, stream,
-                         [this](double x, double y) { return tracer_.look(x, y); });
-  error_.rays = (tracer_.rays() - rays_).traced();
+  if (const std::optional<ErrorSums> found = goal_.measure(region, picture_.pixels())) {
+    error_ = *found;
+  } else {
+    const ProbePlan plan =
+        plan_probes(samples_new(), sampler_.in_region(), region.pixel_count(), settings_.probe_share);
+    error_ = measure_error(region, picture_.pixels(), plan, stream,
+                           [this](double x, double y) { return tracer_.look(x, y); });
+    error_.rays = tracer_.looked().traced();
+  }
   timer_.end_stage(&StageTimes::measuring);
 }
 
@@ -288,7 +293,7 @@ RankReport Worker::make_report(double sampling_ended_s) {
           .mean_weight = refined.mean_weight,
           .pace = clock_->pace(),
           .candidates_in_region = static_cast<std::uint64_t>(triangles),
-          .rays = rays_,
+          .rays = tracer_.rays(),
           .error = error_,
           .evidence = reprojection_.evidence(),
           .cpu_ms = timer_.times(),

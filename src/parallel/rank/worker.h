@@ -118,7 +118,6 @@ class Worker {
   PictureRefresh picture_;
   bool takes_evidence_ = false;        // samples tell how far the picture was from them
   double reconstructed_ = 1;           // share of the region in this frame
-  RayCounts rays_;                     // of the picture
   ErrorSums error_;                    // of the pixels
   std::optional<Camera> last_camera_;  // of the last frame that was not left out
 };

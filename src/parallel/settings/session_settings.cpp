@@ -4,7 +4,7 @@
 
 namespace pprt {
 
-static_assert(sizeof(SessionSettings) == 128, "what is added to the settings must be sent as well");
+static_assert(sizeof(SessionSettings) == 152, "what is added to the settings must be sent as well");
 
 namespace {
 
@@ -12,7 +12,8 @@ template <typename Code>
 void fields_of(Code& code, Either<SessionSettings> auto& s) {
   code(s.width, s.height, s.clock, s.frames_per_second, s.budget_units, s.stop, s.balance, s.cast,
        s.keep_samples, s.pixel_rule, s.sampler.choice(), s.learned_weights, s.seed, s.is_still,
-       s.report_samples, s.measures_error, s.report_transfers, s.late_orders, s.machine);
+       s.report_samples, s.measures_error, s.awaits_all, s.probe_share, s.report_transfers, s.late_orders,
+       s.machine);
 }
 
 }  // namespace

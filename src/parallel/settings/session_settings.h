@@ -47,11 +47,13 @@ enum class BalanceMode : std::uint8_t {
   kCombined  // local, and global when the imbalance is great
 };
 
-// When a frame without a rate is good enough: at the first of these that is reached; 0 means no such limit.
+// When a frame is good enough: at the first of these that is reached; 0 means no such limit. With a rate the
+// deadline ends frames, and `rmse` may end them before.
 struct StopRules {
   double seconds = 0;         // wall clock: elapsed; work clock: work units / kWorkUnitsPerSecond
   std::uint64_t samples = 0;  // in the whole image; each rank takes the share of its pixels
   double flip = 0;            // estimated mean FLIP of a rank's region
+  double rmse = 0;            // measured, of the whole picture; with a rate: it ends frames early
   double weight = 0;          // mean weight of what a rank may still refine, smaller is better
 
   friend bool operator==(const StopRules&, const StopRules&) = default;
@@ -75,6 +77,8 @@ struct SessionSettings {
   bool is_still = false;          // there is one frame
   bool report_samples = false;    // every sample of a frame comes to the master with the pixels
   bool measures_error = false;    // probes measure how wrong each frame is; the picture is the same
+  bool awaits_all = false;        // with a rate: frames are whole, be it late
+  double probe_share = 0.01;      // of the eye rays, for the measurement
   bool report_transfers = false;  // tile transfers come to the master, before the pixels
   // A frame's camera is asked for when rank 0 has done its part of the frame before, not a frame ahead. Then
   // the picture follows the camera at once, and ranks may have to wait for rank 0.

@@ -111,10 +111,15 @@ void add_stop_rules(CLI::App& app, RenderOptions& o) {
       ->check(count_from(1))
       ->type_name("N")
       ->group(kRun);
-  app.add_option("--quality", o.end.quality,
-                 "Without a rate: stop a frame at an estimated FLIP of Q (default: when it looks converged)")
-      ->check(number_between(1e-6, 1))
-      ->type_name("Q")
+  add_parsed(app, "--quality", parse_quality, o.end.quality,
+             "Stop a frame at an estimated FLIP of Q, or at a measured RMSE of E, at a rate too (default: "
+             "when it looks converged)")
+      .type_name("Q|rmse=E")
+      ->group(kRun);
+  app.add_option("--film-time", o.end.film_time,
+                 "Take S seconds for all frames together, divided so that the worst error is least")
+      ->check(number_between(1e-3, 1e9))
+      ->type_name("S")
       ->group(kRun);
 }
 
@@ -263,6 +268,21 @@ void add_report_options(CLI::App& app, RenderOptions& o) {
 }
 
 }  // namespace
+
+Quality parse_quality(const std::string& text) {
+  constexpr double kLeast = 1e-6, kMost = 1;
+  constexpr std::string_view kRmse = "rmse=";
+  const bool is_rmse = text.starts_with(kRmse);
+  std::string number = is_rmse ? text.substr(kRmse.size()) : text;
+  double value = 0;
+  if (!number_between(kLeast, kMost)(number).empty() || !CLI::detail::lexical_cast(number, value)) {
+    throw UsageError(
+        fmt::format("--quality {}: want a FLIP or rmse=E, each from {:g} to {:g}, such as 0.02 or "
+                    "rmse=0.01",
+                    text, kLeast, kMost));
+  }
+  return is_rmse ? Quality{.rmse = value} : Quality{.flip = value};
+}
 
 void add_render_options(CLI::App& app, RenderOptions& options) {
   add_positionals(app, options);

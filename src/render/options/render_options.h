@@ -41,15 +41,28 @@ struct RankOptions {
   bool go_on = false;            // without ranks that do not answer
 };
 
+// How good a picture is to be: by one of two measures, 0 in the other.
+struct Quality {
+  double flip = 0;  // mean, estimated
+  double rmse = 0;  // measured
+};
+
+// Parses the value of --quality: "0.02", a FLIP, or "rmse=0.01". Throws UsageError.
+Quality parse_quality(const std::string& text);
+
 // What ends a frame: the deadline of a rate, or the first stop rule that holds.
 struct FrameEnd {
   std::optional<double> fps;             // frames/s; 0: no rate; empty: the script's
   std::optional<std::uint64_t> budget;   // work units for each rank and frame
   std::optional<double> time;            // seconds
   std::optional<std::uint64_t> samples;  // in the image
-  std::optional<double> quality;         // mean FLIP
+  std::optional<Quality> quality;
+  std::optional<double> film_time;  // seconds, of all frames together
 
   bool has_stop_rule() const { return time || samples || quality; }
+
+  // Whether a rule is given that ends frames without a rate alone.
+  bool needs_no_rate() const { return time || samples || (quality && quality->rmse == 0); }
 };
 
 // What the user asked for, each value parsed; plan_render() settles what the values mean together. Options

@@ -31,6 +31,21 @@ void require_live_usage(const RenderOptions& options) {
   if (writes) throw UsageError("with --live, files beside the frames need the frames: name them by --output");
 }
 
+// A film's time takes the place of whatever else ends its frames.
+void require_film_time_usage(const RenderOptions& options) {
+  const FrameEnd& end = options.end;
+  const auto refuse = [](const std::string& other) {
+    throw UsageError("--film-time is the time of all frames: it cannot be used with " + other);
+  };
+  if (end.fps.value_or(0) > 0) refuse("--fps");
+  if (end.has_stop_rule()) refuse("--time, --samples or --quality");
+  if (end.budget) refuse("--budget");
+  if (options.live) refuse("--live");
+  if (options.resume) refuse("--resume, for which it would have to be divided anew");
+  if (options.ranks.go_on) refuse("--go-on");
+  if (!options.report.trace.empty()) refuse("--balance-trace");
+}
+
 }  // namespace
 
 bool is_film_name(const std::filesystem::path& file) {
@@ -61,6 +76,7 @@ void check_usage(const RenderOptions& options) {
         "edges need --sampler delaunay");
   }
   if (options.end.budget && !counts_work) throw UsageError("--budget counts work: it needs --clock work");
+  if (options.end.film_time) require_film_time_usage(options);
   if (options.live) require_live_usage(options);
   if (options.ranks.go_on && counts_work)
     throw UsageError("--go-on needs real time: with --clock work all ranks wait for each other");

@@ -46,7 +46,7 @@ void append_metadata(Metadata& metadata, const std::string& prefix, const Json& 
 Metadata header_metadata(Json record) {
   record.erase("record");
   if (const auto error = record.find("error"); error != record.end())
-    for (const char* field : {"low", "high", "shot"}) error->erase(field);
+    for (const char* field : {"low", "high", "shot", "unexpected"}) error->erase(field);
   Metadata metadata;
   append_metadata(metadata, "pprt", record);
   return metadata;
@@ -95,6 +95,7 @@ FrameRecorder::FrameRecorder(const RunIdentity& run, const CompiledScene& scene,
   progress_.begin({.frames = static_cast<int>(plan_.frames.size()),
                    .finished_before = static_cast<int>(finished_before_.size()),
                    .frames_per_second = plan_.settings.frames_per_second,
+                   .film_time = plan_.film_time.value_or(0),
                    .width = plan_.settings.width,
                    .height = plan_.settings.height,
                    .ranks = run.ranks,

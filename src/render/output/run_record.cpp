@@ -41,6 +41,8 @@ Json options_record(const RenderPlan& plan) {
     options["samples"] = s.stop.samples;
     options["quality"] = s.stop.flip;
   }
+  if (s.stop.rmse > 0) options["quality_rmse"] = s.stop.rmse;
+  if (plan.film_time) options["film_time"] = *plan.film_time;
   return options;
 }
 
@@ -55,6 +57,8 @@ std::string run_key(const RunIdentity& run) {
   text += fmt::format(" {}{}{}{}{} {} {} {} {}{}", word_for(s.balance), word_for(s.keep_samples),
                       word_for<SamplerChoice>(s.sampler), word_for(s.pixel_rule), word_for(weight_rule(s)),
                       word_for(s.cast), s.seed, c.max_depth, effects_word(c), c.cull ? " cull" : "");
+  if (s.stop.rmse > 0) text += fmt::format(" rmse {}", s.stop.rmse);
+  if (run.plan.film_time) text += fmt::format(" film {}", *run.plan.film_time);
   for (const PlannedFrame& f : run.plan.script_frames) {
     const View& v = f.view;
     text += fmt::format("\n{} {} {} {} {} {} {} {} {} {} {} {}", f.number, f.cut, v.from.x, v.from.y,

@@ -9,13 +9,14 @@ namespace {
 
 // Returns the index into the plan of the first frame to ask for. On the work clock that is the one from which
 // the samples of the first missing frame come. Where ranks share load it is the first frame of all, as the
-// owners of tiles follow from every frame before.
+// owners of tiles follow from every frame before. So do efforts, where an RMSE is asked for at a rate.
 std::size_t first_to_render(const RenderPlan& plan, int ranks, const FinishedBefore& finished_before) {
   const std::vector<PlannedFrame>& frames = plan.frames;
   std::size_t first = 0;
   while (first < frames.size() && finished_before(frames[first].number)) ++first;
   if (!is_reproducible(plan.settings) || first == frames.size()) return first;
   if (ranks > 1 && plan.settings.balance != BalanceMode::kNone) return 0;
+  if (plan.settings.stop.rmse > 0 && plan.settings.frames_per_second > 0) return 0;
   const auto follows = [&](std::size_t i) {
     return plan.settings.cast != CastChoice::kOff && !frames[i].cut &&
            frames[i].number == frames[i - 1].number + 1;

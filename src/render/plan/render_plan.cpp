@@ -129,6 +129,13 @@ void require_live_rate(double fps, bool has_stop_rule) {
   if (has_stop_rule) throw UsageError("--live has a rate: it takes no --time, --samples or --quality");
 }
 
+// Returns the mean rate of a film whose frames share its time.
+double rate_within(double film_time, std::size_t frame_count) {
+  if (frame_count < 2)
+    throw UsageError("--film-time divides a film's time among its frames, and there is one: --time ends it");
+  return static_cast<double>(frame_count) / film_time;
+}
+
 // Returns where frames stand until a film alone is made of them.
 FramePattern frames_of_film(const std::filesystem::path& film) {
   FramePattern frames = parse_frame_pattern("%06d.png", FrameCount::kMany);
@@ -213,7 +220,10 @@ RenderPlan plan_of(const RenderOptions& options, Sources& sources) {
   settings.report_transfers = !options.report.trace.empty();
   settings.report_samples =
       options.report.compare_serial || std::any_of(output.layers.begin(), output.layers.end(), needs_samples);
-  settle_end(options.end, fps, options.ranks.go_on, settings);
+  const std::optional<double>& film_time = options.end.film_time;
+  settle_end(options.end, film_time ? rate_within(*film_time, frames.size()) : fps, options.ranks.go_on,
+             settings);
+  settings.awaits_all = film_time.has_value();
 
   return {.scene_name = absolute_scene_name(sources.scene_path),
           .objects = absolute_objects(sources),
@@ -228,6 +238,7 @@ RenderPlan plan_of(const RenderOptions& options, Sources& sources) {
           .output = std::move(output),
           .report = options.report,
           .settings = settings,
+          .film_time = film_time,
           .goes_on = options.ranks.go_on,
           .live = options.live,
           .compile = options.compile,

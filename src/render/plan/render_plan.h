@@ -39,7 +39,8 @@ struct RenderPlan {
   OutputFiles output;
   Reports report;
   SessionSettings settings{.sampler = SamplerChoice::kAuto};
-  bool goes_on = false;  // without ranks that do not answer
+  std::optional<double> film_time;  // seconds of all frames together; empty: they are not divided
+  bool goes_on = false;             // without ranks that do not answer
   std::optional<LiveAddress> live;
   CompileOptions compile;
   std::string warnings;  // about scene and script, for people

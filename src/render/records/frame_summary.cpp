@@ -58,6 +58,7 @@ FrameSummary summarize(const FinishedFrame& frame) {
   summary.deadline_s = frame.order.deadline_s;
   summary.finished_s = frame.finished_s;
   summary.late_ms = frame.late_ms;
+  summary.effort = frame.order.effort;
   summary.late_ranks = frame.late_ranks;
   summary.lost_ranks = frame.order.lost;
   summary.stale_tiles = frame.stale_tiles;
@@ -74,6 +75,7 @@ void RunTotals::add(const FrameSummary& frame) {
   samples_ += frame.samples;
   non_finite_ += frame.non_finite;
   rays_ += frame.rays;
+  effort_ += frame.effort;
   if (frame.error) error_.add(frame.error->own);
   late_ms_.insert(std::upper_bound(late_ms_.begin(), late_ms_.end(), frame.late_ms), frame.late_ms);
 }

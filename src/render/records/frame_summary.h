@@ -25,6 +25,7 @@ struct FrameSummary {
   double deadline_s = 0;                 // since the start of the sequence; 0: no rate
   double finished_s = 0;                 // likewise
   double late_ms = 0;                    // after the deadline; <= 0: on time
+  double effort = 1;                     // share of its sampling time that made it good enough
   std::vector<std::int32_t> late_ranks;  // ascending
   std::vector<std::int32_t> lost_ranks;  // given up before this frame, ascending
   int stale_tiles = 0;                   // that show an earlier frame
@@ -59,6 +60,7 @@ class RunTotals {
   std::uint64_t non_finite() const { return non_finite_; }
   const RayCounts& rays() const { return rays_; }
   double samples_per_frame() const;
+  double mean_effort() const { return frames() > 0 ? effort_ / frames() : 1; }
   const MeanErrorEstimate& error() const { return error_; }  // measured, over the frames
 
   // Lateness in milliseconds: the nearest-rank percentile (`share` 0 to 1), and the maximum; 0 without
@@ -72,6 +74,7 @@ class RunTotals {
   std::uint64_t non_finite_ = 0;
   RayCounts rays_;
   MeanErrorEstimate error_;
+  double effort_ = 0;
   std::vector<double> late_ms_;  // ascending
 };
 

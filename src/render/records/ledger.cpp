@@ -30,6 +30,7 @@ Json error_record(const FrameError& error) {
   Json record = interval_record(error.frame.interval());
   record["shot"] = interval_record(error.shot);
   record["shot"]["frames"] = error.shot_frames;
+  record["unexpected"] = error.unexpected;
   record["share"] = error.share;
   record["probes"] = error.probes;
   record["samples"] = error.samples;
@@ -90,6 +91,7 @@ Json frame_record(const FrameSummary& frame) {
                  {"tiles_moved", frame.tiles_moved},
                  {"global_balance", frame.repartitioned},
                  {"non_finite", frame.non_finite}};
+  if (frame.deadline_s > 0) record["effort"] = frame.effort;
   if (frame.error) record["error"] = error_record(*frame.error);
   return record;
 }
@@ -103,6 +105,7 @@ Json summary_record(const RunTotals& totals, bool has_rate) {
                          {"p99", totals.late_ms(0.99)},
                          {"max", totals.worst_late_ms()}};
     record["with_late_ranks"] = totals.with_late_ranks();
+    record["effort"] = totals.mean_effort();
   }
   record["samples"] = totals.samples();
   record["rays"] = rays_record(totals.rays());

@@ -39,7 +39,7 @@ std::string measured(const MeanErrorEstimate& error) {
 
 RunFigures figures_of(const RunScope& scope, const RunTotals& totals) {
   const double pixels = static_cast<double>(scope.width) * scope.height;
-  return {.frames_per_second = scope.frames_per_second,
+  return {.frames_per_second = scope.film_time > 0 ? 0 : scope.frames_per_second,
           .frames = totals.frames(),
           .late = totals.frames() - totals.on_time(),
           .late_p95_ms = totals.late_ms(0.95),
@@ -163,12 +163,17 @@ void ProgressReporter::finish(RunEnd end, int written, const RunTotals& totals, 
                                  scope_.frames == 1 ? "" : "s", there, where);
   if (totals.frames() > 0) {
     if (scope_.frames_per_second > 0) {
-      text += fmt::format("; {} on time at {:g} frames/s, the slowest {}", totals.on_time(),
-                          scope_.frames_per_second, lateness(totals.worst_late_ms()));
+      const std::string pace = scope_.film_time > 0
+                                   ? fmt::format("within {:g} s", scope_.film_time)
+                                   : fmt::format("at {:g} frames/s", scope_.frames_per_second);
+      text += fmt::format("; {} on time {}, the slowest {}", totals.on_time(), pace,
+                          lateness(totals.worst_late_ms()));
     }
     text += fmt::format("; {} samples{}", grouped(totals.samples_per_frame()),
                         scope_.frames == 1 ? "" : " a frame");
     text += measured(totals.error());
+    if (totals.mean_effort() < 1)
+      text += fmt::format("; good enough after {:.0f} % of the time", 100 * totals.mean_effort());
   }
   print_message(fmt::format("{}\n", text));
   const std::string advice = advice_on(figures_of(scope_, totals));

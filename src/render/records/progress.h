@@ -68,6 +68,7 @@ struct RunScope {
   int frames = 0;                // to make in all
   int finished_before = 0;       // of these, by an earlier run
   double frames_per_second = 0;  // asked for; 0: no rate
+  double film_time = 0;          // seconds of all frames together; 0: not asked for
   int width = 0, height = 0;     // of the pictures, pixels
   int ranks = 1;
   int cores = 1;  // that this host's processes may use

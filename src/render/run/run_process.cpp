@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <functional>
 #include <iostream>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "base/diagnostics.h"
 #include "base/system/host_cores.h"
@@ -20,6 +22,7 @@
 #include "parallel/session.h"
 #include "render/output/frame_recorder.h"
 #include "render/output/output_check.h"
+#include "render/plan/film_time.h"
 #include "render/plan/frame_requests.h"
 #include "render/plan/memory_check.h"
 #include "render/plan/preflight.h"
@@ -210,18 +213,63 @@ int run_live_view(ProcessRanks& ranks, const PreparedRun& run, const SessionEven
   return recorder ? finish_files(*recorder, progress) : kExitDone;
 }
 
+// Tells what a frame takes at least and at most.
+void tell_division(std::span<const double> times, double seconds, double pricing_s) {
+  const auto [least, most] = std::minmax_element(times.begin(), times.end());
+  const double mean_s = seconds / static_cast<double>(times.size());
+  print_message(fmt::format("pprt-render: {} frames were priced in {:.3g} s; each gets {:.3g} to {:.3g} s\n",
+                            times.size(), pricing_s, *least * mean_s, *most * mean_s));
+}
+
+// Prices the frames of a film by a quick pass, and gives each its time. Returns the job of the pass proper.
+RenderJob divide_film_time(ProcessRanks& ranks, const PreparedRun& run, const SessionEvents& events,
+                           JobBroadcast& broadcast, std::vector<FrameRequest>& requests) {
+  const double film_time = *run.plan.film_time, begin_s = monotonic_seconds();
+  const int count = static_cast<int>(requests.size());
+  RenderJob job = run.job;
+  job.again = true;
+  job.settings = pricing_settings(run.plan.settings, count, film_time);
+  broadcast.send(job);
+  std::vector<FramePrice> prices;
+  const CameraSource source = [&](int index) -> std::optional<FrameRequest> {
+    const auto i = static_cast<std::size_t>(index);
+    return i < requests.size() && !stop_requested() ? std::optional(requests[i]) : std::nullopt;
+  };
+  run_sequence(
+      ranks, run.scene, job.settings, source,
+      [&](FinishedFrame&& frame) {
+        prices.push_back({frame.error ? frame.error->own : ErrorEstimate(), frame.order.cut});
+      },
+      events);
+  broadcast.require_others();
+
+  const double passed_s =
+      is_reproducible(job.settings) ? kPricingShare * film_time : monotonic_seconds() - begin_s;
+  const double left_s = std::max(film_time - passed_s, kPricingShare * film_time);
+  job.again = false;
+  job.settings = pass_settings(run.plan.settings, count, left_s);
+  job.scene.clear();
+  if (prices.size() < requests.size()) return job;  // a signal has ended the pass
+  const std::vector<double> times = divided_time(prices);
+  for (std::size_t i = 0; i < times.size(); ++i) requests[i].periods = times[i];
+  tell_division(times, left_s, passed_s);
+  return job;
+}
+
 int run_frames(ProcessRanks& ranks, const PreparedRun& run, const SessionEvents& events,
                ProgressReporter& progress, JobBroadcast& broadcast) {
   // Open the outputs, which may fail, while the other processes wait.
   const int size = ranks.ranks().size;
   FrameRecorder recorder({run.plan, size, hash_of(run.plan.scene)}, run.scene, progress);
   const auto finished_before = [&](int frame) { return recorder.finished_before(frame); };
-  const CameraSource source =
-      camera_source(frame_requests(run.plan, run.scene, size, finished_before), recorder);
+  std::vector<FrameRequest> requests = frame_requests(run.plan, run.scene, size, finished_before);
 
   // Render with all ranks.
-  broadcast.send(run.job);
   listen_to_signals();
+  RenderJob job = run.job;
+  if (run.plan.film_time) job = divide_film_time(ranks, run, events, broadcast, requests);
+  broadcast.send(job);
+  const CameraSource source = camera_source(std::move(requests), recorder);
   const StatusPrinter printer([&recorder] { recorder.status(); }, [&progress] { progress.stopping(); });
   const bool has_deadlines = run.plan.settings.frames_per_second > 0 && !is_reproducible(run.plan.settings);
   bool is_first = true;
@@ -231,7 +279,7 @@ int run_frames(ProcessRanks& ranks, const PreparedRun& run, const SessionEvents&
   };
   SessionEvents with_progress = events;
   with_progress.sampled = [&recorder](const SamplingProgress& now) { recorder.sampled(now); };
-  run_sequence(ranks, run.scene, run.plan.settings, source, sink, with_progress);
+  run_sequence(ranks, run.scene, job.settings, source, sink, with_progress);
 
   const int code = finish_files(recorder, progress);
   if (code != kExitFailure && run.plan.report.census) print_rays(recorder.totals());

@@ -6,7 +6,7 @@ namespace pprt::delivery_clock_test {
 
 TEST_CASE("without a rate time begins with the first frame, not at the common start") {
   double now = 10;
-  WallDeliveryClock clock(0, 1, [&now] { return now; });
+  WallDeliveryClock clock(0, 1, false, [&now] { return now; });
   clock.begin_sequence(10.005);
   now = 10.002;
   CHECK(clock.delivery_time(FrameOrder(), {}).finished_s == Approx(0.002));
@@ -15,7 +15,7 @@ TEST_CASE("without a rate time begins with the first frame, not at the common st
 
 TEST_CASE("ranks that share a core have their share of a frame's work units") {
   const auto units = [](double ranks_per_core) {
-    return WallDeliveryClock(10, ranks_per_core, [] { return 0.0; }).units_per_frame();
+    return WallDeliveryClock(10, ranks_per_core, false, [] { return 0.0; }).units_per_frame();
   };
   CHECK(units(1) == Approx(1e8));
   CHECK(units(4) == Approx(0.25e8));
@@ -23,7 +23,7 @@ TEST_CASE("ranks that share a core have their share of a frame's work units") {
 
 TEST_CASE("with a rate time begins at the common start") {
   double now = 10;
-  WallDeliveryClock clock(4, 1, [&now] { return now; });
+  WallDeliveryClock clock(4, 1, false, [&now] { return now; });
   clock.begin_sequence(10.005);
   now = 10.255;
   FrameOrder order;
@@ -34,7 +34,7 @@ TEST_CASE("with a rate time begins at the common start") {
 
 TEST_CASE("a frame is prepared beside the one before until that one is due, but not on a shared core") {
   double now = 10;
-  WallDeliveryClock clock(4, 1, [&now] { return now; }), shared(4, 2, [&now] { return now; });
+  WallDeliveryClock clock(4, 1, false, [&now] { return now; }), shared(4, 2, false, [&now] { return now; });
   clock.begin_sequence(10), shared.begin_sequence(10);
   now = 10.2;
   CHECK(clock.may_overlap(1));

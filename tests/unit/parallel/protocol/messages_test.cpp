@@ -184,6 +184,10 @@ TEST_CASE("messages: a bundle holds progress and news of tiles only where there 
   CHECK(encode(bundle).size() == with_progress - 4 * sizeof(float));
   CHECK(decode_bundle(encode(bundle)).progress.mean_weight == 0);
   CHECK(decode_bundle(encode(bundle)).tiles.empty());
+  CHECK_FALSE(decode_bundle(encode(bundle)).squared_error);
+  bundle.squared_error = 0.25;
+  CHECK(encode(bundle).size() == with_progress - 4 * sizeof(float) + sizeof(double));
+  CHECK(decode_bundle(encode(bundle)).squared_error == 0.25);
 }
 
 TEST_CASE("messages: a bundle is decoded as it was encoded") {
@@ -273,15 +277,15 @@ TEST_CASE("messages: a value that its type does not have is refused") {
   CHECK_THROWS_AS(decode_frame_order(with(order, 9, 2)), ProtocolError);   // cut
   CHECK_THROWS_AS(decode_frame_order(with(order, 10, 5)), ProtocolError);  // carry
   CHECK(decode_frame_order(with(order, 10, 4)).carry == Carry::kCastWherePaying);
-  CHECK_THROWS_AS(decode_bundle(with(bundle, 0, 8)), ProtocolError);  // flags
+  CHECK_THROWS_AS(decode_bundle(with(bundle, 0, 16)), ProtocolError);  // flags
   const Bytes settings = encode(some_settings());
   CHECK_THROWS_AS(decode_settings(with(settings, 8, 2)), ProtocolError);   // clock
-  CHECK_THROWS_AS(decode_settings(with(settings, 57, 4)), ProtocolError);  // balance
-  CHECK_THROWS_AS(decode_settings(with(settings, 58, 4)), ProtocolError);  // cast
-  CHECK_THROWS_AS(decode_settings(with(settings, 59, 2)), ProtocolError);  // keep_samples
-  CHECK_THROWS_AS(decode_settings(with(settings, 60, 4)), ProtocolError);  // pixel_rule
-  CHECK_THROWS_AS(decode_settings(with(settings, 61, 3)), ProtocolError);  // sampler
-  CHECK_THROWS_AS(decode_settings(with(settings, 62, 2)), ProtocolError);  // learned_weights
+  CHECK_THROWS_AS(decode_settings(with(settings, 65, 4)), ProtocolError);  // balance
+  CHECK_THROWS_AS(decode_settings(with(settings, 66, 4)), ProtocolError);  // cast
+  CHECK_THROWS_AS(decode_settings(with(settings, 67, 2)), ProtocolError);  // keep_samples
+  CHECK_THROWS_AS(decode_settings(with(settings, 68, 4)), ProtocolError);  // pixel_rule
+  CHECK_THROWS_AS(decode_settings(with(settings, 69, 3)), ProtocolError);  // sampler
+  CHECK_THROWS_AS(decode_settings(with(settings, 70, 2)), ProtocolError);  // learned_weights
 }
 
 TEST_CASE("messages: owners of tiles that an image has not, or has twice, are refused") {

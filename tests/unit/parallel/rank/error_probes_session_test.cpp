@@ -85,6 +85,7 @@ BOTH_SAMPLERS_TEST_CASE("measured error: runs of one seed measure the same, at o
     CHECK(a.shot_frames == static_cast<int>(f) + 1);
     std::uint64_t rays = 0;
     for (const RankReport& r : first.frames[f].ranks) rays += r.rays.traced();
+    CHECK(a.unexpected < 0.3);
     CHECK(static_cast<double>(a.rays) < 0.015 * static_cast<double>(rays));
   }
 }
@@ -109,6 +110,7 @@ TEST_CASE("measured error: it sees twigs that no sample has met, which the estim
   INFO(found.rmse << " in " << found.low << " to " << found.high);
   CHECK(found.low > truth / 3);
   CHECK((found.low <= truth && truth <= found.high));
+  CHECK(frame->error->unexpected > 0.95);
 }
 
 }  // namespace pprt::error_probes_session_test

@@ -148,8 +148,37 @@ TEST_CASE("a stop rule that is given replaces the weight for stills") {
   options.end.samples = 500;
   CHECK(plan_render(options).settings.stop.samples == 500);
   CHECK(plan_render(options).settings.stop.weight == 0);
-  options.end.quality = 0.5;
+  options.end.quality = Quality{.flip = 0.5};
   CHECK((plan_render(options).settings.stop.flip == 0.5 && plan_render(options).settings.stop.weight == 0));
+  options.end = FrameEnd();
+  options.end.quality = parse_quality("rmse=0.25");
+  CHECK((plan_render(options).settings.stop.rmse == 0.25 && plan_render(options).settings.stop.flip == 0));
+}
+
+TEST_CASE("a measured RMSE ends frames at a rate, too, which a FLIP does not") {
+  const Files files;
+  RenderOptions options = scripted(files);
+  options.end.fps = 10;
+  options.end.quality = parse_quality("rmse=0.02");
+  CHECK((plan_render(options).settings.stop.rmse == 0.02 &&
+         plan_render(options).settings.frames_per_second == 10));
+  options.end.quality = parse_quality("0.02");
+  CHECK_THROWS_WITH(plan_render(options), Catch::Contains("a FLIP as --quality"));
+  for (const char* text :
+       {"", "rmse", "rmse=", "rmse=2", "rmse=nan", "0", "1.5", "flip=.1", "rmse=.1x", "rmse=-1"})
+    CHECK_THROWS_WITH(parse_quality(text),
+                      Catch::StartsWith("--quality " + std::string(text) + ": want a FLIP or"));
+}
+
+TEST_CASE("a film's time makes the mean rate of its frames, which are all whole") {
+  const Files files;
+  RenderOptions options = scripted(files);
+  options.end.film_time = 5;
+  const RenderPlan plan = plan_render(options);
+  CHECK(plan.settings.frames_per_second == Approx(static_cast<double>(plan.frames.size()) / 5));
+  CHECK((plan.settings.awaits_all && plan.film_time == 5.0));
+  options.frames = {3, 3};
+  CHECK_THROWS_WITH(plan_render(options), Catch::Contains("there is one"));
 }
 
 TEST_CASE("all frames, a range or one are planned, and camera cuts keep their frames") {

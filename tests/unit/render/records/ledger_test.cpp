@@ -126,7 +126,7 @@ TEST_CASE("a frame's record has every figure once, and counts and times as sums 
     "rays":{"primary":30, "shadow":140, "reflection":8, "refraction":10, "visibility":32},
     "cpu_ms":{"moving":12.0, "sampling":2.0, "casting":4.0, "reconstruction":6.0, "measuring":14.0, "balancing":8.0, "idle":10.0},
     "bytes":{"samples":1280, "progress":34, "balance":36, "pixels":2400},
-    "tiles_moved":28, "global_balance":true, "non_finite":2})"));
+    "tiles_moved":28, "global_balance":true, "non_finite":2, "effort":1.0})"));
 }
 
 TEST_CASE("a frame's record has its measured error, and so have a shot and a run") {
