@@ -6,11 +6,11 @@ written=0
 for model in "$PPRT_SOURCE"/scenes/*.aff "$PPRT_SOURCE"/examples/*/*.nff "$PPRT_SOURCE"/tests/wild/*.nff spd:{tree,balls,gears,mount,rings,tetra,teapot,jacks,lattice}:1; do
   pprt-render --census "$model" &>/dev/null || continue  # some files of the tests show nothing, or are no scenes
   written=$((written + 1))
-  for there in there.aff there.nff there.glb; do
+  for there in there.{aff,nff,pov,glb,obj,dae}; do
     run pprt-convert "$model" $there; expect_code 0
   done
   run pprt-convert there.glb back.aff; expect_code 0
-  for again in there.aff there.nff back.aff; do
+  for again in there.aff there.nff there.obj there.dae back.aff; do
     run pprt-render --census $again
     [[ $code -eq 0 ]] || complain "$model: '$command' ended with $code: $(cat err)"
   done

@@ -87,6 +87,15 @@ TEST_CASE("preflight refuses a scene whose objects have the background's colour"
   CHECK_THAT(outcome(kView + "b 0 0 1\n" + black + kBall), Equals(kNoLight));
 }
 
+TEST_CASE("preflight takes no sky for an object, and whatever is before one for seen") {
+  RenderPlan plan = plan_of(kView + "f 0 0 0 1 0 0 0 1\n" + kBall);
+  plan.scene.sky = Sky{.up = {0, 1, 0}, .horizon = {0, 0, 0}, .zenith = {1, 1, 1}};
+  CHECK_THAT(outcome(plan), Equals(kNoLight));
+  plan = plan_of(kLit + "s 0 0 7 1\n");
+  plan.scene.sky = Sky{.up = {0, 1, 0}, .horizon = {0, 0, 0}, .zenith = {1, 1, 1}};
+  CHECK_THAT(outcome(plan), Equals(nothing("all objects lie behind the eye")));
+}
+
 TEST_CASE("preflight warns of a scene without a light") {
   CHECK_THAT(outcome(kView + "f 1 1 1 1 0 0 0 1\n" + kBall), Equals(kNoLight));
 }
