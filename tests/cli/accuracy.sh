@@ -5,7 +5,7 @@ source "$(dirname "$0")/check.sh"
 run pprt-study accuracy spd:tree:4 spd:balls:1 -o all --quick --size 48 --repeats 2 --cache kept; expect_code 0
 expect_text out ''
 expect_line err 'pprt-study: spd:tree:4: converged frame, 32 samples a pixel, its own rmse 0\.0.*'
-for file in index.html provenance.json curves.csv comparisons.csv ratios.csv ratios-flip.csv ratios-ssim.csv means.csv flicker.csv; do expect_file "all/$file"; done
+for file in index.html provenance.json curves.csv comparisons.csv ratios.csv ratios-flip.csv ratios-ssim.csv ratios-flicker.csv means.csv flicker.csv spd-tree-4-crops-100.png; do expect_file "all/$file"; done
 grep -q '"command": "pprt-study accuracy spd:tree:4 spd:balls:1 -o all' all/provenance.json ||
   complain "provenance.json does not tell the command: $(cat all/provenance.json)"
 grep -q '^# cpu: .' all/curves.csv || complain "curves.csv does not tell the processor"
@@ -45,11 +45,15 @@ done
 [[ $(grep -cE '^spd:tree:4,(delaunay|uniform),(0.25|0.5|1),' all/flicker.csv) -eq 6 ]] || complain "flicker.csv lacks rows of the tree"
 grep -q '"busy": "no threads beside the measured one (--busy 0)"' all/provenance.json || complain "provenance.json does not tell that nothing was busy"
 
+# Tables are about the default; without it, about the first method that is compared.
+grep -q 'Error of the picture by auto over that of the uniform picture' all/index.html || complain "the page is not about the default"
+
 # Some methods, the curves alone, beside busy threads.
 run pprt-study accuracy spd:tree:4 -o some --quick --size 48 --repeats 1 --cache kept --only-curves --methods delaunay --busy 2; expect_code 0
 [[ $(grep -v '^#' some/curves.csv | cut -d, -f2 | tail -n +2 | sort -u | paste -sd,) == control,delaunay,uniform ]] ||
   complain "--methods delaunay gave others: $(cut -d, -f2 some/curves.csv | sort -u)"
 for file in ratios.csv ratios-flip.csv ratios-ssim.csv flicker.csv index.html; do expect_file "some/$file"; done
+grep -q 'Error of the picture by delaunay over that of the uniform picture' some/index.html || complain "the page is about another method"
 for file in renderers.csv effects.csv rates.csv punctuality.csv spd-tree-4-complexity.png; do expect_no_file "some/$file"; done
 grep -q '^# busy: 2 threads rendered the same scene beside the measured one (--busy 2)' some/curves.csv || complain "curves.csv does not tell --busy 2"
 if grep -qE 'Other renderers|Deadlines' some/index.html; then complain "--only-curves shows other sections"; fi
@@ -93,7 +97,7 @@ run pprt-study accuracy turn.anim --quick --size 32 --want-fps 100 --repeats 1; 
 
 # Refused.
 run pprt-study accuracy spd:tree:4 -o x --methods unifrom,control; expect_code 2
-expect_text err "pprt-study: error: --methods unifrom,control: 'unifrom' is none of delaunay, uniform, control, auto, paper-weights, area-only, variance-only, no-pixel-rule, pixel-area, mean-of-samples, pixel-centers, stratified-random; did you mean 'uniform'?"$'\n'"try 'pprt-study --help'"
+expect_text err "pprt-study: error: --methods unifrom,control: 'unifrom' is none of auto, uniform, control, delaunay, paper-weights, area-only, variance-only, no-pixel-rule, pixel-area, mean-of-samples, pixel-centers, stratified-random; did you mean 'uniform'?"$'\n'"try 'pprt-study --help'"
 run pprt-study accuracy spd:tree:4 -o x --busy -1; expect_code 2; expect_line err '.*--busy.*'; expect_no_file x
 run pprt-study accuracy spd:tree:4; expect_code 2; expect_line err '.*--output is required.*'
 run pprt-study accuracy spd:bush -o x; expect_code 3; expect_no_file x/index.html

@@ -50,6 +50,7 @@ LatticeRefiner::LatticeRefiner(const Region& region, PrimitiveShapes shapes, Lat
 
 void LatticeRefiner::clear() {
   sees_mirrors_ = false;
+  affordable_ = 0;
   visibility_.limit(VisibilityBuffer::kNoLimit);
   visibility_.forget(VisibilityBuffer::kFine);
   estimates_.clear();
@@ -60,7 +61,9 @@ void LatticeRefiner::clear() {
 }
 
 void LatticeRefiner::restart() {
+  constexpr double kItemsOfASample = 3;  // that take as long to be seen
   const double as_many = static_cast<double>(samples_);
+  affordable_ = as_many + static_cast<double>(visibility_.items_seen()) / kItemsOfASample;
   growth_ = kFirstGrowth;  // of the last, small passes until now
   errors_.fade(kShareOfLast);
   // Where a sample says little of its surface, as in mirrors, it does not pay to know surfaces.
@@ -257,7 +260,7 @@ void LatticeRefiner::start(const Pass& pass) {
 // all.
 void LatticeRefiner::choose_fineness() {
   constexpr double kVeryFew = 0.07, kFew = 0.4;  // samples a pixel
-  constexpr double kItems = 3.5;                 // for each sample
+  constexpr double kItems = 3.5;                 // for each sample that the time would allow without them
   if (std::exchange(has_fineness_, true) || expected_ == 0) return;
   const double samples = static_cast<double>(samples_) + samples_left();
   const double per_pixel = samples / static_cast<double>(region().pixel_count());
@@ -265,7 +268,8 @@ void LatticeRefiner::choose_fineness() {
                                               : per_pixel < kFew   ? VisibilityBuffer::kMiddle
                                                                    : VisibilityBuffer::kFine;
   if (fineness != visibility_.fineness()) visibility_.forget(fineness);
-  if (!sees_mirrors_) visibility_.limit(static_cast<std::size_t>(kItems * samples), region().bounds());
+  if (!sees_mirrors_)
+    visibility_.limit(static_cast<std::size_t>(kItems * std::max(samples, affordable_)), region().bounds());
 }
 
 // Takes a whole level, while the levels so far are but a part of all samples to come.

@@ -174,8 +174,9 @@ class LatticeRefiner {
   std::size_t grid_levels_ = 0;  // taken whole, the base not counted
   bool has_base_ = false, has_grid_ = false;
   bool has_fineness_ = false;
-  bool sees_mirrors_ = false;                      // in the pictures before
-  bool has_looked_ = false;                        // for unsampled surfaces
+  bool sees_mirrors_ = false;  // in the pictures before
+  double affordable_ = 0;      // samples of the picture before, had nothing been seen first
+  bool has_looked_ = false;    // for unsampled surfaces
   std::vector<UnsampledSurface> surfaces_wanted_;  // of the tile, in this pass
   bool is_region_new_ = false;                     // its base may be missing
   double growth_ = 0;  // samples that a pass takes, for each that its candidates promise

@@ -100,6 +100,9 @@ class VisibilityBuffer {
   }
   void limit(std::size_t items) { limit(items, {0, 0, right_, bottom_}); }
 
+  // Returns how many quadrics and facets were projected for what is known, or was before all was forgotten.
+  std::size_t items_seen() const { return items_.size(); }
+
   Fineness fineness() const { return {density_, share_points_}; }
 
   std::uint32_t surface_of(std::uint32_t primitive) const { return shapes_.surface_of(primitive); }
