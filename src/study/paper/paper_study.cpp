@@ -217,6 +217,12 @@ std::string setup_text(const PaperResults& results, const PaperOptions& options)
       1e6 * machine.latency_s, 1e-6 * machine.bytes_per_second, last, 1e3 * calibration.frame_s);
 }
 
+Table first_columns(Table table, std::size_t count) {
+  table.columns.resize(count);
+  for (std::vector<Cell>& row : table.rows) row.resize(count);
+  return table;
+}
+
 void write_figures(const Runs& runs, const PaperResults& results, const PaperOptions& options,
                    StudyOutput& output) {
   int figure = 5;
@@ -269,13 +275,16 @@ void study_paper(const PaperOptions& asked, const std::string& command_line) {
   output.write_table("frames", frames_table(results));
   if (options.quick) output.note(kQuickNote);
   output.paragraph(kPaperReference);
+  const Table all_findings = findings_table(findings(results));
   output.heading("Findings");
-  output.add_table("findings", findings_table(findings(results)));
+  output.table(first_columns(all_findings, 2));
   write_figures(Runs(results), results, options, output);
   output.heading("Sample patterns (the paper's figures 1 and 2)");
   output.add_gallery(results.pattern_pictures);
   output.heading("Frames, patterns and regions (the paper's figure 4)");
   output.add_gallery(results.sequence_pictures);
+  output.heading("Findings in detail");
+  output.add_table("findings", all_findings);
   output.section("How this was measured", setup_text(results, options));
   output.finish();
 }
