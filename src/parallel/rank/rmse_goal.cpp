@@ -17,7 +17,7 @@ constexpr double kLeastSteepness = 1, kGreatestSteepness = 2.2;
 constexpr std::uint64_t kFewestProbes = 32;
 constexpr double kDecidingProbes = 1000;  // of the whole picture; fewer do not know their own deviation
 constexpr double kProbeShare = 0.02;      // of the samples, in each look
-constexpr double kMostPerPixel = 0.75;    // eye rays of probes, beside as many as there are samples
+constexpr double kMostPerPixel = 3;       // eye rays of probes, beside as many as there are samples
 
 }  // namespace
 

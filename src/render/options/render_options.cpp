@@ -112,8 +112,7 @@ void add_stop_rules(CLI::App& app, RenderOptions& o) {
       ->type_name("N")
       ->group(kRun);
   add_parsed(app, "--quality", parse_quality, o.end.quality,
-             "Stop a frame at an estimated FLIP of Q, or at a measured RMSE of E, at a rate too (default: "
-             "when it looks converged)")
+             "Stop a frame at a FLIP of Q, or an RMSE of E (default: when it looks converged)")
       .type_name("Q|rmse=E")
       ->group(kRun);
   app.add_option("--film-time", o.end.film_time,
