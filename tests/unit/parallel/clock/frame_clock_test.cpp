@@ -85,6 +85,21 @@ TEST_CASE("wall clock: a frame whose time is over grows no further") {
   CHECK(clock->expected_growth(100, 200) == 1.0);
 }
 
+TEST_CASE("without a rate no frame is ever nearer to its end: half of it counts as passed") {
+  for (const ClockKind kind : {ClockKind::kWall, ClockKind::kWork}) {
+    SessionSettings settings{.sampler = SamplerChoice::kAuto};
+    settings.clock = kind, settings.frames_per_second = 0;
+    const auto clock = make_frame_clock(settings, 0, sequence_of_now(), kPixels, 1, true);
+    clock->begin_frame({});
+    for (int packet = 0; packet < 3; ++packet) {
+      clock->begin_packet(1000);
+      CHECK(clock->sampling_share() == 0.5);
+      CHECK_FALSE(clock->expected_growth(100, 200));
+      CHECK_FALSE(clock->sampling_over());
+    }
+  }
+}
+
 TEST_CASE("wall clock: ranks that share a core afford their share of its work") {
   for (const double ranks_per_core : {1.0, 16.0}) {
     const auto clock = clock_in_a_frame(0, Carry::kNothing, ranks_per_core);

@@ -1,5 +1,9 @@
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
+#include <cstdio>
 #include <fstream>
+#include <functional>
 #include <thread>
 
 #include "render/records/ledger.h"
@@ -37,6 +41,22 @@ std::vector<Measurement> one(Measurement measurement) {
   std::vector<Measurement> result;
   result.push_back(std::move(measurement));
   return result;
+}
+
+// Returns what is printed on standard error meanwhile.
+std::string printed_by(const std::function<void()>& call) {
+  const TemporaryDirectory directory;
+  const std::string path = (directory.path() / "errors").string();
+  std::fflush(stderr);
+  const int own = dup(STDERR_FILENO);
+  std::FILE* file = std::fopen(path.c_str(), "w");
+  dup2(fileno(file), STDERR_FILENO);
+  call();
+  std::fflush(stderr);
+  dup2(own, STDERR_FILENO);
+  close(own), std::fclose(file);
+  std::ifstream in(path);
+  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 }  // namespace
@@ -127,6 +147,14 @@ TEST_CASE("a frame's record has every figure once, and counts and times as sums 
     "cpu_ms":{"moving":12.0, "sampling":2.0, "casting":4.0, "reconstruction":6.0, "measuring":14.0, "balancing":8.0, "idle":10.0},
     "bytes":{"samples":1280, "progress":34, "balance":36, "pixels":2400},
     "tiles_moved":28, "global_balance":true, "non_finite":2, "effort":1.0})"));
+}
+
+TEST_CASE("a frame's summary has its measured error") {
+  FinishedFrame frame = frame_with(0);
+  CHECK_FALSE(summarize(frame).error);
+  frame.error.emplace().share = 0.875;
+  REQUIRE(summarize(frame).error);
+  CHECK(summarize(frame).error->share == 0.875);
 }
 
 TEST_CASE("a frame's record has its measured error, and so have a shot and a run") {
@@ -229,6 +257,25 @@ TEST_CASE("a measurement that fails is left out of its record") {
   REQUIRE(records.size() == 2);
   CHECK_FALSE(records[0].contains("rmse"));
   CHECK(records[1]["rmse"] == 0.5);
+}
+
+TEST_CASE("why a measurement fails is said once, each kind for itself") {
+  const auto failed = [](std::string key, std::string option, const char* reason) {
+    std::promise<double> value;
+    value.set_exception(std::make_exception_ptr(std::runtime_error(reason)));
+    return Measurement{std::move(key), std::move(option), true, value.get_future()};
+  };
+  const TemporaryDirectory directory;
+  Ledger ledger((directory.path() / "ledger.ndjson").string(), ExistingFiles::kRefuse);
+  const std::string printed = printed_by([&] {
+    for (int i = 0; i < 3; ++i)
+      ledger.write_frame({{"frame", i}}, one(failed("rmse", "--reference", "torn")));
+    ledger.write_frame({{"frame", 3}}, one(failed("distance_to_serial", "--compare-serial", "late")));
+    ledger.finish();
+  });
+  CHECK(printed ==
+        "pprt-render: warning: --reference: torn; rmse is left out\n"
+        "pprt-render: warning: --compare-serial: late; distance_to_serial is left out\n");
 }
 
 TEST_CASE("a ledger is replaced, or continued when a run is resumed") {

@@ -310,6 +310,18 @@ TEST_CASE("lines of a manifest that are JSON but not records are skipped") {
   CHECK(run.resumed() == std::set<int>{1, 2, 3});
 }
 
+TEST_CASE("of a manifest's records only those of frames tell of frames") {
+  const FinishedRun run;
+  append(run.picture(7), kPng);
+  begun(run.path, "key", ExistingFiles::kResume).add({written(7, {run.picture(7)})});
+  REQUIRE(run.resumed() == std::set<int>{1, 2, 3, 7});
+  std::string text = text_of(run.path);
+  const std::string frame = R"("record":"frame")";
+  text.replace(text.rfind(frame), frame.size(), R"("record":"other")");
+  std::ofstream(run.path) << text;
+  CHECK(run.resumed() == std::set<int>{1, 2, 3});
+}
+
 TEST_CASE("without --resume a manifest of another key is replaced") {
   const FinishedRun run;
   EarlierManifest earlier(run.path, "other", ExistingFiles::kReplace);
