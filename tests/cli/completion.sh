@@ -27,7 +27,7 @@ pprt-render spd:te|spd:teapot spd:tetra
 pprt-convert spd:te|spd:teapot spd:tetra
 pprt-convert --up |y z
 pprt-compare --max-fl|--max-flicker --max-flip
-pprt-study |accuracy balance counts paper
+pprt-study |accuracy balance counts paper rate
 pprt-study paper --mach|--machine
 pprt-study paper --machine |cluster sp2
 pprt-study counts spd:te|spd:teapot spd:tetra

@@ -6,8 +6,8 @@ source "$(dirname "$0")/check.sh"
 run pprt-render ball.anim --clock work --budget 400000 --frames 1-2 --stats -; expect_code 0
 [[ $(wc -l <out) -eq 4 ]] || complain "the ledger has not four lines: $(cat out)"
 expect_line out '{"record":"run","format":2,"version":.*"ranks":1,"size":\[32,24\],"clock":"work".*}'
-expect_line out '{"record":"frame","frame":1,"cut":false,"deadline_s":0.25,.*,"non_finite":0,"error":{.*}}'
-expect_line out '{"record":"frame","frame":2,"cut":false,"deadline_s":0.5,.*,"non_finite":0,"error":{.*}}'
+expect_line out '{"record":"frame","frame":1,"cut":false,"deadline_s":0.25,.*,"non_finite":0,"effort":1.0,"error":{.*}}'
+expect_line out '{"record":"frame","frame":2,"cut":false,"deadline_s":0.5,.*,"non_finite":0,"effort":1.0,"error":{.*}}'
 expect_line out '{"record":"summary","frames":2,"on_time":2,"late_ms":{.*},.*,"non_finite":0,"error":{.*}}'
 expect_line err 'done: 2 of 2 frames in frame_0001.png to frame_0002.png; .*'
 

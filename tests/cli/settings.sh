@@ -49,7 +49,7 @@ in_file() { printf "%s\n" '; options' "" "$@" >bad.ini; }
 in_file seed=3 fps=fast;     run pprt-render ball.nff --config bad.ini; expect_usage "bad.ini:4: --fps: value fast is not a number from 0 to 1000"
 in_file clock=sun seed=3;    run pprt-render ball.nff --config bad.ini; expect_usage "bad.ini:3: --clock: 'sun' is none of wall, work"
 in_file seed=3 cull=true effects=foo np=2; run pprt-render ball.nff --config bad.ini
-expect_usage "bad.ini:5: unknown effect 'foo'; there are shadows,highlights,reflection,refraction,smooth-normals,textures, and the words auto, all and none"
+expect_usage "bad.ini:5: unknown effect 'foo'; there are shadows,highlights,reflection,refraction,smooth-normals,textures,emission,sky, and the words auto, all and none"
 in_file size=3;              run pprt-render ball.nff --config bad.ini; expect_usage "bad.ini:3: --size 3: want WIDTHxHEIGHT in pixels, each from 1 to 16384, such as 256x256"
 in_file sede=3;              run pprt-render ball.nff --config bad.ini; expect_usage "bad.ini:3: there is no option 'sede'; did you mean '--seed'?"
 in_file write-config=true;   run pprt-render ball.nff --config bad.ini; expect_usage "bad.ini:3: write-config: This option is not allowed in a configuration file"

@@ -58,16 +58,16 @@ run pprt-render ball.nff --reference x.tif; expect_usage "--reference 'x.tif': t
 run pprt-render ball.nff --contact-sheet x.jpg
 expect_usage "--contact-sheet x.jpg: want a name that ends in .png or .exr"
 run pprt-render ball.nff --effects caustics
-expect_usage "unknown effect 'caustics'; there are shadows,highlights,reflection,refraction,smooth-normals,textures, and the words auto, all and none"
+expect_usage "unknown effect 'caustics'; there are shadows,highlights,reflection,refraction,smooth-normals,textures,emission,sky, and the words auto, all and none"
 # What was probably meant.
 run pprt-render ball.nff --frmaes 1-3; expect_usage "there is no option --frmaes; did you mean '--frames'?"
 run pprt-render --layer=samples ball.nff; expect_usage "there is no option --layer; did you mean '--layers'?"
 run pprt-render --ovrewrite; expect_usage "there is no option --ovrewrite; did you mean '--overwrite'?"
 run pprt-render ball.nff --cast verfied; expect_usage "--cast: 'verfied' is none of off, paper, verified, auto; did you mean 'verified'?"
 run pprt-render ball.nff --effects shadow
-expect_usage "unknown effect 'shadow'; there are shadows,highlights,reflection,refraction,smooth-normals,textures, and the words auto, all and none; did you mean 'shadows'?"
+expect_usage "unknown effect 'shadow'; there are shadows,highlights,reflection,refraction,smooth-normals,textures,emission,sky, and the words auto, all and none; did you mean 'shadows'?"
 run pprt-render ball.nff --effects foo
-expect_usage "unknown effect 'foo'; there are shadows,highlights,reflection,refraction,smooth-normals,textures, and the words auto, all and none"
+expect_usage "unknown effect 'foo'; there are shadows,highlights,reflection,refraction,smooth-normals,textures,emission,sky, and the words auto, all and none"
 run pprt-study acuracy -o x; expect_code 2
 expect_text err "pprt-study: error: there is no subcommand 'acuracy'; did you mean 'accuracy'?"$'\n'"try 'pprt-study --help'"
 run pprt-study paper --qick -o x; expect_code 2

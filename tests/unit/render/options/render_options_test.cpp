@@ -90,13 +90,14 @@ TEST_CASE("numbers outside their range and unknown words are refused") {
                                                                                       {"--fps", "-1"},
                                                                                       {"--clock", "sun"},
                                                                                       {"--samples", "0"},
-                                                                                      {"--quality", "nan"},
                                                                                       {"--cast", "iron"},
                                                                                       {"--max-depth", "65"},
                                                                                       {"--seed", "-1"}}) {
     INFO(option << " " << value);
     CHECK_THROWS_AS(parse({"spd:tree", option, value}), CLI::ParseError);
   }
+  for (const char* quality : {"nan", "0", "rmse=0", "rmse=nan", "rmse=", "mse=0.1"})
+    CHECK_THROWS_AS(parse({"spd:tree", "--quality", quality}), UsageError);
   CHECK_THROWS_AS(parse({"spd:tree", "--resume", "--overwrite"}), CLI::ParseError);
 }
 
