@@ -260,7 +260,7 @@ void LatticeRefiner::start(const Pass& pass) {
 // all.
 void LatticeRefiner::choose_fineness() {
   constexpr double kVeryFew = 0.07, kFew = 0.4;  // samples a pixel
-  constexpr double kItems = 3.5;                 // for each sample that the time would allow without them
+  constexpr double kItems = 8;                   // for each sample that the time would allow without them
   if (std::exchange(has_fineness_, true) || expected_ == 0) return;
   const double samples = static_cast<double>(samples_) + samples_left();
   const double per_pixel = samples / static_cast<double>(region().pixel_count());
