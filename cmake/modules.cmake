@@ -100,7 +100,7 @@ function(pprt_unit_test name)
   if(PPRT_PCH AND NOT T_OWN_FLAGS)
     target_precompile_headers(test_${name} REUSE_FROM pprt_test_pch)
   endif()
-  catch_discover_tests(test_${name} TEST_SPEC "~[realtime]" TEST_PREFIX "${name}: "
+  catch_discover_tests(test_${name} TEST_SPEC "~[realtime]~[.]" TEST_PREFIX "${name}: "
                        PROPERTIES LABELS "${T_LABELS}" TIMEOUT 300)
   if(T_REAL_TIME)
     catch_discover_tests(test_${name} TEST_SPEC "[realtime]" TEST_LIST test_${name}_realtime TEST_PREFIX "${name}, real time: "

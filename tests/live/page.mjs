@@ -30,6 +30,20 @@ const cases = {
     await page.until("element('banner').textContent.includes('has ended')");
   },
 
+  "what all viewers are told may come before the greeting": async (browser) => {
+    const program = await Program.start(...scene);
+    const page = await open(browser, program);
+    await page.until("shown.at_rest");
+    const early = (message) => page.evaluate(`{ const told = hello; hello = null;
+      try { connection.on.text(${message}) } finally { hello = told } } 1`);
+    await early("{state}");
+    await early("{film: {keys: [], title: 'early'}}");
+    await page.evaluate("connection.on.text({state}), 1");
+    await take(page);
+    noError(page);
+    await program.end();
+  },
+
   "a drag turns the camera of who has taken it": async (browser) => {
     const program = await Program.start(...scene);
     const page = await open(browser, program);

@@ -45,11 +45,13 @@ const connection = new Connection({
   },
   text: (message) => {
     if (message.hello) welcome(message.hello);
+    if (message.error) say(message.error);
+    if (message.end) end(message.end);
+    // What is told to all viewers may come before that, and is told again after it.
+    if (!hello) return;
     if (message.state) update(message.state);
     if (message.film) takeFilm(message.film);
     if (message.pivot) pilot.turnRound(message.pivot);
-    if (message.error) say(message.error);
-    if (message.end) end(message.end);
   },
   lost: (seconds) => {
     if (pilot.isPilot) lostNumber = hello.you;
@@ -61,6 +63,7 @@ const connection = new Connection({
 });
 
 async function draw(header, bytes) {
+  if (!hello) return;
   if (header.type) {
     const picture = await createImageBitmap(new Blob([bytes], {type: header.type}));
     if (canvas.width !== picture.width || canvas.height !== picture.height) {
