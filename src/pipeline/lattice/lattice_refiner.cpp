@@ -274,6 +274,14 @@ void LatticeRefiner::choose_fineness() {
   visibility_.limit(static_cast<std::size_t>(items), region().bounds());
 }
 
+// With many samples a pixel the shares of what is seen in it must not err by more than its colours.
+void LatticeRefiner::choose_shares() {
+  constexpr double kMany = 4;  // samples a pixel
+  constexpr int kPoints = 256;
+  const double per_pixel = static_cast<double>(samples_) / static_cast<double>(region().pixel_count());
+  if (per_pixel > kMany) visibility_.count_shares_at(kPoints);
+}
+
 // Takes a whole level, while the levels so far are but a part of all samples to come.
 bool LatticeRefiner::start_grid_pass() {
   if (!std::exchange(has_base_, true)) {
@@ -337,6 +345,7 @@ void LatticeRefiner::learn_growth() {
 std::size_t LatticeRefiner::paint(const PixelRect& bounds, std::span<const PixelRect> parts,
                                   PixelBlock& pixels, const std::function<bool()>& is_over) {
   store_.forget_predictions();
+  choose_shares();
   pixels.bounds = bounds;
   pixels.colors.resize(bounds.area());
   std::size_t painted = 0;

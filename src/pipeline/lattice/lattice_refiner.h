@@ -131,6 +131,7 @@ class LatticeRefiner {
   bool leave_pass();
   bool start_pass();
   void choose_fineness();
+  void choose_shares();
   bool start_grid_pass();
   bool start_refinement_pass();
   void start(const Pass& pass);

@@ -12,7 +12,7 @@
 namespace pprt {
 
 // Points of a pixel, in shares of its side: Sobol's first two dimensions, whose beginnings fall evenly, too.
-inline constexpr int kMostSharePoints = 64, kMostShareVectors = kMostSharePoints / kPoints;
+inline constexpr int kMostSharePoints = 256, kMostShareVectors = kMostSharePoints / kPoints;
 
 constexpr float share_point(std::uint32_t i, bool is_second) {
   std::uint32_t bits = 0;

@@ -92,6 +92,9 @@ class VisibilityBuffer {
   void forget(const Fineness& fineness);
   void forget() { forget(fineness()); }
 
+  // Shares are counted at so many points of a pixel from now on, a power of two from 16 to 256.
+  void count_shares_at(int points) { share_points_ = points; }
+
   // Counts as not known where more quadrics and facets than this are in a part of the picture: then
   // rasterising them would take longer than it is worth. 0: they are not even bounded.
   void limit(std::size_t items, const PixelRect& within) {
