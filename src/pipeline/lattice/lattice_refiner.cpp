@@ -276,7 +276,7 @@ void LatticeRefiner::choose_fineness() {
 
 // With many samples a pixel the shares of what is seen in it must not err by more than its colours.
 void LatticeRefiner::choose_shares() {
-  constexpr double kMany = 4;  // samples a pixel
+  constexpr double kMany = 1.5;  // samples a pixel
   constexpr int kPoints = 256;
   const double per_pixel = static_cast<double>(samples_) / static_cast<double>(region().pixel_count());
   if (per_pixel > kMany) visibility_.count_shares_at(kPoints);
