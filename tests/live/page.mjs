@@ -300,6 +300,7 @@ const cases = {
     // A key stands where the ball is.
     await page.press(" ");
     await stateIs(page, "!state.plays");
+    await page.until("shown.at_rest");  // the last frame that was on its way is here
     await page.until("Number(element('key-at').textContent) === shown.position");
     await page.press("k");
     await stateIs(page, "state.keys.length === 1 && state.keys[0] === shown.position");
