@@ -28,8 +28,8 @@ class FrameGoal {
   // `has_new_picture`: no sample of the frame before is left.
   void begin_frame(int number, bool has_new_picture);
 
-  // Whether a stop rule is reached in this rank's region, or an RMSE in the whole picture. Of a number of
-  // samples a rank takes the share of its pixels. May reconstruct `picture`, to find out how good it is.
+  // Whether a stop rule is reached in this rank's region, or an RMSE in the whole picture. A rank takes its
+  // pixels' share of a number of samples. May reconstruct `picture`, to find out how good it is.
   bool is_reached(RankSampling& sampler, PictureRefresh& picture, FrameClock& clock);
 
   SamplingProgress progress(const RankSampling& sampler, const FrameClock& clock) const;

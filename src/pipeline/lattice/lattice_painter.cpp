@@ -323,8 +323,8 @@ const LatticePainter::SurfaceColors& LatticePainter::colors_of(std::uint32_t sur
   return colors_[known_colors_++] = colors_anew(surface, at, corners);
 }
 
-// A corner on another surface takes the colour of those beside it that lie on this one, else of that across,
-// else of a sample near by: as far as it is known to say something (SurfaceShare).
+// A corner on another surface takes the colour of those beside it that lie on this one. Without any it takes
+// that of the corner across, or of a sample near by. SurfaceShare tells how far.
 LatticePainter::SurfaceColors LatticePainter::colors_anew(std::uint32_t surface, const LatticeNode& at,
                                                           const SquareCorners& corners) const {
   SurfaceColors colors{surface, {}};

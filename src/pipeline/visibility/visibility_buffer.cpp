@@ -242,8 +242,8 @@ void VisibilityBuffer::find_surfaces(VisibleTile& tile) {
   mark_uniform(on_surface_.data(), density_, tile.uniform_.data());
 }
 
-// Keeps the points as 16 bits. Of more primitives in a tile those that are seen get new numbers:
-// they are no more than there are points.
+// Keeps the points as 16 bits. Gives new numbers to what is seen where a tile has more primitives:
+// that is no more than there are points.
 void VisibilityBuffer::compress(VisibleTile& tile) {
   constexpr std::size_t kMost = (std::size_t{1} << 16) - 1;
   if (tile.primitives_.size() > kMost) {
