@@ -274,7 +274,7 @@ LatticePainter::SeenInPixel LatticePainter::seen_in(const LatticeNode& corner) c
   density == 2 ? count_points<2>(first, points) : count_points<4>(first, points);
   found.count = points.count, found.shares = points.shares;
   for (std::size_t i = 0; i < found.count; ++i) found.surfaces[i] = seen.surfaces()[points.numbers[i]];
-  if (found.count > 1 && visibility_.has_shares())
+  if (found.count > 1)
     visibility_.shares(pixel_x, pixel_y, {points.numbers.data(), points.count},
                        {found.shares.data(), found.count});
   return found;

@@ -67,7 +67,10 @@ bool VisibilityBuffer::bound_all() {
       if (meets(now[i].box, within_)) items += now[i].parts;
     }
     if (items + (shapes_.bound ? first / kPerItem : 0) > most_items_) state_ = State::kUnknown;
-    if (state_ == State::kUnknown) return false;
+    if (state_ == State::kUnknown) {
+      items_.clear();
+      return false;
+    }
   }
   assign_to_tiles();
   if (tiles_.size() < is_seen_.size()) tiles_.resize(is_seen_.size());

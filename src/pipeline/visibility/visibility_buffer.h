@@ -82,7 +82,7 @@ class VisibilityBuffer {
   // How fine it is. Little is seen of finer edges where samples are few.
   struct Fineness {
     int points_per_side;  // of a pixel
-    int share_points;     // of a pixel, for shares(); 0: it has no finer ones than these points tell
+    int share_points;     // of a pixel, for shares()
 
     friend bool operator==(const Fineness&, const Fineness&) = default;
   };
@@ -112,7 +112,6 @@ class VisibilityBuffer {
 
   int points_per_side() const { return density_; }
   int log2_points_per_side() const { return log2_density_; }
-  bool has_shares() const { return share_points_ > 0; }
 
   // Whether what is seen is known: every primitive has a shape (image_shape.h), and they are not too many.
   // That one has no shape may show late: a primitive is projected when a tile that it may meet is asked for.
