@@ -13,6 +13,9 @@ namespace {
 constexpr std::string_view kForwarding = "mpirun: Forwarding signal";
 // Open MPI says this with --enable-recovery for each rank that was killed.
 constexpr std::string_view kEventError = "] PMIX ERROR: BAD-PARAM in file ";
+// And this where its text about MPI_Abort arrives torn: MPI_Abort ends without waiting until it is sent.
+constexpr std::string_view kTornText = "] ORTE_ERROR_LOG: Data unpack ";
+constexpr std::string_view kTextReader = "/orte/util/show_help.c ";
 
 // Open MPI's lines of dashes have 74 of them.
 bool is_rule(const std::string& line) {
@@ -31,8 +34,9 @@ bool may_be_mpiruns(const std::string& line) {
 }
 
 bool is_dropped(const std::string& line) {
+  const auto has = [&](std::string_view words) { return line.find(words) != std::string::npos; };
   return line.starts_with(kForwarding) ||
-         (line.starts_with('[') && line.find(kEventError) != std::string::npos);
+         (line.starts_with('[') && (has(kEventError) || (has(kTornText) && has(kTextReader))));
 }
 
 // Whether a message says only that ranks had an exit code, which the ranks have explained themselves.

@@ -99,6 +99,16 @@ TEST_CASE("what Open MPI says of itself when a rank was killed is dropped") {
   CHECK(shown(messages, said + "[vm:1] other\n" + said, 3) == "[vm:1] other\n");
 }
 
+TEST_CASE("what Open MPI says of its text about MPI_Abort, torn on its way, is dropped") {
+  MpirunMessages messages;
+  const std::string begin = "[host1:1] [[1,0],0] ORTE_ERROR_LOG: Data unpack ";
+  const std::string torn =
+      begin + "had inadequate space in file ../../../orte/util/show_help.c at line 513\n" + begin +
+      "would read past end of buffer in file ../../../orte/util/show_help.c at line 501\n";
+  const std::string other = begin + "failed in file ../../../orte/mca/x.c at line 1\n";
+  CHECK(shown(messages, torn + other + torn, 3) == other);
+}
+
 TEST_CASE("mpirun's message about a forwarded signal is dropped") {
   MpirunMessages messages;
   CHECK(shown(messages, "mpirun: Forwarding signal 12 to job\nmpirun: x\n", 3) == "mpirun: x\n");
