@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 
 #include "base/camera.h"
@@ -11,6 +12,17 @@
 #include "base/ray_sample.h"
 
 namespace pprt {
+
+// What the pictures of primitives show in the image.
+struct PrimitiveTextures {
+  // By primitive number, 0 included: whether it shows a picture. Empty: none does.
+  std::span<const std::uint8_t> are_there = {};
+  // Returns the factor of a primitive's colours over a square of the image about (x, y), on the primitive's
+  // plane: the mean of per_side x per_side squares that make it up, each filtered over its side. Coordinates
+  // and `side` are pixels. Empty where there is none.
+  std::function<std::optional<Color>(std::uint32_t primitive, double x, double y, double side, int per_side)>
+      over = {};
+};
 
 // Functions that a Tracer, or a substitute in a test, provides.
 struct Probe {
@@ -45,6 +57,7 @@ struct Probe {
   std::function<void(std::uint32_t first, std::span<ShapeBounds> bounds)> bound = {};
   // Whether samples depend on `footprint`: the scene has textures.
   bool has_textures = false;
+  PrimitiveTextures textures = {};
 };
 
 }  // namespace pprt

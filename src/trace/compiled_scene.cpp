@@ -15,6 +15,7 @@
 #include "trace/geometry/embree_reach.h"
 #include "trace/geometry/numerics.h"
 #include "trace/parts_builder.h"
+#include "trace/projected_textures.h"
 #include "trace/scene_extent.h"
 #include "trace/scene_impl.h"
 
@@ -295,6 +296,7 @@ CompiledScene compile(const SceneDescription& scene, const CompileOptions& optio
   find_coincident_faces(*impl);
   find_light_contacts(radius_about_origin(impl->normalisation, extent.measured), *impl);
   impl->surfaces = connected_surfaces(impl->parts, static_cast<std::uint32_t>(scene.order.size()));
+  impl->with_pictures = primitives_with_pictures(*impl);
   build_hierarchy(*impl);
   return CompiledScene(std::move(impl));
 }

@@ -75,6 +75,7 @@ class CompiledScene {
 };
 
 class Pose;
+class ProjectedTextures;
 
 // Compiles a scene. Throws InputError when it has no visible object or a number that is not finite.
 CompiledScene compile(const SceneDescription& scene, const CompileOptions& options = {});
@@ -106,7 +107,7 @@ class Tracer {
 
   const CompiledScene& scene() const { return scene_; }
 
-  void set_camera(const Camera& camera) { camera_ = camera; }
+  void set_camera(const Camera& camera);
   const Camera& camera() const { return camera_; }
 
   // Traces the eye ray through image point (x, y), pixels, with its whole ray tree. From its first hit no
@@ -132,6 +133,14 @@ class Tracer {
   // that go on into each other are one surface. It has the number of its first primitive.
   std::span<const std::uint32_t> surfaces() const;
 
+  // Returns whether each primitive shows a picture, by the same numbers; empty: none does.
+  std::span<const std::uint8_t> primitives_with_pictures() const;
+
+  // Returns what a primitive's picture shows over a square of the image about (x, y), on the plane of the
+  // primitive: the factor of its colours, as the mean of per_side x per_side squares that make it up, each
+  // filtered over its side. Coordinates and `side` are pixels. Empty where there is none.
+  std::optional<Color> texture_over(std::uint32_t primitive, double x, double y, double side, int per_side);
+
   // Projects a primitive of a RaySample to the image, into `shape`, whose storage is reused.
   void project(std::uint32_t primitive, ImageShape& shape) const;
 
@@ -143,6 +152,7 @@ class Tracer {
  private:
   const CompiledScene& scene_;
   std::unique_ptr<Pose> pose_;
+  std::unique_ptr<ProjectedTextures> textures_;
   Camera camera_;
   RayCounts counts_;
 };

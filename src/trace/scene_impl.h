@@ -107,8 +107,9 @@ class CompiledScene::Impl {
   std::vector<TextureImage> textures;
   std::vector<ShadingMaterial> materials;
   std::vector<ShadingLight> lights;
-  std::vector<std::uint32_t> surfaces;  // connected_surfaces()
-  std::vector<ScenePart> parts;         // by Embree's geometry number; not moved once Embree reads them
+  std::vector<std::uint32_t> surfaces;      // connected_surfaces()
+  std::vector<std::uint8_t> with_pictures;  // primitives_with_pictures()
+  std::vector<ScenePart> parts;             // by Embree's geometry number; not moved once Embree reads them
 
   // What moves.
   bool moves = false;  // more than the camera

@@ -6,6 +6,7 @@
 #include "trace/geometry/numerics.h"
 #include "trace/image_shape.h"
 #include "trace/pose.h"
+#include "trace/projected_textures.h"
 #include "trace/ray_tree.h"
 #include "trace/scene_impl.h"
 #include "trace/shape_bounds.h"
@@ -47,11 +48,20 @@ RayCone eye_cone(const Camera& camera, const Vec3d& direction, double footprint,
 }  // namespace
 
 Tracer::Tracer(const CompiledScene& scene, const Camera& camera)
-    : scene_(scene), pose_(std::make_unique<Pose>(scene.impl())), camera_(camera) {}
+    : scene_(scene),
+      pose_(std::make_unique<Pose>(scene.impl())),
+      textures_(std::make_unique<ProjectedTextures>()),
+      camera_(camera) {}
 Tracer::Tracer(Tracer&&) noexcept = default;
 Tracer::~Tracer() = default;
 
+void Tracer::set_camera(const Camera& camera) {
+  camera_ = camera;
+  textures_->clear();
+}
+
 bool Tracer::set_time(double time) {
+  textures_->clear();
   return pose_->set_time(time);
 }
 
@@ -111,6 +121,15 @@ std::uint32_t Tracer::primitive_count() const {
 
 std::span<const std::uint32_t> Tracer::surfaces() const {
   return scene_.impl().surfaces;
+}
+
+std::span<const std::uint8_t> Tracer::primitives_with_pictures() const {
+  return scene_.impl().with_pictures;
+}
+
+std::optional<Color> Tracer::texture_over(std::uint32_t primitive, double x, double y, double side,
+                                          int per_side) {
+  return textures_->of(*pose_, primitive, camera_).over(x, y, side, per_side);
 }
 
 void Tracer::project(std::uint32_t primitive, ImageShape& shape) const {

@@ -22,6 +22,10 @@ inline Probe probe_of(Tracer& tracer) {
     tracer.bound(first, bounds);
   };
   probe.has_textures = tracer.scene().effects().has(Effect::kTextures);
+  probe.textures = {tracer.primitives_with_pictures(),
+                    [&tracer](std::uint32_t primitive, double x, double y, double side, int per_side) {
+                      return tracer.texture_over(primitive, x, y, side, per_side);
+                    }};
   if (tracer.scene().moves()) {
     probe.set_time = [&tracer](double time) { return tracer.set_time(time); };
     probe.carry = [&tracer](RaySample& sample) { return tracer.carry(sample); };

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "base/simd.h"
 #include "base/vector.h"
-#include "pipeline/core/simd.h"
 
 namespace pprt {
 

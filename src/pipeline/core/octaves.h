@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "pipeline/core/simd.h"
+#include "base/simd.h"
 
 namespace pprt {
 

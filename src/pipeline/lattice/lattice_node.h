@@ -16,8 +16,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/simd.h"
 #include "base/vector.h"
-#include "pipeline/core/simd.h"
 
 namespace pprt {
 

@@ -23,6 +23,19 @@ float4 mean_of(const SquareCorners& corners) {
          0.25F;
 }
 
+std::array<LatticeNode, 4> nodes_of(const LatticeNode& corner, int side) {
+  const auto [x, y] = corner;
+  return {{{x, y}, {x + side, y}, {x, y + side}, {x + side, y + side}}};
+}
+
+// The bilinear weights of a square's corners at a node.
+std::array<float, 4> weights_in(const LatticeNode& corner, int side, const LatticeNode& node) {
+  const float per_side = 1 / static_cast<float>(side);
+  const float u = static_cast<float>(node.x - corner.x) * per_side;
+  const float v = static_cast<float>(node.y - corner.y) * per_side;
+  return {(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v};
+}
+
 float4 in_the_middle(const std::array<float4, 4>& corners) {
   return ((corners[0] + corners[1]) + (corners[2] + corners[3])) * 0.25F;
 }
@@ -56,7 +69,8 @@ void LatticePainter::paint_square(const LatticeNode& corner, int side, const Squ
   }
   if (!is_refined(corner, side)) {
     if (!sees_ || is_uniform(corner, size)) {
-      fill(corner, side, corners);
+      const std::uint32_t surface = sees_ ? seen_at(visibility_, corner) : 0;
+      textures_.has(surface) ? fill_textured(corner, side, corners, surface) : fill(corner, side, corners);
     } else {
       paint_mixed(corner, side, corners);
     }
@@ -112,20 +126,21 @@ std::array<SquareCorners, 4> LatticePainter::quarters_within_pixel(const Lattice
   const LatticeNode center{corner.x + half, corner.y + half};
   const std::array<LatticeNode, 4> middles = {
       {{center.x, corner.y}, {corner.x, center.y}, {corner.x + side, center.y}, {center.x, corner.y + side}}};
-  constexpr std::array<std::array<std::size_t, 2>, 4> kEnds = {{{0, 1}, {0, 2}, {1, 3}, {2, 3}}};
+  constexpr std::array<Surroundings::Ends, 4> kEnds = {{{0, 1}, {0, 2}, {1, 3}, {2, 3}}};
   const NodeValue* seen = store_.sample_at(center);
+  const std::array<LatticeNode, 4> nodes = nodes_of(corner, side);
   Surroundings around;
-  for (const NodeValue& value : corners) around.add(value);
+  for (std::size_t i = 0; i < 4; ++i) around.add(corners[i], nodes[i]);
   std::array<NodeValue, 4> shown;
   for (std::size_t i = 0; i < middles.size(); ++i) {
     if (const NodeValue* sample = store_.sample_at(middles[i])) {
       shown[i] = *sample;
-      around.add_middle(shown[i], kEnds[i][0], kEnds[i][1]);
+      around.add_middle(shown[i], middles[i], kEnds[i]);
       continue;
     }
     Surroundings ends;
-    for (const std::size_t end : kEnds[i]) ends.add(corners[end]);
-    if (seen != nullptr) ends.add(*seen);
+    for (const std::size_t end : {kEnds[i].a, kEnds[i].b}) ends.add(corners[end], nodes[end]);
+    if (seen != nullptr) ends.add(*seen, center);
     shown[i] = predictor_.predict(middles[i], ends).value;
   }
   const NodeValue inner = seen != nullptr ? *seen : predictor_.predict(center, around).value;
@@ -133,6 +148,50 @@ std::array<SquareCorners, 4> LatticePainter::quarters_within_pixel(const Lattice
            {shown[0], corners[1], inner, shown[2]},
            {shown[1], inner, corners[2], shown[3]},
            {inner, shown[2], shown[3], corners[3]}}};
+}
+
+// The light on a texture is bilinear, and so is what samples show of the texture itself; the texture is
+// known in each pixel.
+void LatticePainter::fill_textured(const LatticeNode& corner, int side, const SquareCorners& corners,
+                                   std::uint32_t surface) {
+  const Square square{corner, side, corners};
+  SurfaceColors colors{surface, {}, textures_at(square, surface)};
+  for (std::size_t i = 0; i < 4; ++i) colors.corners[i] = corners[i].channels();
+  const int left = std::max(corner.x / kPixelSide, part_.x0), top = std::max(corner.y / kPixelSide, part_.y0);
+  const int right = std::min((corner.x + side) / kPixelSide, part_.x1);
+  const int bottom = std::min((corner.y + side) / kPixelSide, part_.y1);
+  for (int y = top; y < bottom; ++y) {
+    for (int x = left; x < right; ++x) {
+      const TextureFactor texture =
+          textures_.in_pixel({x + 0.5, y + 0.5}, visibility_.primitive_in_middle(x, y));
+      const auto weights =
+          weights_in(corner, side, {kPixelSide * x + kPixelSide / 2, kPixelSide * y + kPixelSide / 2});
+      store_channels(color_within(colors, weights, texture), pixel(x, y));
+    }
+  }
+}
+
+// Returns what a surface shows between the corners of a square: `texture` is that of its texture there.
+float4 LatticePainter::color_within(const SurfaceColors& colors, const std::array<float, 4>& weights,
+                                    const TextureFactor& texture) const {
+  float4 color{}, known{};
+  for (std::size_t i = 0; i < 4; ++i) color += colors.corners[i] * weights[i];
+  if (!is_known(texture)) return color;
+  TextureLight light;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const TextureFactor& at = colors.textures[i];
+    known += (is_known(at) ? at : texture) * weights[i];
+    if (is_known(at)) light.add(colors.corners[i], at, weights[i]);
+  }
+  return retextured(color, light.with(textures_.usual()), known, texture);
+}
+
+std::array<TextureFactor, 4> LatticePainter::textures_at(const Square& square, std::uint32_t surface) {
+  const std::array<LatticeNode, 4> nodes = nodes_of(square.corner, square.side);
+  std::array<TextureFactor, 4> found{};
+  for (std::size_t i = 0; i < 4; ++i)
+    if (square.corners[i].surface() == surface) found[i] = textures_.at(nodes[i], surface);
+  return found;
 }
 
 // Bilinear: at the centre of a pixel it is the mean over the pixel.
@@ -181,7 +240,7 @@ void LatticePainter::fill(const LatticeNode& corner, int side, const SquareCorne
 
 // Returns the mean over a pixel or a square of it.
 float4 LatticePainter::mean_of_refined(const LatticeNode& corner, int side, const SquareCorners& corners) {
-  if (side <= finest_side_ || !is_refined(corner, side)) return mean_of(corners);
+  if (side <= finest_side_ || !is_refined(corner, side)) return mean_over(corner, side, corners);
   const int half = side / 2;
   const std::array<SquareCorners, 4> parts = quarters_within_pixel(corner, side, corners);
   return (mean_of_refined(corner, half, parts[0]) +
@@ -191,11 +250,23 @@ float4 LatticePainter::mean_of_refined(const LatticeNode& corner, int side, cons
          0.25F;
 }
 
+// The same of a square with samples at its corners only.
+float4 LatticePainter::mean_over(const LatticeNode& corner, int side, const SquareCorners& corners) {
+  const std::uint32_t surface = corners[0].surface();
+  if (!sees_ || !textures_.has(surface)) return mean_of(corners);
+  SurfaceColors colors{surface, {}, textures_at({corner, side, corners}, surface)};
+  for (std::size_t i = 0; i < 4; ++i) colors.corners[i] = corners[i].channels();
+  const Vec2d middle = point_of(corner) + Vec2d(0.5, 0.5) * (static_cast<double>(side) / kPixelSide);
+  return color_within(colors, {0.25F, 0.25F, 0.25F, 0.25F},
+                      textures_.over(middle, static_cast<double>(side) / kPixelSide, surface));
+}
+
 // Returns the mean over a pixel in which several surfaces are seen: each by its share and by what the samples
 // on it show.
 float4 LatticePainter::mean_of_mixed(const LatticeNode& corner, const SquareCorners& corners) {
   known_colors_ = 0;
-  if (!is_refined(corner, kPixelSide)) return mixed_mean(corner, corner, kPixelSide, corners);
+  const Square square{corner, kPixelSide, corners};
+  if (!is_refined(corner, kPixelSide)) return mixed_mean(corner, square);
   summed_ = 0;
   gather(corner, kPixelSide, corners);
   const SeenInPixel seen = seen_in(corner);
@@ -207,7 +278,7 @@ float4 LatticePainter::mean_of_mixed(const LatticeNode& corner, const SquareCorn
     const auto found =
         std::find_if(sums_.begin(), end, [&](const SurfaceSum& s) { return s.surface == seen.surfaces[i]; });
     const float4 color = found != end ? found->sum * (1 / found->weight)
-                                      : in_the_middle(colors_of(seen.surfaces[i], middle, corners).corners);
+                                      : in_the_middle(colors_of(seen.surfaces[i], middle, square).corners);
     mean += color * seen.shares[i];
   }
   return mean;
@@ -245,13 +316,14 @@ bool LatticePainter::is_uniform(const LatticeNode& corner, int pixels) const {
 // The pixels of a square with samples at its corners only, in which several surfaces are seen.
 void LatticePainter::paint_mixed(const LatticeNode& corner, int side, const SquareCorners& corners) {
   known_colors_ = 0;
+  const Square square{corner, side, corners};
   const int left = std::max(corner.x / kPixelSide, part_.x0), top = std::max(corner.y / kPixelSide, part_.y0);
   const int right = std::min((corner.x + side) / kPixelSide, part_.x1);
   const int bottom = std::min((corner.y + side) / kPixelSide, part_.y1);
   for (int y = top; y < bottom; ++y) {
     for (int x = left; x < right; ++x) {
       const LatticeNode at{kPixelSide * x, kPixelSide * y};
-      store_channels(mixed_mean(at, corner, side, corners), pixel(x, y));
+      store_channels(mixed_mean(at, square), pixel(x, y));
     }
   }
 }
@@ -265,7 +337,9 @@ LatticePainter::SeenInPixel LatticePainter::seen_in(const LatticeNode& corner) c
   const int in_tile_x = visibility_.in_tile(pixel_x), in_tile_y = visibility_.in_tile(pixel_y);
   SeenInPixel found;
   if (seen.is_uniform(in_tile_x, in_tile_y, 1)) {
-    found.surfaces[0] = seen.at(in_tile_x * density, in_tile_y * density), found.shares[0] = 1;
+    const std::uint16_t number = seen.row(in_tile_y * density)[in_tile_x * density];
+    found.surfaces[0] = seen.surfaces()[number], found.primitives[0] = seen.primitive(number);
+    found.shares[0] = 1;
     found.count = 1;
     return found;
   }
@@ -273,7 +347,10 @@ LatticePainter::SeenInPixel LatticePainter::seen_in(const LatticeNode& corner) c
   const auto* first = seen.row(in_tile_y * density) + in_tile_x * density;
   density == 2 ? count_points<2>(first, points) : count_points<4>(first, points);
   found.count = points.count, found.shares = points.shares;
-  for (std::size_t i = 0; i < found.count; ++i) found.surfaces[i] = seen.surfaces()[points.numbers[i]];
+  for (std::size_t i = 0; i < found.count; ++i) {
+    found.surfaces[i] = seen.surfaces()[points.numbers[i]];
+    found.primitives[i] = seen.primitive(points.numbers[i]);
+  }
   if (found.count > 1)
     visibility_.shares(pixel_x, pixel_y, {points.numbers.data(), points.count},
                        {found.shares.data(), found.count});
@@ -298,36 +375,37 @@ void LatticePainter::count_points(const std::uint16_t* first, NumbersInPixel& fo
 
 // Returns the mean over a pixel of a square: the surfaces seen in it by their shares, each with its colour in
 // the middle.
-float4 LatticePainter::mixed_mean(const LatticeNode& corner, const LatticeNode& square, int square_side,
-                                  const SquareCorners& corners) {
-  const float per_side = 1 / static_cast<float>(square_side);
+float4 LatticePainter::mixed_mean(const LatticeNode& corner, const Square& square) {
   const LatticeNode middle{corner.x + kPixelSide / 2, corner.y + kPixelSide / 2};
-  const float u = static_cast<float>(middle.x - square.x) * per_side;
-  const float v = static_cast<float>(middle.y - square.y) * per_side;
-  const std::array<float, 4> weights = {(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v};
+  const std::array<float, 4> weights = weights_in(square.corner, square.side, middle);
   const SeenInPixel seen = seen_in(corner);
   float4 sum{};
   for (std::size_t i = 0; i < seen.count; ++i) {
     if (seen.shares[i] <= 0) continue;
-    const SurfaceColors& colors = colors_of(seen.surfaces[i], middle, corners);
-    for (std::size_t k = 0; k < weights.size(); ++k) sum += colors.corners[k] * (weights[k] * seen.shares[i]);
+    const SurfaceColors& colors = colors_of(seen.surfaces[i], middle, square);
+    const TextureFactor texture = textures_.has(seen.surfaces[i])
+                                      ? textures_.in_pixel(point_of(middle), seen.primitives[i])
+                                      : TextureFactor{};
+    sum += color_within(colors, weights, texture) * seen.shares[i];
   }
   return sum;
 }
 
 const LatticePainter::SurfaceColors& LatticePainter::colors_of(std::uint32_t surface, const LatticeNode& at,
-                                                               const SquareCorners& corners) {
+                                                               const Square& square) {
   for (std::size_t i = 0; i < known_colors_; ++i)
     if (colors_[i].surface == surface) return colors_[i];
   if (known_colors_ == colors_.size()) known_colors_ = 0;
-  return colors_[known_colors_++] = colors_anew(surface, at, corners);
+  return colors_[known_colors_++] = colors_anew(surface, at, square);
 }
 
 // A corner on another surface takes the colour of those beside it that lie on this one. Without any it takes
 // that of the corner across, or of a sample near by. SurfaceShare tells how far.
 LatticePainter::SurfaceColors LatticePainter::colors_anew(std::uint32_t surface, const LatticeNode& at,
-                                                          const SquareCorners& corners) const {
-  SurfaceColors colors{surface, {}};
+                                                          const Square& square) {
+  const SquareCorners& corners = square.corners;
+  SurfaceColors colors{surface, {}, {}};
+  if (textures_.has(surface)) colors.textures = textures_at(square, surface);
   std::array<float, 4> on_it;
   float all = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -336,7 +414,7 @@ LatticePainter::SurfaceColors LatticePainter::colors_anew(std::uint32_t surface,
     all += on_it[i];
   }
   const int level = errors_.near(at).level;
-  const NodeValue* near = all > 0 ? nullptr : surfaces_.nearest(at, surface);
+  const SurfaceSamples::Known* near = all > 0 ? nullptr : surfaces_.nearest(at, surface);
   if (all == 0 && near == nullptr) return colors;
   const float share =
       share_.of(near != nullptr ? Basis::kNearSample : basis_of(static_cast<std::size_t>(all), 4), level);
@@ -345,12 +423,18 @@ LatticePainter::SurfaceColors LatticePainter::colors_anew(std::uint32_t surface,
     const std::size_t beside = i ^ 1U, above = i ^ 2U, across = i ^ 3U;
     const float adjacent = on_it[beside] + on_it[above];
     const float4 channels =
-        near != nullptr ? near->channels()
+        near != nullptr ? near->value.channels()
         : adjacent > 0
             ? (corners[beside].channels() * on_it[beside] + corners[above].channels() * on_it[above]) *
                   (1 / adjacent)
             : corners[across].channels();
     colors.corners[i] += (channels - colors.corners[i]) * share;
+    if (!textures_.has(surface)) continue;
+    colors.textures[i] =
+        near != nullptr ? textures_.at(near->node, surface)
+        : adjacent > 0  ? (colors.textures[beside] * on_it[beside] + colors.textures[above] * on_it[above]) *
+                             (1 / adjacent)
+                       : colors.textures[across];
   }
   return colors;
 }

@@ -16,13 +16,15 @@ using SquareCorners = std::array<NodeValue, 4>;
 class LatticePainter {
  public:
   LatticePainter(const LatticeStore& store, NodePredictor& predictor, VisibilityBuffer& visibility,
-                 const SurfaceSamples& surfaces, LocalErrors& errors, const SurfaceShare& share)
+                 const SurfaceSamples& surfaces, LocalErrors& errors, const SurfaceShare& share,
+                 SurfaceTextures& textures)
       : store_(store),
         predictor_(predictor),
         visibility_(visibility),
         surfaces_(surfaces),
         errors_(errors),
-        share_(share) {}
+        share_(share),
+        textures_(textures) {}
 
   // Replaces the pixels of a part of `pixels`, a rectangle of the image within their bounds.
   void paint(const PixelRect& part, PixelBlock& pixels);
@@ -30,6 +32,9 @@ class LatticePainter {
  private:
   void paint_square(const LatticeNode& corner, int side, const SquareCorners& corners);
   void fill(const LatticeNode& corner, int side, const SquareCorners& corners);
+  void fill_textured(const LatticeNode& corner, int side, const SquareCorners& corners,
+                     std::uint32_t surface);
+  float4 mean_over(const LatticeNode& corner, int side, const SquareCorners& corners);
   std::array<SquareCorners, 4> quarters(const LatticeNode& corner, int side, const SquareCorners& corners);
   std::array<SquareCorners, 4> quarters_within_pixel(const LatticeNode& corner, int side,
                                                      const SquareCorners& corners);
@@ -41,11 +46,20 @@ class LatticePainter {
   struct SurfaceColors {
     std::uint32_t surface = 0;
     std::array<float4, 4> corners;
+    std::array<TextureFactor, 4> textures;  // where these colours come from
   };
-  const SurfaceColors& colors_of(std::uint32_t surface, const LatticeNode& at, const SquareCorners& corners);
-  SurfaceColors colors_anew(std::uint32_t surface, const LatticeNode& at, const SquareCorners& corners) const;
-  float4 mixed_mean(const LatticeNode& corner, const LatticeNode& square, int square_side,
-                    const SquareCorners& corners);
+  // A square with samples at its corners only.
+  struct Square {
+    LatticeNode corner;
+    int side;
+    const SquareCorners& corners;
+  };
+  const SurfaceColors& colors_of(std::uint32_t surface, const LatticeNode& at, const Square& square);
+  SurfaceColors colors_anew(std::uint32_t surface, const LatticeNode& at, const Square& square);
+  std::array<TextureFactor, 4> textures_at(const Square& square, std::uint32_t surface);
+  float4 color_within(const SurfaceColors& colors, const std::array<float, 4>& weights,
+                      const TextureFactor& texture) const;
+  float4 mixed_mean(const LatticeNode& corner, const Square& square);
   static constexpr std::size_t kMostInPixel = VisibilityBuffer::kMostInPixel;
   // The primitives seen in a pixel, by their tile's own numbers, and the share of each.
   struct NumbersInPixel {
@@ -55,7 +69,7 @@ class LatticePainter {
   };
   // The surfaces seen in a pixel, and the share of each.
   struct SeenInPixel {
-    std::array<std::uint32_t, kMostInPixel> surfaces;
+    std::array<std::uint32_t, kMostInPixel> surfaces, primitives;
     std::array<float, kMostInPixel> shares;
     std::size_t count = 0;
   };
@@ -80,6 +94,7 @@ class LatticePainter {
   const SurfaceSamples& surfaces_;
   LocalErrors& errors_;
   const SurfaceShare& share_;
+  SurfaceTextures& textures_;
   bool sees_ = false;                     // whether the visibility is known
   std::array<SurfaceColors, 16> colors_;  // of the surfaces met in a square
   std::size_t known_colors_ = 0;

@@ -33,7 +33,8 @@ std::vector<int> in_scattered_bands(int columns, int rows) {
 
 }  // namespace
 
-LatticeRefiner::LatticeRefiner(const Region& region, PrimitiveShapes shapes, LatticeOrder order)
+LatticeRefiner::LatticeRefiner(const Region& region, PrimitiveShapes shapes, LatticeOrder order,
+                               PrimitiveTextures textures)
     : order_(order),
       store_(region.grid().width, region.grid().height),
       own_(store_, region),
@@ -42,8 +43,9 @@ LatticeRefiner::LatticeRefiner(const Region& region, PrimitiveShapes shapes, Lat
       surfaces_(store_.right(), store_.bottom()),
       unsampled_surfaces_(store_.tile_count()),
       errors_(store_.right(), store_.bottom()),
-      predictor_(store_, visibility_, surfaces_, errors_, share_),
-      painter_(store_, predictor_, visibility_, surfaces_, errors_, share_),
+      textures_(std::move(textures), visibility_),
+      predictor_(store_, visibility_, surfaces_, errors_, share_, textures_),
+      painter_(store_, predictor_, visibility_, surfaces_, errors_, share_, textures_),
       greatest_(static_cast<std::size_t>(store_.tile_count()) * kLatticeLevels.size()) {
   clear();
 }
@@ -55,6 +57,7 @@ void LatticeRefiner::clear() {
   visibility_.forget(VisibilityBuffer::kFine);
   estimates_.clear();
   share_.clear();
+  textures_.clear();
   growth_ = kFirstGrowth;
   errors_.clear();
   forget_samples();
@@ -243,6 +246,7 @@ bool LatticeRefiner::start_pass() {
   learn_growth();
   estimates_.update();
   share_.update();
+  textures_.update();
   errors_.start_round();
   store_.forget_predictions();
   return start_grid_pass() || (order_ == LatticeOrder::kAdaptive && start_refinement_pass());
@@ -274,12 +278,15 @@ void LatticeRefiner::choose_fineness() {
   visibility_.limit(static_cast<std::size_t>(items), region().bounds());
 }
 
-// With many samples a pixel the shares of what is seen in it must not err by more than its colours.
+// With many samples a pixel the shares of what is seen in it must not err by more than its colours, nor must
+// the textures. A place of a texture takes about a hundredth of a sample's time.
 void LatticeRefiner::choose_shares() {
   constexpr double kMany = 1.5;  // samples a pixel
   constexpr int kPoints = 256;
   const double per_pixel = static_cast<double>(samples_) / static_cast<double>(region().pixel_count());
   if (per_pixel > kMany) visibility_.count_shares_at(kPoints);
+  constexpr double kOnePlace = 0.02, kFour = 0.2, kSixteen = 3;
+  textures_.divide_by(per_pixel < kOnePlace ? 1 : per_pixel < kFour ? 2 : per_pixel < kSixteen ? 4 : 8);
 }
 
 // Takes a whole level, while the levels so far are but a part of all samples to come.

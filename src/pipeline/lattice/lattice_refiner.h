@@ -25,6 +25,7 @@
 #include "pipeline/lattice/local_errors.h"
 #include "pipeline/lattice/node_prediction.h"
 #include "pipeline/lattice/surface_samples.h"
+#include "pipeline/lattice/surface_textures.h"
 #include "pipeline/lattice/unsampled_surfaces.h"
 #include "pipeline/visibility/visibility_buffer.h"
 
@@ -39,7 +40,8 @@ enum class LatticeOrder : std::uint8_t {
 class LatticeRefiner {
  public:
   // For a region of an image; its tiles are whole base squares.
-  LatticeRefiner(const Region& region, PrimitiveShapes shapes, LatticeOrder order = LatticeOrder::kAdaptive);
+  LatticeRefiner(const Region& region, PrimitiveShapes shapes, LatticeOrder order = LatticeOrder::kAdaptive,
+                 PrimitiveTextures textures = {});
   LatticeRefiner(const LatticeRefiner&) = delete;
   LatticeRefiner& operator=(const LatticeRefiner&) = delete;
 
@@ -54,7 +56,7 @@ class LatticeRefiner {
   const Region& region() const { return own_.region(); }
 
   // Projected shapes are of another camera from now on.
-  void camera_changed() { visibility_.forget(); }
+  void camera_changed() { visibility_.forget(), textures_.forget(); }
 
   // Tells how many samples more there will be, about. Thresholds are set by it: too few or too many make the
   // picture coarser in one part than in another. Repeat the call on the way. Where it is not repeated as many
@@ -165,6 +167,7 @@ class LatticeRefiner {
   LocalErrors errors_;
   ErrorEstimates estimates_;
   SurfaceShare share_;
+  SurfaceTextures textures_;
   NodePredictor predictor_;
   LatticePainter painter_;
 

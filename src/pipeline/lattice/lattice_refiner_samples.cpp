@@ -102,6 +102,7 @@ void LatticeRefiner::learn_share(const Wanted& at, const float4& seen) {
 void LatticeRefiner::set_sample(const LatticeNode& node, const NodeValue& value) {
   store_.set_sample(node, value);
   surfaces_.add(node, value);
+  if (visibility_.is_known() && textures_.has(value.surface())) textures_.learn(value, node);
 }
 
 // Looks at the own base squares, tile by tile.
@@ -156,7 +157,7 @@ std::optional<LatticeNode> LatticeRefiner::next_surface() {
 Surroundings LatticeRefiner::base_corners(const LatticeNode& node) {
   const int x = node.x / kBaseSide * kBaseSide, y = node.y / kBaseSide * kBaseSide;
   Surroundings corners;
-  for_each_corner({x, y}, kBaseSide, [&](int u, int v) { corners.add(predictor_.value({u, v})); });
+  for_each_corner({x, y}, kBaseSide, [&](int u, int v) { corners.add(predictor_.value({u, v}), {u, v}); });
   return corners;
 }
 
@@ -205,7 +206,7 @@ Surroundings LatticeRefiner::known_around(const LatticeNode& node, const Lattice
   Surroundings around;
   const auto add = [&](int x, int y) {
     const NodeValue* sample = store_.has({x, y}) ? store_.sample_at({x, y}) : nullptr;
-    if (sample != nullptr) around.add(*sample);
+    if (sample != nullptr) around.add(*sample, {x, y});
   };
   const int half = level.side / 2;
   if (level.kind == LatticeKind::kCenter) {

@@ -20,7 +20,8 @@ class LatticeSampler final : public Sampler {
   };
 
   // The region's tiles are whole base squares.
-  LatticeSampler(const Region& region, LatticeOrder order, const Goal& goal, PrimitiveShapes shapes);
+  LatticeSampler(const Region& region, LatticeOrder order, const Goal& goal, PrimitiveShapes shapes,
+                 PrimitiveTextures textures = {});
 
   // Changes which nodes are wanted; keeps all samples.
   void set_region(const Region& region);

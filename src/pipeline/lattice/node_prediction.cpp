@@ -13,20 +13,24 @@ Surroundings NodePredictor::around(const LatticeNode& node, const LatticeLevel& 
   const int half = level.side / 2;
   const auto [x, y] = node;
   Surroundings around;
+  const auto add = [&](const LatticeNode& other) { around.add(value(other), other); };
   if (level.kind == LatticeKind::kCenter) {
-    around.add(value({x - half, y - half}));
-    around.add(value({x + half, y - half}));
-    around.add(value({x - half, y + half}));
-    around.add(value({x + half, y + half}));
-    if (const NodeValue* sample = store_.sample_at({x - half, y})) around.add_middle(*sample, 0, 2);
-    if (const NodeValue* sample = store_.sample_at({x + half, y})) around.add_middle(*sample, 1, 3);
-    if (const NodeValue* sample = store_.sample_at({x, y - half})) around.add_middle(*sample, 0, 1);
-    if (const NodeValue* sample = store_.sample_at({x, y + half})) around.add_middle(*sample, 2, 3);
+    add({x - half, y - half});
+    add({x + half, y - half});
+    add({x - half, y + half});
+    add({x + half, y + half});
+    const auto add_middle = [&](const LatticeNode& middle, const Surroundings::Ends& ends) {
+      if (const NodeValue* sample = store_.sample_at(middle)) around.add_middle(*sample, middle, ends);
+    };
+    add_middle({x - half, y}, {0, 2});
+    add_middle({x + half, y}, {1, 3});
+    add_middle({x, y - half}, {0, 1});
+    add_middle({x, y + half}, {2, 3});
     return around;
   }
   const int dx = (x & half) != 0 ? half : 0, dy = half - dx;  // along the side
-  around.add(value({x - dx, y - dy}));
-  around.add(value({x + dx, y + dy}));
+  add({x - dx, y - dy});
+  add({x + dx, y + dy});
   const LatticeNode before{x - dy, y - dx}, after{x + dy, y + dx};  // the centres
   const bool is_on_border =
       before.x < 0 || before.y < 0 || after.x > store_.right() || after.y > store_.bottom();
@@ -36,19 +40,45 @@ Surroundings NodePredictor::around(const LatticeNode& node, const LatticeLevel& 
   // Beyond a base line may lie squares of another rank.
   const bool is_on_base_line = (dx != 0 ? y : x) % kBaseSide == 0;
   if (!is_on_base_line || ((has_before || knows_base(before)) && (has_after || knows_base(after)))) {
-    around.add(value(before));
-    around.add(value(after));
+    add(before);
+    add(after);
   }
   return around;
 }
 
 // Without visibility all around are taken for one surface.
 Prediction NodePredictor::predict(const LatticeNode& node, const Surroundings& around) {
-  const bool is_known = visibility_.is_known();
-  const std::uint32_t seen = is_known ? seen_at(visibility_, node) : around[0].surface();
+  if (!visibility_.is_known()) return predict_on(around[0].surface(), node, around, TextureFactor{});
+  const std::uint32_t seen = seen_at(visibility_, node);
+  return textures_.has(seen) ? predict_on_texture(seen, node, around)
+                             : predict_on(seen, node, around, TextureFactor{});
+}
+
+// What lies around on the texture is taken to where it is wanted: only the light on it is interpolated.
+Prediction NodePredictor::predict_on_texture(std::uint32_t seen, const LatticeNode& node,
+                                             const Surroundings& around) {
+  const TextureFactor here = textures_.at(node, seen);
+  if (!is_known(here)) return predict_on(seen, node, around, TextureFactor{});
+  std::array<TextureFactor, 8> there;
+  TextureLight light;
+  for (std::size_t i = 0; i < around.count(); ++i) {
+    there[i] = around[i].surface() == seen ? textures_.at(around.node(i), seen) : TextureFactor{};
+    if (is_known(there[i])) light.add(around[i].channels(), there[i], 1);
+  }
+  const float4 of_all = light.with(textures_.usual());
+  const Surroundings moved = around.with_colors([&](std::size_t i) {
+    return is_known(there[i]) ? retextured(around[i].channels(), of_all, there[i], here)
+                              : around[i].channels();
+  });
+  return predict_on(seen, node, moved, here);
+}
+
+// `texture`: what that of the surface shows at the node, if it has one.
+Prediction NodePredictor::predict_on(std::uint32_t seen, const LatticeNode& node, const Surroundings& around,
+                                     const TextureFactor& texture) {
   Prediction found;
   found.around = found.on_surface = around.mean();
-  if (!is_known || around.are_on(seen)) {
+  if (!visibility_.is_known() || around.are_on(seen)) {
     found.value = NodeValue(found.around, seen);
     found.variance = around.variance();
     found.basis = Basis::kAllAround;
@@ -56,14 +86,15 @@ Prediction NodePredictor::predict(const LatticeNode& node, const Surroundings& a
   }
   Surroundings same;
   for (std::size_t i = 0; i < around.count(); ++i)
-    if (around[i].surface() == seen) same.add(around[i]);
+    if (around[i].surface() == seen) same.add(around[i], around.node(i));
   if (same.count() > 0) {
     found.variance = same.variance();
     found.basis = basis_of(same.count(), around.count());
     found.on_surface = same.mean();
-  } else if (const NodeValue* near = surfaces_.nearest(node, seen)) {
+  } else if (const SurfaceSamples::Known* near = surfaces_.nearest(node, seen)) {
     found.basis = Basis::kNearSample;
-    found.on_surface = near->channels();
+    found.on_surface = near->value.channels();
+    if (is_known(texture)) found.on_surface = textures_.moved(near->value, near->node, texture);
   }
   const float share = share_.of(found.basis, errors_.near(node).level);
   found.value = NodeValue(found.around + (found.on_surface - found.around) * share, seen);

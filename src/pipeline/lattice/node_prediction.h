@@ -15,6 +15,7 @@
 #include "pipeline/lattice/local_errors.h"
 #include "pipeline/lattice/surface_samples.h"
 #include "pipeline/lattice/surface_share.h"
+#include "pipeline/lattice/surface_textures.h"
 #include "pipeline/visibility/visibility_buffer.h"
 
 namespace pprt {
@@ -22,23 +23,46 @@ namespace pprt {
 // Some nodes around a point, at most eight, and what they have in common.
 class Surroundings {
  public:
-  void add(const NodeValue& value) {
+  void add(const NodeValue& value, const LatticeNode& node) {
+    nodes_[count_] = node, ends_[count_] = {};
     values_[count_++] = value;
     differ_ |= value.surface() ^ values_[0].surface();
     const float4 channels = value.channels(), shown = on_display(channels);
     sum_ += channels, shown_ += shown, squares_ += shown * shown;
   }
 
-  // Adds the middle of a side of a square whose corners are values 0 to 3. The side's ends are a and b.
-  void add_middle(const NodeValue& value, std::size_t a, std::size_t b) {
+  // The ends of a square's side, by the numbers of its corners. Both 0: no side.
+  struct Ends {
+    std::uint8_t a = 0, b = 0;
+  };
+
+  // Adds the middle of a side of a square whose corners are values 0 to 3.
+  void add_middle(const NodeValue& value, const LatticeNode& node, const Ends& ends) {
     const float4 all =
         (values_[0].channels() + values_[1].channels()) + (values_[2].channels() + values_[3].channels());
-    sum_ += all * 0.25F - (values_[a].channels() + values_[b].channels()) * 0.5F;
-    add(value);
+    sum_ += all * 0.25F - (values_[ends.a].channels() + values_[ends.b].channels()) * 0.5F;
+    add(value, node);
+    ends_[count_ - 1] = ends;
+  }
+
+  // Returns the same with other colours: color_of(i) of number i.
+  template <class ColorOf>
+  Surroundings with_colors(const ColorOf& color_of) const {
+    Surroundings changed;
+    for (std::size_t i = 0; i < count_; ++i) {
+      const NodeValue value(color_of(i), values_[i].surface());
+      if (ends_[i].b > 0) {
+        changed.add_middle(value, nodes_[i], ends_[i]);
+      } else {
+        changed.add(value, nodes_[i]);
+      }
+    }
+    return changed;
   }
 
   std::size_t count() const { return count_; }
   const NodeValue& operator[](std::size_t i) const { return values_[i]; }
+  const LatticeNode& node(std::size_t i) const { return nodes_[i]; }
 
   // Whether all nodes, one at least, lie on this surface.
   bool are_on(std::uint32_t surface) const { return differ_ == 0 && values_[0].surface() == surface; }
@@ -54,7 +78,10 @@ class Surroundings {
   }
 
  private:
-  std::array<NodeValue, 8> values_;  // the first count_ of them
+  // The first count_ of each.
+  std::array<NodeValue, 8> values_;
+  std::array<LatticeNode, 8> nodes_;
+  std::array<Ends, 8> ends_;
   std::size_t count_ = 0;
   std::uint32_t differ_ = 0;  // bits in which the surfaces do
   float4 sum_{};  // of the colours, less what even change makes of the middles' distance from the centre
@@ -81,8 +108,13 @@ inline std::uint32_t seen_at(VisibilityBuffer& visibility, const LatticeNode& no
 class NodePredictor {
  public:
   NodePredictor(LatticeStore& store, VisibilityBuffer& visibility, const SurfaceSamples& surfaces,
-                LocalErrors& errors, const SurfaceShare& share)
-      : store_(store), visibility_(visibility), surfaces_(surfaces), errors_(errors), share_(share) {}
+                LocalErrors& errors, const SurfaceShare& share, SurfaceTextures& textures)
+      : store_(store),
+        visibility_(visibility),
+        surfaces_(surfaces),
+        errors_(errors),
+        share_(share),
+        textures_(textures) {}
 
   // Returns the nodes that predict a node of this level.
   Surroundings around(const LatticeNode& node, const LatticeLevel& level);
@@ -99,6 +131,9 @@ class NodePredictor {
   }
 
  private:
+  Prediction predict_on(std::uint32_t seen, const LatticeNode& node, const Surroundings& around,
+                        const TextureFactor& texture);
+  Prediction predict_on_texture(std::uint32_t seen, const LatticeNode& node, const Surroundings& around);
   NodeValue kept_prediction(const LatticeNode& corner);
   NodeValue predicted(const LatticeNode& node);
   bool knows_base(const LatticeNode& node) const;
@@ -108,6 +143,7 @@ class NodePredictor {
   const SurfaceSamples& surfaces_;
   LocalErrors& errors_;
   const SurfaceShare& share_;
+  SurfaceTextures& textures_;
 };
 
 }  // namespace pprt

@@ -13,6 +13,12 @@ namespace pprt {
 
 class SurfaceSamples {
  public:
+  struct Known {
+    LatticeNode node;
+    std::uint32_t next;  // of its square
+    NodeValue value;
+  };
+
   // For the nodes of a lattice up to (right, bottom), sixteenths of a pixel.
   SurfaceSamples(int right, int bottom)
       : columns_(right / kBaseSide + 1),
@@ -36,9 +42,9 @@ class SurfaceSamples {
   }
 
   // Returns the nearest sample on a surface in the node's square or one beside it; null: there is none.
-  const NodeValue* nearest(const LatticeNode& node, std::uint32_t surface) const {
+  const Known* nearest(const LatticeNode& node, std::uint32_t surface) const {
     const int column = node.x / kBaseSide, row = node.y / kBaseSide;
-    const NodeValue* found = nullptr;
+    const Known* found = nullptr;
     int least = 1 << 30;
     const auto look_in = [&](int x, int y) {
       if (x < 0 || y < 0 || x >= columns_ || y >= rows_) return;
@@ -47,7 +53,7 @@ class SurfaceSamples {
         const Known& known = samples_[i];
         if (known.value.surface() != surface) continue;
         const int dx = known.node.x - node.x, dy = known.node.y - node.y, distance = dx * dx + dy * dy;
-        if (distance < least) least = distance, found = &known.value;
+        if (distance < least) least = distance, found = &known;
       }
     };
     look_in(column, row);
@@ -68,12 +74,6 @@ class SurfaceSamples {
  private:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
   static constexpr int kMost = 2;
-
-  struct Known {
-    LatticeNode node;
-    std::uint32_t next;  // of its square
-    NodeValue value;
-  };
 
   std::size_t square_of(const LatticeNode& node) const {
     return static_cast<std::size_t>(node.y / kBaseSide * columns_ + node.x / kBaseSide);

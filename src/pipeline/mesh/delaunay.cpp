@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "pipeline/core/simd.h"
+#include "base/simd.h"
 #include "pipeline/mesh/predicates.h"
 #include "pipeline/mesh/refinement_weight.h"
 

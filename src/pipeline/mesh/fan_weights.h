@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "pipeline/core/simd.h"
+#include "base/simd.h"
 #include "pipeline/mesh/delaunay.h"
 #include "pipeline/mesh/learned_weights.h"
 #include "pipeline/mesh/mesh_corner.h"

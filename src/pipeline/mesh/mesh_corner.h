@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/simd.h"
 #include "base/vector.h"
-#include "pipeline/core/simd.h"
 #include "pipeline/mesh/learned_weights.h"
 
 namespace pprt {

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "pipeline/core/simd.h"
+#include "base/simd.h"
 #include "pipeline/mesh/reconstruction.h"
 #include "pipeline/mesh/sample_mesh.h"
 

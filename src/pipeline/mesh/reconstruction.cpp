@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "pipeline/core/simd.h"
+#include "base/simd.h"
 #include "pipeline/mesh/pixel_accumulator.h"
 #include "pipeline/mesh/scan_conversion.h"
 #include "pipeline/mesh/silhouette_patch.h"

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/simd.h"
 #include "base/vector.h"
-#include "pipeline/core/simd.h"
 #include "pipeline/core/tile_grid.h"
 
 namespace pprt {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "base/image_shape.h"
+#include "base/simd.h"
 #include "base/vector.h"
-#include "pipeline/core/simd.h"
 
 namespace pprt {
 

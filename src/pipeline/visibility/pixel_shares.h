@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "pipeline/core/simd.h"
+#include "base/simd.h"
 #include "pipeline/silhouettes/shape_nearness.h"
 
 namespace pprt {

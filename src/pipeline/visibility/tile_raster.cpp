@@ -3,7 +3,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "pipeline/core/simd.h"
+#include "base/simd.h"
 #include "pipeline/silhouettes/shape_nearness.h"
 
 namespace pprt {

@@ -240,8 +240,10 @@ void VisibilityBuffer::find_surfaces(VisibleTile& tile) {
     number = first;
   }
   for (const std::uint32_t surface : tile.surfaces_) first_of_surface_[surface] = kNone;
-  on_surface_.clear();
-  for (const std::uint16_t number : tile.points_) on_surface_.push_back(tile.first_of_surface_[number]);
+  on_surface_.resize(tile.points_.size());
+  const std::uint16_t* first = tile.first_of_surface_.data();
+  std::transform(tile.points_.begin(), tile.points_.end(), on_surface_.begin(),
+                 [first](std::uint16_t number) { return first[number]; });
   mark_uniform(on_surface_.data(), density_, tile.uniform_.data());
 }
 
@@ -286,7 +288,7 @@ void VisibilityBuffer::for_each_item(const VisibleTile& tile, std::uint16_t numb
   }
 }
 
-std::uint32_t VisibilityBuffer::at(const Vec2d& point) {
+VisibilityBuffer::PointsAround VisibilityBuffer::points_around(const Vec2d& point) {
   const int side = tile_pixels();
   const int column = std::min(static_cast<int>(point.x) / side, columns_ - 1);
   const int row = std::min(static_cast<int>(point.y) / side, rows_ - 1);
@@ -294,8 +296,18 @@ std::uint32_t VisibilityBuffer::at(const Vec2d& point) {
   const double x = (point.x - column * side) * density_, y = (point.y - row * side) * density_;
   const int left = static_cast<int>(x), top = static_cast<int>(y);
   const int right = left < x ? left + 1 : left, bottom = top < y ? top + 1 : top;
-  const std::array<std::uint16_t, 4> around = {seen.row(top)[left], seen.row(top)[right],
-                                               seen.row(bottom)[left], seen.row(bottom)[right]};
+  return {seen, {seen.row(top)[left], seen.row(top)[right], seen.row(bottom)[left], seen.row(bottom)[right]}};
+}
+
+std::uint32_t VisibilityBuffer::primitive_at(const Vec2d& point, std::uint32_t surface) {
+  const auto& [seen, around] = points_around(point);
+  for (const std::uint16_t number : around)
+    if (seen.surfaces()[number] == surface) return seen.primitive(number);
+  return 0;
+}
+
+std::uint32_t VisibilityBuffer::at(const Vec2d& point) {
+  const auto& [seen, around] = points_around(point);
   if (around[0] == around[1] && around[0] == around[2] && around[0] == around[3])
     return seen.surfaces()[around[0]];
   const auto u = static_cast<float>(point.x), v = static_cast<float>(point.y);

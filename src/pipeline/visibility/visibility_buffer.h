@@ -37,6 +37,9 @@ class VisibleTile {
   std::span<const std::uint32_t> surfaces() const { return surfaces_; }
   std::span<const std::uint16_t> first_of_surface() const { return first_of_surface_; }
 
+  // Returns the primitive of an own number.
+  std::uint32_t primitive(std::uint16_t number) const { return primitives_[number]; }
+
   // Whether all points of a square are on one surface, its border included. Corner and side are whole
   // pixels.
   bool is_uniform(int pixel_x, int pixel_y, int pixels) const {
@@ -129,6 +132,18 @@ class VisibilityBuffer {
   // there. Only if is_known().
   std::uint32_t at(const Vec2d& point);
 
+  // Returns the primitive in the middle of a pixel; 0: the background. Only if is_known().
+  std::uint32_t primitive_in_middle(int pixel_x, int pixel_y) {
+    const VisibleTile& seen = tile(pixel_x, pixel_y);
+    const int half = density_ / 2, x = in_tile(pixel_x) * density_ + half,
+              y = in_tile(pixel_y) * density_ + half;
+    return seen.primitive(seen.row(y)[x]);
+  }
+
+  // Returns a primitive of a surface at one of the points around an image point, pixels; 0: none is. Only if
+  // is_known().
+  std::uint32_t primitive_at(const Vec2d& point, std::uint32_t surface);
+
   // Replaces `shares` by the part of a pixel in which each of some primitives is seen, where no others are.
   // They are told by the tile's own numbers, at most kMostInPixel. Shares sum up to 1. Only if is_known().
   void shares(int pixel_x, int pixel_y, std::span<const std::uint16_t> numbers, std::span<float> shares);
@@ -168,6 +183,12 @@ class VisibilityBuffer {
     int x0, y0, x1, y1;  // inclusive; empty: x1 < x0
   };
 
+  // The points around an image point, as own numbers of its tile.
+  struct PointsAround {
+    const VisibleTile& tile;
+    std::array<std::uint16_t, 4> numbers;
+  };
+  PointsAround points_around(const Vec2d& point);
   template <class Visit>
   void for_each_item(const VisibleTile& tile, std::uint16_t number, const ImageBounds& within,
                      const Visit& visit) const;

@@ -48,24 +48,63 @@ Plane halved(const Value* rgb, int width, int height) {
   return plane;
 }
 
+// Rounds down numbers that an int holds.
+double4 rounded_down(const double4& x) {
+  const double4 whole = __builtin_convertvector(__builtin_convertvector(x, int4), double4);
+  return whole > x ? whole - 1 : whole;
+}
+
 }  // namespace
 
-TextureImage::TextureImage(const Texture& texture)
-    : levels_{{texture.width, texture.height, 0}}, rgb_(texture.rgb) {
+// place() of four coordinates that an int holds; of others it is some place of the picture.
+inline TextureImage::FourPlaces TextureImage::places(const double4& coordinates, int size) {
+  const double4 middle = (coordinates - rounded_down(coordinates)) * size - 0.5;
+  const double4 below = rounded_down(middle);
+  const int4 last = int4{} + (size - 1);
+  const int4 first = max(min(__builtin_convertvector(below, int4), last), int4{} - 1);
+  FourPlaces found;
+  store(first < 0 ? last : first, found.first.data());
+  store(first < last ? first + 1 : int4{}, found.second.data());
+  store(__builtin_convertvector(middle - below, float4), found.share.data());
+  return found;
+}
+
+// Returns the sum of the colours at four places of the finest level.
+inline TextureImage::Lanes TextureImage::sum_of_four(const double4& u, const double4& v) const {
+  const Level& finest = levels_.front();
+  const FourPlaces across = places(u, finest.width), down = places(v, finest.height);
+  Lanes sum{};
+  for (std::size_t k = 0; k < std::size_t{kLanes}; ++k)
+    sum += lanes_at(finest, {across.first[k], across.second[k], across.share[k]},
+                    {down.first[k], down.second[k], down.share[k]});
+  return sum;
+}
+
+TextureImage::TextureImage(const Texture& texture) : levels_{{texture.width, texture.height, 0}} {
+  append(texture.rgb.data(), texture.rgb.size() / 3);
   if (texture.width == 1 && texture.height == 1) return;
   Plane plane = halved(texture.rgb.data(), texture.width, texture.height);
   while (true) {
-    levels_.push_back({plane.width, plane.height, rgb_.size()});
-    for (const float value : plane.rgb) rgb_.push_back(static_cast<std::uint8_t>(value + 0.5F));
+    levels_.push_back({plane.width, plane.height, texels_.size()});
+    append(plane.rgb.data(), plane.rgb.size() / 3);
     if (plane.width == 1 && plane.height == 1) return;
     plane = halved(plane.rgb.data(), plane.width, plane.height);
   }
 }
 
+template <class Value>
+void TextureImage::append(const Value* rgb, std::size_t count) {
+  const auto rounded = [](Value value) {
+    return static_cast<std::uint8_t>(static_cast<float>(value) + 0.5F);
+  };
+  for (; count > 0; --count, rgb += 3)
+    texels_.push_back({rounded(rgb[0]), rounded(rgb[1]), rounded(rgb[2]), 0});
+}
+
 // The filter has the variance of an even density over the footprint: diameter^2 / 12 along each axis. At a
 // level with texels of size e, a bilinear value has e^2 / 4 in the mean: e^2 / 12 of the texels, e^2 / 6 of
 // the interpolation. n places in a row at distances h add h^2 (n^2 - 1) / 12. They stand at most e apart.
-Color TextureImage::over(const TextureFootprint& footprint, const Vec2d& point) const {
+TextureImage::Filter TextureImage::filter_over(const TextureFootprint& footprint) const {
   // Squares of the axes in texels: the eigenvalues of M M^T.
   const double width = levels_.front().width, height = levels_.front().height;
   const double xx = footprint.uu * width * width, yy = footprint.vv * height * height;
@@ -73,21 +112,49 @@ Color TextureImage::over(const TextureFootprint& footprint, const Vec2d& point) 
   const double mean = (xx + yy) / 2, half = (xx - yy) / 2;
   const double radius = std::sqrt(half * half + xy * xy);
   const double longer = mean + radius, shorter = mean - radius;
-  if (!(longer > 3)) return at(point);
+  if (!(longer > 3)) return {0, {levels_.front(), levels_.front(), 0}};
   const double size2 = std::max({1.0, shorter / 3, longer / (kMostTaps * kMostTaps + 2)});
-  if (!std::isfinite(size2)) return texel(levels_.back(), 0, 0);
+  if (!std::isfinite(size2)) return {1, {levels_.back(), levels_.back(), 0}};
   const Levels levels = levels_for(size2);
 
   const double missing = longer / size2 - 3;  // variance that the row must add, in e^2 / 12
   const int taps = std::min(static_cast<int>(std::ceil(std::sqrt(missing + 1))), kMostTaps);
-  if (taps <= 1) return between(levels, point);
+  if (taps <= 1) return {1, levels};
   // Direction of the longer axis: of two forms the one that does not cancel.
   const double x = half >= 0 ? half + radius : xy, y = half >= 0 ? xy : radius - half;
   const double step = std::sqrt(size2 * missing / (taps * taps - 1) / (x * x + y * y));
-  const Vec2d way(x * step / width, y * step / height);
-  Color sum(0, 0, 0);
-  for (int i = 0; i < taps; ++i) sum += between(levels, point + way * (i - 0.5 * (taps - 1)));
-  return sum * (1 / static_cast<float>(taps));
+  return {taps, levels, Vec2d(x * step / width, y * step / height)};
+}
+
+// Two by two places at once. Those behind the horizon do not count.
+PPRT_CLONED_FOR_WIDE_REGISTERS Color TextureImage::mean(const Filter& filter, const Squares& squares) const {
+  constexpr double4 kAcross = {0, 1, 0, 1}, kDown = {0, 0, 1, 1};
+  const int n = squares.per_side;
+  const double first = -0.5 * (n - 1);
+  const Vec2d middle(squares.middle.x - std::floor(squares.middle.x),
+                     squares.middle.y - std::floor(squares.middle.y));
+  Lanes sum{};
+  int seen = 0;
+  for (int y = 0; y < n; y += 2) {
+    const double4 dy = kDown + (first + y);
+    for (int x = 0; x < n; x += 2) {
+      const double4 dx = kAcross + (first + x);
+      const double4 nearer = 1 + squares.recession_x * dx + squares.recession_y * dy, each = 1 / nearer;
+      const double4 u = middle.x + (squares.per_x.x * dx + squares.per_y.x * dy) * each;
+      const double4 v = middle.y + (squares.per_x.y * dx + squares.per_y.y * dy) * each;
+      if (filter.taps == 0 && !any(__builtin_convertvector(nearer <= 0, int4))) {
+        sum += sum_of_four(u, v);
+        seen += kLanes;
+        continue;
+      }
+      for (int k = 0; k < kLanes; ++k) {
+        if (!(nearer[k] > 0)) continue;
+        sum += filtered(filter, {u[k], v[k]});
+        ++seen;
+      }
+    }
+  }
+  return color_of(sum * (1 / static_cast<float>(std::max(seen, 1))));
 }
 
 // Mixes variances, not logarithms of sizes, which would differ between processors.
@@ -97,12 +164,6 @@ TextureImage::Levels TextureImage::levels_for(double size2) const {
   const std::size_t last = levels_.size() - 1, finer = static_cast<std::size_t>(octave - 1);
   return {levels_[std::min(finer, last)], levels_[std::min(finer + 1, last)],
           static_cast<float>((4 * mantissa * mantissa - 1) / 3)};
-}
-
-Color TextureImage::between(const Levels& levels, const Vec2d& point) const {
-  const Color color = at(levels.finer, point);
-  if (!(levels.share > 0)) return color;
-  return color * (1 - levels.share) + at(levels.coarser, point) * levels.share;
 }
 
 }  // namespace pprt

@@ -1,11 +1,14 @@
 // A texture prepared for shading: a pyramid of pictures, each of half the size, and filters over it.
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "base/simd.h"
 #include "base/vector.h"
 #include "scene/description/texture.h"
 
@@ -28,31 +31,12 @@ class TextureImage {
   // Returns the colour at texture coordinates, bilinear between the middles of texels. (0, 0) is the upper
   // left corner, (1, 1) the lower right; beyond, the picture repeats. Coordinates that are not finite, or
   // beyond 2^52, give some colour of the picture.
-  Color at(const Vec2d& point) const { return at(levels_.front(), point); }
+  Color at(const Vec2d& point) const { return color_of(lanes_at(levels_.front(), point)); }
 
-  // Returns the mean colour over a footprint, approximately: by at most kMostTaps places along its longer
-  // axis, each bilinear in two levels. Where that axis is at most 3^(1/2) texels, which is what a bilinear
-  // value takes the mean of anyhow, it is at(point).
-  Color over(const TextureFootprint& footprint, const Vec2d& point) const;
-
-  // Beyond 4.7 times its breadth, (kMostTaps^2 + 2)^(1/2) / 3^(1/2), a footprint is filtered broader than it
-  // is. A choice: docs/decisions/0032-footprints.md.
-  static constexpr int kMostTaps = 8;
-
-  // Bytes of all levels.
-  std::size_t bytes() const { return rgb_.size(); }
-
- private:
   // One picture of the pyramid.
   struct Level {
     int width, height;
-    std::size_t first;  // its place in `rgb_`
-  };
-
-  // Two neighbouring texels in one direction, and the second one's share.
-  struct Place {
-    int first, second;
-    float share;
+    std::size_t first;  // its place in `texels_`
   };
 
   // Two neighbouring levels, and the coarser one's share.
@@ -61,9 +45,55 @@ class TextureImage {
     float share;
   };
 
+  // How a footprint is filtered: at places in a row, each in two levels.
+  struct Filter {
+    int taps = 0;  // 0: one place in the finest level
+    Levels levels;
+    Vec2d way{0, 0};  // from place to place
+  };
+  Filter filter_over(const TextureFootprint& footprint) const;
+
+  // Returns the colour about a point.
+  Color at(const Filter& filter, const Vec2d& point) const { return color_of(filtered(filter, point)); }
+
+  // Squares of the image, per_side x per_side of them, an even number, as they lie on the picture: a place in
+  // the middle and the steps from square to square, which shrink by 1 + steps * recession.
+  struct Squares {
+    int per_side;
+    Vec2d middle, per_x, per_y;
+    double recession_x, recession_y;
+  };
+
+  // Returns the mean of the colours about the middles of squares.
+  Color mean(const Filter& filter, const Squares& squares) const;
+
+  // Returns the mean colour over a footprint, approximately: by at most kMostTaps places along its longer
+  // axis, each bilinear in two levels. Where that axis is at most 3^(1/2) texels, which is what a bilinear
+  // value takes the mean of anyhow, it is at(point).
+  Color over(const TextureFootprint& footprint, const Vec2d& point) const {
+    return at(filter_over(footprint), point);
+  }
+
+  // Beyond 4.7 times its breadth, (kMostTaps^2 + 2)^(1/2) / 3^(1/2), a footprint is filtered broader than it
+  // is. A choice: docs/decisions/0032-footprints.md.
+  static constexpr int kMostTaps = 8;
+
+  // Bytes of all levels.
+  std::size_t bytes() const { return texels_.size() * sizeof texels_[0]; }
+
+ private:
+  // Red, green, blue and 0.
+  using Lanes = float4;
+  static Color color_of(const Lanes& lanes) { return {lanes[0], lanes[1], lanes[2]}; }
+
+  // Two neighbouring texels in one direction, and the second one's share.
+  struct Place {
+    int first, second;
+    float share;
+  };
+
   // `size2`: the square of a texel's size, at least 1.
   Levels levels_for(double size2) const;
-  Color between(const Levels& levels, const Vec2d& point) const;
 
   static Place place(double coordinate, int size) {
     const double within = coordinate - std::floor(coordinate);
@@ -74,24 +104,53 @@ class TextureImage {
             static_cast<float>(middle - below)};
   }
 
-  Color at(const Level& level, const Vec2d& point) const {
-    const Place across = place(point.x, level.width), down = place(point.y, level.height);
-    const Color upper = texel(level, across.first, down.first) * (1 - across.share) +
+  struct FourPlaces {
+    std::array<std::int32_t, kLanes> first, second;
+    std::array<float, kLanes> share;
+  };
+  static FourPlaces places(const double4& coordinates, int size);
+  Lanes sum_of_four(const double4& u, const double4& v) const;
+
+  Lanes lanes_at(const Level& level, const Vec2d& point) const {
+    return lanes_at(level, place(point.x, level.width), place(point.y, level.height));
+  }
+  Lanes lanes_at(const Level& level, const Place& across, const Place& down) const {
+    const Lanes upper = texel(level, across.first, down.first) * (1 - across.share) +
                         texel(level, across.second, down.first) * across.share;
-    const Color lower = texel(level, across.first, down.second) * (1 - across.share) +
+    const Lanes lower = texel(level, across.first, down.second) * (1 - across.share) +
                         texel(level, across.second, down.second) * across.share;
     return upper * (1 - down.share) + lower * down.share;
   }
 
-  Color texel(const Level& level, int x, int y) const {
-    const std::uint8_t* rgb =
-        &rgb_[level.first + 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(level.width) +
-                                 static_cast<std::size_t>(x))];
-    return Color(rgb[0], rgb[1], rgb[2]) * (1 / 255.F);
+  Lanes between(const Levels& levels, const Vec2d& point) const {
+    const Lanes color = lanes_at(levels.finer, point);
+    if (!(levels.share > 0)) return color;
+    return color * (1 - levels.share) + lanes_at(levels.coarser, point) * levels.share;
   }
 
+  Lanes filtered(const Filter& filter, const Vec2d& point) const {
+    if (filter.taps == 0) return lanes_at(levels_.front(), point);
+    if (filter.taps == 1) return between(filter.levels, point);
+    Lanes sum{};
+    for (int i = 0; i < filter.taps; ++i)
+      sum += between(filter.levels, point + filter.way * (i - 0.5 * (filter.taps - 1)));
+    return sum * (1 / static_cast<float>(filter.taps));
+  }
+
+  Lanes texel(const Level& level, int x, int y) const {
+    const Texel& found =
+        texels_[level.first + static_cast<std::size_t>(y) * static_cast<std::size_t>(level.width) +
+                static_cast<std::size_t>(x)];
+    return numbers_of(found) * (1 / 255.F);
+  }
+
+  // Red, green, blue and 0, so that all are read at once.
+  using Texel = std::array<std::uint8_t, 4>;
+  template <class Value>
+  void append(const Value* rgb, std::size_t count);
+
   std::vector<Level> levels_;  // the texture's own picture first, a single texel last
-  std::vector<std::uint8_t> rgb_;
+  std::vector<Texel> texels_;
 };
 
 }  // namespace pprt

@@ -1,4 +1,4 @@
-#include "pipeline/core/simd.h"
+#include "base/simd.h"
 
 #include <array>
 #include <catch2/catch.hpp>

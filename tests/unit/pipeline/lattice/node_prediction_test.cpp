@@ -24,7 +24,8 @@ class Lattice {
   SurfaceSamples surfaces_{64 * kPixelSide, 64 * kPixelSide};
   LocalErrors errors_{64 * kPixelSide, 64 * kPixelSide};
   SurfaceShare share_;
-  NodePredictor predictor_{store_, visibility_, surfaces_, errors_, share_};
+  SurfaceTextures textures_{{}, visibility_};
+  NodePredictor predictor_{store_, visibility_, surfaces_, errors_, share_, textures_};
 };
 
 // One of the eight ways to turn and mirror the image.

@@ -1,6 +1,7 @@
 // Vectors of four numbers, in the compiler's own types.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>
@@ -64,6 +65,18 @@ inline float4 channels_before_more(const void* color) {
 }
 inline void store_channels(const float4& channels, Color& color) {
   std::memcpy(static_cast<void*>(&color), &channels, sizeof color);
+}
+
+// Converts four bytes. By interleaving with zeros: the compiler would convert them one by one.
+inline float4 numbers_of(const std::array<std::uint8_t, kLanes>& bytes) {
+  using SixteenBytes = std::uint8_t __attribute__((vector_size(sizeof(float4))));
+  using EightWords = std::uint16_t __attribute__((vector_size(sizeof(float4))));
+  const auto in_lane = std::bit_cast<SixteenBytes>(int4{std::bit_cast<std::int32_t>(bytes), 0, 0, 0});
+  const auto words = std::bit_cast<EightWords>(__builtin_shufflevector(
+      in_lane, SixteenBytes{}, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23));
+  const auto whole =
+      std::bit_cast<int4>(__builtin_shufflevector(words, EightWords{}, 0, 8, 1, 9, 2, 10, 3, 11));
+  return __builtin_convertvector(whole, float4);
 }
 
 // Whether a comparison holds in any lane.

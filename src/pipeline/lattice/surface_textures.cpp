@@ -1,0 +1,45 @@
+#include "pipeline/lattice/surface_textures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace pprt {
+
+TextureFactor SurfaceTextures::of_primitive(std::uint32_t primitive, const Vec2d& point, double side,
+                                            int per_side) const {
+  if (primitive == 0) return TextureFactor{};
+  const std::optional<Color> factor = textures_.over(primitive, point.x, point.y, side, per_side);
+  return factor ? TextureFactor{factor->x, factor->y, factor->z, 1} : TextureFactor{};
+}
+
+TextureFactor SurfaceTextures::over(const Vec2d& point, double side, std::uint32_t surface) const {
+  return of_primitive(visibility_.primitive_at(point, surface), point, side, per_side_);
+}
+
+TextureFactor SurfaceTextures::in_pixel(const Vec2d& middle, std::uint32_t primitive) const {
+  return of_primitive(primitive, middle, 1, per_side_);
+}
+
+float4 SurfaceTextures::moved(const NodeValue& value, const LatticeNode& node, const TextureFactor& to) {
+  const TextureFactor from = at(node, value.surface());
+  if (!is_known(from)) return value.channels();
+  TextureLight light;
+  light.add(value.channels(), from, 1);
+  return retextured(value.channels(), light.with(usual_), from, to);
+}
+
+TextureFactor SurfaceTextures::at(const LatticeNode& node, std::uint32_t surface) {
+  const auto hash =
+      static_cast<std::uint32_t>(node.x) * 0x9E3779B1U + static_cast<std::uint32_t>(node.y) * 0x85EBCA77U;
+  Kept& kept = kept_[hash >> 20];
+  static_assert(kKept == std::size_t{1} << 12);
+  if (kept.node == node && kept.surface == surface) return kept.factor;
+  const double side =
+      is_base(node) ? 1 : std::min(1.0, std::sqrt(static_cast<double>(level_of(node).area())));
+  kept = {node, surface,
+          of_primitive(visibility_.primitive_at(point_of(node), surface), point_of(node), side, 1)};
+  return kept.factor;
+}
+
+}  // namespace pprt
