@@ -18,6 +18,7 @@
 #include "trace/projected_textures.h"
 #include "trace/scene_extent.h"
 #include "trace/scene_impl.h"
+#include "trace/shape_bounds.h"
 
 namespace pprt {
 namespace {
@@ -296,6 +297,9 @@ CompiledScene compile(const SceneDescription& scene, const CompileOptions& optio
   find_coincident_faces(*impl);
   find_light_contacts(radius_about_origin(impl->normalisation, extent.measured), *impl);
   impl->surfaces = connected_surfaces(impl->parts, static_cast<std::uint32_t>(scene.order.size()));
+  for (ScenePart& part : impl->parts)
+    if (const auto* mesh = std::get_if<Mesh>(&part.shape); mesh != nullptr && part.shapes.empty())
+      part.boxes = boxes_of(*mesh);
   impl->with_pictures = primitives_with_pictures(*impl);
   build_hierarchy(*impl);
   return CompiledScene(std::move(impl));

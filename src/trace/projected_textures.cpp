@@ -76,15 +76,16 @@ std::vector<std::uint8_t> primitives_with_pictures(const CompiledScene::Impl& sc
 std::optional<Color> ProjectedTexture::over(double x, double y, double side, int per_side) const {
   const double inverse = 1 / w.at(x, y);
   if (picture == nullptr || !(inverse > 0)) return std::nullopt;
-  const double across = u.at(x, y) * inverse, down = v.at(x, y) * inverse;
-  const double step = side / per_side, scale = step * inverse;
-  const double u_x = (u.per_x - across * w.per_x) * scale, u_y = (u.per_y - across * w.per_y) * scale;
-  const double v_x = (v.per_x - down * w.per_x) * scale, v_y = (v.per_y - down * w.per_y) * scale;
-  const TextureImage::Filter filter =
-      picture->filter_over({u_x * u_x + u_y * u_y, u_x * v_x + u_y * v_y, v_x * v_x + v_y * v_y});
-  if (per_side == 1) return picture->at(filter, {across, down});
-  return picture->mean(filter,
-                       {per_side, {across, down}, {u_x, v_x}, {u_y, v_y}, w.per_x * scale, w.per_y * scale});
+  const Vec2d middle(u.at(x, y) * inverse, v.at(x, y) * inverse);
+  const double scale = side / per_side * inverse;
+  const Vec2d per_x((u.per_x - middle.x * w.per_x) * scale, (v.per_x - middle.y * w.per_x) * scale);
+  const Vec2d per_y((u.per_y - middle.x * w.per_y) * scale, (v.per_y - middle.y * w.per_y) * scale);
+  const TextureFootprint each = {per_x.x * per_x.x + per_y.x * per_y.x, per_x.x * per_x.y + per_y.x * per_y.y,
+                                 per_x.y * per_x.y + per_y.y * per_y.y};
+  if (per_side > 1 && picture->resolves(each))
+    return picture->mean({per_side, middle, per_x, per_y, w.per_x * scale, w.per_y * scale});
+  const double all = per_side * per_side;
+  return picture->over({all * each.uu, all * each.uv, all * each.vv}, middle);
 }
 
 const ProjectedTexture& ProjectedTextures::of(const Pose& pose, std::uint32_t primitive,

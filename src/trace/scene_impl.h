@@ -66,6 +66,7 @@ struct ScenePart {
   std::vector<MaterialIndex> materials;   // by Embree's primitive number
   std::vector<std::uint32_t> primitives;  // place in SceneDescription::order, by Embree's primitive number
   std::vector<bool> coincides;            // triangles that lie in others; empty: none. See coincident_faces.h
+  std::vector<Box3d> boxes;               // boxes_of() a mesh whose corners do not move
   std::vector<MovingTriangle> shapes;     // of triangles whose corners move, in the body's space
 };
 

@@ -8,6 +8,8 @@
 #include <variant>
 #include <vector>
 
+#include "base/simd.h"
+
 namespace pprt {
 namespace {
 
@@ -18,9 +20,25 @@ constexpr double kLeastGrowth = 0x1p-8, kGrowth = 0x1p-18;
 // Relative to the distance of what a box is about: nearer to the plane of the eye it is everywhere.
 constexpr double kLeastDepth = 1e-6;
 
+double least_of(const double4& v) {
+  return std::min({v[0], v[1], v[2]});
+}
+double most_of(const double4& v) {
+  return std::max({v[0], v[1], v[2]});
+}
+
 bool is_nowhere(const ImageBounds& box) {
   return box.x0 > box.x1;
 }
+
+// What lies beyond it has normal . p + distance < 0.
+struct Plane {
+  Vec3d normal;
+  double distance;
+};
+// That of the eye, and those of the image's sides, kMargin pixels outwards.
+using ViewPlanes = std::array<Plane, 5>;
+constexpr double kMargin = 16;  // more than the visibility buffer reaches beyond the image, and any rounding
 
 class Frame {
  public:
@@ -50,22 +68,25 @@ class Frame {
     return grown(least(x), least(y), most(x), most(y));
   }
 
-  // A box about a triangle.
-  ImageBounds box(const std::array<Vec3d, 3>& corners) const {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    double x0 = kInfinity, y0 = kInfinity, x1 = -kInfinity, y1 = -kInfinity;
-    int before = 0, behind = 0;
-    for (const Vec3d& corner : corners) {
-      const Vec3d from_eye = corner - eye_;
-      const double depth = from_eye.dot(forward_);
-      const double least =
-          kLeastDepth * (std::fabs(from_eye.x) + std::fabs(from_eye.y) + std::fabs(from_eye.z));
-      before += depth > least ? 1 : 0, behind += depth < -least ? 1 : 0;
-      const double per_depth = 1 / depth, x = from_eye.dot(right_) * per_depth;
-      const double y = from_eye.dot(down_) * per_depth;
-      x0 = std::min(x0, x), y0 = std::min(y0, y), x1 = std::max(x1, x), y1 = std::max(y1, y);
-    }
-    return before == 3 ? grown(x0, y0, x1, y1) : behind == 3 ? kNowhere : kEverywhere;
+  // A box about a triangle. Its corners are lanes 0 to 2; the last lane repeats one of them.
+  ImageBounds box(const double4& x, const double4& y, const double4& z) const {
+    const double4 dx = x - eye_.x, dy = y - eye_.y, dz = z - eye_.z;
+    const auto along = [&](const Vec3d& v) { return dx * v.x + dy * v.y + dz * v.z; };
+    const double4 depth = along(forward_), least = kLeastDepth * (abs(dx) + abs(dy) + abs(dz));
+    const double4 per_depth = 1 / depth, across = along(right_) * per_depth, down = along(down_) * per_depth;
+    const auto in_all = [](const auto& is) { return !any(~__builtin_convertvector(is, int4)); };
+    if (in_all(depth > least)) return grown(least_of(across), least_of(down), most_of(across), most_of(down));
+    return in_all(depth < -least) ? kNowhere : kEverywhere;
+  }
+
+  // The planes in the space that a map takes to the world.
+  ViewPlanes planes_in(const Affine& place) const {
+    const Vec3d aside = forward_ * (middle_x_ + kMargin), above = forward_ * (middle_y_ + kMargin);
+    const auto plane = [&](const Vec3d& n) -> Plane {
+      return {{n.dot(place.x), n.dot(place.y), n.dot(place.z)}, n.dot(place.origin - eye_)};
+    };
+    return {plane(forward_), plane(aside + right_), plane(aside - right_), plane(above + down_),
+            plane(above - down_)};
   }
 
  private:
@@ -94,14 +115,24 @@ ImageBounds box_of(const ConeRecord& cone, const Frame& frame, const Affine& pla
   return is_nowhere(base) || is_nowhere(apex) ? kEverywhere : around(base, apex);
 }
 
+// Whether a box lies beyond one of the planes.
+bool is_outside(const Box3d& box, const ViewPlanes& planes) {
+  const Vec3d middle = (box.min + box.max) * 0.5, half = (box.max - box.min) * 0.5;
+  return std::any_of(planes.begin(), planes.end(), [&](const Plane& plane) {
+    const double reach = std::fabs(plane.normal.x) * half.x + std::fabs(plane.normal.y) * half.y +
+                         std::fabs(plane.normal.z) * half.z;
+    return plane.normal.dot(middle) + plane.distance + reach < 0;
+  });
+}
+
 void add(const ImageBounds& box, ShapeBounds& bounds) {
   if (is_nowhere(box)) return;
   bounds.box = bounds.parts++ == 0 ? box : around(bounds.box, box);
 }
 
 // `body`: where the part stands; null: in the world.
-void bound(const ScenePart& part, const BodyPlace* body, const Frame& frame, std::uint32_t first,
-           std::span<ShapeBounds> bounds) {
+PPRT_CLONED_FOR_WIDE_REGISTERS void bound(const ScenePart& part, const BodyPlace* body, const Frame& frame,
+                                          std::uint32_t first, std::span<ShapeBounds> bounds) {
   const Affine place = body ? body->to_world : Affine();
   // No vector gets longer by more than this.
   const double scale =
@@ -112,7 +143,15 @@ void bound(const ScenePart& part, const BodyPlace* body, const Frame& frame, std
     return static_cast<std::size_t>(at - primitives.begin());
   };
   const std::size_t end = number_of(first + static_cast<std::uint32_t>(bounds.size()));
-  for (std::size_t i = number_of(first); i < end; ++i) {
+  const ViewPlanes planes = frame.planes_in(place);
+  for (std::size_t i = number_of(first), seen_to = i; i < end; ++i) {
+    if (!part.boxes.empty() && i >= seen_to) {
+      seen_to = (i / kTrianglesInBox + 1) * kTrianglesInBox;
+      if (is_outside(part.boxes[i / kTrianglesInBox], planes)) {
+        i = seen_to - 1;
+        continue;
+      }
+    }
     ShapeBounds& here = bounds[primitives[i] - first];
     if (const auto* spheres = std::get_if<std::vector<SphereRecord>>(&part.shape)) {
       add(frame.box(place.point((*spheres)[i].center), (*spheres)[i].radius * scale), here);
@@ -120,15 +159,31 @@ void bound(const ScenePart& part, const BodyPlace* body, const Frame& frame, std
       add(box_of((*cones)[i], frame, place, scale), here);
     } else {
       const Mesh& mesh = std::get<Mesh>(part.shape);
-      std::array<Vec3d, 3> corners;
-      for (std::size_t k = 0; k < 3; ++k)
-        corners[k] = place.point(Vec3d(mesh.vertices[mesh.triangles[i][k]]));
-      add(frame.box(corners), here);
+      const TriangleIndices& index = mesh.triangles[i];
+      const Vec3f &a = mesh.vertices[index[0]], &b = mesh.vertices[index[1]], &c = mesh.vertices[index[2]];
+      const double4 x = {a.x, b.x, c.x, a.x}, y = {a.y, b.y, c.y, a.y}, z = {a.z, b.z, c.z, a.z};
+      if (body == nullptr) {
+        add(frame.box(x, y, z), here);
+        continue;
+      }
+      const auto placed = [&](int k) {
+        return x * place.x[k] + y * place.y[k] + z * place.z[k] + place.origin[k];
+      };
+      add(frame.box(placed(0), placed(1), placed(2)), here);
     }
   }
 }
 
 }  // namespace
+
+std::vector<Box3d> boxes_of(const Mesh& mesh) {
+  std::vector<Box3d> boxes;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (i % kTrianglesInBox == 0) boxes.emplace_back();
+    for (const std::uint32_t vertex : mesh.triangles[i]) boxes.back().extendBy(Vec3d(mesh.vertices[vertex]));
+  }
+  return boxes;
+}
 
 void bound_primitives(const Pose& pose, std::uint32_t first, const Camera& camera,
                       std::span<ShapeBounds> bounds) {

@@ -52,7 +52,7 @@ LatticeRefiner::LatticeRefiner(const Region& region, PrimitiveShapes shapes, Lat
 
 void LatticeRefiner::clear() {
   sees_mirrors_ = false;
-  affordable_ = 0;
+  affordable_ = 0, has_seen_ = false;
   visibility_.limit(VisibilityBuffer::kNoLimit);
   visibility_.forget(VisibilityBuffer::kFine);
   estimates_.clear();
@@ -66,7 +66,9 @@ void LatticeRefiner::clear() {
 void LatticeRefiner::restart() {
   constexpr double kItemsOfASample = 3;  // that take as long to be seen
   const double as_many = static_cast<double>(samples_);
-  affordable_ = as_many + static_cast<double>(visibility_.items_seen()) / kItemsOfASample;
+  const double affordable = as_many + static_cast<double>(visibility_.items_seen()) / kItemsOfASample;
+  affordable_ = affordable_ > 0 ? 0.5 * (affordable_ + affordable) : affordable;
+  has_seen_ = visibility_.has_seen();
   growth_ = kFirstGrowth;  // of the last, small passes until now
   errors_.fade(kShareOfLast);
   // Where a sample says little of its surface, as in mirrors, it does not pay to know surfaces.
@@ -266,6 +268,8 @@ void LatticeRefiner::choose_fineness() {
   constexpr double kVeryFew = 0.07, kFew = 0.4;  // samples a pixel
   // Two thirds of the time, by that of the picture before or by that of this one's samples and items.
   constexpr double kOfTime = 2.2, kOfSamples = 6;
+  // What was seen in the picture before is seen on for a while: a change flickers.
+  constexpr double kOfTimeAgain = 2.5;
   if (std::exchange(has_fineness_, true) || expected_ == 0) return;
   const double samples = static_cast<double>(samples_) + samples_left();
   const double per_pixel = samples / static_cast<double>(region().pixel_count());
@@ -274,7 +278,8 @@ void LatticeRefiner::choose_fineness() {
                                                                    : VisibilityBuffer::kFine;
   if (fineness != visibility_.fineness()) visibility_.forget(fineness);
   if (sees_mirrors_) return;
-  const double items = affordable_ > 0 ? kOfTime * affordable_ : kOfSamples * samples;
+  const double items =
+      affordable_ > 0 ? (has_seen_ ? kOfTimeAgain : kOfTime) * affordable_ : kOfSamples * samples;
   visibility_.limit(static_cast<std::size_t>(items), region().bounds());
 }
 

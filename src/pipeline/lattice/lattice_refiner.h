@@ -179,7 +179,8 @@ class LatticeRefiner {
   bool has_base_ = false, has_grid_ = false;
   bool has_fineness_ = false;
   bool sees_mirrors_ = false;  // in the pictures before
-  double affordable_ = 0;      // samples of the picture before, had nothing been seen first
+  double affordable_ = 0;      // samples of the pictures before, had nothing been seen first
+  bool has_seen_ = false;      // the picture before
   bool has_looked_ = false;    // for unsampled surfaces
   std::vector<UnsampledSurface> surfaces_wanted_;  // of the tile, in this pass
   bool is_region_new_ = false;                     // its base may be missing

@@ -120,6 +120,9 @@ class VisibilityBuffer {
   // That one has no shape may show late: a primitive is projected when a tile that it may meet is asked for.
   bool is_known() { return state_ == State::kKnown || (state_ == State::kNotAsked && bound_all()); }
 
+  // Whether it has been known since it was forgotten.
+  bool has_seen() const { return state_ == State::kKnown; }
+
   // Returns the tile that holds a pixel. Only if is_known().
   const VisibleTile& tile(int pixel_x, int pixel_y) {
     const auto number = static_cast<std::size_t>((pixel_y >> log2_tile_pixels()) * columns_ +

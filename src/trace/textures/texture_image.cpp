@@ -101,33 +101,40 @@ void TextureImage::append(const Value* rgb, std::size_t count) {
     texels_.push_back({rounded(rgb[0]), rounded(rgb[1]), rounded(rgb[2]), 0});
 }
 
-// The filter has the variance of an even density over the footprint: diameter^2 / 12 along each axis. At a
-// level with texels of size e, a bilinear value has e^2 / 4 in the mean: e^2 / 12 of the texels, e^2 / 6 of
-// the interpolation. n places in a row at distances h add h^2 (n^2 - 1) / 12. They stand at most e apart.
-TextureImage::Filter TextureImage::filter_over(const TextureFootprint& footprint) const {
-  // Squares of the axes in texels: the eigenvalues of M M^T.
+TextureImage::Axes TextureImage::axes_of(const TextureFootprint& footprint) const {
   const double width = levels_.front().width, height = levels_.front().height;
   const double xx = footprint.uu * width * width, yy = footprint.vv * height * height;
   const double xy = footprint.uv * width * height;
   const double mean = (xx + yy) / 2, half = (xx - yy) / 2;
   const double radius = std::sqrt(half * half + xy * xy);
-  const double longer = mean + radius, shorter = mean - radius;
-  if (!(longer > 3)) return {0, {levels_.front(), levels_.front(), 0}};
+  // Direction of the longer axis: of two forms the one that does not cancel.
+  const Vec2d way = half >= 0 ? Vec2d(half + radius, xy) : Vec2d(xy, radius - half);
+  return {mean + radius, mean - radius, way};
+}
+
+// The filter has the variance of an even density over the footprint: diameter^2 / 12 along each axis. At a
+// level with texels of size e, a bilinear value has e^2 / 4 in the mean: e^2 / 12 of the texels, e^2 / 6 of
+// the interpolation. n places in a row at distances h add h^2 (n^2 - 1) / 12. They stand at most e apart.
+PPRT_CLONED_FOR_WIDE_REGISTERS Color TextureImage::over(const TextureFootprint& footprint,
+                                                        const Vec2d& point) const {
+  const auto& [longer, shorter, direction] = axes_of(footprint);
+  if (!(longer > kResolved)) return at(point);
   const double size2 = std::max({1.0, shorter / 3, longer / (kMostTaps * kMostTaps + 2)});
-  if (!std::isfinite(size2)) return {1, {levels_.back(), levels_.back(), 0}};
+  if (!std::isfinite(size2)) return color_of(texel(levels_.back(), 0, 0));
   const Levels levels = levels_for(size2);
 
   const double missing = longer / size2 - 3;  // variance that the row must add, in e^2 / 12
   const int taps = std::min(static_cast<int>(std::ceil(std::sqrt(missing + 1))), kMostTaps);
-  if (taps <= 1) return {1, levels};
-  // Direction of the longer axis: of two forms the one that does not cancel.
-  const double x = half >= 0 ? half + radius : xy, y = half >= 0 ? xy : radius - half;
-  const double step = std::sqrt(size2 * missing / (taps * taps - 1) / (x * x + y * y));
-  return {taps, levels, Vec2d(x * step / width, y * step / height)};
+  if (taps <= 1) return color_of(between(levels, point));
+  const double step = std::sqrt(size2 * missing / (taps * taps - 1) / direction.dot(direction));
+  const Vec2d way(direction.x * step / levels_.front().width, direction.y * step / levels_.front().height);
+  Lanes sum{};
+  for (int i = 0; i < taps; ++i) sum += between(levels, point + way * (i - 0.5 * (taps - 1)));
+  return color_of(sum * (1 / static_cast<float>(taps)));
 }
 
 // Two by two places at once. Those behind the horizon do not count.
-PPRT_CLONED_FOR_WIDE_REGISTERS Color TextureImage::mean(const Filter& filter, const Squares& squares) const {
+PPRT_CLONED_FOR_WIDE_REGISTERS Color TextureImage::mean(const Squares& squares) const {
   constexpr double4 kAcross = {0, 1, 0, 1}, kDown = {0, 0, 1, 1};
   const int n = squares.per_side;
   const double first = -0.5 * (n - 1);
@@ -142,14 +149,14 @@ PPRT_CLONED_FOR_WIDE_REGISTERS Color TextureImage::mean(const Filter& filter, co
       const double4 nearer = 1 + squares.recession_x * dx + squares.recession_y * dy, each = 1 / nearer;
       const double4 u = middle.x + (squares.per_x.x * dx + squares.per_y.x * dy) * each;
       const double4 v = middle.y + (squares.per_x.y * dx + squares.per_y.y * dy) * each;
-      if (filter.taps == 0 && !any(__builtin_convertvector(nearer <= 0, int4))) {
+      if (!any(__builtin_convertvector(nearer <= 0, int4))) {
         sum += sum_of_four(u, v);
         seen += kLanes;
         continue;
       }
       for (int k = 0; k < kLanes; ++k) {
         if (!(nearer[k] > 0)) continue;
-        sum += filtered(filter, {u[k], v[k]});
+        sum += lanes_at(levels_.front(), {u[k], v[k]});
         ++seen;
       }
     }

@@ -33,28 +33,13 @@ class TextureImage {
   // beyond 2^52, give some colour of the picture.
   Color at(const Vec2d& point) const { return color_of(lanes_at(levels_.front(), point)); }
 
-  // One picture of the pyramid.
-  struct Level {
-    int width, height;
-    std::size_t first;  // its place in `texels_`
-  };
+  // Returns the mean colour over a footprint, approximately: by at most kMostTaps places along its longer
+  // axis, each bilinear in two levels. Where the texture resolves it, it is at(point).
+  Color over(const TextureFootprint& footprint, const Vec2d& point) const;
 
-  // Two neighbouring levels, and the coarser one's share.
-  struct Levels {
-    Level finer, coarser;
-    float share;
-  };
-
-  // How a footprint is filtered: at places in a row, each in two levels.
-  struct Filter {
-    int taps = 0;  // 0: one place in the finest level
-    Levels levels;
-    Vec2d way{0, 0};  // from place to place
-  };
-  Filter filter_over(const TextureFootprint& footprint) const;
-
-  // Returns the colour about a point.
-  Color at(const Filter& filter, const Vec2d& point) const { return color_of(filtered(filter, point)); }
+  // Whether a footprint's longer axis is at most 3^(1/2) texels, which is what a bilinear value takes the
+  // mean of anyhow.
+  bool resolves(const TextureFootprint& footprint) const { return !(axes_of(footprint).longer > kResolved); }
 
   // Squares of the image, per_side x per_side of them, an even number, as they lie on the picture: a place in
   // the middle and the steps from square to square, which shrink by 1 + steps * recession.
@@ -64,15 +49,8 @@ class TextureImage {
     double recession_x, recession_y;
   };
 
-  // Returns the mean of the colours about the middles of squares.
-  Color mean(const Filter& filter, const Squares& squares) const;
-
-  // Returns the mean colour over a footprint, approximately: by at most kMostTaps places along its longer
-  // axis, each bilinear in two levels. Where that axis is at most 3^(1/2) texels, which is what a bilinear
-  // value takes the mean of anyhow, it is at(point).
-  Color over(const TextureFootprint& footprint, const Vec2d& point) const {
-    return at(filter_over(footprint), point);
-  }
+  // Returns the mean of the bilinear colours in the middles of squares.
+  Color mean(const Squares& squares) const;
 
   // Beyond 4.7 times its breadth, (kMostTaps^2 + 2)^(1/2) / 3^(1/2), a footprint is filtered broader than it
   // is. A choice: docs/decisions/0032-footprints.md.
@@ -85,6 +63,26 @@ class TextureImage {
   // Red, green, blue and 0.
   using Lanes = float4;
   static Color color_of(const Lanes& lanes) { return {lanes[0], lanes[1], lanes[2]}; }
+
+  // One picture of the pyramid.
+  struct Level {
+    int width, height;
+    std::size_t first;  // its place in `texels_`
+  };
+
+  // Two neighbouring levels, and the coarser one's share.
+  struct Levels {
+    Level finer, coarser;
+    float share;
+  };
+
+  // Squares of a footprint's axes in texels, the eigenvalues of M M^T, and the way of the longer one.
+  struct Axes {
+    double longer, shorter;
+    Vec2d way;
+  };
+  static constexpr double kResolved = 3;  // square of an axis, texels
+  Axes axes_of(const TextureFootprint& footprint) const;
 
   // Two neighbouring texels in one direction, and the second one's share.
   struct Place {
@@ -126,15 +124,6 @@ class TextureImage {
     const Lanes color = lanes_at(levels.finer, point);
     if (!(levels.share > 0)) return color;
     return color * (1 - levels.share) + lanes_at(levels.coarser, point) * levels.share;
-  }
-
-  Lanes filtered(const Filter& filter, const Vec2d& point) const {
-    if (filter.taps == 0) return lanes_at(levels_.front(), point);
-    if (filter.taps == 1) return between(filter.levels, point);
-    Lanes sum{};
-    for (int i = 0; i < filter.taps; ++i)
-      sum += between(filter.levels, point + filter.way * (i - 0.5 * (filter.taps - 1)));
-    return sum * (1 / static_cast<float>(filter.taps));
   }
 
   Lanes texel(const Level& level, int x, int y) const {
