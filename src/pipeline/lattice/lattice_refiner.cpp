@@ -9,6 +9,8 @@
 namespace pprt {
 namespace {
 
+// In the time of a ray: what a sample takes beside its rays, and a quadric or facet before one was seen.
+constexpr double kRaysOfASample = 5, kFirstPrice = 0.8;
 constexpr double kGridShare = 0.35;   // of all samples that the grid may take
 constexpr float kGreatestFall = 3;    // of the threshold, from pass to pass
 constexpr double kFirstGrowth = 3;    // pessimistic: nothing is learned yet
@@ -52,7 +54,7 @@ LatticeRefiner::LatticeRefiner(const Region& region, PrimitiveShapes shapes, Lat
 
 void LatticeRefiner::clear() {
   sees_mirrors_ = false;
-  affordable_ = 0, has_seen_ = false;
+  time_ = 0, has_seen_ = false, price_of_item_ = kFirstPrice;
   visibility_.limit(VisibilityBuffer::kNoLimit);
   visibility_.forget(VisibilityBuffer::kFine);
   estimates_.clear();
@@ -64,11 +66,13 @@ void LatticeRefiner::clear() {
 }
 
 void LatticeRefiner::restart() {
-  constexpr double kItemsOfASample = 3;  // that take as long to be seen
-  const double as_many = static_cast<double>(samples_);
-  const double affordable = as_many + static_cast<double>(visibility_.items_seen()) / kItemsOfASample;
-  affordable_ = affordable_ > 0 ? 0.5 * (affordable_ + affordable) : affordable;
+  const auto as_many = static_cast<double>(samples_);
   has_seen_ = visibility_.has_seen();
+  const double seeing = has_seen_ ? visibility_.work() : 0;
+  const double time = static_cast<double>(rays_) + kRaysOfASample * as_many + seeing;
+  time_ = time_ > 0 ? 0.5 * (time_ + time) : time;
+  if (seeing > 0)
+    price_of_item_ = seeing / static_cast<double>(std::max<std::size_t>(visibility_.items_within(), 1));
   growth_ = kFirstGrowth;  // of the last, small passes until now
   errors_.fade(kShareOfLast);
   // Where a sample says little of its surface, as in mirrors, it does not pay to know surfaces.
@@ -87,7 +91,7 @@ void LatticeRefiner::forget_samples() {
   unsampled_surfaces_.clear();
   has_looked_ = has_fineness_ = false;
   surfaces_wanted_.clear();
-  samples_ = 0;
+  samples_ = rays_ = 0;
   expected_ = 0;
   has_base_ = has_grid_ = is_region_new_ = false;
   grid_levels_ = 0;
@@ -266,10 +270,8 @@ void LatticeRefiner::start(const Pass& pass) {
 // all.
 void LatticeRefiner::choose_fineness() {
   constexpr double kVeryFew = 0.07, kFew = 0.4;  // samples a pixel
-  // Two thirds of the time, by that of the picture before or by that of this one's samples and items.
-  constexpr double kOfTime = 2.2, kOfSamples = 6;
-  // What was seen in the picture before is seen on for a while: a change flickers.
-  constexpr double kOfTimeAgain = 2.5;
+  // Of the time of the picture before. What was seen then is seen on for a while: a change flickers.
+  constexpr double kShare = 0.35, kShareAgain = 0.45, kUsualRays = 5;
   if (std::exchange(has_fineness_, true) || expected_ == 0) return;
   const double samples = static_cast<double>(samples_) + samples_left();
   const double per_pixel = samples / static_cast<double>(region().pixel_count());
@@ -278,8 +280,8 @@ void LatticeRefiner::choose_fineness() {
                                                                    : VisibilityBuffer::kFine;
   if (fineness != visibility_.fineness()) visibility_.forget(fineness);
   if (sees_mirrors_) return;
-  const double items =
-      affordable_ > 0 ? (has_seen_ ? kOfTimeAgain : kOfTime) * affordable_ : kOfSamples * samples;
+  const double time = time_ > 0 ? time_ : (kUsualRays + kRaysOfASample) * samples;
+  const double items = (has_seen_ ? kShareAgain : kShare) * time / price_of_item_;
   visibility_.limit(static_cast<std::size_t>(items), region().bounds());
 }
 

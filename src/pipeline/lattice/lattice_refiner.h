@@ -171,17 +171,18 @@ class LatticeRefiner {
   NodePredictor predictor_;
   LatticePainter painter_;
 
-  std::size_t samples_ = 0;
+  std::size_t samples_ = 0, rays_ = 0;
   double expected_ = 0;  // samples in the end
 
   Pass pass_;
   std::size_t grid_levels_ = 0;  // taken whole, the base not counted
   bool has_base_ = false, has_grid_ = false;
   bool has_fineness_ = false;
-  bool sees_mirrors_ = false;  // in the pictures before
-  double affordable_ = 0;      // samples of the pictures before, had nothing been seen first
-  bool has_seen_ = false;      // the picture before
-  bool has_looked_ = false;    // for unsampled surfaces
+  bool sees_mirrors_ = false;                      // in the pictures before
+  double time_ = 0;                                // that the picture before took, in rays; 0: there was none
+  bool has_seen_ = false;                          // the picture before
+  double price_of_item_ = 0;                       // of seeing a quadric or facet, in rays
+  bool has_looked_ = false;                        // for unsampled surfaces
   std::vector<UnsampledSurface> surfaces_wanted_;  // of the tile, in this pass
   bool is_region_new_ = false;                     // its base may be missing
   double growth_ = 0;  // samples that a pass takes, for each that its candidates promise

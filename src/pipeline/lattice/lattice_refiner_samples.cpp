@@ -66,7 +66,7 @@ void LatticeRefiner::insert_wanted(const RaySample& sample) {
   has_wanted_ = false;
   const float4 seen{sample.color.x, sample.color.y, sample.color.z, 0};
   const auto rays = static_cast<float>(sample.rays);
-  ++samples_;
+  ++samples_, rays_ += sample.rays;
   if (at.is_base) {
     constexpr float kWeight = 0.5F;
     errors_.note(at.node, kUnpredicted, rays, kWeight);
@@ -187,7 +187,7 @@ bool LatticeRefiner::insert(const Vec2d& point, const RaySample& sample) {
     insert_wanted(sample);
     return true;
   }
-  ++samples_;
+  ++samples_, rays_ += sample.rays;
   at.level = level_of(at.node);
   const Surroundings around = known_around(at.node, at.level);
   float error = kUnpredicted;

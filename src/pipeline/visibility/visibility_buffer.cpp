@@ -57,7 +57,8 @@ bool VisibilityBuffer::bound_all() {
   items_of_.assign(shapes_.count, {});
   bounds_.resize(shapes_.count);
   state_ = State::kKnown;
-  std::size_t items = 0;
+  std::size_t& items = items_within_;
+  items = 0, trials_ = 0;
   for (std::size_t first = 0; first < bounds_.size(); first += kAtOnce) {
     const std::span<ShapeBounds> now(bounds_.data() + first, std::min(kAtOnce, bounds_.size() - first));
     if (shapes_.bound) shapes_.bound(static_cast<std::uint32_t>(first), now);
@@ -68,7 +69,7 @@ bool VisibilityBuffer::bound_all() {
     }
     if (items + (shapes_.bound ? first / kPerItem : 0) > most_items_) state_ = State::kUnknown;
     if (state_ == State::kUnknown) {
-      items_.clear();
+      items_.clear(), quadrics_.clear(), facets_.clear();
       return false;
     }
   }
@@ -210,6 +211,7 @@ void VisibilityBuffer::see(std::size_t number) {
     const PointSpan columns = to.columns(), rows = to.rows();
     if (columns.begin >= columns.end || rows.begin >= rows.end) continue;
     if (!item.is_quadric && misses(facets_[item.shape], to)) continue;
+    ++trials_;
     if (!blocks_.find_shown(columns, rows, nearest_.data(), nearest, to.blocks)) continue;
     blocks_.touch(item.is_quadric ? rasterise(quadrics_[item.shape], own, to)
                                   : rasterise(facets_[item.shape], own, to));

@@ -106,8 +106,16 @@ class VisibilityBuffer {
   }
   void limit(std::size_t items) { limit(items, {0, 0, right_, bottom_}); }
 
-  // Returns how many quadrics and facets were projected for what is known, or was before all was forgotten.
-  std::size_t items_seen() const { return items_.size(); }
+  // Returns how many quadrics and facets limit() counted in its part of the picture.
+  std::size_t items_within() const { return items_within_; }
+
+  // Returns what seeing took since all was forgotten, in the time of a ray: for each quadric and facet that
+  // was projected, and for each that was tried in a tile. A count, so that it is the same everywhere.
+  double work() const {
+    constexpr double kFacet = 1.2, kQuadric = 2.4, kTrial = 1;
+    return kFacet * static_cast<double>(facets_.size()) + kQuadric * static_cast<double>(quadrics_.size()) +
+           kTrial * static_cast<double>(trials_);
+  }
 
   Fineness fineness() const { return {density_, share_points_}; }
 
@@ -218,7 +226,8 @@ class VisibilityBuffer {
   int columns_ = 0, rows_ = 0;  // of tiles
   PrimitiveShapes shapes_;
   State state_ = State::kNotAsked;
-  std::size_t most_items_ = kNoLimit;
+  std::size_t most_items_ = kNoLimit, items_within_ = 0;
+  std::size_t trials_ = 0;  // of items in tiles
   PixelRect within_;
   std::vector<ShapeBounds> bounds_;  // of each primitive
   std::vector<ItemRange> items_of_;  // of each primitive
