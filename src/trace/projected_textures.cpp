@@ -84,8 +84,22 @@ std::optional<Color> ProjectedTexture::over(double x, double y, double side, int
                                  per_x.y * per_x.y + per_y.y * per_y.y};
   if (per_side > 1 && picture->resolves(each))
     return picture->mean({per_side, middle, per_x, per_y, w.per_x * scale, w.per_y * scale});
-  const double all = per_side * per_side;
-  return picture->over({all * each.uu, all * each.uv, all * each.vv}, middle);
+  // A filter takes as long as many places: half as many squares in a row are filtered.
+  const int filtered = std::max(per_side / 2, 1), merged = per_side / filtered;
+  const double area = merged * merged;
+  const TextureFootprint footprint = {area * each.uu, area * each.uv, area * each.vv};
+  Color sum(0, 0, 0);
+  float seen = 0;
+  for (int j = 0; j < filtered; ++j) {
+    for (int i = 0; i < filtered; ++i) {
+      const double dx = merged * (i - 0.5 * (filtered - 1)), dy = merged * (j - 0.5 * (filtered - 1));
+      const double nearer = 1 + scale * (w.per_x * dx + w.per_y * dy);
+      if (!(nearer > 0)) continue;
+      sum += picture->over(footprint, middle + (per_x * dx + per_y * dy) * (1 / nearer));
+      ++seen;
+    }
+  }
+  return seen > 0 ? std::optional(sum * (1 / seen)) : std::nullopt;
 }
 
 const ProjectedTexture& ProjectedTextures::of(const Pose& pose, std::uint32_t primitive,
