@@ -68,11 +68,12 @@ void LatticePainter::paint_square(const LatticeNode& corner, int side, const Squ
     return;
   }
   if (!is_refined(corner, side)) {
-    if (!sees_ || is_uniform(corner, size)) {
-      const std::uint32_t surface = sees_ ? seen_at(visibility_, corner) : 0;
-      textures_.has(surface) ? fill_textured(corner, side, corners, surface) : fill(corner, side, corners);
-    } else {
+    if (sees_ && !is_uniform(corner, size)) {
       paint_mixed(corner, side, corners);
+    } else if (sees_ && textures_.any() && textures_.has(seen_at(visibility_, corner))) {
+      fill_textured(corner, side, corners);
+    } else {
+      fill(corner, side, corners);
     }
     return;
   }
@@ -126,7 +127,7 @@ std::array<SquareCorners, 4> LatticePainter::quarters_within_pixel(const Lattice
   const LatticeNode center{corner.x + half, corner.y + half};
   const std::array<LatticeNode, 4> middles = {
       {{center.x, corner.y}, {corner.x, center.y}, {corner.x + side, center.y}, {center.x, corner.y + side}}};
-  constexpr std::array<Surroundings::Ends, 4> kEnds = {{{0, 1}, {0, 2}, {1, 3}, {2, 3}}};
+  constexpr std::array<std::array<std::size_t, 2>, 4> kEnds = {{{0, 1}, {0, 2}, {1, 3}, {2, 3}}};
   const NodeValue* seen = store_.sample_at(center);
   const std::array<LatticeNode, 4> nodes = nodes_of(corner, side);
   Surroundings around;
@@ -135,11 +136,11 @@ std::array<SquareCorners, 4> LatticePainter::quarters_within_pixel(const Lattice
   for (std::size_t i = 0; i < middles.size(); ++i) {
     if (const NodeValue* sample = store_.sample_at(middles[i])) {
       shown[i] = *sample;
-      around.add_middle(shown[i], middles[i], kEnds[i]);
+      around.add_middle(shown[i], middles[i], kEnds[i][0], kEnds[i][1]);
       continue;
     }
     Surroundings ends;
-    for (const std::size_t end : {kEnds[i].a, kEnds[i].b}) ends.add(corners[end], nodes[end]);
+    for (const std::size_t end : kEnds[i]) ends.add(corners[end], nodes[end]);
     if (seen != nullptr) ends.add(*seen, center);
     shown[i] = predictor_.predict(middles[i], ends).value;
   }
@@ -152,8 +153,8 @@ std::array<SquareCorners, 4> LatticePainter::quarters_within_pixel(const Lattice
 
 // The light on a texture is bilinear, and so is what samples show of the texture itself; the texture is
 // known in each pixel.
-void LatticePainter::fill_textured(const LatticeNode& corner, int side, const SquareCorners& corners,
-                                   std::uint32_t surface) {
+void LatticePainter::fill_textured(const LatticeNode& corner, int side, const SquareCorners& corners) {
+  const std::uint32_t surface = seen_at(visibility_, corner);
   const Square square{corner, side, corners};
   SurfaceColors colors{surface, {}, textures_at(square, surface)};
   for (std::size_t i = 0; i < 4; ++i) colors.corners[i] = corners[i].channels();
@@ -383,10 +384,12 @@ float4 LatticePainter::mixed_mean(const LatticeNode& corner, const Square& squar
   for (std::size_t i = 0; i < seen.count; ++i) {
     if (seen.shares[i] <= 0) continue;
     const SurfaceColors& colors = colors_of(seen.surfaces[i], middle, square);
-    const TextureFactor texture = textures_.has(seen.surfaces[i])
-                                      ? textures_.in_pixel(point_of(middle), seen.primitives[i])
-                                      : TextureFactor{};
-    sum += color_within(colors, weights, texture) * seen.shares[i];
+    if (textures_.has(seen.surfaces[i])) {
+      const TextureFactor texture = textures_.in_pixel(point_of(middle), seen.primitives[i]);
+      sum += color_within(colors, weights, texture) * seen.shares[i];
+      continue;
+    }
+    for (std::size_t k = 0; k < weights.size(); ++k) sum += colors.corners[k] * (weights[k] * seen.shares[i]);
   }
   return sum;
 }
@@ -396,15 +399,17 @@ const LatticePainter::SurfaceColors& LatticePainter::colors_of(std::uint32_t sur
   for (std::size_t i = 0; i < known_colors_; ++i)
     if (colors_[i].surface == surface) return colors_[i];
   if (known_colors_ == colors_.size()) known_colors_ = 0;
-  return colors_[known_colors_++] = colors_anew(surface, at, square);
+  SurfaceColors& colors = colors_[known_colors_++];
+  colors.surface = surface;
+  find_colors(at, square, colors);
+  return colors;
 }
 
 // A corner on another surface takes the colour of those beside it that lie on this one. Without any it takes
 // that of the corner across, or of a sample near by. SurfaceShare tells how far.
-LatticePainter::SurfaceColors LatticePainter::colors_anew(std::uint32_t surface, const LatticeNode& at,
-                                                          const Square& square) {
+void LatticePainter::find_colors(const LatticeNode& at, const Square& square, SurfaceColors& colors) {
   const SquareCorners& corners = square.corners;
-  SurfaceColors colors{surface, {}, {}};
+  const std::uint32_t surface = colors.surface;
   if (textures_.has(surface)) colors.textures = textures_at(square, surface);
   std::array<float, 4> on_it;
   float all = 0;
@@ -415,7 +420,7 @@ LatticePainter::SurfaceColors LatticePainter::colors_anew(std::uint32_t surface,
   }
   const int level = errors_.near(at).level;
   const SurfaceSamples::Known* near = all > 0 ? nullptr : surfaces_.nearest(at, surface);
-  if (all == 0 && near == nullptr) return colors;
+  if (all == 0 && near == nullptr) return;
   const float share =
       share_.of(near != nullptr ? Basis::kNearSample : basis_of(static_cast<std::size_t>(all), 4), level);
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -436,7 +441,6 @@ LatticePainter::SurfaceColors LatticePainter::colors_anew(std::uint32_t surface,
                              (1 / adjacent)
                        : colors.textures[across];
   }
-  return colors;
 }
 
 }  // namespace pprt

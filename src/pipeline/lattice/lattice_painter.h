@@ -32,8 +32,7 @@ class LatticePainter {
  private:
   void paint_square(const LatticeNode& corner, int side, const SquareCorners& corners);
   void fill(const LatticeNode& corner, int side, const SquareCorners& corners);
-  void fill_textured(const LatticeNode& corner, int side, const SquareCorners& corners,
-                     std::uint32_t surface);
+  void fill_textured(const LatticeNode& corner, int side, const SquareCorners& corners);
   float4 mean_over(const LatticeNode& corner, int side, const SquareCorners& corners);
   std::array<SquareCorners, 4> quarters(const LatticeNode& corner, int side, const SquareCorners& corners);
   std::array<SquareCorners, 4> quarters_within_pixel(const LatticeNode& corner, int side,
@@ -46,7 +45,7 @@ class LatticePainter {
   struct SurfaceColors {
     std::uint32_t surface = 0;
     std::array<float4, 4> corners;
-    std::array<TextureFactor, 4> textures;  // where these colours come from
+    std::array<TextureFactor, 4> textures;  // where these colours come from, if the surface has one
   };
   // A square with samples at its corners only.
   struct Square {
@@ -55,7 +54,7 @@ class LatticePainter {
     const SquareCorners& corners;
   };
   const SurfaceColors& colors_of(std::uint32_t surface, const LatticeNode& at, const Square& square);
-  SurfaceColors colors_anew(std::uint32_t surface, const LatticeNode& at, const Square& square);
+  void find_colors(const LatticeNode& at, const Square& square, SurfaceColors& colors);
   std::array<TextureFactor, 4> textures_at(const Square& square, std::uint32_t surface);
   float4 color_within(const SurfaceColors& colors, const std::array<float, 4>& weights,
                       const TextureFactor& texture) const;

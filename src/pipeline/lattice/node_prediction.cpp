@@ -19,13 +19,13 @@ Surroundings NodePredictor::around(const LatticeNode& node, const LatticeLevel& 
     add({x + half, y - half});
     add({x - half, y + half});
     add({x + half, y + half});
-    const auto add_middle = [&](const LatticeNode& middle, const Surroundings::Ends& ends) {
-      if (const NodeValue* sample = store_.sample_at(middle)) around.add_middle(*sample, middle, ends);
+    const auto add_middle = [&](const LatticeNode& middle, std::size_t a, std::size_t b) {
+      if (const NodeValue* sample = store_.sample_at(middle)) around.add_middle(*sample, middle, a, b);
     };
-    add_middle({x - half, y}, {0, 2});
-    add_middle({x + half, y}, {1, 3});
-    add_middle({x, y - half}, {0, 1});
-    add_middle({x, y + half}, {2, 3});
+    add_middle({x - half, y}, 0, 2);
+    add_middle({x + half, y}, 1, 3);
+    add_middle({x, y - half}, 0, 1);
+    add_middle({x, y + half}, 2, 3);
     return around;
   }
   const int dx = (x & half) != 0 ? half : 0, dy = half - dx;  // along the side
@@ -46,34 +46,8 @@ Surroundings NodePredictor::around(const LatticeNode& node, const LatticeLevel& 
   return around;
 }
 
-// Without visibility all around are taken for one surface.
-Prediction NodePredictor::predict(const LatticeNode& node, const Surroundings& around) {
-  if (!visibility_.is_known()) return predict_on(around[0].surface(), node, around, TextureFactor{});
-  const std::uint32_t seen = seen_at(visibility_, node);
-  return textures_.has(seen) ? predict_on_texture(seen, node, around)
-                             : predict_on(seen, node, around, TextureFactor{});
-}
-
-// What lies around on the texture is taken to where it is wanted: only the light on it is interpolated.
-Prediction NodePredictor::predict_on_texture(std::uint32_t seen, const LatticeNode& node,
-                                             const Surroundings& around) {
-  const TextureFactor here = textures_.at(node, seen);
-  if (!is_known(here)) return predict_on(seen, node, around, TextureFactor{});
-  std::array<TextureFactor, 8> there;
-  TextureLight light;
-  for (std::size_t i = 0; i < around.count(); ++i) {
-    there[i] = around[i].surface() == seen ? textures_.at(around.node(i), seen) : TextureFactor{};
-    if (is_known(there[i])) light.add(around[i].channels(), there[i], 1);
-  }
-  const float4 of_all = light.with(textures_.usual());
-  const Surroundings moved = around.with_colors([&](std::size_t i) {
-    return is_known(there[i]) ? retextured(around[i].channels(), of_all, there[i], here)
-                              : around[i].channels();
-  });
-  return predict_on(seen, node, moved, here);
-}
-
 // `texture`: what that of the surface shows at the node, if it has one.
+template <bool kHasTexture>
 Prediction NodePredictor::predict_on(std::uint32_t seen, const LatticeNode& node, const Surroundings& around,
                                      const TextureFactor& texture) {
   Prediction found;
@@ -94,11 +68,38 @@ Prediction NodePredictor::predict_on(std::uint32_t seen, const LatticeNode& node
   } else if (const SurfaceSamples::Known* near = surfaces_.nearest(node, seen)) {
     found.basis = Basis::kNearSample;
     found.on_surface = near->value.channels();
-    if (is_known(texture)) found.on_surface = textures_.moved(near->value, near->node, texture);
+    if (kHasTexture) found.on_surface = textures_.moved(near->value, near->node, texture);
   }
   const float share = share_.of(found.basis, errors_.near(node).level);
   found.value = NodeValue(found.around + (found.on_surface - found.around) * share, seen);
   return found;
+}
+
+// Without visibility all around are taken for one surface.
+Prediction NodePredictor::predict(const LatticeNode& node, const Surroundings& around) {
+  const bool sees = visibility_.is_known();
+  const std::uint32_t seen = sees ? seen_at(visibility_, node) : around[0].surface();
+  if (sees && textures_.has(seen)) return predict_on_texture(seen, node, around);
+  return predict_on<false>(seen, node, around, TextureFactor{});
+}
+
+// What lies around on the texture is taken to where it is wanted: only the light on it is interpolated.
+Prediction NodePredictor::predict_on_texture(std::uint32_t seen, const LatticeNode& node,
+                                             const Surroundings& around) {
+  const TextureFactor here = textures_.at(node, seen);
+  if (!is_known(here)) return predict_on<false>(seen, node, around, TextureFactor{});
+  std::array<TextureFactor, 8> there;
+  TextureLight light;
+  for (std::size_t i = 0; i < around.count(); ++i) {
+    there[i] = around[i].surface() == seen ? textures_.at(around.node(i), seen) : TextureFactor{};
+    if (is_known(there[i])) light.add(around[i].channels(), there[i], 1);
+  }
+  const float4 of_all = light.with(textures_.usual());
+  const Surroundings moved = around.with_colors([&](std::size_t i) {
+    return is_known(there[i]) ? retextured(around[i].channels(), of_all, there[i], here)
+                              : around[i].channels();
+  });
+  return predict_on<true>(seen, node, moved, here);
 }
 
 NodeValue NodePredictor::kept_prediction(const LatticeNode& corner) {

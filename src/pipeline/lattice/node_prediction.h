@@ -24,25 +24,19 @@ namespace pprt {
 class Surroundings {
  public:
   void add(const NodeValue& value, const LatticeNode& node) {
-    nodes_[count_] = node, ends_[count_] = {};
+    nodes_[count_] = node;
     values_[count_++] = value;
     differ_ |= value.surface() ^ values_[0].surface();
     const float4 channels = value.channels(), shown = on_display(channels);
     sum_ += channels, shown_ += shown, squares_ += shown * shown;
   }
 
-  // The ends of a square's side, by the numbers of its corners. Both 0: no side.
-  struct Ends {
-    std::uint8_t a = 0, b = 0;
-  };
-
-  // Adds the middle of a side of a square whose corners are values 0 to 3.
-  void add_middle(const NodeValue& value, const LatticeNode& node, const Ends& ends) {
+  // Adds the middle of a side of a square whose corners are values 0 to 3. The side's ends are a and b.
+  void add_middle(const NodeValue& value, const LatticeNode& node, std::size_t a, std::size_t b) {
     const float4 all =
         (values_[0].channels() + values_[1].channels()) + (values_[2].channels() + values_[3].channels());
-    sum_ += all * 0.25F - (values_[ends.a].channels() + values_[ends.b].channels()) * 0.5F;
+    sum_ += all * 0.25F - (values_[a].channels() + values_[b].channels()) * 0.5F;
     add(value, node);
-    ends_[count_ - 1] = ends;
   }
 
   // Returns the same with other colours: color_of(i) of number i.
@@ -51,11 +45,15 @@ class Surroundings {
     Surroundings changed;
     for (std::size_t i = 0; i < count_; ++i) {
       const NodeValue value(color_of(i), values_[i].surface());
-      if (ends_[i].b > 0) {
-        changed.add_middle(value, nodes_[i], ends_[i]);
-      } else {
+      if (i < 4) {
         changed.add(value, nodes_[i]);
+        continue;
       }
+      // After four corners come middles: left, right, above or below.
+      const bool is_upright = nodes_[i].x == nodes_[0].x || nodes_[i].x == nodes_[3].x;
+      const std::size_t a =
+          is_upright ? (nodes_[i].x == nodes_[0].x ? 0 : 1) : (nodes_[i].y == nodes_[0].y ? 0 : 2);
+      changed.add_middle(value, nodes_[i], a, is_upright ? a + 2 : a + 1);
     }
     return changed;
   }
@@ -78,10 +76,8 @@ class Surroundings {
   }
 
  private:
-  // The first count_ of each.
-  std::array<NodeValue, 8> values_;
-  std::array<LatticeNode, 8> nodes_;
-  std::array<Ends, 8> ends_;
+  std::array<NodeValue, 8> values_;   // the first count_ of them
+  std::array<LatticeNode, 8> nodes_;  // the same
   std::size_t count_ = 0;
   std::uint32_t differ_ = 0;  // bits in which the surfaces do
   float4 sum_{};  // of the colours, less what even change makes of the middles' distance from the centre
@@ -131,6 +127,7 @@ class NodePredictor {
   }
 
  private:
+  template <bool kHasTexture>
   Prediction predict_on(std::uint32_t seen, const LatticeNode& node, const Surroundings& around,
                         const TextureFactor& texture);
   Prediction predict_on_texture(std::uint32_t seen, const LatticeNode& node, const Surroundings& around);

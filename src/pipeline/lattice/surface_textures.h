@@ -50,6 +50,9 @@ class SurfaceTextures {
   // The camera or what it sees has moved.
   void forget() { kept_.assign(kept_.size(), {}); }
 
+  // Whether there are any in the scene.
+  bool any() const { return !textures_.are_there.empty(); }
+
   // Whether a surface shows a texture. Only if the visibility is known.
   bool has(std::uint32_t surface) const {
     return surface < textures_.are_there.size() && textures_.are_there[surface] != 0;
