@@ -18,10 +18,12 @@ find_package(assimp REQUIRED)
 find_path(TINYGLTF_INCLUDE_DIR tiny_gltf.h REQUIRED)  # all in its header
 find_package(MPI REQUIRED COMPONENTS C)
 
+# Boost brings CMake files of its own; CMake 3.30 and later warn where nobody says that CGAL is to take these.
+set(CMAKE_POLICY_DEFAULT_CMP0167 NEW)
 # CGAL reports its own build type advice; ours is set already.
 set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
 find_package(CGAL REQUIRED)
-find_package(Boost REQUIRED)
+find_package(Boost CONFIG REQUIRED)
 
 if(BUILD_TESTING)
   find_package(Catch2 REQUIRED)

@@ -10,6 +10,7 @@
 #include "cli/scenes/scene_source.h"
 #include "convert/mesh/mesh_reader.h"
 #include "convert/model/camera_track.h"
+#include "convert/model/model_animation.h"
 #include "convert/names/extension.h"
 #include "scene/animation/resting_nodes.h"
 #include "scene/movement/straight_track.h"
@@ -82,6 +83,11 @@ Model load_model(const std::string& path, const ModelOptions& options) {
     if (added) model.parsed.warnings += scene.name + ": " + *added + "\n";
   }
   return model;
+}
+
+void set_rate(SceneDescription& scene, double frames_per_second) {
+  std::optional<FrameTimes>& times = scene.movement.times;
+  if (times) times = frames_between(times->start, times->end, frames_per_second);
 }
 
 void add_turn(SceneDescription& scene, UpAxis up, double frames_per_second, bool is_lit_anew) {

@@ -40,6 +40,9 @@ std::optional<std::string> complete_view(SceneDescription& scene, UpAxis up);
 // Adds a background, where the scene has none. Returns what to tell.
 std::optional<std::string> complete_background(SceneDescription& scene);
 
+// Gives a scene that moves as many frames as show its whole time at this rate.
+void set_rate(SceneDescription& scene, double frames_per_second);
+
 // Lets the camera go round the middle of a scene that rests, once in four seconds. Default lights go with it.
 void add_turn(SceneDescription& scene, UpAxis up, double frames_per_second, bool is_lit_anew);
 

@@ -165,6 +165,15 @@ expect_line err 'done: 1 of 1 frame in first.png; .*'
 # A script may stand before its scene.
 run pprt-render ball.anim ball.nff "${work[@]}" --frames 1 -o swapped.png; expect_code 0
 expect_same swapped.png first.png
+# What is written and a second scene are no scripts.
+run pprt-render wanted.png ball.nff; expect_code 2
+expect_line err "pprt-render: error: 'wanted.png' is neither a scene nor a script; '-o wanted.png' writes it"
+run pprt-render ball.nff wanted.mp4; expect_code 2
+expect_line err "pprt-render: error: 'wanted.mp4' is neither a scene nor a script; '-o wanted.mp4' writes it"
+for second in ball.nff ball.aff ball.glb spd:tree; do
+  run pprt-render ball.nff $second; expect_code 2
+  expect_line err "pprt-render: error: '$second' is a second scene, beside 'ball.nff'; a script, FILE.anim, can move it there"
+done
 # A directory is made, but not two that lie in each other.
 run pprt-render ball.nff --samples 300 -o near/a.png; expect_code 0; expect_file near/a.png
 for option in "-o far/away/a.png" "-o b.png --contact-sheet far/away/s.png" "-o c.png --stats far/away/l.ndjson"; do

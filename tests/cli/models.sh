@@ -40,6 +40,30 @@ if command -v ffmpeg >/dev/null; then
   cmp -s film/01.png film/07.png && complain 'the camera does not turn'
 fi
 
+# Its second is a second at any rate.
+cat >slides.aff <<'END'
+a 0 1 3
+v
+from 0 0 5
+at 0 0 0
+up 0 1 0
+angle 45
+hither 0.1
+resolution 16 16
+f 1 1 1 1 0 0 0 0
+x slide { s 0 0 0 0.5 }
+k slide { transl 4
+  -1  -3 0 0  0 0 0
+  0  -1 0 0  0 0 0
+  1  1 0 0  0 0 0
+  2  3 0 0  0 0 0 }
+END
+pprt-convert slides.aff slides.glb 2>/dev/null
+for rate in 6 12 24; do
+  run pprt-render slides.glb --clock work -s 16x16 --fps $rate -o "at-$rate/%02d.png"; expect_code 0
+  expect_line err "done: $((rate + 1)) of $((rate + 1)) frames in .*"
+done
+
 # A script names a model as its scene, and moves one.
 printf 'animation {\n  scene "t.stl"\n  frames 2\n}\n' >model.anim
 run pprt-render model.anim --clock work -s 16x16 -o script/%d.png; expect_code 0; expect_file script/2.png

@@ -32,8 +32,16 @@ grep -q '"command": "pprt-study paper -o all --quick --ranks 2,9 --frames 5"' al
   complain "provenance.json does not tell the command: $(cat all/provenance.json)"
 
 # What is quick says so first, a list of contents stands above, and the page's address is told.
-[[ $(grep -oE 'A quick trial|<nav>|>Findings</h2>|How this was measured</h2>' all/index.html | paste -sd,) == '<nav>,A quick trial,>Findings</h2>,How this was measured</h2>' ]] ||
-  complain "the page does not begin with contents, the warning and the findings"
+parts='<nav>|A quick trial|>Summary</h2>|figure [5-9]\)</h2>|>Findings</h2>|>How this was measured</h2>'
+order='<nav>,A quick trial,>Summary</h2>,figure 5)</h2>,figure 6)</h2>,figure 7)</h2>,figure 8)</h2>,figure 9)</h2>,>Findings</h2>,>How this was measured</h2>'
+[[ $(grep -oE "$parts" all/index.html | paste -sd,) == "$order" ]] ||
+  complain "the page is not contents, the warning, a summary, the figures and then the findings"
+# with VERDICT: how many findings have it.
+with() { grep -v '^#' all/findings.csv | tail -n +2 | grep -c ",$1,"; }
+summary="$(with holds) of $(grep -v '^#' all/findings.csv | tail -n +2 | wc -l) findings hold, $(with 'does not hold') do not, $(with 'not measured') were not measured."
+grep -qF "<p>$summary</p>" all/index.html || complain "the page's summary is not that of findings.csv: $summary"
+[[ $(sed '/>Summary<\/h2>/,/<h2/!d' all/index.html | grep -c '<tr><td>') -eq $(with 'does not hold') ]] ||
+  complain "the summary does not list what does not hold"
 expect_line err "pprt-study: the page is file://$PWD/all/index.html"
 
 # The same figures again, whatever the hour.

@@ -1,16 +1,18 @@
 // The live page in a real browser: node page.mjs CASE. `pprt-render` is on the PATH.
 import assert from "node:assert/strict";
-import {execFileSync} from "node:child_process";
 import {existsSync, readdirSync, readFileSync, rmSync, writeFileSync} from "node:fs";
 import {join} from "node:path";
 
 import {Chromium, sleep, until} from "./chromium.mjs";
+import {films} from "./films.mjs";
 import {
   directory, programs, Program, scene, shown, camera, frame, stateIs, middle, open, take, drag, keepBusy,
   writeBrightScene, watchForBlack, noError
 } from "./stage.mjs";
 
 const cases = {
+  ...films,
+
   "a script plays, and the token is needed": async (browser) => {
     writeFileSync(join(directory, "turn.anim"), `animation { scene "spd:tree:5" frames 40 fps 12 resolution <160, 120>
       camera { key 1 { from <4.6, 0.4, 2> at <0, 0, 1.5> up <0, 0, 1> angle 45 } key 40 { from <-4.6, 1, 2> } } }`);
@@ -115,75 +117,6 @@ const cases = {
     assert.ok((await at())[0] < far * 0.9);
     noError(page);
     await program.end();
-  },
-
-  "keys that are recorded give a script of the same film": async (browser) => {
-    const program = await Program.start(...scene);
-    const page = await open(browser, program);
-    await take(page);
-    await page.click("key");
-    await stateIs(page, "state.keys.length === 1");
-    await drag(page, 70, 15);
-    await page.until("shown.look === look");
-    await page.evaluate("element('key-frame').value = 7, keyFrame = false");
-    await page.click("key");
-    await stateIs(page, "state.keys.length === 2");
-    await page.click("key");
-    await page.click("undo");
-    await stateIs(page, "state.keys.length === 2");
-    await page.click("save");
-    const script = join(directory, "film.anim");
-    await until("the script", () => existsSync(script));
-
-    // The cameras that the page shows as it plays the film.
-    await page.click("plays-film");
-    await stateIs(page, "state.film && state.frames === 7");
-    await stateIs(page, "!state.plays");
-    const views = [];
-    for (let n = 1; n <= 7; ++n) {
-      await page.evaluate(`connection.send({do: "seek", frame: ${n}})`);
-      views.push(await page.until(`shown.position === ${n} ? shown.view : null`));
-    }
-    noError(page);
-    await program.end();
-
-    const vector = (v) => `<${v.join(", ")}>`;
-    writeFileSync(join(directory, "views.anim"), `animation { scene "spd:tree:5" frames 7 fps 12 resolution <160, 120>
-      camera { ${views.map((v, i) => `key ${i + 1} { from ${vector(v.from)} at ${vector(v.at)} up ${vector(v.up)} angle ${v.angle} }`).join("\n")} } }`);
-    for (const name of ["film", "views"]) {
-      execFileSync("pprt-render", [`${name}.anim`, "--clock", "work", "-o", `${name}_%d.png`], {cwd: directory, stdio: "ignore"});
-    }
-    for (let n = 1; n <= 7; ++n) {
-      const pictures = ["film", "views"].map((name) => readFileSync(join(directory, `${name}_${n}.png`)));
-      assert.ok(pictures[0].equals(pictures[1]), `frame ${n}`);
-    }
-    assert.ok(!readFileSync(join(directory, "film_1.png")).equals(readFileSync(join(directory, "film_7.png"))));
-  },
-
-  "a model is steered under a script's sun and sky, and its keys make the film": async (browser) => {
-    writeFileSync(join(directory, "tent.obj"), `${["-2 0 2", "2 0 2", "0 2 0", "2 0 -2", "-2 0 -2"].map((v) => `v ${v}\n`).join("")}
-      ${["1 2 3", "2 4 3", "4 5 3", "5 1 3"].map((f) => `f ${f}\n`).join("")}`);
-    writeFileSync(join(directory, "day.anim"), `animation { scene "tent.obj" resolution <160, 120> fps 12
-      sun { from <-2, 3, 1> color <1, .9, .8> } sky { up <0, 1, 0> horizon <.8, .8, .9> zenith <.1, .3, .7> } }`);
-    const program = await Program.start("day.anim");
-    const page = await open(browser, program);
-    await take(page);
-    await page.click("key");
-    await stateIs(page, "state.keys.length === 1");
-    await drag(page, 70, 15);
-    await page.until("shown.look === look");
-    await page.evaluate("element('key-frame').value = 5, keyFrame = false");
-    await page.click("key");
-    await stateIs(page, "state.keys.length === 2");
-    await page.click("save");
-    await until("the script", () => existsSync(join(directory, "film.anim")));
-    noError(page);
-    await program.end();
-
-    const run = (...words) => execFileSync("pprt-render", words, {cwd: directory, encoding: "utf8", stdio: ["ignore", "pipe", "ignore"]});
-    assert.match(run("--census", "film.anim"), /lights +1, of them 1 sun\n[^]*simulated +shadows,sky\n/);
-    run("film.anim", "--clock", "work", "-o", "film_%d.png");
-    assert.ok(!readFileSync(join(directory, "film_1.png")).equals(readFileSync(join(directory, "film_5.png"))));
   },
 
   "a reload and a lost connection are no loss": async (browser) => {
@@ -306,82 +239,6 @@ const cases = {
     await stateIs(page, "state.keys.length === 1 && state.keys[0] === shown.position");
     noError(page);
     await program.end();
-  },
-
-  "keys are moved on the time line, undone and done again, also after the slider had the focus": async (browser) => {
-    const program = await Program.start(...scene);
-    const page = await open(browser, program);
-    await page.evaluate("sayWhoHasIt(), 1");
-    await page.until("element('note').textContent.includes('Take the camera first')");
-    await take(page);
-    await page.until("element('note').textContent === ''");
-    await page.press("k");
-    await stateIs(page, "state.keys.length === 1");
-    await page.press("k");
-    await stateIs(page, "String(state.keys) === '1,25'");
-    const place = (f) => page.evaluate(`(() => {
-      const mark = document.querySelector('#marks [data-frame="${f}"]').getBoundingClientRect();
-      const line = element("marks").getBoundingClientRect();
-      return [mark.x + mark.width / 2, mark.y + mark.height / 2, line.width / (state.line - 1)];
-    })()`);
-    const [x, y, step] = await place(25);
-    await page.drag([x, y], [x - 10 * step, y]);
-    await stateIs(page, "String(state.keys) === '1,15'");
-    const ctrl = 2, shift = 8;
-    await page.press("z", {modifiers: ctrl});
-    await stateIs(page, "String(state.keys) === '1,25'");
-    await page.press("Z", {modifiers: ctrl | shift});
-    await stateIs(page, "String(state.keys) === '1,15'");
-    await page.evaluate("document.querySelector('#marks [data-frame=\"15\"]').focus(), 1");
-    await page.press("ArrowRight");
-    await stateIs(page, "String(state.keys) === '1,16'");
-    await page.press("ArrowRight");
-    await stateIs(page, "String(state.keys) === '1,17'");
-
-    // The playhead of the film is where the next key stands.
-    await page.evaluate("element('scrub').focus(), element('scrub').value = 9, element('scrub').dispatchEvent(new Event('input')), 1");
-    await page.until("shown.position === 9 && element('key-at').textContent === '9'");
-    await page.press("k");
-    await stateIs(page, "String(state.keys) === '1,9,17'");
-    await drag(page, 40, 0);
-    await page.until("element('position').textContent === '9 of 17, by hand'");
-    await page.evaluate("element('scrub').focus(), 1");
-    await page.press("u");
-    await stateIs(page, "String(state.keys) === '1,17'");
-    noError(page);
-    await program.end();
-  },
-
-  "keys that were not saved outlive the program": async (browser) => {
-    const program = await Program.start(...scene);
-    const page = await open(browser, program);
-    await take(page);
-    await page.press("k");
-    await drag(page, 50, 5);
-    await page.until("shown.look === look");
-    await page.press("k");
-    await stateIs(page, "state.keys.length === 2");
-    const keys = await page.evaluate("JSON.stringify(film.keys)");
-    const script = await page.evaluate("film.script");
-    assert.equal(await page.evaluate("JSON.stringify(unsaved.get()?.keys)"), keys, "the browser keeps them");
-    program.child.kill("SIGKILL");
-    await page.until("!element('banner').hidden");
-    await page.click("save");
-    const file = join(directory, "film.anim");
-    await until("the script without the program", () => existsSync(file));
-    assert.equal(readFileSync(file, "utf8"), script);
-
-    // On the same port the browser finds what it has kept.
-    await page.evaluate("unsaved.put(film), 1");
-    const {port} = new URL(program.url);
-    const again = await Program.start("--live", port, ...scene);
-    await page.go(again.url);
-    await page.until("state && !element('offer').hidden");
-    assert.match(await page.evaluate("element('offer-text').textContent"), /^2 keys /);
-    await page.click("restore");
-    await page.until(`JSON.stringify(film.keys) === ${JSON.stringify(keys)}`);
-    assert.ok(await page.evaluate("element('offer').hidden"));
-    await again.end();
   },
 
   "frame all, a point to turn round, the axes, legends, and who is late": async (browser) => {

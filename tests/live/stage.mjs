@@ -21,7 +21,10 @@ export class Program {
     program.child.stderr.on("data", (data) => { program.text += data; });
     program.ended = new Promise((resolve) => program.child.on("exit", resolve));
     programs.push(program);
-    program.url = await until("the address", () => program.text.match(/http:\S+/)?.[0], 60);
+    program.url = await until("the address", () => {
+      assert.equal(program.child.exitCode, null, `it has ended: ${program.text}`);
+      return program.text.match(/http:\S+/)?.[0];
+    }, 60);
     return program;
   }
 

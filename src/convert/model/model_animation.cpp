@@ -14,6 +14,11 @@ namespace {
 constexpr double kFramesPerSecond = 24;
 constexpr double kRounding = 1e-3;  // of a frame: times are floats
 
+// Frames from the first to the last key, both ends shown.
+double frames_in(double seconds, double rate) {
+  return std::ceil(seconds * rate - kRounding) + 1;
+}
+
 void require(bool is_usable) {
   if (!is_usable) throw std::runtime_error("a key of its animation is not finite, or beyond 1e100");
 }
@@ -45,12 +50,15 @@ void require_usable(const RotationKey& key) {
 
 std::optional<FrameTimes> KeySpan::frames(std::vector<std::string>& notes) const {
   if (!(last_ > first_)) return std::nullopt;
-  const double wanted = std::ceil((last_ - first_) * kFramesPerSecond - kRounding) + 1;
-  const double frames = std::min(wanted, double{kMostFrames});
-  if (frames < wanted)
+  if (frames_in(last_ - first_, kFramesPerSecond) > kMostFrames)
     notes.push_back("it would have more than " + std::to_string(kMostFrames) +
                     " frames at 24 a second: these are further apart");
-  return FrameTimes{.start = first_, .end = last_, .frames = static_cast<int>(frames)};
+  return frames_between(first_, last_, kFramesPerSecond);
+}
+
+FrameTimes frames_between(double start, double end, double rate) {
+  const double frames = std::min(frames_in(end - start, rate), double{kMostFrames});
+  return {.start = start, .end = end, .frames = static_cast<int>(frames)};
 }
 
 std::string animation_taken(const std::vector<std::string>& names, std::size_t taken) {

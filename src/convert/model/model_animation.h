@@ -20,6 +20,9 @@ struct ModelAnimation {
   std::vector<std::string> notes;             // for people: what was left out
 };
 
+// Returns the frames of a rate that show this time, at most as many as a scene may have.
+FrameTimes frames_between(double start, double end, double rate);
+
 // From the first to the last key.
 class KeySpan {
  public:

@@ -1,8 +1,13 @@
 #include <fmt/core.h>
 
+#include <filesystem>
+#include <string>
+
 #include "base/diagnostics.h"
+#include "convert/model_scene.h"
 #include "render/options/render_options.h"
 #include "scene/animation/animation.h"
+#include "spd/spd.h"
 
 namespace pprt {
 namespace {
@@ -15,6 +20,21 @@ void require_picture_name(const std::filesystem::path& sheet) {
 void require_film_name(const std::filesystem::path& film) {
   if (film.empty() || is_film_name(film)) return;
   throw UsageError("--film " + film.string() + ": want a name that ends in .mp4, .mkv or .gif");
+}
+
+// Words without an option are a scene and a script.
+void require_sources(const SourceOptions& source) {
+  for (const std::string& name : {source.input, source.script}) {
+    const std::filesystem::path end = std::filesystem::path(name).extension();
+    if (end == ".png" || end == ".exr" || is_film_name(name))
+      throw UsageError(fmt::format("'{0}' is neither a scene nor a script; '-o {0}' writes it", name));
+  }
+  const std::filesystem::path end = std::filesystem::path(source.script).extension();
+  if (end == ".nff" || end == ".aff" || is_spd_name(source.script) || is_model_name(source.script)) {
+    throw UsageError(
+        fmt::format("'{}' is a second scene, beside '{}'; a script, FILE.anim, can move it there",
+                    source.script, source.input));
+  }
 }
 
 void require_live_usage(const RenderOptions& options) {
@@ -60,6 +80,7 @@ bool needs_triangulation(const SessionSettings& method, WeightRule weights) {
 
 void check_usage(const RenderOptions& options) {
   const bool counts_work = options.method.clock == ClockKind::kWork;
+  require_sources(options.source);
   require_picture_name(options.output.contact_sheet);
   require_film_name(options.output.film);
   if (options.report.trace == "-") throw UsageError("--balance-trace -: want the name of a file");

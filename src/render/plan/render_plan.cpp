@@ -157,10 +157,16 @@ OutputFiles named_files(OutputFiles output, bool is_live, std::size_t frame_coun
   return output;
 }
 
-// A model that rests, without a script, is shown from all sides in a film.
-bool turns(const RenderOptions& options, const Sources& sources) {
-  return sources.is_model && !sources.script && !sources.scene.scene.movement.times && !options.live &&
-         !options.output.film.empty();
+// Without a script, a film shows a model that rests from all sides, and one that moves in its own time.
+void set_model_frames(const RenderOptions& options, Sources& sources) {
+  if (!sources.is_model || sources.script) return;
+  SceneDescription& scene = sources.scene.scene;
+  const double rate = options.end.fps.value_or(0);
+  if (scene.movement.times) {
+    if (rate > 0) set_rate(scene, rate);
+  } else if (!options.live && !options.output.film.empty()) {
+    add_turn(scene, options.source.up, rate > 0 ? rate : kFilmRate, sources.is_lit_anew);
+  }
 }
 
 // Whether the only picture's name has room for one frame, of several that nobody has asked for.
@@ -185,12 +191,8 @@ RenderPlan plan_of(const RenderOptions& options, Sources& sources) {
   const bool is_live = options.live.has_value();
   const bool names_pictures = !options.output.pictures.empty();
 
-  if (turns(options, sources)) {
-    const double rate = options.end.fps.value_or(0);
-    add_turn(sources.scene.scene, options.source.up, rate > 0 ? rate : kFilmRate, sources.is_lit_anew);
-  }
-
   // Frames, at their rate.
+  set_model_frames(options, sources);
   const View base = base_view(options.size, sources);
   require_sound_cameras(sources, base);
   const double fps = frame_rate(options.end.fps, sources.script, is_live);

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "study/paper/findings.h"
 #include "study/paper/measures.h"
@@ -178,6 +181,24 @@ Panel network_panel(const Runs& runs, const NetworkProperty& property) {
               CurveStyle::kMarkedLine)}};
 }
 
+std::vector<Finding> with_verdict(const std::vector<Finding>& all, std::optional<bool> verdict) {
+  std::vector<Finding> chosen;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(chosen),
+               [&](const Finding& f) { return f.holds() == verdict; });
+  return chosen;
+}
+
+// What fits a screen above the figures: how many findings hold, and which do not.
+void write_summary(const std::vector<Finding>& all, StudyOutput& output) {
+  const std::vector<Finding> refuted = with_verdict(all, false);
+  output.section("Summary", fmt::format("{} of {} findings hold, {} do not, {} were not measured.",
+                                        with_verdict(all, true).size(), all.size(), refuted.size(),
+                                        with_verdict(all, std::nullopt).size()));
+  if (refuted.empty()) return;
+  output.table(
+      table_of<Finding>(refuted, {{"does not hold", &Finding::claim}, {"section", &Finding::source}}));
+}
+
 Table findings_table(const std::vector<Finding>& all) {
   const auto verdict = [](const Finding& f) {
     return !f.holds() ? "not measured" : *f.holds() ? "holds" : "does not hold";
@@ -215,12 +236,6 @@ std::string setup_text(const PaperResults& results, const PaperOptions& options)
       kPaperSamples, kPaperSide, kPaperSide, calibration.total_units, first,
       calibration.total_units * calibration.share.at(last), last, first, machine.units_per_second,
       1e6 * machine.latency_s, 1e-6 * machine.bytes_per_second, last, 1e3 * calibration.frame_s);
-}
-
-Table first_columns(Table table, std::size_t count) {
-  table.columns.resize(count);
-  for (std::vector<Cell>& row : table.rows) row.resize(count);
-  return table;
 }
 
 void write_figures(const Runs& runs, const PaperResults& results, const PaperOptions& options,
@@ -275,16 +290,15 @@ void study_paper(const PaperOptions& asked, const std::string& command_line) {
   output.write_table("frames", frames_table(results));
   if (options.quick) output.note(kQuickNote);
   output.paragraph(kPaperReference);
-  const Table all_findings = findings_table(findings(results));
-  output.heading("Findings");
-  output.table(first_columns(all_findings, 2));
+  const std::vector<Finding> all = findings(results);
+  write_summary(all, output);
   write_figures(Runs(results), results, options, output);
   output.heading("Sample patterns (the paper's figures 1 and 2)");
   output.add_gallery(results.pattern_pictures);
   output.heading("Frames, patterns and regions (the paper's figure 4)");
   output.add_gallery(results.sequence_pictures);
-  output.heading("Findings in detail");
-  output.add_table("findings", all_findings);
+  output.heading("Findings");
+  output.add_table("findings", findings_table(all));
   output.section("How this was measured", setup_text(results, options));
   output.finish();
 }

@@ -77,9 +77,9 @@ const char* colour_of(const Curve& curve, std::size_t place) {
 constexpr std::array kStyles = {"lines", "linespoints pt 7 ps 0.5", "points pt 8 ps 0.9 lw 1.5",
                                 "lines lw 1 dt 2"};
 
-// Where curves lie on one another, what lies below shows on both sides of the line above, or in its gaps.
+// Later curves lie above earlier ones and are narrower: where they coincide, all of them show.
 std::string line_of(CurveStyle style, std::size_t place) {
-  constexpr std::array kLines = {" lw 3", " lw 2 dt (12,5)", " lw 2 dt (5,4)", " lw 2 dt (2,3)"};
+  constexpr std::array kLines = {" lw 4", " lw 3 dt (12,4)", " lw 2 dt (6,4)", " lw 1.5"};
   const bool is_line = style == CurveStyle::kLine || style == CurveStyle::kMarkedLine;
   return std::string(kStyles[static_cast<std::size_t>(style)]) +
          (is_line ? kLines[place % kLines.size()] : "");

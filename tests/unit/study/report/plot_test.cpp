@@ -63,8 +63,8 @@ TEST_CASE("plot: curves that lie on one another can be told apart without their 
   panel.curves.assign(4, {"c", {{1, 1}, {2, 2}}});
   const std::string script = gnuplot_script(plot);
   for (const char* line :
-       {"$p0c0 using 1:2 with lines lw 3 lc", "$p0c1 using 1:2 with lines lw 2 dt (12,5) lc",
-        "$p0c2 using 1:2 with lines lw 2 dt (5,4) lc", "$p0c3 using 1:2 with lines lw 2 dt (2,3) lc"})
+       {"$p0c0 using 1:2 with lines lw 4 lc", "$p0c1 using 1:2 with lines lw 3 dt (12,4) lc",
+        "$p0c2 using 1:2 with lines lw 2 dt (6,4) lc", "$p0c3 using 1:2 with lines lw 1.5 lc"})
     CHECK(contains(script, line));
 }
 
