@@ -10,6 +10,17 @@ import {
   writeBrightScene, watchForBlack, noError
 } from "./stage.mjs";
 
+// Records a key, turns the camera, and records another at the frame.
+async function recordTwoKeys(page, frame) {
+  await page.click("key");
+  await stateIs(page, "state.keys.length === 1");
+  await drag(page, 70, 15);
+  await page.until("shown.look === look");
+  await page.evaluate(`element('key-frame').value = ${frame}, keyFrame = false`);
+  await page.click("key");
+  await stateIs(page, "state.keys.length === 2");
+}
+
 const cases = {
   "a script plays, and the token is needed": async (browser) => {
     writeFileSync(join(directory, "turn.anim"), `animation { scene "spd:tree:5" frames 40 fps 12 resolution <160, 120>
@@ -121,13 +132,7 @@ const cases = {
     const program = await Program.start(...scene);
     const page = await open(browser, program);
     await take(page);
-    await page.click("key");
-    await stateIs(page, "state.keys.length === 1");
-    await drag(page, 70, 15);
-    await page.until("shown.look === look");
-    await page.evaluate("element('key-frame').value = 7, keyFrame = false");
-    await page.click("key");
-    await stateIs(page, "state.keys.length === 2");
+    await recordTwoKeys(page, 7);
     await page.click("key");
     await page.click("undo");
     await stateIs(page, "state.keys.length === 2");
@@ -168,13 +173,7 @@ const cases = {
     const program = await Program.start("day.anim");
     const page = await open(browser, program);
     await take(page);
-    await page.click("key");
-    await stateIs(page, "state.keys.length === 1");
-    await drag(page, 70, 15);
-    await page.until("shown.look === look");
-    await page.evaluate("element('key-frame').value = 5, keyFrame = false");
-    await page.click("key");
-    await stateIs(page, "state.keys.length === 2");
+    await recordTwoKeys(page, 5);
     await page.click("save");
     await until("the script", () => existsSync(join(directory, "film.anim")));
     noError(page);
