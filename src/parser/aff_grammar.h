@@ -9,7 +9,7 @@
 #include <tao/pegtl.hpp>
 #include <tao/pegtl/contrib/analyze_traits.hpp>
 
-#include "parser/text/text_input.h"
+#include "parser/scene_rules.h"
 
 namespace pprt::aff::grammar {
 
@@ -25,6 +25,8 @@ using pegtl::seq;
 using pegtl::sor;
 using pegtl::star;
 using pegtl::string;
+using rules::number_begin;
+using rules::rows;
 
 // A text as a parameter of a rule.
 template <std::size_t N>
@@ -40,26 +42,8 @@ struct comment : seq<one<'#', '%'>, star<pegtl::not_one<'\n', '\r'>>> {};
 struct gap : star<sor<blank, comment>> {};
 struct token_end : sor<eof, blank, one<'#', '%', '{', '}'>> {};
 struct token : sor<one<'{', '}'>, plus<not_at<token_end>, any>> {};
-struct number_begin : one<'0', '1', '2', '3', '4', '5', '6', '7', '8', '9', '.', '+', '-'> {};
 
-// Matches a finite number that fills its token, and passes its value to the action.
-struct number {
-  using rule_t = number;
-  using subs_t = pegtl::empty_list;
-
-  template <pegtl::apply_mode A, pegtl::rewind_mode, template <typename...> class Action,
-            template <typename...> class, typename Input, typename... States>
-  static bool match(Input& in, States&&... states) {
-    double value = 0;
-    const char* const stop = scan_number(in.current(), in.end(), value);
-    if (!stop || !ends_token(stop, in.end())) return false;
-    const char* const place = in.current();
-    in.bump(static_cast<std::size_t>(stop - place));
-    if constexpr (A == pegtl::apply_mode::action) Action<number>::value(value, place, states...);
-    return true;
-  }
-
- private:
+struct number : rules::finite_number<number> {
   static bool ends_token(const char* p, const char* end) {
     return p == end || std::string_view(" \t\f\v\n\r#%{}").find(*p) != std::string_view::npos;
   }
@@ -97,22 +81,6 @@ struct open_brace : seq<gap, one<'{'>> {};
 // A count that must stand here. The rows after it are as many.
 template <Text What>
 struct count : seq<gap, number> {};
-
-// Matches Row as many times as the last count said.
-template <typename Row>
-struct rows {
-  using rule_t = rows;
-  using subs_t = pegtl::type_list<Row>;
-
-  template <pegtl::apply_mode A, pegtl::rewind_mode M, template <typename...> class Action,
-            template <typename...> class Control, typename Input, typename Builder>
-  static bool match(Input& in, Builder& builder) {
-    for (std::size_t left = builder.rows(); left > 0; --left) {
-      if (!Control<Row>::template match<A, M, Action, Control>(in, builder)) return false;
-    }
-    return true;
-  }
-};
 
 template <char... Letters>
 struct keyword : seq<string<Letters...>, at<token_end>> {};
@@ -283,12 +251,8 @@ struct resume : seq<opt<token>, star<not_at<sor<line_of_directive, one<'}'>>>, s
 
 namespace tao::pegtl {
 
-template <typename Name>
-struct analyze_traits<Name, pprt::aff::grammar::number> : analyze_any_traits<> {};
 template <typename Name, pprt::aff::grammar::Text Word>
 struct analyze_traits<Name, pprt::aff::grammar::word<Word>> : analyze_any_traits<> {};
-template <typename Name, typename Row>
-struct analyze_traits<Name, pprt::aff::grammar::rows<Row>> : analyze_opt_traits<Row> {};
 template <typename Name>
 struct analyze_traits<Name, pprt::aff::grammar::mesh_triangles>
     : analyze_opt_traits<pprt::aff::grammar::num<"an index">> {};

@@ -60,7 +60,7 @@ class SceneBuilder {
   void add_sphere();
   void add_cone();
   void begin_vertices(std::string_view matched);
-  std::size_t expected_vertices() const { return vertex_count_; }
+  std::size_t rows() const { return vertex_count_; }
   void polygon_vertex() {
     polygon_.emplace_back(numbers_[0], numbers_[1], numbers_[2]);
     count_ = 0;

@@ -5,9 +5,8 @@
 #pragma once
 
 #include <tao/pegtl.hpp>
-#include <tao/pegtl/contrib/analyze_traits.hpp>
 
-#include "parser/text/text_input.h"
+#include "parser/scene_rules.h"
 
 namespace pprt::nff::grammar {
 
@@ -24,6 +23,8 @@ using pegtl::seq;
 using pegtl::sor;
 using pegtl::star;
 using pegtl::string;
+using rules::number_begin;
+using rules::rows;
 
 // The gap between tokens.
 struct inline_blank : one<' ', '\t', '\f', '\v'> {};
@@ -39,27 +40,9 @@ struct gap : star<sor<blank, hash_comment, percent_comment, block_comment>> {};
 // Tokens.
 struct comment_begin : sor<one<'#', '%'>, string<'/', '*'>> {};
 struct token_end : sor<eof, blank, comment_begin> {};
-struct number_begin : one<'0', '1', '2', '3', '4', '5', '6', '7', '8', '9', '.', '+', '-'> {};
 struct token : plus<not_at<token_end>, any> {};
 
-// Matches a finite number that fills its token, and passes its value to the action.
-struct number {
-  using rule_t = number;
-  using subs_t = pegtl::empty_list;
-
-  template <pegtl::apply_mode A, pegtl::rewind_mode, template <typename...> class Action,
-            template <typename...> class, typename Input, typename... States>
-  static bool match(Input& in, States&&... states) {
-    double value = 0;
-    const char* const stop = scan_number(in.current(), in.end(), value);
-    if (!stop || !ends_token(stop, in.end())) return false;
-    const char* const place = in.current();
-    in.bump(static_cast<std::size_t>(stop - place));
-    if constexpr (A == pegtl::apply_mode::action) Action<number>::value(value, place, states...);
-    return true;
-  }
-
- private:
+struct number : rules::finite_number<number> {
   static bool ends_token(const char* p, const char* end) {
     if (p == end) return true;
     switch (*p) {
@@ -80,22 +63,6 @@ struct number {
 
 struct field : seq<gap, number> {};
 struct more_numbers : star<field> {};
-
-// Matches Rule as many times as the state expects (expected_vertices).
-template <typename Rule>
-struct counted {
-  using rule_t = counted;
-  using subs_t = pegtl::type_list<Rule>;
-
-  template <pegtl::apply_mode A, pegtl::rewind_mode M, template <typename...> class Action,
-            template <typename...> class Control, typename Input, typename State>
-  static bool match(Input& in, State& state) {
-    for (std::size_t left = state.expected_vertices(); left > 0; --left) {
-      if (!Control<Rule>::template match<A, M, Action, Control>(in, state)) return false;
-    }
-    return true;
-  }
-};
 
 // Keywords. The first number may follow without a blank ("s0 0 0 1", "p3").
 template <char... Letters>
@@ -176,10 +143,10 @@ struct normal_y : field {};
 struct normal_z : field {};
 struct polygon_vertex : seq<vertex_x, vertex_y, vertex_z> {};
 struct polygon_keyword : keyword<'p'> {};
-struct polygon : seq<polygon_keyword, vertex_count, counted<polygon_vertex>> {};
+struct polygon : seq<polygon_keyword, vertex_count, rows<polygon_vertex>> {};
 struct patch_vertex : seq<vertex_x, vertex_y, vertex_z, normal_x, normal_y, normal_z> {};
 struct patch_keyword : keyword<'p', 'p'> {};
-struct patch : seq<patch_keyword, vertex_count, counted<patch_vertex>> {};
+struct patch : seq<patch_keyword, vertex_count, rows<patch_vertex>> {};
 
 // The header of a mailed scene: "Subject: ..." with its folded lines, or mbox's "From ...".
 struct header_name : seq<pegtl::alpha, star<sor<pegtl::alnum, one<'-'>>>, one<':'>> {};
@@ -197,13 +164,3 @@ struct end_of_entities : eof {};
 struct file : seq<gap, star<entity, gap>, end_of_entities> {};
 
 }  // namespace pprt::nff::grammar
-
-namespace tao::pegtl {
-
-template <typename Name>
-struct analyze_traits<Name, pprt::nff::grammar::number> : analyze_any_traits<> {};
-
-template <typename Name, typename Rule>
-struct analyze_traits<Name, pprt::nff::grammar::counted<Rule>> : analyze_opt_traits<Rule> {};
-
-}  // namespace tao::pegtl

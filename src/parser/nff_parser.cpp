@@ -47,7 +47,7 @@ template <typename Rule>
   }
   if constexpr (!std::is_same_v<Rule, grammar::end_of_entities>) {
     if (builder.vertex_at_hand() > 0) {
-      message += fmt::format(" of vertex {} of {}", builder.vertex_at_hand(), builder.expected_vertices());
+      message += fmt::format(" of vertex {} of {}", builder.vertex_at_hand(), builder.rows());
     }
     message += fmt::format(" of '{}'", builder.entity());
   } else if (!builder.entity().empty()) {

@@ -46,11 +46,13 @@ expect_line err "pprt-study: the page is file://$PWD/all/index.html"
 
 # The same figures again, whatever the hour.
 figures_of() { grep -v '^#' "$1"; }
+hash_of() { figures_of "$1/frames.csv" | grep -m1 "^$2," | sed 's/.*,//'; }  # of the run's first picture
 run pprt-study paper -o again --quick --ranks 2,9 --frames 5; expect_code 0
 diff <(figures_of all/frames.csv) <(figures_of again/frames.csv) || complain "two studies differ"
 # Another seed makes other figures.
-run pprt-study paper -o other --quick --ranks 2,9 --frames 5 --seed 2; expect_code 0
-if diff -q <(figures_of all/frames.csv) <(figures_of other/frames.csv) >/dev/null; then complain "the seed changes nothing"; fi
+run pprt-study paper -o other --quick --ranks 2 --frames 5 --seed 2; expect_code 0
+row=simple,simple,2,96,none
+[[ $(hash_of other $row) =~ ^[0-9a-f]{16}$ && $(hash_of all $row) != "$(hash_of other $row)" ]] || complain "the seed changes nothing"
 
 # A findings table that calls everything good shows nothing: the control must be there, and hold.
 expect_line all/findings.csv '.*Control: without balancing .*,holds,.*'
@@ -64,7 +66,6 @@ expect_file bare/index.html; expect_file bare/frames.csv; expect_no_file bare/sc
 grep -q 'The plot is missing: gnuplot is not installed' bare/index.html || complain "the page does not tell what is missing"
 
 # Learned weights make other pictures, in every experiment: on 2 ranks, on one, and of the casting trial.
-hash_of() { figures_of "$1/frames.csv" | grep -m1 "^$2," | sed 's/.*,//'; }  # of the run's first picture
 for row in simple,simple,2,96,none simple,simple,2,96,combined scaling,simple,1,96,none costs,casting,4,96,combined; do
   [[ $(hash_of all "$row") =~ ^[0-9a-f]{16}$ && $(hash_of all "$row") != "$(hash_of bare "$row")" ]] ||
     complain "$row: --weights learned changes nothing"

@@ -74,6 +74,7 @@ declare -A home=(
   [CLI]="cli render convert compare study" [nlohmann]="cli live render convert compare study" [spdlog]="cli render")
 
 seen=0
+includes=$(grep -roE '^#include ["<][^">]+[">]' src --include='*.h' --include='*.cpp')
 while IFS=: read -r file include; do
   module=${file#src/} module=${module%%/*}
   [[ -n ${allowed[$module]:-} ]] || { complain "$file: src/$module is no room"; continue; }
@@ -82,9 +83,9 @@ while IFS=: read -r file include; do
   if [[ $include == *\"* ]]; then
     [[ " ${allowed[$module]} ${besides[$module]:-} " == *" $first "* || " ${besides[$module]:-} " == *" $name "* ]] ||
       complain "$file: $module may not include $name"
-    stage=$(dirname "${file#src/}")
+    stage=${file#src/} stage=${stage%/*}
     if [[ $first == "$module" && $stage != "$module" && " ${!within[*]} " == *" $module/"* ]]; then
-      [[ " $stage ${within[$stage]-} " == *" $(dirname "$name") "* ]] || complain "$file: $stage may not include $name"
+      [[ " $stage ${within[$stage]-} " == *" ${name%/*} "* ]] || complain "$file: $stage may not include $name"
     fi
     [[ $name != pipeline/mesh/* || $file =~ $mesh_users ]] || complain "$file: may not include $name"
   elif [[ -n ${home[$first]:-} ]]; then
@@ -95,11 +96,10 @@ while IFS=: read -r file include; do
   if [[ $include == *'<'* && $file == *.h ]] && [[ -n ${home[$first]:-} || $first == fmt ]]; then
     # shellcheck disable=SC2086 # one word a module
     inside=$(printf '^src/%s/|' ${home[$first]:-$module})
-    outside=$(grep -rlF "#include \"${file#src/}\"" src --include='*.h' --include='*.cpp' |
-              grep -vE "${inside%|}" || true)
+    outside=$(grep -F ":#include \"${file#src/}\"" <<<"$includes" | cut -d: -f1 | grep -vE "${inside%|}" || true)
     [[ -z $outside ]] || complain "$file: shows <$name> to $outside"
   fi
-done < <(grep -roE '^#include ["<][^">]+[">]' src --include='*.h' --include='*.cpp')
+done <<<"$includes"
 [[ $seen -gt 100 ]] || complain "only $seen includes were found in $PWD/src"
 
 while read -r lines file; do

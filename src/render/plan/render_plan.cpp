@@ -83,9 +83,8 @@ PlannedFrame planned_frame(const Sources& sources, const View& base, const Frame
 }
 
 // Returns `count` frames of the range at equal distances, with its first and its last.
-std::vector<PlannedFrame> planned_frames(const Sources& sources, const View& base, const FrameRange& range,
-                                         int count) {
-  const FrameTimes times = frame_times(sources);
+std::vector<PlannedFrame> planned_frames(const Sources& sources, const View& base, const FrameTimes& times,
+                                         const FrameRange& range, int count) {
   std::vector<PlannedFrame> frames;
   const std::int64_t length = range.last - range.first;
   for (std::int64_t i = 0; i < count; ++i) {
@@ -103,11 +102,10 @@ FrameRange frames_to_render(const std::optional<FrameRange>& range, int length) 
 }
 
 // Returns what decides the views of all frames, besides the scene.
-std::string script_keys(const Sources& sources) {
-  const FrameTimes times = frame_times(sources);
+std::string script_keys(const std::optional<ParsedAnimation>& script, const FrameTimes& times) {
   std::string keys = fmt::format("{} {} {}\n", times.start, times.end, times.frames);
-  if (!sources.script) return keys;
-  Animation camera = sources.script->animation;
+  if (!script) return keys;
+  Animation camera = script->animation;
   camera.scene.reset(), camera.objects.clear(), camera.daylight = {};  // in whatever way the scene came to be
   camera.fps = 0, camera.width.reset(), camera.height.reset();
   return keys + anim_script(camera);
@@ -199,10 +197,11 @@ RenderPlan plan_of(const RenderOptions& options, Sources& sources) {
   if (is_live) require_live_rate(fps, options.end.has_stop_rule());
   if (is_live && names_pictures && !sources.script)
     throw UsageError("with --live, --output writes the frames of a script, and there is none");
-  const int length = frame_times(sources).frames;
-  const int judged = std::min(length, kMostJudged);
+  const FrameTimes times = frame_times(sources);
+  const int length = times.frames, judged = std::min(length, kMostJudged);
   const FrameRange range = frames_to_render(options.frames, length);
-  std::vector<PlannedFrame> frames = planned_frames(sources, base, range, range.last - range.first + 1);
+  std::vector<PlannedFrame> frames =
+      planned_frames(sources, base, times, range, range.last - range.first + 1);
   std::string warnings = sources.warnings();
   if (asks_for_first_frame(options, frames.size())) {
     frames.resize(1);
@@ -211,7 +210,7 @@ RenderPlan plan_of(const RenderOptions& options, Sources& sources) {
 
   // Their files, and how the ranks make them.
   OutputFiles output = named_files(options.output, is_live, frames.size());
-  output.film_rate = film_rate(fps, sources);
+  output.film_rate = film_rate(fps, sources.script, times);
   if (options.overwrite) output.existing = ExistingFiles::kReplace;
   if (options.resume) output.existing = ExistingFiles::kResume;
   SessionSettings settings = settled_method(options.method, options.weights);
@@ -232,8 +231,8 @@ RenderPlan plan_of(const RenderOptions& options, Sources& sources) {
           .daylight = sources.script ? sources.script->animation.daylight : Daylight(),
           .script_name = sources.script ? sources.script->animation.name : "",
           .script_length = length,
-          .script_frames = planned_frames(sources, base, {1, length}, judged),
-          .script_keys = judged < length ? script_keys(sources) : "",
+          .script_frames = planned_frames(sources, base, times, {1, length}, judged),
+          .script_keys = judged < length ? script_keys(sources.script, times) : "",
           .frames = std::move(frames),
           .renders = !options.report.census || names_pictures,
           .inputs = input_files(sources, options.config, options.ranks.hostfile),

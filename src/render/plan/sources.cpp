@@ -14,6 +14,10 @@ namespace {
 
 constexpr double kCustomaryRate = 25;  // frames/s
 
+double rate_of(const Animation& script) {
+  return script.fps > 0 ? script.fps : kCustomaryRate;
+}
+
 NffOptions reading_of(const SourceOptions& options) {
   NffOptions reading{.strict = options.strict};
   if (options.memory) reading.max_memory = *options.memory;
@@ -85,18 +89,16 @@ FrameTimes frame_times(const Sources& sources) {
   const std::optional<FrameTimes>& own = sources.scene.scene.movement.times;
   if (!sources.script) return own.value_or(FrameTimes());
   const Animation& script = sources.script->animation;
-  const double fps = script.fps > 0 ? script.fps : kCustomaryRate;
-  FrameTimes times{.start = 0, .end = (script.frames - 1) / fps, .frames = script.frames};
+  FrameTimes times{.start = 0, .end = (script.frames - 1) / rate_of(script), .frames = script.frames};
   if (own && own->frames > 1 && own->end > own->start) times.start = own->start, times.end = own->end;
   return times;
 }
 
-double film_rate(double fps, const Sources& sources) {
+double film_rate(double fps, const std::optional<ParsedAnimation>& script, const FrameTimes& times) {
   if (fps > 0) return fps;
-  if (sources.script)
-    return sources.script->animation.fps > 0 ? sources.script->animation.fps : kCustomaryRate;
-  const FrameTimes own = frame_times(sources);
-  return own.frames > 1 && own.end > own.start ? (own.frames - 1) / (own.end - own.start) : kCustomaryRate;
+  if (script) return rate_of(script->animation);
+  return times.frames > 1 && times.end > times.start ? (times.frames - 1) / (times.end - times.start)
+                                                     : kCustomaryRate;
 }
 
 std::optional<std::string> absolute_scene_name(const std::string& path) {

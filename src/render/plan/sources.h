@@ -37,9 +37,9 @@ void add_objects(Sources& sources, const SourceOptions& options);
 // the first is at 0 and they follow each other at the script's rate.
 FrameTimes frame_times(const Sources& sources);
 
-// Returns the rate of a film: `fps`; if 0, the script's or that of the scene's own animation, else 25
-// frames/s.
-double film_rate(double fps, const Sources& sources);
+// Returns the rate of a film: `fps`; if 0, the script's or that of the scene's own animation, whose frames
+// have these times, else 25 frames/s.
+double film_rate(double fps, const std::optional<ParsedAnimation>& script, const FrameTimes& times);
 
 // Returns what a script in any directory calls the scene; nullopt: nothing can.
 std::optional<std::string> absolute_scene_name(const std::string& path);
