@@ -2,7 +2,7 @@
 // minutes, so both are run by hand (docs/accuracy.md):
 //
 //   PPRT_QUALITY="spd:tree spd:balls" test_study "[quality]"
-//   PPRT_FILMS="scenes/tree-casting.anim scenes/demo.anim" test_study "[film]"
+//   test_study "[film]"
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -154,14 +154,16 @@ Errors errors_of(const std::vector<Image>& pictures, const std::vector<Reference
 
 TEST_CASE("film time: what dividing it is worth", "[.film]") {
   const char* given = std::getenv("PPRT_FILMS");
-  std::istringstream names(given != nullptr ? given
-                                            : PPRT_SOURCE_DIR "/scenes/tree-casting.anim " PPRT_SOURCE_DIR
-                                                              "/scenes/demo.anim");
+  const std::string folder = PPRT_SOURCE_DIR;
+  const std::string usual = folder + "/tests/unit/study/accuracy/films/tree-cut.anim " + folder +
+                            "/tests/unit/study/accuracy/films/balls-cut.anim " + folder +
+                            "/scenes/tree-casting.anim " + folder + "/scenes/demo.anim";
+  std::istringstream names(given != nullptr ? given : usual);
   for (std::string name; names >> name;) {
     const Film film = film_of(name);
     std::vector<Reference> references;
     for (const FrameRequest& frame : film.frames)
-      references.push_back(converged_reference({film.scene, frame.camera, frame.time}, 6));
+      references.push_back(converged_reference({film.scene, frame.camera, frame.time}, 4));
     for (const double film_time : {4.0, 16.0}) {
       std::vector<Image> equal, divided;
       played(film, film.frames, pass_settings(film.settings, Film::kFrames, film_time),
