@@ -38,7 +38,8 @@ std::string to_text(const FrameHeader& header) {
                               {"slack_ms", f.slack_ms},
                               {"samples", f.samples},
                               {"late", f.late_ranks},
-                              {"rmse", f.rmse ? Json(*f.rmse) : Json()}});
+                              {"rmse", f.rmse ? Json(*f.rmse) : Json()},
+                              {"advice", f.advice}});
   return json.dump();
 }
 

@@ -19,8 +19,9 @@ struct FrameFigures {
   double slack_ms = 0;               // before its deadline; negative: after it
   std::uint64_t samples = 0;         // in the image
   std::vector<int> late_ranks = {};  // whose pixels had not come
-  // Measured since the last camera cut: RMSE, and both ends of its 95 % interval.
+  // Measured in the last frames: RMSE, and both ends of its 95 % interval.
   std::optional<std::array<double, 3>> rmse = {};
+  std::string advice = {};  // what would help against late or coarse frames; empty: nothing needs help
 };
 
 struct FrameHeader {

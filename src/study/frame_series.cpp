@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdint>
+#include <ctime>
 #include <exception>
 #include <mutex>
 #include <optional>
@@ -53,6 +55,23 @@ void render_series(const CompiledScene& scene, const std::vector<FrameRequest>& 
   run_virtual_ranks(
       ranks, settings, [&](int rank) { return probe_of(tracers[static_cast<std::size_t>(rank)]); }, next,
       sink);
+}
+
+double measured_units_per_second(const Subject& subject, SamplerChoice sampler) {
+  constexpr std::uint64_t kUnits = 200'000'000;
+  SessionSettings settings{.sampler = sampler};
+  settings.width = subject.camera.width, settings.height = subject.camera.height;
+  settings.clock = ClockKind::kWork;
+  settings.machine = cluster_machine();
+  settings.machine.units_per_second = kUnits;
+  settings.frames_per_second = 1;
+  settings.budget_units = kUnits;
+  settings.cast = CastChoice::kOff;
+  const std::clock_t begin = std::clock();
+  render_series(subject.scene, {{.number = 1, .camera = subject.camera, .time = subject.time}}, 1, settings,
+                [](FinishedFrame&&) {});
+  return kUnits * static_cast<double>(CLOCKS_PER_SEC) /
+         static_cast<double>(std::max<std::clock_t>(1, std::clock() - begin));
 }
 
 double work_for_samples(const WorkQuestion& question, const std::function<double(double)>& samples_made) {

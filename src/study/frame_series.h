@@ -8,6 +8,7 @@
 #include "parallel/master/master.h"
 #include "parallel/settings/session_words.h"
 #include "scene/animation/animation.h"
+#include "study/reference.h"
 #include "trace/compiled_scene.h"
 
 namespace pprt {
@@ -27,6 +28,9 @@ std::vector<FrameRequest> own_frames_of(const CompiledScene& scene, const SceneD
 // Renders the frames on `ranks` ranks and passes each to the sink, in order. Throws what a rank throws.
 void render_series(const CompiledScene& scene, const std::vector<FrameRequest>& frames, int ranks,
                    const SessionSettings& settings, const FrameSink& sink);
+
+// Returns the work units that a rank does per second of CPU time on this machine and scene.
+double measured_units_per_second(const Subject& subject, SamplerChoice sampler);
 
 // Asks for the work of a frame that makes a number of samples, all ranks together.
 struct WorkQuestion {

@@ -22,6 +22,30 @@ CLI::Option* add(CLI::App& app, const char* names, const char* label, T& value, 
   return app.add_option(names, value, help)->type_name(label);
 }
 
+CLI::Option* add_output(CLI::App& command, std::string& directory) {
+  return add(command, "-o,--output", "DIR", directory, "Directory for tables, plots and index.html");
+}
+
+CLI::Option* add_ranks(CLI::App& command, int& ranks) {
+  return add(command, "--ranks", "N", ranks, "Number of ranks")
+      ->check(CLI::Range(1, 512))
+      ->capture_default_str();
+}
+
+template <typename Seed>
+void add_seed(CLI::App& command, Seed& seed, const char* help) {
+  add(command, "--seed", "N", seed, help)->capture_default_str();
+}
+
+// `cells`: of converged_reference().
+void add_reference(CLI::App& command, int& cells, const char* help) {
+  add(command, "--reference", "N", cells, help)->check(CLI::Range(2, 64));
+}
+
+void add_size(CLI::App& command, int& size, int most, const char* help) {
+  add(command, "--size", "N", size, help)->check(CLI::Range(16, most));
+}
+
 CLI::App& add_counts(CLI::App& app, pprt::CountsOptions& options) {
   CLI::App& command = *app.add_subcommand("counts", "Compares rays by kind with Haines' published table");
   pprt::take_path_or(
@@ -41,8 +65,7 @@ CLI::App& add_counts(CLI::App& app, pprt::CountsOptions& options) {
 
 CLI::App& add_paper(CLI::App& app, pprt::PaperOptions& options) {
   CLI::App& command = *app.add_subcommand("paper", "Repeats the paper's experiments, figures 5 to 9");
-  add(command, "-o,--output", "DIR", options.directory, "Directory for tables, plots and index.html")
-      ->required();
+  add_output(command, options.directory)->required();
   command.add_flag("--quick", options.quick, "A trial: small pictures of a small tree on few ranks");
   add(command, "--ranks", "N,...", options.ranks,
       "Numbers of ranks for figures 5 to 7 (default: 32,62; quick: 4,6)")
@@ -63,7 +86,7 @@ CLI::App& add_paper(CLI::App& app, pprt::PaperOptions& options) {
   add(command, "--bandwidth", "MB/S", options.bandwidth_mb_s,
       "Bandwidth of a rank's link, MB/s (default: the machine's)")
       ->check(pprt::number_above_zero());
-  add(command, "--seed", "N", options.seed, "Seed of the seed samples' positions")->capture_default_str();
+  add_seed(command, options.seed, "Seed of the seed samples' positions");
   return command;
 }
 
@@ -87,17 +110,14 @@ void add_methods(CLI::App& command, pprt::AccuracyOptions& options) {
 
 void add_sequences(CLI::App& command, pprt::AccuracyOptions& options) {
   constexpr const char* kGroup = "Sequences at fixed rates";
-  add(command, "--ranks", "N", options.ranks, "Number of ranks")
-      ->check(CLI::Range(1, 512))
-      ->capture_default_str()
-      ->group(kGroup);
+  add_ranks(command, options.ranks)->group(kGroup);
   pprt::add_choice(command, "--sampler", options.sampler, "What chooses a frame's samples").group(kGroup);
   add(command, "--want-rmse", "E", options.want_rmse,
       "Print the frame rate that gives this error; without -o measure nothing else")
       ->check(pprt::number_above_zero())
       ->group(kGroup);
   add(command, "--want-fps", "F", options.want_fps,
-      "Print the error at this frame rate, under the work clock and in real time")
+      "Print the errors at this frame rate: of frames, of what a viewer sees, in real time")
       ->check(pprt::number_above_zero())
       ->group(kGroup);
 }
@@ -108,21 +128,18 @@ CLI::App& add_accuracy(CLI::App& app, pprt::AccuracyOptions& options) {
                           "FILE.nff or spd:NAME[:SIZE] (default: tree, gears, balls and tetra), and "
                           "FILE.anim for the sequence at fixed rates"),
                      pprt::generated_scenes());
-  add(command, "-o,--output", "DIR", options.directory, "Directory for tables, plots and index.html");
+  add_output(command, options.directory);
   command.add_flag("--quick", options.quick, "A trial: small pictures");
-  add(command, "--size", "N", options.size, "Pictures of N x N pixels (default: 512; quick: 96)")
-      ->check(CLI::Range(16, 4096));
+  add_size(command, options.size, 4096, "Pictures of N x N pixels (default: 512; quick: 96)");
   add(command, "--repeats", "N", options.repeats, "Repeats of each measurement")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
-  add(command, "--reference", "N", options.reference_cells,
-      "Converged frames have 2 N x N samples a pixel (default: 8; quick: 4)")
-      ->check(CLI::Range(2, 64));
+  add_reference(command, options.reference_cells,
+                "Converged frames have 2 N x N samples a pixel (default: 8; quick: 4)");
   add(command, "--cache", "DIR", options.cache,
       "Directory that keeps converged frames (default: pprt in the user's cache directory)");
   command.add_flag("--no-cache", options.no_cache, "Neither keep converged frames nor use kept ones");
-  add(command, "--seed", "N", options.seed, "Seed of the seed samples' positions in the first repeat")
-      ->capture_default_str();
+  add_seed(command, options.seed, "Seed of the seed samples' positions in the first repeat");
   add_methods(command, options);
   add_sequences(command, options);
   return command;
@@ -132,7 +149,7 @@ CLI::App& add_balance(CLI::App& app, pprt::BalanceOptions& options) {
   CLI::App& command = *app.add_subcommand("balance", "Shows how recorded runs were balanced");
   add(command, "FILE", "", options.files, "Balancing traces, as pprt-render --balance-trace writes them")
       ->required();
-  add(command, "-o,--output", "DIR", options.directory, "Directory for tables, plots and index.html");
+  add_output(command, options.directory);
   add(command, "--frames", "N,...", options.frames,
       "Draw the regions of these frames (default: the first, the middle and the last)")
       ->delimiter(',')
@@ -147,19 +164,15 @@ CLI::App& add_rate(CLI::App& app, pprt::RateOptions& options) {
                           "FILE.anim, with a scene where it names none, or a scene that moves by itself")
                           ->required(),
                      pprt::generated_scenes());
-  add(command, "-o,--output", "DIR", options.directory, "Directory for tables, plots and index.html");
+  add_output(command, options.directory);
   command.add_flag("--quick", options.quick, "A trial: small pictures of a short time");
-  add(command, "--size", "N", options.size, "Pictures of N x N pixels (default: 192; quick: 64)")
-      ->check(CLI::Range(16, 1024));
-  add(command, "--ranks", "N", options.ranks, "Number of ranks")
-      ->check(CLI::Range(1, 512))
-      ->capture_default_str();
+  add_size(command, options.size, 1024, "Pictures of N x N pixels (default: 192; quick: 64)");
+  add_ranks(command, options.ranks);
   add(command, "--seconds", "S", options.seconds,
       "Length of the film that is judged (default: 1; quick: 0.25)")
       ->check(pprt::number_between(0.05, 60));
-  add(command, "--reference", "N", options.reference_cells,
-      "True pictures have 2 N x N samples a pixel (default: 3; quick: 2)")
-      ->check(CLI::Range(2, 64));
+  add_reference(command, options.reference_cells,
+                "True pictures have 2 N x N samples a pixel (default: 3; quick: 2)");
   return command;
 }
 

@@ -75,6 +75,7 @@ SCRIPT
 run pprt-study accuracy turn.anim --quick --size 32 --no-cache --want-fps 100 --repeats 1; expect_code 0
 expect_line out 'spd:tree:4: at 100 frames/s the RMSE will be about 0\.0.*'
 expect_line out 'spd:tree:4: in real time [0-9]* of 201 frames .* casting and .* FLIP .*'
+expect_line out 'spd:tree:4: a viewer sees each frame .* RMSE is then 0\.0.* at 100 frames/s; .* at 50, .* at 200\.'
 expect_line err ".* on one rank, by the sampler 'auto', under the work clock.*"
 run pprt-study accuracy turn.anim --quick --size 32 --no-cache --want-rmse 0.9 --sampler grid; expect_code 0
 expect_line err ".* by the sampler 'grid', .*"

@@ -269,6 +269,14 @@ const cases = {
     const late = (ranks) => page.evaluate(`tell({...shown, frames: [{number: 1, slack_ms: -1, samples: 0, late: [${ranks}]}]}), element("late").textContent`);
     assert.equal(await late("0"), "rank 0");
     assert.equal(await late("0, 2"), "ranks 0, 2");
+    // The error that was measured, and what helps.
+    await page.until("shown.frames.some((frame) => frame.rmse && frame.rmse[0] >= frame.rmse[1] && frame.rmse[2] > 0)");
+    const told = (figures, id) => page.evaluate(`tell({...shown, frames: [{number: 1, slack_ms: 1, samples: 0, late: [], ...${JSON.stringify(figures)}}]}), element("${id}").textContent + (element("${id}").hidden ? " hidden" : "")`);
+    assert.equal(await told({rmse: [0.0174, 0.01512, 0.02], advice: ""}, "rmse"), "0.0174 (0.0151 to 0.0200)");
+    assert.equal(await told({rmse: [0.0174, 0, 0.02], advice: ""}, "rmse"), "at most 0.0200");
+    assert.equal(await told({rmse: null, advice: ""}, "rmse"), "–");
+    assert.equal(await told({rmse: null, advice: "a smaller picture helps"}, "advice"), "a smaller picture helps");
+    assert.equal(await told({rmse: null, advice: ""}, "advice"), " hidden");
     noError(page);
     await program.end();
   },

@@ -89,6 +89,9 @@ function tell(header) {
   const whole = header.frames.filter((frame) => frame.late.length === 0).pop();
   if (whole) element("samples").textContent = whole.samples.toLocaleString("en");
   element("flip").textContent = header.flip === null ? "–" : header.flip.toFixed(4);
+  element("rmse").textContent = errorText(last.rmse);
+  element("advice").textContent = last.advice ?? "";
+  element("advice").hidden = !last.advice;
   element("late").textContent = last.late.length === 0 ? "none" :
     `${last.late.length === 1 ? "rank" : "ranks"} ${last.late.join(", ")}`;
   const median = lag.median();
@@ -104,6 +107,13 @@ function tell(header) {
   compass.draw(pilot.camera ?? header.view);
   document.body.dataset.camera = header.camera;
   document.body.dataset.frame = last.number;
+}
+
+// `rmse`: an error and the ends of its interval, or nothing.
+function errorText(rmse) {
+  if (!rmse) return "–";
+  const [error, low, high] = rmse.map((value) => value.toFixed(4));
+  return rmse[1] > 0 ? `${error} (${low} to ${high})` : `at most ${high}`;
 }
 
 function welcome(message) {

@@ -101,6 +101,20 @@ Color displayed(const Color& c) {
 
 }  // namespace
 
+// A frame has few probes where there are few samples, so the last eight or so count.
+void ProbePrice::add(const ErrorSums& frame) {
+  constexpr double kKept = 7.0 / 8;
+  samples_ = kKept * samples_ + static_cast<double>(frame.samples);
+  rays_ = kKept * rays_ + static_cast<double>(frame.rays);
+}
+
+double ProbePrice::affordable_share(double share, std::uint64_t traced, std::uint64_t rays) const {
+  constexpr double kMostRays = 1.25;
+  if (samples_ == 0 || traced == 0) return share;
+  const double of_sample = static_cast<double>(rays) / static_cast<double>(traced);
+  return share * std::min(1.0, kMostRays * of_sample / (rays_ / samples_));
+}
+
 ProbePlan plan_probes(std::uint64_t traced, std::uint64_t samples, std::size_t pixels, double share) {
   constexpr double kLeastSide = 2, kMostSide = 4;
   ProbePlan plan;

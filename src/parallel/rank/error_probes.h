@@ -30,6 +30,21 @@ struct ProbePlan {
 // estimates take about as many eye rays as its picture, which has `samples` in `pixels`: 4 to 16.
 ProbePlan plan_probes(std::uint64_t traced, std::uint64_t samples, std::size_t pixels, double share = 0.01);
 
+// What a rank's probes take: rays of all kinds for an eye ray. They are where ray trees are large, and
+// nothing is carried for them.
+class ProbePrice {
+ public:
+  // Takes note of what a frame's measurement took.
+  void add(const ErrorSums& frame);
+
+  // Returns the share of a frame's eye rays that measure, `share` at most: all rays for it are 1.25 `share`
+  // of the picture's. `traced`: eye rays of the picture, which took `rays` of all kinds.
+  double affordable_share(double share, std::uint64_t traced, std::uint64_t rays) const;
+
+ private:
+  double samples_ = 0, rays_ = 0;  // of the last frames
+};
+
 // The address of a measurement's random numbers.
 struct ProbeStream {
   std::uint64_t seed = 0;

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "parallel/clock/make_clocks.h"
-#include "parallel/rank/error_probes.h"
 
 namespace pprt {
 namespace {
@@ -215,11 +214,13 @@ void Worker::measure(const FrameOrder& order) {
   if (const std::optional<ErrorSums> found = goal_.measure(region, picture_.pixels())) {
     error_ = *found;
   } else {
-    const ProbePlan plan =
-        plan_probes(samples_new(), sampler_.in_region(), region.pixel_count(), settings_.probe_share);
+    const double share =
+        probe_price_.affordable_share(settings_.probe_share, samples_new(), tracer_.rays().traced());
+    const ProbePlan plan = plan_probes(samples_new(), sampler_.in_region(), region.pixel_count(), share);
     error_ = measure_error(region, picture_.pixels(), plan, stream,
                            [this](double x, double y) { return tracer_.look(x, y); });
     error_.rays = tracer_.looked().traced();
+    probe_price_.add(error_);
   }
   timer_.end_stage(&StageTimes::measuring);
 }

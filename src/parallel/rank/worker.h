@@ -40,6 +40,7 @@
 #include "parallel/clock/stage_timer.h"
 #include "parallel/rank/anchor_search.h"
 #include "parallel/rank/bundle_exchange.h"
+#include "parallel/rank/error_probes.h"
 #include "parallel/rank/frame_goal.h"
 #include "parallel/rank/picture_refresh.h"
 #include "parallel/rank/rank_sampling.h"
@@ -116,9 +117,10 @@ class Worker {
   FrameGoal goal_;
   std::function<void(const SamplingProgress&)> told_;  // of the progress; empty: nobody
   PictureRefresh picture_;
-  bool takes_evidence_ = false;        // samples tell how far the picture was from them
-  double reconstructed_ = 1;           // share of the region in this frame
-  ErrorSums error_;                    // of the pixels
+  bool takes_evidence_ = false;  // samples tell how far the picture was from them
+  double reconstructed_ = 1;     // share of the region in this frame
+  ErrorSums error_;              // of the pixels
+  ProbePrice probe_price_;
   std::optional<Camera> last_camera_;  // of the last frame that was not left out
 };
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/diagnostics.h"
+#include "base/system/host_cores.h"
 #include "base/system/host_networks.h"
 #include "cli/process/exit.h"
 #include "cli/process/stop_signals.h"
@@ -19,6 +20,7 @@
 #include "parallel/session.h"
 #include "render/plan/memory_check.h"
 #include "render/plan/session_plan.h"
+#include "render/run/live_figures.h"
 
 namespace pprt {
 namespace {
@@ -189,6 +191,7 @@ class LiveRunner {
     settings.height = wanted.height;
     settings.frames_per_second = wanted.frames_per_second;
     const TileGrid grid = tile_grid(settings, ranks_);
+    LiveFigures last_frames(settings, ranks_, usable_cores());
     std::deque<LiveShot> shots;  // of frames that are not delivered
     StillWatch finish(photo_settings(settings).stop.weight, settings.frames_per_second);
     const auto source = [&](int) -> std::optional<FrameRequest> {
@@ -208,7 +211,8 @@ class LiveRunner {
       const LiveShot shot = shots.front();
       shots.pop_front();
       if (finish.is_finished(frame)) view_.steering().rest(shot.change);
-      deliver(std::move(frame), shot, grid);
+      const FrameFigures figures = last_frames.add(frame);
+      deliver(std::move(frame), shot, grid, figures);
     };
     run_sequence_(settings, source, sink, [] { return false; });
   }
@@ -220,28 +224,17 @@ class LiveRunner {
     return last_camera_;
   }
 
-  void deliver(FinishedFrame&& frame, const LiveShot& shot, const TileGrid& grid) {
+  void deliver(FinishedFrame&& frame, const LiveShot& shot, const TileGrid& grid,
+               const FrameFigures& figures) {
     const bool is_recorded = missing_.erase(shot.script_frame) > 0;
-    std::uint64_t samples = 0;
-    for (const RankReport& rank : frame.ranks) samples += rank.samples_in_region;
     LivePicture picture{.image = is_recorded ? frame.image : std::move(frame.image),
                         .shot = shot,
-                        .figures = {.number = frame.order.number,
-                                    .slack_ms = -frame.late_ms,
-                                    .samples = samples,
-                                    .late_ranks = frame.late_ranks,
-                                    .rmse = measured_rmse(frame)},
+                        .figures = figures,
                         .rests = frame.order.carry == Carry::kAccumulate,
                         .is_partial = !frame.late_ranks.empty() && shows_samples(shot),
                         .overlaid = overlay_of(frame, shot, grid)};
     if (is_recorded) record(std::move(frame), shot.script_frame);
     view_.show(std::move(picture));
-  }
-
-  static std::optional<std::array<double, 3>> measured_rmse(const FinishedFrame& frame) {
-    if (!frame.error) return std::nullopt;
-    const RmseInterval& shot = frame.error->shot;
-    return std::array{shot.rmse, shot.low, shot.high};
   }
 
   // Late ranks' samples are missing.

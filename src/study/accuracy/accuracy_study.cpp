@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <future>
 #include <iterator>
@@ -23,6 +24,8 @@
 #include "study/accuracy/page.h"
 #include "study/accuracy/pictures.h"
 #include "study/accuracy/planner.h"
+#include "study/frame_series.h"
+#include "study/rate/held_rates.h"
 #include "study/stopwatch.h"
 
 namespace pprt {
@@ -37,6 +40,7 @@ struct Effort {
   int frames = 8;                  // of a sequence, at most
   int script_frames_planned = 40;  // of a script for --want-fps, at most
   int orbit_frames_planned = 24;   // for --want-fps without a script
+  int judged_cells = 3;            // n of true pictures, for --want-fps
   std::vector<double> rates = {1, 2, 4, 8, 15, 24, 30, 60};  // frames per second
 };
 const Effort kFull;
@@ -47,6 +51,7 @@ const Effort kQuick = {.size = 96,
                        .frames = 4,
                        .script_frames_planned = 20,
                        .orbit_frames_planned = 12,
+                       .judged_cells = 2,
                        .rates = {60, 120, 240}};
 
 // Returns the ways of casting that differ. Where only lights are carried there is one.
@@ -134,9 +139,10 @@ Sequence short_sequence(const StudiedScene& studied) {
                            std::min(most, kFrames), kDegreesPerFrame, kCut));
 }
 
-// The script, or an orbit of one angular speed whatever the rate.
+constexpr double kDegreesPerSecond = 14.4;  // of an orbit, whatever the rate
+
+// The script, or an orbit.
 Sequence sequence_at(double fps, const StudiedScene& studied) {
-  constexpr double kDegreesPerSecond = 14.4;
   return sequence_of(studied, studied.effort.script_frames_planned,
                      orbit(studied.scene, *studied.description.view, studied.sequence_size(),
                            studied.effort.orbit_frames_planned, kDegreesPerSecond / fps));
@@ -257,12 +263,50 @@ void print_rate(const StudiedScene& studied, double rmse) {
   fmt::print("{}\n", rate_with_error(points, rmse));
 }
 
+MovingScene moving_scene_of(const StudiedScene& studied) {
+  if (studied.script) return moved_by_script(studied.name, studied.description, *studied.script);
+  if (studied.has_frames()) return moved_by_itself(studied.name, studied.description);
+  return moved_round(studied.name, studied.description, kDegreesPerSecond);
+}
+
+// Judges a quarter of a second, and a period of the lowest rate at least.
+JudgedFilm short_judged_film(const StudiedScene& studied, double lowest_rate, double film_s) {
+  constexpr double kSeconds = 0.25;
+  constexpr int kPictures = 60;
+  const double period_s = 1 / lowest_rate;
+  const double span_s = std::max(1.0, std::round(kSeconds / period_s)) * period_s;
+  JudgedFilm judged{.begin_s = period_s,
+                    .rate = kPictures / span_s,
+                    .size = studied.sequence_size(),
+                    .cells = studied.effort.judged_cells};
+  judged.seconds = std::min(span_s, film_s - judged.begin_s);
+  return judged;
+}
+
+// Prints what a viewer sees of frames at the rate, and at half and twice the rate.
+void print_seen(const StudiedScene& studied, double fps, double units_per_second) {
+  const std::array rates = {fps, fps / 2, 2 * fps};
+  const MovingScene moving = moving_scene_of(studied);
+  const TrueFilm film = true_film_of(moving, short_judged_film(studied, fps / 2, moving.length_s));
+  if (film.pictures.empty()) {
+    fmt::print(stderr, "pprt-study: {}: the film is over before frames at {:g} frames/s are seen\n",
+               studied.name, fps / 2);
+    return;
+  }
+  const HeldRun run{moving, film, studied.options.ranks, units_per_second, studied.options.seed};
+  std::vector<RateResult> results(rates.size());
+  run_concurrently(results.size(),
+                   [&](std::size_t i) { results[i] = measure_held(studied.options.sampler, rates[i], run); });
+  fmt::print("{}\n", seen_at_rates(studied.name, results));
+}
+
 // Prints which error a sequence has at the rate.
 void print_error(const StudiedScene& studied, double fps) {
   Sequence sequence = sequence_at(fps, studied);
   fmt::print(stderr, "pprt-study: {}: {}\n", studied.name, rates_setup(studied, kOrbit));
   const auto points = measure_rates(sequence, std::array{fps}, std::array{CastChoice::kAuto});
   fmt::print("{}\n", error_at_rate(points, fps));
+  print_seen(studied, fps, sequence.units_per_second);
   std::vector<RealTimeTurn> turns;
   for (int turn = 0; turn < studied.options.repeats; ++turn, ++sequence.seed) {
     const RealTimePoint with = measure_in_real_time(sequence, CastChoice::kAuto, fps);

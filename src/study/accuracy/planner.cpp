@@ -1,6 +1,7 @@
 #include "study/accuracy/planner.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -53,6 +54,19 @@ std::string rate_with_error(std::vector<RatePoint> points, double rmse) {
   std::reverse(points.begin(), points.end());  // the fastest rate that still has it comes first
   return fmt::format("{}: an RMSE of {:g} can be had at about {:.3g} frames/s.", slowest.scene, rmse,
                      interpolated(points, &RatePoint::rmse, &RatePoint::fps, rmse));
+}
+
+std::string seen_at_rates(const std::string& scene, std::span<const RateResult> results) {
+  if (results.empty()) throw std::invalid_argument("no rate was measured");
+  std::vector<std::string> others;
+  for (const RateResult& r : results.subspan(1))
+    others.push_back(fmt::format("{:.4f} and {:.4f} at {:g}", r.held.rmse, r.held.flip, r.fps));
+  const RateResult& asked = results.front();
+  return fmt::format(
+      "{}: a viewer sees each frame until the next is delivered; over time the RMSE is then {:.4f} and the "
+      "FLIP {:.4f} at {:g} frames/s{}{}.",
+      scene, asked.held.rmse, asked.held.flip, asked.fps, others.empty() ? "" : "; ",
+      fmt::join(others, ", "));
 }
 
 std::string real_time_summary(std::span<const RealTimeTurn> turns) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "study/accuracy/rates.h"
+#include "study/rate/held_rates.h"
 
 namespace pprt {
 
@@ -13,6 +14,10 @@ namespace pprt {
 // by increasing rate. Interpolates in logarithms. Throw std::invalid_argument without points.
 std::string error_at_rate(const std::vector<RatePoint>& points, double fps);
 std::string rate_with_error(std::vector<RatePoint> points, double rmse);
+
+// Describes what a viewer sees who looks at each frame until the next is delivered: at the first rate, and at
+// the others for comparison. Throws std::invalid_argument without results.
+std::string seen_at_rates(const std::string& scene, std::span<const RateResult> results);
 
 // One turn of measurements in real time, of the same sequence.
 struct RealTimeTurn {

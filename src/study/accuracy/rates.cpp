@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <stdexcept>
 
 #include "image/metrics.h"
@@ -109,16 +108,6 @@ std::vector<FrameRequest> orbit(const CompiledScene& scene, const View& view, in
     frames.push_back({.number = i + 1, .camera = square_camera(scene, turned, size), .cut = i == cut});
   }
   return frames;
-}
-
-double measured_units_per_second(const Subject& subject, SamplerChoice sampler) {
-  constexpr double kUnits = 2e8;
-  Sequence still{"", subject.scene, {{1, subject.camera}}, {}};
-  still.sampler = sampler;
-  still.units_per_second = kUnits;
-  const std::clock_t begin = std::clock();
-  play(still, CastChoice::kOff, 1);
-  return kUnits * CLOCKS_PER_SEC / static_cast<double>(std::max<std::clock_t>(1, std::clock() - begin));
 }
 
 void judge_sequence(const Sequence& sequence, const std::vector<Image>& pictures, RatePoint& point) {

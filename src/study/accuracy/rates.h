@@ -61,9 +61,6 @@ struct RealTimePoint {
   MeanErrors uniform = {};    // of grids that take all of the ranks' time
 };
 
-// Returns the work units that a rank does per second of CPU time on this machine and scene.
-double measured_units_per_second(const Subject& subject, SamplerChoice sampler);
-
 // Fills in the errors of a sequence's pictures. Throws std::invalid_argument unless each frame has one.
 void judge_sequence(const Sequence& sequence, const std::vector<Image>& pictures, RatePoint& point);
 

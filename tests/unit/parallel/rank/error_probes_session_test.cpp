@@ -8,7 +8,7 @@
 #include "parallel/rank/error_probes.h"
 #include "parallel/virtual_ranks.h"
 #include "unit/parallel/both_samplers.h"
-#include "unit/parallel/virtual_run.h"
+#include "unit/parallel/rank/discs.h"
 
 namespace pprt::error_probes_session_test {
 namespace {
@@ -21,12 +21,6 @@ SessionSettings settings_for(SamplerChoice sampler, bool measures_error) {
   settings.budget_units = 4'000'000;
   settings.measures_error = measures_error;
   return settings;
-}
-
-Conditions discs() {
-  Conditions conditions;
-  conditions.period = 2.3;
-  return conditions;
 }
 
 // A plane with twigs 0.3 pixels wide, beside every node that is a pixel or half a pixel from the next.
@@ -43,6 +37,23 @@ Probe twigs() {
     return sample;
   };
   probe.visible = [](const Vec3f&, bool) { return true; };
+  probe.counts = [count] { return *count; };
+  return probe;
+}
+
+// Bars that mirror, where a ray tree has ten rays, before a plane where it has one.
+Probe mirroring_bars() {
+  const auto count = std::make_shared<RayCounts>();
+  Probe probe = twigs();
+  probe.trace = [count](double x, double) {
+    const bool mirrors = x - 40 * std::floor(x / 40) < 2;
+    ++count->primary;
+    if (mirrors) count->reflection += 9;
+    RaySample sample;
+    sample.color = mirrors ? Color(1, 1, 1) : Color(0.25f, 0.25f, 0.25f);
+    sample.primitive = 1;
+    return sample;
+  };
   probe.counts = [count] { return *count; };
   return probe;
 }
@@ -88,6 +99,23 @@ BOTH_SAMPLERS_TEST_CASE("measured error: runs of one seed measure the same, at o
     CHECK(a.unexpected < 0.3);
     CHECK(static_cast<double>(a.rays) < 0.015 * static_cast<double>(rays));
   }
+}
+
+TEST_CASE("measured error: its rays are few where probes take more of them than samples") {
+  SessionSettings settings = settings_for(SamplerChoice::kGrid, true);
+  settings.budget_units = 20'000'000;
+  double rays = 0, probe_rays = 0;
+  int frames = 0;
+  run_virtual_ranks(
+      2, settings, [](int) { return mirroring_bars(); }, still_or_pan(settings, 20, 1.5),
+      [&](FinishedFrame&& frame) {
+        if (++frames <= 4) return;  // what probes take is not known yet
+        for (const RankReport& r : frame.ranks) rays += static_cast<double>(r.rays.traced());
+        probe_rays += static_cast<double>(frame.error.value().rays);
+      });
+  REQUIRE(frames == 20);
+  CHECK(probe_rays < 0.015 * rays);
+  CHECK(probe_rays > 0.005 * rays);
 }
 
 TEST_CASE("measured error: it sees twigs that no sample has met, which the estimated FLIP does not") {

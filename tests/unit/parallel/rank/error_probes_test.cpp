@@ -89,6 +89,19 @@ bool holds(const RmseInterval& interval, double squared) {
 
 }  // namespace
 
+TEST_CASE("measured error: where probes take more rays than samples, fewer measure") {
+  ProbePrice unknown, dear, cheap;
+  CHECK(unknown.affordable_share(0.01, 1000, 2000) == 0.01);
+  dear.add({.samples = 100, .rays = 400});
+  CHECK(dear.affordable_share(0.01, 1000, 2000) == Approx(0.01 * 1.25 * 2 / 4));
+  CHECK(dear.affordable_share(0.01, 0, 0) == 0.01);
+  cheap.add({.samples = 100, .rays = 250});
+  CHECK(cheap.affordable_share(0.01, 1000, 2000) == Approx(0.01));
+  // Other scenes have other prices.
+  for (int frame = 0; frame < 40; ++frame) cheap.add({.samples = 100, .rays = 500});
+  CHECK(cheap.affordable_share(0.01, 1000, 2000) == Approx(0.005).epsilon(0.01));
+}
+
 TEST_CASE("error probes: one eye ray in a hundred, at least two probes, more rays each in finer pictures") {
   const auto planned = [](std::uint64_t traced, std::uint64_t samples, std::size_t pixels) {
     const ProbePlan plan = plan_probes(traced, samples, pixels);

@@ -6,38 +6,17 @@
 
 #include "image/metrics.h"
 #include "parallel/session.h"
-#include "unit/parallel/virtual_run.h"
+#include "unit/parallel/rank/discs.h"
 
 namespace pprt::flip_estimate_test {
 namespace {
 
-SessionSettings settings_for(SamplerChoice sampler, const StopRules& stop) {
-  SessionSettings settings{.sampler = sampler};
-  settings.width = 192, settings.height = 128;
-  settings.clock = ClockKind::kWork;
-  settings.cast = CastChoice::kOff;
-  settings.stop = stop;
-  return settings;
-}
-
-Conditions discs() {
-  Conditions conditions;
-  conditions.period = 2.3;
-  return conditions;
-}
-
 FinishedFrame still(int ranks, SamplerChoice sampler, const StopRules& stop) {
-  const SessionSettings settings = settings_for(sampler, stop);
+  const SessionSettings settings = settings_until(stop, sampler);
   VirtualRun run = run_session(ranks, settings, still_or_pan(settings, 1), discs());
   REQUIRE(run.error.empty());
   REQUIRE(run.frames.size() == 1);
   return std::move(run.frames[0]);
-}
-
-std::uint64_t samples_of(const FinishedFrame& frame) {
-  std::uint64_t sum = 0;
-  for (const RankReport& r : frame.ranks) sum += r.samples_in_region;
-  return sum;
 }
 
 }  // namespace
@@ -63,7 +42,7 @@ TEST_CASE("estimated FLIP: a frame that ends at one has about that FLIP") {
 }
 
 TEST_CASE("estimated FLIP: a resting picture is good enough at once") {
-  SessionSettings settings = settings_for(SamplerChoice::kAuto, {.flip = 0.05});
+  SessionSettings settings = settings_until({.flip = 0.05}, SamplerChoice::kAuto);
   settings.cast = CastChoice::kAuto;
   const VirtualRun run = run_session(1, settings, still_or_pan(settings, 2), discs());
   REQUIRE(run.frames.size() == 2);
@@ -71,7 +50,7 @@ TEST_CASE("estimated FLIP: a resting picture is good enough at once") {
 }
 
 TEST_CASE("estimated FLIP: what was found in one view says nothing of the next") {
-  const SessionSettings settings = settings_for(SamplerChoice::kAuto, {.flip = 0.0005});
+  const SessionSettings settings = settings_until({.flip = 0.0005}, SamplerChoice::kAuto);
   const auto frames_of = [&](const std::vector<double>& shifts) {
     const CameraSource source = [&](int index) -> std::optional<FrameRequest> {
       const auto i = static_cast<std::size_t>(index);

@@ -6,27 +6,15 @@
 
 #include "parallel/session.h"
 #include "pipeline/core/display_values.h"
-#include "unit/parallel/virtual_run.h"
+#include "unit/parallel/rank/discs.h"
 
 namespace pprt::rmse_goal_test {
 namespace {
 
 SessionSettings settings_for(SamplerChoice sampler, const StopRules& stop) {
-  SessionSettings settings{.sampler = sampler};
-  settings.width = 192, settings.height = 128;
-  settings.clock = ClockKind::kWork;
-  settings.cast = CastChoice::kOff;
+  SessionSettings settings = settings_until(stop, sampler);
   settings.measures_error = true;
-  settings.stop = stop;
   return settings;
-}
-
-constexpr double kPeriod = 2.3;
-
-Conditions discs() {
-  Conditions conditions;
-  conditions.period = kPeriod;
-  return conditions;
 }
 
 // The same discs, by 16 x 16 points a pixel.
@@ -41,7 +29,8 @@ double true_rmse(const Image& image, double shift) {
       for (int i = 0; i < kSide * kSide; ++i) {
         const double u = x + (i % kSide + 0.5) / kSide, v = y + (i / kSide + 0.5) / kSide;
         const Vec3d hit = camera.eye + ray_direction(camera, u, v) * 10;
-        inside += std::hypot(std::remainder(hit.x, kPeriod), std::remainder(hit.y, kPeriod)) < 0.3 * kPeriod;
+        inside += std::hypot(std::remainder(hit.x, kDiscPeriod), std::remainder(hit.y, kDiscPeriod)) <
+                  0.3 * kDiscPeriod;
       }
       const float share = static_cast<float>(inside) / (kSide * kSide);
       sum += display_error(image.at(x, y), disc * share + plane * (1 - share));
@@ -55,12 +44,6 @@ VirtualRun run_of(int ranks, const SessionSettings& settings, int frames, double
   REQUIRE(run.error.empty());
   REQUIRE(run.frames.size() == static_cast<std::size_t>(frames));
   return run;
-}
-
-std::uint64_t samples_of(const FinishedFrame& frame) {
-  std::uint64_t sum = 0;
-  for (const RankReport& r : frame.ranks) sum += r.samples_in_region;
-  return sum;
 }
 
 }  // namespace

@@ -38,6 +38,19 @@ TEST_CASE("planner: names the rate that has an error") {
   CHECK_THROWS_AS(rate_with_error({}, 0.5), std::invalid_argument);
 }
 
+TEST_CASE("planner: tells what is seen at a rate, beside others") {
+  const std::vector<RateResult> results = {{.fps = 24, .held = {0.05, 0.06}},
+                                           {.fps = 12, .held = {0.07, 0.08}},
+                                           {.fps = 48, .held = {0.04125, 0.055}}};
+  CHECK(seen_at_rates("s", results) ==
+        "s: a viewer sees each frame until the next is delivered; over time the RMSE is then 0.0500 and the "
+        "FLIP 0.0600 at 24 frames/s; 0.0700 and 0.0800 at 12, 0.0413 and 0.0550 at 48.");
+  CHECK(seen_at_rates("s", std::span(results).first(1)) ==
+        "s: a viewer sees each frame until the next is delivered; over time the RMSE is then 0.0500 and the "
+        "FLIP 0.0600 at 24 frames/s.");
+  CHECK_THROWS_AS(seen_at_rates("s", {}), std::invalid_argument);
+}
+
 TEST_CASE("planner: summarises real time by medians over the turns") {
   std::vector<RealTimeTurn> turns(3);
   for (RealTimeTurn& turn : turns) {

@@ -2,7 +2,7 @@
 // minutes, so both are run by hand (docs/accuracy.md):
 //
 //   PPRT_QUALITY="spd:tree spd:balls" test_study "[quality]"
-//   PPRT_FILMS="scenes/tree-casting.anim scenes/demo.anim" test_study "[film]"
+//   test_study "[film]"
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -24,6 +24,12 @@ namespace {
 
 constexpr int kSize = 256;
 
+// Without the reference's own error.
+double true_rmse(const Image& image, const Reference& reference) {
+  const double rmse = rmse_of(image, reference.image);
+  return std::sqrt(std::max(0.0, rmse * rmse - reference.own_rmse * reference.own_rmse));
+}
+
 struct Still {
   double rmse = 0;  // true
   RmseInterval told;
@@ -41,8 +47,7 @@ Still still_of(const CompiledScene& scene, const Camera& camera, const Reference
   settings.stop.rmse = target;
   Still still;
   render_series(scene, {{.number = 1, .camera = camera}}, ranks, settings, [&](FinishedFrame&& frame) {
-    const double rmse = rmse_of(frame.image, reference.image);
-    still.rmse = std::sqrt(std::max(0.0, rmse * rmse - reference.own_rmse * reference.own_rmse));
+    still.rmse = true_rmse(frame.image, reference);
     still.told = frame.error.value().own.interval();
     double samples = 0;
     for (const RankReport& rank : frame.ranks) samples += static_cast<double>(rank.samples_in_region);
@@ -135,10 +140,10 @@ struct Errors {
   double worst = 0, mean_square = 0;
 };
 
-Errors errors_of(const std::vector<Image>& pictures, const std::vector<Image>& references) {
+Errors errors_of(const std::vector<Image>& pictures, const std::vector<Reference>& references) {
   Errors errors;
   for (std::size_t i = 0; i < pictures.size(); ++i) {
-    const double rmse = rmse_of(pictures[i], references[i]);
+    const double rmse = true_rmse(pictures[i], references[i]);
     errors.worst = std::max(errors.worst, rmse);
     errors.mean_square += rmse * rmse / static_cast<double>(pictures.size());
   }
@@ -149,15 +154,17 @@ Errors errors_of(const std::vector<Image>& pictures, const std::vector<Image>& r
 
 TEST_CASE("film time: what dividing it is worth", "[.film]") {
   const char* given = std::getenv("PPRT_FILMS");
-  std::istringstream names(given != nullptr ? given
-                                            : PPRT_SOURCE_DIR "/scenes/tree-casting.anim " PPRT_SOURCE_DIR
-                                                              "/scenes/demo.anim");
+  const std::string folder = PPRT_SOURCE_DIR;
+  const std::string usual = folder + "/tests/unit/study/accuracy/films/tree-cut.anim " + folder +
+                            "/tests/unit/study/accuracy/films/balls-cut.anim " + folder +
+                            "/scenes/tree-casting.anim " + folder + "/scenes/demo.anim";
+  std::istringstream names(given != nullptr ? given : usual);
   for (std::string name; names >> name;) {
     const Film film = film_of(name);
-    std::vector<Image> references;
+    std::vector<Reference> references;
     for (const FrameRequest& frame : film.frames)
-      references.push_back(converged_reference({film.scene, frame.camera, frame.time}, 4).image);
-    for (const double film_time : {16.0}) {
+      references.push_back(converged_reference({film.scene, frame.camera, frame.time}, 4));
+    for (const double film_time : {4.0, 16.0}) {
       std::vector<Image> equal, divided;
       played(film, film.frames, pass_settings(film.settings, Film::kFrames, film_time),
              [&](FinishedFrame&& frame) { equal.push_back(std::move(frame.image)); });
