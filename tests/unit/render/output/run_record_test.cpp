@@ -32,6 +32,8 @@ TEST_CASE("a run's key changes with every setting that decides its pictures") {
       [](RenderPlan& p) { p.settings.stop.seconds = 3; },
       [](RenderPlan& p) { p.settings.stop.samples = 3; },
       [](RenderPlan& p) { p.settings.stop.flip = 3; },
+      [](RenderPlan& p) { p.settings.stop.rmse = 3; },
+      [](RenderPlan& p) { p.film_time = 3; },
       [](RenderPlan& p) { p.settings.balance = BalanceMode::kLocal; },
       [](RenderPlan& p) { p.settings.keep_samples = false; },
       [](RenderPlan& p) { p.settings.pixel_rule = PixelRule::kMean; },
