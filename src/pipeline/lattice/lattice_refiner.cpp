@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kGridShare = 0.35;   // of all samples that the grid may take
 constexpr float kGreatestFall = 3;    // of the threshold, from pass to pass
-constexpr double kFirstGrowth = 3;    // pessimistic: nothing is learned yet
 constexpr float kShareOfLast = 0.2F;  // that an error of the last picture counts as, of one of this
 
 // Returns the tiles in bands of two rows. Bands follow each other by steps of the golden section, which fall
@@ -55,7 +54,6 @@ void LatticeRefiner::clear() {
   visibility_.forget(VisibilityBuffer::kFine);
   estimates_.clear();
   share_.clear();
-  growth_ = kFirstGrowth;
   errors_.clear();
   forget_samples();
 }
@@ -64,7 +62,6 @@ void LatticeRefiner::restart() {
   constexpr double kItemsOfASample = 3;  // that take as long to be seen
   const double as_many = static_cast<double>(samples_);
   affordable_ = as_many + static_cast<double>(visibility_.items_seen()) / kItemsOfASample;
-  growth_ = kFirstGrowth;  // of the last, small passes until now
   errors_.fade(kShareOfLast);
   // Where a sample says little of its surface, as in mirrors, it does not pay to know surfaces.
   constexpr float kMirrors = 0.4F;
@@ -88,6 +85,7 @@ void LatticeRefiner::forget_samples() {
   grid_levels_ = 0;
   last_threshold_ = 0;
   pass_ = {};
+  growth_ = {};  // the last passes of a picture are small
   tiles_left_ = {};
   level_ = pass_.end_level;
   nodes_.clear();
@@ -240,7 +238,7 @@ void LatticeRefiner::collect_base(int tile) {
 }
 
 bool LatticeRefiner::start_pass() {
-  learn_growth();
+  growth_.end_pass(samples_);
   estimates_.update();
   share_.update();
   errors_.start_round();
@@ -250,7 +248,7 @@ bool LatticeRefiner::start_pass() {
 
 void LatticeRefiner::start(const Pass& pass) {
   pass_ = pass;
-  pass_.begun_with = static_cast<std::int64_t>(samples_);
+  growth_.begin_pass(samples_, pass_.promised);
   tiles_left_ = tiles_;
   level_ = pass_.end_level;
 }
@@ -314,7 +312,7 @@ bool LatticeRefiner::start_refinement_pass() {
   for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += unsampled_surfaces_.counts()[i];
   const double all = std::accumulate(counts.begin() + kLeastCandidate + 1, counts.end(), 0.0);
   if (all == 0) return false;
-  const double left = std::max(samples_left(), 1.0) / growth_;
+  const double left = std::max(samples_left(), 1.0) / growth_.get();
   const double affordable = left < kLast * static_cast<double>(samples_) ? left : kShare * left;
   NodeState least = kGreatestCandidate + 1;
   double above = 0, roots = 0, root = 0;
@@ -332,14 +330,6 @@ bool LatticeRefiner::start_refinement_pass() {
          .threshold = last_threshold_,
          .promised = roots / std::sqrt(static_cast<double>(last_threshold_))});
   return true;
-}
-
-void LatticeRefiner::learn_growth() {
-  constexpr std::int64_t kEnough = 200;
-  if (pass_.takes_all || pass_.promised == 0) return;
-  const std::int64_t made = static_cast<std::int64_t>(samples_) - pass_.begun_with;
-  const double growth = static_cast<double>(made) / pass_.promised;
-  if (made >= kEnough) growth_ = 0.5 * growth_ + 0.5 * std::clamp(growth, 0.3, 4.0);
 }
 
 std::size_t LatticeRefiner::paint(const PixelRect& bounds, std::span<const PixelRect> parts,
