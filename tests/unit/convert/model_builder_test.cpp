@@ -10,6 +10,7 @@
 #include "convert/model_scene.h"
 #include "convert/surfaces/material_meshes.h"
 #include "scene/animation/resting_nodes.h"
+#include "unit/convert/gltf_sample.h"
 
 namespace pprt::model_builder_test {
 namespace {
@@ -269,6 +270,34 @@ TEST_CASE("material meshes: triangles are sorted by node and material, with a no
   CHECK((red.vertices[4].normal == Vec3d(0, 0, 1) && red.vertices[5].normal == Vec3d(0, 0, -1)));
   for (const std::uint32_t corner : red.triangles[1]) CHECK(corner >= 3);
   CHECK(meshes.at({0, 0}).triangles.size() == 1 + 48);
+}
+
+TEST_CASE("model scene: a model's own lights stay, and one without gets two, if they are asked for") {
+  const auto load = [](bool has_light, bool adds_lights) {
+    GltfSample sample;
+    sample.node({{"mesh", sample.triangle()}});
+    sample.document["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+    if (has_light)
+      sample.node({{"translation", {0, 0, 2}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    return load_model(sample.write(), {.adds_lights = adds_lights});
+  };
+  const Model own = load(true, true), added = load(false, true), dark = load(false, false);
+  CHECK((own.parsed.scene.lights.size() == 1 && !own.is_lit_anew));
+  CHECK((added.parsed.scene.lights.size() == 2 && added.is_lit_anew));
+  CHECK((dark.parsed.scene.lights.empty() && !dark.is_lit_anew));
+  const std::string told = "no lights: a key light and a fill light are added\n";
+  CHECK(added.parsed.warnings.ends_with(told));
+  for (const Model* other : {&own, &dark}) CHECK(other->parsed.warnings.find(told) == std::string::npos);
+}
+
+TEST_CASE(
+    "model scene: a process that reads has four times its processor's time, and memory for a library's "
+    "scene") {
+  const MeshLimits limits{.seconds = 7, .memory_bytes = 100};
+  const CallLimits plenty = call_limits(limits, 1000);
+  CHECK((plenty.cpu_seconds == 7 && plenty.wall_seconds == 28 && plenty.memory_bytes == 400));
+  CHECK(call_limits(limits, 399).memory_bytes == 399);
+  CHECK(call_limits({.memory_bytes = ~std::uint64_t{0}}, 1000).memory_bytes == 1000);
 }
 
 }  // namespace pprt::model_builder_test

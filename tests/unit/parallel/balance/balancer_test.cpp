@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "parallel/balance/global_balance.h"
 #include "parallel/exchange/samplers.h"
 
 namespace pprt::balancer_test {
@@ -256,6 +257,39 @@ TEST_CASE("partition: a cut runs across the longer side, where each side has its
       }
     }
   }
+}
+
+TEST_CASE("global balancing: a partition that is dropped leaves the generation as it was") {
+  SessionSettings settings{.sampler = SamplerChoice::kAuto};
+  settings.balance = BalanceMode::kGlobal;
+  GlobalBalancer balancer(settings, traits_of(settings.sampler), TileGrid(40, 10, 10), 2, 0);
+  const auto order_after = [&](bool accumulates, Carry carry) {
+    FrameReports frame{.accumulates = accumulates, .tiles = {{}, {}}, .speeds = {1, 1}};
+    for (int tile = 0; tile < 4; ++tile)
+      frame.tiles[tile < 2 ? 0 : 1].push_back(
+          {.tile = tile, .triangles = 10, .total_weight = 10, .cost = 100});
+    balancer.consider(frame);
+    FrameOrder order;
+    order.carry = carry;
+    balancer.add_partition(order);
+    return order;
+  };
+  CHECK(order_after(false, Carry::kNothing).generation == 1);
+  const FrameOrder dropped = order_after(true, Carry::kNothing);  // from many frames, for a new picture
+  CHECK((dropped.owners.empty() && dropped.columns == 0 && dropped.generation == 1));
+  const FrameOrder next = order_after(false, Carry::kNothing);
+  CHECK((next.owners.size() == 4 && next.columns == 4 && next.generation == 2));
+}
+
+TEST_CASE("global balancing: a rank lost before any report leaves its share to the others, all alike") {
+  SessionSettings settings{.sampler = SamplerChoice::kAuto};
+  settings.balance = BalanceMode::kNone;
+  GlobalBalancer balancer(settings, traits_of(settings.sampler), TileGrid(60, 10, 10), 3, 0);
+  constexpr std::int32_t kLost = 1;
+  balancer.take_over({&kLost, 1});
+  FrameOrder order;
+  balancer.add_partition(order);
+  CHECK(order.owners == std::vector<std::int32_t>{0, 0, 0, 2, 2, 2});
 }
 
 }  // namespace pprt::balancer_test

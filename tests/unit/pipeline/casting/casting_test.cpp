@@ -337,4 +337,21 @@ TEST_CASE("casting: the borders of a picture are in view, and an age at its limi
         ProjectedSample().outcome);
 }
 
+TEST_CASE("casting: of a triangle that turns over what lies at infinity is farther than all else") {
+  Camera after = straight();
+  after.eye.x = 0.9;
+  SampleMesh mesh(Region::whole(kGrid));
+  const std::array<Vec2d, 3> at = {Vec2d(50, 30), Vec2d(54, 28), Vec2d(54, 36)};
+  for (std::size_t i = 0; i < 3; ++i) {
+    Sample sample = look(straight(), at[i].x, at[i].y, 1);
+    sample.id = i;
+    sample.ray.at_infinity = i == 0;
+    sample.ray.hit = Vec3f(ray_direction(straight(), at[i].x, at[i].y) * (i == 0 ? 1.0 : 2.0));
+    mesh.insert(sample);
+  }
+  const CastResult cast = cast_samples(mesh, after, 2, {});
+  CHECK(cast.hidden == 1);
+  for (const Sample& s : cast.samples) CHECK(s.id != 0);
+}
+
 }  // namespace pprt::casting_test
