@@ -292,4 +292,22 @@ TEST_CASE("global balancing: a rank lost before any report leaves its share to t
   CHECK(order.owners == std::vector<std::int32_t>{0, 0, 0, 2, 2, 2});
 }
 
+TEST_CASE("global balancing: tiles of a lost rank go by the last whole report, not by a torn one") {
+  SessionSettings settings{.sampler = SamplerChoice::kAuto};
+  settings.balance = BalanceMode::kNone;
+  GlobalBalancer balancer(settings, traits_of(settings.sampler), TileGrid(60, 10, 10), 3, 0);
+  FrameReports whole{.tiles = {{}, {}, {}}, .speeds = {1, 1, 1}};
+  for (int tile = 0; tile < 6; ++tile)
+    whole.tiles[0].push_back(
+        {.tile = tile, .triangles = 10, .total_weight = 10, .cost = tile == 0 ? 1e6 : 100.0});
+  balancer.consider(whole);
+  FrameReports torn{.is_whole = false, .tiles = {{}, {}, {}}, .speeds = {1, 1, 1}};
+  balancer.consider(torn);
+  constexpr std::int32_t kLost = 1;
+  balancer.take_over({&kLost, 1});
+  FrameOrder order;
+  balancer.add_partition(order);
+  CHECK(order.owners == std::vector<std::int32_t>{0, 2, 2, 2, 2, 2});  // the first costs more than all others
+}
+
 }  // namespace pprt::balancer_test

@@ -161,4 +161,12 @@ TEST_CASE("bundle exchange: messages are looked at after every 1024 rays") {
   CHECK(looks_after(1) == 2);
 }
 
+TEST_CASE("bundle exchange: on the wall clock the master is told of no round") {
+  Ends ranks(ClockKind::kWall);
+  ranks[1].send(2, true, samples(1));
+  ranks[1].receive();
+  ranks[0].look();
+  CHECK(ranks.ends[0].others.empty());
+}
+
 }  // namespace pprt::bundle_exchange_test
