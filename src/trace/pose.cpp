@@ -105,10 +105,10 @@ Pose::Pose(const CompiledScene::Impl& scene) : scene_(scene), lights_(scene.ligh
     }
     for (auto& [number, part] : own.parts) deformed_[number] = &part;
   }
+  // Low build quality would be no faster, and its builder ends the process where all bodies are one point.
   if (scene.bodies.size() > 1) {
     own_embree_.reset(rtcNewScene(scene.device.get()));
     rtcSetSceneFlags(own_embree_.get(), RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC);
-    rtcSetSceneBuildQuality(own_embree_.get(), RTC_BUILD_QUALITY_LOW);
     embree_ = own_embree_.get();
   }
   set_time(start_time(scene.movement));

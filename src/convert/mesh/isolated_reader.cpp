@@ -10,7 +10,6 @@
 #include <stdexcept>
 
 #include "base/diagnostics.h"
-#include "base/isolated_call.h"
 #include "base/system/available_memory.h"
 #include "base/wire.h"
 #include "scene/bytes/scene_bytes.h"
@@ -87,18 +86,21 @@ std::string problem_of(const CallResult& result, const MeshLimits& limits) {
 
 }  // namespace
 
-ReadMesh read_mesh_isolated(const std::string& path, const MeshLimits& limits) {
+CallLimits call_limits(const MeshLimits& limits, std::uint64_t available) {
   constexpr double kWallShare = 4;
   constexpr std::uint64_t kLibraryShare =
       4;  // it holds the file, a library's scene and this program's at a time
-  const std::uint64_t available = available_memory();
   const std::uint64_t memory =
       limits.memory_bytes < available / kLibraryShare ? kLibraryShare * limits.memory_bytes : available;
+  return {.memory_bytes = memory, .cpu_seconds = limits.seconds, .wall_seconds = kWallShare * limits.seconds};
+}
+
+ReadMesh read_mesh_isolated(const std::string& path, const MeshLimits& limits) {
   const CallResult result = call_isolated(
       [&] {
         return answer(path, {limits.memory_bytes, limits.animation});
       },
-      {.memory_bytes = memory, .cpu_seconds = limits.seconds, .wall_seconds = kWallShare * limits.seconds});
+      call_limits(limits, available_memory()));
   if (result.end != CallEnd::kDone) throw InputError(path + ": error: " + problem_of(result, limits));
   return mesh_of(result.bytes);
 }

@@ -13,7 +13,6 @@ namespace {
 constexpr double kRaysOfASample = 5, kFirstPrice = 0.8;
 constexpr double kGridShare = 0.35;   // of all samples that the grid may take
 constexpr float kGreatestFall = 3;    // of the threshold, from pass to pass
-constexpr double kFirstGrowth = 3;    // pessimistic: nothing is learned yet
 constexpr float kShareOfLast = 0.2F;  // that an error of the last picture counts as, of one of this
 
 // Returns the tiles in bands of two rows. Bands follow each other by steps of the golden section, which fall
@@ -60,7 +59,6 @@ void LatticeRefiner::clear() {
   estimates_.clear();
   share_.clear();
   textures_.clear();
-  growth_ = kFirstGrowth;
   errors_.clear();
   forget_samples();
 }
@@ -73,7 +71,6 @@ void LatticeRefiner::restart() {
   time_ = time_ > 0 ? 0.5 * (time_ + time) : time;
   if (seeing > 0)
     price_of_item_ = seeing / static_cast<double>(std::max<std::size_t>(visibility_.items_within(), 1));
-  growth_ = kFirstGrowth;  // of the last, small passes until now
   errors_.fade(kShareOfLast);
   // Where a sample says little of its surface, as in mirrors, it does not pay to know surfaces.
   constexpr float kMirrors = 0.4F;
@@ -97,6 +94,7 @@ void LatticeRefiner::forget_samples() {
   grid_levels_ = 0;
   last_threshold_ = 0;
   pass_ = {};
+  growth_ = {};  // the last passes of a picture are small
   tiles_left_ = {};
   level_ = pass_.end_level;
   nodes_.clear();
@@ -249,7 +247,7 @@ void LatticeRefiner::collect_base(int tile) {
 }
 
 bool LatticeRefiner::start_pass() {
-  learn_growth();
+  growth_.end_pass(samples_);
   estimates_.update();
   share_.update();
   textures_.update();
@@ -260,7 +258,7 @@ bool LatticeRefiner::start_pass() {
 
 void LatticeRefiner::start(const Pass& pass) {
   pass_ = pass;
-  pass_.begun_with = static_cast<std::int64_t>(samples_);
+  growth_.begin_pass(samples_, pass_.promised);
   tiles_left_ = tiles_;
   level_ = pass_.end_level;
 }
@@ -328,7 +326,7 @@ bool LatticeRefiner::start_refinement_pass() {
   for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += unsampled_surfaces_.counts()[i];
   const double all = std::accumulate(counts.begin() + kLeastCandidate + 1, counts.end(), 0.0);
   if (all == 0) return false;
-  const double left = std::max(samples_left(), 1.0) / growth_;
+  const double left = std::max(samples_left(), 1.0) / growth_.get();
   const double affordable = left < kLast * static_cast<double>(samples_) ? left : kShare * left;
   NodeState least = kGreatestCandidate + 1;
   double above = 0, roots = 0, root = 0;
@@ -346,14 +344,6 @@ bool LatticeRefiner::start_refinement_pass() {
          .threshold = last_threshold_,
          .promised = roots / std::sqrt(static_cast<double>(last_threshold_))});
   return true;
-}
-
-void LatticeRefiner::learn_growth() {
-  constexpr std::int64_t kEnough = 200;
-  if (pass_.takes_all || pass_.promised == 0) return;
-  const std::int64_t made = static_cast<std::int64_t>(samples_) - pass_.begun_with;
-  const double growth = static_cast<double>(made) / pass_.promised;
-  if (made >= kEnough) growth_ = 0.5 * growth_ + 0.5 * std::clamp(growth, 0.3, 4.0);
 }
 
 std::size_t LatticeRefiner::paint(const PixelRect& bounds, std::span<const PixelRect> parts,

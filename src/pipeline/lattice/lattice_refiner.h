@@ -24,6 +24,7 @@
 #include "pipeline/lattice/lattice_store.h"
 #include "pipeline/lattice/local_errors.h"
 #include "pipeline/lattice/node_prediction.h"
+#include "pipeline/lattice/pass_growth.h"
 #include "pipeline/lattice/surface_samples.h"
 #include "pipeline/lattice/surface_textures.h"
 #include "pipeline/lattice/unsampled_surfaces.h"
@@ -117,7 +118,6 @@ class LatticeRefiner {
     bool takes_base = false, takes_all = false;
     NodeState least = kLeastCandidate;  // priority taken
     float threshold = 0;                // worth taken
-    std::int64_t begun_with = 0;        // samples
     double promised = 0;                // samples that its candidates were expected to lead to
   };
 
@@ -137,7 +137,6 @@ class LatticeRefiner {
   bool start_grid_pass();
   bool start_refinement_pass();
   void start(const Pass& pass);
-  void learn_growth();
   void collect_base(int tile);
   NodeState& greatest_in(int tile, std::size_t level) {
     return greatest_[static_cast<std::size_t>(tile) * kLatticeLevels.size() + level];
@@ -185,7 +184,7 @@ class LatticeRefiner {
   bool has_looked_ = false;                        // for unsampled surfaces
   std::vector<UnsampledSurface> surfaces_wanted_;  // of the tile, in this pass
   bool is_region_new_ = false;                     // its base may be missing
-  double growth_ = 0;  // samples that a pass takes, for each that its candidates promise
+  PassGrowth growth_;
   float last_threshold_ = 0;
   int tile_ = 0;                     // of the pass
   std::span<const int> tiles_left_;  // for the pass after this one

@@ -118,4 +118,42 @@ TEST_CASE("a grey ball in the default light spans most of the range of display v
   CHECK(most <= 1);
 }
 
+TEST_CASE("a fitted view looks from half right of the front, a bit above it, at the scene's depth") {
+  for (const UpAxis up : {UpAxis::kY, UpAxis::kZ}) {
+    SceneDescription scene;
+    scene.materials = {{}};
+    add_sphere(scene, {{3, 2, 1}, 0.5, 0, {}});
+    const View view = fitted_view(scene, up);
+    const ViewFrame frame = view_frame(view, "ball");
+    const Vec3d expected = up == UpAxis::kY ? Vec3d(0.5, 0.4, 1) : Vec3d(0.5, -1, 0.4);
+    CHECK((frame.forward + expected.normalized()).length() < 1e-9);
+    CHECK(view.angle_degrees == 45);
+    const Vec3d middle(3, 2, 1);
+    CHECK((middle - view.at).dot(frame.forward) == Approx(0).margin(1e-9));
+    CHECK(view.hither == Approx(0.001 * (view.at - view.from).length()));
+  }
+}
+
+TEST_CASE("default lights are a key light and a weaker one, as far away as the eye is, or near it indoors") {
+  SceneDescription scene;
+  scene.ambient = Rgb(1, 1, 1);
+  scene.materials = {{}};
+  add_sphere(scene, {{0, 0, 0}, 2, 0, {}});
+  View view;
+  view.from = {0, 0, 10}, view.at = {0, 0, 0};
+  for (const bool is_indoors : {false, true}) {
+    if (is_indoors) view.from = {0, 0, 1};
+    const double reach = is_indoors ? 0.1 * 2 * std::sqrt(3.0) : 10;
+    const std::vector<Light> lights = default_lights(scene, view);
+    REQUIRE(lights.size() == 2);
+    const ViewFrame frame = view_frame(view, "ball");
+    const Vec3d key = lights[0].position - view.from, fill = lights[1].position - view.from;
+    CHECK(key.dot(frame.right) == Approx(-0.75 * reach));
+    CHECK(key.dot(frame.up) == Approx(0.75 * reach));
+    CHECK(key.dot(frame.forward) == Approx(0).margin(1e-9));
+    CHECK((fill - frame.right * (0.9 * reach)).length() < 1e-9);
+    CHECK((!lights[0].color && lights[1].color == Rgb(0.3, 0.3, 0.3)));
+  }
+}
+
 }  // namespace pprt::default_view_test

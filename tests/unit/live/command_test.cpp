@@ -2,10 +2,15 @@
 #include "live/command.h"
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 #include <string>
+
+#include "scene/animation/animation.h"
 
 namespace pprt::command_test {
 namespace {
+
+using Json = nlohmann::json;
 
 template <typename Command>
 Command parsed(std::string_view text) {
@@ -63,6 +68,57 @@ TEST_CASE("live commands: what is none is refused in words") {
   CHECK(refused(look("[0,0,0]", "[0,5,0]", "[0,1,0]", "45")) == "'up' is parallel to the view");
   CHECK(refused(look("[0,0,1]", "[0,5,0]", "[0,0,0]", "45")) == "'up' has no direction");
   CHECK(refused(look("[0,0,1]", "[0,5,0]", "[0,1,0]", "0")) == "'angle' is not a number from 0.1 to 170");
+}
+
+TEST_CASE("live commands: each of those for a film and pictures is read with its values") {
+  const auto key = parsed<SetKey>(R"({"do":"key","frame":7})");
+  CHECK((key.frame == 7 && !key.view));
+  const auto copied = parsed<SetKey>(
+      R"({"do":"key","frame":7,"view":{"from":[1,2,3],"at":[4,5,7],"up":[0,1,0],"angle":40}})");
+  CHECK((copied.view && copied.view->at == Vec3d(4, 5, 7) && copied.view->angle_degrees == 40));
+  CHECK(parsed<DropKey>(R"({"do":"drop","frame":8})").frame == 8);
+  const auto moved = parsed<MoveKey>(R"({"do":"move","frame":8,"to":3})");
+  CHECK((moved.frame == 8 && moved.to == 3));
+  parsed<UndoKeys>(R"({"do":"undo"})"), parsed<RedoKeys>(R"({"do":"redo"})");
+  CHECK(parsed<PlayFilm>(R"({"do":"film","on":true})").on);
+  CHECK_FALSE(parsed<PlayFilm>(R"({"do":"film","on":false})").on);
+  CHECK(parsed<TakePhoto>(R"({"do":"photo","format":"exr"})").format == PhotoFormat::kExr);
+  CHECK(parsed<TakePhoto>(R"({"do":"photo","format":"png"})").format == PhotoFormat::kPng);
+  const auto pivot = parsed<FindPivot>(R"({"do":"pivot","x":0.25,"y":1})");
+  CHECK((pivot.x == 0.25 && pivot.y == 1));
+  for (const Word<Overlay>& overlay : kWords<Overlay>) {
+    const std::string text = R"({"do":"overlay","name":")" + std::string(overlay.word) + R"("})";
+    CHECK(parsed<ShowOverlay>(text).overlay == overlay.value);
+  }
+}
+
+TEST_CASE("live commands: numbers are allowed up to their limits, and no further") {
+  const auto is_allowed = [](const std::string& members) {
+    try {
+      parse_command("{" + members + "}");
+      return true;
+    } catch (const CommandError&) {
+      return false;
+    }
+  };
+  const auto limits = [&](const std::string& begin, double least, double most, double step) {
+    const auto at = [&](double v) { return is_allowed(begin + Json(v).dump()); };
+    INFO(begin);
+    CHECK((at(least) && at(most)));
+    CHECK((!at(least - step) && !at(most + step)));
+  };
+  limits(R"("do":"rate","fps":)", 1, 120, 0.01);
+  limits(R"("do":"size","height":9,"width":)", 1, 4096, 1);
+  limits(R"("do":"size","width":9,"height":)", 1, 4096, 1);
+  limits(R"("do":"pivot","y":0,"x":)", 0, 1, 0.01);
+  limits(R"("do":"pivot","x":0,"y":)", 0, 1, 0.01);
+  limits(R"("do":"key","frame":)", 1, kLastKeyFrame, 1);
+  limits(R"("do":"drop","frame":)", 1, kLastKeyFrame, 1);
+  limits(R"("do":"move","frame":1,"to":)", 1, kLastKeyFrame, 1);
+  limits(R"("do":"pass","to":)", 1, 2147483647, 1);
+  limits(R"("do":"seek","frame":)", 0, 2147483647, 1);
+  limits(R"("do":"step","by":)", -2147483647, 2147483647, 1);
+  limits(R"("do":"look","number":1,"from":[0,0,1],"at":[0,5,0],"up":[0,1,0],"angle":)", 0.1, 170, 0.01);
 }
 
 }  // namespace

@@ -84,5 +84,41 @@ TEST_CASE("film keys: there are so many and no more, in the list and to undo") {
   CHECK(film.keys().size() == FilmKeys::kMost - 99);  // the last changes, one of which added none
 }
 
+TEST_CASE("film keys: a key keeps the whole camera, also where it moves") {
+  View view;
+  view.from = {1, 2, 3}, view.at = {4, 5, 6}, view.up = {0, 0, 1}, view.angle_degrees = 77;
+  FilmKeys film;
+  film.set(3, view);
+  film.move(3, 8);
+  const CameraKey& key = film.keys().at(0);
+  CHECK((key.frame == 8 && key.from == view.from && key.at == view.at && key.up == view.up));
+  CHECK(key.angle_degrees == 77);
+  CHECK(film.frames() == 8);
+}
+
+TEST_CASE("film keys: what is refused or changes nothing can not be undone, and leaves what can come again") {
+  FilmKeys film;
+  film.set(1, view_from(1));
+  film.set(5, view_from(5));
+  film.undo();
+  CHECK_FALSE(film.drop(9));
+  CHECK_FALSE(film.move(9, 2));
+  CHECK(film.move(1, 1));
+  CHECK(film.can_redo());
+  CHECK(film.drop(1));
+  CHECK_FALSE(film.can_redo());
+  CHECK(film.undo());
+  CHECK(film.undo());
+  CHECK_FALSE(film.undo());
+  while (film.redo()) continue;
+  CHECK(film.keys().empty());
+  for (int n = 1; n <= static_cast<int>(FilmKeys::kMost); ++n) film.set(n, view_from(n));
+  film.undo(), film.redo();
+  CHECK(film.set(4, view_from(9)));  // in the place of one that is there
+  film.undo();
+  CHECK_FALSE(film.set(100'000, view_from(0)));
+  CHECK(film.can_redo());
+}
+
 }  // namespace
 }  // namespace pprt::film_keys_test

@@ -161,5 +161,64 @@ TEST_CASE("live view: the camera rests only if it stood still in each frame sinc
   CHECK(header["type"] == "image/jpeg");
 }
 
+TEST_CASE("live view: a picture in parts is not sent, but its figures are, with those of the next") {
+  LiveView view({}, show());
+  Viewer viewer(view);
+  viewer.hear_of("state");
+  LivePicture part = picture_of({}, 1);
+  part.is_partial = true;
+  view.show(std::move(part));
+  const Json header = viewer.hear_of("camera");
+  CHECK((header["type"] == "" && viewer.picture.empty()));
+  CHECK((header["frames"].size() == 1 && header["frames"][0]["samples"] == 99));
+  view.show(picture_of({}, 2));
+  const Json next = viewer.hear_of("camera");
+  CHECK((next["type"] == "image/jpeg" && !viewer.picture.empty()));
+  CHECK((next["frames"].size() == 1 && next["frames"][0]["number"] == 2));
+}
+
+TEST_CASE("live view: what nobody has seen is not told to who comes later") {
+  LiveView view({}, show());
+  for (const int number : {1, 2, 3}) view.show(picture_of({}, number));
+  Viewer viewer(view);
+  viewer.hear_of("state");
+  view.show(picture_of({}, 4));
+  const Json header = viewer.hear_of("camera");
+  REQUIRE_FALSE(header["frames"].empty());
+  CHECK(header["frames"].back()["number"] == 4);
+  CHECK(header["frames"].size() <= 2);  // the one before nobody came to take
+}
+
+TEST_CASE("live view: a photo has the format that was asked for, and the camera that it was taken from") {
+  LiveView view({}, show());
+  Viewer viewer(view), other(view);
+  const int number = viewer.hear_of("hello")["hello"]["you"].get<int>();
+  other.hear_of("hello");
+  LiveRun run{.width = 16, .height = 8, .photo = PhotoFormat::kExr, .photo_for = number};
+  run.view.from = {1, 2, 3}, run.view.angle_degrees = 33;
+  view.show_photo(run, Image(16, 8));
+  const Json header = viewer.hear_of("photo");
+  CHECK((header["photo"] == "exr" && header["view"]["from"] == Json({1.0, 2.0, 3.0})));
+  CHECK(header["view"]["angle"] == 33);
+  CHECK(viewer.picture.starts_with("\x76\x2f\x31\x01"));
+  view.end("over");
+  view.end("over again");
+  Json message = other.hear();
+  while (!message.contains("end")) {
+    CHECK_FALSE(message.contains("photo"));  // it is the other's
+    message = other.hear();
+  }
+  CHECK(message["end"] == "over");
+}
+
+TEST_CASE("live view: the page is found under its token, at whatever address of this host") {
+  const LiveView view({}, show());
+  const std::string host = "http://127.0.0.1:" + std::to_string(view.port()) + "/", url = view.url();
+  REQUIRE(url.starts_with(host));
+  CHECK(url.size() == host.size() + 32 + 1);
+  CHECK(view.url_at("10.0.0.7") ==
+        "http://10.0.0.7:" + std::to_string(view.port()) + "/" + url.substr(host.size()));
+}
+
 }  // namespace
 }  // namespace pprt::live_view_test

@@ -2,6 +2,7 @@
 #include "live/picture_stream.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 namespace pprt::picture_stream_test {
 namespace {
@@ -74,6 +75,38 @@ TEST_CASE("rest estimate: a picture of another size is another picture") {
   estimate.add(picture(4), 100, true, true);
   CHECK_FALSE(estimate.add(Image(32, 32), 300, true, true));
   CHECK(estimate.add(Image(32, 32), 900, true, true));
+}
+
+TEST_CASE("rest estimate: it is a power of the samples, whatever of them lies between two pictures") {
+  const double change = mean_flip(picture(2), picture(4));
+  RestEstimate estimate;
+  estimate.add(picture(4), 100, true, true);
+  // Ten times the samples: nearly all of that change was the first picture's error.
+  CHECK(*estimate.add(picture(2), 1000, true, true) == Approx(0.9 * change * std::pow(5.0, -0.65)));
+  CHECK(*estimate.add(picture(2), 1999, true, true) ==
+        Approx(0.9 * change * std::pow(5.0, -0.65) * std::pow(1.999, -0.65)));
+  CHECK(*estimate.add(picture(3), 2000, true, true) == Approx(0.9 * mean_flip(picture(3), picture(2))));
+}
+
+TEST_CASE("rest estimate: a picture of a camera that moves is compared with none after it") {
+  RestEstimate estimate;
+  estimate.add(picture(4), 100, true, true);
+  REQUIRE(estimate.add(picture(2), 200, true, true));
+  CHECK_FALSE(estimate.add(picture(2), 250, false, false));
+  CHECK_FALSE(estimate.add(picture(2), 499, true, true));
+  CHECK(*estimate.add(picture(2), 500, true, true) == 0);  // twice those of the moving one, which begins anew
+  CHECK_FALSE(estimate.add(Image(64, 32), 5000, true, true));
+}
+
+TEST_CASE("rest watch: the half second begins with the first frame at rest, each time") {
+  RestWatch watch;
+  for (const double begin : {0.0, 3.0}) {
+    CHECK_FALSE(watch.is_at_rest(false, begin));
+    CHECK_FALSE(watch.is_at_rest(true, begin + 0.3));
+    CHECK_FALSE(watch.is_at_rest(true, begin + 0.7));
+    CHECK(watch.is_at_rest(true, begin + 0.81));
+    CHECK(watch.is_at_rest(true, begin + 2));
+  }
 }
 
 }  // namespace

@@ -412,4 +412,23 @@ TEST_CASE("moving bodies: triangles with a texture but without area make no part
   CHECK(compiled.census().find("301 triangles; 300 without extent left out") != std::string::npos);
 }
 
+// Embree's builder for scenes that change often ends the process where all that it is given is one point.
+TEST_CASE("moving bodies: a scene that shrinks to a point is seen before and after, and harms nothing") {
+  const std::string shrinks =
+      "tpa 3 2 2 3.4e38 1 .5 -.25 1e-30 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 "
+      "0 0 "
+      "0 0 0 0 0 0 0 0 0 0 0 0 0 0\n";
+  const std::string tiny = "p 4 1 3.5 .5 1e-45 0 .5 .5 0 .5 1e-30 .5 1e-30\n";
+  for (const std::string& body : {shrinks, tiny + shrinks, shrinks + shrinks}) {
+    const SceneDescription scene = scene_of(kView + kLight + kMatte + body);
+    const CompiledScene compiled = compile(scene);
+    Tracer tracer(compiled, compiled.camera(*scene.view));
+    for (const double time : {0.0, 1.0, 2.0, 3.0, 0.0}) {
+      CAPTURE(time);
+      tracer.set_time(time);
+      CHECK(std::isfinite(tracer.trace(kSize / 2.0, kSize / 2.0).color.x));
+    }
+  }
+}
+
 }  // namespace pprt::moving_bodies_test

@@ -63,4 +63,53 @@ TEST_CASE("on the work clock a frame is finished when its slowest rank has done 
   CHECK(without_rate.delivery_time(FrameOrder(), ranks).late_ms == 0);
 }
 
+TEST_CASE("a frame is late by what has passed since its deadline, early by what is left") {
+  double now = 10;
+  WallDeliveryClock clock(4, 1, false, [&now] { return now; });
+  clock.begin_sequence(10);
+  CHECK(clock.now_s() == 0);
+  FrameOrder order;
+  order.deadline_s = clock.deadline_s(2, 5);
+  CHECK(order.deadline_s == Approx(0.75));  // in real time frames that are left out take none
+  now = 10.8;
+  CHECK(clock.now_s() == Approx(0.8));
+  CHECK(clock.delivery_time(order, {}).finished_s == Approx(0.8));
+  CHECK(clock.delivery_time(order, {}).late_ms == Approx(50));
+  now = 10.7;
+  CHECK(clock.delivery_time(order, {}).late_ms == Approx(-50));
+}
+
+TEST_CASE("frames have deadlines with a rate, which are kept unless frames are awaited whole") {
+  const auto clock = [](double rate, bool awaits_all) {
+    return WallDeliveryClock(rate, 1, awaits_all, [] { return 7.0; });
+  };
+  const WallDeliveryClock kept = clock(4, false), whole = clock(4, true), none = clock(0, false);
+  CHECK((kept.has_deadlines() && kept.keeps_deadlines()));
+  CHECK((whole.has_deadlines() && !whole.keeps_deadlines()));
+  CHECK((!none.has_deadlines() && !none.keeps_deadlines()));
+  CHECK((none.deadline_s(3, 0) == 0 && none.units_per_frame() == 0));
+  // Where none are kept nothing keeps the next frame from being prepared.
+  CHECK((whole.may_overlap(1) && none.may_overlap(1) && !kept.may_overlap(1)));
+  const WorkDeliveryClock work(4, 5'000'000);
+  CHECK((!work.has_deadlines() && !work.keeps_deadlines() && !work.may_overlap(1)));
+  CHECK((work.units_per_frame() == 5e6 && work.now_s() == 0));
+}
+
+TEST_CASE("without a rate a common start that has gone by already is when time begins") {
+  double now = 10;
+  WallDeliveryClock clock(0, 1, false, [&now] { return now; });
+  clock.begin_sequence(9);
+  CHECK(clock.now_s() == Approx(1));
+}
+
+TEST_CASE("on the work clock a frame of several periods has their budgets") {
+  const WorkDeliveryClock clock(4, 5'000'000);
+  std::vector<RankReport> ranks(1);
+  ranks[0].finished_s = 0.25;
+  FrameOrder order;
+  order.deadline_s = 2, order.periods = 2;
+  CHECK(clock.delivery_time(order, ranks).finished_s == Approx(2 - 2 * 0.25 + 0.25));
+  CHECK(clock.delivery_time(order, ranks).late_ms == Approx(1e3 * (0.25 - 2 * 0.1)));
+}
+
 }  // namespace pprt::delivery_clock_test

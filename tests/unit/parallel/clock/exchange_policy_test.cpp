@@ -138,5 +138,17 @@ TEST_CASE("exchange policy: delayed samples arrive in their round, in the next f
   }
 }
 
+TEST_CASE("exchange policy: a rank alone waits for nobody") {
+  for (const ClockKind clock : {ClockKind::kWork, ClockKind::kWall}) {
+    SessionSettings settings{.sampler = SamplerChoice::kAuto};
+    settings.clock = clock;
+    const auto alone = make_exchange_policy(settings, 1);
+    Network network;
+    CHECK_FALSE(alone->counts_bundles());
+    CHECK(alone->missing(network.inbox, {.frame_index = 0, .begun_in = 0, .round = 1}) == 0);
+    CHECK(alone->missing_seeds(network.inbox, {}, {}, 0) == 0);
+  }
+}
+
 }  // namespace
 }  // namespace pprt::exchange_policy_test

@@ -167,4 +167,81 @@ TEST_CASE("lattice exchange: a tile's samples and those on its border are handed
   CHECK(middle.take_outbox(0).size() == 5 * 5 + 2);  // and the centres of the two squares below
 }
 
+TEST_CASE("lattice exchange: what comes first, from all ranks or from pictures before, is told to nobody") {
+  Rank rank_1(1);
+  LatticeExchange& middle = rank_1.exchange;
+  CHECK(middle.seed_peers() == std::vector{0, 2});
+  CHECK(middle.insert_seed(sample_at(kSide, kSide), 0));  // at the border: each rank samples it itself
+  CHECK_FALSE(middle.insert_seed(sample_at(kSide, kSide), 0));
+  std::vector<bool> came;
+  middle.insert_cast(std::vector{sample_at(kSide, 4), sample_at(kSide + 4, 4)},
+                     [&](const Sample&, bool is_new) { came.push_back(is_new); });
+  CHECK(came == std::vector{false, false});  // they tell of lights, and are no samples
+  CHECK(rank_1.sampler.size() == 1);
+  CHECK_FALSE(rank_1.sampler.known_lights({kSide + 4, 4}).empty());
+  CHECK((middle.take_outbox(0).empty() && middle.take_outbox(2).empty()));
+  CHECK(middle.announce() == 0);
+  LatticeExchange without(rank_1.sampler, false, columns(), 1);
+  CHECK(without.seed_peers().empty());
+}
+
+TEST_CASE("lattice exchange: a rank is told once, however many of its tiles a sample touches") {
+  Partition two = columns();
+  for (std::int32_t& owner : two.owner) owner = owner == 2 ? 0 : owner;  // on both sides of the middle
+  two.ranks = 2;
+  Rank rank_1(1, two);
+  CHECK(rank_1.exchange.insert(sample_at(kSide, kSide), 1));  // where four tiles meet
+  CHECK(rank_1.exchange.take_outbox(0).size() == 1);
+  CHECK(rank_1.exchange.announce() == 1);
+  CHECK(rank_1.exchange.announce() == 0);
+  CHECK(rank_1.exchange.insert(sample_at(kSide + 4, 8), 1));  // nobody else's business: not looked at
+  CHECK(rank_1.exchange.announce() == 0);
+}
+
+TEST_CASE("lattice exchange: a rank alone tells nobody and counts nothing") {
+  Partition alone = columns();
+  std::fill(alone.owner.begin(), alone.owner.end(), 0);
+  alone.ranks = 1;
+  Rank rank(0, alone);
+  CHECK(rank.exchange.neighbours().empty());
+  for (int y = 0; y <= 4 * kSide; y += 4) {
+    for (int x = 0; x <= 3 * kSide; x += 4) CHECK(rank.exchange.insert(sample_at(x, y), 0));
+  }
+  CHECK(rank.exchange.announce() == 0);
+  CHECK(rank.exchange.take_outbox(0).empty());
+}
+
+TEST_CASE("lattice exchange: a tile that is this rank's own is forwarded to nobody") {
+  Rank rank_1(1);
+  LatticeExchange& middle = rank_1.exchange;
+  for (int y = 0; y <= kSide; y += 4) middle.insert(sample_at(kSide + 8, y), 1);
+  middle.announce();
+  middle.forward_tile(1);
+  CHECK(middle.insert(sample_at(2 * kSide, 4), 2));
+  CHECK(middle.announce() == 0);
+  for (int rank = 0; rank < 3; ++rank) CHECK(middle.take_outbox(rank).empty());
+  // One that was to be its own and is another's by now: what still comes for it goes there.
+  middle.forward_tile(0);
+  middle.take_outbox(0);
+  CHECK(middle.insert(sample_at(4, 4), 2));
+  CHECK(middle.take_outbox(0).size() == 1);
+  CHECK(middle.insert(sample_at(4, kSide + 12), 2));  // of the tile below
+  CHECK(middle.take_outbox(0).empty());
+}
+
+TEST_CASE("lattice exchange: all tiles that change hands at once are told with what touches any of them") {
+  Rank rank_1(1);
+  LatticeExchange& middle = rank_1.exchange;
+  std::vector<Sample> samples;
+  for (int row = 0; row < 4; ++row) samples.push_back(sample_at(kSide + 10, row * kSide + 6));
+  for (const Sample& s : samples) CHECK(middle.insert(s, 1));
+  const std::array tiles = {1, 10};  // the uppermost and the lowest of the middle
+  middle.introduce(tiles, 0);
+  const std::vector<Sample> told = middle.take_outbox(0);
+  REQUIRE(told.size() == 2);
+  CHECK((told[0].y == samples[0].y && told[1].y == samples[3].y));
+  middle.introduce({}, 0);
+  CHECK(middle.take_outbox(0).empty());
+}
+
 }  // namespace pprt::lattice_exchange_test

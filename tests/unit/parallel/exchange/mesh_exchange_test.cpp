@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -156,6 +157,112 @@ TEST_CASE("exchange: a sample is sent to a rank once") {
   run.quieten();
   CHECK(run.repeats() == 0);
   CHECK(run.quieten() == 1);  // nothing is left to say
+}
+
+// A rank that owns nothing but what its triangles need would be told too much otherwise, and no test above
+// would tell.
+TEST_CASE("exchange: of others' seeds a rank is told those that its triangles need, and no more") {
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    const TileGrid grid(200, 150, 10);
+    const Partition partition = random_rectangles(grid, 7, seed);
+    ExchangingRanks run(partition, seed);
+    run.seed();
+    const SeedPattern seeds = seed_pattern(grid.width, grid.height, seed);
+    for (const ExchangingRank& r : run.ranks()) {
+      const Region& own = r.mesh.region();
+      std::set<std::pair<double, double>> needed, known;
+      for (std::size_t i = 0; i < seeds.points.size(); ++i) {
+        const Vec2d& p = seeds.points[i];
+        if (i < 4 || own.owns_point(p.x, p.y)) needed.emplace(p.x, p.y);
+      }
+      for (const MeshTriangle& triangle : seeds.triangles) {
+        const Circle& circle = triangle.circumcircle;
+        const bool meets = std::any_of(own.tiles().begin(), own.tiles().end(), [&](int tile) {
+          const PixelRect rect = grid.pixels(tile);
+          const double dx = std::max({rect.x0 - circle.center.x, 0.0, circle.center.x - rect.x1});
+          const double dy = std::max({rect.y0 - circle.center.y, 0.0, circle.center.y - rect.y1});
+          return dx * dx + dy * dy <= circle.radius_squared;
+        });
+        if (!meets) continue;
+        for (const std::uint32_t corner : triangle.corners)
+          needed.emplace(seeds.points[corner].x, seeds.points[corner].y);
+      }
+      for (const Sample& s : r.mesh.samples()) known.emplace(s.x, s.y);
+      INFO("seed " << seed << ", rank " << r.rank);
+      CHECK(known == needed);
+    }
+  }
+}
+
+TEST_CASE("exchange: what comes for a tile that was given away is forwarded, not what was there before") {
+  const TileGrid grid(128, 96, 8);
+  Partition partition{
+      grid, 3, {}, std::vector<std::uint64_t>(static_cast<std::size_t>(grid.tile_count()), 0)};
+  for (int tile = 0; tile < grid.tile_count(); ++tile) {
+    const int column = tile % grid.columns();
+    partition.owner.push_back(column < 6 ? 0 : column < 11 ? 1 : 2);
+  }
+  const SeedPattern seeds = seed_pattern(grid.width, grid.height, 1);
+  SampleMesh mesh(region_of(partition, 1));
+  MeshExchange exchange(mesh, seeds, partition, 1);
+  const auto sample_at = [](double x, double y) {
+    Sample sample;
+    sample.x = x, sample.y = y;
+    return sample;
+  };
+  for (const Vec2d& p : seeds.points) {
+    CHECK(exchange.insert(sample_at(p.x, p.y), partition.owner_at(p.x, p.y)));
+    CHECK_FALSE(exchange.insert(sample_at(p.x, p.y), 1));
+  }
+  CHECK(exchange.announce() > 0);
+  CHECK(exchange.announce() == 0);
+  for (int rank = 0; rank < 3; ++rank) exchange.take_outbox(rank);
+  Partition given = partition;
+  for (int tile = 10; tile < grid.tile_count(); tile += grid.columns())
+    given.owner[static_cast<std::size_t>(tile)] = 0;  // the column beside rank 2
+  CHECK_FALSE(exchange.transfer(partition));
+  CHECK(exchange.transfer(given));
+  const auto of_others_to_rank_0 = [&] {
+    exchange.announce();
+    std::vector<Sample> samples = exchange.take_outbox(0);
+    std::erase_if(samples, [&](const Sample& s) { return given.owner_at(s.x, s.y) != 2; });
+    return samples;
+  };
+  CHECK(of_others_to_rank_0().empty());
+  CHECK(exchange.insert(sample_at(88.9, 50.3), 2));
+  const std::vector<Sample> forwarded = of_others_to_rank_0();
+  REQUIRE(forwarded.size() == 1);
+  CHECK((forwarded[0].x == 88.9 && forwarded[0].y == 50.3));
+  CHECK(exchange.insert(sample_at(120.9, 50.3), 2));  // far from that column
+  CHECK(of_others_to_rank_0().empty());
+  // With the next triangulation everybody knows whose the tiles are.
+  mesh.clear();
+  exchange.clear();
+  for (const Vec2d& p : seeds.points) exchange.insert(sample_at(p.x, p.y), given.owner_at(p.x, p.y));
+  of_others_to_rank_0();
+  CHECK(exchange.insert(sample_at(88.9, 50.3), 2));
+  CHECK(of_others_to_rank_0().empty());
+}
+
+TEST_CASE("exchange: cast samples are the rank's own, and are told of like others") {
+  const TileGrid grid(128, 96, 8);
+  const Partition partition = random_rectangles(grid, 2, 1);
+  const SeedPattern seeds = seed_pattern(grid.width, grid.height, 1);
+  SampleMesh mesh(region_of(partition, 0));
+  MeshExchange exchange(mesh, seeds, partition, 0);
+  std::vector<Sample> cast(seeds.points.size());
+  for (std::size_t i = 0; i < cast.size(); ++i) cast[i].x = seeds.points[i].x, cast[i].y = seeds.points[i].y;
+  cast.push_back(cast.back());
+  std::size_t came = 0, refused = 0;
+  exchange.insert_cast(cast, [&](const Sample&, bool is_new) { ++(is_new ? came : refused); });
+  CHECK((came == seeds.points.size() && refused == 1));
+  const std::vector<std::uint32_t> known = exchange.known_in_tiles(0), of_other = exchange.known_in_tiles(1);
+  CHECK(std::accumulate(known.begin(), known.end(), 0U) == came);
+  CHECK(std::accumulate(of_other.begin(), of_other.end(), 0U) == 0);
+  exchange.announce();
+  const std::size_t told = exchange.take_outbox(1).size();
+  CHECK((told > 0 && told < came));
+  CHECK(exchange.take_outbox(1).empty());
 }
 
 }  // namespace pprt::mesh_exchange_test

@@ -1,8 +1,10 @@
 #include "pipeline/casting/casting.h"
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "pipeline/casting/projected_samples.h"
 #include "pipeline/mesh/mesh_casting.h"
 #include "pipeline/mesh/seeds.h"
 
@@ -289,6 +291,67 @@ TEST_CASE("casting: of what is there no more only what would be in view counts a
   away.forward = -away.forward, away.right = -away.right;
   const CastResult behind = cast(away, 2);
   CHECK((behind.out_of_view == 2 && behind.hidden == 0));
+}
+
+TEST_CASE("casting: of a triangle that turns over the farthest corner is hidden, and what is nearly as far") {
+  // Seen from the right, what is near moves to the left, beyond the corner that is far.
+  struct Case {
+    std::array<double, 3> depths;
+    std::size_t hidden;
+  };
+  Camera after = straight();
+  after.eye.x = 0.9;
+  for (const Case& c :
+       {Case{{4, 2, 2}, 1}, {{4, 3.99, 2}, 2}, {{4, 3.9, 2}, 1}, {{4, 4, 4}, 0}, {{2, 4, 4}, 0}}) {
+    SampleMesh mesh(Region::whole(kGrid));
+    const std::array<Vec2d, 3> at = {Vec2d(50, 30), Vec2d(54, 28), Vec2d(54, 36)};
+    for (std::size_t i = 0; i < 3; ++i) {
+      Sample sample = look(straight(), at[i].x, at[i].y, 1);
+      sample.ray.hit = Vec3f(ray_direction(straight(), at[i].x, at[i].y) * c.depths[i]);
+      mesh.insert(sample);
+    }
+    INFO("depths " << c.depths[0] << ", " << c.depths[1] << ", " << c.depths[2]);
+    const CastResult cast = cast_samples(mesh, after, 2, {});
+    CHECK(cast.samples.size() + cast.hidden == 3);
+    CHECK(cast.hidden == c.hidden);
+  }
+}
+
+TEST_CASE("casting: the borders of a picture are in view, and an age at its limit is young enough") {
+  for (const double x : {0.0, 64.0}) {
+    for (const double y : {0.0, 64.0}) {
+      Sample sample = look(straight(), 32, 32, 1);
+      sample.ray.at_infinity = true;
+      const Vec3d inside = ray_direction(straight(), x + (x > 0 ? -1e-3 : 1e-3), y + (y > 0 ? -1e-3 : 1e-3));
+      const Vec3d outside = ray_direction(straight(), x + (x > 0 ? 1e-3 : -1e-3), y + (y > 0 ? -1e-3 : 1e-3));
+      sample.ray.hit = Vec3f(inside);
+      const Region whole = Region::whole(kGrid);
+      CHECK(project_sample(sample, whole, straight(), 9, {}).outcome == CastOutcome::kCast);
+      CHECK(project_sample(sample, whole, straight(), 10, {}).outcome == CastOutcome::kTooOld);
+      sample.ray.hit = Vec3f(outside);
+      CHECK(project_sample(sample, whole, straight(), 10, {}).outcome == CastOutcome::kOutOfView);
+    }
+  }
+  const std::vector<std::uint8_t> nothing(16, 0);
+  CHECK(project_sample(look(straight(), 32, 32, 1), Region(kGrid, nothing), straight(), 2, {}).outcome ==
+        ProjectedSample().outcome);
+}
+
+TEST_CASE("casting: of a triangle that turns over what lies at infinity is farther than all else") {
+  Camera after = straight();
+  after.eye.x = 0.9;
+  SampleMesh mesh(Region::whole(kGrid));
+  const std::array<Vec2d, 3> at = {Vec2d(50, 30), Vec2d(54, 28), Vec2d(54, 36)};
+  for (std::size_t i = 0; i < 3; ++i) {
+    Sample sample = look(straight(), at[i].x, at[i].y, 1);
+    sample.id = i;
+    sample.ray.at_infinity = i == 0;
+    sample.ray.hit = Vec3f(ray_direction(straight(), at[i].x, at[i].y) * (i == 0 ? 1.0 : 2.0));
+    mesh.insert(sample);
+  }
+  const CastResult cast = cast_samples(mesh, after, 2, {});
+  CHECK(cast.hidden == 1);
+  for (const Sample& s : cast.samples) CHECK(s.id != 0);
 }
 
 }  // namespace pprt::casting_test

@@ -1,10 +1,12 @@
 // What the lattice sampler learns from its samples: errors near a point, errors by class, what one sample
 // says of its surface.
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstdlib>
 
 #include "pipeline/lattice/error_estimates.h"
 #include "pipeline/lattice/local_errors.h"
+#include "pipeline/lattice/pass_growth.h"
 #include "pipeline/lattice/surface_share.h"
 
 namespace pprt::learning_test {
@@ -128,6 +130,64 @@ TEST_CASE("surface share: the share is the one with which predictions would have
   CHECK(share.of(Basis::kSome, 5) == 1);
   CHECK(share.of_one() == Approx(0.3F).margin(0.01));  // of one sample, and of those near by
   CHECK(share.of(Basis::kAllAround, 5) == 1);
+}
+
+TEST_CASE("pass growth: it is what passes made of what they promised, by halves, within bounds") {
+  PassGrowth growth;
+  const auto pass = [&](std::size_t from, std::size_t to, double promised) {
+    growth.begin_pass(from, promised);
+    growth.end_pass(to);
+    return growth.get();
+  };
+  CHECK(growth.get() == 3);
+  CHECK(pass(5000, 6000, 1000) == Approx(2));      // its own thousand: not all that there are
+  CHECK(pass(6000, 7000, 2000) == Approx(1.25));   // a half
+  CHECK(pass(7000, 7199, 100) == Approx(1.25));    // too few to learn from
+  CHECK(pass(7199, 9000, 0) == Approx(1.25));      // nothing was promised: a grid's
+  CHECK(pass(9000, 9200, 10) == Approx(2.625));    // at most 4
+  CHECK(pass(9200, 9400, 1e6) == Approx(1.4625));  // at least .3
+  growth = {};
+  growth.end_pass(10'000);
+  CHECK(growth.get() == 3);
+}
+
+// What is expected before anything is learned, and what samples make of it: a node's factor is the power of
+// 3/4 of the error by its detail, which ten samples of the expected error hold back.
+TEST_CASE("error estimates: a class is expected by its basis and the errors near it, until samples tell") {
+  ErrorEstimates estimates;
+  const auto octaves = [&](Basis basis, int level) {
+    return std::log2(estimates.factor(class_of(basis, 0.01F, level))) / 0.75F / 0.3F;
+  };
+  for (const Basis basis : {Basis::kAllAround, Basis::kSome, Basis::kOne, Basis::kNearSample}) {
+    const auto steps = static_cast<float>(basis);
+    CHECK(octaves(basis, 0) == Approx(steps - 2.5F).margin(1e-3));
+    CHECK(octaves(basis, 1) == Approx(steps - 2.5F).margin(1e-3));
+    CHECK(octaves(basis, 6) == Approx(steps + 3 - 2.5F).margin(1e-3));
+  }
+  CHECK(octaves(Basis::kNothing, 0) == Approx(12 - 2.5F).margin(1e-3));
+  const NodeClass c = class_of(Basis::kAllAround, 0.01F, 5);
+  const double before = std::pow(estimates.factor(c), 4.0 / 3);
+  for (int i = 0; i < 30; ++i) estimates.learn(c, 2, 0.4F);
+  estimates.update();
+  const double of_all = (2 + 30 * 0.4) / (100 + 30 * 2.0), doubt = 10 * 2.0;
+  CHECK(estimates.factor(c) ==
+        Approx(std::pow((12 / of_all + doubt * before) / (60 + doubt), 0.75)).epsilon(1e-3));
+}
+
+TEST_CASE("local errors: a mean counts the cell twice and its corners half, and unknown ones as expected") {
+  constexpr int kSide = 64 * kPixelSide;
+  LocalErrors errors(kSide, kSide);
+  const auto at = [](int column, int row) { return LatticeNode{64 * column + 5, 64 * row + 9}; };
+  CHECK((errors.near(at(5, 5)).rays == 3 && errors.near(at(5, 5)).level == error_level(1.0F / 32)));
+  errors.note(at(5, 5), 0.01F, 10), errors.note(at(6, 5), 0.01F, 1), errors.note(at(6, 6), 0.01F, 4, 0.5F);
+  errors.start_round();
+  CHECK(errors.near(at(5, 5)).rays == Approx((2 * 10 + 1 + 0.5 * 2) / (2 + 1 + 0.5 * 0.5)));
+  CHECK(errors.near(at(5, 6)).rays == Approx((10 + 0.5 * 1 + 0.5 * 4) / (1 + 0.5 + 0.5)));
+  errors.fade(0.25F);
+  CHECK(errors.near(at(5, 5)).rays == Approx((2 * 10 + 1 + 0.5 * 2) / (2 + 1 + 0.5 * 0.5)));  // as likely
+  errors.note(at(5, 5), 0.01F, 20);
+  errors.start_round();
+  CHECK(errors.near(at(5, 5)).rays == Approx((2 * (2.5 + 20) + 0.25 + 0.25) / (2 * 1.25 + 0.25 + 0.0625)));
 }
 
 }  // namespace pprt::learning_test

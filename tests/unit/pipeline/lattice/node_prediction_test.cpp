@@ -1,6 +1,7 @@
 // What predicts a node, and how: every side and corner of a square counts alike.
 #include "pipeline/lattice/node_prediction.h"
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
@@ -88,6 +89,69 @@ TEST_CASE("lattice prediction: a lattice that is turned or mirrored predicts the
       for (const LatticeNode& node : {center, middle})
         CHECK(other.predicted(turned(node, way)) == Approx(as_is.predicted(node)).epsilon(1e-5));
     }
+  }
+}
+
+// A disc, primitive 2, before a wall, primitive 1.
+PrimitiveShapes disc_before_wall(double radius) {
+  const auto project = [=](std::uint32_t primitive, ImageShape& shape) {
+    constexpr double kNear = 1e-6, kPlace = 32;
+    constexpr float kFar = 1e9F;
+    shape.facets.clear();
+    if (primitive == 1) {
+      shape.kind = ImageShape::Kind::kFacets;
+      shape.facets = {{{{{1, 0, 0}, {1, 0, 0}, {1, 0, 0}}}, {1, 0, 0}, {-kFar, -kFar, kFar, kFar}}};
+      return;
+    }
+    shape.kind = ImageShape::Kind::kQuadric;
+    shape.quadric.discriminant = {kNear * (radius * radius - 2 * kPlace * kPlace),
+                                  kNear * 2 * kPlace,
+                                  kNear * 2 * kPlace,
+                                  -kNear,
+                                  0,
+                                  -kNear};
+    shape.quadric.middle = {-2, 0, 0};
+  };
+  return {project, 2};
+}
+
+TEST_CASE(
+    "lattice prediction: only the nodes on the surface seen tell what is expected, and how far they differ") {
+  // The corners of a square whose centre shows the disc; of these one lies on it, three or all.
+  struct Case {
+    double radius;
+    std::size_t on_disc;
+    Basis basis;
+  };
+  for (const Case& c : {Case{6, 1, Basis::kOne}, {9, 3, Basis::kSome}, {20, 4, Basis::kAllAround}}) {
+    constexpr int kSide = 64 * kPixelSide;
+    LatticeStore store(64, 64);
+    VisibilityBuffer visibility(64, 64, disc_before_wall(c.radius));
+    SurfaceSamples surfaces(kSide, kSide);
+    LocalErrors errors(kSide, kSide);
+    SurfaceShare share;
+    NodePredictor predictor(store, visibility, surfaces, errors, share);
+    const std::array<float, 4> colors = {0.25F, 0.5F, 0.625F, 1};
+    const std::array<LatticeNode, 4> corners = {{{kMiddle, kMiddle},
+                                                 {kMiddle + kBaseSide, kMiddle},
+                                                 {kMiddle, kMiddle + kBaseSide},
+                                                 {kMiddle + kBaseSide, kMiddle + kBaseSide}}};
+    float sum = 0, squares = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const bool is_on_disc = i < c.on_disc;
+      store.set_sample(corners[i], NodeValue(float4{colors[i]}, visibility.surface_of(is_on_disc ? 2 : 1)));
+      if (is_on_disc) sum += colors[i], squares += colors[i] * colors[i];
+    }
+    const LatticeNode center{kMiddle + kBaseSide / 2, kMiddle + kBaseSide / 2};
+    const Prediction found = predictor.predict(center, predictor.around(center, level_of(center)));
+    const auto count = static_cast<float>(c.on_disc);
+    INFO("radius " << c.radius);
+    CHECK((found.basis == c.basis && found.value.surface() == visibility.surface_of(2)));
+    CHECK(found.on_surface[0] == Approx(sum / count));
+    CHECK(found.around[0] == Approx((colors[0] + colors[1] + colors[2] + colors[3]) / 4));
+    CHECK(found.variance == Approx((squares / count - sum / count * sum / count) / 3).margin(1e-6));
+    CHECK(found.value.channels()[0] == Approx(found.around[0] + share.of(c.basis, errors.near(center).level) *
+                                                                    (found.on_surface[0] - found.around[0])));
   }
 }
 

@@ -6,8 +6,11 @@
 #include <string>
 #include <thread>
 
+#include "image/contact_sheet.h"
+#include "image/image_io.h"
 #include "parser/nff_parser.h"
 #include "unit/image/temporary_directory.h"
+#include "unit/render/records/printed_text.h"
 
 namespace pprt::frame_recorder_test {
 namespace {
@@ -94,6 +97,61 @@ TEST_CASE("a frame is missed as soon as one of its files is removed") {
   fs::remove(second);
   for (const int number : {2, 3}) run.record(recorder, number);
   CHECK_THROWS_WITH(recorder.finish(false), "of 3 frames written, 1 are not there any more");
+}
+
+TEST_CASE("frames that the manifest does not tell of do not count as written") {
+  ThreeFrames run;
+  ProgressReporter told(ProgressKind::kAuto);
+  const std::string text = printed_by([&] {
+    FrameRecorder recorder({run.plan, 1, "hash"}, run.scene, told);
+    fs::rename(run.directory.path() / "out/manifest.ndjson", run.directory.path() / "elsewhere");
+    for (const int number : {1, 2, 3}) run.record(recorder, number);
+    CHECK_THROWS_WITH(recorder.finish(false), Catch::Contains("removed, renamed or replaced"));
+  });
+  CHECK(text.starts_with("failed: 0 of 3 frames in "));
+  for (const int number : {1, 2, 3}) CHECK(fs::exists(run.picture(number)));
+}
+
+TEST_CASE("at the end people are told the first and the last file, in each format") {
+  ThreeFrames run;
+  const std::string second = (run.directory.path() / "out/b%d.png").string();
+  run.plan.output.pictures.push_back(parse_frame_pattern(second, FrameCount::kMany));
+  ProgressReporter told(ProgressKind::kAuto);
+  const std::string text = printed_by([&] {
+    FrameRecorder recorder({run.plan, 1, "hash"}, run.scene, told);
+    for (const int number : {1, 2, 3}) run.record(recorder, number);
+    recorder.finish(false);
+  });
+  const std::string out = (run.directory.path() / "out").string();
+  CHECK(text.starts_with("done: 3 of 3 frames in " + out + "/1.png to " + out + "/3.png, " + out +
+                         "/b1.png to " + out + "/b3.png;"));
+}
+
+TEST_CASE("a contact sheet shows the frames as the first format has them, numbered as they are") {
+  // Stripes of nothing and of four times white: where both are cut to what a display shows their mean is
+  // grey.
+  ThreeFrames run;
+  const std::string second = (run.directory.path() / "out/%d.exr").string();
+  run.plan.output.pictures.push_back(parse_frame_pattern(second, FrameCount::kMany));
+  run.plan.output.contact_sheet = run.directory.path() / "sheet.png";
+  FrameRecorder recorder({run.plan, 1, "hash"}, run.scene, run.progress);
+  const int width = 4 * ContactSheetLayout().thumbnail_width;
+  for (const int number : {1, 2}) {
+    FinishedFrame frame;
+    frame.order.number = number;
+    frame.image = Image(width, 8);
+    for (int y = 0; y < 8; ++y)
+      for (int x = 0; x < width; ++x) frame.image.at(x, y) = Color(x % 2 == 0 ? 0.0F : 4.0F);
+    recorder.record(std::move(frame));
+  }
+  recorder.finish(false);
+  const Image sheet = read_image(run.plan.output.contact_sheet);
+  std::vector<Image> expected;
+  for (const int number : {1, 2})
+    expected.push_back(thumbnail(read_image(run.picture(number)), ContactSheetLayout().thumbnail_width));
+  const std::filesystem::path other = run.directory.path() / "expected.png";
+  write_image(other, contact_sheet(expected, ContactSheetLayout(), std::vector{1, 2}));
+  CHECK(sheet.pixels == read_image(other).pixels);
 }
 
 }  // namespace pprt::frame_recorder_test

@@ -32,6 +32,8 @@ TEST_CASE("a run's key changes with every setting that decides its pictures") {
       [](RenderPlan& p) { p.settings.stop.seconds = 3; },
       [](RenderPlan& p) { p.settings.stop.samples = 3; },
       [](RenderPlan& p) { p.settings.stop.flip = 3; },
+      [](RenderPlan& p) { p.settings.stop.rmse = 3; },
+      [](RenderPlan& p) { p.film_time = 3; },
       [](RenderPlan& p) { p.settings.balance = BalanceMode::kLocal; },
       [](RenderPlan& p) { p.settings.keep_samples = false; },
       [](RenderPlan& p) { p.settings.pixel_rule = PixelRule::kMean; },
@@ -77,6 +79,24 @@ TEST_CASE("the ledger's first record spells choices as the options do") {
   const Json& options = record["options"];
   CHECK((options["balance"] == "none" && options["cast"] == "auto" && options["keep_samples"] == "off"));
   CHECK((options["weights"] == "paper" && options["pixels"] == "center" && options["max_depth"] == 5));
+}
+
+TEST_CASE("the ledger's first record has what ends frames, the measured error with a rate, too") {
+  const auto options = [](double rate) {
+    RenderPlan plan;
+    plan.settings.frames_per_second = rate;
+    plan.settings.stop = {.seconds = 2, .samples = 3, .flip = 0.25, .rmse = 0.5};
+    return run_record({plan, 4, "hash"}, EffectSet())["options"];
+  };
+  const Json still = options(0), moving = options(25);
+  CHECK((still["time"] == 2 && still["samples"] == 3 && still["quality"] == 0.25));
+  CHECK((!moving.contains("time") && !moving.contains("samples") && !moving.contains("quality")));
+  CHECK((still["quality_rmse"] == 0.5 && moving["quality_rmse"] == 0.5));
+  CHECK((moving["fps"] == 25 && !moving.contains("budget") && !moving.contains("film_time")));
+  RenderPlan plan;
+  plan.settings.clock = ClockKind::kWork, plan.settings.budget_units = 7, plan.film_time = 9;
+  const Json film = run_record({plan, 4, "hash"}, EffectSet())["options"];
+  CHECK((film["budget"] == 7 && film["film_time"] == 9 && !film.contains("quality_rmse")));
 }
 
 }  // namespace pprt::run_record_test

@@ -1,13 +1,10 @@
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
-#include <cstdio>
 #include <fstream>
-#include <functional>
 #include <thread>
 
 #include "render/records/ledger.h"
 #include "unit/image/temporary_directory.h"
+#include "unit/render/records/printed_text.h"
 
 namespace pprt::ledger_test {
 namespace {
@@ -41,22 +38,6 @@ std::vector<Measurement> one(Measurement measurement) {
   std::vector<Measurement> result;
   result.push_back(std::move(measurement));
   return result;
-}
-
-// Returns what is printed on standard error meanwhile.
-std::string printed_by(const std::function<void()>& call) {
-  const TemporaryDirectory directory;
-  const std::string path = (directory.path() / "errors").string();
-  std::fflush(stderr);
-  const int own = dup(STDERR_FILENO);
-  std::FILE* file = std::fopen(path.c_str(), "w");
-  dup2(fileno(file), STDERR_FILENO);
-  call();
-  std::fflush(stderr);
-  dup2(own, STDERR_FILENO);
-  close(own), std::fclose(file);
-  std::ifstream in(path);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 }  // namespace

@@ -1,12 +1,47 @@
 #include "render/records/progress.h"
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "unit/render/records/printed_text.h"
 
 namespace pprt::progress_test {
 namespace {
 
 Pace::Time at(double seconds) {
   return Pace::Time(std::chrono::duration_cast<Pace::Time::duration>(std::chrono::duration<double>(seconds)));
+}
+
+using Json = nlohmann::json;
+
+// Frames of 1,234 samples each, so late.
+RunTotals totals_of(const std::vector<double>& late_ms) {
+  RunTotals totals;
+  for (const double late : late_ms) {
+    FrameSummary frame;
+    frame.samples = 1234, frame.late_ms = late;
+    totals.add(frame);
+  }
+  return totals;
+}
+
+// What people are told at the end of a run, who are not at a terminal.
+std::string told_at_end(const RunScope& scope, RunEnd end, int written, const RunTotals& totals) {
+  return printed_by([&] {
+    ProgressReporter reporter(ProgressKind::kAuto);
+    reporter.begin(scope);
+    reporter.finish(end, written, totals, "a.png to b.png");
+  });
+}
+
+std::vector<Json> objects_in(const std::string& text) {
+  std::vector<Json> objects;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) objects.push_back(Json::parse(line));
+  return objects;
 }
 
 }  // namespace
@@ -50,6 +85,145 @@ TEST_CASE("the time left has minutes and seconds, from an hour on with hours") {
   CHECK(minutes(3599.6) == "1:00:00");
   CHECK(minutes(3600 + 15 * 60 + 2) == "1:15:02");
   CHECK(minutes(25 * 3600 + 59) == "25:00:59");
+}
+
+TEST_CASE("at the end people are told how many frames there are, and where") {
+  const RunScope scope{.frames = 5, .width = 64, .height = 64};
+  CHECK(told_at_end(scope, RunEnd::kDone, 5, totals_of({0, 0, 0, 0, 0})) ==
+        "done: 5 of 5 frames in a.png to b.png; 1,234 samples a frame\n");
+  CHECK(told_at_end(scope, RunEnd::kStopped, 2, totals_of({0, 0})) ==
+        "stopped: 2 of 5 frames in a.png to b.png; 1,234 samples a frame\n");
+  CHECK(told_at_end(scope, RunEnd::kFailed, 0, {}) == "failed: 0 of 5 frames in a.png to b.png\n");
+  RunScope resumed = scope;
+  resumed.finished_before = 3;
+  CHECK(told_at_end(resumed, RunEnd::kDone, 2, totals_of({0, 0})) ==
+        "done: 2 of 5 frames (3 were there already) in a.png to b.png; 1,234 samples a frame\n");
+  CHECK(told_at_end({.frames = 1}, RunEnd::kDone, 1, totals_of({0})) ==
+        "done: 1 of 1 frame in a.png to b.png; 1,234 samples\n");
+}
+
+TEST_CASE("at the end of a run with a rate its lateness is told, and its error where it was measured") {
+  RunScope scope{.frames = 3, .frames_per_second = 25, .width = 64, .height = 64};
+  const std::string told = "done: 3 of 3 frames in a.png to b.png; ", samples = "; 1,234 samples a frame\n";
+  CHECK(told_at_end(scope, RunEnd::kDone, 3, totals_of({-12, -5.4, -7})) ==
+        told + "3 on time at 25 frames/s, the slowest 5 ms before its deadline" + samples);
+  CHECK(told_at_end(scope, RunEnd::kDone, 3, totals_of({-12, 3, 2.6})) ==
+        told + "1 on time at 25 frames/s, the slowest 3 ms after its deadline" + samples);
+  scope.film_time = 1.5;
+  CHECK(told_at_end(scope, RunEnd::kDone, 3, totals_of({-12, -5, -7})) ==
+        told + "3 on time within 1.5 s, the slowest 5 ms before its deadline" + samples);
+  RunTotals early = totals_of({-12, -5});
+  FrameSummary frame;
+  frame.samples = 1234, frame.late_ms = -7, frame.effort = 0.25;
+  early.add(frame);
+  CHECK(told_at_end(scope, RunEnd::kDone, 3, early) ==
+        told + "3 on time within 1.5 s, the slowest 5 ms before its deadline; 1,234 samples a frame" +
+            "; good enough after 75 % of the time\n");
+}
+
+TEST_CASE("at the end advice is given where frames were late, but none for a film that has a time") {
+  RunScope scope{.frames = 4, .frames_per_second = 50, .width = 64, .height = 64, .ranks = 2, .cores = 2};
+  const RunTotals late = totals_of({5, 5, 5, -1});
+  CHECK(told_at_end(scope, RunEnd::kDone, 4, late)
+            .ends_with("\nadvice: 3 of 4 frames were late; 95 % of them would not have been at --fps 40; all "
+                       "cores were used; more hosts (--hostfile) help\n"));
+  scope.film_time = 2;
+  CHECK(told_at_end(scope, RunEnd::kDone, 4, late).find("advice") == std::string::npos);
+}
+
+TEST_CASE("programs are told of each frame and of the end, once") {
+  const std::vector<Json> told = objects_in(printed_by([] {
+    ProgressReporter reporter(ProgressKind::kJson);
+    reporter.begin({.frames = 6, .finished_before = 2, .frames_per_second = 25});
+    RunTotals totals;
+    for (const int number : {3, 4}) {
+      FrameSummary frame;
+      frame.number = number, frame.samples = 100, frame.late_ms = number == 3 ? 2.5 : -4;
+      totals.add(frame);
+      reporter.frame_done(frame, totals);
+    }
+    reporter.finish(RunEnd::kStopped, 2, totals, "somewhere");
+    reporter.close(143);
+    reporter.close(143);
+    reporter.fail("too late");
+  }));
+  REQUIRE(told.size() == 3);
+  CHECK((told[0]["event"] == "frame" && told[0]["frame"] == 3 && told[0]["done"] == 1));
+  CHECK((told[0]["there"] == 2 && told[0]["frames"] == 6 && told[0]["on_time"] == 0));
+  CHECK((told[0]["late_ms"] == 2.5 && told[0]["worst_late_ms"] == 2.5));
+  CHECK((told[1]["frame"] == 4 && told[1]["done"] == 2 && told[1]["on_time"] == 1));
+  CHECK((told[1]["late_ms"] == -4 && told[1]["worst_late_ms"] == 2.5));
+  CHECK(told[1]["samples_per_frame"] == 100);
+  const double rate = told[1]["frames_per_second"].get<double>();
+  CHECK(rate > 0);
+  CHECK(told[1]["seconds_left"].get<double>() == Approx(2 / rate));
+  CHECK(told[2] == Json({{"event", "stopped"}, {"done", 2}, {"there", 2}, {"frames", 6}}));
+}
+
+TEST_CASE("programs are told how a run ended by its exit code, or why it failed") {
+  const auto end = [](const std::function<void(ProgressReporter&)>& call) {
+    const std::string text = printed_by([&] {
+      ProgressReporter reporter(ProgressKind::kJson);
+      call(reporter);
+    });
+    return text.empty() ? Json() : Json::parse(text);
+  };
+  CHECK(end([](ProgressReporter& r) { r.close(0); }) == Json({{"event", "done"}}));
+  for (const int code : {1, 2, 3, 128})
+    CHECK(end([=](ProgressReporter& r) { r.close(code); }) == Json({{"event", "failed"}}));
+  CHECK(end([](ProgressReporter& r) { r.close(129); }) == Json({{"event", "stopped"}}));
+  CHECK(end([](ProgressReporter& r) { r.fail("no \xff room"); })["error"].get<std::string>().starts_with(
+      "no "));
+  // Another process has told it, in pieces.
+  const auto overheard = [&](const std::vector<std::string>& pieces) {
+    return end([&](ProgressReporter& r) {
+      for (const std::string& piece : pieces) r.overhear(piece);
+      r.close(1);
+    });
+  };
+  CHECK(overheard({"noise {\"eve", "nt\":\"fai", "led\",\"done\":3}\n"}).is_null());
+  CHECK(overheard({std::string(100, 'x') + "{\"event\":\"done\"" + std::string(100, 'x')}).is_null());
+  CHECK_FALSE(overheard({"{\"event\":\"frame\"}", "{\"event\":\"sampling\"}"}).is_null());
+  for (const ProgressKind quiet : {ProgressKind::kNone, ProgressKind::kAuto}) {
+    CHECK(printed_by([&] {
+            ProgressReporter reporter(quiet);
+            reporter.fail("why");
+            reporter.close(1);
+          }).empty());
+  }
+}
+
+TEST_CASE("a line for people tells where a run is, as fast as it is and how late") {
+  const auto line = [](const RunScope& scope, const RunTotals& totals) {
+    const std::string text = printed_by([&] {
+      ProgressReporter reporter(ProgressKind::kAuto);
+      reporter.begin(scope);
+      reporter.status(totals);
+    });
+    return text.substr(0, text.rfind("  "));
+  };
+  RunScope scope{.frames = 9, .finished_before = 2};
+  CHECK(line(scope, {}) == "frame 2 of 9");
+  CHECK(line(scope, totals_of({0})) == "frame 3 of 9  0.00/s  1,234 samples a frame  0:00 left");
+  scope.frames_per_second = 25;
+  CHECK(line(scope, totals_of({-3.2, -1.4})) ==
+        "frame 4 of 9  0.00 of 25/s  worst 1 ms early  1,234 samples a frame  0:00 left");
+  CHECK(line(scope, totals_of({-3, 7.7})) ==
+        "frame 4 of 9  0.00 of 25/s  worst 8 ms late  1,234 samples a frame  0:00 left");
+  CHECK(line({.frames = 1}, totals_of({0})) == "frame 1 of 1  0.00/s  1,234 samples  0:00 left");
+}
+
+TEST_CASE("numbers of samples are grouped by thousands") {
+  for (const auto& [samples, text] : {std::pair<std::uint64_t, const char*>(0, "; 0 samples"),
+                                      {999, "; 999 samples"},
+                                      {1000, "; 1,000 samples"},
+                                      {1234567, "; 1,234,567 samples"}}) {
+    RunTotals totals;
+    FrameSummary frame;
+    frame.samples = samples;
+    totals.add(frame);
+    CHECK(told_at_end({.frames = 1}, RunEnd::kDone, 1, totals).find(text) != std::string::npos);
+  }
 }
 
 }  // namespace pprt::progress_test

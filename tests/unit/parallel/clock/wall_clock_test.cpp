@@ -1,0 +1,284 @@
+// The wall clock on a time that the test sets: nothing here depends on how busy the machine is.
+#include "parallel/clock/wall_clock.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+namespace pprt::wall_clock_test {
+namespace {
+
+constexpr double kPeriod = 0.1;
+constexpr double kPixelsPerSample = 8;  // that take as long to reconstruct
+
+// A rank's clock and the time that it tells.
+struct Timed {
+  explicit Timed(double ranks_per_core = 1, bool refreshes_in_parts = false, double period_s = kPeriod)
+      : clock(sequence, period_s, ranks_per_core, refreshes_in_parts) {
+    sequence.begin(0);
+  }
+
+  // Begins a frame now. Its deadline and reserve are seconds; `change` makes it special.
+  void begin(double deadline_s, double reserve_s = 0, Carry carry = Carry::kNothing, double periods = 1,
+             double effort = 1) {
+    FrameOrder order;
+    order.deadline_s = deadline_s, order.reserve_s = reserve_s, order.carry = carry;
+    order.periods = periods, order.effort = effort;
+    clock.begin_frame(order);
+  }
+
+  // A frame of this many samples whose reconstruction has taken so many milliseconds.
+  void reconstruct(std::uint64_t samples, double ms, double share = 1) {
+    clock.begin_packet(samples);
+    clock.end_frame(ms, share);
+  }
+
+  double now = 0;
+  SequenceClock sequence{[this] { return now; }};
+  WallClock clock;
+};
+
+// Counts the samples of a packet that has begun, until it is over; at most so many.
+int samples_of_packet(WallClock& clock, int most = 1000) {
+  int samples = 0;
+  while (samples < most && !clock.packet_over()) ++samples;
+  return samples;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "set wall clock: a frame may begin when its order says so, on shared cores a period before its end") {
+  FrameOrder order;
+  order.deadline_s = 1, order.not_before_s = 0.85, order.periods = 1;
+  const auto begins_at = [&](double ranks_per_core) {
+    Timed timed(ranks_per_core);
+    for (int ms = 0; ms < 2000; ++ms) {
+      timed.now = 1e-3 * ms + 1e-9;
+      if (timed.clock.may_begin(order)) return ms;
+    }
+    return -1;
+  };
+  CHECK(begins_at(1) == 850);
+  CHECK(begins_at(2) == 900);
+  order.periods = 3;
+  CHECK(begins_at(2) == 850);  // its time has begun at .7
+  order.not_before_s = 0;
+  CHECK(begins_at(2) == 700);
+  CHECK(begins_at(1) == 0);
+}
+
+TEST_CASE(
+    "set wall clock: a frame is past from its deadline on, but not the first, nor one that is awaited") {
+  Timed timed;
+  FrameOrder order;
+  order.deadline_s = 1, order.index = 1;
+  timed.now = 0.999;
+  CHECK_FALSE(timed.clock.is_past(order));
+  timed.now = 1;
+  CHECK(timed.clock.is_past(order));
+  order.is_awaited = true;
+  CHECK_FALSE(timed.clock.is_past(order));
+  order.is_awaited = false, order.index = 0;
+  CHECK_FALSE(timed.clock.is_past(order));
+  order.index = 1, order.deadline_s = 0;
+  CHECK_FALSE(timed.clock.is_past(order));
+}
+
+TEST_CASE("set wall clock: sampling ends by the reserve before the deadline, within bounds") {
+  Timed timed;
+  const auto end_with = [&](double reserve_s, Carry carry, double periods) {
+    timed.begin(1, reserve_s, carry, periods);
+    return timed.clock.sampling_end_seconds();
+  };
+  CHECK(end_with(0.02, Carry::kNothing, 1) == Approx(0.98));
+  CHECK(end_with(0, Carry::kNothing, 1) == Approx(1 - 0.04 * kPeriod));
+  CHECK(end_with(0.5, Carry::kNothing, 1) == Approx(1 - 0.7 * kPeriod));
+  CHECK(end_with(0.5, Carry::kAccumulate, 1) == Approx(1 - kPeriod));
+  CHECK(end_with(0, Carry::kNothing, 2) == Approx(1 - 0.08 * kPeriod));
+  CHECK(end_with(0.5, Carry::kNothing, 2) == Approx(1 - 1.4 * kPeriod));
+}
+
+TEST_CASE("set wall clock: with less effort sampling takes that share of its time") {
+  Timed timed;
+  timed.now = 0.5;
+  timed.begin(1, 0.1, Carry::kAccumulate, 1, 0.25);
+  CHECK(timed.clock.sampling_end_seconds() == Approx(0.5 + 0.25 * 0.4));
+  CHECK(timed.clock.frame_seconds() == Approx(0).margin(1e-12));
+  timed.now = 0.55;
+  CHECK(timed.clock.frame_seconds() == Approx(0.05));
+  timed.now = 0.95;  // late: no time is left
+  timed.begin(1, 0.1, Carry::kAccumulate, 1, 0.25);
+  CHECK(timed.clock.sampling_end_seconds() == Approx(0.95));
+  timed.begin(1, 0.1, Carry::kAccumulate, 1, 1);
+  timed.clock.begin_packet(0);
+  CHECK(timed.clock.sampling_over());
+}
+
+TEST_CASE("set wall clock: a packet has its samples, and ends early when sampling is over") {
+  for (const double ranks_per_core : {1.0, 2.0}) {
+    Timed timed(ranks_per_core);
+    timed.begin(1);
+    const int whole = ranks_per_core > 1 ? 48 : 128;
+    for (int packet = 0; packet < 2; ++packet) {
+      timed.clock.begin_packet(0);
+      CHECK(samples_of_packet(timed.clock) == whole);
+    }
+    timed.clock.begin_packet(0);
+    timed.now = 2;
+    CHECK(samples_of_packet(timed.clock) < 8);  // the time is looked at so often
+    timed.clock.begin_packet(0);                // a new picture gets some all the same
+    CHECK(samples_of_packet(timed.clock) < 8);
+    CHECK(timed.clock.sampling_over());
+  }
+  Timed without_rate(1, false, 0);
+  without_rate.begin(0);
+  without_rate.now = 1e6;
+  without_rate.clock.begin_packet(0);
+  CHECK(samples_of_packet(without_rate.clock) == 128);
+}
+
+TEST_CASE("set wall clock: a share of the sampling time has passed, counted from its first packet") {
+  Timed timed;
+  timed.begin(1, 0.1, Carry::kAccumulate);
+  timed.now = 0.4;
+  timed.clock.begin_packet(100);  // until then it was cast
+  CHECK(timed.clock.sampling_share() == Approx(0.01));
+  timed.now = 0.525;
+  timed.clock.begin_packet(200);
+  CHECK(timed.clock.sampling_share() == Approx(0.25));
+  CHECK(*timed.clock.expected_growth(100, 200) == Approx(1 + 0.5 * 3));
+  CHECK(*timed.clock.expected_growth(150, 200) == Approx(1 + 0.25 * 3));
+  CHECK(*timed.clock.expected_growth(200, 200) == Approx(1));
+  CHECK_FALSE(timed.clock.expected_growth(0, 0));
+  timed.now = 3;
+  CHECK(timed.clock.sampling_share() == 1);
+  // The next frame counts anew.
+  timed.begin(4, 0.1, Carry::kAccumulate);
+  timed.now = 3.45;
+  CHECK(timed.clock.sampling_share() == Approx(0.5));
+}
+
+TEST_CASE("set wall clock: the pace is that of sampling without rest, and follows what is new by a quarter") {
+  Timed timed;
+  const auto sample = [&](double prepare_s, double took_s, double rested_s, double units) {
+    timed.begin(timed.now + 1);
+    timed.now += prepare_s;
+    timed.clock.rested(prepare_s);  // before sampling: does not count
+    timed.clock.begin_packet(0);
+    timed.now += 0.5 * took_s;
+    CHECK(timed.clock.rested(rested_s) == Approx(1e3 * rested_s));
+    timed.clock.begin_packet(0);
+    timed.now += 0.5 * took_s;
+    timed.clock.end_sampling(units);
+    return timed.clock.pace();
+  };
+  CHECK(timed.clock.pace() == 1);
+  CHECK(sample(0.1, 0.003, 0.001, 1.9e5) == 1);  // too little work to learn from
+  CHECK(sample(0.1, 0.003, 0.001, 1e6) == Approx(2));
+  CHECK(sample(0.1, 0.007, 0.001, 1e6) == Approx(2 + 0.25 * 4));
+  CHECK(sample(0.1, 0.001, 0, 1e6) == Approx(3 - 0.25 * 2));
+  CHECK(sample(0.1, 1, 0, 1.9e5) == Approx(2.5));
+}
+
+TEST_CASE("set wall clock: work is affordable by its price, the frame's time and the ranks of a core") {
+  for (const double periods : {1.0, 2.0}) {
+    for (const double ranks_per_core : {1.0, 4.0}) {
+      Timed timed(ranks_per_core);
+      timed.begin(1, 0, Carry::kNothing, periods);
+      const double rays = 0.25 * periods * kPeriod * 1e9 / static_cast<double>(price(Work::kRay));
+      CHECK(timed.clock.affordable(Work::kRay, 0.25) ==
+            static_cast<std::size_t>(std::floor(rays / ranks_per_core)));
+    }
+  }
+}
+
+TEST_CASE("set wall clock: reconstruction is expected by samples and pixels, by the slowest of eight") {
+  Timed timed(2);
+  timed.clock.region_changed(static_cast<std::size_t>(kPixelsPerSample * 100));
+  timed.begin(1, 0.01);
+  timed.reconstruct(300, 4, 0.5);  // half the region: all of it would have taken eight
+  const double each_s = 0.008 / 400;
+  const auto left_with = [&](std::uint64_t samples) {
+    timed.clock.begin_packet(samples);
+    return 1 - timed.clock.sampling_end_seconds();
+  };
+  CHECK(left_with(300) == Approx(0.01 + 1.25 * 2 * each_s * 400));
+  CHECK(left_with(900) == Approx(0.01 + 1.25 * 2 * each_s * 1000));
+  timed.reconstruct(300, 100, 0);  // of nothing: nothing is learned
+  CHECK(left_with(300) == Approx(0.01 + 1.25 * 2 * each_s * 400));
+  for (int frame = 0; frame < 7; ++frame) timed.reconstruct(300, 1, 1);
+  CHECK(left_with(300) == Approx(0.01 + 1.25 * 2 * each_s * 400));
+  timed.reconstruct(300, 1, 1);
+  CHECK(left_with(300) == Approx(0.01 + 1.25 * 2 * 0.001));
+}
+
+TEST_CASE("set wall clock: a resting picture in parts leaves at most 35 % of the time for them") {
+  for (const bool rests : {true, false}) {
+    Timed timed(1, true);
+    timed.begin(1, 0.01, rests ? Carry::kAccumulate : Carry::kNothing);
+    timed.reconstruct(1000, 40);
+    timed.begin(1, 0.01, rests ? Carry::kAccumulate : Carry::kNothing);
+    timed.clock.begin_packet(1000);
+    CHECK(1 - timed.clock.sampling_end_seconds() == Approx(0.01 + (rests ? 0.35 * kPeriod : 1.25 * 0.04)));
+    CHECK_FALSE(timed.clock.is_fine_enough());
+  }
+}
+
+TEST_CASE("set wall clock: a part is begun if it would be over in time, were it as long as the one before") {
+  for (const double reserve_s : {0.0, 0.02}) {
+    Timed timed(1, true);
+    timed.begin(1, reserve_s, Carry::kAccumulate);
+    timed.now = 0.9;
+    timed.clock.end_sampling(0);
+    timed.now = 0.93;
+    CHECK_FALSE(timed.clock.reconstruction_over());  // another would end at .96
+    timed.now = 0.95;
+    CHECK_FALSE(timed.clock.reconstruction_over());  // at .97
+    timed.now = 0.972;
+    CHECK(timed.clock.reconstruction_over() ==
+          (reserve_s > 0));  // at .994: .996 is the end without a reserve
+  }
+  Timed moving(1, true);
+  moving.begin(1, 0.02);
+  moving.now = 5;
+  CHECK_FALSE(moving.clock.reconstruction_over());  // it must be whole
+  Timed without_rate(1, true, 0);
+  without_rate.begin(0, 0, Carry::kAccumulate);
+  without_rate.now = 5;
+  CHECK_FALSE(without_rate.clock.reconstruction_over());
+}
+
+TEST_CASE("set wall clock: a resting picture as a whole waits for its turn, and saves the time for it") {
+  Timed timed;
+  timed.begin(1, 0.01, Carry::kAccumulate);
+  timed.reconstruct(1000, 60);  // with a quarter more .75 of the period, of which each frame saves .35
+  std::vector<bool> turns;
+  for (int frame = 0; frame < 7; ++frame) {
+    timed.begin(1, 0.01, Carry::kAccumulate);
+    turns.push_back(!timed.clock.reconstruction_over());
+    timed.clock.begin_packet(1000);
+    CHECK(1 - timed.clock.sampling_end_seconds() == Approx(0.01 + (turns.back() ? 0.075 : 0)));
+  }
+  CHECK(turns == std::vector{false, false, true, false, false, true, false});
+  // Frames that take longer save more.
+  timed.begin(1, 0.01, Carry::kAccumulate, 2);
+  CHECK_FALSE(timed.clock.reconstruction_over());
+}
+
+TEST_CASE("set wall clock: a resting picture is fine enough when its reconstruction would fill the frame") {
+  const auto is_fine_enough = [](std::uint64_t samples, Carry carry, bool in_parts, double deadline_s) {
+    Timed timed(1, in_parts);
+    timed.begin(1, 0.02, carry);
+    timed.reconstruct(1000, 40);  // 50 of 100 are expected of as many again
+    timed.begin(deadline_s, 0.02, carry);
+    timed.clock.begin_packet(samples);
+    return timed.clock.is_fine_enough();
+  };
+  CHECK_FALSE(is_fine_enough(1590, Carry::kAccumulate, false, 1));
+  CHECK(is_fine_enough(1610, Carry::kAccumulate, false, 1));
+  CHECK_FALSE(is_fine_enough(1610, Carry::kAccumulate, true, 1));
+  CHECK_FALSE(is_fine_enough(1610, Carry::kNothing, false, 1));
+  CHECK_FALSE(is_fine_enough(1610, Carry::kAccumulate, false, 0));
+}
+
+}  // namespace pprt::wall_clock_test
