@@ -16,9 +16,9 @@
 #include "trace/geometry/numerics.h"
 #include "trace/parts_builder.h"
 #include "trace/projected_textures.h"
-#include "trace/scene_extent.h"
 #include "trace/scene_impl.h"
 #include "trace/shape_bounds.h"
+#include "trace/survey/scene_extent.h"
 
 namespace pprt {
 namespace {

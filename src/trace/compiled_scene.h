@@ -15,7 +15,7 @@
 #include "base/ray_sample.h"
 #include "base/vector.h"
 #include "scene/description/scene_description.h"
-#include "trace/effects.h"
+#include "trace/survey/effects.h"
 
 namespace pprt {
 

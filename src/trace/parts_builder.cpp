@@ -9,7 +9,7 @@
 
 #include "base/diagnostics.h"
 #include "trace/geometry/numerics.h"
-#include "trace/repeats.h"
+#include "trace/survey/repeats.h"
 
 namespace pprt {
 namespace {

@@ -13,8 +13,8 @@
 #include "trace/geometry/mesh.h"
 #include "trace/geometry/normalisation.h"
 #include "trace/geometry/user_geometry.h"
-#include "trace/inventory.h"
 #include "trace/light_contacts.h"
+#include "trace/survey/inventory.h"
 #include "trace/textures/texture_image.h"
 
 namespace pprt {

@@ -26,6 +26,7 @@ for line in \
   "parser/anim: parser/text" \
   "trace/geometry:" \
   "trace/textures: trace/geometry" \
+  "trace/survey: trace/geometry" \
   "pipeline/core:" \
   "pipeline/silhouettes: pipeline/core" \
   "pipeline/casting: pipeline/core" \

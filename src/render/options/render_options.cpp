@@ -14,7 +14,7 @@
 #include "cli/scenes/scene_source.h"
 #include "layers/layer.h"
 #include "parallel/network/process_ranks.h"
-#include "trace/effects.h"
+#include "trace/survey/effects.h"
 
 namespace pprt {
 namespace {

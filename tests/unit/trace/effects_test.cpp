@@ -1,4 +1,4 @@
-#include "trace/effects.h"
+#include "trace/survey/effects.h"
 
 #include <catch2/catch.hpp>
 

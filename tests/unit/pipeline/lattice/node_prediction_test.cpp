@@ -130,7 +130,8 @@ TEST_CASE(
     SurfaceSamples surfaces(kSide, kSide);
     LocalErrors errors(kSide, kSide);
     SurfaceShare share;
-    NodePredictor predictor(store, visibility, surfaces, errors, share);
+    SurfaceTextures textures({}, visibility);
+    NodePredictor predictor(store, visibility, surfaces, errors, share, textures);
     const std::array<float, 4> colors = {0.25F, 0.5F, 0.625F, 1};
     const std::array<LatticeNode, 4> corners = {{{kMiddle, kMiddle},
                                                  {kMiddle + kBaseSide, kMiddle},

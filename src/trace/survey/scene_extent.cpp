@@ -1,4 +1,4 @@
-#include "trace/scene_extent.h"
+#include "trace/survey/scene_extent.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "trace/repeats.h"
+#include "trace/survey/repeats.h"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "scene/description/scene_description.h"
-#include "trace/effects.h"
+#include "trace/survey/effects.h"
 
 namespace pprt {
 

@@ -1,4 +1,4 @@
-#include "trace/effects.h"
+#include "trace/survey/effects.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include "base/diagnostics.h"
 #include "base/nearest_word.h"
 #include "scene/description/shading_rules.h"
-#include "trace/inventory.h"
+#include "trace/survey/inventory.h"
 
 namespace pprt {
 namespace {
