@@ -69,6 +69,7 @@ inline void store_channels(const float4& channels, Color& color) {
 
 // Converts four bytes. By interleaving with zeros: the compiler would convert them one by one.
 inline float4 numbers_of(const std::array<std::uint8_t, kLanes>& bytes) {
+  static_assert(std::endian::native == std::endian::little);
   using SixteenBytes = std::uint8_t __attribute__((vector_size(sizeof(float4))));
   using EightWords = std::uint16_t __attribute__((vector_size(sizeof(float4))));
   const auto in_lane = std::bit_cast<SixteenBytes>(int4{std::bit_cast<std::int32_t>(bytes), 0, 0, 0});

@@ -1,6 +1,7 @@
 #include "trace/projected_textures.h"
 
 #include <algorithm>
+#include <cmath>
 #include <variant>
 
 #include "trace/pose.h"
@@ -75,7 +76,7 @@ std::vector<std::uint8_t> primitives_with_pictures(const CompiledScene::Impl& sc
 // The footprint is a square taken to the picture by the quotients' derivatives in the middle.
 std::optional<Color> ProjectedTexture::over(double x, double y, double side, int per_side) const {
   const double inverse = 1 / w.at(x, y);
-  if (picture == nullptr || !(inverse > 0)) return std::nullopt;
+  if (picture == nullptr || !(inverse > 0) || !std::isfinite(inverse)) return std::nullopt;
   const Vec2d middle(u.at(x, y) * inverse, v.at(x, y) * inverse);
   const double scale = side / per_side * inverse;
   const Vec2d per_x((u.per_x - middle.x * w.per_x) * scale, (v.per_x - middle.y * w.per_x) * scale);
@@ -94,7 +95,7 @@ std::optional<Color> ProjectedTexture::over(double x, double y, double side, int
     for (int i = 0; i < filtered; ++i) {
       const double dx = merged * (i - 0.5 * (filtered - 1)), dy = merged * (j - 0.5 * (filtered - 1));
       const double nearer = 1 + scale * (w.per_x * dx + w.per_y * dy);
-      if (!(nearer > 0)) continue;
+      if (!(nearer > TextureImage::kNearestHorizon)) continue;
       sum += picture->over(footprint, middle + (per_x * dx + per_y * dy) * (1 / nearer));
       ++seen;
     }

@@ -38,7 +38,7 @@ struct Plane {
 };
 // That of the eye, and those of the image's sides, kMargin pixels outwards.
 using ViewPlanes = std::array<Plane, 5>;
-constexpr double kMargin = 16;  // more than the visibility buffer reaches beyond the image, and any rounding
+constexpr double kMargin = 16;  // a lattice reaches eight pixels beyond the image; more than any rounding
 
 class Frame {
  public:

@@ -70,6 +70,7 @@ void Worker::begin_anew(const FrameOrder& order, bool keeps_samples, bool eye_re
 void Worker::begin_picture(int begun_in, bool keep_learned) {
   bundles_.begin_picture(begun_in);
   sampler_.begin_picture(keep_learned);
+  if (!keep_learned) probe_price_ = {};
   picture_.forget();
 }
 

@@ -13,6 +13,7 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -79,6 +80,12 @@ constexpr LatticeLevel level_of(const LatticeNode& node) {
   const int half = 1 << std::countr_zero(static_cast<unsigned>(node.x | node.y));
   const bool is_center = (node.x & half) != 0 && (node.y & half) != 0;
   return {2 * half, is_center ? LatticeKind::kCenter : LatticeKind::kMiddle};
+}
+
+// Returns the side of the square of the image that a sample at a node stands for, pixels.
+inline double footprint_of(const LatticeNode& node) {
+  return is_base(node) ? double{kBaseSide} / kPixelSide
+                       : std::sqrt(static_cast<double>(level_of(node).area()));
 }
 
 // What is seen at a node: colour, linear, and the surface's number (Probe::surfaces).

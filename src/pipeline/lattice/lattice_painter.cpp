@@ -36,8 +36,8 @@ std::array<float, 4> weights_in(const LatticeNode& corner, int side, const Latti
   return {(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v};
 }
 
-float4 in_the_middle(const std::array<float4, 4>& corners) {
-  return ((corners[0] + corners[1]) + (corners[2] + corners[3])) * 0.25F;
+LatticeNode middle_of_pixel(int x, int y) {
+  return {kPixelSide * x + kPixelSide / 2, kPixelSide * y + kPixelSide / 2};
 }
 
 }  // namespace
@@ -71,7 +71,7 @@ void LatticePainter::paint_square(const LatticeNode& corner, int side, const Squ
     if (sees_ && !is_uniform(corner, size)) {
       paint_mixed(corner, side, corners);
     } else if (sees_ && textures_.any() && textures_.has(seen_at(visibility_, corner))) {
-      fill_textured(corner, side, corners);
+      fill_textured({corner, side, corners});
     } else {
       fill(corner, side, corners);
     }
@@ -153,23 +153,25 @@ std::array<SquareCorners, 4> LatticePainter::quarters_within_pixel(const Lattice
 
 // The light on a texture is bilinear, and so is what samples show of the texture itself; the texture is
 // known in each pixel.
-void LatticePainter::fill_textured(const LatticeNode& corner, int side, const SquareCorners& corners) {
-  const std::uint32_t surface = seen_at(visibility_, corner);
-  const Square square{corner, side, corners};
+void LatticePainter::fill_textured(const Square& square) {
+  const SurfaceColors colors = colors_at(square, seen_at(visibility_, square.corner));
+  for_each_pixel(square, [&](int x, int y) {
+    const std::array<float, 4> weights = weights_in(square.corner, square.side, middle_of_pixel(x, y));
+    store_channels(shown_in_pixel(colors, weights, x, y, visibility_.primitive_in_middle(x, y)), pixel(x, y));
+  });
+}
+
+// Returns what a surface shows in a pixel of a square, where it is seen as this primitive.
+float4 LatticePainter::shown_in_pixel(const SurfaceColors& colors, const std::array<float, 4>& weights, int x,
+                                      int y, std::uint32_t primitive) const {
+  if (!textures_.has(colors.surface)) return color_within(colors, weights, TextureFactor{});
+  return color_within(colors, weights, textures_.in_pixel({x + 0.5, y + 0.5}, primitive));
+}
+
+LatticePainter::SurfaceColors LatticePainter::colors_at(const Square& square, std::uint32_t surface) {
   SurfaceColors colors{surface, {}, textures_at(square, surface)};
-  for (std::size_t i = 0; i < 4; ++i) colors.corners[i] = corners[i].channels();
-  const int left = std::max(corner.x / kPixelSide, part_.x0), top = std::max(corner.y / kPixelSide, part_.y0);
-  const int right = std::min((corner.x + side) / kPixelSide, part_.x1);
-  const int bottom = std::min((corner.y + side) / kPixelSide, part_.y1);
-  for (int y = top; y < bottom; ++y) {
-    for (int x = left; x < right; ++x) {
-      const TextureFactor texture =
-          textures_.in_pixel({x + 0.5, y + 0.5}, visibility_.primitive_in_middle(x, y));
-      const auto weights =
-          weights_in(corner, side, {kPixelSide * x + kPixelSide / 2, kPixelSide * y + kPixelSide / 2});
-      store_channels(color_within(colors, weights, texture), pixel(x, y));
-    }
-  }
+  for (std::size_t i = 0; i < 4; ++i) colors.corners[i] = square.corners[i].channels();
+  return colors;
 }
 
 // Returns what a surface shows between the corners of a square: `texture` is that of its texture there.
@@ -255,8 +257,7 @@ float4 LatticePainter::mean_of_refined(const LatticeNode& corner, int side, cons
 float4 LatticePainter::mean_over(const LatticeNode& corner, int side, const SquareCorners& corners) {
   const std::uint32_t surface = corners[0].surface();
   if (!sees_ || !textures_.has(surface)) return mean_of(corners);
-  SurfaceColors colors{surface, {}, textures_at({corner, side, corners}, surface)};
-  for (std::size_t i = 0; i < 4; ++i) colors.corners[i] = corners[i].channels();
+  const SurfaceColors colors = colors_at({corner, side, corners}, surface);
   const Vec2d middle = point_of(corner) + Vec2d(0.5, 0.5) * (static_cast<double>(side) / kPixelSide);
   return color_within(colors, {0.25F, 0.25F, 0.25F, 0.25F},
                       textures_.over(middle, static_cast<double>(side) / kPixelSide, surface));
@@ -271,16 +272,20 @@ float4 LatticePainter::mean_of_mixed(const LatticeNode& corner, const SquareCorn
   summed_ = 0;
   gather(corner, kPixelSide, corners);
   const SeenInPixel seen = seen_in(corner);
-  const LatticeNode middle{corner.x + kPixelSide / 2, corner.y + kPixelSide / 2};
+  const int x = corner.x / kPixelSide, y = corner.y / kPixelSide;
+  constexpr std::array<float, 4> kInTheMiddle = {0.25F, 0.25F, 0.25F, 0.25F};
   float4 mean{};
   for (std::size_t i = 0; i < seen.count; ++i) {
     if (seen.shares[i] <= 0) continue;
     const auto end = sums_.begin() + static_cast<std::ptrdiff_t>(summed_);
     const auto found =
         std::find_if(sums_.begin(), end, [&](const SurfaceSum& s) { return s.surface == seen.surfaces[i]; });
-    const float4 color = found != end ? found->sum * (1 / found->weight)
-                                      : in_the_middle(colors_of(seen.surfaces[i], middle, square).corners);
-    mean += color * seen.shares[i];
+    if (found != end) {
+      mean += found->sum * (seen.shares[i] / found->weight);
+      continue;
+    }
+    const SurfaceColors& colors = colors_of(seen.surfaces[i], middle_of_pixel(x, y), square);
+    mean += shown_in_pixel(colors, kInTheMiddle, x, y, seen.primitives[i]) * seen.shares[i];
   }
   return mean;
 }
@@ -318,15 +323,9 @@ bool LatticePainter::is_uniform(const LatticeNode& corner, int pixels) const {
 void LatticePainter::paint_mixed(const LatticeNode& corner, int side, const SquareCorners& corners) {
   known_colors_ = 0;
   const Square square{corner, side, corners};
-  const int left = std::max(corner.x / kPixelSide, part_.x0), top = std::max(corner.y / kPixelSide, part_.y0);
-  const int right = std::min((corner.x + side) / kPixelSide, part_.x1);
-  const int bottom = std::min((corner.y + side) / kPixelSide, part_.y1);
-  for (int y = top; y < bottom; ++y) {
-    for (int x = left; x < right; ++x) {
-      const LatticeNode at{kPixelSide * x, kPixelSide * y};
-      store_channels(mixed_mean(at, square), pixel(x, y));
-    }
-  }
+  for_each_pixel(square, [&](int x, int y) {
+    store_channels(mixed_mean({kPixelSide * x, kPixelSide * y}, square), pixel(x, y));
+  });
 }
 
 // Returns the surfaces seen at the points of a pixel, its border included, and their shares: points on the
@@ -338,7 +337,8 @@ LatticePainter::SeenInPixel LatticePainter::seen_in(const LatticeNode& corner) c
   const int in_tile_x = visibility_.in_tile(pixel_x), in_tile_y = visibility_.in_tile(pixel_y);
   SeenInPixel found;
   if (seen.is_uniform(in_tile_x, in_tile_y, 1)) {
-    const std::uint16_t number = seen.row(in_tile_y * density)[in_tile_x * density];
+    const std::uint16_t number =
+        seen.row(in_tile_y * density + density / 2)[in_tile_x * density + density / 2];
     found.surfaces[0] = seen.surfaces()[number], found.primitives[0] = seen.primitive(number);
     found.shares[0] = 1;
     found.count = 1;
@@ -377,19 +377,15 @@ void LatticePainter::count_points(const std::uint16_t* first, NumbersInPixel& fo
 // Returns the mean over a pixel of a square: the surfaces seen in it by their shares, each with its colour in
 // the middle.
 float4 LatticePainter::mixed_mean(const LatticeNode& corner, const Square& square) {
-  const LatticeNode middle{corner.x + kPixelSide / 2, corner.y + kPixelSide / 2};
+  const int x = corner.x / kPixelSide, y = corner.y / kPixelSide;
+  const LatticeNode middle = middle_of_pixel(x, y);
   const std::array<float, 4> weights = weights_in(square.corner, square.side, middle);
   const SeenInPixel seen = seen_in(corner);
   float4 sum{};
   for (std::size_t i = 0; i < seen.count; ++i) {
     if (seen.shares[i] <= 0) continue;
     const SurfaceColors& colors = colors_of(seen.surfaces[i], middle, square);
-    if (textures_.has(seen.surfaces[i])) {
-      const TextureFactor texture = textures_.in_pixel(point_of(middle), seen.primitives[i]);
-      sum += color_within(colors, weights, texture) * seen.shares[i];
-      continue;
-    }
-    for (std::size_t k = 0; k < weights.size(); ++k) sum += colors.corners[k] * (weights[k] * seen.shares[i]);
+    sum += shown_in_pixel(colors, weights, x, y, seen.primitives[i]) * seen.shares[i];
   }
   return sum;
 }
@@ -427,19 +423,20 @@ void LatticePainter::find_colors(const LatticeNode& at, const Square& square, Su
     if (on_it[i] > 0) continue;
     const std::size_t beside = i ^ 1U, above = i ^ 2U, across = i ^ 3U;
     const float adjacent = on_it[beside] + on_it[above];
-    const float4 channels =
-        near != nullptr ? near->value.channels()
-        : adjacent > 0
-            ? (corners[beside].channels() * on_it[beside] + corners[above].channels() * on_it[above]) *
-                  (1 / adjacent)
-            : corners[across].channels();
+    const auto beside_it = [&](const auto& value_of) -> float4 {
+      return adjacent > 0
+                 ? (value_of(beside) * on_it[beside] + value_of(above) * on_it[above]) * (1 / adjacent)
+                 : value_of(across);
+    };
+    const float4 channels = near != nullptr ? near->value.channels()
+                                            : beside_it([&](std::size_t k) { return corners[k].channels(); });
     colors.corners[i] += (channels - colors.corners[i]) * share;
     if (!textures_.has(surface)) continue;
+    const TextureFactor texture = near != nullptr
+                                      ? textures_.at(near->node, surface)
+                                      : beside_it([&](std::size_t k) { return colors.textures[k]; });
     colors.textures[i] =
-        near != nullptr ? textures_.at(near->node, surface)
-        : adjacent > 0  ? (colors.textures[beside] * on_it[beside] + colors.textures[above] * on_it[above]) *
-                             (1 / adjacent)
-                       : colors.textures[across];
+        is_known(texture) ? texture * (1 / texture[3]) : TextureFactor{};  // one may be unknown
   }
 }
 

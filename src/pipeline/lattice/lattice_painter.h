@@ -2,6 +2,7 @@
 // corners make of it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "pipeline/core/pixel_block.h"
@@ -32,7 +33,6 @@ class LatticePainter {
  private:
   void paint_square(const LatticeNode& corner, int side, const SquareCorners& corners);
   void fill(const LatticeNode& corner, int side, const SquareCorners& corners);
-  void fill_textured(const LatticeNode& corner, int side, const SquareCorners& corners);
   float4 mean_over(const LatticeNode& corner, int side, const SquareCorners& corners);
   std::array<SquareCorners, 4> quarters(const LatticeNode& corner, int side, const SquareCorners& corners);
   std::array<SquareCorners, 4> quarters_within_pixel(const LatticeNode& corner, int side,
@@ -53,9 +53,21 @@ class LatticePainter {
     int side;
     const SquareCorners& corners;
   };
+  // Calls visit(x, y) for the pixels of a square that are painted.
+  template <class Visit>
+  void for_each_pixel(const Square& square, const Visit& visit) const {
+    const int x = square.corner.x / kPixelSide, y = square.corner.y / kPixelSide;
+    const int size = square.side / kPixelSide;
+    for (int v = std::max(y, part_.y0); v < std::min(y + size, part_.y1); ++v)
+      for (int u = std::max(x, part_.x0); u < std::min(x + size, part_.x1); ++u) visit(u, v);
+  }
+  void fill_textured(const Square& square);
+  SurfaceColors colors_at(const Square& square, std::uint32_t surface);
   const SurfaceColors& colors_of(std::uint32_t surface, const LatticeNode& at, const Square& square);
   void find_colors(const LatticeNode& at, const Square& square, SurfaceColors& colors);
   std::array<TextureFactor, 4> textures_at(const Square& square, std::uint32_t surface);
+  float4 shown_in_pixel(const SurfaceColors& colors, const std::array<float, 4>& weights, int x, int y,
+                        std::uint32_t primitive) const;
   float4 color_within(const SurfaceColors& colors, const std::array<float, 4>& weights,
                       const TextureFactor& texture) const;
   float4 mixed_mean(const LatticeNode& corner, const Square& square);

@@ -10,7 +10,7 @@ namespace pprt {
 namespace {
 
 // In the time of a ray: what a sample takes beside its rays, and a quadric or facet before one was seen.
-constexpr double kRaysOfASample = 5, kFirstPrice = 0.8;
+constexpr double kRaysOfASample = 5, kFirstPrice = 0.4;
 constexpr double kGridShare = 0.35;   // of all samples that the grid may take
 constexpr float kGreatestFall = 3;    // of the threshold, from pass to pass
 constexpr float kShareOfLast = 0.2F;  // that an error of the last picture counts as, of one of this
@@ -55,7 +55,7 @@ void LatticeRefiner::clear() {
   sees_mirrors_ = false;
   time_ = 0, has_seen_ = false, price_of_item_ = kFirstPrice;
   visibility_.limit(VisibilityBuffer::kNoLimit);
-  visibility_.forget(VisibilityBuffer::kFine);
+  forget_visibility(VisibilityBuffer::kFine);
   estimates_.clear();
   share_.clear();
   textures_.clear();
@@ -72,6 +72,7 @@ void LatticeRefiner::restart() {
   if (seeing > 0)
     price_of_item_ = seeing / static_cast<double>(std::max<std::size_t>(visibility_.items_within(), 1));
   errors_.fade(kShareOfLast);
+  textures_.fade(kShareOfLast);
   // Where a sample says little of its surface, as in mirrors, it does not pay to know surfaces.
   constexpr float kMirrors = 0.4F;
   if (share_.of_one() < kMirrors) {
@@ -80,6 +81,11 @@ void LatticeRefiner::restart() {
   }
   forget_samples();
   expect(as_many);
+}
+
+void LatticeRefiner::forget_visibility(const VisibilityBuffer::Fineness& fineness) {
+  visibility_.forget(fineness);
+  textures_.forget();
 }
 
 void LatticeRefiner::forget_samples() {
@@ -276,11 +282,10 @@ void LatticeRefiner::choose_fineness() {
   const VisibilityBuffer::Fineness fineness = per_pixel < kVeryFew ? VisibilityBuffer::kCoarse
                                               : per_pixel < kFew   ? VisibilityBuffer::kMiddle
                                                                    : VisibilityBuffer::kFine;
-  if (fineness != visibility_.fineness()) visibility_.forget(fineness);
+  if (fineness != visibility_.fineness()) forget_visibility(fineness);
   if (sees_mirrors_) return;
   const double time = time_ > 0 ? time_ : (kUsualRays + kRaysOfASample) * samples;
-  const double items = (has_seen_ ? kShareAgain : kShare) * time / price_of_item_;
-  visibility_.limit(static_cast<std::size_t>(items), region().bounds());
+  visibility_.limit((has_seen_ ? kShareAgain : kShare) * time, price_of_item_, region().bounds());
 }
 
 // With many samples a pixel the shares of what is seen in it must not err by more than its colours, nor must

@@ -57,7 +57,7 @@ class LatticeRefiner {
   const Region& region() const { return own_.region(); }
 
   // Projected shapes are of another camera from now on.
-  void camera_changed() { visibility_.forget(), textures_.forget(); }
+  void camera_changed() { forget_visibility(visibility_.fineness()); }
 
   // Tells how many samples more there will be, about. Thresholds are set by it: too few or too many make the
   // picture coarser in one part than in another. Repeat the call on the way. Where it is not repeated as many
@@ -123,6 +123,7 @@ class LatticeRefiner {
 
   void insert_wanted(const RaySample& sample);
   void forget_samples();
+  void forget_visibility(const VisibilityBuffer::Fineness& fineness);
   void begin_square(const LatticeNode& corner);
   void leave_square(const LatticeNode& corner);
   double samples_left() const;

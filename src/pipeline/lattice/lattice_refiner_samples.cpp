@@ -102,7 +102,8 @@ void LatticeRefiner::learn_share(const Wanted& at, const float4& seen) {
 void LatticeRefiner::set_sample(const LatticeNode& node, const NodeValue& value) {
   store_.set_sample(node, value);
   surfaces_.add(node, value);
-  if (visibility_.is_known() && textures_.has(value.surface())) textures_.learn(value, node);
+  // Seeds come before it is settled whether anything is to be seen first.
+  if (has_fineness_ && textures_.has(value.surface()) && visibility_.is_known()) textures_.learn(value, node);
 }
 
 // Looks at the own base squares, tile by tile.

@@ -54,8 +54,7 @@ std::vector<SeedPoint> LatticeSampler::seeds() const {
 }
 
 double LatticeSampler::footprint(const Vec2d& point) const {
-  const LatticeNode node = node_at(point);
-  return is_base(node) ? double{kBaseSide} / kPixelSide : std::sqrt(level_of(node).area());
+  return footprint_of(node_at(point));
 }
 
 bool LatticeSampler::insert(const Sample& sample) {

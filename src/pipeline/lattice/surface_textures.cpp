@@ -14,7 +14,8 @@ TextureFactor SurfaceTextures::of_primitive(std::uint32_t primitive, const Vec2d
 }
 
 TextureFactor SurfaceTextures::over(const Vec2d& point, double side, std::uint32_t surface) const {
-  return of_primitive(visibility_.primitive_at(point, surface), point, side, per_side_);
+  const int per_side = std::max(1, static_cast<int>(per_side_ * side));  // a power of two, too
+  return of_primitive(visibility_.primitive_at(point, surface), point, side, per_side);
 }
 
 TextureFactor SurfaceTextures::in_pixel(const Vec2d& middle, std::uint32_t primitive) const {
@@ -35,8 +36,7 @@ TextureFactor SurfaceTextures::at(const LatticeNode& node, std::uint32_t surface
   Kept& kept = kept_[hash >> 20];
   static_assert(kKept == std::size_t{1} << 12);
   if (kept.node == node && kept.surface == surface) return kept.factor;
-  const double side =
-      is_base(node) ? 1 : std::min(1.0, std::sqrt(static_cast<double>(level_of(node).area())));
+  const double side = std::min(1.0, footprint_of(node));  // as RankSampling::trace
   kept = {node, surface,
           of_primitive(visibility_.primitive_at(point_of(node), surface), point_of(node), side, 1)};
   return kept.factor;

@@ -27,7 +27,7 @@ struct TextureLight {
     products += color * texture * weight, squares += texture * texture * weight;
   }
   float4 with(const float4& usual) const {
-    constexpr float kDoubt = 1e-3F;
+    constexpr float kDoubt = 0.01F;
     return (products + usual * kDoubt) / (squares + kDoubt);
   }
 };
@@ -47,7 +47,7 @@ class SurfaceTextures {
     if (!textures_.are_there.empty()) kept_.resize(kKept);
   }
 
-  // The camera or what it sees has moved.
+  // What is seen is forgotten.
   void forget() { kept_.assign(kept_.size(), {}); }
 
   // Whether there are any in the scene.
@@ -75,8 +75,10 @@ class SurfaceTextures {
 
   // The light on textures, in the mean of all samples.
   void learn(const NodeValue& value, const LatticeNode& node) {
-    all_.add(value.channels(), at(node, value.surface()), 1);
+    constexpr float kMost = 16;  // brighter ones would count alone
+    all_.add(min(value.channels(), float4{} + kMost), at(node, value.surface()), 1);
   }
+  void fade(float share) { all_.products *= share, all_.squares *= share; }
   void update() { usual_ = all_.with(float4{1, 1, 1, 0}); }
   void clear() { all_ = {}, update(); }
   const float4& usual() const { return usual_; }

@@ -40,8 +40,9 @@ VisibilityBuffer::VisibilityBuffer(int right, int bottom, PrimitiveShapes shapes
 
 void VisibilityBuffer::forget(const Fineness& fineness) {
   constexpr std::uint32_t kMost = 1 << 20;
+  was_known_ = has_seen();
   const bool has_shapes = shapes_.project && shapes_.count > 0 && shapes_.count <= kMost;
-  state_ = has_shapes && most_items_ > 0 ? State::kNotAsked : State::kUnknown;
+  state_ = has_shapes && most_rays_ > 0 ? State::kNotAsked : State::kUnknown;
   density_ = fineness.points_per_side, log2_density_ = std::countr_zero(static_cast<unsigned>(density_)),
   share_points_ = fineness.share_points;
   columns_ = (right_ + tile_pixels() - 1) / tile_pixels(),
@@ -50,15 +51,16 @@ void VisibilityBuffer::forget(const Fineness& fineness) {
 }
 
 // Finds the tiles that each primitive may meet. False where a primitive is known to have no shape, or where
-// they are too many: bounding eight primitives costs as much as one of the part of the picture.
+// seeing them would take too long.
 bool VisibilityBuffer::bound_all() {
-  constexpr std::size_t kAtOnce = 1024, kPerItem = 8;
+  constexpr std::size_t kAtOnce = 1024;
+  constexpr double kRaysOfABound = 0.065;  // most are out of view, with others
   items_.clear(), quadrics_.clear(), facets_.clear();
   items_of_.assign(shapes_.count, {});
   bounds_.resize(shapes_.count);
   state_ = State::kKnown;
   std::size_t& items = items_within_;
-  items = 0, trials_ = 0;
+  items = 0, trials_ = tiles_seen_ = 0;
   for (std::size_t first = 0; first < bounds_.size(); first += kAtOnce) {
     const std::span<ShapeBounds> now(bounds_.data() + first, std::min(kAtOnce, bounds_.size() - first));
     if (shapes_.bound) shapes_.bound(static_cast<std::uint32_t>(first), now);
@@ -67,7 +69,8 @@ bool VisibilityBuffer::bound_all() {
         bound_by_projection(static_cast<std::uint32_t>(first + i + 1), now[i]);
       if (meets(now[i].box, within_)) items += now[i].parts;
     }
-    if (items + (shapes_.bound ? first / kPerItem : 0) > most_items_) state_ = State::kUnknown;
+    const double bounding = shapes_.bound ? kRaysOfABound * static_cast<double>(first) : 0;
+    if (bounding + rays_per_item_ * static_cast<double>(items) > most_rays_) state_ = State::kUnknown;
     if (state_ == State::kUnknown) {
       items_.clear(), quadrics_.clear(), facets_.clear();
       return false;
@@ -182,6 +185,7 @@ void VisibilityBuffer::list_items(std::size_t number, VisibleTile& tile) {
 
 void VisibilityBuffer::see(std::size_t number) {
   is_seen_[number] = 1;
+  ++tiles_seen_;
   if (!tiles_[number]) tiles_[number] = std::make_unique_for_overwrite<VisibleTile>();
   VisibleTile& tile = *tiles_[number];
   list_items(number, tile);

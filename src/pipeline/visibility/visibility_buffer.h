@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -77,7 +78,8 @@ struct PrimitiveShapes {
 
 class VisibilityBuffer {
  public:
-  static constexpr std::size_t kNoLimit = ~std::size_t{0}, kMostInPixel = 8;
+  static constexpr std::size_t kMostInPixel = 8;
+  static constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
   // For the points (0, 0) to (right, bottom), pixels.
   VisibilityBuffer(int right, int bottom, PrimitiveShapes shapes);
@@ -98,23 +100,26 @@ class VisibilityBuffer {
   // Shares are counted at so many points of a pixel from now on, a power of two from 16 to 256.
   void count_shares_at(int points) { share_points_ = points; }
 
-  // Counts as not known where more quadrics and facets than this are in a part of the picture: then
-  // rasterising them would take longer than it is worth. 0: they are not even bounded.
-  void limit(std::size_t items, const PixelRect& within) {
-    if (items == 0) state_ = State::kUnknown;
-    most_items_ = items, within_ = within;
+  // Counts as not known where seeing would take more than so many rays' time: for bounding all primitives,
+  // and `per_item` for each quadric and facet that may be in a part of the picture. 0 rays: they are not even
+  // bounded.
+  void limit(double rays, double per_item, const PixelRect& within) {
+    if (rays <= 0) state_ = State::kUnknown;
+    most_rays_ = rays, rays_per_item_ = per_item, within_ = within;
   }
-  void limit(std::size_t items) { limit(items, {0, 0, right_, bottom_}); }
+  void limit(double rays) { limit(rays, 0, {0, 0, right_, bottom_}); }
 
   // Returns how many quadrics and facets limit() counted in its part of the picture.
   std::size_t items_within() const { return items_within_; }
 
-  // Returns what seeing took since all was forgotten, in the time of a ray: for each quadric and facet that
-  // was projected, and for each that was tried in a tile. A count, so that it is the same everywhere.
+  // Returns what seeing took for what is known, or was until it was forgotten, in the time of a ray, less
+  // bounding: for each quadric and facet that was projected, each that was tried in a tile, and each tile.
+  // Counted, so that it is the same everywhere. Measured in tree, teapot and BART's kitchen, all is 5 % to
+  // 25 % less than its instructions.
   double work() const {
-    constexpr double kFacet = 1.2, kQuadric = 2.4, kTrial = 1;
+    constexpr double kFacet = 1.5, kQuadric = 2, kTrial = 0.4, kTile = 75;
     return kFacet * static_cast<double>(facets_.size()) + kQuadric * static_cast<double>(quadrics_.size()) +
-           kTrial * static_cast<double>(trials_);
+           kTrial * static_cast<double>(trials_) + kTile * static_cast<double>(tiles_seen_);
   }
 
   Fineness fineness() const { return {density_, share_points_}; }
@@ -128,8 +133,8 @@ class VisibilityBuffer {
   // That one has no shape may show late: a primitive is projected when a tile that it may meet is asked for.
   bool is_known() { return state_ == State::kKnown || (state_ == State::kNotAsked && bound_all()); }
 
-  // Whether it has been known since it was forgotten.
-  bool has_seen() const { return state_ == State::kKnown; }
+  // Whether it is known, or was until it was forgotten and has not been asked for since.
+  bool has_seen() const { return state_ == State::kKnown || (state_ == State::kNotAsked && was_known_); }
 
   // Returns the tile that holds a pixel. Only if is_known().
   const VisibleTile& tile(int pixel_x, int pixel_y) {
@@ -226,8 +231,10 @@ class VisibilityBuffer {
   int columns_ = 0, rows_ = 0;  // of tiles
   PrimitiveShapes shapes_;
   State state_ = State::kNotAsked;
-  std::size_t most_items_ = kNoLimit, items_within_ = 0;
-  std::size_t trials_ = 0;  // of items in tiles
+  bool was_known_ = false;  // when it was forgotten
+  double most_rays_ = kNoLimit, rays_per_item_ = 0;
+  std::size_t items_within_ = 0;
+  std::size_t trials_ = 0, tiles_seen_ = 0;  // trials of items in tiles
   PixelRect within_;
   std::vector<ShapeBounds> bounds_;  // of each primitive
   std::vector<ItemRange> items_of_;  // of each primitive

@@ -133,7 +133,7 @@ PPRT_CLONED_FOR_WIDE_REGISTERS Color TextureImage::over(const TextureFootprint& 
   return color_of(sum * (1 / static_cast<float>(taps)));
 }
 
-// Two by two places at once. Those behind the horizon do not count.
+// Two by two places at once.
 PPRT_CLONED_FOR_WIDE_REGISTERS Color TextureImage::mean(const Squares& squares) const {
   constexpr double4 kAcross = {0, 1, 0, 1}, kDown = {0, 0, 1, 1};
   const int n = squares.per_side;
@@ -149,13 +149,13 @@ PPRT_CLONED_FOR_WIDE_REGISTERS Color TextureImage::mean(const Squares& squares) 
       const double4 nearer = 1 + squares.recession_x * dx + squares.recession_y * dy, each = 1 / nearer;
       const double4 u = middle.x + (squares.per_x.x * dx + squares.per_y.x * dy) * each;
       const double4 v = middle.y + (squares.per_x.y * dx + squares.per_y.y * dy) * each;
-      if (!any(__builtin_convertvector(nearer <= 0, int4))) {
+      if (!any(__builtin_convertvector(nearer <= kNearestHorizon, int4))) {
         sum += sum_of_four(u, v);
         seen += kLanes;
         continue;
       }
       for (int k = 0; k < kLanes; ++k) {
-        if (!(nearer[k] > 0)) continue;
+        if (!(nearer[k] > kNearestHorizon)) continue;
         sum += lanes_at(levels_.front(), {u[k], v[k]});
         ++seen;
       }

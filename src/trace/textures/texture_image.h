@@ -41,16 +41,20 @@ class TextureImage {
   // mean of anyhow.
   bool resolves(const TextureFootprint& footprint) const { return !(axes_of(footprint).longer > kResolved); }
 
-  // Squares of the image, per_side x per_side of them, an even number, as they lie on the picture: a place in
-  // the middle and the steps from square to square, which shrink by 1 + steps * recession.
+  // Squares of the image, per_side x per_side of them, two or a greater power of two, as they lie on the
+  // picture: a place in the middle and the steps from square to square, which shrink by 1 + steps *
+  // recession.
   struct Squares {
     int per_side;
     Vec2d middle, per_x, per_y;
     double recession_x, recession_y;
   };
 
-  // Returns the mean of the bilinear colours in the middles of squares.
+  // Returns the mean of the bilinear colours in the middles of squares. Those whose steps shrink to less than
+  // kNearestHorizon lie at the horizon or behind it, and do not count.
   Color mean(const Squares& squares) const;
+
+  static constexpr double kNearestHorizon = 1e-6;
 
   // Beyond 4.7 times its breadth, (kMostTaps^2 + 2)^(1/2) / 3^(1/2), a footprint is filtered broader than it
   // is. A choice: docs/decisions/0032-footprints.md.

@@ -104,6 +104,16 @@ TEST_CASE("projected textures: those of what moves are where it is") {
   }
 }
 
+TEST_CASE("projected textures: another camera shows others") {
+  const CompiledScene scene = compiled(squares());
+  Tracer tracer = tracer_of(scene);
+  const Color before = tracer.texture_over(1, 55, 55, 0.05, 1).value();
+  tracer.set_camera(scene.camera(view_from({.9, .3, 3}, {0, 0, 0}, 40, kSize)));
+  const Color after = tracer.texture_over(1, 55, 55, 0.05, 1).value();
+  CHECK(difference(before, after) > 0.01F);
+  CHECK(difference(Tracer(scene, tracer.camera()).texture_over(1, 55, 55, 0.05, 1).value(), after) == 0);
+}
+
 TEST_CASE("projected textures: over a pixel they are the mean of the points in it") {
   const CompiledScene scene = compiled(squares(), 64);  // cells of a texel, narrower than a pixel
   Tracer tracer = tracer_of(scene);
@@ -135,7 +145,14 @@ TEST_CASE("projected textures: behind the eye there is none") {
   CHECK(tracer.texture_over(1, 50, 80, 1, 2).has_value());
   CHECK_FALSE(tracer.texture_over(1, 50, 20, 1, 2).has_value());  // above the horizon
   // A square that the horizon crosses shows what is below it.
-  CHECK(tracer.texture_over(1, 50, 50.2, 1, 4).has_value());
+  Color below(0, 0, 0);
+  for (const double x : {49.625, 49.875, 50.125, 50.375}) {
+    for (const double y : {50.075, 50.325, 50.575})
+      below += tracer.texture_over(1, x, y, 0.25, 1).value() * (1.0F / 12);
+  }
+  const Color shown = tracer.texture_over(1, 50, 50.2, 1, 4).value();
+  CHECK(difference(shown, below) < 0.1F);
+  CHECK(std::isfinite(shown.x + shown.y + shown.z));
 }
 
 }  // namespace pprt::projected_textures_test

@@ -191,9 +191,9 @@ TEST_CASE(
     two.project(primitive, shape);
   };
   VisibilityBuffer buffer(kSize, kSize, {count, 2});
-  buffer.limit(3);
+  buffer.limit(30, 10, {0, 0, kSize, kSize});
   CHECK_FALSE(buffer.is_known());
-  buffer.limit(4);
+  buffer.limit(40, 10, {0, 0, kSize, kSize});
   buffer.forget();
   CHECK(buffer.is_known());
   const int before = asked;
@@ -231,10 +231,10 @@ TEST_CASE("visibility buffer: what is bounded is projected when a tile that it m
   CHECK(wrong == 0);
   CHECK(asked == std::vector<std::uint32_t>{1, 3, 2});
   // The limit is about a part of the picture: four triangles of the first and the third meet it.
-  buffer.limit(3, {0, 0, 20, 20});
+  buffer.limit(30, 10, {0, 0, 20, 20});
   buffer.forget();
   CHECK_FALSE(buffer.is_known());
-  buffer.limit(4, {0, 0, 20, 20});
+  buffer.limit(40, 10, {0, 0, 20, 20});
   buffer.forget();
   CHECK(buffer.is_known());
   // What may be anywhere is projected at once, and whether it has a shape is known then.
