@@ -84,8 +84,7 @@ constexpr LatticeLevel level_of(const LatticeNode& node) {
 
 // Returns the side of the square of the image that a sample at a node stands for, pixels.
 inline double footprint_of(const LatticeNode& node) {
-  return is_base(node) ? double{kBaseSide} / kPixelSide
-                       : std::sqrt(static_cast<double>(level_of(node).area()));
+  return is_base(node) ? double{kBaseSide} / kPixelSide : double{std::sqrt(level_of(node).area())};
 }
 
 // What is seen at a node: colour, linear, and the surface's number (Probe::surfaces).
