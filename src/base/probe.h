@@ -17,9 +17,9 @@ namespace pprt {
 struct PrimitiveTextures {
   // By primitive number, 0 included: whether it shows a picture. Empty: none does.
   std::span<const std::uint8_t> are_there = {};
-  // Returns the factor of a primitive's colours over a square of the image about (x, y), on the primitive's
-  // plane: the mean of per_side x per_side squares that make it up, each filtered over its side. Coordinates
-  // and `side` are pixels; per_side is 1 or a greater power of two. Empty where there is none.
+  // Returns the factor of a primitive's colours over a square of the image about (x, y). It is that of the
+  // primitive's plane, and the mean of per_side x per_side smaller squares. Coordinates and `side`, the whole
+  // square's, are pixels; per_side is 1 or a greater power of two. Empty where there is none.
   std::function<std::optional<Color>(std::uint32_t primitive, double x, double y, double side, int per_side)>
       over = {};
 };

@@ -136,9 +136,7 @@ class Tracer {
   // Returns whether each primitive shows a picture, by the same numbers; empty: none does.
   std::span<const std::uint8_t> primitives_with_pictures() const;
 
-  // Returns what a primitive's picture shows over a square of the image about (x, y), on the plane of the
-  // primitive: the factor of its colours, as the mean of per_side x per_side squares that make it up, each
-  // filtered over its side. Coordinates and `side` are pixels. Empty where there is none.
+  // Returns PrimitiveTextures::over().
   std::optional<Color> texture_over(std::uint32_t primitive, double x, double y, double side, int per_side);
 
   // Projects a primitive of a RaySample to the image, into `shape`, whose storage is reused.

@@ -100,9 +100,9 @@ class VisibilityBuffer {
   // Shares are counted at so many points of a pixel from now on, a power of two from 16 to 256.
   void count_shares_at(int points) { share_points_ = points; }
 
-  // Counts as not known where seeing would take more than so many rays' time: for bounding all primitives,
-  // and `per_item` for each quadric and facet that may be in a part of the picture. 0 rays: they are not even
-  // bounded.
+  // Counts as not known where seeing would take longer than so many rays. All primitives are bounded for it,
+  // and each quadric and facet that may be in a part of the picture takes `per_item` rays. 0 rays: nothing is
+  // even bounded.
   void limit(double rays, double per_item, const PixelRect& within) {
     if (rays <= 0) state_ = State::kUnknown;
     most_rays_ = rays, rays_per_item_ = per_item, within_ = within;
@@ -112,10 +112,10 @@ class VisibilityBuffer {
   // Returns how many quadrics and facets limit() counted in its part of the picture.
   std::size_t items_within() const { return items_within_; }
 
-  // Returns what seeing took for what is known, or was until it was forgotten, in the time of a ray, less
-  // bounding: for each quadric and facet that was projected, each that was tried in a tile, and each tile.
-  // Counted, so that it is the same everywhere. Measured in tree, teapot and BART's kitchen, all is 5 % to
-  // 25 % less than its instructions.
+  // Returns what seeing took, in rays, without bounding. It is of what is known, or was until it was
+  // forgotten. Quadrics and facets count when they are projected and when they are tried in a tile, and each
+  // tile does. Counts are the same everywhere. In tree, teapot and BART's kitchen they are 5 % to 25 % below
+  // instructions.
   double work() const {
     constexpr double kFacet = 1.5, kQuadric = 2, kTrial = 0.4, kTile = 75;
     return kFacet * static_cast<double>(facets_.size()) + kQuadric * static_cast<double>(quadrics_.size()) +

@@ -41,9 +41,8 @@ class TextureImage {
   // mean of anyhow.
   bool resolves(const TextureFootprint& footprint) const { return !(axes_of(footprint).longer > kResolved); }
 
-  // Squares of the image, per_side x per_side of them, two or a greater power of two, as they lie on the
-  // picture: a place in the middle and the steps from square to square, which shrink by 1 + steps *
-  // recession.
+  // Squares of the image as they lie on the picture, per_side x per_side of them: a power of two, at least 2.
+  // Steps lead from the middle to each square. They shrink by 1 + steps * recession.
   struct Squares {
     int per_side;
     Vec2d middle, per_x, per_y;

@@ -151,8 +151,8 @@ TEST_CASE("pass growth: it is what passes made of what they promised, by halves,
   CHECK(growth.get() == 3);
 }
 
-// What is expected before anything is learned, and what samples make of it: a node's factor is the power of
-// 3/4 of the error by its detail, which ten samples of the expected error hold back.
+// A node's factor is the power of 3/4 of the error by its detail. Ten samples of the expected error hold it
+// back at first.
 TEST_CASE("error estimates: a class is expected by its basis and the errors near it, until samples tell") {
   ErrorEstimates estimates;
   const auto octaves = [&](Basis basis, int level) {
