@@ -136,7 +136,7 @@ class Tracer {
   // Returns whether each primitive shows a picture, by the same numbers; empty: none does.
   std::span<const std::uint8_t> primitives_with_pictures() const;
 
-  // Returns PrimitiveTextures::over().
+  // Returns what PrimitiveTextures::over (base/probe.h) says.
   std::optional<Color> texture_over(std::uint32_t primitive, double x, double y, double side, int per_side);
 
   // Projects a primitive of a RaySample to the image, into `shape`, whose storage is reused.
