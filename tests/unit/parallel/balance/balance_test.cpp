@@ -11,21 +11,13 @@
 #include "parallel/balance/local_balance.h"
 #include "parallel/balance/transfer_handshake.h"
 #include "parallel/exchange/samplers.h"
+#include "unit/parallel/balance/halves.h"
 #include "unit/parallel/both_samplers.h"
 #include "unit/parallel/exchange/exchange_ranks.h"
 #include "unit/parallel/virtual_run.h"
 
 namespace pprt::balance_test {
 namespace {
-
-// Two ranks side by side on 8 x 4 tiles of 10 pixels; the left four columns are rank 0's.
-Partition halves() {
-  const TileGrid grid(80, 40, 10);
-  Partition partition{grid, 2, std::vector<std::int32_t>(32), std::vector<std::uint64_t>(32, 0)};
-  for (int tile = 0; tile < 32; ++tile)
-    partition.owner[static_cast<std::size_t>(tile)] = tile % 8 < 4 ? 0 : 1;
-  return partition;
-}
 
 constexpr double kUnlimited = 1e18;
 
@@ -89,7 +81,7 @@ TEST_CASE("local balancing: target qualities are powers of two, at most the qual
 
 TEST_CASE(
     "local balancing: a share of the difference moves, along the border, and the giver stays connected") {
-  const Partition partition = halves();
+  const Partition partition = test::halves();
   const auto offer = [](int) { return TileOffer{100, 10, 0}; };
   const std::vector<int> tiles =
       tiles_to_give({}, partition, 0, 1, {1000, 1, kUnlimited}, offer);  // three tenths: three tiles
@@ -106,7 +98,7 @@ TEST_CASE(
 TEST_CASE(
     "local balancing: a transfer is bounded by what is left to move, the taker's room and a quarter of the "
     "region") {
-  const Partition partition = halves();
+  const Partition partition = test::halves();
   const auto costly = [](int) { return TileOffer{1000, 10, 0}; };
   CHECK(tiles_to_give({}, partition, 0, 1, {1200, 1, kUnlimited}, costly).empty());
   const auto plain = [](int) { return TileOffer{100, 10, 0}; };
@@ -118,7 +110,7 @@ TEST_CASE(
 
 TEST_CASE("local balancing: a tile that costs the taker more than it relieves the giver comes last") {
   const auto offer = [](int tile) { return tile == 19 ? TileOffer{100, 1, 0} : TileOffer{100, 1000, 0}; };
-  const std::vector<int> tiles = tiles_to_give({}, halves(), 0, 1, {400, 1, kUnlimited}, offer);
+  const std::vector<int> tiles = tiles_to_give({}, test::halves(), 0, 1, {400, 1, kUnlimited}, offer);
   REQUIRE(tiles.size() == 1);
   CHECK(tiles[0] == 19);
 }
@@ -126,11 +118,11 @@ TEST_CASE("local balancing: a tile that costs the taker more than it relieves th
 TEST_CASE("local balancing: tiles without cost are given on the way to those that have one") {
   // Only the column behind the border costs anything.
   const auto offer = [](int tile) { return tile % 8 == 2 ? TileOffer{1000, 10, 0} : TileOffer{0, 0, 0}; };
-  CHECK_FALSE(tiles_to_give({}, halves(), 0, 1, {4000, 1, kUnlimited}, offer).empty());
+  CHECK_FALSE(tiles_to_give({}, test::halves(), 0, 1, {4000, 1, kUnlimited}, offer).empty());
 }
 
 TEST_CASE("local balancing: where nothing else differs, the tile goes that shortens the border most") {
-  Partition partition = halves();
+  Partition partition = test::halves();
   constexpr int kSpur = 12;  // its other three sides are the taker's
   partition.owner[kSpur] = 0;
   const LocalBalanceSettings settings{.communication_weight = 0, .shape_weight = 0};
@@ -140,7 +132,7 @@ TEST_CASE("local balancing: where nothing else differs, the tile goes that short
 
 TEST_CASE("local balancing: tiles that the taker knows go first") {
   const auto offer = [](int tile) { return TileOffer{100, 10, tile == 19 ? 10.0 : 0.0}; };
-  const std::vector<int> tiles = tiles_to_give({}, halves(), 0, 1, {400, 1, kUnlimited}, offer);
+  const std::vector<int> tiles = tiles_to_give({}, test::halves(), 0, 1, {400, 1, kUnlimited}, offer);
   REQUIRE(tiles.size() == 1);
   CHECK(tiles[0] == 19);
 }
@@ -202,7 +194,7 @@ TEST_CASE("local balancing: over random regions every transfer leaves the giver 
 }
 
 TEST_CASE("local balancing: regions that touch at a corner only transfer nothing") {
-  Partition partition = halves();
+  Partition partition = test::halves();
   for (int tile = 0; tile < 32; ++tile) {
     partition.owner[static_cast<std::size_t>(tile)] =
         (tile % 8 < 4) == (tile / 8 < 2) ? (tile % 8 < 4 ? 0 : 1) : 2;
@@ -290,7 +282,7 @@ TEST_CASE("local balancing: a rank's future cost is a time, by its pace") {
 }
 
 TEST_CASE("local balancing: what a tile costs is judged by the mean of the giver's and the taker's pace") {
-  const Partition partition = halves();
+  const Partition partition = test::halves();
   const Region own = region_of(partition, 0);
   std::vector<TileWeights> weights(32);
   CostEstimator costs(partition.grid, traits_of(SamplerChoice::kDelaunay).work);

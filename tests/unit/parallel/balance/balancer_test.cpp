@@ -7,6 +7,7 @@
 
 #include "parallel/balance/global_balance.h"
 #include "parallel/exchange/samplers.h"
+#include "unit/parallel/balance/halves.h"
 
 namespace pprt::balancer_test {
 namespace {
@@ -14,18 +15,9 @@ namespace {
 constexpr double kUnlimited = 1e18;
 constexpr double kRays = 50;  // of each sample: what pixels cost is little beside them
 
-// Two ranks side by side on 8 x 4 tiles of 10 pixels; the left four columns are rank 0's.
-Partition halves() {
-  const TileGrid grid(80, 40, 10);
-  Partition partition{grid, 2, std::vector<std::int32_t>(32), std::vector<std::uint64_t>(32, 0)};
-  for (int tile = 0; tile < 32; ++tile)
-    partition.owner[static_cast<std::size_t>(tile)] = tile % 8 < 4 ? 0 : 1;
-  return partition;
-}
-
 // Rank 0's side: one sample in each of its tiles, and weights of mean 4.
 struct Side {
-  Partition partition = halves();
+  Partition partition = test::halves();
   Region own = region_of(partition, 0);
   std::vector<TileWeights> weights = std::vector<TileWeights>(32);
   CostEstimator costs{partition.grid, traits_of(SamplerChoice::kDelaunay).work};
@@ -165,7 +157,7 @@ TEST_CASE("balancer: of few triangles little is certain, and less at the frame's
 TEST_CASE("local balancing: a tile costlier than half as much again as what is to move stays") {
   const auto given = [](double cost) {
     const auto offer = [cost](int) { return TileOffer{cost, 10, 0}; };
-    return tiles_to_give({}, halves(), 0, 1, {1000, 1, kUnlimited}, offer).size();  // 300 are to move
+    return tiles_to_give({}, test::halves(), 0, 1, {1000, 1, kUnlimited}, offer).size();  // 300 are to move
   };
   CHECK(given(449) == 1);
   CHECK(given(451) == 0);
@@ -192,7 +184,7 @@ TEST_CASE("local balancing: grades are the paper's three terms and the shape, by
     };
     const LocalBalanceSettings alike{.shape_weight = 0};
     INFO(why);
-    CHECK(tiles_to_give(alike, halves(), 0, 1, {330, 0.5, 1e5}, offer) == given);
+    CHECK(tiles_to_give(alike, test::halves(), 0, 1, {330, 0.5, 1e5}, offer) == given);
   }
 }
 
@@ -200,7 +192,7 @@ TEST_CASE(
     "local balancing: where nothing else differs, the tile goes that is nearest to the taker's middle") {
   // The taker's tiles lie around one end of the border.
   for (const bool is_top : {true, false}) {
-    Partition partition = halves();
+    Partition partition = test::halves();
     for (int tile = 0; tile < 32; ++tile) {
       const int row = tile / 8;
       if (tile % 8 > 4 && (is_top ? row > 1 : row < 2)) partition.owner[static_cast<std::size_t>(tile)] = 2;

@@ -10,6 +10,8 @@
 #include <set>
 #include <utility>
 
+#include "unit/pipeline/lattice/disc_before_wall.h"
+
 namespace pprt::lattice_refiner_test {
 namespace {
 
@@ -53,26 +55,7 @@ const PrimitiveShapes kNoShapes;
 
 // The shapes of disc(true), the disc to the right of its place by `by` pixels.
 PrimitiveShapes shapes_of_disc(double by) {
-  const auto project = [=](std::uint32_t primitive, ImageShape& shape) {
-    constexpr double kNear = 1e-6;
-    constexpr float kFar = 1e9F;
-    shape.facets.clear();
-    if (primitive == 1) {
-      shape.kind = ImageShape::Kind::kFacets;
-      shape.facets = {{{{{1, 0, 0}, {1, 0, 0}, {1, 0, 0}}}, {1, 0, 0}, {-kFar, -kFar, kFar, kFar}}};
-      return;
-    }
-    const double x = kDiscX + by;
-    shape.kind = ImageShape::Kind::kQuadric;
-    shape.quadric.discriminant = {kNear * (kDiscRadius * kDiscRadius - x * x - kDiscY * kDiscY),
-                                  kNear * 2 * x,
-                                  kNear * 2 * kDiscY,
-                                  -kNear,
-                                  0,
-                                  -kNear};
-    shape.quadric.middle = {-2, 0, 0};
-  };
-  return {project, 2};
+  return test::disc_before_wall(kDiscX + by, kDiscY, kDiscRadius);
 }
 
 // Makes a number of samples, or fewer if it ends. Returns their points.

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <random>
 
+#include "unit/pipeline/lattice/disc_before_wall.h"
+
 namespace pprt::node_prediction_test {
 namespace {
 
@@ -92,29 +94,6 @@ TEST_CASE("lattice prediction: a lattice that is turned or mirrored predicts the
   }
 }
 
-// A disc, primitive 2, before a wall, primitive 1.
-PrimitiveShapes disc_before_wall(double radius) {
-  const auto project = [=](std::uint32_t primitive, ImageShape& shape) {
-    constexpr double kNear = 1e-6, kPlace = 32;
-    constexpr float kFar = 1e9F;
-    shape.facets.clear();
-    if (primitive == 1) {
-      shape.kind = ImageShape::Kind::kFacets;
-      shape.facets = {{{{{1, 0, 0}, {1, 0, 0}, {1, 0, 0}}}, {1, 0, 0}, {-kFar, -kFar, kFar, kFar}}};
-      return;
-    }
-    shape.kind = ImageShape::Kind::kQuadric;
-    shape.quadric.discriminant = {kNear * (radius * radius - 2 * kPlace * kPlace),
-                                  kNear * 2 * kPlace,
-                                  kNear * 2 * kPlace,
-                                  -kNear,
-                                  0,
-                                  -kNear};
-    shape.quadric.middle = {-2, 0, 0};
-  };
-  return {project, 2};
-}
-
 TEST_CASE(
     "lattice prediction: only the nodes on the surface seen tell what is expected, and how far they differ") {
   // The corners of a square whose centre shows the disc; of these one lies on it, three or all.
@@ -126,7 +105,7 @@ TEST_CASE(
   for (const Case& c : {Case{6, 1, Basis::kOne}, {9, 3, Basis::kSome}, {20, 4, Basis::kAllAround}}) {
     constexpr int kSide = 64 * kPixelSide;
     LatticeStore store(64, 64);
-    VisibilityBuffer visibility(64, 64, disc_before_wall(c.radius));
+    VisibilityBuffer visibility(64, 64, test::disc_before_wall(32, 32, c.radius));
     SurfaceSamples surfaces(kSide, kSide);
     LocalErrors errors(kSide, kSide);
     SurfaceShare share;
