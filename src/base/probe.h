@@ -10,6 +10,7 @@
 #include "base/image_shape.h"
 #include "base/ray_counts.h"
 #include "base/ray_sample.h"
+#include "base/unshadowed_light.h"
 
 namespace pprt {
 
@@ -58,6 +59,7 @@ struct Probe {
   // Whether samples depend on `footprint`: the scene has textures.
   bool has_textures = false;
   PrimitiveTextures textures = {};
+  PrimitiveLights lights = {};
 };
 
 }  // namespace pprt

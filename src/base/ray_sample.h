@@ -7,7 +7,9 @@
 
 namespace pprt {
 
-// Which of a scene's first eight lights a point sees: bit i is light i.
+inline constexpr int kNotedLights = 8;  // of a scene, the first ones
+
+// Which of the noted lights a point sees: bit i is light i.
 struct SeenLights {
   std::uint8_t asked = 0;  // the lights before the surface, for which a shadow ray told
   std::uint8_t seen = 0;   // of those, the ones that nothing hides

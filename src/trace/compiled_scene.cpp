@@ -19,6 +19,7 @@
 #include "trace/scene_impl.h"
 #include "trace/shape_bounds.h"
 #include "trace/survey/scene_extent.h"
+#include "trace/unshadowed_lights.h"
 
 namespace pprt {
 namespace {
@@ -301,6 +302,7 @@ CompiledScene compile(const SceneDescription& scene, const CompileOptions& optio
     if (const auto* mesh = std::get_if<Mesh>(&part.shape); mesh != nullptr && part.shapes.empty())
       part.boxes = boxes_of(*mesh);
   impl->with_pictures = primitives_with_pictures(*impl);
+  impl->lit_surfaces = lit_surfaces(*impl);
   build_hierarchy(*impl);
   return CompiledScene(std::move(impl));
 }

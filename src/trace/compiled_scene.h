@@ -13,6 +13,7 @@
 #include "base/image_shape.h"
 #include "base/ray_counts.h"
 #include "base/ray_sample.h"
+#include "base/unshadowed_light.h"
 #include "base/vector.h"
 #include "scene/description/scene_description.h"
 #include "trace/survey/effects.h"
@@ -76,6 +77,7 @@ class CompiledScene {
 
 class Pose;
 class ProjectedTextures;
+class UnshadowedLights;
 
 // Compiles a scene. Throws InputError when it has no visible object or a number that is not finite.
 CompiledScene compile(const SceneDescription& scene, const CompileOptions& options = {});
@@ -139,6 +141,10 @@ class Tracer {
   // Returns what PrimitiveTextures::over (base/probe.h) says.
   std::optional<Color> texture_over(std::uint32_t primitive, double x, double y, double side, int per_side);
 
+  // As PrimitiveLights.
+  std::span<const LitSurface> lit_surfaces() const;
+  void unshadowed_light(std::uint32_t primitive, double x, double y, UnshadowedLight& light);
+
   // Projects a primitive of a RaySample to the image, into `shape`, whose storage is reused.
   void project(std::uint32_t primitive, ImageShape& shape) const;
 
@@ -151,6 +157,7 @@ class Tracer {
   const CompiledScene& scene_;
   std::unique_ptr<Pose> pose_;
   std::unique_ptr<ProjectedTextures> textures_;
+  std::unique_ptr<UnshadowedLights> lights_;
   Camera camera_;
   RayCounts counts_;
 };

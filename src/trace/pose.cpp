@@ -20,8 +20,6 @@ struct Pose::Deforming {
 
 namespace {
 
-constexpr std::size_t kNotedLights = 8;  // see SeenLights
-
 Vec3d in_float(const Vec3d& v) {
   return Vec3d(Vec3f(v));
 }
@@ -219,7 +217,7 @@ void Pose::note_changes(const std::vector<BodyPlace>& before,
   for (std::size_t i = 0; i < own_lights_.size(); ++i) {
     if (own_lights_[i].position == lights_before[i].position) continue;
     any_light_moved_ = true;
-    if (i < kNotedLights) lights_moved_ = static_cast<std::uint8_t>(lights_moved_ | 1U << i);
+    if (i < std::size_t{kNotedLights}) lights_moved_ = static_cast<std::uint8_t>(lights_moved_ | 1U << i);
   }
 }
 
@@ -266,7 +264,7 @@ std::uint8_t Pose::lights_changed_at(const RaySample& sample) const {
   std::uint8_t changed = lights_moved_;
   if (swept_.empty()) return changed;
   const Vec3d hit(sample.hit);
-  for (std::size_t i = 0; i < std::min(lights_.size(), kNotedLights); ++i) {
+  for (std::size_t i = 0; i < std::min(lights_.size(), std::size_t{kNotedLights}); ++i) {
     const auto bit = static_cast<std::uint8_t>(1U << i);
     if ((sample.lights.asked & bit) != 0 && may_be_crossed(hit, lights_[i].position))
       changed = static_cast<std::uint8_t>(changed | bit);

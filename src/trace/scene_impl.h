@@ -110,6 +110,7 @@ class CompiledScene::Impl {
   std::vector<ShadingLight> lights;
   std::vector<std::uint32_t> surfaces;      // connected_surfaces()
   std::vector<std::uint8_t> with_pictures;  // primitives_with_pictures()
+  std::vector<LitSurface> lit_surfaces;     // lit_surfaces()
   std::vector<ScenePart> parts;             // by Embree's geometry number; not moved once Embree reads them
 
   // What moves.

@@ -11,6 +11,7 @@
 #include "trace/scene_impl.h"
 #include "trace/shape_bounds.h"
 #include "trace/textures/ray_cone.h"
+#include "trace/unshadowed_lights.h"
 
 namespace pprt {
 namespace {
@@ -51,6 +52,7 @@ Tracer::Tracer(const CompiledScene& scene, const Camera& camera)
     : scene_(scene),
       pose_(std::make_unique<Pose>(scene.impl())),
       textures_(std::make_unique<ProjectedTextures>()),
+      lights_(std::make_unique<UnshadowedLights>()),
       camera_(camera) {}
 Tracer::Tracer(Tracer&&) noexcept = default;
 Tracer::~Tracer() = default;
@@ -62,6 +64,7 @@ void Tracer::set_camera(const Camera& camera) {
 
 bool Tracer::set_time(double time) {
   textures_->clear();
+  lights_->clear();
   return pose_->set_time(time);
 }
 
@@ -130,6 +133,14 @@ std::span<const std::uint8_t> Tracer::primitives_with_pictures() const {
 std::optional<Color> Tracer::texture_over(std::uint32_t primitive, double x, double y, double side,
                                           int per_side) {
   return textures_->of(*pose_, primitive, camera_).over(x, y, side, per_side);
+}
+
+std::span<const LitSurface> Tracer::lit_surfaces() const {
+  return scene_.impl().lit_surfaces;
+}
+
+void Tracer::unshadowed_light(std::uint32_t primitive, double x, double y, UnshadowedLight& light) {
+  lights_->at(*pose_, primitive, camera_, x, y, light);
 }
 
 void Tracer::project(std::uint32_t primitive, ImageShape& shape) const {

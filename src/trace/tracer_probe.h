@@ -26,6 +26,10 @@ inline Probe probe_of(Tracer& tracer) {
                     [&tracer](std::uint32_t primitive, double x, double y, double side, int per_side) {
                       return tracer.texture_over(primitive, x, y, side, per_side);
                     }};
+  probe.lights = {tracer.lit_surfaces(),
+                  [&tracer](std::uint32_t primitive, double x, double y, UnshadowedLight& light) {
+                    tracer.unshadowed_light(primitive, x, y, light);
+                  }};
   if (tracer.scene().moves()) {
     probe.set_time = [&tracer](double time) { return tracer.set_time(time); };
     probe.carry = [&tracer](RaySample& sample) { return tracer.carry(sample); };

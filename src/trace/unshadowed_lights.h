@@ -1,0 +1,53 @@
+// Direct light where nothing hides it: known of every primitive without a ray.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "base/camera.h"
+#include "base/unshadowed_light.h"
+#include "trace/scene_impl.h"
+
+namespace pprt {
+
+class Pose;
+
+// Returns how primitives are lit, by the number of a RaySample from 0 on. Those with pictures count as not
+// lit.
+std::vector<LitSurface> lit_surfaces(const CompiledScene::Impl& scene);
+
+// Evaluates the kernel's direct light, of all lights at once. Keeps what it has found of the last primitives.
+class UnshadowedLights {
+ public:
+  // Poses have changed.
+  void clear() { is_ready_ = false; }
+
+  // As PrimitiveLights::at.
+  void at(const Pose& pose, std::uint32_t primitive, const Camera& camera, double x, double y,
+          UnshadowedLight& light);
+
+ private:
+  // Four lights.
+  struct Four {
+    double4 x{}, y{}, z{};
+    std::array<float4, kLanes> colors{};
+  };
+  struct Place {
+    std::uint32_t primitive = 0;         // 0: none is kept here
+    const ScenePart* part = nullptr;     // null: the primitive is not in the scene
+    std::uint32_t first = 0, count = 0;  // its own ones in the part
+    float least_cosine = 2;              // from which a highlight counts; above 1: none does
+  };
+
+  void prepare(const Pose& pose);
+  const Place& place_of(const Pose& pose, std::uint32_t primitive);
+
+  bool is_ready_ = false;
+  int count_ = 0;
+  std::array<Four, kNotedLights / kLanes> lights_;
+  std::array<Place, 256> kept_;  // by the last bits of their numbers
+};
+
+}  // namespace pprt
