@@ -28,7 +28,8 @@ SamplerWithExchange make_lattice(const SessionSettings& settings, const Partitio
       .keeps_samples = partition.ranks > 1 || !settings.is_still || settings.report_samples};
   auto sampler = std::make_unique<LatticeSampler>(
       region_of(partition, rank), kOrder, goal,
-      PrimitiveShapes{probe.project, probe.primitives, probe.surfaces, probe.bound}, probe.textures);
+      PrimitiveShapes{probe.project, probe.primitives, probe.surfaces, probe.bound}, probe.textures,
+      probe.lights);
   auto exchange =
       std::make_unique<LatticeExchange>(*sampler, settings.cast != CastChoice::kOff, partition, rank);
   return {std::move(sampler), std::move(exchange)};

@@ -92,17 +92,20 @@ class NodeValue {
  public:
   NodeValue() = default;
   // The last lane of `channels` does not count.
-  NodeValue(const float4& channels, std::uint32_t surface) {
+  NodeValue(const float4& channels, std::uint32_t surface, std::uint8_t lights = 0xFF) {
     int4 bits = std::bit_cast<int4>(channels);
-    bits[3] = std::bit_cast<std::int32_t>(surface);
+    bits[3] = std::bit_cast<std::int32_t>((surface & 0xFFFFFFU) | std::uint32_t{lights} << 24);
     lanes_ = std::bit_cast<float4>(bits);
   }
 
   // Red, green, blue and 0.
   float4 channels() const { return std::bit_cast<float4>(std::bit_cast<int4>(lanes_) & int4{-1, -1, -1, 0}); }
-  std::uint32_t surface() const { return std::bit_cast<std::uint32_t>(std::bit_cast<int4>(lanes_)[3]); }
+  std::uint32_t surface() const { return bits() & 0xFFFFFFU; }
+  std::uint8_t lights() const { return static_cast<std::uint8_t>(bits() >> 24); }
 
  private:
+  std::uint32_t bits() const { return std::bit_cast<std::uint32_t>(std::bit_cast<int4>(lanes_)[3]); }
+
   float4 lanes_;
 };
 

@@ -23,17 +23,17 @@ float4 mean_of(const SquareCorners& corners) {
          0.25F;
 }
 
-std::array<LatticeNode, 4> nodes_of(const LatticeNode& corner, int side) {
-  const auto [x, y] = corner;
-  return {{{x, y}, {x + side, y}, {x, y + side}, {x + side, y + side}}};
-}
-
 // The bilinear weights of a square's corners at a node.
 std::array<float, 4> weights_in(const LatticeNode& corner, int side, const LatticeNode& node) {
   const float per_side = 1 / static_cast<float>(side);
   const float u = static_cast<float>(node.x - corner.x) * per_side;
   const float v = static_cast<float>(node.y - corner.y) * per_side;
   return {(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v};
+}
+
+// Of the pixel with this upper left corner, in the image.
+Vec2d middle_point(const LatticeNode& pixel) {
+  return point_of(pixel) + Vec2d(0.5, 0.5);
 }
 
 LatticeNode middle_of_pixel(int x, int y) {
@@ -68,12 +68,12 @@ void LatticePainter::paint_square(const LatticeNode& corner, int side, const Squ
     return;
   }
   if (!is_refined(corner, side)) {
-    if (sees_ && !is_uniform(corner, size)) {
-      paint_mixed(corner, side, corners);
-    } else if (sees_ && textures_.any() && textures_.has(seen_at(visibility_, corner))) {
-      fill_textured({corner, side, corners});
-    } else {
+    if (!sees_) {
       fill(corner, side, corners);
+    } else if (!is_uniform(corner, size)) {
+      paint_mixed(corner, side, corners);
+    } else {
+      paint_uniform({corner, side, corners});
     }
     return;
   }
@@ -151,50 +151,18 @@ std::array<SquareCorners, 4> LatticePainter::quarters_within_pixel(const Lattice
            {inner, shown[2], shown[3], corners[3]}}};
 }
 
-// The light on a texture is bilinear, and so is what samples show of the texture itself; the texture is
-// known in each pixel.
-void LatticePainter::fill_textured(const Square& square) {
-  const SurfaceColors colors = colors_at(square, seen_at(visibility_, square.corner));
+// A square of whole pixels with samples at its corners only, all of which shows one surface.
+void LatticePainter::paint_uniform(const Square& square) {
+  surfaces_.begin();
+  if (!surfaces_.varies_in(square, seen_at(visibility_, square.corner)))
+    return fill(square.corner, square.side, square.corners);
   for_each_pixel(square, [&](int x, int y) {
-    const std::array<float, 4> weights = weights_in(square.corner, square.side, middle_of_pixel(x, y));
-    store_channels(shown_in_pixel(colors, weights, x, y, visibility_.primitive_in_middle(x, y)), pixel(x, y));
+    const std::uint32_t primitive = visibility_.primitive_in_middle(x, y);
+    const Vec2d middle(x + 0.5, y + 0.5);
+    store_channels(surfaces_.in_pixel(square, {visibility_.surface_of(primitive), primitive, middle}, middle,
+                                      weights_in(square.corner, square.side, middle_of_pixel(x, y))),
+                   pixel(x, y));
   });
-}
-
-// Returns what a surface shows in a pixel of a square, where it is seen as this primitive.
-float4 LatticePainter::shown_in_pixel(const SurfaceColors& colors, const std::array<float, 4>& weights, int x,
-                                      int y, std::uint32_t primitive) const {
-  if (!textures_.has(colors.surface)) return color_within(colors, weights, TextureFactor{});
-  return color_within(colors, weights, textures_.in_pixel({x + 0.5, y + 0.5}, primitive));
-}
-
-LatticePainter::SurfaceColors LatticePainter::colors_at(const Square& square, std::uint32_t surface) {
-  SurfaceColors colors{surface, {}, textures_at(square, surface)};
-  for (std::size_t i = 0; i < 4; ++i) colors.corners[i] = square.corners[i].channels();
-  return colors;
-}
-
-// Returns what a surface shows between the corners of a square: `texture` is that of its texture there.
-float4 LatticePainter::color_within(const SurfaceColors& colors, const std::array<float, 4>& weights,
-                                    const TextureFactor& texture) const {
-  float4 color{}, known{};
-  for (std::size_t i = 0; i < 4; ++i) color += colors.corners[i] * weights[i];
-  if (!is_known(texture)) return color;
-  TextureLight light;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const TextureFactor& at = colors.textures[i];
-    known += (is_known(at) ? at : texture) * weights[i];
-    if (is_known(at)) light.add(colors.corners[i], at, weights[i]);
-  }
-  return retextured(color, light.with(textures_.usual()), known, texture);
-}
-
-std::array<TextureFactor, 4> LatticePainter::textures_at(const Square& square, std::uint32_t surface) {
-  const std::array<LatticeNode, 4> nodes = nodes_of(square.corner, square.side);
-  std::array<TextureFactor, 4> found{};
-  for (std::size_t i = 0; i < 4; ++i)
-    if (square.corners[i].surface() == surface) found[i] = textures_.at(nodes[i], surface);
-  return found;
 }
 
 // Bilinear: at the centre of a pixel it is the mean over the pixel.
@@ -243,7 +211,8 @@ void LatticePainter::fill(const LatticeNode& corner, int side, const SquareCorne
 
 // Returns the mean over a pixel or a square of it.
 float4 LatticePainter::mean_of_refined(const LatticeNode& corner, int side, const SquareCorners& corners) {
-  if (side <= finest_side_ || !is_refined(corner, side)) return mean_over(corner, side, corners);
+  if (side <= finest_side_ || !is_refined(corner, side))
+    return sees_ ? surfaces_.mean_over({corner, side, corners}) : mean_of(corners);
   const int half = side / 2;
   const std::array<SquareCorners, 4> parts = quarters_within_pixel(corner, side, corners);
   return (mean_of_refined(corner, half, parts[0]) +
@@ -253,39 +222,26 @@ float4 LatticePainter::mean_of_refined(const LatticeNode& corner, int side, cons
          0.25F;
 }
 
-// The same of a square with samples at its corners only.
-float4 LatticePainter::mean_over(const LatticeNode& corner, int side, const SquareCorners& corners) {
-  const std::uint32_t surface = corners[0].surface();
-  if (!sees_ || !textures_.has(surface)) return mean_of(corners);
-  const SurfaceColors colors = colors_at({corner, side, corners}, surface);
-  const Vec2d middle = point_of(corner) + Vec2d(0.5, 0.5) * (static_cast<double>(side) / kPixelSide);
-  return color_within(colors, {0.25F, 0.25F, 0.25F, 0.25F},
-                      textures_.over(middle, static_cast<double>(side) / kPixelSide, surface));
-}
-
 // Returns the mean over a pixel in which several surfaces are seen: each by its share and by what the samples
 // on it show.
 float4 LatticePainter::mean_of_mixed(const LatticeNode& corner, const SquareCorners& corners) {
-  known_colors_ = 0;
+  surfaces_.begin();
   const Square square{corner, kPixelSide, corners};
   if (!is_refined(corner, kPixelSide)) return mixed_mean(corner, square);
   summed_ = 0;
   gather(corner, kPixelSide, corners);
   const SeenInPixel seen = seen_in(corner);
-  const int x = corner.x / kPixelSide, y = corner.y / kPixelSide;
+  const Vec2d middle = middle_point(corner);
   constexpr std::array<float, 4> kInTheMiddle = {0.25F, 0.25F, 0.25F, 0.25F};
   float4 mean{};
   for (std::size_t i = 0; i < seen.count; ++i) {
     if (seen.shares[i] <= 0) continue;
+    const SeenPrimitive& primitive = seen.primitives[i];
     const auto end = sums_.begin() + static_cast<std::ptrdiff_t>(summed_);
     const auto found =
-        std::find_if(sums_.begin(), end, [&](const SurfaceSum& s) { return s.surface == seen.surfaces[i]; });
-    if (found != end) {
-      mean += found->sum * (seen.shares[i] / found->weight);
-      continue;
-    }
-    const SurfaceColors& colors = colors_of(seen.surfaces[i], middle_of_pixel(x, y), square);
-    mean += shown_in_pixel(colors, kInTheMiddle, x, y, seen.primitives[i]) * seen.shares[i];
+        std::find_if(sums_.begin(), end, [&](const SurfaceSum& s) { return s.surface == primitive.surface; });
+    mean += found != end ? found->sum * (seen.shares[i] / found->weight)
+                         : surfaces_.in_pixel(square, primitive, middle, kInTheMiddle) * seen.shares[i];
   }
   return mean;
 }
@@ -321,7 +277,7 @@ bool LatticePainter::is_uniform(const LatticeNode& corner, int pixels) const {
 
 // The pixels of a square with samples at its corners only, in which several surfaces are seen.
 void LatticePainter::paint_mixed(const LatticeNode& corner, int side, const SquareCorners& corners) {
-  known_colors_ = 0;
+  surfaces_.begin();
   const Square square{corner, side, corners};
   for_each_pixel(square, [&](int x, int y) {
     store_channels(mixed_mean({kPixelSide * x, kPixelSide * y}, square), pixel(x, y));
@@ -336,11 +292,13 @@ LatticePainter::SeenInPixel LatticePainter::seen_in(const LatticeNode& corner) c
   const VisibleTile& seen = visibility_.tile(pixel_x, pixel_y);
   const int in_tile_x = visibility_.in_tile(pixel_x), in_tile_y = visibility_.in_tile(pixel_y);
   SeenInPixel found;
+  const auto primitive = [&](std::uint16_t number, const Vec2d& at) -> SeenPrimitive {
+    return {seen.surfaces()[number], seen.primitive(number), at};
+  };
   if (seen.is_uniform(in_tile_x, in_tile_y, 1)) {
     const std::uint16_t number =
         seen.row(in_tile_y * density + density / 2)[in_tile_x * density + density / 2];
-    found.surfaces[0] = seen.surfaces()[number], found.primitives[0] = seen.primitive(number);
-    found.shares[0] = 1;
+    found.primitives[0] = primitive(number, middle_point(corner)), found.shares[0] = 1;
     found.count = 1;
     return found;
   }
@@ -349,8 +307,8 @@ LatticePainter::SeenInPixel LatticePainter::seen_in(const LatticeNode& corner) c
   density == 2 ? count_points<2>(first, points) : count_points<4>(first, points);
   found.count = points.count, found.shares = points.shares;
   for (std::size_t i = 0; i < found.count; ++i) {
-    found.surfaces[i] = seen.surfaces()[points.numbers[i]];
-    found.primitives[i] = seen.primitive(points.numbers[i]);
+    const Vec2d place = Vec2d(points.places[i]) * (1 / static_cast<double>(density * points.shares[i]));
+    found.primitives[i] = primitive(points.numbers[i], Vec2d(pixel_x, pixel_y) + place);
   }
   if (found.count > 1)
     visibility_.shares(pixel_x, pixel_y, {points.numbers.data(), points.count},
@@ -368,8 +326,13 @@ void LatticePainter::count_points(const std::uint16_t* first, NumbersInPixel& fo
       std::size_t i = 0;
       while (i < found.count && found.numbers[i] != first[x]) ++i;
       if (i == kMostInPixel) continue;
-      if (i == found.count) found.numbers[i] = first[x], found.shares[i] = 0, ++found.count;
-      found.shares[i] += x == 0 || x == kDensity ? down : 2 * down;
+      if (i == found.count) {
+        found.numbers[i] = first[x], found.shares[i] = 0, found.places[i] = Vec2f(0, 0);
+        ++found.count;
+      }
+      const float weight = x == 0 || x == kDensity ? down : 2 * down;
+      found.shares[i] += weight;
+      found.places[i] += Vec2f(static_cast<float>(x), static_cast<float>(y)) * weight;
     }
   }
 }
@@ -377,67 +340,15 @@ void LatticePainter::count_points(const std::uint16_t* first, NumbersInPixel& fo
 // Returns the mean over a pixel of a square: the surfaces seen in it by their shares, each with its colour in
 // the middle.
 float4 LatticePainter::mixed_mean(const LatticeNode& corner, const Square& square) {
-  const int x = corner.x / kPixelSide, y = corner.y / kPixelSide;
-  const LatticeNode middle = middle_of_pixel(x, y);
+  const LatticeNode middle = middle_of_pixel(corner.x / kPixelSide, corner.y / kPixelSide);
   const std::array<float, 4> weights = weights_in(square.corner, square.side, middle);
   const SeenInPixel seen = seen_in(corner);
   float4 sum{};
   for (std::size_t i = 0; i < seen.count; ++i) {
     if (seen.shares[i] <= 0) continue;
-    const SurfaceColors& colors = colors_of(seen.surfaces[i], middle, square);
-    sum += shown_in_pixel(colors, weights, x, y, seen.primitives[i]) * seen.shares[i];
+    sum += surfaces_.in_pixel(square, seen.primitives[i], middle_point(corner), weights) * seen.shares[i];
   }
   return sum;
-}
-
-const LatticePainter::SurfaceColors& LatticePainter::colors_of(std::uint32_t surface, const LatticeNode& at,
-                                                               const Square& square) {
-  for (std::size_t i = 0; i < known_colors_; ++i)
-    if (colors_[i].surface == surface) return colors_[i];
-  if (known_colors_ == colors_.size()) known_colors_ = 0;
-  SurfaceColors& colors = colors_[known_colors_++];
-  colors.surface = surface;
-  find_colors(at, square, colors);
-  return colors;
-}
-
-// A corner on another surface takes the colour of those beside it that lie on this one. Without any it takes
-// that of the corner across, or of a sample near by. SurfaceShare tells how far.
-void LatticePainter::find_colors(const LatticeNode& at, const Square& square, SurfaceColors& colors) {
-  const SquareCorners& corners = square.corners;
-  const std::uint32_t surface = colors.surface;
-  if (textures_.has(surface)) colors.textures = textures_at(square, surface);
-  std::array<float, 4> on_it;
-  float all = 0;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    colors.corners[i] = corners[i].channels();
-    on_it[i] = corners[i].surface() == surface ? 1 : 0;
-    all += on_it[i];
-  }
-  const int level = errors_.near(at).level;
-  const SurfaceSamples::Known* near = all > 0 ? nullptr : surfaces_.nearest(at, surface);
-  if (all == 0 && near == nullptr) return;
-  const float share =
-      share_.of(near != nullptr ? Basis::kNearSample : basis_of(static_cast<std::size_t>(all), 4), level);
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    if (on_it[i] > 0) continue;
-    const std::size_t beside = i ^ 1U, above = i ^ 2U, across = i ^ 3U;
-    const float adjacent = on_it[beside] + on_it[above];
-    const auto beside_it = [&](const auto& value_of) -> float4 {
-      return adjacent > 0
-                 ? (value_of(beside) * on_it[beside] + value_of(above) * on_it[above]) * (1 / adjacent)
-                 : value_of(across);
-    };
-    const float4 channels = near != nullptr ? near->value.channels()
-                                            : beside_it([&](std::size_t k) { return corners[k].channels(); });
-    colors.corners[i] += (channels - colors.corners[i]) * share;
-    if (!textures_.has(surface)) continue;
-    const TextureFactor texture = near != nullptr
-                                      ? textures_.at(near->node, surface)
-                                      : beside_it([&](std::size_t k) { return colors.textures[k]; });
-    colors.textures[i] =
-        is_known(texture) ? texture * (1 / texture[3]) : TextureFactor{};  // one may be unknown
-  }
 }
 
 }  // namespace pprt

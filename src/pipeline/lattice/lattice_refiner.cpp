@@ -15,6 +15,13 @@ constexpr double kGridShare = 0.35;   // of all samples that the grid may take
 constexpr float kGreatestFall = 3;    // of the threshold, from pass to pass
 constexpr float kShareOfLast = 0.2F;  // that an error of the last picture counts as, of one of this
 
+// Returns the SurfaceShare from which it pays to see. Where a sample says little of its surface, as in
+// mirrors, more samples bring more, and most of all where there are few. From ratios of error at equal cost.
+double least_share(double samples_per_pixel) {
+  constexpr double kAtOne = 0.5, kPerHalving = 0.045, kLeast = 0.4, kMost = 0.75;
+  return std::clamp(kAtOne - kPerHalving * std::log2(samples_per_pixel), kLeast, kMost);
+}
+
 // Returns the tiles in bands of two rows. Bands follow each other by steps of the golden section, which fall
 // evenly over the picture.
 std::vector<int> in_scattered_bands(int columns, int rows) {
@@ -35,7 +42,7 @@ std::vector<int> in_scattered_bands(int columns, int rows) {
 }  // namespace
 
 LatticeRefiner::LatticeRefiner(const Region& region, PrimitiveShapes shapes, LatticeOrder order,
-                               PrimitiveTextures textures)
+                               PrimitiveTextures textures, PrimitiveLights lights)
     : order_(order),
       store_(region.grid().width, region.grid().height),
       own_(store_, region),
@@ -45,14 +52,14 @@ LatticeRefiner::LatticeRefiner(const Region& region, PrimitiveShapes shapes, Lat
       unsampled_surfaces_(store_.tile_count()),
       errors_(store_.right(), store_.bottom()),
       textures_(std::move(textures), visibility_),
-      predictor_(store_, visibility_, surfaces_, errors_, share_, textures_),
-      painter_(store_, predictor_, visibility_, surfaces_, errors_, share_, textures_),
+      lights_(std::move(lights), visibility_),
+      predictor_(store_, visibility_, surfaces_, errors_, share_, textures_, lights_),
+      painter_(store_, predictor_, visibility_, {surfaces_, errors_, share_, textures_, lights_}),
       greatest_(static_cast<std::size_t>(store_.tile_count()) * kLatticeLevels.size()) {
   clear();
 }
 
 void LatticeRefiner::clear() {
-  sees_mirrors_ = false;
   time_ = 0, has_seen_ = false, price_of_item_ = kFirstPrice;
   visibility_.limit(VisibilityBuffer::kNoLimit);
   forget_visibility(VisibilityBuffer::kFine);
@@ -73,12 +80,6 @@ void LatticeRefiner::restart() {
     price_of_item_ = seeing / static_cast<double>(std::max<std::size_t>(visibility_.items_within(), 1));
   errors_.fade(kShareOfLast);
   textures_.fade(kShareOfLast);
-  // Where a sample says little of its surface, as in mirrors, it does not pay to know surfaces.
-  constexpr float kMirrors = 0.4F;
-  if (share_.of_one() < kMirrors) {
-    sees_mirrors_ = true;
-    visibility_.limit(0);
-  }
   forget_samples();
   expect(as_many);
 }
@@ -86,6 +87,7 @@ void LatticeRefiner::restart() {
 void LatticeRefiner::forget_visibility(const VisibilityBuffer::Fineness& fineness) {
   visibility_.forget(fineness);
   textures_.forget();
+  lights_.forget();
 }
 
 void LatticeRefiner::forget_samples() {
@@ -275,16 +277,21 @@ void LatticeRefiner::start(const Pass& pass) {
 void LatticeRefiner::choose_fineness() {
   constexpr double kVeryFew = 0.07, kFew = 0.4;  // samples a pixel
   // Of the time of the picture before. What was seen then is seen on for a while: a change flickers.
-  constexpr double kShare = 0.35, kShareAgain = 0.45, kUsualRays = 5;
-  if (std::exchange(has_fineness_, true) || expected_ == 0) return;
+  constexpr double kShare = 0.35, kShareAgain = 0.45, kSeenAgain = 0.1;
+  if (expected_ == 0) return;
   const double samples = static_cast<double>(samples_) + samples_left();
   const double per_pixel = samples / static_cast<double>(region().pixel_count());
   const VisibilityBuffer::Fineness fineness = per_pixel < kVeryFew ? VisibilityBuffer::kCoarse
                                               : per_pixel < kFew   ? VisibilityBuffer::kMiddle
                                                                    : VisibilityBuffer::kFine;
   if (fineness != visibility_.fineness()) forget_visibility(fineness);
-  if (sees_mirrors_) return;
-  const double time = time_ > 0 ? time_ : (kUsualRays + kRaysOfASample) * samples;
+  if (static_cast<double>(share_.of_one()) < least_share(per_pixel) - (has_seen_ ? kSeenAgain : 0)) {
+    visibility_.limit(0);
+    return;
+  }
+  const double a_sample =
+      static_cast<double>(rays_) / static_cast<double>(std::max<std::size_t>(samples_, 1));
+  const double time = time_ > 0 ? time_ : (a_sample + kRaysOfASample) * samples;
   visibility_.limit((has_seen_ ? kShareAgain : kShare) * time, price_of_item_, region().bounds());
 }
 
@@ -302,9 +309,12 @@ void LatticeRefiner::choose_shares() {
 // Takes a whole level, while the levels so far are but a part of all samples to come.
 bool LatticeRefiner::start_grid_pass() {
   if (!std::exchange(has_base_, true)) {
-    choose_fineness();
     start({.first_level = 0, .end_level = 1, .takes_base = true, .takes_all = true});
     return true;
+  }
+  if (!std::exchange(has_fineness_, true)) {
+    learn_from_base();
+    choose_fineness();
   }
   if (has_grid_ || grid_levels_ == kLatticeLevels.size()) return false;
   const LatticeLevel& level = kLatticeLevels[grid_levels_];

@@ -25,6 +25,7 @@
 #include "pipeline/lattice/local_errors.h"
 #include "pipeline/lattice/node_prediction.h"
 #include "pipeline/lattice/pass_growth.h"
+#include "pipeline/lattice/surface_lights.h"
 #include "pipeline/lattice/surface_samples.h"
 #include "pipeline/lattice/surface_textures.h"
 #include "pipeline/lattice/unsampled_surfaces.h"
@@ -42,7 +43,7 @@ class LatticeRefiner {
  public:
   // For a region of an image; its tiles are whole base squares.
   LatticeRefiner(const Region& region, PrimitiveShapes shapes, LatticeOrder order = LatticeOrder::kAdaptive,
-                 PrimitiveTextures textures = {});
+                 PrimitiveTextures textures = {}, PrimitiveLights lights = {});
   LatticeRefiner(const LatticeRefiner&) = delete;
   LatticeRefiner& operator=(const LatticeRefiner&) = delete;
 
@@ -147,6 +148,7 @@ class LatticeRefiner {
   float worth_of(const LatticeNode& node, const LatticeLevel& level);
   float worth_around(const Wanted& at, float squared_error, float variance, Basis basis);
   void learn_share(const Wanted& at, const float4& seen);
+  void learn_from_base();
   void set_sample(const LatticeNode& node, const NodeValue& value);
   void look_for_unsampled();
   void look_for_unsampled(const LatticeNode& square, int tile);
@@ -168,6 +170,7 @@ class LatticeRefiner {
   ErrorEstimates estimates_;
   SurfaceShare share_;
   SurfaceTextures textures_;
+  SurfaceLights lights_;
   NodePredictor predictor_;
   LatticePainter painter_;
 
@@ -178,7 +181,6 @@ class LatticeRefiner {
   std::size_t grid_levels_ = 0;  // taken whole, the base not counted
   bool has_base_ = false, has_grid_ = false;
   bool has_fineness_ = false;
-  bool sees_mirrors_ = false;                      // in the pictures before
   double time_ = 0;                                // that the picture before took, in rays; 0: there was none
   bool has_seen_ = false;                          // the picture before
   double price_of_item_ = 0;                       // of seeing a quadric or facet, in rays

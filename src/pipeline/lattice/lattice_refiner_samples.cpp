@@ -20,9 +20,13 @@ void for_each_corner(const LatticeNode& corner, int side, const Visit& visit) {
   visit(corner.x, corner.y + side), visit(corner.x + side, corner.y + side);
 }
 
+float sum_of_channels(const float4& v) {
+  return v[0] + v[1] + v[2];
+}
+
 float squared_error(const float4& a, const float4& b) {
-  const float4 difference = on_display(a) - on_display(b), squares = difference * difference;
-  return (squares[0] + squares[1] + squares[2]) * (1.0F / 3);
+  const float4 difference = on_display(a) - on_display(b);
+  return sum_of_channels(difference * difference) * (1.0F / 3);
 }
 
 // Below a pixel an error is a part of what the pixel shows.
@@ -70,7 +74,7 @@ void LatticeRefiner::insert_wanted(const RaySample& sample) {
   if (at.is_base) {
     constexpr float kWeight = 0.5F;
     errors_.note(at.node, kUnpredicted, rays, kWeight);
-    set_sample(at.node, NodeValue(seen, visibility_.surface_of(sample.primitive)));
+    set_sample(at.node, NodeValue(seen, visibility_.surface_of(sample.primitive), seen_from(sample.lights)));
     make_candidates(at.node, {2 * kBaseSide, LatticeKind::kMiddle},
                     worth_around(at, kUnpredicted, 0, Basis::kAllAround));
     return;
@@ -81,10 +85,10 @@ void LatticeRefiner::insert_wanted(const RaySample& sample) {
   const float effect = at.area > 0 ? at.area : effect_of(at.level);
   estimates_.learn(class_of(predicted.basis, predicted.variance, near.level),
                    effect * detail_of(predicted.variance), effect * std::sqrt(error));
-  if (predicted.basis != Basis::kAllAround && predicted.basis != Basis::kNothing) learn_share(at, seen);
+  if (is_share_used(predicted)) learn_share(at, seen);
   if (at.area == 0)
     errors_.note(at.node, error, rays);  // others' are no worse for a surface that was not known
-  set_sample(at.node, NodeValue(seen, visibility_.surface_of(sample.primitive)));
+  set_sample(at.node, NodeValue(seen, visibility_.surface_of(sample.primitive), seen_from(sample.lights)));
   if (at.area > 0) return;
   const float worth = worth_around(at, error, predicted.variance, predicted.basis);
   make_candidates(at.node, at.level, worth);
@@ -94,9 +98,42 @@ void LatticeRefiner::insert_wanted(const RaySample& sample) {
 void LatticeRefiner::learn_share(const Wanted& at, const float4& seen) {
   const float4 mean = on_display(at.predicted.around);
   const float4 direction = on_display(at.predicted.on_surface) - mean;
-  const float4 along = (on_display(seen) - mean) * direction, squared = direction * direction;
-  share_.learn(at.predicted.basis, errors_.near(at.node).level, along[0] + along[1] + along[2],
-               squared[0] + squared[1] + squared[2]);
+  share_.learn(at.predicted.basis, errors_.near(at.node).level,
+               sum_of_channels((on_display(seen) - mean) * direction),
+               sum_of_channels(direction * direction));
+}
+
+// How much a sample tells of its surface is known before anything is seen: the corners of base squares are
+// compared with each beside them that lies on the same one. Where a texture or all light is known, one tells
+// all.
+void LatticeRefiner::learn_from_base() {
+  for (const LatticeNode& node : own_.base_nodes()) {
+    const NodeValue* seen = store_.sample_at(node);
+    if (seen == nullptr) continue;
+    const std::uint32_t surface = seen->surface();
+    const bool is_known = lights_.of(surface).is_all || textures_.has(surface);
+    std::array<float4, 4> same;
+    std::size_t on_it = 0, count = 0;
+    float4 sum{};
+    for (int side = 0; side < 4; ++side) {
+      const int step = side % 2 == 0 ? kBaseSide : -kBaseSide;
+      const LatticeNode beside{node.x + (side < 2 ? step : 0), node.y + (side < 2 ? 0 : step)};
+      const NodeValue* other = store_.has(beside) ? store_.sample_at(beside) : nullptr;
+      if (other == nullptr) continue;
+      const float4 color = on_display(other->channels());
+      sum += color, ++count;
+      if (other->surface() == surface) same[on_it++] = color;
+    }
+    if (on_it == count) continue;
+    const float4 mean = sum * (1.0F / static_cast<float>(count));
+    for (std::size_t i = 0; i < on_it; ++i) {
+      const float4 direction = same[i] - mean;
+      const float4 found = is_known ? direction : on_display(seen->channels()) - mean;
+      share_.learn(Basis::kOne, errors_.near(node).level, sum_of_channels(found * direction),
+                   sum_of_channels(direction * direction));
+    }
+  }
+  share_.update();
 }
 
 void LatticeRefiner::set_sample(const LatticeNode& node, const NodeValue& value) {
@@ -197,7 +234,7 @@ bool LatticeRefiner::insert(const Vec2d& point, const RaySample& sample) {
     error = squared_error(seen, at.predicted.value.channels());
   }
   errors_.note(at.node, error, rays);
-  set_sample(at.node, NodeValue(seen, visibility_.surface_of(sample.primitive)));
+  set_sample(at.node, NodeValue(seen, visibility_.surface_of(sample.primitive), seen_from(sample.lights)));
   make_candidates(at.node, at.level, worth_around(at, error, at.predicted.variance, at.predicted.basis));
   return true;
 }

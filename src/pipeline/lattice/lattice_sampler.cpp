@@ -6,8 +6,8 @@
 
 namespace pprt {
 LatticeSampler::LatticeSampler(const Region& region, LatticeOrder order, const Goal& goal,
-                               PrimitiveShapes shapes, PrimitiveTextures textures)
-    : goal_(goal), refiner_(region, std::move(shapes), order, std::move(textures)) {
+                               PrimitiveShapes shapes, PrimitiveTextures textures, PrimitiveLights lights)
+    : goal_(goal), refiner_(region, std::move(shapes), order, std::move(textures), std::move(lights)) {
   if (goal_.keeps_samples) reserve_samples();
 }
 

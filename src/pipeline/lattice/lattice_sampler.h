@@ -21,7 +21,7 @@ class LatticeSampler final : public Sampler {
 
   // The region's tiles are whole base squares.
   LatticeSampler(const Region& region, LatticeOrder order, const Goal& goal, PrimitiveShapes shapes,
-                 PrimitiveTextures textures = {});
+                 PrimitiveTextures textures = {}, PrimitiveLights lights = {});
 
   // Changes which nodes are wanted; keeps all samples.
   void set_region(const Region& region);

@@ -46,18 +46,20 @@ Surroundings NodePredictor::around(const LatticeNode& node, const LatticeLevel& 
   return around;
 }
 
-// `texture`: what that of the surface shows at the node, if it has one.
-template <bool kHasTexture>
+// `color_of`: what a sample on the surface elsewhere shows of it here.
+template <class ColorOfNear>
 Prediction NodePredictor::predict_on(std::uint32_t seen, const LatticeNode& node, const Surroundings& around,
-                                     const TextureFactor& texture) {
+                                     const ColorOfNear& color_of) {
   Prediction found;
   found.around = found.on_surface = around.mean();
   if (!visibility_.is_known() || around.are_on(seen)) {
-    found.value = NodeValue(found.around, seen);
+    found.value = NodeValue(found.around, seen, around[0].lights());
     found.variance = around.variance();
     found.basis = Basis::kAllAround;
     return found;
   }
+  found.is_all = lights_.of(seen).is_all;
+  std::uint8_t lights = around[0].lights();
   Surroundings same;
   for (std::size_t i = 0; i < around.count(); ++i)
     if (around[i].surface() == seen) same.add(around[i], around.node(i));
@@ -65,29 +67,51 @@ Prediction NodePredictor::predict_on(std::uint32_t seen, const LatticeNode& node
     found.variance = same.variance();
     found.basis = basis_of(same.count(), around.count());
     found.on_surface = same.mean();
+    lights = same[0].lights();
   } else if (const SurfaceSamples::Known* near = surfaces_.nearest(node, seen)) {
     found.basis = Basis::kNearSample;
-    found.on_surface = near->value.channels();
-    if (kHasTexture) found.on_surface = textures_.moved(near->value, near->node, texture);
+    found.on_surface = color_of(*near);
+    lights = near->value.lights();
+  } else if (found.is_all) {
+    found.basis = Basis::kShading;
+    found.on_surface = shaded(seen, node, around);
   }
-  const float share = share_.of(found.basis, errors_.near(node).level);
-  found.value = NodeValue(found.around + (found.on_surface - found.around) * share, seen);
+  const float share = found.is_all ? 1 : share_.of(found.basis, errors_.near(node).level);
+  found.value = NodeValue(found.around + (found.on_surface - found.around) * share, seen, lights);
   return found;
 }
 
-// Without visibility all around are taken for one surface.
+// Returns the colour of a surface of which all is known but the lights seen: in the mean they are those of
+// the nodes around.
+float4 NodePredictor::shaded(std::uint32_t surface, const LatticeNode& node, const Surroundings& around) {
+  const UnshadowedLight& light = lights_.at(node, surface);
+  if (!light.is_known) return around.mean();
+  float4 sum{};
+  for (std::size_t i = 0; i < around.count(); ++i) sum += light.of(around[i].lights());
+  return light.unlit + sum * (1.0F / static_cast<float>(around.count()));
+}
+
+Prediction NodePredictor::predict_plain(std::uint32_t seen, const LatticeNode& node,
+                                        const Surroundings& around) {
+  return predict_on(seen, node, around,
+                    [](const SurfaceSamples::Known& near) { return near.value.channels(); });
+}
+
+// Without visibility all around are taken for one surface. Where more is seen of a surface than lights bring,
+// as in mirrors, to know that part is not worth its time here.
 Prediction NodePredictor::predict(const LatticeNode& node, const Surroundings& around) {
-  const bool sees = visibility_.is_known();
-  const std::uint32_t seen = sees ? seen_at(visibility_, node) : around[0].surface();
-  if (sees && textures_.has(seen)) return predict_on_texture(seen, node, around);
-  return predict_on<false>(seen, node, around, TextureFactor{});
+  if (!visibility_.is_known()) return predict_plain(around[0].surface(), node, around);
+  const std::uint32_t seen = seen_at(visibility_, node);
+  if (textures_.has(seen)) return predict_on_texture(seen, node, around);
+  if (lights_.is_curved(seen) && lights_.of(seen).is_all) return predict_in_light(seen, node, around);
+  return predict_plain(seen, node, around);
 }
 
 // What lies around on the texture is taken to where it is wanted: only the light on it is interpolated.
 Prediction NodePredictor::predict_on_texture(std::uint32_t seen, const LatticeNode& node,
                                              const Surroundings& around) {
   const TextureFactor here = textures_.at(node, seen);
-  if (!is_known(here)) return predict_on<false>(seen, node, around, TextureFactor{});
+  if (!is_known(here)) return predict_plain(seen, node, around);
   std::array<TextureFactor, 8> there;
   TextureLight light;
   for (std::size_t i = 0; i < around.count(); ++i) {
@@ -99,7 +123,23 @@ Prediction NodePredictor::predict_on_texture(std::uint32_t seen, const LatticeNo
     return is_known(there[i]) ? retextured(around[i].channels(), of_all, there[i], here)
                               : around[i].channels();
   });
-  return predict_on<true>(seen, node, moved, here);
+  return predict_on(seen, node, moved, [&](const SurfaceSamples::Known& near) {
+    return textures_.moved(near.value, near.node, here);
+  });
+}
+
+// What lies around on the surface is taken to where it is wanted, with the lights that it sees.
+Prediction NodePredictor::predict_in_light(std::uint32_t seen, const LatticeNode& node,
+                                           const Surroundings& around) {
+  const UnshadowedLight& here = lights_.at(node, seen);
+  if (!here.is_known) return predict_plain(seen, node, around);
+  const Surroundings moved = around.with_colors([&](std::size_t i) {
+    return around[i].surface() == seen ? lights_.moved(around[i], around.node(i), here)
+                                       : around[i].channels();
+  });
+  return predict_on(seen, node, moved, [&](const SurfaceSamples::Known& near) {
+    return lights_.moved(near.value, near.node, here);
+  });
 }
 
 NodeValue NodePredictor::kept_prediction(const LatticeNode& corner) {

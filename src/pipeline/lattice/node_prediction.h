@@ -13,6 +13,7 @@
 #include "pipeline/core/display_values.h"
 #include "pipeline/lattice/lattice_store.h"
 #include "pipeline/lattice/local_errors.h"
+#include "pipeline/lattice/surface_lights.h"
 #include "pipeline/lattice/surface_samples.h"
 #include "pipeline/lattice/surface_share.h"
 #include "pipeline/lattice/surface_textures.h"
@@ -44,7 +45,7 @@ class Surroundings {
   Surroundings with_colors(const ColorOf& color_of) const {
     Surroundings changed;
     for (std::size_t i = 0; i < count_; ++i) {
-      const NodeValue value(color_of(i), values_[i].surface());
+      const NodeValue value(color_of(i), values_[i].surface(), values_[i].lights());
       if (i < 4) {
         changed.add(value, nodes_[i]);
         continue;
@@ -88,8 +89,14 @@ struct Prediction {
   NodeValue value;
   float variance = 0;  // mean over the channels of that of the colours on the surface, on the display scale
   Basis basis = Basis::kNothing;
+  bool is_all = false;            // the whole colour is known but for which lights are seen
   float4 around{}, on_surface{};  // the mean of all around, and the colour that those on the surface make
 };
+
+// Whether the colour is made of others' by the SurfaceShare.
+inline bool is_share_used(const Prediction& predicted) {
+  return !predicted.is_all && predicted.basis != Basis::kAllAround && predicted.basis != Basis::kNothing;
+}
 
 // Returns the surface seen at a node. Only if the visibility is known.
 inline std::uint32_t seen_at(VisibilityBuffer& visibility, const LatticeNode& node) {
@@ -104,13 +111,15 @@ inline std::uint32_t seen_at(VisibilityBuffer& visibility, const LatticeNode& no
 class NodePredictor {
  public:
   NodePredictor(LatticeStore& store, VisibilityBuffer& visibility, const SurfaceSamples& surfaces,
-                LocalErrors& errors, const SurfaceShare& share, SurfaceTextures& textures)
+                LocalErrors& errors, const SurfaceShare& share, SurfaceTextures& textures,
+                SurfaceLights& lights)
       : store_(store),
         visibility_(visibility),
         surfaces_(surfaces),
         errors_(errors),
         share_(share),
-        textures_(textures) {}
+        textures_(textures),
+        lights_(lights) {}
 
   // Returns the nodes that predict a node of this level.
   Surroundings around(const LatticeNode& node, const LatticeLevel& level);
@@ -127,10 +136,13 @@ class NodePredictor {
   }
 
  private:
-  template <bool kHasTexture>
+  template <class ColorOfNear>
   Prediction predict_on(std::uint32_t seen, const LatticeNode& node, const Surroundings& around,
-                        const TextureFactor& texture);
+                        const ColorOfNear& color_of);
+  float4 shaded(std::uint32_t surface, const LatticeNode& node, const Surroundings& around);
+  Prediction predict_plain(std::uint32_t seen, const LatticeNode& node, const Surroundings& around);
   Prediction predict_on_texture(std::uint32_t seen, const LatticeNode& node, const Surroundings& around);
+  Prediction predict_in_light(std::uint32_t seen, const LatticeNode& node, const Surroundings& around);
   NodeValue kept_prediction(const LatticeNode& corner);
   NodeValue predicted(const LatticeNode& node);
   bool knows_base(const LatticeNode& node) const;
@@ -141,6 +153,7 @@ class NodePredictor {
   LocalErrors& errors_;
   const SurfaceShare& share_;
   SurfaceTextures& textures_;
+  SurfaceLights& lights_;
 };
 
 }  // namespace pprt

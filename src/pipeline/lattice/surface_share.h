@@ -17,9 +17,10 @@ enum class Basis : std::uint8_t {
   kSome,        // at least two do
   kOne,         // one does
   kNearSample,  // none does, but a sample near by
+  kShading,     // no sample does, but which lights are seen is known of others around
   kNothing      // the mean of other surfaces
 };
-inline constexpr int kBases = 5;
+inline constexpr int kBases = 6;
 
 inline Basis basis_of(std::size_t on_surface, std::size_t around) {
   return on_surface == around ? Basis::kAllAround : on_surface > 1 ? Basis::kSome : Basis::kOne;
@@ -53,7 +54,7 @@ class SurfaceShare {
     for (std::size_t i = 0; i < sums_.size(); ++i)
       shares_[i] =
           std::clamp((sums_[i].along + kDoubt * kExpected) / (sums_[i].squared + kDoubt), 0.0F, 1.0F);
-    constexpr float kExpectedOfOne = 0.7F, kDoubtOfOne = 0.1F;  // whether it is a mirror is learned soon
+    constexpr float kExpectedOfOne = 0.95F, kDoubtOfOne = 0.1F;  // whether it is a mirror is learned soon
     Sums one;
     for (std::size_t i = class_of(Basis::kOne, 0); i < class_of(Basis::kNothing, 0); ++i)
       one.along += sums_[i].along, one.squared += sums_[i].squared;

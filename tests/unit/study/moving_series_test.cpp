@@ -75,7 +75,9 @@ TEST_CASE("moving series: what is carried shows nothing of where things were") {
           const double error = rmse_of(on.pictures[i], references[i]);
           // With --cast verified the triangulation carries colours that depend on the eye for two frames.
           const bool may_be_stale = sampler == SamplerChoice::kDelaunay && cast == CastChoice::kVerified;
-          CHECK((may_be_stale || error < 1.1 * rmse_of(off.pictures[i], references[i])));
+          // Errors of a fortieth of a display step are of chance alone.
+          constexpr double kChance = 1e-4;
+          CHECK((may_be_stale || error < 1.1 * rmse_of(off.pictures[i], references[i]) + kChance));
           // Control: the frame before is another picture.
           CHECK(error < 0.6 * rmse_of(on.pictures[i], references[i - 1]));
         }

@@ -28,7 +28,8 @@ class Lattice {
   LocalErrors errors_{64 * kPixelSide, 64 * kPixelSide};
   SurfaceShare share_;
   SurfaceTextures textures_{{}, visibility_};
-  NodePredictor predictor_{store_, visibility_, surfaces_, errors_, share_, textures_};
+  SurfaceLights lights_{{}, visibility_};
+  NodePredictor predictor_{store_, visibility_, surfaces_, errors_, share_, textures_, lights_};
 };
 
 // One of the eight ways to turn and mirror the image.
@@ -110,7 +111,8 @@ TEST_CASE(
     LocalErrors errors(kSide, kSide);
     SurfaceShare share;
     SurfaceTextures textures({}, visibility);
-    NodePredictor predictor(store, visibility, surfaces, errors, share, textures);
+    SurfaceLights lights({}, visibility);
+    NodePredictor predictor(store, visibility, surfaces, errors, share, textures, lights);
     const std::array<float, 4> colors = {0.25F, 0.5F, 0.625F, 1};
     const std::array<LatticeNode, 4> corners = {{{kMiddle, kMiddle},
                                                  {kMiddle + kBaseSide, kMiddle},

@@ -72,6 +72,37 @@ TEST_CASE("visibility limit: shapes that were too many to be seen took no time")
   }
 }
 
+// Stripes of two surfaces. In mirrors each sample finds another colour.
+TEST_CASE(
+    "visibility limit: where samples say nothing of their surface a first picture of few does without") {
+  const auto asked_by = [](bool mirrors, const PrimitiveLights& lights) {
+    std::uint32_t asked = 0;
+    LatticeRefiner sampler(Region::whole({kSide, kSide, 32}), walls(2, asked), LatticeOrder::kAdaptive, {},
+                           lights);
+    constexpr int kFew = 1000;
+    std::uint32_t noise = 1;
+    for (int i = 0; i < kFew; ++i) {
+      sampler.expect(kFew - i);
+      const auto point = sampler.next_point();
+      if (!point) break;
+      RaySample seen;
+      seen.primitive = static_cast<std::uint32_t>(point->x / 24) % 2 + 1;
+      noise = noise * 1664525 + 1013904223;
+      const float brightness = mirrors               ? static_cast<float>(noise >> 16) / 65536
+                               : seen.primitive == 1 ? 0.2F
+                                                     : 0.8F;
+      seen.color = Color(brightness, brightness, brightness);
+      sampler.insert(*point, seen);
+    }
+    return asked;
+  };
+  constexpr std::array<LitSurface, 3> kAllKnown = {{{}, {LitShape::kRound, true}, {LitShape::kRound, true}}};
+  const PrimitiveLights lights = {kAllKnown, [](auto, auto, auto, UnshadowedLight&) {}};
+  CHECK(asked_by(true, {}) == 0);
+  CHECK(asked_by(false, {}) == 2);
+  CHECK(asked_by(true, lights) == 2);  // what they differ by is their lights
+}
+
 TEST_CASE("visibility limit: seeds do not decide it") {
   std::uint32_t asked = 0;
   LatticeRefiner sampler(Region::whole({kSide, kSide, 32}), walls(100000, asked), LatticeOrder::kAdaptive,

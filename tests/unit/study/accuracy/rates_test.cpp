@@ -63,7 +63,7 @@ TEST_CASE("sequence: more time per frame makes better frames under the work cloc
   const Sequence sequence = tree_sequence(scene, *tree.view);
   REQUIRE(sequence.frames.size() == 3);
   CHECK_FALSE(sequence.frames[0].camera == sequence.frames[1].camera);
-  const std::vector<double> rates = {50, 800};
+  const std::vector<double> rates = {50, 2400};
   const std::vector<CastChoice> casts = {CastChoice::kOff, CastChoice::kAuto};
   const std::vector<RatePoint> points = measure_rates(sequence, rates, casts);
   REQUIRE(points.size() == 4);
