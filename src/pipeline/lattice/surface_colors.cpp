@@ -1,7 +1,6 @@
 #include "pipeline/lattice/surface_colors.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace pprt {
 namespace {
@@ -13,11 +12,6 @@ float4 bilinear(const std::array<float4, 4>& colors, const std::array<float, 4>&
 
 constexpr std::array<float, 4> kInTheMiddle = {0.25F, 0.25F, 0.25F, 0.25F};
 
-// A node of the lattice near an image point.
-LatticeNode node_near(const Vec2d& point) {
-  return node_at(point);
-}
-
 }  // namespace
 
 const SurfaceColors::AtCorners& SurfaceColors::at_corners(const Square& square, std::uint32_t surface,
@@ -27,7 +21,7 @@ const SurfaceColors::AtCorners& SurfaceColors::at_corners(const Square& square, 
   if (known_ == found_.size()) known_ = 0;
   AtCorners& found = found_[known_++];
   found.surface = surface;
-  find(square, node_near(middle), found);
+  find(square, node_at(middle), found);
   return found;
 }
 
