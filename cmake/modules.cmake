@@ -29,7 +29,8 @@ if(PPRT_TIDY)
   set(CMAKE_CXX_CLANG_TIDY ${PPRT_CLANG_TIDY} --quiet)
 endif()
 
-# What nearly every source includes, compiled once for all modules (pprt_pch) and once for all unit tests (pprt_test_pch).
+# What nearly every source includes, compiled once for modules (pprt_pch), cold ones (pprt_cold_pch) and unit tests
+# (pprt_test_pch).
 # Sources include what they use all the same: with PPRT_PCH off each stands alone.
 function(pprt_precompile target)
   target_link_libraries(${target} PRIVATE pprt_flags Imath::Imath)
@@ -38,8 +39,8 @@ function(pprt_precompile target)
     <numeric> <optional> <random> <set> <span> <sstream> <stdexcept> <string> <string_view> <thread> <tuple>
     <unordered_map> <utility> <vector> <Imath/ImathBox.h> <Imath/ImathColor.h> <Imath/ImathVec.h> ${ARGN})
 endfunction()
-# The own code of unit tests and of programs' mains: what takes their time is in libraries, and compiling them is half of
-# a build.
+# Code that no frame and no measurement waits for: options, conversions, pages, studies, programs' mains, and the own code
+# of unit tests. What takes their time is in other libraries, and compiling it is most of a build.
 if(CMAKE_BUILD_TYPE STREQUAL "Release" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   set(PPRT_COLD_FLAGS -O1 -Wno-stringop-overread)  # which GCC 12 sees in short literals then
 endif()
@@ -47,6 +48,9 @@ if(PPRT_PCH)
   file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/precompiled.cpp CONTENT "int main() {}\n")
   add_library(pprt_pch OBJECT ${PROJECT_BINARY_DIR}/generated/precompiled.cpp)
   pprt_precompile(pprt_pch)
+  add_library(pprt_cold_pch OBJECT ${PROJECT_BINARY_DIR}/generated/precompiled.cpp)
+  target_compile_options(pprt_cold_pch PRIVATE ${PPRT_COLD_FLAGS})
+  pprt_precompile(pprt_cold_pch)
   if(BUILD_TESTING)
     add_executable(pprt_test_pch ${PROJECT_BINARY_DIR}/generated/precompiled.cpp)
     target_link_libraries(pprt_test_pch PRIVATE Catch2::Catch2)
@@ -58,14 +62,19 @@ if(PPRT_PCH)
   endif()
 endif()
 
-# pprt_module(NAME [OWN_FLAGS] SOURCES a.cpp ... USES other modules and public libraries ... HIDES private libraries ...)
-# A module with flags of its own cannot use the common precompiled header.
+# pprt_module(NAME [OWN_FLAGS] [COLD] SOURCES a.cpp ... USES other modules and public libraries ... HIDES private libraries ...)
+# A module with flags of its own cannot use the common precompiled header. A cold one is compiled by PPRT_COLD_FLAGS.
 function(pprt_module name)
-  cmake_parse_arguments(M "OWN_FLAGS" "" "SOURCES;USES;HIDES" ${ARGN})
+  cmake_parse_arguments(M "OWN_FLAGS;COLD" "" "SOURCES;USES;HIDES" ${ARGN})
   add_library(pprt_${name} STATIC ${M_SOURCES})
   target_link_libraries(pprt_${name} PUBLIC pprt_flags ${M_USES} PRIVATE ${M_HIDES})
+  set(precompiled pprt_pch)
+  if(M_COLD)
+    target_compile_options(pprt_${name} PRIVATE ${PPRT_COLD_FLAGS})
+    set(precompiled pprt_cold_pch)
+  endif()
   if(PPRT_PCH AND NOT M_OWN_FLAGS)
-    target_precompile_headers(pprt_${name} REUSE_FROM pprt_pch)
+    target_precompile_headers(pprt_${name} REUSE_FROM ${precompiled})
   endif()
 endfunction()
 

@@ -131,9 +131,8 @@ CLI::App& add_accuracy(CLI::App& app, pprt::AccuracyOptions& options) {
   add_output(command, options.directory);
   command.add_flag("--quick", options.quick, "A trial: small pictures");
   add_size(command, options.size, 4096, "Pictures of N x N pixels (default: 512; quick: 96)");
-  add(command, "--repeats", "N", options.repeats, "Repeats of each measurement")
-      ->check(CLI::Range(1, 100))
-      ->capture_default_str();
+  add(command, "--repeats", "N", options.repeats, "Make each measurement N times (default: 3; quick: 1)")
+      ->check(CLI::Range(1, 100));
   add_reference(command, options.reference_cells,
                 "Converged frames have 2 N x N samples a pixel (default: 8; quick: 4)");
   add(command, "--cache", "DIR", options.cache,

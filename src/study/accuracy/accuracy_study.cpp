@@ -35,6 +35,7 @@ namespace {
 struct Effort {
   int size = 512;                  // of pictures, pixels square
   int cells = 8;                   // n of their converged frames
+  int repeats = 3;                 // of each measurement
   int sequence_share = 4;          // pictures of a sequence are smaller by this factor
   int sequence_cells = 4;          // n of their converged frames
   int frames = 8;                  // of a sequence, at most
@@ -46,6 +47,7 @@ struct Effort {
 const Effort kFull;
 const Effort kQuick = {.size = 96,
                        .cells = 4,
+                       .repeats = 1,
                        .sequence_share = 2,
                        .sequence_cells = 2,
                        .frames = 4,
@@ -353,6 +355,7 @@ AccuracyOptions settled(AccuracyOptions options) {
   const bool only_planned = options.directory.empty() && !options.quick;
   if (options.size == 0) options.size = only_planned ? kPlannedSize : effort.size;
   if (options.reference_cells == 0) options.reference_cells = effort.cells;
+  if (options.repeats == 0) options.repeats = effort.repeats;
   return options;
 }
 

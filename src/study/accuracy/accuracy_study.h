@@ -18,7 +18,7 @@ struct AccuracyOptions {
   bool no_cache = false;                         // neither read nor write converged frames
   bool quick = false;                            // small pictures, a trial of some seconds
   int size = 0;                                  // of pictures, pixels square; 0: 512, or 96 if quick
-  int repeats = 3;                               // of each measurement
+  int repeats = 0;                               // of each measurement; 0: 3, or 1 if quick
   int reference_cells = 0;                       // n of converged_reference(); 0: 8, or 4 if quick
   int ranks = 1;                                 // of the sequences at fixed rates
   SamplerChoice sampler = SamplerChoice::kAuto;  // of them, too
