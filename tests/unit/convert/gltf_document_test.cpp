@@ -97,4 +97,17 @@ TEST_CASE("gltf document: names in UTF-8 stay, others lose the bytes that are no
   CHECK(utf8("\xc0\xaf\xed\xa0\x80\xf4\x90\x80\x80\xc3") == "__________");
 }
 
+TEST_CASE("gltf document: what a URI cannot hold is written by its bytes, the higher digit first") {
+  const auto uri_with = [](const std::string& stem) {
+    const SceneDescription scene = lit("l 0 0 3");
+    const json document = json::parse(write_mesh(scene, ".gltf", stem, {2, {}}).files.back().bytes);
+    return document["buffers"][0]["uri"].get<std::string>();
+  };
+  CHECK(uri_with("m") == "m.bin");
+  CHECK(uri_with("a b%") == "a%20b%25.bin");
+  CHECK(uri_with("\xc3\xa9") == "%C3%A9.bin");
+  CHECK(uri_with("A-z_0.9~") == "A-z_0.9~.bin");
+  CHECK(uri_with("a?b#c") == "a%3Fb%23c.bin");
+}
+
 }  // namespace pprt::gltf_document_test

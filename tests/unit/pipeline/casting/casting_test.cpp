@@ -3,6 +3,7 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <set>
 
 #include "pipeline/casting/projected_samples.h"
 #include "pipeline/mesh/mesh_casting.h"
@@ -205,6 +206,28 @@ TEST_CASE("casting: the youngest sample of each pixel is kept, in the old order"
   REQUIRE(samples.size() == 2);
   CHECK(samples[0].id == 1);
   CHECK(samples[1].id == 2);
+}
+
+TEST_CASE(
+    "casting: of samples of one age in a pixel neither the first nor the last stays, whatever their order") {
+  constexpr int kPixels = 400;
+  std::vector<Sample> samples;
+  for (SampleId id = 0; id < 3 * kPixels; ++id) {
+    Sample& sample = samples.emplace_back();
+    sample.id = id, sample.frame = 5;
+    sample.x = static_cast<double>(id % kPixels) + 0.5;
+  }
+  std::vector<Sample> reversed(samples.rbegin(), samples.rend());
+  keep_youngest_of_pixels(samples);
+  keep_youngest_of_pixels(reversed);
+  REQUIRE((samples.size() == kPixels && reversed.size() == kPixels));
+  std::array<int, 3> kept{};
+  for (const Sample& sample : samples) ++kept.at(sample.id / kPixels);
+  for (const int of_third : kept) CHECK(of_third == Approx(kPixels / 3.0).margin(50));  // five deviations
+  std::set<SampleId> forwards, backwards;
+  for (const Sample& sample : samples) forwards.insert(sample.id);
+  for (const Sample& sample : reversed) backwards.insert(sample.id);
+  CHECK(forwards == backwards);
 }
 
 TEST_CASE("casting: one sample in 64 is drawn evenly by id") {
