@@ -23,8 +23,12 @@ double half_tangent(double degrees) {
 }  // namespace
 
 TEST_CASE("COLLADA cameras: half the height is that of the upright angle, or of the other by the aspect") {
-  const ColladaCamera y{.y_degrees = 40}, x{.x_degrees = 60, .aspect = 2}, alone{.x_degrees = 60},
-      both{.x_degrees = 60, .y_degrees = 40, .aspect = 7}, none{.aspect = 2};
+  const auto camera = [](std::optional<double> x_degrees, std::optional<double> y_degrees,
+                         std::optional<double> aspect) {
+    return ColladaCamera{.x_degrees = x_degrees, .y_degrees = y_degrees, .aspect = aspect, .near = {}};
+  };
+  const ColladaCamera y = camera({}, 40, {}), x = camera(60, {}, 2), alone = camera(60, {}, {}),
+                      both = camera(60, 40, 7), none = camera({}, {}, 2);
   CHECK(*y.half_height() == Approx(half_tangent(40)));
   CHECK(*x.half_height() == Approx(half_tangent(60) / 2));
   CHECK(*alone.half_height() == Approx(half_tangent(60)));

@@ -9,6 +9,7 @@
 
 #include "convert/mesh/mesh_writer.h"
 #include "convert/model/display_values.h"
+#include "convert/model/read_mesh.h"
 #include "parser/aff_parser.h"
 
 namespace pprt::gltf_document_test {
@@ -108,6 +109,25 @@ TEST_CASE("gltf document: what a URI cannot hold is written by its bytes, the hi
   CHECK(uri_with("\xc3\xa9") == "%C3%A9.bin");
   CHECK(uri_with("A-z_0.9~") == "A-z_0.9~.bin");
   CHECK(uri_with("a?b#c") == "a%3Fb%23c.bin");
+}
+
+TEST_CASE("gltf document: nodes as deep as they may be, no deeper, nor in a circle, nor with two parents") {
+  const auto problem_of = [](const std::string& nodes) {
+    return gltf_facts(R"({"asset":{"version":"2.0"},"nodes":[)" + nodes + "]}").problem;
+  };
+  const auto chain = [&](int nodes) {
+    std::string text;
+    for (int i = 1; i < nodes; ++i) text += R"({"children":[)" + std::to_string(i) + "]},";
+    return problem_of(text + "{}");
+  };
+  const std::string too_deep =
+      "its nodes lie more than " + std::to_string(kMaxNodeDepth) + " deep in each other";
+  CHECK(chain(kMaxNodeDepth).empty());
+  CHECK(chain(kMaxNodeDepth + 1) == too_deep);
+  CHECK(problem_of(R"({"children":[1]},{"children":[0]})") == too_deep);
+  CHECK(problem_of(R"({"children":[0]})") == too_deep);
+  CHECK(problem_of(R"({"children":[2]},{"children":[2]},{})") == "a node has two parents");
+  CHECK(problem_of(R"({"children":[1,2]},{},{})").empty());
 }
 
 }  // namespace pprt::gltf_document_test

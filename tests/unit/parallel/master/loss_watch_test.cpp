@@ -14,7 +14,7 @@ namespace pprt::loss_watch_test {
 namespace {
 
 constexpr int kRanks = 6;
-constexpr double kPatience = 3;
+constexpr double kPatience = 3, kStep = 1.0 / 16;  // exact, so that questions come each second
 
 // Ranks 0 and 1 are on alpha, 2 and 3 on beta, the others have a host each.
 std::string host_of(int rank) {
@@ -37,7 +37,7 @@ class Watched {
   // Time passes, in which all but these answer.
   void pass(double seconds, const std::set<int>& silent) {
     for (const double until = now_s_ + seconds; now_s_ < until - 1e-9;) {
-      now_s_ += 0.05;
+      now_s_ += kStep;
       clocks_.look();
       for (int rank = 1; rank < kRanks; ++rank)
         if (!silent.contains(rank)) answer(rank);
@@ -87,9 +87,9 @@ TEST_CASE("loss watch: a run that goes on loses each rank that is silent for as 
 TEST_CASE("loss watch: who answers in time, be it seldom, is lost never") {
   Watched run(true);
   for (int i = 0; i < 5; ++i) {
-    run.pass(2.9, {2});
+    run.pass(2.75, {2});
     CHECK(run.newly_lost().empty());
-    run.pass(0.1, {});
+    run.pass(0.25, {});
   }
   CHECK(run.told.empty());
 }
@@ -128,14 +128,14 @@ TEST_CASE("loss watch: on rank 0's own host a silent rank is slow, and no run en
 
 TEST_CASE("loss watch: it looks ten times in a second that is awake, and at once after one asleep") {
   Watched run(true);
-  run.pass(2.95 + 0.05, {4});  // asked first after .05
+  run.pass(3, {4});  // asked first after a step
   CHECK(run.newly_lost().empty());
-  run.pass(0.05, {4});
+  run.pass(kStep, {4});
   CHECK(run.newly_lost().empty());  // too soon to look
-  run.pass(0.1, {4});
+  run.pass(kStep, {4});
   CHECK(run.newly_lost() == std::vector{4});
   // As long as this process stood still nobody was silent, but half a second counts.
-  run.pass(3.6, {5});
+  run.pass(3.75, {5});
   CHECK(run.newly_lost().empty());
   run.sleep(100);
   CHECK(run.newly_lost() == std::vector{5});

@@ -65,6 +65,7 @@ TEST_CASE("rank clocks: every rank is told where its clock stands") {
   REQUIRE(jumps.size() == 1);
   CHECK((jumps[0].rank == 1 && jumps[0].seconds == Approx(-30)));
   CHECK(ranks.clocks.take_jumps().empty());  // told once
+  ranks.answer(2);
   ranks.pass(1);
   ranks.answer(1, -30), ranks.answer(2, 7);
   const auto later = ranks.clocks.take_jumps();

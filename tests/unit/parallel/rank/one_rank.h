@@ -30,9 +30,10 @@ struct OneRank {
     return settings;
   }
 
-  explicit OneRank(const SessionSettings& the_settings, int rank = 0, int ranks = 1)
+  explicit OneRank(const SessionSettings& the_settings, int rank = 0, int ranks = 1, WorkUnits budget = 0)
       : settings(the_settings),
         partition(columns(ranks)),
+        clock(budget, 0),
         costs(partition.grid, traits_of(settings.sampler).work),
         tracer(probe(), rank, clock, costs, [this](std::uint64_t rays) { polled.push_back(rays); }),
         sampling(settings, partition, rank, tracer, costs, clock, [this] { ++polls; }) {}
@@ -45,6 +46,7 @@ struct OneRank {
                   ++counts.primary;
                   counts.shadow += ray.rays - 1;
                   RaySample sample = ray;
+                  if (shade) shade(x, y, sample);
                   if (is_wavy)
                     sample.color = Color(static_cast<float>(0.5 + 0.4 * std::sin(x) * std::cos(y)));
                   return sample;
@@ -65,14 +67,15 @@ struct OneRank {
 
   SessionSettings settings;
   Partition partition;
-  RaySample ray = {};  // what each eye ray finds
+  RaySample ray = {};                                               // what each eye ray finds
+  std::function<void(double x, double y, RaySample& found)> shade;  // what differs from place to place
   bool is_wavy = false;
   RayCounts counts;
   std::vector<Camera> cameras;
   std::vector<double> times;
   std::vector<std::uint64_t> polled;
   int polls = 0;
-  WorkClock clock{0, 0};
+  WorkClock clock;
   CostEstimator costs;
   SampleTracer tracer;
   RankSampling sampling;

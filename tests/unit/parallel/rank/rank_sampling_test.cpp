@@ -74,14 +74,18 @@ TEST_CASE("rank sampling: a sample that is wanted is traced here, or cast where 
   Sample lit = LeftHalf::sample_at(8, 8);
   lit.ray.primitive = 9, lit.ray.lights = {1, 1};
   std::vector<Sample> everywhere;
-  for (double y = 0.5; y < 64; ++y)
-    for (double x = 0.5; x < 32; ++x)
-      everywhere.push_back(lit), everywhere.back().x = x, everywhere.back().y = y;
+  for (double y = 0; y <= 64; y += 0.5) {
+    for (double x = 0; x <= 32; x += 0.5) {
+      lit.x = x, lit.y = y;
+      everywhere.push_back(lit);
+    }
+  }
   rank.sampling.reinsert_all(everywhere);
   CHECK(rank.polls == static_cast<int>(everywhere.size()));
   CHECK(rank.count().cast == 0);  // they tell of lights, and are no samples
   for (int i = 0; i < 20; ++i) REQUIRE(rank.sampling.refine(nullptr));
-  CHECK((rank.count().traced == seeds + 50 && rank.count().cast == 20));
+  CHECK(rank.count().traced == seeds + 50);
+  CHECK(rank.count().cast == 20);
   rank.sampling.begin_frame();
   CHECK((rank.count().traced == 0 && rank.count().cast == 0));
   rank.sampling.carry_on();

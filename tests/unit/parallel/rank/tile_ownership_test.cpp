@@ -10,11 +10,13 @@ namespace {
 
 using test::OneRank;
 
+constexpr WorkUnits kLargeBudget = 24'000'000'000;  // in which anything is affordable
+
 // Rank 1 of two has the right half: the tiles of the last two of four columns.
 struct RightHalf : OneRank {
-  explicit RightHalf(const SessionSettings& settings = settings_of({}), int ranks = 2)
-      : OneRank(settings, 1, ranks),
-        ownership(this->settings, 1, ranks, sampling, costs, handshake, clock, timer) {
+  explicit RightHalf(const SessionSettings& the_settings = settings_of({}), WorkUnits budget = 0)
+      : OneRank(the_settings, 1, 2, budget),
+        ownership(settings, 1, 2, sampling, costs, handshake, clock, timer) {
     is_wavy = true;
     tracer.begin_frame({});
     sampling.trace_seeds();
@@ -24,9 +26,9 @@ struct RightHalf : OneRank {
   const Partition& known() const { return sampling.exchange().partition(); }
   int owner(std::size_t tile) const { return known().owner[tile]; }
 
-  // The sampling time up to this share of a frame with a rate passes.
-  void pass(double share) {
-    for (int round = 0; round < static_cast<int>(share * kRoundsPerFrame); ++round) clock.begin_packet(0);
+  // So many of the 24 rounds of a frame with a rate pass.
+  void pass(int rounds) {
+    for (int round = 0; round < rounds; ++round) clock.begin_packet(0);
   }
 
   TransferHandshake handshake{2};
@@ -99,11 +101,54 @@ TEST_CASE("tile ownership: tiles or ranks that there are not are refused") {
   }
 }
 
+TEST_CASE("tile ownership: where most samples were cast tiles go in the first quarter of a frame alone") {
+  const auto gives = [](int rounds, bool is_cast, BalanceMode mode, bool fresh = true) {
+    SessionSettings settings = with_rate();
+    settings.sampler.choice() = SamplerChoice::kDelaunay, settings.balance = mode;
+    RightHalf rank(settings, kLargeBudget);
+    FrameOrder order;
+    order.number = 5;
+    rank.tracer.begin_frame(order);
+    if (is_cast) {
+      std::vector<Sample> samples;
+      for (int i = 0; i < 2000; ++i) {
+        Sample& sample = samples.emplace_back();
+        sample.x = 32.3 + i % 50 * 0.6, sample.y = 0.7 + i / 50 * 1.5, sample.frame = 4;
+      }
+      rank.sampling.reinsert_all(samples);
+    }
+    for (int i = 0; i < 600; ++i) rank.sampling.refine(nullptr);
+    rank.clock.begin_frame(order);
+    rank.pass(rounds);
+    rank.ownership.progress();
+    rank.handshake.receive(0, {});
+    rank.ownership.receive_progress(
+        0, {.mean_weight = 1e-9, .target_weight = 1e-3, .future_cost = 0, .pace = 1});
+    return !rank.ownership.give_tiles(fresh, 7).empty();
+  };
+  for (const BalanceMode mode : {BalanceMode::kLocal, BalanceMode::kCombined}) {
+    CHECK(gives(6, false, mode));
+    CHECK(gives(12, false, mode));
+  }
+  CHECK(gives(6, true, BalanceMode::kLocal));
+  CHECK_FALSE(gives(7, true, BalanceMode::kLocal));
+  CHECK_FALSE(gives(6, true, BalanceMode::kCombined));
+  CHECK_FALSE(gives(20, false, BalanceMode::kLocal));       // late
+  CHECK_FALSE(gives(6, true, BalanceMode::kLocal, false));  // at rest, with more samples than pixels
+  CHECK_FALSE(gives(6, false, BalanceMode::kGlobal));
+}
+
 TEST_CASE("tile ownership: gains are told once, late in a frame with a rate, of what is still there") {
-  RightHalf rank(with_rate());
+  RightHalf rank(with_rate(), kLargeBudget);
   rank.clock.begin_frame({});
+  rank.pass(21);
   rank.ownership.apply(news_of({given(0, 1, 5), given(1, 1, 6)}));
   rank.ownership.apply(news_of({}, {{0, 0, 7}}));
+  CHECK(rank.ownership.take_gains().empty());
+  rank.pass(1);  // nine tenths have passed
+  const std::vector<OwnerChange> gains = rank.ownership.take_gains();
+  REQUIRE(gains.size() == 1);
+  CHECK((gains[0].tile == 1 && gains[0].owner == 1 && gains[0].version == 6));
   CHECK(rank.ownership.take_gains().empty());
   RightHalf without;
   without.ownership.apply(news_of({given(1, 1, 6)}));

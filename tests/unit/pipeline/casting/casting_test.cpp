@@ -240,6 +240,25 @@ TEST_CASE("casting: one sample in 64 is drawn evenly by id") {
   CHECK(drawn == Approx(1000).margin(160));
 }
 
+TEST_CASE("casting: which samples are drawn follows no pattern of their numbers") {
+  // Ranks number their samples in the order of tracing: every 64th would be of a few places.
+  std::vector<SampleId> drawn;
+  for (SampleId id = 0; id < 64000; ++id) {
+    Sample sample;
+    sample.id = id;
+    if (is_one_of(sample, 64)) drawn.push_back(id);
+  }
+  int odd = 0, of_64 = 0, close = 0;
+  for (std::size_t i = 1; i < drawn.size(); ++i) {
+    odd += drawn[i] % 2 != 0, of_64 += (drawn[i] - drawn[i - 1]) % 64 == 0;
+    close += drawn[i] - drawn[i - 1] < 32;
+  }
+  const double count = static_cast<double>(drawn.size());
+  CHECK(odd == Approx(count / 2).margin(100));  // six standard deviations
+  CHECK(of_64 < 0.05 * count);
+  CHECK(close == Approx(count * (1 - std::exp(-0.5))).margin(100));
+}
+
 TEST_CASE("casting: one sample in four cast alone equals that sample when all are cast") {
   const SampleMesh seen = seen_by(straight(), 1);
   SampleMesh mesh(Region::whole(kGrid));

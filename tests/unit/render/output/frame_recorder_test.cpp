@@ -221,4 +221,29 @@ TEST_CASE("frames that an earlier run has finished are neither written again nor
         contact_sheet(three, layout, std::vector{1, 2, 3}).width);
 }
 
+TEST_CASE("the balancing trace has the frames of an earlier run, too") {
+  ThreeFrames run;
+  const fs::path trace = run.directory.path() / "run.trace";
+  run.plan.report.trace = trace;
+  const auto traced = [&] {
+    std::vector<int> frames;
+    std::ifstream lines(trace);
+    for (std::string line; std::getline(lines, line);) {
+      const Json record = Json::parse(line);
+      if (record["record"] == "frame") frames.push_back(record["frame"].get<int>());
+    }
+    return frames;
+  };
+  const auto record = [&](const std::vector<int>& numbers) {
+    FrameRecorder recorder({run.plan, 1, "hash"}, run.scene, run.progress);
+    for (const int number : numbers) run.record(recorder, number);
+    recorder.finish(false);
+  };
+  record({1, 2});
+  CHECK(traced() == std::vector{1, 2});
+  run.plan.output.existing = ExistingFiles::kResume;
+  record({1, 2, 3});
+  CHECK(traced() == std::vector{1, 2, 1, 2, 3});
+}
+
 }  // namespace pprt::frame_recorder_test
