@@ -74,7 +74,7 @@ ExitStatus wait_for(pid_t child) {
     if (errno != EINTR) throw_errno("wait4");
   }
   const int code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
-  return {code, seconds_of(used.ru_utime) + seconds_of(used.ru_stime)};
+  return {code, WIFSIGNALED(status), seconds_of(used.ru_utime) + seconds_of(used.ru_stime)};
 }
 
 pid_t spawn(std::vector<std::string>& command, const StandardStreams& streams,

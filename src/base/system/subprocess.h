@@ -34,6 +34,7 @@ struct SubprocessSettings {
 
 struct ExitStatus {
   int code = 0;            // its exit code, or 128 + the signal that ended it
+  bool by_signal = false;  // a signal has ended it: a program may also exit with such a code
   double cpu_seconds = 0;  // user and system time, of children that it waited for too
 };
 

@@ -121,7 +121,9 @@ class FollowedRun {
     if (watch_.loss()) fail(*watch_.loss());
     if (messages_.loss()) fail(*messages_.loss());
     if (stopped_by != 0) return;  // mpirun may have ended by it
-    if (code > 128) fail("mpirun was ended by " + signal_name(code - 128));
+    // mpirun exits with the code of a rank that a signal has ended, whether or not it has named it.
+    if (code > 128)
+      fail((is_killed_ ? "mpirun was ended by " : "a rank was ended by ") + signal_name(code - 128));
     if (code > kExitInput) fail(fmt::format("mpirun ended with code {}", code));
   }
 
@@ -179,8 +181,9 @@ class FollowedRun {
   int end_mpirun() {
     const bool must_end = failure_ || ends_at_once_ || is_overdue_ || messages_.has_lost_host();
     const double patience_s = messages_.has_lost_host() ? kLostHostPatience_s : kEndPatience_s;
-    const int code = (must_end ? mpirun_.end_within(patience_s) : mpirun_.wait()).code;
-    return watch_.end_code().value_or(code);
+    const ExitStatus status = must_end ? mpirun_.end_within(patience_s) : mpirun_.wait();
+    is_killed_ = status.by_signal;
+    return watch_.end_code().value_or(status.code);
   }
 
   const Launch& launch_;
@@ -192,6 +195,7 @@ class FollowedRun {
   bool has_passed_on_stop_ = false;
   bool ends_at_once_ = false;           // by a signal
   bool is_overdue_ = false;             // mpirun, after the run's end
+  bool is_killed_ = false;              // mpirun itself
   std::optional<std::string> failure_;  // that ends the run
 };
 

@@ -48,11 +48,11 @@ std::int32_t owner_at(const Partition& partition, int column, int row) {
                          static_cast<std::size_t>(column)];
 }
 
-// Returns the ranks that are marked, ascending, without `except`.
-std::vector<int> members(std::span<const std::uint8_t> marked, int except) {
+// Returns the ranks that are marked, ascending.
+std::vector<int> members(std::span<const std::uint8_t> marked) {
   std::vector<int> ranks;
   for (int r = 0; r < static_cast<int>(marked.size()); ++r) {
-    if (r != except && marked[static_cast<std::size_t>(r)] != 0) ranks.push_back(r);
+    if (marked[static_cast<std::size_t>(r)] != 0) ranks.push_back(r);
   }
   return ranks;
 }
@@ -124,7 +124,7 @@ void MeshExchange::plan_seeds() {
       }
     }
   }
-  seed_peers_ = members(is_peer, rank_);
+  seed_peers_ = members(is_peer);
   seeds_are_planned_ = true;
 }
 

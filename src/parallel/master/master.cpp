@@ -142,10 +142,9 @@ Carry Master::carry_into(const FrameRequest& request) const {
 
 void Master::send(const FrameOrder& order) {
   std::vector<Bytes> messages = encode_for_ranks(order, balancer_.estimates_for(order));
-  for (int rank = 0; rank < network_.size(); ++rank) {
-    if (!is_lost(rank))
-      network_.send(rank, Tag::kFrameOrder, std::move(messages[static_cast<std::size_t>(rank)]));
-  }
+  // What is sent to a rank that was given up is dropped.
+  for (int rank = 0; rank < network_.size(); ++rank)
+    network_.send(rank, Tag::kFrameOrder, std::move(messages[static_cast<std::size_t>(rank)]));
 }
 
 // --- Pixels

@@ -250,7 +250,7 @@ void LatticeRefiner::collect_base(int tile) {
   constexpr int kTileSide = kPixelSide * LatticeStore::kTilePixels;
   for (int y = corner.y; y < corner.y + kTileSide; y += kBaseSide) {
     for (int x = corner.x; x < corner.x + kTileSide; x += kBaseSide)
-      if (store_.has({x, y}) && own_.needs_base({x, y})) nodes_.push_back({x, y});
+      if (own_.needs_base({x, y})) nodes_.push_back({x, y});
   }
 }
 

@@ -16,8 +16,9 @@ std::size_t bytes_of(const std::vector<Sample>& samples) {
 
 }  // namespace
 
-SerialComparison::SerialComparison(const CompiledScene& scene, const SessionSettings& settings)
-    : scene_(scene), settings_(settings), thread_([this] { run(); }) {}
+SerialComparison::SerialComparison(const CompiledScene& scene, const SessionSettings& settings,
+                                   std::size_t memory_bound)
+    : scene_(scene), settings_(settings), memory_bound_(memory_bound), thread_([this] { run(); }) {}
 
 SerialComparison::~SerialComparison() {
   {
@@ -34,7 +35,7 @@ std::future<double> SerialComparison::distance(int frame, const Camera& camera, 
   {
     std::unique_lock lock(mutex_);
     const std::size_t size = bytes_of(samples);
-    room_.wait(lock, [&] { return bytes_ == 0 || bytes_ + size <= kMemoryBound; });
+    room_.wait(lock, [&] { return bytes_ == 0 || bytes_ + size <= memory_bound_; });
     bytes_ += size;
     waiting_.push_back({frame, camera, time, std::move(samples), {}});
     result = waiting_.back().result.get_future();

@@ -21,11 +21,12 @@ namespace pprt {
 // when the ranks keep all cores busy.
 class SerialComparison {
  public:
-  // Bytes of samples that may wait, some 200 frames of 19,000 samples. Beyond it distance() waits.
+  // Usual bytes of samples that may wait, some 200 frames of 19,000 samples. Beyond them distance() waits.
   static constexpr std::size_t kMemoryBound = std::size_t{256} << 20;
 
   // The scene must outlive it.
-  SerialComparison(const CompiledScene& scene, const SessionSettings& settings);
+  SerialComparison(const CompiledScene& scene, const SessionSettings& settings,
+                   std::size_t memory_bound = kMemoryBound);
   SerialComparison(const SerialComparison&) = delete;
   SerialComparison& operator=(const SerialComparison&) = delete;
 
@@ -54,6 +55,7 @@ class SerialComparison {
 
   const CompiledScene& scene_;
   const SessionSettings settings_;
+  const std::size_t memory_bound_;
 
   std::mutex mutex_;  // guards what follows, but the thread
   std::condition_variable work_;

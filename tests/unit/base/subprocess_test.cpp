@@ -31,6 +31,7 @@ TEST_CASE("a subprocess that fails returns its exit code") {
 
 TEST_CASE("a subprocess that a signal ends returns 128 + the signal") {
   CHECK(run_shell("kill -TERM $$").code == 128 + SIGTERM);
+  CHECK((run_shell("kill -TERM $$").by_signal && !run_shell("exit 143").by_signal));
 }
 
 TEST_CASE("a program that is not on the PATH throws ProgramNotFound with its name") {

@@ -172,7 +172,10 @@ TEST_CASE(
     "NFF gets mean colours of textures, lights that its readers weaken, and stretched balls as triangles") {
   const Folder folder;
   write_moving_scene(folder);
+  const Told told;
   convert(at(folder, "b.nff", {}));
+  CHECK(told.text().find(folder.file("a.aff") + ": 1 stretched spheres or cones become triangles\n") !=
+        std::string::npos);
   const SceneDescription scene = read_nff(folder.file("b.nff")).scene;
   REQUIRE(scene.lights.size() == 1);
   CHECK(scene.lights[0].color == Rgb(1, 0.5, 2));
@@ -182,6 +185,28 @@ TEST_CASE(
   CHECK(scene.materials[1].specular == 0.5);
   CHECK((scene.spheres.size() == 1 && scene.patches.size() == 432));
   CHECK(bounds(scene).max.y == Approx(7).epsilon(0.01));
+}
+
+TEST_CASE("stretched balls are told by their number, where they become triangles and only there") {
+  const Folder folder;
+  const std::string plain = "fm 0 0 0 1 1 1 0 0 0 0 0 0 s 0 0 0 1 s 3 0 0 1\n";
+  const std::string stretched = "xs 1 2 1 0 0 1 0 0 5 0 { s 0 0 0 1 s 2 0 0 1 c 0 0 0 1 0 1 0 1 }\n";
+  const auto told_of = [&](const std::string& scene, const std::string& output) {
+    write_whole_file(folder.file("a.aff"), scene);
+    const Told told;
+    convert(at(folder, output, {}));
+    return told.text();
+  };
+  const std::string words = "stretched spheres or cones become triangles";
+  for (const char* output : {"b.nff", "b.obj", "b.ply"}) {
+    INFO(output);
+    CHECK(told_of(plain + stretched, output).find(": 3 " + words) != std::string::npos);
+    CHECK(told_of(plain, output).find("stretched") == std::string::npos);
+  }
+  for (const char* output : {"b.glb", "b.aff", "b.pov"}) {
+    INFO(output);
+    CHECK(told_of(plain + stretched, output).find("stretched") == std::string::npos);
+  }
 }
 
 TEST_CASE("a mesh of a moving scene has its materials' colours and its stretched balls") {

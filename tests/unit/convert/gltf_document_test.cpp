@@ -9,6 +9,7 @@
 
 #include "convert/mesh/mesh_writer.h"
 #include "convert/model/display_values.h"
+#include "convert/model/read_mesh.h"
 #include "parser/aff_parser.h"
 
 namespace pprt::gltf_document_test {
@@ -95,6 +96,38 @@ TEST_CASE("gltf document: names in UTF-8 stay, others lose the bytes that are no
         "h\xc3\xb6lzern \xe2\x82\xac \xf0\x9f\x98\x80");
   CHECK(utf8("h\xf6lzern") == "h_lzern");
   CHECK(utf8("\xc0\xaf\xed\xa0\x80\xf4\x90\x80\x80\xc3") == "__________");
+}
+
+TEST_CASE("gltf document: what a URI cannot hold is written by its bytes, the higher digit first") {
+  const auto uri_with = [](const std::string& stem) {
+    const SceneDescription scene = lit("l 0 0 3");
+    const json document = json::parse(write_mesh(scene, ".gltf", stem, {2, {}}).files.back().bytes);
+    return document["buffers"][0]["uri"].get<std::string>();
+  };
+  CHECK(uri_with("m") == "m.bin");
+  CHECK(uri_with("a b%") == "a%20b%25.bin");
+  CHECK(uri_with("\xc3\xa9") == "%C3%A9.bin");
+  CHECK(uri_with("A-z_0.9~") == "A-z_0.9~.bin");
+  CHECK(uri_with("a?b#c") == "a%3Fb%23c.bin");
+}
+
+TEST_CASE("gltf document: nodes as deep as they may be, no deeper, nor in a circle, nor with two parents") {
+  const auto problem_of = [](const std::string& nodes) {
+    return gltf_facts(R"({"asset":{"version":"2.0"},"nodes":[)" + nodes + "]}").problem;
+  };
+  const auto chain = [&](int nodes) {
+    std::string text;
+    for (int i = 1; i < nodes; ++i) text += R"({"children":[)" + std::to_string(i) + "]},";
+    return problem_of(text + "{}");
+  };
+  const std::string too_deep =
+      "its nodes lie more than " + std::to_string(kMaxNodeDepth) + " deep in each other";
+  CHECK(chain(kMaxNodeDepth).empty());
+  CHECK(chain(kMaxNodeDepth + 1) == too_deep);
+  CHECK(problem_of(R"({"children":[1]},{"children":[0]})") == too_deep);
+  CHECK(problem_of(R"({"children":[0]})") == too_deep);
+  CHECK(problem_of(R"({"children":[2]},{"children":[2]},{})") == "a node has two parents");
+  CHECK(problem_of(R"({"children":[1,2]},{},{})").empty());
 }
 
 }  // namespace pprt::gltf_document_test

@@ -80,6 +80,26 @@ TEST_CASE("gate: only pages from here may connect, by a name of this host") {
   }
 }
 
+TEST_CASE("gate: a server that listens everywhere is asked for by numbers, or as the host itself") {
+  for (const char* address : {"0.0.0.0", "::"}) {
+    const auto answer_to = [&](const char* host) {
+      GateRequest request = page_request();
+      request.host = host;
+      return admit(request, kToken, address);
+    };
+    for (const char* host : {"10.1.2.3", "192.168.0.7:4500", "[fe80::1]:80", "[2001:DB8::5]", "localhost:1",
+                             "[::ffff:10.0.0.1]:80"}) {
+      INFO(host << " at " << address);
+      CHECK(answer_to(host) == GateAnswer::kPage);
+    }
+    for (const char* host :
+         {"evil.example:80", "a.b", "", ":80", "[]:80", "[evil::1g]:80", "10.1.2.3.evil:80", "beef"}) {
+      INFO(host << " at " << address);
+      CHECK(answer_to(host) == GateAnswer::kForbidden);
+    }
+  }
+}
+
 TEST_CASE("gate: tokens are long and never the same") {
   std::set<std::string> tokens;
   for (int i = 0; i < 1000; ++i) tokens.insert(new_token());

@@ -93,6 +93,18 @@ TEST_CASE("live view: a frame comes with what it shows, and a camera leads to th
   CHECK(viewer.picture.starts_with("\xff\xd8"));
 }
 
+TEST_CASE("live view: with another rate or size the film's script is told anew") {
+  LiveView view({}, show());
+  Viewer viewer(view);
+  const auto script = [&] { return viewer.hear_of("film")["film"]["script"].get<std::string>(); };
+  script();  // the first
+  viewer.say(R"({"do":"take"})");
+  viewer.say(R"({"do":"rate","fps":37})");
+  CHECK(script().find("fps 37 resolution <16, 8>") != std::string::npos);
+  viewer.say(R"({"do":"size","width":40,"height":30})");
+  CHECK(script().find("fps 37 resolution <40, 30>") != std::string::npos);
+}
+
 TEST_CASE("live view: a photo goes to who asked for it, and the end is told") {
   auto view = std::make_unique<LiveView>(LiveAddress(), show());
   Viewer viewer(*view);

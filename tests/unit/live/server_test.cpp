@@ -127,7 +127,19 @@ TEST_CASE("live server: the page comes for its token, and nothing without") {
   CHECK(has_status(page, 200));
   CHECK(page.ends_with("<!doctype html><title>live</title>"));
   CHECK(page.find("Content-Security-Policy: default-src 'none'") != std::string::npos);
-  CHECK(has_status(stage.get("/"), 403));
+  CHECK(page.find("\r\nContent-Type: text/html; charset=utf-8\r\n") != std::string::npos);
+  const std::string refused = stage.get("/");
+  CHECK(has_status(refused, 403));
+  CHECK(refused.find("\r\nContent-Type: text/plain; charset=utf-8\r\n") != std::string::npos);
+  // Neither is kept by anybody, shown elsewhere, or tells others of its address.
+  for (const std::string& reply : {page, refused}) {
+    for (const char* header :
+         {"Cache-Control: no-store", "Referrer-Policy: no-referrer", "X-Content-Type-Options: nosniff",
+          "X-Frame-Options: DENY", "Connection: close"}) {
+      INFO(header);
+      CHECK(reply.find("\r\n" + std::string(header) + "\r\n") != std::string::npos);
+    }
+  }
   CHECK(has_status(stage.get("/" + stage.server().token() + "/x"), 404));
   CHECK(stage.server().url() ==
         "http://127.0.0.1:" + std::to_string(stage.server().port()) + "/" + stage.server().token() + "/");

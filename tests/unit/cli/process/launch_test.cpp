@@ -68,6 +68,12 @@ TEST_CASE("an mpirun that is killed is told of") {
                     Catch::StartsWith("mpirun was ended by signal 9 (Killed)"));
 }
 
+TEST_CASE("of a rank that was killed mpirun may tell by its code alone") {
+  const StandIn mpirun("exit 137");
+  CHECK_THROWS_WITH(run_under_mpirun({.processes = 2}, {}, [](std::string_view) {}),
+                    Catch::StartsWith("a rank was ended by signal 9 (Killed)"));
+}
+
 TEST_CASE("no word of the user's stands in mpirun's command line as it was given") {
   const Words hostile = {":", "/usr/bin/id", "--mca", "plm_rsh_agent", "-x", "=words", "", "-np", "2", "a b"};
   const Words own = mpirun_command({.processes = 7}, {});

@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "parallel/clock/make_clocks.h"
+
 namespace pprt::delivery_clock_test {
 
 TEST_CASE("without a rate time begins with the first frame, not at the common start") {
@@ -110,6 +112,37 @@ TEST_CASE("on the work clock a frame of several periods has their budgets") {
   order.deadline_s = 2, order.periods = 2;
   CHECK(clock.delivery_time(order, ranks).finished_s == Approx(2 - 2 * 0.25 + 0.25));
   CHECK(clock.delivery_time(order, ranks).late_ms == Approx(1e3 * (0.25 - 2 * 0.1)));
+}
+
+TEST_CASE("clocks are made as the settings say: kind, rate, budget, and slow ranks") {
+  SessionSettings settings{.sampler = SamplerChoice::kAuto};
+  settings.frames_per_second = 4, settings.budget_units = 5'000'000;
+  settings.machine.slow_ranks = 2, settings.machine.slowness = 3;
+  const SequenceClock sequence;
+  const auto frame_clock = [&](int rank) {
+    return make_frame_clock(settings, rank, sequence, 1000, 1, true);
+  };
+  const auto delivery = [&] { return make_delivery_clock(settings, 2, [] { return 7.0; }); };
+  settings.clock = ClockKind::kWork;
+  CHECK(is_reproducible(settings));
+  for (const int rank : {0, 1, 2, 3}) CHECK(frame_clock(rank)->pace() == (rank < 2 ? 3 : 1));
+  CHECK((delivery()->units_per_frame() == 5e6 && delivery()->deadline_s(0, 1) == Approx(0.5)));
+  FrameOrder order;
+  for (const double rate : {4.0, 0.0}) {
+    settings.frames_per_second = rate;
+    const auto clock = frame_clock(3);
+    clock->begin_frame(order);
+    CHECK(clock->sampling_share() == (rate > 0 ? Approx(1.0 / 24) : Approx(0.5)));
+    CHECK(clock->affordable(Work::kRay, 1) == (rate > 0 ? 5'000'000 / price(Work::kRay) : 0));
+  }
+  settings.frames_per_second = 4;
+  settings.clock = ClockKind::kWall;
+  CHECK_FALSE(is_reproducible(settings));
+  for (const int rank : {0, 3}) CHECK(frame_clock(rank)->pace() == 1);  // nothing is known yet
+  CHECK((delivery()->keeps_deadlines() && delivery()->deadline_s(0, 1) == Approx(0.25)));
+  CHECK((delivery()->now_s() == 7 && delivery()->units_per_frame() == Approx(0.125e9)));
+  settings.awaits_all = true;
+  CHECK((delivery()->has_deadlines() && !delivery()->keeps_deadlines()));
 }
 
 }  // namespace pprt::delivery_clock_test

@@ -138,6 +138,49 @@ TEST_CASE("exchange policy: delayed samples arrive in their round, in the next f
   }
 }
 
+TEST_CASE(
+    "exchange policy: progress is due every other round of the work clock, every fourth of the wall clock") {
+  const auto lockstep = policy(ClockKind::kWork), free = policy(ClockKind::kWall);
+  for (int round = 1; round <= 12; ++round) {
+    CHECK(lockstep->is_progress_due(round) == (round % 2 == 0));
+    CHECK(free->is_progress_due(round) == (round % 4 == 0));
+  }
+}
+
+TEST_CASE(
+    "exchange policy: where messages come at any time idle ranks rest, and former owners send pixels too") {
+  const auto lockstep = policy(ClockKind::kWork), free = policy(ClockKind::kWall);
+  CHECK((free->rests_when_idle() && !lockstep->rests_when_idle()));
+  CHECK((free->sends_substitute_pixels() && !lockstep->sends_substitute_pixels()));
+  CHECK((!free->counts_bundles() && lockstep->counts_bundles()));
+  const ExchangeRound at{.frame_index = 0, .begun_in = 0, .round = 1};
+  CHECK_FALSE(free->owes_bundle(1, at));
+}
+
+TEST_CASE("exchange policy: without a rate a round has its fixed units, which a message takes longer than") {
+  const ExchangeRound at{.frame_index = 0, .begun_in = 0, .round = 1};
+  CHECK(policy(ClockKind::kWork, 10)->delivery_delay(1, at, 0) == 0);  // half of a millisecond
+  CHECK(policy(ClockKind::kWork, 0)->delivery_delay(1, at, 0) == 2);   // twice a quarter
+}
+
+TEST_CASE("exchange policy: samples that were delayed join those of their sender in the round's order") {
+  Network network;
+  const auto lockstep = policy(ClockKind::kWork);
+  const auto at = [](int round) { return ExchangeRound{.frame_index = 0, .round = round}; };
+  network.send(2, {.round = 1, .rounds_under_way = 1, .samples = {sample_with(21)}});
+  network.send(1, {.round = 1, .rounds_under_way = 2, .samples = {sample_with(11)}});
+  CHECK(samples_in(lockstep->take_due(network.inbox, at(1))) == 0);
+  network.send(1, {.round = 2, .samples = {sample_with(12)}});
+  network.send(2, {.round = 2, .samples = {sample_with(22)}});
+  const auto second = lockstep->take_due(network.inbox, at(2));
+  REQUIRE(second.size() == 2);
+  CHECK((second[0].from == 1 && second[0].bundle.samples.size() == 1));
+  REQUIRE(second[1].bundle.samples.size() == 2);
+  CHECK((second[1].bundle.samples[0].id == 22 && second[1].bundle.samples[1].id == 21));
+  network.send(2, {.round = 3});
+  CHECK_THROWS_AS(lockstep->take_due(network.inbox, at(3)), ProtocolError);  // rank 1 owed a bundle
+}
+
 TEST_CASE("exchange policy: a rank alone waits for nobody") {
   for (const ClockKind clock : {ClockKind::kWork, ClockKind::kWall}) {
     SessionSettings settings{.sampler = SamplerChoice::kAuto};

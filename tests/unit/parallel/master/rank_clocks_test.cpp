@@ -30,6 +30,13 @@ class Ranks {
     while (const auto pong = ends_[0].receive()) clocks.receive(*pong);
   }
 
+  // Takes away what a rank has been asked.
+  int questions_to(int rank) {
+    int count = 0;
+    while (ends_[rank].receive()) ++count;
+    return count;
+  }
+
   double now_s() const { return now_s_; }
 
  private:
@@ -57,6 +64,30 @@ TEST_CASE("rank clocks: every rank is told where its clock stands") {
   const auto jumps = ranks.clocks.take_jumps();
   REQUIRE(jumps.size() == 1);
   CHECK((jumps[0].rank == 1 && jumps[0].seconds == Approx(-30)));
+  CHECK(ranks.clocks.take_jumps().empty());  // told once
+  ranks.answer(2);
+  ranks.pass(1);
+  ranks.answer(1, -30), ranks.answer(2, 7);
+  const auto later = ranks.clocks.take_jumps();
+  REQUIRE(later.size() == 1);
+  CHECK((later[0].rank == 2 && later[0].seconds == Approx(7)));
+}
+
+TEST_CASE("rank clocks: every rank but the first is asked once a second, unless it is given up") {
+  Ranks ranks;
+  ranks.clocks.watch();
+  const auto asked_in = [&](double seconds) {
+    std::vector<int> questions(3, 0);
+    for (double passed = 0; passed < seconds - 1e-9; passed += 0.25) {
+      ranks.pass(0.25);
+      for (int rank = 0; rank < 3; ++rank)
+        questions[static_cast<std::size_t>(rank)] += ranks.questions_to(rank);
+    }
+    return questions;
+  };
+  CHECK(asked_in(10) == std::vector{0, 10, 10});
+  ranks.clocks.give_up(1);
+  CHECK(asked_in(10) == std::vector{0, 0, 10});
 }
 
 TEST_CASE("rank clocks: silence is counted while this process is awake") {

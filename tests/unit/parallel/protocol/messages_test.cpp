@@ -50,6 +50,9 @@ FrameOrder some_order() {
   order.camera.forward = {1, 0, 0}, order.camera.slope_per_pixel = 0.01;
   order.camera.width = 320, order.camera.height = 200;
   order.deadline_s = 1.5, order.reserve_s = 0.02;
+  order.time = 2.5, order.not_before_s = 1.25, order.periods = 3, order.effort = 0.75;
+  order.is_awaited = true, order.report_samples = true;
+  order.evidence.asked = 8, order.evidence.reinserted_ms = 0.5;
   order.generation = 3, order.owners = {1, 0, 0, 1}, order.columns = 2,
   order.tiles = {{1, 2}, {3, 4}, {5, 6}};
   return order;
@@ -121,7 +124,9 @@ const auto kDecodeSettings = [](const Bytes& bytes) { decode_settings(bytes); };
 }  // namespace
 
 TEST_CASE("messages: a frame order is decoded as it was encoded") {
-  const FrameOrder order = some_order(), back = decode_frame_order(encode(order));
+  FrameOrder order = some_order();
+  order.lost = {3, 4};
+  const FrameOrder back = decode_frame_order(encode(order));
   CHECK(back.end == order.end);
   CHECK(back.index == order.index);
   CHECK(back.number == order.number);
@@ -130,6 +135,9 @@ TEST_CASE("messages: a frame order is decoded as it was encoded") {
   CHECK(back.camera == order.camera);
   CHECK(back.deadline_s == order.deadline_s);
   CHECK(back.reserve_s == order.reserve_s);
+  CHECK((back.time == 2.5 && back.not_before_s == 1.25 && back.periods == 3 && back.effort == 0.75));
+  CHECK((back.is_awaited && back.report_samples && back.lost == order.lost));
+  CHECK((back.evidence.asked == 8 && back.evidence.reinserted_ms == 0.5));
   CHECK((back.generation == 3 && back.owners == order.owners));
   REQUIRE(back.tiles.size() == 3);
   CHECK((back.tiles[1].cost == 3 && back.tiles[1].average_weight == 4));

@@ -3,6 +3,7 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <set>
 
 #include "pipeline/casting/projected_samples.h"
 #include "pipeline/mesh/mesh_casting.h"
@@ -207,6 +208,28 @@ TEST_CASE("casting: the youngest sample of each pixel is kept, in the old order"
   CHECK(samples[1].id == 2);
 }
 
+TEST_CASE(
+    "casting: of samples of one age in a pixel neither the first nor the last stays, whatever their order") {
+  constexpr int kPixels = 400;
+  std::vector<Sample> samples;
+  for (SampleId id = 0; id < 3 * kPixels; ++id) {
+    Sample& sample = samples.emplace_back();
+    sample.id = id, sample.frame = 5;
+    sample.x = static_cast<double>(id % kPixels) + 0.5;
+  }
+  std::vector<Sample> reversed(samples.rbegin(), samples.rend());
+  keep_youngest_of_pixels(samples);
+  keep_youngest_of_pixels(reversed);
+  REQUIRE((samples.size() == kPixels && reversed.size() == kPixels));
+  std::array<int, 3> kept{};
+  for (const Sample& sample : samples) ++kept.at(sample.id / kPixels);
+  for (const int of_third : kept) CHECK(of_third == Approx(kPixels / 3.0).margin(50));  // five deviations
+  std::set<SampleId> forwards, backwards;
+  for (const Sample& sample : samples) forwards.insert(sample.id);
+  for (const Sample& sample : reversed) backwards.insert(sample.id);
+  CHECK(forwards == backwards);
+}
+
 TEST_CASE("casting: one sample in 64 is drawn evenly by id") {
   int drawn = 0;
   for (SampleId id = 0; id < 64000; ++id) {
@@ -215,6 +238,25 @@ TEST_CASE("casting: one sample in 64 is drawn evenly by id") {
     drawn += is_one_of(sample, 64);
   }
   CHECK(drawn == Approx(1000).margin(160));
+}
+
+TEST_CASE("casting: which samples are drawn follows no pattern of their numbers") {
+  // Ranks number their samples in the order of tracing: every 64th would be of a few places.
+  std::vector<SampleId> drawn;
+  for (SampleId id = 0; id < 64000; ++id) {
+    Sample sample;
+    sample.id = id;
+    if (is_one_of(sample, 64)) drawn.push_back(id);
+  }
+  int odd = 0, of_64 = 0, close = 0;
+  for (std::size_t i = 1; i < drawn.size(); ++i) {
+    odd += drawn[i] % 2 != 0, of_64 += (drawn[i] - drawn[i - 1]) % 64 == 0;
+    close += drawn[i] - drawn[i - 1] < 32;
+  }
+  const double count = static_cast<double>(drawn.size());
+  CHECK(odd == Approx(count / 2).margin(100));  // six standard deviations
+  CHECK(of_64 < 0.05 * count);
+  CHECK(close == Approx(count * (1 - std::exp(-0.5))).margin(100));
 }
 
 TEST_CASE("casting: one sample in four cast alone equals that sample when all are cast") {

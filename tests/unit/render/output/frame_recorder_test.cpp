@@ -154,4 +154,96 @@ TEST_CASE("a contact sheet shows the frames as the first format has them, number
   CHECK(sheet.pixels == read_image(other).pixels);
 }
 
+TEST_CASE("a run that fails tells of no film, and of the frames by their pattern") {
+  ThreeFrames run;
+  run.plan.output.film =
+      run.directory.path() / "out/1.png/film.mp4";  // below a picture: it cannot be written
+  run.plan.output.film_rate = 24;
+  ProgressReporter told(ProgressKind::kAuto);
+  const std::string text = printed_by([&] {
+    FrameRecorder recorder({run.plan, 1, "hash"}, run.scene, told);
+    for (const int number : {1, 2, 3}) run.record(recorder, number);
+    CHECK_THROWS(recorder.finish(false));
+  });
+  const std::string out = (run.directory.path() / "out").string();
+  CHECK(text.starts_with("failed: 3 of 3 frames in " + out + "/%d.png; "));
+  CHECK(text.find("film.mp4") == std::string::npos);
+}
+
+TEST_CASE("a run that is stopped says so, and how many of its frames are there") {
+  ThreeFrames run;
+  ProgressReporter told(ProgressKind::kAuto);
+  const std::string text = printed_by([&] {
+    FrameRecorder recorder({run.plan, 1, "hash"}, run.scene, told);
+    run.record(recorder, 2);
+    recorder.finish(true);
+  });
+  const std::string out = (run.directory.path() / "out").string();
+  CHECK(text.starts_with("stopped: 1 of 3 frames in " + out + "/2.png; "));
+  ProgressReporter of_none(ProgressKind::kAuto);
+  const std::string nothing = printed_by([&] {
+    ThreeFrames other;
+    FrameRecorder recorder({other.plan, 1, "hash"}, other.scene, of_none);
+    recorder.finish(true);
+  });
+  CHECK(nothing.starts_with("stopped: 0 of 3 frames in "));
+  CHECK(nothing.ends_with("/out/%d.png\n"));
+}
+
+TEST_CASE("frames that an earlier run has finished are neither written again nor counted, but shown") {
+  ThreeFrames run;
+  {
+    FrameRecorder first({run.plan, 1, "hash"}, run.scene, run.progress);
+    CHECK_FALSE(first.finished_before(1));
+    for (const int number : {1, 3}) run.record(first, number);
+    first.finish(true);
+  }
+  const auto written = fs::last_write_time(run.picture(1));
+  run.plan.output.existing = ExistingFiles::kResume;
+  run.plan.output.contact_sheet = run.directory.path() / "sheet.png";
+  ProgressReporter told(ProgressKind::kAuto);
+  const std::string text = printed_by([&] {
+    FrameRecorder recorder({run.plan, 1, "hash"}, run.scene, told);
+    CHECK((recorder.finished_before(1) && !recorder.finished_before(2) && recorder.finished_before(3)));
+    for (const int number : {1, 2, 3}) run.record(recorder, number);
+    CHECK(recorder.totals().frames() == 1);
+    recorder.finish(false);
+  });
+  const std::string out = (run.directory.path() / "out").string();
+  CHECK(text.starts_with("done: 1 of 3 frames (2 were there already) in " + out + "/1.png to " + out +
+                         "/3.png; "));
+  CHECK(fs::last_write_time(run.picture(1)) == written);
+  CHECK(run.told() == std::set<int>{1, 2, 3});
+  const ContactSheetLayout layout;
+  const Image one(8, 8, Color(0.5F, 0.5F, 0.5F));
+  const std::vector<Image> three(3, thumbnail(one, layout.thumbnail_width));
+  CHECK(read_image(run.plan.output.contact_sheet).width ==
+        contact_sheet(three, layout, std::vector{1, 2, 3}).width);
+}
+
+TEST_CASE("the balancing trace has the frames of an earlier run, too") {
+  ThreeFrames run;
+  const fs::path trace = run.directory.path() / "run.trace";
+  run.plan.report.trace = trace;
+  const auto traced = [&] {
+    std::vector<int> frames;
+    std::ifstream lines(trace);
+    for (std::string line; std::getline(lines, line);) {
+      const Json record = Json::parse(line);
+      if (record["record"] == "frame") frames.push_back(record["frame"].get<int>());
+    }
+    return frames;
+  };
+  const auto record = [&](const std::vector<int>& numbers) {
+    FrameRecorder recorder({run.plan, 1, "hash"}, run.scene, run.progress);
+    for (const int number : numbers) run.record(recorder, number);
+    recorder.finish(false);
+  };
+  record({1, 2});
+  CHECK(traced() == std::vector{1, 2});
+  run.plan.output.existing = ExistingFiles::kResume;
+  record({1, 2, 3});
+  CHECK(traced() == std::vector{1, 2, 1, 2, 3});
+}
+
 }  // namespace pprt::frame_recorder_test

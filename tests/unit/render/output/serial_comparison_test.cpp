@@ -31,6 +31,11 @@ TEST_CASE("samples are compared with the serial ones of what moves as it stands 
   CHECK(comparison.distance(1, camera, 2, samples).get() == 0);
   CHECK(comparison.distance(2, camera, 1, samples).get() > 0.1);
   CHECK(comparison.distance(3, camera, 2, samples).get() == 0);
+  // Where there is room for one frame only, each waits for the one before.
+  SerialComparison narrow(compiled, settings, 1);
+  std::vector<std::future<double>> distances;
+  for (const double time : {2.0, 1.0, 2.0}) distances.push_back(narrow.distance(1, camera, time, samples));
+  CHECK((distances[0].get() == 0 && distances[1].get() > 0.1 && distances[2].get() == 0));
 }
 
 }  // namespace pprt::serial_comparison_test

@@ -1,9 +1,11 @@
 #include "render/records/progress.h"
 
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "unit/render/records/printed_text.h"
@@ -211,6 +213,28 @@ TEST_CASE("a line for people tells where a run is, as fast as it is and how late
   CHECK(line(scope, totals_of({-3, 7.7})) ==
         "frame 4 of 9  0.00 of 25/s  worst 8 ms late  1,234 samples a frame  0:00 left");
   CHECK(line({.frames = 1}, totals_of({0})) == "frame 1 of 1  0.00/s  1,234 samples  0:00 left");
+}
+
+TEST_CASE("programs are told once a second how far a frame is, and how long it and those after it take") {
+  using Clock = std::chrono::steady_clock;
+  const auto seconds = [](Clock::duration time) { return std::chrono::duration<double>(time).count(); };
+  for (const int frames : {1, 3}) {
+    ProgressReporter reporter(ProgressKind::kJson);
+    const Clock::time_point before = Clock::now();
+    reporter.begin({.frames = frames});
+    const Clock::time_point begun = Clock::now();
+    CHECK(printed_by([&] { reporter.sampled({.share = 0.25}); }).empty());  // too soon
+    std::this_thread::sleep_for(std::chrono::milliseconds(1050));
+    const double least_s = seconds(Clock::now() - begun);
+    const std::vector<Json> told =
+        objects_in(printed_by([&] { reporter.sampled({.share = 0.25, .samples_per_pixel = 1.5}); }));
+    const double most_s = seconds(Clock::now() - before);
+    REQUIRE(told.size() == 1);
+    CHECK(
+        (told[0]["event"] == "sampling" && told[0]["share"] == 0.25 && told[0]["samples_per_pixel"] == 1.5));
+    const double left_s = told[0]["seconds_left"].get<double>(), times = 3 + 4 * (frames - 1);
+    CHECK((left_s >= 0.999 * times * least_s && left_s <= 1.001 * times * most_s));
+  }
 }
 
 TEST_CASE("numbers of samples are grouped by thousands") {
