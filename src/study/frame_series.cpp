@@ -30,20 +30,6 @@ std::vector<FrameRequest> frames_of(const CompiledScene& scene, const Animation&
   return frames;
 }
 
-std::vector<FrameRequest> own_frames_of(const CompiledScene& scene, const SceneDescription& description,
-                                        int count, int size) {
-  const FrameTimes& times = *description.movement.times;
-  std::vector<FrameRequest> frames;
-  for (int i = 0; i < std::min(count, times.frames); ++i) {
-    const double time = time_of_frame(times, i);
-    frames.push_back({.number = i + 1,
-                      .camera = square_camera(scene, *view_at(description, time), size),
-                      .time = time,
-                      .moves = i == 0 || scene.moves_between(frames.back().time, time)});
-  }
-  return frames;
-}
-
 void render_series(const CompiledScene& scene, const std::vector<FrameRequest>& frames, int ranks,
                    const SessionSettings& settings, const FrameSink& sink) {
   std::vector<Tracer> tracers;

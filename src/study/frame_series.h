@@ -21,10 +21,6 @@ Camera square_camera(const CompiledScene& scene, View view, int size);
 std::vector<FrameRequest> frames_of(const CompiledScene& scene, const Animation& animation, int count,
                                     const View& base, int size, double speed = 1);
 
-// Returns the first `count` frames of the scene's own animation, which it must have.
-std::vector<FrameRequest> own_frames_of(const CompiledScene& scene, const SceneDescription& description,
-                                        int count, int size);
-
 // Renders the frames on `ranks` ranks and passes each to the sink, in order. Throws what a rank throws.
 void render_series(const CompiledScene& scene, const std::vector<FrameRequest>& frames, int ranks,
                    const SessionSettings& settings, const FrameSink& sink);

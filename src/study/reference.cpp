@@ -123,11 +123,11 @@ Reference converged_reference(const Subject& subject, int n) {
   return reference;
 }
 
-Reference cached_reference(const std::string& scene_nff, const Subject& subject, int n,
+Reference cached_reference(const std::string& scene, const Subject& subject, int n,
                            const std::filesystem::path& directory) {
   if (directory.empty()) return converged_reference(subject, n);
-  const std::string key =
-      fmt::format("{}\n{}\n{}\n{}", scene_nff, camera_text(subject.camera), n, fingerprint(subject));
+  const std::string key = fmt::format("{}\n{}\n{}\n{}\n{}", scene, camera_text(subject.camera), subject.time,
+                                      n, fingerprint(subject));
   const std::filesystem::path path = directory / ("reference-" + content_hash(key) + ".raw");
   if (std::optional<Reference> kept = from_file(path, subject.camera, 2 * n * n)) return std::move(*kept);
   Reference reference = converged_reference(subject, n);

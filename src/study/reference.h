@@ -35,10 +35,10 @@ Image supersampled(const Subject& subject, int n);
 Reference converged_reference(const Subject& subject, int n);
 
 // Returns the same from a file in the directory, or makes it and the file. The file's name stands for the
-// scene, the camera, n and what the tracer shows at some points, so that another version's frame is not
-// taken. An unreadable file is replaced; an empty directory name keeps nothing. Throws std::runtime_error
-// when the file cannot be written.
-Reference cached_reference(const std::string& scene_nff, const Subject& subject, int n,
+// scene (`scene` is its text or hash), the camera, the time, n and what the tracer shows at some points, so
+// that another version's frame is not taken. An unreadable file is replaced; an empty directory name keeps
+// nothing. Throws std::runtime_error when the file cannot be written.
+Reference cached_reference(const std::string& scene, const Subject& subject, int n,
                            const std::filesystem::path& directory);
 
 // Returns $XDG_CACHE_HOME/pprt, or ~/.cache/pprt; empty when neither variable is set.

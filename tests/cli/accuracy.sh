@@ -96,6 +96,18 @@ expect_no_file home
 run pprt-study accuracy turn.anim --quick --size 32 --want-rmse 0.9; expect_code 0
 [[ $(find home/pprt -type f | wc -l) -ge 2 ]] || complain "the user's cache directory holds no converged frame"
 
+# What a script moves is in the sequence: here it alone makes the frames differ, each of which has a converged one.
+printf 's 0 0 1 0.5\n' >ball.nff
+cat >hop.anim <<'SCRIPT'
+animation {
+  scene "spd:tree:4"
+  frames 3
+  object "ball.nff" { key 1 { translate <0, 0, 0> } key 3 { translate <1, 1, 1> } }
+}
+SCRIPT
+run pprt-study accuracy hop.anim --quick --size 32 --cache hops --want-rmse 0.9; expect_code 0
+[[ $(find hops -type f | wc -l) -eq 3 ]] || complain "what the script moves stands still"
+
 # Refused.
 run pprt-study accuracy spd:tree:4 -o x --methods unifrom,control; expect_code 2
 expect_text err "pprt-study: error: --methods unifrom,control: 'unifrom' is none of auto, uniform, control, delaunay, paper-weights, area-only, variance-only, no-pixel-rule, pixel-area, mean-of-samples, pixel-centers, stratified-random; did you mean 'uniform'?"$'\n'"try 'pprt-study --help'"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
+#include <numeric>
 
 #include "parallel/session.h"
 
@@ -12,24 +12,41 @@ namespace {
 // The squared error falls as this power of a frame's time; measured (docs/decisions/0035-quality.md).
 constexpr double kSteepness = 1.3;
 
-// The mean of the errors of frames `first` to `last`.
-ErrorEstimate mean_error(std::span<const FramePrice> prices, std::size_t first, std::size_t last) {
-  MeanErrorEstimate mean;
-  for (std::size_t i = first; i <= last; ++i) mean.add(prices[i].error);
-  return mean.mean();
+// Frames of a shot that follow each other. The quick pass renders the middle one.
+struct FrameRun {
+  std::size_t first = 0, count = 1;
+  bool cut = false;  // a shot begins
+
+  std::size_t priced() const { return first + count / 2; }
+};
+
+std::vector<FrameRun> runs_of(std::span<const FrameRequest> film) {
+  constexpr std::size_t kMost = 4;
+  std::vector<FrameRun> runs;
+  for (std::size_t i = 0; i < film.size(); ++i) {
+    if (i == 0 || film[i].cut || runs.back().count == kMost) {
+      runs.push_back({.first = i, .cut = film[i].cut});
+    } else {
+      ++runs.back().count;
+    }
+  }
+  return runs;
 }
 
-// The error of a frame, or the mean of as few frames around it as make it known.
-ErrorEstimate known_error(std::span<const FramePrice> prices, std::size_t frame) {
+// The error of a run, or the mean of as few runs around it as make it known.
+ErrorEstimate known_error(std::span<const FrameRun> runs, std::span<const ErrorEstimate> prices,
+                          std::size_t run) {
   constexpr double kMostDeviation = 0.2;
-  constexpr std::size_t kFarthest = 8;
-  std::size_t first = frame, last = frame;
-  ErrorEstimate error = prices[frame].error;
-  for (std::size_t reach = 1; reach <= kFarthest; ++reach) {
+  constexpr int kFarthest = 2;
+  std::size_t first = run, last = run;
+  ErrorEstimate error = prices[run];
+  for (int reach = 1; reach <= kFarthest; ++reach) {
     if (std::sqrt(error.variance) <= kMostDeviation * error.squared) break;
-    if (first > 0 && !prices[first].cut) --first;
-    if (last + 1 < prices.size() && !prices[last + 1].cut) ++last;
-    error = mean_error(prices, first, last);
+    if (first > 0 && !runs[first].cut) --first;
+    if (last + 1 < runs.size() && !runs[last + 1].cut) ++last;
+    MeanErrorEstimate mean;
+    for (std::size_t i = first; i <= last; ++i) mean.add(prices[i]);
+    error = mean.mean();
   }
   return error;
 }
@@ -45,32 +62,44 @@ LogError log_of(const ErrorEstimate& error) {
   return {std::log(squared), error.variance / (squared * squared)};
 }
 
-// Chance makes the errors of frames differ more than they do. Each is moved towards the mean of all, by as
-// much as it is chance (empirical Bayes).
-std::vector<double> shrunken(const std::vector<LogError>& errors) {
+// Returns how far each error is from the mean of all. Chance makes errors differ more than they do, so each
+// is moved towards the mean by as much as it is chance (empirical Bayes). All are the mean where chance alone
+// might make them differ so much.
+std::vector<double> real_deviations(const std::vector<LogError>& errors) {
   const auto count = static_cast<double>(errors.size());
   double mean = 0, spread = 0, noise = 0;
   for (const LogError& e : errors) mean += e.value / count, noise += e.noise / count;
   for (const LogError& e : errors) spread += (e.value - mean) * (e.value - mean) / count;
-  const double real = std::max(0.0, spread - noise);
-  std::vector<double> values;
+  const bool is_chance = spread < (1 + 2 * std::sqrt(2 / count)) * noise;  // two deviations of chi-squared
+  const double real = is_chance ? 0 : spread - noise;
+  std::vector<double> deviations;
   for (const LogError& e : errors) {
     const double kept = real > 0 ? real / (real + e.noise) : 0;
-    values.push_back(mean + kept * (e.value - mean));
+    deviations.push_back(kept * (e.value - mean));
   }
-  return values;
+  return deviations;
 }
 
 }  // namespace
 
-SessionSettings pass_settings(const SessionSettings& film, int frames, double seconds) {
+SessionSettings pass_settings(const SessionSettings& film, std::size_t frames, double seconds) {
   SessionSettings settings = film;
-  settings.frames_per_second = frames / seconds;
+  settings.frames_per_second = static_cast<double>(frames) / seconds;
   settings.budget_units = default_budget_units(settings.frames_per_second);
   return settings;
 }
 
-SessionSettings pricing_settings(const SessionSettings& film, int frames, double film_time) {
+// With so few samples what is carried from frame to frame would make them all alike.
+std::vector<FrameRequest> pricing_requests(std::span<const FrameRequest> film) {
+  std::vector<FrameRequest> requests;
+  for (const FrameRun& run : runs_of(film)) {
+    FrameRequest& request = requests.emplace_back(film[run.priced()]);
+    request.carries_nothing = true, request.left_out = 0;
+  }
+  return requests;
+}
+
+SessionSettings pricing_settings(const SessionSettings& film, std::size_t frames, double film_time) {
   constexpr double kProbeShare = 0.3;
   SessionSettings settings = pass_settings(film, frames, kPricingShare * film_time);
   settings.probe_share = kProbeShare;
@@ -78,18 +107,22 @@ SessionSettings pricing_settings(const SessionSettings& film, int frames, double
   return settings;
 }
 
-std::vector<double> divided_time(std::span<const FramePrice> prices) {
+std::vector<double> divided_time(std::span<const FrameRequest> film, std::span<const ErrorEstimate> prices) {
   constexpr double kLeast = 0.2, kMost = 4;  // of the mean
+  const std::vector<FrameRun> runs = runs_of(film);
   std::vector<LogError> errors;
-  for (std::size_t i = 0; i < prices.size(); ++i) errors.push_back(log_of(known_error(prices, i)));
+  for (std::size_t i = 0; i < runs.size(); ++i) errors.push_back(log_of(known_error(runs, prices, i)));
+  const std::vector<double> deviations = real_deviations(errors);
   std::vector<double> times;
-  double sum = 0;
-  for (const double error : shrunken(errors)) sum += times.emplace_back(std::exp(error / kSteepness));
-  const auto count = static_cast<double>(prices.size());
-  for (double& time : times) time = sum > 0 ? std::clamp(time * count / sum, kLeast, kMost) : 1;
-  sum = 0;
-  for (const double time : times) sum += time;
-  for (double& time : times) time *= count / sum;
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    times.insert(times.end(), runs[i].count, std::exp(deviations[i] / kSteepness));
+  const auto scale_to_mean = [&] {
+    const double mean = std::accumulate(times.begin(), times.end(), 0.0) / static_cast<double>(times.size());
+    for (double& time : times) time /= mean;
+  };
+  scale_to_mean();
+  for (double& time : times) time = std::clamp(time, kLeast, kMost);
+  scale_to_mean();
   return times;
 }
 

@@ -18,7 +18,10 @@ struct RunFigures {
   int cores = 1;  // of this host
 };
 
+// What the reader can change: the options of the next run, or the controls of the live page.
+enum class Remedies { kOptions, kPage, kPageOfFixedSize };
+
 // Returns one line, or nothing where there is no rate, few frames are late and the error is small.
-std::string advice_on(const RunFigures& run);
+std::string advice_on(const RunFigures& run, Remedies remedies = Remedies::kOptions);
 
 }  // namespace pprt

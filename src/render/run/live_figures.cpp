@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "render/records/advice.h"
-
 namespace pprt {
 namespace {
 
@@ -21,8 +19,8 @@ RmseInterval recent_error(const std::deque<ErrorEstimate>& errors) {
 
 }  // namespace
 
-LiveFigures::LiveFigures(const SessionSettings& settings, int ranks, int cores)
-    : settings_(settings), ranks_(ranks), cores_(cores) {}
+LiveFigures::LiveFigures(const SessionSettings& settings, int ranks, int cores, Remedies remedies)
+    : settings_(settings), ranks_(ranks), cores_(cores), remedies_(remedies) {}
 
 FrameFigures LiveFigures::add(const FinishedFrame& frame) {
   FrameFigures figures{
@@ -58,7 +56,7 @@ std::string LiveFigures::advice(double least_rmse) const {
   std::sort(late_ms.begin(), late_ms.end());
   run.late_p95_ms = late_ms[late_ms.size() * 95 / 100];
   run.samples_per_pixel = samples / (static_cast<double>(run.frames) * settings_.width * settings_.height);
-  return advice_on(run);
+  return advice_on(run, remedies_);
 }
 
 }  // namespace pprt

@@ -191,7 +191,8 @@ class LiveRunner {
     settings.height = wanted.height;
     settings.frames_per_second = wanted.frames_per_second;
     const TileGrid grid = tile_grid(settings, ranks_);
-    LiveFigures last_frames(settings, ranks_, usable_cores());
+    const Remedies remedies = recorder_ == nullptr ? Remedies::kPage : Remedies::kPageOfFixedSize;
+    LiveFigures last_frames(settings, ranks_, usable_cores(), remedies);
     std::deque<LiveShot> shots;  // of frames that are not delivered
     StillWatch finish(photo_settings(settings).stop.weight, settings.frames_per_second);
     const auto source = [&](int) -> std::optional<FrameRequest> {

@@ -214,45 +214,45 @@ int run_live_view(ProcessRanks& ranks, const PreparedRun& run, const SessionEven
 }
 
 // Tells what a frame takes at least and at most.
-void tell_division(std::span<const double> times, double seconds, double pricing_s) {
+void tell_division(std::span<const double> times, double seconds, std::size_t priced, double pricing_s) {
   const auto [least, most] = std::minmax_element(times.begin(), times.end());
   const double mean_s = seconds / static_cast<double>(times.size());
-  print_message(fmt::format("pprt-render: {} frames were priced in {:.3g} s; each gets {:.3g} to {:.3g} s\n",
-                            times.size(), pricing_s, *least * mean_s, *most * mean_s));
+  print_message(
+      fmt::format("pprt-render: {} of {} frames were priced in {:.3g} s; a frame gets {:.3g} to {:.3g} s\n",
+                  priced, times.size(), pricing_s, *least * mean_s, *most * mean_s));
 }
 
 // Prices the frames of a film by a quick pass, and gives each its time. Returns the job of the pass proper.
 RenderJob divide_film_time(ProcessRanks& ranks, const PreparedRun& run, const SessionEvents& events,
                            JobBroadcast& broadcast, std::vector<FrameRequest>& requests) {
   const double film_time = *run.plan.film_time, begin_s = monotonic_seconds();
-  const int count = static_cast<int>(requests.size());
+  const std::vector<FrameRequest> quick = pricing_requests(requests);
   RenderJob job = run.job;
   job.again = true;
-  job.settings = pricing_settings(run.plan.settings, count, film_time);
+  job.settings = pricing_settings(run.plan.settings, quick.size(), film_time);
   broadcast.send(job);
-  std::vector<FramePrice> prices;
+  std::vector<ErrorEstimate> prices;
   const CameraSource source = [&](int index) -> std::optional<FrameRequest> {
     const auto i = static_cast<std::size_t>(index);
-    return i < requests.size() && !stop_requested() ? std::optional(requests[i]) : std::nullopt;
+    return i < quick.size() && !stop_requested() ? std::optional(quick[i]) : std::nullopt;
   };
   run_sequence(
       ranks, run.scene, job.settings, source,
-      [&](FinishedFrame&& frame) {
-        prices.push_back({frame.error ? frame.error->own : ErrorEstimate(), frame.order.cut});
-      },
+      [&](FinishedFrame&& frame) { prices.push_back(frame.error ? frame.error->own : ErrorEstimate()); },
       events);
   broadcast.require_others();
 
   const double passed_s =
       is_reproducible(job.settings) ? kPricingShare * film_time : monotonic_seconds() - begin_s;
-  const double left_s = std::max(film_time - passed_s, kPricingShare * film_time);
+  constexpr double kLeastLeft = 0.1;  // of the film's time, on a machine too slow for the quick pass
+  const double left_s = std::max(film_time - passed_s, kLeastLeft * film_time);
   job.again = false;
-  job.settings = pass_settings(run.plan.settings, count, left_s);
+  job.settings = pass_settings(run.plan.settings, requests.size(), left_s);
   job.scene.clear();
-  if (prices.size() < requests.size()) return job;  // a signal has ended the pass
-  const std::vector<double> times = divided_time(prices);
+  if (prices.size() < quick.size()) return job;  // a signal has ended the pass
+  const std::vector<double> times = divided_time(requests, prices);
   for (std::size_t i = 0; i < times.size(); ++i) requests[i].periods = times[i];
-  tell_division(times, left_s, passed_s);
+  tell_division(times, left_s, quick.size(), passed_s);
   return job;
 }
 

@@ -9,7 +9,6 @@
 #include <future>
 #include <iterator>
 #include <span>
-#include <sstream>
 #include <utility>
 
 #include "base/diagnostics.h"
@@ -18,7 +17,7 @@
 #include "parallel/settings/session_words.h"
 #include "parser/anim/anim_parser.h"
 #include "scene/animation/resting_nodes.h"
-#include "scene/writers/nff_writer.h"
+#include "scene/bytes/scene_bytes.h"
 #include "study/accuracy/comparison.h"
 #include "study/accuracy/crops.h"
 #include "study/accuracy/page.h"
@@ -71,6 +70,12 @@ const Effort& effort_of(const AccuracyOptions& options) {
   return options.quick ? kQuick : kFull;
 }
 
+struct Inputs {
+  std::vector<std::string> scenes = {};
+  std::optional<Animation> script = {};
+  std::string script_path = {};
+};
+
 // One scene under study.
 struct StudiedScene {
   std::string name;
@@ -78,7 +83,7 @@ struct StudiedScene {
   const Effort& effort;
   const Animation* script;  // null: none
   SceneDescription description;
-  std::string nff;  // canonical: stands for the scene
+  std::string hash;
   CompiledScene scene;
 
   // Side of a sequence's pictures, pixels: --size for the planner, otherwise a part of it.
@@ -93,20 +98,30 @@ struct StudiedScene {
 };
 
 // Throws InputError for a scene that cannot be read or has no view.
-StudiedScene studied_scene(const std::string& name, const Animation* script, const AccuracyOptions& options) {
-  SceneDescription description = load_scene(name).scene;
+StudiedScene studied_scene(const std::string& name, const Inputs& inputs, const AccuracyOptions& options) {
+  const Animation* script = inputs.script ? &*inputs.script : nullptr;
+  SceneDescription description =
+      script ? read_scripted_scene(name, *script, inputs.script_path) : load_scene(name).scene;
   if (!description.view) throw InputError(fmt::format("{}: the scene has no view", name));
-  std::ostringstream nff;
-  write_nff(still_at(description, 0), nff);
+  std::string hash = hash_of(description);
   CompiledScene scene = compile(description);
-  return {name, options, effort_of(options), script, std::move(description), nff.str(), std::move(scene)};
+  return {
+      name, options, effort_of(options), script, std::move(description), std::move(hash), std::move(scene)};
 }
 
 Reference reference_of(const StudiedScene& studied, const Subject& subject, int cells) {
   const AccuracyOptions& options = studied.options;
   std::filesystem::path cache = options.cache;
   if (cache.empty()) cache = default_cache_directory();
-  return cached_reference(studied.nff, subject, cells, options.no_cache ? std::filesystem::path() : cache);
+  return cached_reference(studied.hash, subject, cells, options.no_cache ? std::filesystem::path() : cache);
+}
+
+constexpr double kDegreesPerSecond = 14.4;  // of an orbit, whatever the rate
+
+MovingScene moving_scene_of(const StudiedScene& studied) {
+  if (studied.script) return moved_by_script(studied.name, studied.description, *studied.script);
+  if (studied.has_frames()) return moved_by_itself(studied.name, studied.description);
+  return moved_round(studied.name, studied.description, kDegreesPerSecond);
 }
 
 // The first frames of the script, or others where there is none.
@@ -115,12 +130,11 @@ Sequence sequence_of(const StudiedScene& studied, int script_frames,
   const AccuracyOptions& options = studied.options;
   Sequence sequence{studied.name, studied.scene, without_script, {}, options.ranks, options.sampler, 0,
                     options.seed};
-  if (const Animation* script = studied.script) {
-    sequence.frames = frames_of(studied.scene, *script, std::min(script_frames, script->frames),
-                                *studied.description.view, studied.sequence_size());
-  } else if (studied.has_frames()) {
+  if (studied.script || studied.has_frames()) {
+    const int frames = studied.script ? studied.script->frames : studied.description.movement.times->frames;
+    const MovingScene moving = moving_scene_of(studied);
     sequence.frames =
-        own_frames_of(studied.scene, studied.description, script_frames, studied.sequence_size());
+        frames_at(moving, moving.rate, std::min(script_frames, frames), studied.sequence_size());
   }
   for (const FrameRequest& frame : sequence.frames) {
     const Subject subject{studied.scene, frame.camera, frame.time};
@@ -140,8 +154,6 @@ Sequence short_sequence(const StudiedScene& studied) {
                      orbit(studied.scene, *studied.description.view, studied.sequence_size(),
                            std::min(most, kFrames), kDegreesPerFrame, kCut));
 }
-
-constexpr double kDegreesPerSecond = 14.4;  // of an orbit, whatever the rate
 
 // The script, or an orbit.
 Sequence sequence_at(double fps, const StudiedScene& studied) {
@@ -265,12 +277,6 @@ void print_rate(const StudiedScene& studied, double rmse) {
   fmt::print("{}\n", rate_with_error(points, rmse));
 }
 
-MovingScene moving_scene_of(const StudiedScene& studied) {
-  if (studied.script) return moved_by_script(studied.name, studied.description, *studied.script);
-  if (studied.has_frames()) return moved_by_itself(studied.name, studied.description);
-  return moved_round(studied.name, studied.description, kDegreesPerSecond);
-}
-
 // Judges a quarter of a second, and a period of the lowest rate at least.
 JudgedFilm short_judged_film(const StudiedScene& studied, double lowest_rate, double film_s) {
   constexpr double kSeconds = 0.25;
@@ -318,14 +324,8 @@ void print_error(const StudiedScene& studied, double fps) {
   fmt::print("{}\n", real_time_summary(turns));
 }
 
-struct Inputs {
-  std::vector<std::string> scenes = {};
-  std::optional<Animation> script = {};
-};
-
 Inputs read_inputs(const AccuracyOptions& options) {
   Inputs inputs;
-  std::string script_path;
   for (const std::string& name : options.inputs) {
     if (!is_script_name(name)) {
       inputs.scenes.push_back(name);
@@ -333,11 +333,12 @@ Inputs read_inputs(const AccuracyOptions& options) {
     }
     if (inputs.script) throw UsageError("there can be one animation script only");
     inputs.script = read_animation(name).animation;
-    script_path = name;
+    inputs.script_path = name;
   }
   if (!inputs.scenes.empty()) return inputs;
   inputs.scenes = {"spd:tree", "spd:gears", "spd:balls", "spd:tetra"};
-  if (inputs.script && inputs.script->scene) inputs.scenes = {scene_of_script(*inputs.script, script_path)};
+  if (inputs.script && inputs.script->scene)
+    inputs.scenes = {scene_of_script(*inputs.script, inputs.script_path)};
   return inputs;
 }
 
@@ -364,14 +365,13 @@ AccuracyOptions settled(AccuracyOptions options) {
 void study_accuracy(const AccuracyOptions& asked, const std::string& command_line) {
   const AccuracyOptions options = settled(asked);
   const Inputs inputs = read_inputs(options);
-  const Animation* script = inputs.script ? &*inputs.script : nullptr;
   const bool has_questions = options.want_rmse || options.want_fps;
   if (options.directory.empty() && !has_questions) throw UsageError("--output is required");
   const std::vector<Method> methods =
       options.methods.empty() ? accuracy_methods() : methods_of(options.methods);
   for (const std::string& name : inputs.scenes) {
     if (!has_questions) break;
-    const StudiedScene scene = studied_scene(name, script, options);
+    const StudiedScene scene = studied_scene(name, inputs, options);
     if (options.want_rmse) print_rate(scene, *options.want_rmse);
     if (options.want_fps) print_error(scene, *options.want_fps);
   }
@@ -385,7 +385,7 @@ void study_accuracy(const AccuracyOptions& asked, const std::string& command_lin
   AccuracyResults results;
   results.methods = methods;
   for (const std::string& name : inputs.scenes) {
-    const StudiedScene scene = studied_scene(name, script, options);
+    const StudiedScene scene = studied_scene(name, inputs, options);
     measure(scene, results);
     results.rates_setup = rates_setup(scene, kRound);
   }

@@ -8,26 +8,6 @@
 #include "study/frame_series.h"
 
 namespace pprt {
-namespace {
-
-std::vector<FrameRequest> frames_at(double fps, const HeldRun& run) {
-  const double last_s = run.film.moment(run.film.pictures.size() - 1);
-  std::vector<FrameRequest> frames;
-  double before_s = 0;
-  for (int k = 0; k <= frame_seen_at(last_s, fps, 1 / fps); ++k) {
-    const double moment_s = k / fps;
-    const Subject subject = subject_at(run.moving, moment_s, run.film.pictures.front().width);
-    FrameRequest frame{.number = k + 1, .camera = subject.camera, .time = subject.time};
-    frame.cut = k > 0 && run.moving.cuts_between(before_s, moment_s);
-    frame.moves = k > 0 && run.moving.scene.moves_between(frames.back().time, frame.time);
-    frames.push_back(frame);
-    before_s = moment_s;
-  }
-  return frames;
-}
-
-}  // namespace
-
 TrueFilm true_film_of(const MovingScene& moving, const JudgedFilm& judged) {
   constexpr double kRounding = 1e-6;  // of a picture
   std::vector<Image> pictures;
@@ -50,7 +30,9 @@ RateResult measure_held(SamplerChoice sampler, double fps, const HeldRun& run) {
   settings.seed = run.seed;
   std::vector<Image> pictures;
   double samples = 0;
-  render_series(run.moving.scene, frames_at(fps, run), run.ranks, settings, [&](FinishedFrame&& frame) {
+  const int last = frame_seen_at(run.film.moment(run.film.pictures.size() - 1), fps, 1 / fps);
+  const std::vector<FrameRequest> frames = frames_at(run.moving, fps, last + 1, settings.width);
+  render_series(run.moving.scene, frames, run.ranks, settings, [&](FinishedFrame&& frame) {
     for (const RankReport& rank : frame.ranks) samples += static_cast<double>(rank.samples_in_region);
     pictures.push_back(clamped_to_display(frame.image));
   });

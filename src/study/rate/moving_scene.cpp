@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "base/diagnostics.h"
 #include "cli/process/exit.h"
@@ -44,10 +45,13 @@ View require_view(const SceneDescription& description, double time, const std::s
 MovingScene moved_by_script(const std::string& name, const SceneDescription& description,
                             const Animation& script) {
   const View base = require_view(description, 0, name);
+  // A frame's own moment is not before it, whatever rounding says.
   const auto frame_at = [rate = rate_of(script), last = script.frames](double moment_s) {
-    return std::min<double>(last, 1 + moment_s * rate);
+    constexpr double kRounding = 1e-6;  // of a frame
+    const double frame = 1 + moment_s * rate, nearest = std::round(frame);
+    return std::min<double>(last, std::abs(frame - nearest) < kRounding ? nearest : frame);
   };
-  MovingScene moving{.name = name, .scene = compile(description), .at = {}};
+  MovingScene moving{.name = name, .scene = compile(description), .at = {}, .rate = rate_of(script)};
   moving.length_s = script.frames / rate_of(script);
   moving.at = [script, frame_at, base, times = times_of(script, description)](double moment_s) {
     const double frame = frame_at(moment_s);
@@ -66,6 +70,7 @@ MovingScene moved_by_itself(const std::string& name, const SceneDescription& des
   const double start = description.movement.times->start, end = description.movement.times->end;
   require_view(description, start, name);
   MovingScene moving{.name = name, .scene = compile(description), .at = {}};
+  moving.rate = (description.movement.times->frames - 1) / (end - start);
   moving.length_s = end - start;
   moving.at = [name, description, start, end](double moment_s) {
     const double time = std::min(end, start + moment_s);
@@ -87,6 +92,14 @@ MovingScene moved_round(const std::string& name, const SceneDescription& descrip
   return moving;
 }
 
+SceneDescription read_scripted_scene(const std::string& scene, const Animation& script,
+                                     const std::string& script_path) {
+  ParsedScene parsed = scene.empty() ? load_scene_of_script(script, script_path) : load_scene(scene);
+  add(script.daylight, parsed.scene);
+  add_objects(parsed, script, script_path, times_of(script, parsed.scene));
+  return std::move(parsed.scene);
+}
+
 MovingScene read_moving_scene(const std::vector<std::string>& inputs) {
   std::string scene, script_path;
   for (const std::string& name : inputs) {
@@ -100,15 +113,24 @@ MovingScene read_moving_scene(const std::vector<std::string>& inputs) {
     return moved_by_itself(scene, description);
   }
   const Animation script = read_animation(script_path).animation;
-  ParsedScene parsed = scene.empty() ? load_scene_of_script(script, script_path) : load_scene(scene);
-  add(script.daylight, parsed.scene);
-  add_objects(parsed, script, script_path, times_of(script, parsed.scene));
-  return moved_by_script(script_path, parsed.scene, script);
+  return moved_by_script(script_path, read_scripted_scene(scene, script, script_path), script);
 }
 
 Subject subject_at(const MovingScene& moving, double moment_s, int size) {
   const MovingScene::Moment now = moving.at(moment_s);
   return {moving.scene, square_camera(moving.scene, now.view, size), now.time};
+}
+
+std::vector<FrameRequest> frames_at(const MovingScene& moving, double fps, int count, int size) {
+  std::vector<FrameRequest> frames;
+  for (int k = 0; k < count; ++k) {
+    const Subject subject = subject_at(moving, k / fps, size);
+    FrameRequest frame{.number = k + 1, .camera = subject.camera, .time = subject.time};
+    frame.cut = k > 0 && moving.cuts_between((k - 1) / fps, k / fps);
+    frame.moves = k > 0 && moving.scene.moves_between(frames.back().time, frame.time);
+    frames.push_back(frame);
+  }
+  return frames;
 }
 
 }  // namespace pprt

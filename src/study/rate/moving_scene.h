@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "parallel/master/master.h"
 #include "scene/animation/animation.h"
 #include "scene/description/scene_description.h"
 #include "study/reference.h"
@@ -23,9 +24,15 @@ struct MovingScene {
   std::string name;
   CompiledScene scene;
   std::function<Moment(double moment_s)> at;
+  double rate = 24;  // frames a second of its own
   double length_s = std::numeric_limits<double>::infinity();
   std::function<bool(double from_s, double to_s)> cuts_between = [](double, double) { return false; };
 };
+
+// Reads the scene of a script, with the daylight that the script tells and the objects that it moves.
+// `scene`: empty where the script names it. Throws InputError for what cannot be read.
+SceneDescription read_scripted_scene(const std::string& scene, const Animation& script,
+                                     const std::string& script_path);
 
 // Reads a film: a script, with a scene where it names none, or a scene that moves by itself. Throws
 // UsageError for other inputs, InputError for what cannot be read.
@@ -44,5 +51,8 @@ MovingScene moved_round(const std::string& name, const SceneDescription& descrip
 
 // Returns what is pictured at a moment, in size x size pixels.
 Subject subject_at(const MovingScene& moving, double moment_s, int size);
+
+// Returns the film's first `count` frames at a rate, in size x size pixels.
+std::vector<FrameRequest> frames_at(const MovingScene& moving, double fps, int count, int size);
 
 }  // namespace pprt

@@ -4,6 +4,7 @@
 #include "parser/aff_parser.h"
 #include "scene/animation/resting_nodes.h"
 #include "study/frame_series.h"
+#include "study/rate/moving_scene.h"
 #include "study/reference.h"
 
 namespace pprt::moving_series_test {
@@ -57,8 +58,9 @@ Series render(const CompiledScene& scene, const std::vector<FrameRequest>& frame
 
 TEST_CASE("moving series: what is carried shows nothing of where things were") {
   const SceneDescription description = without_resting_nodes(parse_aff(kScene, "m.aff").scene);
-  const CompiledScene scene = compile(description);
-  const std::vector<FrameRequest> frames = own_frames_of(scene, description, kFrames, kSize);
+  const MovingScene moving = moved_by_itself("m.aff", description);
+  const CompiledScene& scene = moving.scene;
+  const std::vector<FrameRequest> frames = frames_at(moving, moving.rate, kFrames, kSize);
   std::vector<Image> references;
   for (const FrameRequest& frame : frames)
     references.push_back(converged_reference({scene, frame.camera, frame.time}, 6).image);

@@ -55,4 +55,21 @@ TEST_CASE(
         "9 ranks share 8 cores of this host; more hosts (--hostfile) or fewer ranks help");
 }
 
+TEST_CASE("advice: on the page its own controls, of which a run with files fixes the size") {
+  CHECK(advice_on(late(12, 4), Remedies::kPage) ==
+        "12 of 100 frames were late; 95 % of them would not have been at a Rate of 48 frames/s; "
+        "all cores were used; more hosts (--hostfile) help");
+  RunFigures coarse = kSound;
+  coarse.least_rmse = 0.05, coarse.frames_per_second = 5;
+  CHECK(advice_on(coarse, Remedies::kPage) ==
+        "0.5 samples a pixel are few; a Rate of 2 frames/s or a Size of half as many pixels gives twice as "
+        "many; all cores were used; more hosts (--hostfile) help");
+  CHECK(advice_on(coarse, Remedies::kPageOfFixedSize) ==
+        "0.5 samples a pixel are few; a Rate of 2 frames/s gives twice as many; "
+        "all cores were used; more hosts (--hostfile) help");
+  coarse.frames_per_second = 1;  // the page has no lower one
+  CHECK(advice_on(coarse, Remedies::kPageOfFixedSize) ==
+        "0.5 samples a pixel are few; all cores were used; more hosts (--hostfile) help");
+}
+
 }  // namespace pprt::advice_test

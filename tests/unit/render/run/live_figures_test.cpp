@@ -29,7 +29,7 @@ FinishedFrame frame_with(double late_ms, double rmse = 0.01, bool cut = false) {
 }  // namespace
 
 TEST_CASE("live figures: a frame's own, and the error of the last frames since a cut") {
-  LiveFigures figures(settings_at(24), 2, 2);
+  LiveFigures figures(settings_at(24), 2, 2, Remedies::kPage);
   FrameFigures told = figures.add(frame_with(-3, 0.03));
   CHECK((told.slack_ms == 3 && told.samples == 4000 && told.advice.empty()));
   CHECK(told.rmse.value()[0] == Approx(0.03));
@@ -46,18 +46,19 @@ TEST_CASE("live figures: a frame's own, and the error of the last frames since a
 }
 
 TEST_CASE("live figures: advice comes with late or coarse frames, and goes with them") {
-  LiveFigures figures(settings_at(50), 2, 2);
+  LiveFigures figures(settings_at(50), 2, 2, Remedies::kPage);
   for (int i = 0; i < 23; ++i) CHECK(figures.add(frame_with(5)).advice.empty());
   CHECK(figures.add(frame_with(5)).advice ==
-        "24 of 24 frames were late; 95 % of them would not have been at --fps 40; all cores were used; more "
+        "24 of 24 frames were late; 95 % of them would not have been at a Rate of 40 frames/s; all cores "
+        "were used; more "
         "hosts (--hostfile) help");
   for (int i = 0; i < 119; ++i) figures.add(frame_with(-1));
   CHECK(figures.add(frame_with(-1)).advice.empty());
   for (int i = 0; i < 24; ++i) figures.add(frame_with(-1, 0.05));
-  CHECK(
-      figures.add(frame_with(-1, 0.05)).advice ==
-      "0.8 samples a pixel are few; --fps 25 or --size 71x35 gives twice as many; all cores were used; more "
-      "hosts (--hostfile) help");
+  CHECK(figures.add(frame_with(-1, 0.05)).advice ==
+        "0.8 samples a pixel are few; a Rate of 25 frames/s or a Size of half as many pixels gives twice as "
+        "many; all cores were used; more "
+        "hosts (--hostfile) help");
 }
 
 }  // namespace pprt::live_figures_test

@@ -352,7 +352,7 @@ TEST_CASE("converged frame: the estimate of its own error is right") {
   CHECK(coarse.own_rmse == Approx(measured).epsilon(0.25));
 }
 
-TEST_CASE("converged frames: the cache distinguishes scene, view and number of samples") {
+TEST_CASE("converged frames: the cache distinguishes scene, view, moment and number of samples") {
   const std::filesystem::path cache = std::filesystem::temp_directory_path() / "pprt-accuracy-test";
   std::filesystem::remove_all(cache);
   const TreeSetup tree(32), other(24);
@@ -368,6 +368,8 @@ TEST_CASE("converged frames: the cache distinguishes scene, view and number of s
   cached_reference(tree.nff(), tree.subject(), 3, cache);
   cached_reference(other.nff(), other.subject(), 2, cache);
   CHECK(files() == 3);
+  cached_reference(tree.nff(), {tree.scene, tree.camera, 1.5}, 2, cache);  // small things may move
+  CHECK(files() == 4);
   // A broken file is replaced.
   for (const auto& file : std::filesystem::directory_iterator(cache)) std::filesystem::resize_file(file, 5);
   CHECK(cached_reference(tree.nff(), tree.subject(), 2, cache).image.pixels == made.image.pixels);

@@ -14,9 +14,9 @@
 
 #include "cli/scenes/scene_source.h"
 #include "parallel/session.h"
-#include "parser/anim/anim_parser.h"
 #include "render/plan/film_time.h"
 #include "study/frame_series.h"
+#include "study/rate/moving_scene.h"
 #include "study/reference.h"
 
 namespace pprt::quality_test {
@@ -86,27 +86,18 @@ TEST_CASE("measured RMSE: how near stills come to it", "[.quality]") {
 
 namespace {
 
-// A film of 48 frames, whatever its script has.
+// A film of 48 frames, however many it has.
 struct Film {
   static constexpr int kFrames = 48, kSize = 128, kRanks = 2;
 
-  CompiledScene scene;
+  MovingScene moving;
   std::vector<FrameRequest> frames;
   SessionSettings settings{.sampler = SamplerChoice::kAuto};
 };
 
 Film film_of(const std::string& name) {
-  const Animation script = read_animation(name).animation;
-  const SceneDescription description = load_scene_of_script(script, name).scene;
-  Film film{.scene = compile(description), .frames = {}};
-  const double speed = static_cast<double>(script.frames - 1) / (Film::kFrames - 1);
-  film.frames = frames_of(film.scene, script, Film::kFrames, *view_at(description, 0), Film::kSize, speed);
-  for (std::size_t i = 1; i < film.frames.size(); ++i) {
-    const double before = 1 + speed * static_cast<double>(i - 1);
-    film.frames[i].cut = std::any_of(script.keys.begin(), script.keys.end(), [&](const CameraKey& key) {
-      return key.cut && key.frame > before && key.frame <= before + speed;
-    });
-  }
+  Film film{.moving = read_moving_scene({name}), .frames = {}};
+  film.frames = frames_at(film.moving, Film::kFrames / film.moving.length_s, Film::kFrames, Film::kSize);
   film.settings.width = film.settings.height = Film::kSize;
   film.settings.clock = ClockKind::kWork;
   film.settings.awaits_all = film.settings.measures_error = true;
@@ -117,7 +108,7 @@ Film film_of(const std::string& name) {
 double played(const Film& film, const std::vector<FrameRequest>& frames, const SessionSettings& settings,
               const FrameSink& sink) {
   double latest = -1e9;
-  render_series(film.scene, frames, Film::kRanks, settings, [&](FinishedFrame&& frame) {
+  render_series(film.moving.scene, frames, Film::kRanks, settings, [&](FinishedFrame&& frame) {
     latest = std::max(latest, frame.late_ms);
     sink(std::move(frame));
   });
@@ -125,12 +116,11 @@ double played(const Film& film, const std::vector<FrameRequest>& frames, const S
 }
 
 std::vector<FrameRequest> with_divided_time(const Film& film, double film_time) {
-  std::vector<FramePrice> prices;
-  played(film, film.frames, pricing_settings(film.settings, Film::kFrames, film_time),
-         [&](FinishedFrame&& frame) {
-           prices.push_back({frame.error.value().own, frame.order.cut});
-         });
-  const std::vector<double> times = divided_time(prices);
+  const std::vector<FrameRequest> quick = pricing_requests(film.frames);
+  std::vector<ErrorEstimate> prices;
+  played(film, quick, pricing_settings(film.settings, quick.size(), film_time),
+         [&](FinishedFrame&& frame) { prices.push_back(frame.error.value().own); });
+  const std::vector<double> times = divided_time(film.frames, prices);
   std::vector<FrameRequest> frames = film.frames;
   for (std::size_t i = 0; i < frames.size(); ++i) frames[i].periods = times[i];
   return frames;
@@ -163,7 +153,7 @@ TEST_CASE("film time: what dividing it is worth", "[.film]") {
     const Film film = film_of(name);
     std::vector<Reference> references;
     for (const FrameRequest& frame : film.frames)
-      references.push_back(converged_reference({film.scene, frame.camera, frame.time}, 4));
+      references.push_back(converged_reference({film.moving.scene, frame.camera, frame.time}, 4));
     for (const double film_time : {4.0, 16.0}) {
       std::vector<Image> equal, divided;
       played(film, film.frames, pass_settings(film.settings, Film::kFrames, film_time),
