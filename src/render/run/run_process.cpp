@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/counted.h"
 #include "base/diagnostics.h"
 #include "base/system/host_cores.h"
 #include "cli/process/exit.h"
@@ -98,7 +99,8 @@ struct PreparedRun {
 PreparedRun prepare(const PlanMaker& make_plan, bool has_others) {
   RenderPlan plan = make_plan();
   std::cerr << plan.warnings;
-  log_info(fmt::format("read {} objects of {}", plan.scene.primitive_count(), plan.scene.name));
+  log_info(fmt::format("read {} of {}", counted(plan.scene.primitive_count(), "object", "objects"),
+                       plan.scene.name));
   RenderJob job{.go = true,
                 .settings = plan.settings,
                 .compile = plan.compile,
@@ -217,8 +219,9 @@ int run_live_view(ProcessRanks& ranks, const PreparedRun& run, const SessionEven
 void tell_division(std::span<const double> times, double seconds, double pricing_s) {
   const auto [least, most] = std::minmax_element(times.begin(), times.end());
   const double mean_s = seconds / static_cast<double>(times.size());
-  print_message(fmt::format("pprt-render: {} frames were priced in {:.3g} s; each gets {:.3g} to {:.3g} s\n",
-                            times.size(), pricing_s, *least * mean_s, *most * mean_s));
+  print_message(fmt::format("pprt-render: {} priced in {:.3g} s; each gets {:.3g} to {:.3g} s\n",
+                            counted(times.size(), "frame was", "frames were"), pricing_s, *least * mean_s,
+                            *most * mean_s));
 }
 
 // Prices the frames of a film by a quick pass, and gives each its time. Returns the job of the pass proper.
