@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/counted.h"
 #include "base/diagnostics.h"
 #include "compare/figures.h"
 #include "compare/pictures.h"
@@ -114,7 +115,8 @@ bool judge(const std::vector<Measured>& all, const CompareOptions& options, std:
 
 void print_text(const std::vector<Measured>& all, const CompareOptions& options, std::ostream& out) {
   if (is_sequence(all)) {
-    out << fmt::format("{} frames, {} to {}\n", all.size(), *all.front().pair.frame, *all.back().pair.frame)
+    out << fmt::format("{}, {} to {}\n", counted(all.size(), "frame", "frames"), *all.front().pair.frame,
+                       *all.back().pair.frame)
         << fmt::format("{:14}{:>12}{:>14}{:>8}\n", "", "mean", "worst", "frame");
     const auto row = [&](const FigureKind& kind, const Summary& s) {
       out << fmt::format("{:14}{:>12.6g}{:>14.6g}{:>8}\n", kind.label, s.mean, s.worst,

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/counted.h"
 #include "base/diagnostics.h"
 #include "cli/options/number_pair.h"
 #include "image/frame_pattern.h"
@@ -97,7 +98,8 @@ LoadedPair load(const PicturePair& pair, bool clamp) {
   for (const auto& [name, picture] :
        {std::pair{&pair.image, &loaded.image}, {&pair.reference, &loaded.reference}}) {
     if (const std::size_t bad = replace_non_finite(*picture); bad > 0) {
-      throw std::runtime_error(fmt::format("'{}' has {} pixels that are not finite", *name, bad));
+      throw std::runtime_error(fmt::format(
+          "'{}' has {}", *name, counted(bad, "pixel that is not finite", "pixels that are not finite")));
     }
     if (clamp) *picture = clamped_to_display(*picture);
   }

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/counted.h"
 #include "base/diagnostics.h"
 #include "base/file_table.h"
 #include "cli/scenes/scene_source.h"
@@ -71,7 +72,8 @@ void say(const SceneDescription& scene, const std::string& what) {
 }
 
 void say_degenerate(const SceneDescription& scene, std::size_t count) {
-  if (count > 0) say(scene, fmt::format("{} objects without extent left out", count));
+  if (count > 0)
+    say(scene, counted(count, "object without extent left out", "objects without extent left out"));
 }
 
 // Returns the scene as the output can hold it: with its movement, or at one time.
@@ -85,7 +87,10 @@ SceneDescription at_time_asked(SceneDescription scene, const ConvertOptions& opt
   if (options.at || to != OutputFormat::kMesh || !keeps_movement(extension_of(options.output)))
     return still_at(std::move(scene), time);
   if (const std::size_t count = scene.moving_triangles.size(); count > 0)
-    say(scene, fmt::format("{} triangles that change their shape keep that of {} seconds", count, time));
+    say(scene, fmt::format("{} of {} seconds",
+                           counted(count, "triangle that changes its shape keeps that",
+                                   "triangles that change their shape keep that"),
+                           time));
   return with_still_triangles(std::move(scene), time);
 }
 
@@ -128,17 +133,20 @@ void require_distinct(const Inputs& inputs, const Outputs& outputs) {
 void write_pov_and_tell(const SceneDescription& scene, std::ostream& out, const std::string& stem) {
   const PovLosses losses = write_pov(scene, out, stem);
   if (losses.one_sided > 0) {
-    say(scene, fmt::format("{} spheres or cones of which only the inside is seen: POV-Ray shows both sides",
-                           losses.one_sided));
+    say(scene,
+        counted(losses.one_sided, "sphere or cone of which only the inside is seen: POV-Ray shows both sides",
+                "spheres or cones of which only the inside is seen: POV-Ray shows both sides"));
   }
   if (losses.lost_highlights > 0) {
-    say(scene,
-        fmt::format("{} materials with a coloured highlight that becomes white", losses.lost_highlights));
+    say(scene, counted(losses.lost_highlights, "material with a coloured highlight that becomes white",
+                       "materials with a coloured highlight that becomes white"));
   }
   if (losses.lost_ambient > 0) {
-    say(scene, fmt::format("{} materials with a texture lack ambient light in a colour that they do not "
-                           "reflect diffusely",
-                           losses.lost_ambient));
+    say(scene,
+        counted(
+            losses.lost_ambient,
+            "material with a texture lacks ambient light in a colour that it does not reflect diffusely",
+            "materials with a texture lack ambient light in a colour that they do not reflect diffusely"));
   }
   say_degenerate(scene, losses.degenerate);
 }
@@ -154,7 +162,8 @@ SceneDescription without_stretched(SceneDescription scene, const ConvertOptions&
   if (scene.nodes.empty()) return scene;
   const auto count = static_cast<std::size_t>(
       std::count_if(scene.nodes.begin(), scene.nodes.end(), [](NodeIndex node) { return node != 0; }));
-  say(scene, fmt::format("{} stretched spheres or cones become triangles", count));
+  say(scene, counted(count, "stretched sphere or cone becomes triangles",
+                     "stretched spheres or cones become triangles"));
   return with_stretched_tessellated(scene, fineness(options));
 }
 

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "base/counted.h"
 #include "parser/text/text_input.h"
 #include "scene/description/shading_rules.h"
 
@@ -27,10 +28,6 @@ Rgb mean_color(const Texture& texture) {
   const double all = 255.0 * static_cast<double>(std::max<std::size_t>(texture.rgb.size() / 3, 1));
   return {static_cast<double>(sum[0]) / all, static_cast<double>(sum[1]) / all,
           static_cast<double>(sum[2]) / all};
-}
-
-std::string counted(std::size_t count, const char* one, const char* many) {
-  return fmt::format("{} {}", count, count == 1 ? one : many);
 }
 
 // Forgets a texture of some term of a material, for its mean.

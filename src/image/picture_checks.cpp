@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/counted.h"
+
 namespace pprt {
 namespace {
 
@@ -16,13 +18,14 @@ constexpr std::uint64_t kDecodedPixel = 20;  // bytes: as 16 bits a channel and 
 void require_encodable(const Image& image) {
   if (image.width < 1 || image.height < 1 ||
       image.pixels.size() != static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height)) {
-    throw std::runtime_error(
-        fmt::format("{} pixels make no picture of {}x{}", image.pixels.size(), image.width, image.height));
+    throw std::runtime_error(fmt::format("{} no picture of {}x{}",
+                                         counted(image.pixels.size(), "pixel makes", "pixels make"),
+                                         image.width, image.height));
   }
   const auto bad = std::count_if(image.pixels.begin(), image.pixels.end(), [](const Color& c) {
     return !(std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z));
   });
-  if (bad > 0) throw std::runtime_error(fmt::format("{} pixels are not finite", bad));
+  if (bad > 0) throw std::runtime_error(counted(bad, "pixel is not finite", "pixels are not finite"));
 }
 
 void require_decodable_size(std::int64_t width, std::int64_t height, std::uint64_t max_memory) {

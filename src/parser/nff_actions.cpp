@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "base/counted.h"
 #include "parser/colour_names.h"
 
 namespace pprt::nff {
@@ -362,8 +363,8 @@ void SceneBuilder::begin_vertices(std::string_view matched) {
         place, fmt::format("'{}' with more than {} vertices", entity_, options_.max_polygon_vertices)};
   }
   if (count > static_cast<double>(left)) {
-    throw ParseFailure{place, fmt::format("'{}' with {} vertices, but only {} bytes of the file are left",
-                                          entity_, count, left)};
+    throw ParseFailure{place, fmt::format("'{}' with {} vertices, but only {} left", entity_, count,
+                                          counted(left, "byte of the file is", "bytes of the file are"))};
   }
   vertex_count_ = static_cast<std::size_t>(count);
 }

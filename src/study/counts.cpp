@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/counted.h"
 #include "base/diagnostics.h"
 #include "cli/scenes/scene_source.h"
 #include "study/frame_series.h"
@@ -90,8 +91,8 @@ std::string why_not_comparable(const std::string& scene, int corners) {
   const std::string database = scene.substr(0, scene.rfind(':'));
   for (const auto& [name, counts] : kPublished) {
     if (name == scene)
-      return fmt::format("{}: nothing is published for {} corners, only for {}\n", scene, corners,
-                         kPublishedCorners);
+      return fmt::format("{}: nothing is published for {}, only for {}\n", scene,
+                         counted(corners, "corner", "corners"), kPublishedCorners);
     if (name.starts_with(database + ":"))
       return fmt::format("{}: nothing is published for this size, only for {}\n", scene, name);
   }

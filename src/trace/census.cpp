@@ -1,13 +1,10 @@
 #include <fmt/format.h>
 
+#include "base/counted.h"
 #include "trace/scene_impl.h"
 
 namespace pprt {
 namespace {
-
-std::string counted(std::size_t n, const char* singular, const char* plural) {
-  return fmt::format("{} {}", n, n == 1 ? singular : plural);
-}
 
 std::string primitives(const CompiledScene::Impl& scene) {
   const Inventory& held = scene.inventory;

@@ -39,7 +39,7 @@ run pprt-convert noview.nff noview.pov; expect_code 0
 expect_line err 'noview.nff: no camera: .*'; expect_line noview.pov 'camera {'
 sed 's/^s .*/s 0 0 0 -1/' ball.nff >inside.nff
 run pprt-convert inside.nff inside.pov; expect_code 0
-expect_text err "inside.nff: 1 spheres or cones of which only the inside is seen: POV-Ray shows both sides"
+expect_text err "inside.nff: 1 sphere or cone of which only the inside is seen: POV-Ray shows both sides"
 
 # AFF: the scene at a time, and what is lost is told.
 printf 'P3 2 1 255 255 0 0 0 255 102\n' >t.ppm

@@ -32,7 +32,7 @@ run pprt-render ball.anim "${work[@]}" --frames 1-2 -o p/%04d.png --layers sampl
 expect_text err 'done: 0 of 2 frames (2 were there already) in p/0001.png to p/0002.png'
 rm p/0002.samples.png
 run pprt-render ball.anim "${work[@]}" --frames 1-2 -o p/%04d.png --layers samples,id --resume; expect_code 0
-expect_line err 'done: 1 of 2 frames (1 were there already) .*'; expect_file p/0002.samples.png
+expect_line err 'done: 1 of 2 frames (1 was there already) .*'; expect_file p/0002.samples.png
 run pprt-render ball.anim "${work[@]}" --frames 1-2 -o p/%04d.png --layers depth --resume; expect_code 0
 expect_line err 'done: 2 of 2 frames in .*'; expect_file p/0001.depth.png
 run pprt-render ball.anim "${work[@]}" --frames 1-2 -o e/%d.exr --layers age --resume; expect_code 0

@@ -50,8 +50,8 @@ for n in 1 3 6; do expect_same a$n.png k$n.png; done
 cmp -s a3.png k6.png && complain 'another frame is the same'
 run pprt-convert toy.aff toy.glb; expect_code 0; expect_line err 'toy.aff: the ambient light is not kept'
 run pprt-convert toy.glb back.aff; expect_code 0
-expect_text err 'toy.glb: 1 materials with coloured glass or metal: what is seen through or in them keeps its colours
-toy.glb: 1 lights that weaken with the distance: they are as bright everywhere as in the middle of the scene'
+expect_text err 'toy.glb: 1 material with coloured glass or metal: what is seen through or in it keeps its colours
+toy.glb: 1 light that weakens with the distance: it is as bright everywhere as in the middle of the scene'
 run pprt-render back.aff --census; expect_code 0; expect_line out 'movement    1 object that moves'
 run pprt-convert --at 1.5 toy.aff still.aff; expect_code 0
 run pprt-render still.aff --census; expect_code 0

@@ -6,8 +6,8 @@ import {join} from "node:path";
 import {Chromium, sleep, until} from "./chromium.mjs";
 import {films} from "./films.mjs";
 import {
-  directory, programs, Program, scene, shown, camera, frame, stateIs, middle, open, take, drag, keepBusy,
-  writeBrightScene, watchForBlack, noError
+  directory, programs, Program, scene, shown, camera, frame, stateIs, middle, open, take, drag, showsHand, keepBusy,
+  writeBrightScene, watchForBlack, keepIdle, noError
 } from "./stage.mjs";
 
 const cases = {
@@ -56,7 +56,7 @@ const cases = {
     assert.equal(await camera(page), number, "nobody steers who has not taken the camera");
     await take(page);
     await drag(page, 60, 20);
-    await page.until(`Number(document.body.dataset.camera) > ${number} && shown.look === look`);
+    await page.until(`Number(document.body.dataset.camera) > ${number} && ${showsHand}`);
     assert.notEqual(await shown(page), still);
     const [from, at] = await page.evaluate("[shown.view.from, pilot.home.from]");
     assert.notDeepEqual(from, at);
@@ -194,6 +194,8 @@ const cases = {
     })()`), "the key button is in sight");
     await page.evaluate('element("picture").dispatchEvent(new PointerEvent("pointerdown", {pointerId: 1}))').catch(() => {});
     await page.until("element('note').textContent.includes('Tap')");
+    const unexplained = await page.evaluate(`[...document.querySelectorAll("dt, #gauge-text")].filter((e) => !e.title).map((e) => e.textContent)`);
+    assert.deepEqual(unexplained, [], "figures without an explanation on hover");
     await page.evaluate("document.querySelector('dt').click()");
     await page.until("element('note').textContent.includes('Rays from the eye')");
     const dark = await page.evaluate("getComputedStyle(document.body).backgroundColor");
@@ -221,11 +223,11 @@ const cases = {
     const before = await page.evaluate("shown.position");
     await take(page);
     await drag(page, 30, 5);
-    await page.until("shown.look === look && shown.by_hand");
+    await page.until(`${showsHand} && shown.by_hand`);
     const steered = await page.evaluate("shown.view.from");
     const pictures = new Set();
     const end = await frame(page) + 40;  // more than the script has
-    while (await frame(page) < end) pictures.add(await shown(page)), await sleep(60);
+    await until("the frames go on", async () => pictures.add(await shown(page)) && await frame(page) >= end, 60);
     assert.ok(pictures.size > 10, "the ball rolls");
     assert.deepEqual(await page.evaluate("shown.view.from"), steered);
     assert.ok(await page.evaluate("state.plays"));
@@ -246,27 +248,39 @@ const cases = {
     const page = await open(browser, program);
     await take(page);
     await page.press("Home");
-    await page.until("shown.look === look && !shown.view.at.every((v, i) => v === pilot.home.at[i])");
+    await page.until(`${showsHand} && !shown.view.at.every((v, i) => v === pilot.home.at[i])`);
     const [least, most] = await page.evaluate("hello.bounds");
-    const at = await page.evaluate("pilot.camera.at");
-    at.forEach((v, i) => assert.ok(Math.abs(v - (least[i] + most[i]) / 2) < 1e-9));
+    const framed = await page.evaluate("pilot.camera");
+    framed.at.forEach((v, i) => assert.ok(Math.abs(v - (least[i] + most[i]) / 2) < 1e-9));
     await page.press("h");
-    await page.until("shown.look === look");
+    await page.until(showsHand);
+    await page.click("cross");
+    assert.deepEqual(await page.evaluate("pilot.camera"), framed);
+    await page.press("h");
+    await page.until(showsHand);
     const axes = await page.evaluate("element('cross').toDataURL()");
     const [x, y] = await middle(page);
     await page.mouse("mousePressed", x + 20, y + 25, {clickCount: 1});
     await page.mouse("mouseReleased", x + 20, y + 25, {clickCount: 1, buttons: 0});
     await page.mouse("mousePressed", x + 20, y + 25, {clickCount: 2});
     await page.mouse("mouseReleased", x + 20, y + 25, {clickCount: 2, buttons: 0});
-    await page.until("shown.look === look && !pilot.camera.at.every((v, i) => v === pilot.home.at[i])");
+    await page.until(`${showsHand} && !pilot.camera.at.every((v, i) => v === pilot.home.at[i])`);
     assert.deepEqual(await page.evaluate("pilot.camera.from"), await page.evaluate("pilot.home.from"));
+    const pivot = await page.evaluate("pilot.camera.at");
     await drag(page, 60, 10);
-    assert.notEqual(await page.evaluate("element('cross').toDataURL()"), axes);
-    await page.evaluate('connection.send({do: "overlay", name: "regions"}), 1');
-    await page.until("element('legend').textContent.includes('One rank renders the whole picture')");
-    await page.evaluate('connection.send({do: "overlay", name: "age"}), 1');
-    await page.until("element('legend').textContent.includes('Frames since')");
+    assert.notDeepEqual(await page.evaluate("pilot.camera.from"), await page.evaluate("pilot.home.from"));
+    assert.deepEqual(await page.evaluate("pilot.camera.at"), pivot);
+    await page.until(`element('cross').toDataURL() !== ${JSON.stringify(axes)}`);
+    const legends = {regions: "One rank renders the whole picture", age: "Frames since", samples: "A yellow dot for each ray",
+      triangulation: "Yellow lines join neighbouring samples"};
+    for (const [name, legend] of Object.entries(legends)) {
+      await page.evaluate(`connection.send({do: "overlay", name: "${name}"}), 1`);
+      await page.until(`!element('legend').hidden && element('legend').textContent.includes('${legend}')`);
+    }
+    await page.evaluate('connection.send({do: "overlay", name: "none"}), 1');
+    await page.until("element('legend').hidden");
     const late = (ranks) => page.evaluate(`tell({...shown, frames: [{number: 1, slack_ms: -1, samples: 0, late: [${ranks}]}]}), element("late").textContent`);
+    assert.equal(await late(""), "none");
     assert.equal(await late("0"), "rank 0");
     assert.equal(await late("0, 2"), "ranks 0, 2");
     // The error that was measured, and what helps.
@@ -305,6 +319,20 @@ const cases = {
     }
   },
 
+  "connections that say nothing keep no viewer out, and are closed": async (browser) => {
+    const program = await Program.start(...scene);
+    const early = await open(browser, program);
+    const idle = await keepIdle(program, 64);
+    const late = await open(browser, program);
+    await stateIs(late, "state.viewers.length === 2");
+    await until("the end of all that say nothing", () => idle.every((socket) => socket.destroyed), 60);
+    for (const page of [early, late]) {
+      assert.equal(await page.evaluate("connection.socket.readyState"), 1);
+      noError(page);
+    }
+    await program.end();
+  },
+
   "two processes serve one sequence after the other, and sleep in between": async (browser) => {
     const program = await Program.start(...scene, "-np", "2");
     const page = await open(browser, program);
@@ -314,7 +342,7 @@ const cases = {
       await stateIs(page, `state.rate === ${fps}`);
       const before = await frame(page);
       await drag(page, 20, 5);
-      await page.until(`Number(document.body.dataset.frame) > ${before + 3} && shown.look === look`);
+      await page.until(`Number(document.body.dataset.frame) > ${before + 3} && ${showsHand}`);
     }
     // Finished, no frame is made until the camera moves.
     const still = await until("a rest", async () => {

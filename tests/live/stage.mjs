@@ -1,7 +1,8 @@
 // What the cases of page.mjs share: the program, its scenes, and what a person does at the page.
 import assert from "node:assert/strict";
 import {spawn} from "node:child_process";
-import {mkdtempSync, writeFileSync} from "node:fs";
+import {existsSync, mkdtempSync, readFileSync, writeFileSync} from "node:fs";
+import {connect} from "node:net";
 import {tmpdir} from "node:os";
 import {join} from "node:path";
 
@@ -60,10 +61,29 @@ export async function drag(page, right, down, more) {
   await page.drag([x, y], [x + right, y + down], 8, more);
 }
 
+// The last camera by hand is on the screen. On a busy machine the page may not have sent it yet.
+export const showsHand = "!waiting && shown.look === look";
+
+// Returns the text of a file that the page saves, once it is there.
+export const saved = (name) => until(name, () => {
+  const file = join(directory, name);
+  return existsSync(file) && readFileSync(file, "utf8");
+});
+
 // Programs that want all the time of a core, for at most so many seconds.
 export function keepBusy(count, seconds) {
   return Array.from({length: count}, () =>
     spawn("timeout", [String(seconds), "sh", "-c", "while :; do :; done"], {stdio: "ignore"}));
+}
+
+// Returns so many connections to the program's port that send nothing.
+export function keepIdle(program, count) {
+  const {hostname, port} = new URL(program.url);
+  return Promise.all(Array.from({length: count}, () => new Promise((resolve, reject) => {
+    const socket = connect(Number(port), hostname, () => resolve(socket));
+    socket.on("data", () => {});  // else its end is not noticed
+    socket.on("error", reject);
+  })));
 }
 
 // Spheres before a bright background, lit from all sides: nothing in it is black.

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "base/counted.h"
 #include "base/system/available_memory.h"
 
 namespace pprt {
@@ -34,8 +35,8 @@ bool hosts_are_given() {
 std::optional<std::string> lack_of_room(int ranks, const HostRoom& host) {
   const auto count = static_cast<std::uint64_t>(ranks);
   if (count > std::uint64_t{kMostRanksPerCore} * host.cores) {
-    return fmt::format("{} ranks are too many for this host: it has {} core{}, with room for {} ranks each",
-                       ranks, host.cores, host.cores == 1 ? "" : "s", kMostRanksPerCore);
+    return fmt::format("{} ranks are too many for this host: it has {}, with room for {} ranks each", ranks,
+                       counted(host.cores, "core", "cores"), kMostRanksPerCore);
   }
   if (count * kBytesOfARank > host.memory_bytes) {
     return fmt::format(

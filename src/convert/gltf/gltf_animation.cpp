@@ -70,12 +70,12 @@ TrackValues values_of(const Quaternion& at, const RotationKey* /*kind*/) {
 class GltfAnimationReader {
  public:
   GltfAnimationReader(const tinygltf::Model& model, const tinygltf::Animation& from,
-                      const std::vector<std::string>& tracks, GltfLosses& losses)
+                      const std::vector<std::string>& tracks, ModelLosses& losses)
       : model_(model), from_(from), names_(tracks), losses_(losses) {}
 
   ModelAnimation run(const std::vector<GltfFacts::Pointer>& pointers) {
     for (const tinygltf::AnimationChannel& channel : from_.channels) {
-      if (channel.target_path == "weights") losses_.add(GltfLoss::kShapeMovement);
+      if (channel.target_path == "weights") losses_.add(ModelLoss::kShapeMovement);
       if (channel.target_node >= 0) placement(channel);
     }
     for (const GltfFacts::Pointer& channel : pointers) pointer(channel);
@@ -153,7 +153,7 @@ class GltfAnimationReader {
                                    ? path.substr(begin.size(), path.size() - begin.size() - end.size())
                                    : "";
     if (number.empty() || number.size() > 9 || number.find_first_not_of("0123456789") != std::string::npos)
-      return losses_.add(GltfLoss::kOtherMovement);
+      return losses_.add(ModelLoss::kOtherMovement);
     const int node = std::stoi(number);
     element(model_.nodes, node, "a node");
     const Curve curve = curve_of(channel.sampler, 1);
@@ -169,7 +169,7 @@ class GltfAnimationReader {
   const tinygltf::Model& model_;
   const tinygltf::Animation& from_;
   const std::vector<std::string>& names_;
-  GltfLosses& losses_;
+  ModelLosses& losses_;
   ModelAnimation result_;
   std::set<int> placed_;  // nodes that have a track
   KeySpan span_;
@@ -178,7 +178,7 @@ class GltfAnimationReader {
 }  // namespace
 
 ModelAnimation gltf_animation(const tinygltf::Model& model, const GltfFacts& facts, const std::string& name,
-                              const std::vector<std::string>& tracks, GltfLosses& losses) {
+                              const std::vector<std::string>& tracks, ModelLosses& losses) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < model.animations.size(); ++i) {
     const std::string& own = model.animations[i].name;

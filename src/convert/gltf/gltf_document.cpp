@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/counted.h"
 #include "convert/model/display_values.h"
 #include "convert/model/read_mesh.h"
 #include "scene/animation/resting_nodes.h"
@@ -130,7 +131,7 @@ std::string problem_of_header(std::string_view bytes) {
   if (bytes.size() < kHeader + kChunkHeader) return "it ends within its header";
   const std::size_t length = length_at(bytes, kHeader), rest = bytes.size() - kHeader - kChunkHeader;
   if (length_at(bytes, kVersion) < 2 || length <= rest) return {};
-  return "its JSON has " + std::to_string(length) + " bytes by its header; the file has " +
+  return "its JSON has " + counted(length, "byte", "bytes") + " by its header; the file has " +
          std::to_string(rest) + " after that";
 }
 
@@ -144,9 +145,9 @@ std::string cause_in_header(std::string_view bytes) {
     return "it is cut off: it has " + std::to_string(bytes.size()) + " bytes, by its header " +
            std::to_string(total);
   if (total < kHeader + kChunkHeader + json_length)
-    return "by its header it has " + std::to_string(total) + " bytes, fewer than its header and its JSON";
+    return "by its header it has " + counted(total, "byte", "bytes") + ", fewer than its header and its JSON";
   if (json_length % 4 != 0)
-    return "the length of its JSON, " + std::to_string(json_length) + " bytes, is not a multiple of 4";
+    return "the length of its JSON, " + counted(json_length, "byte", "bytes") + ", is not a multiple of 4";
   return {};
 }
 

@@ -39,7 +39,7 @@ LightAtWork at_work(const tinygltf::Light& from, const ModelSpace& space, const 
 }  // namespace
 
 void add_gltf_lights(const tinygltf::Model& model, const std::vector<PlacedGltfLight>& placed,
-                     GltfLosses& losses, ModelBuilder& builder) {
+                     ModelLosses& losses, ModelBuilder& builder) {
   if (placed.empty() || builder.scene().primitive_count() == 0) return;
   const SceneDescription& scene = builder.scene();
   const double start = start_time(scene.movement);
@@ -51,8 +51,8 @@ void add_gltf_lights(const tinygltf::Model& model, const std::vector<PlacedGltfL
   double most = 0;
   for (const PlacedGltfLight& at : placed) {
     const tinygltf::Light& from = element(model.lights, at.light, "a light");
-    if (from.type == "spot") losses.add(GltfLoss::kSpot);
-    if (from.type != "directional") losses.add(GltfLoss::kDistance);
+    if (from.type == "spot") losses.add(ModelLoss::kSpot);
+    if (from.type != "directional") losses.add(ModelLoss::kDistance);
     lights.push_back(at_work(from, at.space, places[at.space.node].to_parent, box));
     most = std::max(most, brightest(lights.back()));
   }

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "convert/gltf/gltf_losses.h"
 #include "convert/gltf/gltf_model.h"
 #include "convert/model/model_builder.h"
+#include "convert/model/model_losses.h"
 
 namespace pprt {
 
@@ -17,6 +17,6 @@ struct PlacedGltfLight {
 // Adds lights to a scene that has its meshes. Their intensities are those in the middle of the scene at the
 // animation's start, as display values; the brightest is 1.
 void add_gltf_lights(const tinygltf::Model& model, const std::vector<PlacedGltfLight>& placed,
-                     GltfLosses& losses, ModelBuilder& builder);
+                     ModelLosses& losses, ModelBuilder& builder);
 
 }  // namespace pprt

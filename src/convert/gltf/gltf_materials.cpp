@@ -151,7 +151,7 @@ GltfSurface GltfMaterials::read(const tinygltf::Material& from) {
   if (pbr.metallicRoughnessTexture.index >= 0) {
     const std::array<double, 4> picture = mean(pbr.metallicRoughnessTexture.index);
     rough *= picture[1], metal *= picture[2];
-    losses_.add(GltfLoss::kRoughnessPicture);
+    losses_.add(ModelLoss::kRoughnessPicture);
   }
   double alpha = pbr.baseColorFactor.size() == 4 ? share(pbr.baseColorFactor[3]) : 1;
   const bool is_blended = from.alphaMode == "BLEND", is_masked = from.alphaMode == "MASK";
@@ -159,7 +159,7 @@ GltfSurface GltfMaterials::read(const tinygltf::Material& from) {
   if (is_masked && surface.is_coloured) surface.cutoff = alpha > 0 ? from.alphaCutoff / alpha : 2;
   if (is_blended && surface.is_coloured) {
     const double seen = mean(surface.picture.texture)[3];
-    if (seen < 1) losses_.add(GltfLoss::kAlphaPicture);
+    if (seen < 1) losses_.add(ModelLoss::kAlphaPicture);
     alpha *= seen;
   }
   const double let_through =
@@ -175,11 +175,11 @@ GltfSurface GltfMaterials::read(const tinygltf::Material& from) {
   const auto volume = from.extensions.find("KHR_materials_volume");
   const bool is_tinted = volume != from.extensions.end() && volume->second.Has("attenuationColor");
   if (is_tinted || ((m.specular > 0 || let_through > 0) && !is_grey(surface.base)))
-    losses_.add(GltfLoss::kTint);
+    losses_.add(ModelLoss::kTint);
   m.color = display_color(surface.base) * ((1 - m.specular) * (1 - m.transmittance));
 
-  if (from.normalTexture.index >= 0) losses_.add(GltfLoss::kNormalMap);
-  if (from.occlusionTexture.index >= 0) losses_.add(GltfLoss::kOcclusion);
+  if (from.normalTexture.index >= 0) losses_.add(ModelLoss::kNormalMap);
+  if (from.occlusionTexture.index >= 0) losses_.add(ModelLoss::kOcclusion);
   set_glow(from, surface);
   return surface;
 }
@@ -208,7 +208,7 @@ void GltfMaterials::set_glow(const tinygltf::Material& from, GltfSurface& surfac
     } else {
       const std::array<double, 4> color = mean(picture.texture);
       for (std::size_t i = 0; i < 3; ++i) glow[i] *= light_of(color[i]);
-      losses_.add(GltfLoss::kGlowPicture);
+      losses_.add(ModelLoss::kGlowPicture);
     }
   }
   for (int i = 0; i < 3; ++i) m.emission[i] = unbounded_display_value(glow[static_cast<std::size_t>(i)]);
@@ -237,13 +237,13 @@ void GltfMaterials::put_on(const GltfSurface& surface, Material& material, Model
     if (!is_clamped) low[i] = 0;
   }
   if (tiles.x * tiles.y > kLargestPicture) {
-    losses_.add(GltfLoss::kBorder);
+    losses_.add(ModelLoss::kBorder);
     low = Vec2d(0, 0), tiles = Vec2d(1, 1);
   }
   if (surface.is_coloured) material.texture = tiled(picture.texture, low, tiles);
   if (surface.emission_texture >= 0) material.emission_texture = tiled(surface.emission_texture, low, tiles);
   if (sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST && material.has_picture())
-    losses_.add(GltfLoss::kHardTexels);
+    losses_.add(ModelLoss::kHardTexels);
   for (Vec2d& place : mesh.texture_points) place = (place - low) / tiles;
 }
 
@@ -290,7 +290,7 @@ void GltfMaterials::cut(const GltfSurface& surface, const Material& material, Mo
   if (!surface.cutoff || !material.texture) return;
   const auto alpha = alphas_.find(*material.texture);
   if (alpha == alphas_.end()) return;
-  if (!cut_holes(mesh, alpha->second, *surface.cutoff)) losses_.add(GltfLoss::kHoles);
+  if (!cut_holes(mesh, alpha->second, *surface.cutoff)) losses_.add(ModelLoss::kHoles);
 }
 
 // Data pictures count as they are.

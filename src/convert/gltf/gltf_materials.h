@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "convert/gltf/gltf_holes.h"
-#include "convert/gltf/gltf_losses.h"
 #include "convert/gltf/gltf_model.h"
 #include "convert/model/model_builder.h"
+#include "convert/model/model_losses.h"
 #include "convert/model/model_textures.h"
 #include "image/image_io.h"
 
@@ -46,8 +46,8 @@ struct GltfSurface {
 class GltfMaterials {
  public:
   // Losses and notes are told to `losses` and `builder`.
-  GltfMaterials(const tinygltf::Model& model, const ModelFolder& folder, GltfFiles& files, GltfLosses& losses,
-                ModelBuilder& builder, std::uint64_t max_memory)
+  GltfMaterials(const tinygltf::Model& model, const ModelFolder& folder, GltfFiles& files,
+                ModelLosses& losses, ModelBuilder& builder, std::uint64_t max_memory)
       : model_(model),
         folder_(folder),
         files_(files),
@@ -83,7 +83,7 @@ class GltfMaterials {
   const tinygltf::Model& model_;
   const ModelFolder& folder_;
   GltfFiles& files_;
-  GltfLosses& losses_;
+  ModelLosses& losses_;
   ModelBuilder& builder_;
   ModelTextures textures_;
   std::map<TextureIndex, AlphaPicture> alphas_;  // of textures with holes or glass

@@ -6,7 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "convert/gltf/gltf_colours.h"
+#include "convert/model/display_values.h"
+#include "convert/model/vertex_colours.h"
 
 namespace pprt {
 namespace {
@@ -55,6 +56,14 @@ std::vector<std::uint32_t> triangle_corners(const tinygltf::Model& model, const 
   return corners;
 }
 
+std::vector<Rgb> display_colors(const GltfNumbers& colors) {
+  std::vector<Rgb> result;
+  for (std::size_t i = 0; i < colors.size(); ++i)
+    result.emplace_back(display_value(colors.at(i, 0)), display_value(colors.at(i, 1)),
+                        display_value(colors.at(i, 2)));
+  return result;
+}
+
 // Returns the mean of the colours at the corners, which are linear.
 std::array<double, 3> mean_color(const GltfNumbers& colors, const std::vector<std::uint32_t>& corners) {
   std::array<double, 3> sum{};
@@ -69,7 +78,7 @@ std::array<double, 3> mean_color(const GltfNumbers& colors, const std::vector<st
 }  // namespace
 
 void add_gltf_primitive(const tinygltf::Model& model, const tinygltf::Primitive& from,
-                        GltfMaterials& materials, GltfLosses& losses, ModelBuilder& builder,
+                        GltfMaterials& materials, ModelLosses& losses, ModelBuilder& builder,
                         const ModelSpace& space) {
   const int positions = attribute(from, "POSITION");
   if (positions < 0) return;
@@ -101,13 +110,13 @@ void add_gltf_primitive(const tinygltf::Model& model, const tinygltf::Primitive&
     const GltfNumbers colors = numbers(model, color);
     if (colors.components < 3) throw std::runtime_error("a mesh has colours that are none");
     std::optional<Texture> painted;
-    if (!material.has_picture()) painted = paint(mesh, colors);
+    if (!material.has_picture()) painted = paint(mesh, display_colors(colors));
     if (painted) {
       material.texture = materials.add(std::move(*painted));
     } else {
       const Material mean = GltfMaterials::recoloured(surface, mean_color(colors, mesh.corners));
       material.color = mean.color, material.terms = mean.terms;
-      losses.add(GltfLoss::kVertexColours);
+      losses.add(ModelLoss::kVertexColours);
     }
   }
   builder.add(mesh, material, space);

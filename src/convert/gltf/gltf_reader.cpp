@@ -13,10 +13,10 @@
 #include "base/printable.h"
 #include "convert/gltf/gltf_animation.h"
 #include "convert/gltf/gltf_lights.h"
-#include "convert/gltf/gltf_losses.h"
 #include "convert/gltf/gltf_materials.h"
 #include "convert/gltf/gltf_mesh.h"
 #include "convert/model/model_builder.h"
+#include "convert/model/model_losses.h"
 
 namespace pprt {
 namespace {
@@ -53,7 +53,7 @@ class GltfReader {
     for (const int root : roots()) node(root, {}, true);
     builder_.scene().ambient = Rgb(1, 1, 1);
     add_gltf_lights(model_, lights_, losses_, builder_);
-    if (cameras_ > 1) losses_.add(GltfLoss::kCameras, cameras_ - 1);
+    if (cameras_ > 1) losses_.add(ModelLoss::kCameras, cameras_ - 1);
     losses_.tell(builder_.notes());
     return std::move(builder_).finish(files_.opened);
   }
@@ -89,7 +89,7 @@ class GltfReader {
   }
 
   std::vector<int> roots() {
-    if (model_.scenes.size() > 1) losses_.add(GltfLoss::kScenes, model_.scenes.size() - 1);
+    if (model_.scenes.size() > 1) losses_.add(ModelLoss::kScenes, model_.scenes.size() - 1);
     if (!model_.scenes.empty())
       return element(model_.scenes, std::max(model_.defaultScene, 0), "a scene").nodes;
     std::set<int> children;
@@ -137,13 +137,13 @@ class GltfReader {
   }
 
   void mesh(const tinygltf::Mesh& from, bool has_skin, const ModelSpace& space) {
-    if (has_skin) losses_.add(GltfLoss::kSkin);
+    if (has_skin) losses_.add(ModelLoss::kSkin);
     bool has_shapes = false;
     for (const tinygltf::Primitive& primitive : from.primitives) {
       has_shapes = has_shapes || !primitive.targets.empty();
       add_gltf_primitive(model_, primitive, materials_, losses_, builder_, space);
     }
-    if (has_shapes) losses_.add(GltfLoss::kShapes);
+    if (has_shapes) losses_.add(ModelLoss::kShapes);
   }
 
   void camera(const tinygltf::Camera& from, const std::string& name, const ModelSpace& space) {
@@ -159,7 +159,7 @@ class GltfReader {
 
   const tinygltf::Model& model_;
   GltfFiles& files_;
-  GltfLosses losses_;
+  ModelLosses losses_;
   ModelBuilder builder_;
   GltfMaterials materials_;
   std::vector<std::string> tracks_;  // the name of each node's track

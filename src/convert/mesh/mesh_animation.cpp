@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "convert/mesh/assimp_values.h"
+#include "convert/model/model_losses.h"
 #include "scene/movement/straight_track.h"
 
 namespace pprt {
@@ -43,12 +44,10 @@ class AnimationReader {
       for (unsigned c = 0; c < animation.mNumChannels; ++c) repeated += !channel(*animation.mChannels[c]);
       others += animation.mNumMeshChannels + animation.mNumMorphMeshChannels;
     }
-    if (repeated > 0) {
-      result_.notes.push_back(std::to_string(repeated) +
-                              " movements of nodes that another animation moves: left out");
-    }
-    if (others > 0)
-      result_.notes.push_back(std::to_string(others) + " movements that change a mesh's shape: left out");
+    ModelLosses losses;
+    losses.add(ModelLoss::kRepeatedMovement, repeated);
+    losses.add(ModelLoss::kShapeMovement, others);
+    losses.tell(result_.notes);
     result_.times = span_.frames(result_.notes);
     return std::move(result_);
   }

@@ -1,9 +1,12 @@
 #include "convert/mesh/mesh_materials.h"
 
 #include <assimp/material.h>
+#include <assimp/mesh.h>
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <span>
 #include <string_view>
 
 #include "convert/mesh/assimp_values.h"
@@ -21,6 +24,11 @@ double unit_interval(double v) {
 
 Rgb to_rgb(const aiColor3D& c) {
   return {unit_interval(c.r), unit_interval(c.g), unit_interval(c.b)};
+}
+
+bool has_picture(const aiMaterial& from, std::initializer_list<aiTextureType> types) {
+  return std::any_of(types.begin(), types.end(),
+                     [&](aiTextureType type) { return from.GetTextureCount(type) > 0; });
 }
 
 }  // namespace
@@ -68,6 +76,23 @@ std::string picture_path(const aiMaterial& from) {
 std::string emission_path(const aiMaterial& from) {
   aiString path;
   return from.GetTexture(aiTextureType_EMISSIVE, 0, &path) == aiReturn_SUCCESS ? path.C_Str() : "";
+}
+
+bool has_normal_map(const aiMaterial& from) {
+  return has_picture(from, {aiTextureType_NORMALS, aiTextureType_HEIGHT});
+}
+
+bool has_other_pictures(const aiMaterial& from) {
+  return has_picture(from, {aiTextureType_OPACITY, aiTextureType_SPECULAR, aiTextureType_SHININESS,
+                            aiTextureType_METALNESS, aiTextureType_DIFFUSE_ROUGHNESS});
+}
+
+std::vector<Rgb> vertex_colors(const aiMesh& from) {
+  std::vector<Rgb> colors;
+  if (from.mColors[0] == nullptr) return colors;
+  for (const aiColor4D& c : std::span(from.mColors[0], from.mNumVertices))
+    colors.push_back(to_rgb(aiColor3D(c.r, c.g, c.b)));
+  return colors;
 }
 
 std::unique_ptr<aiMaterial> to_assimp(const Material& m, const std::string& name_in_file,

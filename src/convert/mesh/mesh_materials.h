@@ -3,10 +3,12 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "scene/description/scene_description.h"
 
 struct aiMaterial;
+struct aiMesh;
 
 namespace pprt {
 
@@ -20,6 +22,15 @@ std::string picture_path(const aiMaterial& from);
 
 // Returns the same of the picture that its light has.
 std::string emission_path(const aiMaterial& from);
+
+// Whether it has a normal map or a bump map.
+bool has_normal_map(const aiMaterial& from);
+
+// Whether it has pictures that a scene cannot hold, besides a normal map.
+bool has_other_pictures(const aiMaterial& from);
+
+// Returns the display values of a mesh's colours at its vertices; empty without.
+std::vector<Rgb> vertex_colors(const aiMesh& from);
 
 // Paths of a material's pictures, as picture_path() returns them.
 struct MaterialPictures {

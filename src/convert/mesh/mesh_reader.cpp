@@ -19,6 +19,7 @@
 #include <limits>
 #include <map>
 #include <new>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <span>
@@ -30,7 +31,6 @@
 #include "base/diagnostics.h"
 #include "base/printable.h"
 #include "convert/gltf/gltf_document.h"
-#include "convert/gltf/gltf_losses.h"
 #include "convert/gltf/gltf_reader.h"
 #include "convert/mesh/assimp_values.h"
 #include "convert/mesh/collada_cameras.h"
@@ -39,7 +39,9 @@
 #include "convert/mesh/model_files.h"
 #include "convert/model/model_builder.h"
 #include "convert/model/model_folder.h"
+#include "convert/model/model_losses.h"
 #include "convert/model/model_textures.h"
+#include "convert/model/vertex_colours.h"
 #include "convert/names/extension.h"
 #include "image/image_io.h"
 #include "parser/text/text_input.h"
@@ -57,6 +59,13 @@ std::optional<Rgb> light_color(const aiColor3D& c) {
   const Rgb color(share(c.r), share(c.g), share(c.b));
   if (color == Rgb(1, 1, 1)) return std::nullopt;
   return color;
+}
+
+// Whether a file says so. Where it says nothing Assimp has values of its own.
+bool weakens(const aiLight& light) {
+  const float linear = light.mAttenuationLinear, quadratic = light.mAttenuationQuadratic;
+  const bool is_told = light.mAttenuationConstant != 0 || linear != 1 || quadratic != 0;
+  return is_told && (linear > 0 || quadratic > 0);
 }
 
 // Returns a picture within the file: another file's bytes, or texels where there is a height.
@@ -83,9 +92,9 @@ class SceneReader {
   ReadMesh run(const std::string& animation) {
     read_movement(animation);
     node(*from_.mRootNode, {});
-    builder_.note(namesakes_,
-                  "nodes have the name of another: movements, cameras and lights may be mixed up");
-    builder_.note(skins_, std::string(kGltfLossWords[static_cast<std::size_t>(GltfLoss::kSkin)]));
+    if (cameras_ > 1) losses_.add(ModelLoss::kCameras, cameras_ - 1);
+    tell_of_pictures();
+    losses_.tell(builder_.notes());
     return std::move(builder_).finish(std::move(files_));
   }
 
@@ -105,7 +114,7 @@ class SceneReader {
   void node(const aiNode& from, const ModelSpace& parent) {
     if (++depth_ > kMaxNodeDepth)
       builder_.reject("its nodes lie more than " + std::to_string(kMaxNodeDepth) + " deep in each other");
-    namesakes_ += !names_.insert(from.mName.C_Str()).second;
+    if (!names_.insert(from.mName.C_Str()).second) losses_.add(ModelLoss::kNamesakes);
     const ModelSpace space = builder_.space_of(parent, to_affine(from.mTransformation),
                                                ModelBuilder::track_name(from.mName.C_Str()));
     for (unsigned i = 0; i < from.mNumMeshes; ++i) {
@@ -121,7 +130,9 @@ class SceneReader {
   void mesh(const aiMesh& from, const ModelSpace& space) {
     if (from.mMaterialIndex >= from_.mNumMaterials)
       builder_.reject("a mesh names a material that is not there");
-    skins_ += from.mNumBones > 0;
+    if (from.mNumBones > 0) losses_.add(ModelLoss::kSkin);
+    if (from.mNumAnimMeshes > 0) losses_.add(ModelLoss::kShapes);
+    materials_.insert(from.mMaterialIndex);
     const aiMaterial& material = *from_.mMaterials[from.mMaterialIndex];
     Material own = to_material(material);
     const bool has_places = from.mTextureCoords[0] != nullptr;
@@ -143,7 +154,31 @@ class SceneReader {
       mesh.corners.insert(mesh.corners.end(), face.mIndices, face.mIndices + face.mNumIndices);
       mesh.ends.push_back(mesh.corners.size());
     }
+    if (const std::vector<Rgb> colors = vertex_colors(from); !colors.empty()) color(mesh, colors, own);
     builder_.add(mesh, own, space);
+  }
+
+  // Colours at the vertices become a texture, or their mean where there is one.
+  void color(ModelMesh& mesh, const std::vector<Rgb>& colors, Material& material) {
+    std::optional<Texture> painted;
+    if (!material.has_picture()) painted = paint(mesh, colors);
+    if (painted) {
+      std::vector<Texture>& textures = builder_.scene().textures;
+      textures.push_back(std::move(*painted));
+      material.texture = static_cast<TextureIndex>(textures.size() - 1);
+    } else {
+      material.color *=
+          std::accumulate(colors.begin(), colors.end(), Rgb(0, 0, 0)) / static_cast<double>(colors.size());
+      losses_.add(ModelLoss::kVertexColours);
+    }
+  }
+
+  void tell_of_pictures() {
+    for (const unsigned i : materials_) {
+      const aiMaterial& material = *from_.mMaterials[i];
+      if (has_normal_map(material)) losses_.add(ModelLoss::kNormalMap);
+      if (has_other_pictures(material)) losses_.add(ModelLoss::kOtherPictures);
+    }
   }
 
   std::optional<TextureIndex> texture(const std::string& path) {
@@ -171,6 +206,7 @@ class SceneReader {
                          .up = to_vector(from.mUp)};
       camera.half_height = std::tan(0.5 * from.mHorizontalFOV) / camera.aspect;
       correct(camera);
+      ++cameras_;
       builder_.add(camera, space);
     }
   }
@@ -191,6 +227,8 @@ class SceneReader {
       light.is_sun = from.mType == aiLightSource_DIRECTIONAL;
       if (light.is_sun) light.position = -to_vector(from.mDirection);
       if (light.is_sun || from.mType == aiLightSource_POINT || from.mType == aiLightSource_SPOT) {
+        if (from.mType == aiLightSource_SPOT) losses_.add(ModelLoss::kSpot);
+        if (!light.is_sun && weakens(from)) losses_.add(ModelLoss::kDistance);
         builder_.add(light, space);
       } else {
         builder_.notes().push_back("the light '" + printable(from.mName.C_Str()) +
@@ -205,9 +243,10 @@ class SceneReader {
   ModelTextures textures_;
   std::map<std::string, ColladaCamera, std::less<>> told_cameras_;  // by what the file itself tells
   std::vector<std::string> files_;
-  std::size_t skins_ = 0;
-  std::set<std::string> names_;  // of nodes
-  std::size_t namesakes_ = 0;
+  ModelLosses losses_;
+  std::set<std::string> names_;   // of nodes
+  std::set<unsigned> materials_;  // of meshes
+  std::size_t cameras_ = 0;
   int depth_ = 0;
 };
 

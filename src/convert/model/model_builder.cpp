@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "base/counted.h"
 #include "base/diagnostics.h"
 #include "base/printable.h"
 #include "convert/model/camera_track.h"
@@ -49,8 +50,8 @@ void ModelBuilder::reject(const std::string& problem) const {
   throw InputError(scene_.name + ": error: " + problem);
 }
 
-void ModelBuilder::note(std::size_t count, const std::string& what) {
-  if (count > 0) notes_.push_back(std::to_string(count) + " " + what);
+void ModelBuilder::note(std::size_t count, std::string_view one, std::string_view many) {
+  if (count > 0) notes_.push_back(counted(count, one, many));
 }
 
 std::string ModelBuilder::track_name(const std::string& node) {
@@ -192,7 +193,10 @@ void ModelBuilder::aim(View& view, const Affine& map) const {
 void ModelBuilder::add(Light light, const ModelSpace& space) {
   light.position = place_of(light, space.map);
   if (!is_in_range(light.position)) reject("a light's place is not finite, or beyond 1e100");
-  if (light.is_sun && light.position == Vec3d(0, 0, 0)) return note(1, "sun without a direction: left out");
+  if (light.is_sun && light.position == Vec3d(0, 0, 0)) {
+    ++aimless_suns_;
+    return;
+  }
   scene_.lights.push_back(light);
   scene_.light_nodes.push_back({.node = space.node});
 }
@@ -227,7 +231,9 @@ void ModelBuilder::drop_unused_tracks() {
 }
 
 ReadMesh ModelBuilder::finish(std::vector<std::string> files) && {
-  note(skipped_, "points, lines and faces without extent left out");
+  note(skipped_, "point, line or face without extent left out",
+       "points, lines and faces without extent left out");
+  note(aimless_suns_, "sun without a direction: left out", "suns without a direction: left out");
   move_camera();
   drop_unused_tracks();
   return {without_resting_nodes(std::move(scene_)), std::move(notes_), std::move(files)};

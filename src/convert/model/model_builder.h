@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/affine.h"
@@ -51,9 +52,6 @@ class ModelBuilder {
   // Throws InputError that names the model.
   [[noreturn]] void reject(const std::string& problem) const;
 
-  // Notes what was left out so many times, unless that is 0.
-  void note(std::size_t count, const std::string& what);
-
   // Counts points, lines or faces that are left out.
   void skip() { ++skipped_; }
 
@@ -77,6 +75,7 @@ class ModelBuilder {
   ReadMesh finish(std::vector<std::string> files) &&;
 
  private:
+  void note(std::size_t count, std::string_view one, std::string_view many);
   NodeIndex add_node(SceneNode node);
   std::vector<PatchVertex> vertices_of(const ModelMesh& mesh, const ModelSpace& space) const;
   void polygons(const ModelMesh& mesh, const std::vector<PatchVertex>& vertices, bool mirrored,
@@ -93,7 +92,8 @@ class ModelBuilder {
   std::vector<std::string> notes_;
   MaterialTable table_;
   std::size_t skipped_ = 0;
-  ModelCamera camera_;  // that the view is taken from
+  std::size_t aimless_suns_ = 0;  // left out
+  ModelCamera camera_;            // that the view is taken from
   ModelSpace camera_space_;
   std::vector<Vec3d> positions_;  // of the polygon at hand
   std::vector<PatchVertex> vertices_;

@@ -13,6 +13,7 @@ let film = {keys: [], script: ""};  // the recorded one
 let unsaved = null;     // where this browser keeps it
 let photos = 0;         // taken
 let keyFrame = true;    // the field of the next key's frame follows the keys
+let keyAsked = 0;       // frame of the newest key, until the program has it
 let lostNumber = 0;     // the number that this viewer had when it lost the connection, with the camera
 
 // One camera for each time that the screen is drawn, whatever the pointers do.
@@ -45,7 +46,7 @@ const connection = new Connection({
   },
   text: (message) => {
     if (message.hello) welcome(message.hello);
-    if (message.error) say(message.error);
+    if (message.error) keyAsked = 0, say(message.error);
     if (message.end) end(message.end);
     // What is told to all viewers may come before that, and is told again after it.
     if (!hello) return;
@@ -121,7 +122,7 @@ function welcome(message) {
   pilot.home = hello.home;
   pilot.bounds = hello.bounds ?? null;
   unsaved = new UnsavedFilm(hello.title);
-  look = 0;
+  look = keyAsked = 0;
   lag.forget();
   element("title").textContent = hello.title;
   document.title = `${hello.title} – pprt live`;
@@ -131,6 +132,7 @@ function welcome(message) {
 function update(message) {
   const before = state;
   state = message;
+  if (state.keys.includes(keyAsked)) keyAsked = 0;
   if (before && (before.rate !== state.rate || String(before.size) !== String(state.size))) {
     lag.forget();
     gauge.forget();
@@ -233,8 +235,8 @@ function showKey(frame) {
 // The next key stands at the frame that is shown. Without anything that plays it follows the last one.
 function followPlayhead() {
   if (keyFrame && state) {
-    const last = state.keys[state.keys.length - 1];
-    const next = last ? last + Math.round(2 * state.rate) : 1;
+    const last = Math.max(keyAsked, ...state.keys);
+    const next = last > 0 ? last + Math.round(2 * state.rate) : 1;
     const frame = state.frames > 0 ? Math.max(1, shown?.position ?? 1) : next;
     if (document.activeElement !== element("key-frame")) element("key-frame").value = frame;
   }
@@ -358,7 +360,9 @@ const actions = {
   forth: () => inFilmOrScript({do: "step", by: 1}),
   key: () => {
     keyFrame = true;
-    connection.send({do: "key", frame: Number(element("key-frame").value)});
+    keyAsked = Number(element("key-frame").value);
+    connection.send({do: "key", frame: keyAsked});
+    followPlayhead();
   },
   undo: () => connection.send({do: "undo"}),
   redo: () => connection.send({do: "redo"}),

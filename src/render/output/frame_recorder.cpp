@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/counted.h"
 #include "base/system/host_cores.h"
 #include "cli/options/version.h"
 #include "image/contact_sheet.h"
@@ -253,8 +254,9 @@ void FrameRecorder::finish(bool stopped) {
     const std::size_t removed = settle_files();
     if (manifest_error_) std::rethrow_exception(manifest_error_);
     if (removed > 0) {
-      throw std::runtime_error(
-          fmt::format("of {} frames written, {} are not there any more", written_.size() + removed, removed));
+      throw std::runtime_error(fmt::format("of {} written, {} not there any more",
+                                           counted(written_.size() + removed, "frame", "frames"),
+                                           counted(removed, "is", "are")));
     }
     write_contact_sheet();
     make_film();

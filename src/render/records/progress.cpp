@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/counted.h"
 #include "cli/process/exit.h"
 #include "cli/process/launched.h"
 #include "render/records/advice.h"
@@ -22,6 +23,13 @@ std::string grouped(double value) {
   for (int at = static_cast<int>(digits.size()) - 3; at > 0; at -= 3)
     digits.insert(static_cast<std::size_t>(at), ",");
   return digits;
+}
+
+// `frames`: of the run.
+std::string samples_text(const RunTotals& totals, int frames) {
+  const std::string samples = grouped(totals.samples_per_frame());
+  return fmt::format("{} {}{}", samples, samples == "1" ? "sample" : "samples",
+                     frames == 1 ? "" : " a frame");
 }
 
 std::string lateness(double late_ms) {
@@ -158,9 +166,11 @@ void ProgressReporter::finish(RunEnd end, int written, const RunTotals& totals, 
   if (kind_ == ProgressKind::kTty && (line_shown_ || totals.frames() > 0)) print_message("\r\033[K");
   if (kind_ == ProgressKind::kNone || kind_ == ProgressKind::kJson) return;
   const std::string there =
-      scope_.finished_before > 0 ? fmt::format(" ({} were there already)", scope_.finished_before) : "";
-  std::string text = fmt::format("{}: {} of {} frame{}{} in {}", word_for(end), written, scope_.frames,
-                                 scope_.frames == 1 ? "" : "s", there, where);
+      scope_.finished_before > 0
+          ? fmt::format(" ({} there already)", counted(scope_.finished_before, "was", "were"))
+          : "";
+  std::string text = fmt::format("{}: {} of {}{} in {}", word_for(end), written,
+                                 counted(scope_.frames, "frame", "frames"), there, where);
   if (totals.frames() > 0) {
     if (scope_.frames_per_second > 0) {
       const std::string pace = scope_.film_time > 0
@@ -169,8 +179,7 @@ void ProgressReporter::finish(RunEnd end, int written, const RunTotals& totals, 
       text += fmt::format("; {} on time {}, the slowest {}", totals.on_time(), pace,
                           lateness(totals.worst_late_ms()));
     }
-    text += fmt::format("; {} samples{}", grouped(totals.samples_per_frame()),
-                        scope_.frames == 1 ? "" : " a frame");
+    text += "; " + samples_text(totals, scope_.frames);
     text += measured(totals.error());
     if (totals.mean_effort() < 1)
       text += fmt::format("; good enough after {:.0f} % of the time", 100 * totals.mean_effort());
@@ -224,8 +233,7 @@ std::string ProgressReporter::line(const RunTotals& totals) const {
   } else {
     text += fmt::format("  {}/s", rate);
   }
-  text += fmt::format("  {} samples{}", grouped(totals.samples_per_frame()),
-                      scope_.frames == 1 ? "" : " a frame");
+  text += "  " + samples_text(totals, scope_.frames);
   return text + fmt::format("  {} left", minutes(pace_.seconds_for(frames_left())));
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/counted.h"
 #include "base/diagnostics.h"
 #include "base/system/host_cores.h"
 #include "cli/process/exit.h"
@@ -98,7 +99,8 @@ struct PreparedRun {
 PreparedRun prepare(const PlanMaker& make_plan, bool has_others) {
   RenderPlan plan = make_plan();
   std::cerr << plan.warnings;
-  log_info(fmt::format("read {} objects of {}", plan.scene.primitive_count(), plan.scene.name));
+  log_info(fmt::format("read {} of {}", counted(plan.scene.primitive_count(), "object", "objects"),
+                       plan.scene.name));
   RenderJob job{.go = true,
                 .settings = plan.settings,
                 .compile = plan.compile,

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/counted.h"
 #include "base/diagnostics.h"
 #include "base/printable.h"
 #include "parallel/settings/session_words.h"
@@ -97,7 +98,8 @@ class Object {
   std::vector<T> numbers(const char* key, Range<T> range, std::optional<std::size_t> count) const {
     const Json& values = list(key);
     if (count && values.size() != *count)
-      throw BadLine(fmt::format("\"{}\" has {} values instead of {}", key, values.size(), *count));
+      throw BadLine(
+          fmt::format("\"{}\" has {} instead of {}", key, counted(values.size(), "value", "values"), *count));
     std::vector<T> numbers;
     numbers.reserve(values.size());
     for (const Json& value : values) {

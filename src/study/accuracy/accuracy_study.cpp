@@ -11,6 +11,7 @@
 #include <span>
 #include <utility>
 
+#include "base/counted.h"
 #include "base/diagnostics.h"
 #include "cli/scenes/scene_source.h"
 #include "parallel/exchange/samplers.h"
@@ -220,8 +221,8 @@ Reference measure_methods(const StudiedScene& studied, Steps& steps, AccuracyRes
   const AccuracyOptions& options = studied.options;
   const Subject subject = studied.subject(options.size);
   Reference converged = reference_of(studied, subject, options.reference_cells);
-  steps.done(fmt::format("converged frame, {} samples a pixel, its own rmse {:.5f}", converged.samples,
-                         converged.own_rmse));
+  steps.done(fmt::format("converged frame, {} a pixel, its own rmse {:.5f}",
+                         counted(converged.samples, "sample", "samples"), converged.own_rmse));
   // Other renderers run beside the curves, which CPU times allow.
   auto renderers = std::async(std::launch::async, [&]() -> std::vector<RendererPoint> {
     if (options.only_curves) return {};
@@ -230,7 +231,7 @@ Reference measure_methods(const StudiedScene& studied, Steps& steps, AccuracyRes
   });
   const CurveRun run{results.methods, options.repeats, options.seed, options.busy_threads};
   results.curves.push_back(measure_curves(studied.name, subject, converged, run));
-  steps.done(fmt::format("{} pictures", results.curves.back().points.size()));
+  steps.done(counted(results.curves.back().points.size(), "picture", "pictures"));
   append(results.renderers, renderers.get());
   append(results.flicker, measure_flicker(slow_orbit(studied), results.methods, options.seed));
   steps.done("flicker");

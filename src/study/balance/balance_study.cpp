@@ -11,6 +11,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/counted.h"
 #include "base/diagnostics.h"
 #include "base/printable.h"
 #include "cli/process/exit.h"
@@ -178,9 +179,10 @@ void write_page(const BalanceOptions& options, const std::string& command_line,
   StudyOutput output(options.directory, "Balancing of recorded runs", provenance_of(traces, command_line));
   for (const Trace& trace : traces) {
     const TraceHeader& header = trace.header();
-    output.paragraph(fmt::format("{}: {} on {} ranks, {}x{} pixels in tiles of {}, --balance {}.",
-                                 trace.result.name, header.scene, header.ranks, header.grid.width,
-                                 header.grid.height, header.grid.tile_size, word_for(trace.result.balance)));
+    output.paragraph(fmt::format("{}: {} on {}, {}x{} pixels in tiles of {}, --balance {}.",
+                                 trace.result.name, header.scene, counted(header.ranks, "rank", "ranks"),
+                                 header.grid.width, header.grid.height, header.grid.tile_size,
+                                 word_for(trace.result.balance)));
   }
   output.heading("Frame by frame");
   output.add_figure(plot_of(results), "The loads of the ranks, and the tiles that changed hands.");

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 
+#include "base/counted.h"
 #include "study/paper/measures.h"
 
 namespace pprt {
@@ -29,8 +31,8 @@ std::string number(double value) {
   return fmt::format("{:.{}f}", value, value == std::floor(value) || std::abs(value) >= 100 ? 0 : 3);
 }
 
-std::string on_ranks(const char* claim, int ranks) {
-  return fmt::format("{} ({} ranks)", claim, ranks);
+std::string on_ranks(std::string_view claim, int ranks) {
+  return fmt::format("{} ({})", claim, counted(ranks, "rank", "ranks"));
 }
 
 std::vector<Check> bounded(std::vector<Check> checks) {
@@ -296,7 +298,7 @@ Finding network(const Runs& runs, const NetworkProperty& property) {
               {fmt::format("above 1.1 first at, {}", property.unit), property.of((*slow)->machine)}};
   }
   return {"6.4.4; ours",
-          fmt::format("The machine's network is good enough in {} ({} ranks)", property.experiment, ranks),
+          on_ranks(fmt::format("The machine's network is good enough in {}", property.experiment), ranks),
           "refinement / that with the best network tried, frames 5-10", checks};
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/counted.h"
 #include "study/paper/findings.h"
 #include "study/paper/measures.h"
 #include "study/report/output.h"
@@ -229,13 +230,14 @@ std::string setup_text(const PaperResults& results, const PaperOptions& options)
   return fmt::format(
       "All ranks are threads of one process under the work clock, which counts work instead of seconds: the "
       "results are the same on any computer. Calibration sets the work of a frame, all ranks together, so "
-      "that it makes about {:.0f} samples at {} x {} pixels: {:.3g} units on {} ranks, {:.3g} on {}. Where "
-      "the number of ranks varies (figures 8 and 9) all do the work of {} ranks. Each rank does {:.3g} units "
+      "that it makes about {:.0f} samples at {} x {} pixels: {:.3g} units on {}, {:.3g} on {}. Where "
+      "the number of ranks varies (figures 8 and 9) all do the work of {}. Each rank does {:.3g} units "
       "per second. A message takes {:.3g} microseconds, and each rank's link carries {:.4g} MB/s. On {} "
-      "ranks a frame lasts {:.3g} ms.",
-      kPaperSamples, kPaperSide, kPaperSide, calibration.total_units, first,
-      calibration.total_units * calibration.share.at(last), last, first, machine.units_per_second,
-      1e6 * machine.latency_s, 1e-6 * machine.bytes_per_second, last, 1e3 * calibration.frame_s);
+      "a frame lasts {:.3g} ms.",
+      kPaperSamples, kPaperSide, kPaperSide, calibration.total_units, counted(first, "rank", "ranks"),
+      calibration.total_units * calibration.share.at(last), last, counted(first, "rank", "ranks"),
+      machine.units_per_second, 1e6 * machine.latency_s, 1e-6 * machine.bytes_per_second,
+      counted(last, "rank", "ranks"), 1e3 * calibration.frame_s);
 }
 
 void write_figures(const Runs& runs, const PaperResults& results, const PaperOptions& options,
@@ -243,16 +245,17 @@ void write_figures(const Runs& runs, const PaperResults& results, const PaperOpt
   int figure = 5;
   for (const int ranks : options.ranks) {
     const auto on_ranks = [=](const PaperRun& run) { return run.ranks == ranks; };
-    output.heading(fmt::format("Balancing on {} ranks (the paper's figure {})", ranks, figure++));
+    output.heading(
+        fmt::format("Balancing on {} (the paper's figure {})", counted(ranks, "rank", "ranks"), figure++));
     output.add_figure(sequence_plot(fmt::format("simple-{}", ranks), runs.all(kSimple, on_ranks), kReceived),
                       "The simple sequence, without casting. Triangles: repartitions of combined balancing.");
   }
   const int ranks = options.ranks.back();
   output.heading("Casting (the paper's figure 7)");
   output.add_figure(sequence_plot("casting", runs.all(kCasting), kSamplesCast),
-                    fmt::format("The casting sequence on {} ranks, samples cast as in the paper. \"Kept\": "
+                    fmt::format("The casting sequence on {}, samples cast as in the paper. \"Kept\": "
                                 "at a repartition samples go to their new owners. The paper drops them.",
-                                ranks));
+                                counted(ranks, "rank", "ranks")));
   output.section("True error of the ways of casting", casting_trial_text(casting_trial(options)));
   output.add_table("casting-errors", casting_errors_table(results.casting_errors));
   output.heading("Number of ranks (the paper's figure 8)");
@@ -272,9 +275,9 @@ void write_figures(const Runs& runs, const PaperResults& results, const PaperOpt
   for (const NetworkProperty& property : kNetworkProperties) {
     network.panels.push_back(network_panel(runs, property));
   }
-  output.add_figure(
-      network,
-      fmt::format("The simple sequence on {} ranks, combined balancing. 1: the best network tried.", ranks));
+  output.add_figure(network,
+                    fmt::format("The simple sequence on {}, combined balancing. 1: the best network tried.",
+                                counted(ranks, "rank", "ranks")));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/content_hash.h"
+#include "base/counted.h"
 #include "parallel/balance/partition.h"
 #include "parallel/serial_pattern.h"
 #include "parser/anim/anim_parser.h"
@@ -265,8 +266,9 @@ PaperResults run_paper(const PaperOptions& options, const std::function<void(con
     results.runs.push_back(
         carry_out(setup, run, results.calibration.total_units,
                   [&](const FinishedFrame& frame) { add_pictures(options, run, frame, results); }));
-    report(fmt::format("{}: {}x{}, {} ranks, {}: {} frames in {:.1f} s", run.experiment, run.side, run.side,
-                       run.ranks, word_for(run.balance), run.frames, watch.lap()));
+    report(fmt::format("{}: {}x{}, {}, {}: {} in {:.1f} s", run.experiment, run.side, run.side,
+                       counted(run.ranks, "rank", "ranks"), word_for(run.balance),
+                       counted(run.frames, "frame", "frames"), watch.lap()));
   }
   results.casting_errors = run_casting_trial(casting_trial(options), report);
   return results;

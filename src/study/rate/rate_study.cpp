@@ -7,6 +7,7 @@
 #include <iterator>
 #include <span>
 
+#include "base/counted.h"
 #include "cli/process/exit.h"
 #include "study/frame_series.h"
 #include "study/rate/held_rates.h"
@@ -133,11 +134,12 @@ void study_rate(const RateOptions& asked, const std::string& command_line) {
   Stopwatch watch;
   const double units = measured_units_per_second(subject_at(moving, 0, options.size), SamplerChoice::kAuto);
   const TrueFilm film = true_film_of(moving, judged);
-  fmt::print(stderr, "pprt-study: {}: {} true pictures: {:.1f} s\n", moving.name, film.pictures.size(),
-             watch.lap());
+  fmt::print(stderr, "pprt-study: {}: {}: {:.1f} s\n", moving.name,
+             counted(film.pictures.size(), "true picture", "true pictures"), watch.lap());
   const HeldRun run{moving, film, options.ranks, units};
   const std::vector<RateResult> results = measure_all(run, options.quick);
-  fmt::print(stderr, "pprt-study: {}: {} runs: {:.1f} s\n", moving.name, results.size(), watch.lap());
+  fmt::print(stderr, "pprt-study: {}: {}: {:.1f} s\n", moving.name, counted(results.size(), "run", "runs"),
+             watch.lap());
   for (const SamplerChoice sampler : kSamplers) print_output(best_rates(results, sampler) + "\n");
   if (!options.directory.empty()) write_page(options, run, judged, results, command_line);
 }

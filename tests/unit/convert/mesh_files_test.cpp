@@ -1,14 +1,18 @@
 #include <assimp/scene.h>
 
+#include <algorithm>
 #include <assimp/Importer.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
 #include <string>
+#include <vector>
 
+#include "base/counted.h"
 #include "base/diagnostics.h"
 #include "convert/mesh/mesh_reader.h"
 #include "convert/mesh/mesh_writer.h"
+#include "convert/model/model_losses.h"
 #include "spd/spd.h"
 #include "unit/image/temporary_directory.h"
 
@@ -187,21 +191,47 @@ TEST_CASE("lamps and suns are kept by the mesh formats that have them") {
   CHECK(dark.scene.materials[0].emission == Rgb(0, 0, 0));
 }
 
-TEST_CASE("a camera of Collada has its angle, whether or not that has a sid") {
-  const TemporaryDirectory folder;
-  const auto edges = [&](const std::string& optics) {
-    put(folder, "a.dae",
-        R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
-<asset><up_axis>Y_UP</up_axis></asset><library_cameras><camera id="c"><optics><technique_common><perspective>)" +
-            optics + R"(</perspective></technique_common></optics></camera></library_cameras>
-<library_geometries><geometry id="g"><mesh><source id="p"><float_array id="pa" count="9">0 0 0 1 0 0 0 1 0
+namespace {
+
+// A triangle, libraries, and further nodes.
+std::string collada(const std::string& libraries, const std::string& nodes) {
+  return R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><up_axis>Y_UP</up_axis></asset>)" +
+         libraries +
+         R"(<library_geometries><geometry id="g"><mesh><source id="p"><float_array id="pa" count="9">0 0 0 1 0 0 0 1 0
 </float_array><technique_common><accessor source="#pa" count="3" stride="3"><param name="X" type="float"/>
 <param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
 <vertices id="v"><input semantic="POSITION" source="#p"/></vertices><triangles count="1">
 <input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles></mesh></geometry></library_geometries>
 <library_visual_scenes><visual_scene id="s"><!-- <node id="n"> --><node id="n"><instance_geometry url="#g"/></node>
-<node id="eye" name="The eye"><translate>0 0 8</translate><instance_camera url="#c"/></node></visual_scene>
-</library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)");
+)" + nodes +
+         R"(</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
+}
+
+// A node that holds something, in front of the triangle.
+std::string node_of(const std::string& id, const std::string& content) {
+  return "<node id=\"" + id + "\"><translate>0 0 8</translate>" + content + "</node>";
+}
+
+std::string camera_of(const std::string& id, const std::string& optics) {
+  return "<camera id=\"" + id + "\"><optics><technique_common><perspective>" + optics +
+         "</perspective></technique_common></optics></camera>";
+}
+
+bool tells(const ReadMesh& read, ModelLoss loss, std::size_t count) {
+  const auto& [one, many] = kModelLossWords[static_cast<std::size_t>(loss)];
+  return std::count(read.notes.begin(), read.notes.end(), counted(count, one, many)) == 1;
+}
+
+}  // namespace
+
+TEST_CASE("a camera of Collada has its angle, whether or not that has a sid") {
+  const TemporaryDirectory folder;
+  const auto edges = [&](const std::string& optics) {
+    put(folder, "a.dae",
+        collada(
+            "<library_cameras>" + camera_of("c", optics) + "</library_cameras>",
+            R"(<node id="eye" name="The eye"><translate>0 0 8</translate><instance_camera url="#c"/></node>)"));
     const View view = read_mesh((folder.path() / "a.dae").string()).scene.view.value();
     const double half = std::tan(view.angle_degrees * M_PI / 360) * view.height / (view.height - 1);
     return std::pair(2 * std::atan(half) * 180 / M_PI, static_cast<double>(view.width) / view.height);
@@ -226,11 +256,99 @@ TEST_CASE("an OBJ with a quadrilateral, a mirror and a line is read without the 
   const ReadMesh read = read_mesh((folder.path() / "a.obj").string());
   REQUIRE(read.scene.polygons.size() == 1);
   CHECK(read.scene.polygons[0].vertex_count == 4);
-  CHECK(read.notes == std::vector<std::string>{"1 points, lines and faces without extent left out"});
+  CHECK(read.notes == std::vector<std::string>{"1 point, line or face without extent left out"});
   const Material& m = read.scene.materials[read.scene.polygons[0].material];
   CHECK(m == Material{Rgb(0.5, 0, 0), 1, 0.25, 40, 0, 1});
   CHECK_FALSE(read.scene.view);
   CHECK(read.scene.lights.empty());
+}
+
+TEST_CASE("what of Collada's lights and cameras is lost is told") {
+  const TemporaryDirectory folder;
+  const auto light = [](const std::string& id, const std::string& kind, const std::string& more) {
+    return "<light id=\"" + id + "\"><technique_common><" + kind + "><color>1 1 1</color>" + more + "</" +
+           kind + "></technique_common></light>";
+  };
+  const std::string lights = light("a", "spot", "<falloff_angle>30</falloff_angle>") +
+                             light("b", "point", "<quadratic_attenuation>1</quadratic_attenuation>") +
+                             light("d", "ambient", "") + light("e", "point", "");
+  std::string cameras, nodes;
+  for (const std::string id : {"c1", "c2", "c3"}) {
+    cameras += camera_of(id, "<yfov>30</yfov><znear>1</znear>");
+    nodes += node_of("at-" + id, "<instance_camera url=\"#" + id + "\"/>");
+  }
+  for (const std::string id : {"a", "b", "d", "e"})
+    nodes += node_of("lit-" + id, "<instance_light url=\"#" + id + "\"/>");
+  put(folder, "a.dae",
+      collada(
+          "<library_cameras>" + cameras + "</library_cameras><library_lights>" + lights + "</library_lights>",
+          nodes));
+  const ReadMesh read = read_mesh((folder.path() / "a.dae").string());
+  CHECK(read.scene.lights.size() == 3);
+  CHECK(tells(read, ModelLoss::kSpot, 1));
+  CHECK(tells(read, ModelLoss::kDistance, 1));
+  CHECK(tells(read, ModelLoss::kCameras, 2));
+  CHECK(std::any_of(read.notes.begin(), read.notes.end(), [](const std::string& note) {
+    return note.ends_with("is neither a point, nor a spot, nor a sun: left out");
+  }));
+  CHECK(read.notes.size() == 4);
+}
+
+TEST_CASE("pictures of materials that a scene cannot hold are told, once for each material") {
+  const TemporaryDirectory folder;
+  put(folder, "a.mtl",
+      "newmtl bumpy\nKd 1 1 1\nmap_Bump b.png\nnewmtl leaf\nKd 1 1 1\nmap_d d.png\nmap_Ks s.png\nnewmtl "
+      "plain\n");
+  put(folder, "a.obj",
+      "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl bumpy\nf 1 2 3\nusemtl leaf\nf 1 2 3\nusemtl plain\nf "
+      "1 2 3\n"
+      "usemtl leaf\nf 2 3 1\n");
+  const ReadMesh read = read_mesh((folder.path() / "a.obj").string());
+  CHECK(tells(read, ModelLoss::kNormalMap, 1));
+  CHECK(tells(read, ModelLoss::kOtherPictures, 1));
+  CHECK(read.notes.size() == 2);
+}
+
+TEST_CASE("colours at the vertices of a mesh become a texture, also of faces with four corners") {
+  const TemporaryDirectory folder;
+  put(folder, "a.ply",
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n"
+      "0 0 0 255 0 0\n1 0 0 0 255 0\n1 1 0 0 0 255\n0 1 0 188 188 188\n4 0 1 2 3\n");
+  const ReadMesh read = read_mesh((folder.path() / "a.ply").string());
+  CHECK(read.notes.empty());
+  REQUIRE((read.scene.meshes.size() == 1 && read.scene.textures.size() == 1));
+  const TriangleMesh& mesh = read.scene.meshes[0];
+  CHECK(read.scene.materials[mesh.material].color == Rgb(1, 1, 1));
+  const Texture& texture = read.scene.textures[0];
+  const auto color_at = [&](const Vec3d& position) {
+    const auto corner =
+        std::find(mesh.positions.begin(), mesh.positions.end(), position) - mesh.positions.begin();
+    const Vec2d place =
+        mesh.texture_points.at(static_cast<std::size_t>(corner)) * Vec2d(texture.width, texture.height);
+    const auto texel = static_cast<std::size_t>(place.y) * static_cast<std::size_t>(texture.width) +
+                       static_cast<std::size_t>(place.x);
+    return std::vector<int>{texture.rgb.at(3 * texel), texture.rgb.at(3 * texel + 1),
+                            texture.rgb.at(3 * texel + 2)};
+  };
+  CHECK(mesh.positions.size() == 6);
+  CHECK(color_at({0, 0, 0}) == std::vector{255, 0, 0});
+  CHECK(color_at({1, 0, 0}) == std::vector{0, 255, 0});
+  CHECK(color_at({1, 1, 0}) == std::vector{0, 0, 255});
+  CHECK(color_at({0, 1, 0}) == std::vector{188, 188, 188});
+}
+
+TEST_CASE("nodes of one name are told") {
+  const TemporaryDirectory folder;
+  const std::string cube =
+      "OBJECT poly\nname \"cube\"\nnumvert 3\n0 0 0\n1 0 0\n0 1 0\nnumsurf 1\nSURF 0x20\nmat 0\nrefs 3\n"
+      "0 0 0\n1 1 0\n2 0 1\nkids 0\n";
+  put(folder, "a.ac",
+      "AC3Db\nMATERIAL \"m\" rgb 1 1 1 amb 1 1 1 emis 0 0 0 spec 0 0 0 shi 0 trans 0\nOBJECT world\nkids "
+      "3\n" +
+          cube + cube + cube);
+  CHECK(tells(read_mesh((folder.path() / "a.ac").string()), ModelLoss::kNamesakes, 2));
 }
 
 TEST_CASE("a mesh that cannot be read is an error with the file's name") {

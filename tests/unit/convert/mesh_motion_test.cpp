@@ -1,4 +1,7 @@
 // Movement, textures, cameras and lights in glTF, out and in.
+#include <assimp/anim.h>
+#include <assimp/scene.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
@@ -7,6 +10,7 @@
 #include <sstream>
 
 #include "base/diagnostics.h"
+#include "convert/mesh/mesh_animation.h"
 #include "convert/mesh/mesh_reader.h"
 #include "convert/mesh/mesh_writer.h"
 #include "image/image_io.h"
@@ -223,6 +227,30 @@ TEST_CASE("a modeller's glTF moves in straight lines") {
   CHECK((read.scene.movement.times->end == 3 && read.scene.movement.times->frames == 73));
   for (const auto& [name, track] : read.scene.movement.tracks) CHECK(track.is_in_order);
   CHECK(read.scene.movement.tracks.size() == 1);
+}
+
+TEST_CASE("of two animations that move one node the first counts, and the others are told") {
+  aiScene scene;
+  scene.mNumAnimations = 3;
+  scene.mAnimations = new aiAnimation*[3];
+  for (unsigned i = 0; i < 3; ++i) {
+    auto* const channel = new aiNodeAnim;
+    channel->mNodeName = aiString(std::string("cube"));
+    channel->mNumPositionKeys = 2;
+    channel->mPositionKeys = new aiVectorKey[2];
+    for (unsigned k = 0; k < 2; ++k)
+      channel->mPositionKeys[k] =
+          aiVectorKey(k, aiVector3D(static_cast<float>(i + 1) * static_cast<float>(k), 0, 0));
+    scene.mAnimations[i] = new aiAnimation;
+    scene.mAnimations[i]->mTicksPerSecond = 1;
+    scene.mAnimations[i]->mNumChannels = 1;
+    scene.mAnimations[i]->mChannels = new aiNodeAnim*[1];
+    scene.mAnimations[i]->mChannels[0] = channel;
+  }
+  const ModelAnimation read = read_animation(scene, "");
+  CHECK(read.notes ==
+        std::vector<std::string>{"2 movements of nodes that another animation moves: left out"});
+  CHECK(read.tracks.at("cube").translation.back().value == Vec3d(1, 0, 0));
 }
 
 TEST_CASE("a node called camera does not move the view, and one that does moves it in the world") {

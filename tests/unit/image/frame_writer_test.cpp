@@ -166,7 +166,7 @@ TEST_CASE("a frame with values that are not finite never reaches a file") {
   Image image = picture_of(1);
   image.at(3, 3).x = std::numeric_limits<float>::infinity();
   writer.submit({1, image, {}});
-  CHECK_THROWS_WITH(writer.finish(), Catch::Contains("1 pixels are not finite"));
+  CHECK_THROWS_WITH(writer.finish(), Catch::Contains("1 pixel is not finite"));
   CHECK(directory.entries() == 0);
 }
 

@@ -83,7 +83,7 @@ TEST_CASE("frames that are removed in mid-run are missed, though the manifest st
   while (!fs::exists(run.picture(1))) std::this_thread::yield();
   fs::remove(run.picture(1));
   for (const int number : {2, 3}) run.record(recorder, number);
-  CHECK_THROWS_WITH(recorder.finish(false), "of 3 frames written, 1 are not there any more");
+  CHECK_THROWS_WITH(recorder.finish(false), "of 3 frames written, 1 is not there any more");
 }
 
 TEST_CASE("a frame is missed as soon as one of its files is removed") {
@@ -96,7 +96,7 @@ TEST_CASE("a frame is missed as soon as one of its files is removed") {
   while (!fs::exists(second)) std::this_thread::yield();
   fs::remove(second);
   for (const int number : {2, 3}) run.record(recorder, number);
-  CHECK_THROWS_WITH(recorder.finish(false), "of 3 frames written, 1 are not there any more");
+  CHECK_THROWS_WITH(recorder.finish(false), "of 3 frames written, 1 is not there any more");
 }
 
 TEST_CASE("frames that the manifest does not tell of do not count as written") {

@@ -100,6 +100,9 @@ TEST_CASE("at the end people are told how many frames there are, and where") {
   resumed.finished_before = 3;
   CHECK(told_at_end(resumed, RunEnd::kDone, 2, totals_of({0, 0})) ==
         "done: 2 of 5 frames (3 were there already) in a.png to b.png; 1,234 samples a frame\n");
+  resumed.finished_before = 1;
+  CHECK(told_at_end(resumed, RunEnd::kDone, 4, {}) ==
+        "done: 4 of 5 frames (1 was there already) in a.png to b.png\n");
   CHECK(told_at_end({.frames = 1}, RunEnd::kDone, 1, totals_of({0})) ==
         "done: 1 of 1 frame in a.png to b.png; 1,234 samples\n");
 }
@@ -246,6 +249,9 @@ TEST_CASE("numbers of samples are grouped by thousands") {
     FrameSummary frame;
     frame.samples = samples;
     totals.add(frame);
+    resumed.finished_before = 1;
+    CHECK(told_at_end(resumed, RunEnd::kDone, 4, {}) ==
+          "done: 4 of 5 frames (1 was there already) in a.png to b.png\n");
     CHECK(told_at_end({.frames = 1}, RunEnd::kDone, 1, totals).find(text) != std::string::npos);
   }
 }

@@ -112,8 +112,8 @@ TEST_CASE("balancing trace: what is no trace is refused by file and line") {
   CHECK(problem_with(1, "/balance", "best") == "t:1: error: \"balance\" is unknown: 'best'");
   CHECK(problem_with(1, "/ranks", 0) == "t:1: error: \"ranks\" is out of range");
   CHECK(problem_with(1, "/ranks", 1.5) == "t:1: error: \"ranks\" is out of range");
-  CHECK(problem_with(1, "/size", {6}) == "t:1: error: \"size\" has 1 values instead of 2");
-  CHECK(problem_with(2, "/owner", {0}) == "t:2: error: \"owner\" has 1 values instead of 2");
+  CHECK(problem_with(1, "/size", {6}) == "t:1: error: \"size\" has 1 value instead of 2");
+  CHECK(problem_with(2, "/owner", {0}) == "t:2: error: \"owner\" has 1 value instead of 2");
   CHECK(problem_with(2, "/owner/1", 2) == "t:2: error: \"owner\" holds a value out of range");
   CHECK(problem_with(2, "/owner/1", -2) == "t:2: error: \"owner\" holds a value out of range");
   CHECK(problem_with(2, "/cost/0", nullptr) == "t:2: error: \"cost\" holds a value out of range");

@@ -1,4 +1,4 @@
-#include "convert/gltf/gltf_colours.h"
+#include "convert/model/vertex_colours.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "convert/model/display_values.h"
+#include "scene/polygons/triangulate.h"
 
 namespace pprt {
 namespace {
@@ -18,38 +18,51 @@ namespace {
 constexpr std::size_t kSide = 4;
 constexpr std::size_t kMostTriangles = 2'000'000;
 
-using Shown = std::array<double, 3>;  // display values
-
 std::uint8_t byte_of(double display) {
   return static_cast<std::uint8_t>(std::lround(255 * std::clamp(display, 0.0, 1.0)));
 }
 
-Shown shown(const GltfNumbers& colors, std::uint32_t corner) {
-  return {display_value(colors.at(corner, 0)), display_value(colors.at(corner, 1)),
-          display_value(colors.at(corner, 2))};
+// Returns the corners of the faces' triangles. Of a face without extent one without extent is left.
+std::vector<std::uint32_t> triangle_corners(const ModelMesh& mesh) {
+  std::vector<std::uint32_t> corners;
+  std::vector<Vec3d> face;
+  std::size_t begin = 0;
+  for (const std::size_t end : mesh.ends) {
+    face.clear();
+    for (std::size_t k = begin; k < end; ++k) face.push_back(mesh.positions[mesh.corners[k]]);
+    std::vector<TriangleIndices> cut;
+    if (face.size() > 3) cut = triangulate(face);
+    const auto last = static_cast<std::uint32_t>(face.size()) - 1;
+    if (cut.empty() && !face.empty()) cut.push_back({0, std::min(1U, last), last});
+    for (const TriangleIndices& triangle : cut)
+      for (const std::uint32_t k : triangle) corners.push_back(mesh.corners[begin + k]);
+    begin = end;
+  }
+  return corners;
 }
 
-void fill_block(Texture& texture, std::size_t left, std::size_t top, const std::array<Shown, 3>& corners) {
+void fill_block(Texture& texture, std::size_t left, std::size_t top, const std::array<Rgb, 3>& corners) {
   constexpr double kSpan = kSide - 1;
   for (std::size_t y = 0; y < kSide; ++y) {
     for (std::size_t x = 0; x < kSide; ++x) {
       const double u = static_cast<double>(x) / kSpan, v = static_cast<double>(y) / kSpan;
       const std::size_t texel = (top + y) * static_cast<std::size_t>(texture.width) + left + x;
-      for (std::size_t c = 0; c < 3; ++c)
-        texture.rgb[3 * texel + c] = byte_of(corners[0][c] + u * (corners[1][c] - corners[0][c]) +
-                                             v * (corners[2][c] - corners[0][c]));
+      const Rgb color = corners[0] + u * (corners[1] - corners[0]) + v * (corners[2] - corners[0]);
+      for (int c = 0; c < 3; ++c) texture.rgb[3 * texel + static_cast<std::size_t>(c)] = byte_of(color[c]);
     }
   }
 }
 
 }  // namespace
 
-std::optional<Texture> paint(ModelMesh& mesh, const GltfNumbers& colors) {
-  const std::size_t triangles = mesh.corners.size() / 3,
-                    vertices = std::min(colors.size(), mesh.positions.size());
+std::optional<Texture> paint(ModelMesh& mesh, const std::vector<Rgb>& colors) {
+  const std::size_t vertices = std::min(colors.size(), mesh.positions.size());
   const bool is_whole =
       std::all_of(mesh.corners.begin(), mesh.corners.end(), [&](std::uint32_t c) { return c < vertices; });
-  if (!is_whole || triangles == 0 || triangles > kMostTriangles) return std::nullopt;
+  if (!is_whole) return std::nullopt;
+  const std::vector<std::uint32_t> corners = triangle_corners(mesh);
+  const std::size_t triangles = corners.size() / 3;
+  if (triangles == 0 || triangles > kMostTriangles) return std::nullopt;
   const auto across = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(triangles))));
   Texture texture;
   texture.name = "colours";
@@ -58,14 +71,13 @@ std::optional<Texture> paint(ModelMesh& mesh, const GltfNumbers& colors) {
   texture.rgb.resize(3 * static_cast<std::size_t>(texture.width) * static_cast<std::size_t>(texture.height));
 
   ModelMesh own;
-  own.ends = mesh.ends;
   const Vec2d size(texture.width, texture.height);
   for (std::size_t i = 0; i < triangles; ++i) {
     const std::size_t left = i % across * kSide, top = i / across * kSide;
-    std::array<Shown, 3> at{};
+    std::array<Rgb, 3> at;
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t corner = mesh.corners[3 * i + k];
-      at[k] = shown(colors, corner);
+      const std::uint32_t corner = corners[3 * i + k];
+      at[k] = colors[corner];
       own.positions.push_back(mesh.positions[corner]);
       if (!mesh.normals.empty()) own.normals.push_back(mesh.normals[corner]);
       const Vec2d texel(static_cast<double>(left + (k == 1 ? kSide - 1 : 0)),
@@ -73,6 +85,7 @@ std::optional<Texture> paint(ModelMesh& mesh, const GltfNumbers& colors) {
       own.texture_points.push_back((texel + Vec2d(0.5, 0.5)) / size);
       own.corners.push_back(static_cast<std::uint32_t>(3 * i + k));
     }
+    own.ends.push_back(own.corners.size());
     fill_block(texture, left, top, at);
   }
   mesh = std::move(own);
