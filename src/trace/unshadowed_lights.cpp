@@ -106,6 +106,11 @@ std::vector<LitSurface> lit_surfaces(const CompiledScene::Impl& scene) {
       surfaces[part.primitives[i] + 1] = {shape, are_few && !has_more};
     }
   }
+  // Of faces in one plane it is not certain which one is seen.
+  for (const ScenePart& part : scene.parts) {
+    for (std::size_t i = 0; i < part.coincides.size(); ++i)
+      if (part.coincides[i]) surfaces[scene.surfaces[part.primitives[i] + 1]] = {};
+  }
   return surfaces;
 }
 

@@ -14,8 +14,8 @@ namespace pprt {
 
 class Pose;
 
-// Returns how primitives are lit, by the number of a RaySample from 0 on. Those with pictures count as not
-// lit.
+// Returns how surfaces are lit, by the number of a RaySample from 0 on: that of connected_surfaces() tells
+// for all of its primitives. Those with pictures count as not lit, and so do faces that coincide.
 std::vector<LitSurface> lit_surfaces(const CompiledScene::Impl& scene);
 
 // Evaluates the kernel's direct light, of all lights at once. Keeps what it has found of the last primitives.

@@ -174,7 +174,7 @@ TEST_CASE(
   write_moving_scene(folder);
   const Told told;
   convert(at(folder, "b.nff", {}));
-  CHECK(told.text().find(folder.file("a.aff") + ": 1 stretched spheres or cones become triangles\n") !=
+  CHECK(told.text().find(folder.file("a.aff") + ": 1 stretched sphere or cone becomes triangles\n") !=
         std::string::npos);
   const SceneDescription scene = read_nff(folder.file("b.nff")).scene;
   REQUIRE(scene.lights.size() == 1);

@@ -134,7 +134,7 @@ TEST_CASE("model animation: without a name all of Assimp's count, the first of a
   const ModelAnimation all = read_animation(scene, "");
   CHECK((x_at_1(all, "a") == Approx(1) && x_at_1(all, "b") == Approx(1)));
   CHECK(all.times->end == 2);
-  CHECK(all.notes == std::vector<std::string>{"1 movements of nodes that another animation moves: left out"});
+  CHECK(all.notes == std::vector<std::string>{"1 movement of a node that another animation moves: left out"});
   const ModelAnimation named = read_animation(scene, "two");
   CHECK((x_at_1(named, "a") == Approx(9) && named.notes.empty()));
   const ModelAnimation alone = read_animation(scene, "one");

@@ -101,6 +101,21 @@ TEST_CASE("unshadowed lights: of what mirrors the rest is not known") {
   CHECK(Tracer(without, without.camera(*scene.view)).lit_surfaces()[1].is_all);
 }
 
+TEST_CASE("unshadowed lights: of faces in one plane nothing is known") {
+  Material matte;
+  matte.diffuse = 0.5;
+  for (const double height : {0.0, 0.5}) {
+    SceneDescription scene = scene_with(matte, {{3, 0, 100}});
+    scene.materials.push_back(matte);
+    add_square(scene, 5, 0);
+    add_square(scene, 2, height, 1);
+    const CompiledScene compiled = compile(scene);
+    const Tracer tracer(compiled, compiled.camera(*scene.view));
+    for (const std::uint32_t primitive : {1U, 2U})
+      CHECK(tracer.lit_surfaces()[tracer.surfaces()[primitive]].is_all == (height > 0));
+  }
+}
+
 TEST_CASE("unshadowed lights: the first eight lights are told apart") {
   Material material;
   material.diffuse = 0.8;
