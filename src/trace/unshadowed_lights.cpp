@@ -37,7 +37,7 @@ LitPoint meet_plane(const Mesh& mesh, std::uint32_t triangle, const Vec3d& from,
   return {std::isfinite(t) ? from + direction * t : corner, turned_against(normal, direction)};
 }
 
-// Of the triangles of a polygon the one that the ray meets, or comes nearest to.
+// Meets the triangle of a polygon that the ray comes nearest to.
 LitPoint meet_smooth(const Mesh& mesh, std::uint32_t first, std::uint32_t count, const Vec3d& from,
                      const Vec3d& direction) {
   std::uint32_t triangle = first;
@@ -106,7 +106,7 @@ std::vector<LitSurface> lit_surfaces(const CompiledScene::Impl& scene) {
       surfaces[part.primitives[i] + 1] = {shape, are_few && !has_more};
     }
   }
-  // Of faces in one plane it is not certain which one is seen.
+  // Which one of two faces in one plane is seen is not certain.
   for (const ScenePart& part : scene.parts) {
     for (std::size_t i = 0; i < part.coincides.size(); ++i)
       if (part.coincides[i]) surfaces[scene.surfaces[part.primitives[i] + 1]] = {};

@@ -22,7 +22,7 @@ std::uint8_t byte_of(double display) {
   return static_cast<std::uint8_t>(std::lround(255 * std::clamp(display, 0.0, 1.0)));
 }
 
-// Returns the corners of the faces' triangles. Of a face without extent one without extent is left.
+// Returns the corners of the faces' triangles. A face without extent leaves one triangle without extent.
 std::vector<std::uint32_t> triangle_corners(const ModelMesh& mesh) {
   std::vector<std::uint32_t> corners;
   std::vector<Vec3d> face;

@@ -91,7 +91,8 @@ inline double footprint_of(const LatticeNode& node) {
 class NodeValue {
  public:
   NodeValue() = default;
-  // The last lane of `channels` does not count.
+  // The last lane of `channels` does not count. `lights`: those seen, a bit each (seen_from()). Surfaces are
+  // told apart by 24 bits: there is no visibility with more primitives.
   NodeValue(const float4& channels, std::uint32_t surface, std::uint8_t lights = 0xFF) {
     int4 bits = std::bit_cast<int4>(channels);
     bits[3] = std::bit_cast<std::int32_t>((surface & 0xFFFFFFU) | std::uint32_t{lights} << 24);

@@ -31,7 +31,7 @@ std::array<float, 4> weights_in(const LatticeNode& corner, int side, const Latti
   return {(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v};
 }
 
-// Of the pixel with this upper left corner, in the image.
+// Returns the image point in the middle of the pixel with this upper left corner.
 Vec2d middle_point(const LatticeNode& pixel) {
   return point_of(pixel) + Vec2d(0.5, 0.5);
 }

@@ -45,7 +45,7 @@ TEST_CASE(
   TransferInputs level = inputs();
   level.mean_weight = 0.05;
   CHECK(takers_ahead({}, level).empty());
-  // Of two that are as far ahead the first comes first, whichever has reported first.
+  // The first of two that are as far ahead comes first, whichever has reported first.
   TransferInputs even = inputs();
   std::swap(even.takers[0], even.takers[1]);
   for (PossibleTaker& taker : even.takers) taker.progress.future_cost = 200;
