@@ -39,10 +39,8 @@ VisibilityBuffer::VisibilityBuffer(int right, int bottom, PrimitiveShapes shapes
 }
 
 void VisibilityBuffer::forget(const Fineness& fineness) {
-  constexpr std::uint32_t kMost = 1 << 20;
   was_known_ = has_seen();
-  const bool has_shapes = shapes_.project && shapes_.count > 0 && shapes_.count <= kMost;
-  state_ = has_shapes && most_rays_ > 0 ? State::kNotAsked : State::kUnknown;
+  state_ = has_shapes() && most_rays_ > 0 ? State::kNotAsked : State::kUnknown;
   density_ = fineness.points_per_side, log2_density_ = std::countr_zero(static_cast<unsigned>(density_)),
   share_points_ = fineness.share_points;
   columns_ = (right_ + tile_pixels() - 1) / tile_pixels(),

@@ -104,7 +104,11 @@ class VisibilityBuffer {
   // and each quadric and facet that may be in a part of the picture takes `per_item` rays. 0 rays: nothing is
   // even bounded.
   void limit(double rays, double per_item, const PixelRect& within) {
-    if (rays <= 0) state_ = State::kUnknown;
+    if (rays <= 0) {
+      state_ = State::kUnknown;
+    } else if (most_rays_ <= 0 && has_shapes()) {
+      state_ = State::kNotAsked;
+    }
     most_rays_ = rays, rays_per_item_ = per_item, within_ = within;
   }
   void limit(double rays) { limit(rays, 0, {0, 0, right_, bottom_}); }
@@ -185,6 +189,11 @@ class VisibilityBuffer {
   int log2_tile_pixels() const { return kLog2Intervals - log2_density_; }
 
   enum class State : std::uint8_t { kNotAsked, kKnown, kUnknown };
+
+  bool has_shapes() const {
+    constexpr std::uint32_t kMost = 1 << 20;
+    return shapes_.project && shapes_.count > 0 && shapes_.count <= kMost;
+  }
 
   // A quadric or a facet.
   struct Item {

@@ -103,6 +103,16 @@ TEST_CASE(
   CHECK(asked_by(true, lights) == 2);  // what they differ by is their lights
 }
 
+TEST_CASE("visibility limit: what was not to be seen in one picture may be seen in the next") {
+  std::uint32_t asked = 0;
+  VisibilityBuffer visibility(kSide, kSide, walls(2, asked));
+  visibility.limit(0);
+  CHECK_FALSE(visibility.is_known());
+  visibility.forget();
+  visibility.limit(1000);
+  CHECK(visibility.is_known());
+}
+
 TEST_CASE("visibility limit: seeds do not decide it") {
   std::uint32_t asked = 0;
   LatticeRefiner sampler(Region::whole({kSide, kSide, 32}), walls(100000, asked), LatticeOrder::kAdaptive,
