@@ -101,12 +101,13 @@ class NodeValue {
 
   // Red, green, blue and 0.
   float4 channels() const { return std::bit_cast<float4>(std::bit_cast<int4>(lanes_) & int4{-1, -1, -1, 0}); }
-  std::uint32_t surface() const { return bits() & 0xFFFFFFU; }
-  std::uint8_t lights() const { return static_cast<std::uint8_t>(bits() >> 24); }
+  std::uint32_t surface() const { return surface_and_lights() & 0xFFFFFFU; }
+  std::uint32_t surface_and_lights() const {
+    return std::bit_cast<std::uint32_t>(std::bit_cast<int4>(lanes_)[3]);
+  }
+  std::uint8_t lights() const { return static_cast<std::uint8_t>(surface_and_lights() >> 24); }
 
  private:
-  std::uint32_t bits() const { return std::bit_cast<std::uint32_t>(std::bit_cast<int4>(lanes_)[3]); }
-
   float4 lanes_;
 };
 

@@ -19,15 +19,11 @@ const UnshadowedLight& SurfaceLights::at(const Vec2d& point, std::uint32_t primi
 }
 
 float4 SurfaceLights::part_of(const NodeValue& value, const LatticeNode& node) {
-  const auto hash =
-      static_cast<std::uint32_t>(node.x) * 0x9E3779B1U + static_cast<std::uint32_t>(node.y) * 0x85EBCA77U;
-  Kept& kept = kept_[hash >> 20];
-  static_assert(kKept == std::size_t{1} << 12);
-  if (kept.node == node && kept.surface == value.surface() && kept.seen == value.lights()) return kept.part;
-  const Vec2d point = point_of(node);
-  lights_.at(primitive_at(node, value.surface()), point.x, point.y, of_node_);
-  kept = {node, value.surface(), value.lights(), of_node_.is_known ? of_node_.of(value.lights()) : float4{}};
-  return kept.part;
+  return kept_.get(node, value.surface_and_lights(), [&] {
+    const Vec2d point = point_of(node);
+    lights_.at(primitive_at(node, value.surface()), point.x, point.y, of_node_);
+    return of_node_.is_known ? of_node_.of(value.lights()) : float4{};
+  });
 }
 
 }  // namespace pprt

@@ -2,13 +2,12 @@
 // sample tells of all its surface which lights are seen (docs/decisions/0037-lights.md).
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <utility>
-#include <vector>
 
 #include "base/unshadowed_light.h"
 #include "pipeline/lattice/lattice_node.h"
+#include "pipeline/lattice/node_cache.h"
 #include "pipeline/visibility/visibility_buffer.h"
 
 namespace pprt {
@@ -17,12 +16,10 @@ namespace pprt {
 class SurfaceLights {
  public:
   SurfaceLights(PrimitiveLights lights, VisibilityBuffer& visibility)
-      : lights_(std::move(lights)), visibility_(visibility) {
-    if (!lights_.surfaces.empty()) kept_.resize(kKept);
-  }
+      : lights_(std::move(lights)), visibility_(visibility) {}
 
   // What is seen is forgotten.
-  void forget() { kept_.assign(kept_.size(), {}); }
+  void forget() { kept_.clear(); }
 
   // What is known of a surface.
   LitSurface of(std::uint32_t surface) const {
@@ -51,18 +48,10 @@ class SurfaceLights {
  private:
   std::uint32_t primitive_at(const LatticeNode& node, std::uint32_t surface);
 
-  static constexpr std::size_t kKept = 4096;
-  struct Kept {
-    LatticeNode node{-1, -1};
-    std::uint32_t surface = 0;
-    std::uint8_t seen = 0;
-    float4 part{};
-  };
-
   PrimitiveLights lights_;
   VisibilityBuffer& visibility_;
   UnshadowedLight light_, of_node_;
-  std::vector<Kept> kept_;  // by node
+  NodeCache<float4> kept_;  // by surface and lights seen
 };
 
 }  // namespace pprt

@@ -31,15 +31,10 @@ float4 SurfaceTextures::moved(const NodeValue& value, const LatticeNode& node, c
 }
 
 TextureFactor SurfaceTextures::at(const LatticeNode& node, std::uint32_t surface) {
-  const auto hash =
-      static_cast<std::uint32_t>(node.x) * 0x9E3779B1U + static_cast<std::uint32_t>(node.y) * 0x85EBCA77U;
-  Kept& kept = kept_[hash >> 20];
-  static_assert(kKept == std::size_t{1} << 12);
-  if (kept.node == node && kept.surface == surface) return kept.factor;
-  const double side = std::min(1.0, footprint_of(node));  // as RankSampling::trace
-  kept = {node, surface,
-          of_primitive(visibility_.primitive_at(point_of(node), surface), point_of(node), side, 1)};
-  return kept.factor;
+  return kept_.get(node, surface, [&] {
+    const double side = std::min(1.0, footprint_of(node));  // as RankSampling::trace
+    return of_primitive(visibility_.primitive_at(point_of(node), surface), point_of(node), side, 1);
+  });
 }
 
 }  // namespace pprt

@@ -5,10 +5,10 @@
 #include <array>
 #include <cstdint>
 #include <utility>
-#include <vector>
 
 #include "base/probe.h"
 #include "pipeline/lattice/lattice_node.h"
+#include "pipeline/lattice/node_cache.h"
 #include "pipeline/visibility/visibility_buffer.h"
 
 namespace pprt {
@@ -44,12 +44,10 @@ inline float4 retextured(const float4& color, const float4& light, const Texture
 class SurfaceTextures {
  public:
   SurfaceTextures(PrimitiveTextures textures, VisibilityBuffer& visibility)
-      : textures_(std::move(textures)), visibility_(visibility) {
-    if (!textures_.are_there.empty()) kept_.resize(kKept);
-  }
+      : textures_(std::move(textures)), visibility_(visibility) {}
 
   // What is seen is forgotten.
-  void forget() { kept_.assign(kept_.size(), {}); }
+  void forget() { kept_.clear(); }
 
   // Whether there are any in the scene.
   bool any() const { return !textures_.are_there.empty(); }
@@ -87,16 +85,9 @@ class SurfaceTextures {
  private:
   TextureFactor of_primitive(std::uint32_t primitive, const Vec2d& point, double side, int per_side) const;
 
-  static constexpr std::size_t kKept = 4096;
-  struct Kept {
-    LatticeNode node{-1, -1};
-    std::uint32_t surface = 0;
-    TextureFactor factor{};
-  };
-
   PrimitiveTextures textures_;
   VisibilityBuffer& visibility_;
-  std::vector<Kept> kept_;  // by node
+  NodeCache<TextureFactor> kept_;  // by surface
   TextureLight all_;
   float4 usual_{1, 1, 1, 0};
   int per_side_ = 4;

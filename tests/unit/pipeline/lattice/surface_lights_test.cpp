@@ -6,8 +6,8 @@
 #include <cmath>
 #include <optional>
 
-#include "pipeline/lattice/lattice_refiner.h"
 #include "unit/pipeline/lattice/disc_before_wall.h"
+#include "unit/pipeline/lattice/refined_picture.h"
 
 namespace pprt::surface_lights_test {
 namespace {
@@ -63,32 +63,11 @@ PixelBlock picture(const Scene& scene, const PrimitiveLights& known, int samples
   LatticeRefiner refiner(Region::whole({kSize, kSize, 32}),
                          test::disc_before_wall(scene.x, scene.y, scene.radius), LatticeOrder::kAdaptive, {},
                          known);
-  for (int i = 0; i < samples; ++i) {
-    refiner.expect(samples - i);
-    const std::optional<Vec2d> point = refiner.next_point();
-    if (!point) break;
-    refiner.insert(*point, scene.at(point->x, point->y));
-  }
-  PixelBlock pixels;
-  refiner.paint({0, 0, kSize, kSize}, pixels);
-  return pixels;
+  return test::picture_of(refiner, kSize, samples, [&](double x, double y) { return scene.at(x, y); });
 }
 
-// Root mean square over the pixels in columns `from` to before `to`.
 double error_of(const Scene& scene, const PixelBlock& pixels, int from = 0, int to = kSize) {
-  constexpr int kSide = 8;
-  double sum = 0;
-  for (int y = 0; y < kSize; ++y) {
-    for (int x = from; x < to; ++x) {
-      Color truth(0, 0, 0);
-      for (int i = 0; i < kSide * kSide; ++i)
-        truth += scene.at(x + (i % kSide + 0.5) / kSide, y + (i / kSide + 0.5) / kSide).color *
-                 (1.0F / (kSide * kSide));
-      const Color d = pixels.at(x, y) - truth;
-      sum += d.dot(d) / 3;
-    }
-  }
-  return std::sqrt(sum / (kSize * (to - from)));
+  return test::error_of(pixels, from, to, [&](double x, double y) { return scene.at(x, y).color; });
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "pipeline/lattice/lattice_refiner.h"
+#include "unit/pipeline/lattice/refined_picture.h"
 
 namespace pprt::surface_textures_test {
 namespace {
@@ -66,35 +66,15 @@ PrimitiveTextures textures() {
 
 PixelBlock picture(const PrimitiveTextures& known, int samples) {
   LatticeRefiner refiner(Region::whole({kSize, kSize, 32}), shapes(), LatticeOrder::kAdaptive, known);
-  for (int i = 0; i < samples; ++i) {
-    refiner.expect(samples - i);
-    const std::optional<Vec2d> point = refiner.next_point();
-    if (!point) break;
+  return test::picture_of(refiner, kSize, samples, [](double x, double y) {
     RaySample sample;
-    sample.color = color_at(point->x, point->y);
-    sample.primitive = primitive_at(point->x);
-    refiner.insert(*point, sample);
-  }
-  PixelBlock pixels;
-  refiner.paint({0, 0, kSize, kSize}, pixels);
-  return pixels;
+    sample.color = color_at(x, y), sample.primitive = primitive_at(x);
+    return sample;
+  });
 }
 
-// Root mean square from column `from` to before `to`.
 double error_of(const PixelBlock& pixels, int from = 0, int to = kSize) {
-  constexpr int kSide = 8;
-  double sum = 0;
-  for (int y = 0; y < kSize; ++y) {
-    for (int x = from; x < to; ++x) {
-      Color truth(0, 0, 0);
-      for (int i = 0; i < kSide * kSide; ++i)
-        truth +=
-            color_at(x + (i % kSide + 0.5) / kSide, y + (i / kSide + 0.5) / kSide) * (1.0F / (kSide * kSide));
-      const Color d = pixels.at(x, y) - truth;
-      sum += d.dot(d) / 3;
-    }
-  }
-  return std::sqrt(sum / (kSize * (to - from)));
+  return test::error_of(pixels, from, to, color_at);
 }
 
 }  // namespace
