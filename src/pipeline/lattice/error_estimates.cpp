@@ -45,7 +45,7 @@ void ErrorEstimates::learn(NodeClass c, float detail, float error) {
 // The error over the detail in each class, against that of all. It counts by its power of 3/4, for what is
 // learned is uncertain and refinement changes it.
 void ErrorEstimates::update() {
-  constexpr float kDoubt = 10, kMost = 32;  // samples that the expectation counts as
+  constexpr float kDoubt = 5, kMost = 32;  // samples that the expectation counts as
   const float of_all = all_.error / all_.detail;
   for (NodeClass c = 0; c < kNodeClasses; ++c) {
     const Sums& sums = sums_[c];

@@ -13,7 +13,7 @@ namespace {
 constexpr double kRaysOfASample = 5, kFirstPrice = 0.4;
 constexpr double kGridShare = 0.35;   // of all samples that the grid may take
 constexpr float kGreatestFall = 3;    // of the threshold, from pass to pass
-constexpr float kShareOfLast = 0.2F;  // that an error of the last picture counts as, of one of this
+constexpr float kShareOfLast = 0.2F;  // that light on textures in the last picture counts as, of this one's
 
 // Returns the SurfaceShare from which it pays to see. Where a sample says little of its surface, as in
 // mirrors, more samples bring more, and most of all where there are few. From ratios of error at equal cost.
@@ -78,7 +78,7 @@ void LatticeRefiner::restart() {
   time_ = time_ > 0 ? 0.5 * (time_ + time) : time;
   if (seeing > 0)
     price_of_item_ = seeing / static_cast<double>(std::max<std::size_t>(visibility_.items_within(), 1));
-  errors_.fade(kShareOfLast);
+  errors_.clear();
   textures_.fade(kShareOfLast);
   forget_samples();
   expect(as_many);
@@ -96,7 +96,7 @@ void LatticeRefiner::forget_samples() {
   unsampled_surfaces_.clear();
   has_looked_ = has_fineness_ = false;
   surfaces_wanted_.clear();
-  samples_ = rays_ = 0;
+  samples_ = rays_ = learned_from_ = 0;
   expected_ = 0;
   has_base_ = has_grid_ = is_region_new_ = false;
   grid_levels_ = 0;
@@ -226,8 +226,18 @@ bool LatticeRefiner::next_nodes() {
   return true;
 }
 
+// What the pass has found so far is expected of its other tiles: where a picture is empty the candidates of a
+// whole level wait, and a few of them tell that there is nothing.
+void LatticeRefiner::learn_within_pass() {
+  constexpr std::size_t kLeast = 64, kShare = 32;
+  if (samples_ - learned_from_ < std::max(kLeast, samples_ / kShare)) return;
+  estimates_.update();
+  learned_from_ = samples_;
+}
+
 // Goes on to the next tile of the pass.
 bool LatticeRefiner::next_tile() {
+  learn_within_pass();
   while (!tiles_left_.empty()) {
     tile_ = tiles_left_.front();
     tiles_left_ = tiles_left_.subspan(1);
@@ -257,6 +267,7 @@ void LatticeRefiner::collect_base(int tile) {
 bool LatticeRefiner::start_pass() {
   growth_.end_pass(samples_);
   estimates_.update();
+  learned_from_ = samples_;
   share_.update();
   textures_.update();
   errors_.start_round();

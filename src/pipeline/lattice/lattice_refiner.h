@@ -132,6 +132,7 @@ class LatticeRefiner {
   bool next_nodes();
   void leave_nodes();
   bool next_tile();
+  void learn_within_pass();
   bool leave_pass();
   bool start_pass();
   void choose_fineness();
@@ -175,7 +176,8 @@ class LatticeRefiner {
   LatticePainter painter_;
 
   std::size_t samples_ = 0, rays_ = 0;
-  double expected_ = 0;  // samples in the end
+  std::size_t learned_from_ = 0;  // samples, by the errors expected now
+  double expected_ = 0;           // samples in the end
 
   Pass pass_;
   std::size_t grid_levels_ = 0;  // taken whole, the base not counted

@@ -72,7 +72,7 @@ void LatticeRefiner::insert_wanted(const RaySample& sample) {
   const auto rays = static_cast<float>(sample.rays);
   ++samples_, rays_ += sample.rays;
   if (at.is_base) {
-    constexpr float kWeight = 0.5F;
+    constexpr float kWeight = 0.02F;  // nothing was predicted
     errors_.note(at.node, kUnpredicted, rays, kWeight);
     set_sample(at.node, NodeValue(seen, visibility_.surface_of(sample.primitive), seen_from(sample.lights)));
     make_candidates(at.node, {2 * kBaseSide, LatticeKind::kMiddle},

@@ -14,11 +14,6 @@ void LocalErrors::clear() {
   round_ = 1;
 }
 
-void LocalErrors::fade(float share) {
-  for (Sums& sums : sums_) sums.error *= share, sums.rays *= share, sums.samples *= share;
-  start_round();
-}
-
 void LocalErrors::start_round() {
   if (++round_ != 0) return;
   std::fill(means_.begin(), means_.end(), Mean());

@@ -21,9 +21,6 @@ class LocalErrors {
 
   void clear();
 
-  // Multiplies the weight of all samples noted so far, so that a picture much like the last begins with them.
-  void fade(float share);
-
   // Means are computed anew when they are asked for next.
   void start_round();
 

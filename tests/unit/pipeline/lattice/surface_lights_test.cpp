@@ -59,10 +59,10 @@ constexpr std::array<LitSurface, 3> kAllKnown = {{{}, {}, {LitShape::kRound, tru
 constexpr std::array<LitSurface, 3> kMirror = {{{}, {}, {LitShape::kRound, false}}};
 constexpr std::array<LitSurface, 3> kFlat = {{{}, {}, {LitShape::kFlat, true}}};
 
-PixelBlock picture(const Scene& scene, const PrimitiveLights& known, int samples) {
+PixelBlock picture(const Scene& scene, const PrimitiveLights& known, int samples,
+                   LatticeOrder order = LatticeOrder::kAdaptive) {
   LatticeRefiner refiner(Region::whole({kSize, kSize, 32}),
-                         test::disc_before_wall(scene.x, scene.y, scene.radius), LatticeOrder::kAdaptive, {},
-                         known);
+                         test::disc_before_wall(scene.x, scene.y, scene.radius), order, {}, known);
   return test::picture_of(refiner, kSize, samples, [&](double x, double y) { return scene.at(x, y); });
 }
 
@@ -240,8 +240,8 @@ TEST_CASE("lights: in the next picture they are those of another camera") {
 
 TEST_CASE("lights: on facets samples alone tell") {
   const Scene scene;
-  const PixelBlock without = picture(scene, {}, 200);
-  const PixelBlock with = picture(scene, lights(kFlat), 200);
+  const PixelBlock without = picture(scene, {}, 200, LatticeOrder::kLevels);
+  const PixelBlock with = picture(scene, lights(kFlat), 200, LatticeOrder::kLevels);
   // The wall's rim apart, where a facet without a sample has its own colour.
   for (int y = 20; y < 44; ++y)
     for (int x = 20; x < 44; ++x) REQUIRE((with.at(x, y) - without.at(x, y)).length() < 1e-5F);
