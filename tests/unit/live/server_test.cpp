@@ -272,6 +272,24 @@ TEST_CASE("live server: a client that takes in nothing is no burden, and the oth
   }
 }
 
+TEST_CASE("live server: a client may say as many words in a second as are allowed, and not one more") {
+  for (const int said : {20, 21}) {
+    Stage stage({.most_messages_per_second = 20});
+    Client client(stage);
+    REQUIRE(comes_true([&] { return stage.joined == 1; }));
+    const auto begun = std::chrono::steady_clock::now();
+    for (int i = 0; i < said; ++i) client.say("x");
+    REQUIRE(
+        comes_true([&] { return stage.said().size() == static_cast<std::size_t>(said) || stage.left == 1; }));
+    if (said == 20) {
+      stage.server().tell_all("still");
+      CHECK(client.hear() == "still");
+    } else if (std::chrono::steady_clock::now() - begun < 1s) {
+      CHECK((stage.said().size() == 20 && stage.left == 1));
+    }
+  }
+}
+
 TEST_CASE("live server: a client may say as much in each second") {
   Stage stage({.most_messages_per_second = 20});
   Client client(stage);

@@ -408,6 +408,21 @@ TEST_CASE("steering: what moves plays again and again, and goes on under a camer
   CHECK((back.moment == 13 && back.view.from.x == 3 && back.cut));
 }
 
+TEST_CASE("steering: given back at its end, what moves begins again, and what does not rests") {
+  for (const bool moves : {true, false}) {
+    Stage stage(3, false, moves);
+    stage.steering.joined(1);
+    stage.say(1, R"({"do":"take"})");
+    stage.say(1, R"({"do":"seek","frame":3})");
+    CHECK(stage.shot().position == 3);
+    stage.say(1, R"({"do":"give"})");
+    CHECK(stage.state["plays"] == moves);
+    CHECK(stage.steering.is_played_out() == !moves);
+    const LiveShot next = stage.shot();
+    CHECK((next.position == (moves ? 1 : 3) && next.cut == moves && next.pilot == 0));
+  }
+}
+
 TEST_CASE("steering: a film of what moves lasts as long as it does") {
   Stage stage(5, false, true);
   stage.steering.joined(1);

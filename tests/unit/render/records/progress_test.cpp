@@ -1,11 +1,14 @@
 #include "render/records/progress.h"
 
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "unit/render/records/printed_text.h"
@@ -124,6 +127,33 @@ TEST_CASE("at the end of a run with a rate its lateness is told, and its error w
   CHECK(told_at_end(scope, RunEnd::kDone, 3, early) ==
         told + "3 on time within 1.5 s, the slowest 5 ms before its deadline; 1,234 samples a frame" +
             "; good enough after 75 % of the time\n");
+}
+
+TEST_CASE("a frame that is whole at its deadline is in time") {
+  const RunScope scope{.frames = 2, .frames_per_second = 25, .width = 64, .height = 64};
+  CHECK(told_at_end(scope, RunEnd::kDone, 2, totals_of({-12, 0})) ==
+        "done: 2 of 2 frames in a.png to b.png; 2 on time at 25 frames/s, the slowest 0 ms before its "
+        "deadline; 1,234 samples a frame\n");
+}
+
+TEST_CASE("the error of a run is told with its bounds, or what it is at most where it may be none") {
+  const auto told = [](double squared) {
+    RunTotals totals;
+    FrameSummary frame;
+    frame.samples = 1234;
+    frame.error.emplace();
+    frame.error->own = frame.error->frame = {.squared = squared, .variance = 4e-10, .third = 0};
+    totals.add(frame);
+    return std::pair(told_at_end({.frames = 1}, RunEnd::kDone, 1, totals), totals.error().mean().interval());
+  };
+  const std::string begin = "done: 1 of 1 frame in a.png to b.png; 1,234 samples; RMSE ";
+  const auto [sure, bounds] = told(1e-4);
+  CHECK((bounds.low > 0 && bounds.low < bounds.rmse && bounds.rmse < bounds.high));
+  CHECK(sure == fmt::format("{}{:.4f} ({:.4f} to {:.4f})\n", begin, bounds.rmse, bounds.low, bounds.high));
+  CHECK(bounds.rmse == Approx(0.01));
+  const auto [unsure, around_none] = told(1e-5);
+  CHECK((around_none.low <= 0 && around_none.high > 1.5 * around_none.rmse));
+  CHECK(unsure == fmt::format("{}at most {:.4f}\n", begin, around_none.high));
 }
 
 TEST_CASE("at the end advice is given where frames were late, but none for a film that has a time") {
