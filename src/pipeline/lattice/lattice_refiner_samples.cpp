@@ -204,7 +204,7 @@ Surroundings LatticeRefiner::base_corners(const LatticeNode& node) {
 float LatticeRefiner::worth_of_surface(const UnsampledSurface& surface) {
   const LocalErrors::Mean& near = errors_.near(surface.node);
   const float factor = estimates_.factor(class_of(Basis::kNothing, surface.variance, near.level));
-  return share_.of_one() * share_.of_one() * surface.area * detail_of(surface.variance) * factor /
+  return share_.gain_of_one() * surface.area * detail_of(surface.variance) * factor /
          (kInsertion + near.rays);
 }
 

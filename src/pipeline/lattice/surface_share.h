@@ -41,6 +41,10 @@ class SurfaceShare {
   // Returns the share of one sample alone, in the mean of all levels.
   float of_one() const { return of_one_; }
 
+  // Returns the part of a surface's squared error that one sample alone takes away, in the mean of all
+  // levels.
+  float gain_of_one() const { return of_one_ * of_one_; }
+
   // Notes a sample: how far it lies from the mean of all around in the direction of those on its surface.
   // Both are sums over the channels: `along` of the products, `squared` of that direction's squares.
   void learn(Basis basis, int error_level, float along, float squared) {

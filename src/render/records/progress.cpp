@@ -33,8 +33,7 @@ std::string samples_text(const RunTotals& totals, int frames) {
 }
 
 std::string lateness(double late_ms) {
-  return late_ms <= 0 ? fmt::format("{:.0f} ms before its deadline", -late_ms)
-                      : fmt::format("{:.0f} ms after its deadline", late_ms);
+  return fmt::format("{:.0f} ms {} its deadline", std::abs(late_ms), late_ms <= 0 ? "before" : "after");
 }
 
 // "; RMSE 0.0117 (0.0101 to 0.0135)", "; RMSE at most 0.0042", or nothing.

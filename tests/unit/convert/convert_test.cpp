@@ -226,6 +226,25 @@ TEST_CASE("a mesh of a moving scene has its materials' colours and its stretched
   CHECK(bounds(back).max.x == Approx(3));
 }
 
+TEST_CASE("what reading a scene or a mesh may take is as much as is asked for") {
+  const Folder folder;
+  std::string vertices;
+  for (int i = 0; i < 10'000; ++i)
+    vertices += "v " + std::to_string(i) + " 1 2\nv 3 4 5\nv 6 7 9\nf -1 -2 -3\n";
+  write_whole_file(folder.file("a.obj"), vertices);
+  write_whole_file(folder.file("a.nff"), nff(make_spd("balls", 3)));
+  for (const char* input : {"a.obj", "a.nff"}) {
+    INFO(input);
+    ConvertOptions options{
+        .input = folder.file(input), .output = folder.file("b.aff"), .tessellate = {}, .chord_error = {}};
+    options.memory = 20'000;
+    const Told told;
+    CHECK_THROWS_AS(convert(options), InputError);
+    options.memory = std::uint64_t{1} << 30;
+    CHECK_NOTHROW(convert(options));
+  }
+}
+
 TEST_CASE("AFF keeps all that moves, also by way of glTF") {
   const Folder folder;
   write_moving_scene(folder);

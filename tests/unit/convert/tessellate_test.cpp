@@ -167,6 +167,22 @@ TEST_CASE("a tessellated scene has patches in place of spheres and cones, with t
   CHECK(result.patches[48].material == 1);
 }
 
+TEST_CASE(
+    "of spheres and cones those that a node stretches become triangles, the others stay, in their order") {
+  SceneDescription scene = one_of_each();
+  add_sphere(scene, {{0, 0, 0}, 1, 1, {}});
+  scene.movement.nodes.push_back({.parent = 0, .to_parent = {{1, 0, 0}, {0, 2, 0}, {0, 0, 1}, {0, 0, 0}}});
+  scene.nodes = {0, 0, 0, 1, 1};
+  const SceneDescription result = with_stretched_tessellated(scene, {2, {}});
+  CHECK((result.spheres.size() == 1 && result.spheres[0].radius == 2));
+  REQUIRE(result.cones.size() == 1);
+  CHECK((result.cones[0].apex_radius == 0.5 && result.cones[0].material == 1));
+  CHECK((result.polygons.size() == 1 && result.patches.size() == 8 + 48));
+  CHECK(result.order[1] == PrimitiveRef{PrimitiveKind::kSphere, 0});
+  CHECK(result.order[2] == PrimitiveRef{PrimitiveKind::kCone, 0});
+  CHECK(result.patches[7].material == 1);
+}
+
 TEST_CASE("the tree of size 4 with N = 6 has the triangle count that SPD gives") {
   const SceneDescription scene = make_spd("tree", 4);  // 31 spheres, 31 cones, a polygon
   CHECK(tessellated(scene, {6, {}}).primitive_count() == 31 * (12 * 36 + 8 * 6) + 1);

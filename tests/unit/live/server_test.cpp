@@ -145,6 +145,72 @@ TEST_CASE("live server: the page comes for its token, and nothing without") {
         "http://127.0.0.1:" + std::to_string(stage.server().port()) + "/" + stage.server().token() + "/");
 }
 
+TEST_CASE("live server: what is no page and no viewer is refused in words, each by its status") {
+  Stage stage({.most_clients = 0});
+  const std::string target = "/" + stage.server().token() + "/";
+  const auto is_refused = [](const std::string& reply, int status, const std::string& why) {
+    return has_status(reply, status) && reply.ends_with("\r\n\r\n" + why + "\n") &&
+           reply.find("\r\nContent-Length: " + std::to_string(why.size() + 1) + "\r\n") != std::string::npos;
+  };
+  CHECK(is_refused(stage.get("/wrong/"), 403, "This address is not complete, or not from here."));
+  CHECK(is_refused(stage.get(target + "x"), 404, "There is nothing here."));
+  CHECK(is_refused(stage.reply("POST " + target + " HTTP/1.1\r\nHost: 127.0.0.1:1\r\n\r\n"), 405,
+                   "Only GET is answered."));
+  CHECK(is_refused(stage.get(target + "socket"), 426, "This is the page's own connection."));
+  CHECK(is_refused(stage.get(target + "socket",
+                             "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
+                             "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"),
+                   503, "Too many are watching."));
+  CHECK((stage.joined == 0 && stage.left == 0));
+}
+
+TEST_CASE("live server: no browser is sent to the address that stands for all") {
+  LiveServerSettings settings;
+  settings.address = "0.0.0.0";
+  const LiveServer everywhere(settings);
+  CHECK(everywhere.url() ==
+        "http://127.0.0.1:" + std::to_string(everywhere.port()) + "/" + everywhere.token() + "/");
+  CHECK(everywhere.port() != 0);
+}
+
+TEST_CASE("live server: who comes again is another, and nothing for the first reaches it") {
+  Stage stage;
+  {
+    Client first(stage);
+    REQUIRE(comes_true([&] { return stage.joined == 1; }));
+    first.say("one");
+    REQUIRE(comes_true([&] { return stage.said().size() == 1; }));
+  }
+  REQUIRE(comes_true([&] { return stage.left == 1; }));
+  Client second(stage);
+  REQUIRE(comes_true([&] { return stage.joined == 2; }));
+  stage.server().tell(1, "first"), stage.server().send_file(1, {"{}", "bytes"});
+  stage.server().tell(2, "second"), stage.server().send_file(2, {"{}", "bytes"});
+  CHECK(second.hear() == "second");
+  CHECK(second.hear() == "{}\nbytes");
+  second.say("two");
+  REQUIRE(comes_true([&] { return stage.said().size() == 2; }));
+  CHECK(stage.said() == std::vector<std::string>{"1 one", "2 two"});
+  CHECK(stage.left == 1);
+}
+
+TEST_CASE(
+    "live server: figures alone replace no picture, neither one that waits nor that for who comes late") {
+  Stage stage;
+  Client client(stage);
+  REQUIRE(comes_true([&] { return stage.joined == 1; }));
+  for (const int i : {1, 2}) stage.server().show(frame(i));
+  for (const int i : {1, 2}) CHECK(client.hear().starts_with("{\"frame\":" + std::to_string(i) + "}"));
+  stage.server().show(frame(3)), stage.server().show(frame(4, 0));  // both wait for an answer
+  client.say("ack");
+  CHECK(client.hear() == "{\"frame\":3}\nxxxxxxxxxx");
+  stage.server().show(frame(5, 0)), stage.server().show(frame(6, 0));
+  client.say("ack");
+  CHECK(client.hear() == "{\"frame\":5}\n");  // nothing has waited before it
+  Client late(stage);
+  CHECK(late.hear() == "{\"frame\":3}\nxxxxxxxxxx");
+}
+
 TEST_CASE("live server: the page may speak to its own server alone, and a host cannot add to that") {
   Stage stage;
   const std::string head = "GET /" + stage.server().token() + "/ HTTP/1.1\r\nHost: ";
@@ -203,6 +269,24 @@ TEST_CASE("live server: a client that takes in nothing is no burden, and the oth
     stage.server().show(frame(i, kLarge));
     CHECK(awake.hear().starts_with("{\"frame\":" + std::to_string(i) + "}"));
     awake.say("ack");
+  }
+}
+
+TEST_CASE("live server: a client may say as many words in a second as are allowed, and not one more") {
+  for (const int said : {20, 21}) {
+    Stage stage({.most_messages_per_second = 20});
+    Client client(stage);
+    REQUIRE(comes_true([&] { return stage.joined == 1; }));
+    const auto begun = std::chrono::steady_clock::now();
+    for (int i = 0; i < said; ++i) client.say("x");
+    REQUIRE(
+        comes_true([&] { return stage.said().size() == static_cast<std::size_t>(said) || stage.left == 1; }));
+    if (said == 20) {
+      stage.server().tell_all("still");
+      CHECK(client.hear() == "still");
+    } else if (std::chrono::steady_clock::now() - begun < 1s) {
+      CHECK((stage.said().size() == 20 && stage.left == 1));
+    }
   }
 }
 

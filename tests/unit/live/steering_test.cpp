@@ -5,75 +5,13 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "unit/live/steering_stage.h"
+
 namespace pprt::steering_test {
 namespace {
 
 using Json = nlohmann::json;
-
-View view_from(double x) {
-  View view;
-  view.from = {x, 0, 0};
-  view.at = {0, 0, 9};
-  view.up = {0, 1, 0};
-  view.width = 64, view.height = 48;
-  return view;
-}
-
-// A steering, and what it has told.
-class Stage {
- public:
-  explicit Stage(int script_frames = 0, bool records = false, bool moves = false)
-      : steering(
-            show(script_frames, records, moves),
-            {.tell = [this](int client, std::string text) { told.emplace_back(client, Json::parse(text)); },
-             .tell_all =
-                 [this](std::string text) {
-                   const Json message = Json::parse(text);
-                   (message.contains("film") ? film : state) = message.begin().value();
-                 }}) {
-    steering.next_run();
-  }
-
-  void say(int client, const std::string& text) { steering.said(client, text); }
-  void look(int client, int number, double x) {
-    say(client, R"({"do":"look","number":)" + std::to_string(number) + R"(,"from":[)" + std::to_string(x) +
-                    R"(,0,0],"at":[0,0,9],"up":[0,1,0],"angle":40})");
-  }
-  LiveShot shot() {
-    const std::optional<LiveShot> next = steering.next_shot();
-    REQUIRE(next);
-    return *next;
-  }
-  // The last error that a client was told, or "".
-  std::string error() const {
-    return told.empty() || !told.back().second.contains("error")
-               ? ""
-               : told.back().second["error"].get<std::string>();
-  }
-
-  std::vector<std::pair<int, Json>> told;
-  Json state, film;
-  Steering steering;
-
- private:
-  static LiveShow show(int script_frames, bool records, bool moves) {
-    LiveShow show{.title = "a scene", .scene_name = "spd:tree", .home = view_from(-1)};
-    show.records = records, show.moves = moves;
-    show.seen_at = [](const View& view, double x, double y, int moment) -> std::optional<Vec3d> {
-      if (y > 24) return std::nullopt;
-      return Vec3d(view.from.x, x, moment);
-    };
-    for (int n = 1; n <= script_frames; ++n)
-      show.script.push_back({.number = 10 + n, .view = view_from(n), .cut = n == 3});
-    show.require_size = [](int width, int) {
-      if (width > 2000) throw std::runtime_error("too large");
-    };
-    show.require_camera = [](const View& view) {
-      if (view.from.x > 1e6) throw std::runtime_error("too far away");
-    };
-    return show;
-  }
-};
+using Stage = test::SteeringStage;
 
 TEST_CASE("steering: a script plays to its end and stays there") {
   Stage stage(3, true);
@@ -90,43 +28,6 @@ TEST_CASE("steering: a script plays to its end and stays there") {
   CHECK_FALSE(stage.state["plays"].get<bool>());
   const LiveShot rest = stage.shot();
   CHECK((rest.view.from.x == 3 && rest.script_frame == 13 && rest.camera == 3 && !rest.cut));
-}
-
-TEST_CASE("steering: a client is told who it is, and all who has the camera") {
-  Stage stage(2);
-  stage.steering.joined(4);
-  REQUIRE(stage.told.size() == 2);
-  CHECK(stage.told[1].second["film"]["keys"] == Json::array());
-  const Json hello = stage.told[0].second["hello"];
-  CHECK((hello["you"] == 4 && hello["title"] == "a scene"));
-  CHECK(hello["home"]["from"] == Json({-1.0, 0.0, 0.0}));
-  stage.steering.joined(5);
-  stage.say(4, R"({"do":"take"})");
-  CHECK((stage.state["pilot"] == 4 && stage.state["viewers"] == Json({4, 5})));
-  stage.steering.left(4);
-  CHECK((stage.state["pilot"] == 0 && stage.state["viewers"] == Json::array({5})));
-}
-
-TEST_CASE("steering: only the pilot steers, and there is one") {
-  Stage stage(2);
-  stage.steering.joined(1), stage.steering.joined(2);
-  for (const char* text :
-       {R"({"do":"give"})", R"({"do":"play"})", R"({"do":"rate","fps":2})", R"({"do":"key","frame":1})",
-        R"({"do":"photo","format":"png"})", R"({"do":"pass","to":1})"}) {
-    stage.say(1, text);
-    CHECK(stage.error() == "take the camera first");
-  }
-  stage.look(1, 1, 7);
-  CHECK(stage.shot().view.from.x == 1);
-  stage.say(1, R"({"do":"take"})");
-  stage.say(2, R"({"do":"take"})");
-  CHECK(stage.error() == "viewer number 1 has the camera");
-  stage.say(1, R"({"do":"pass","to":9})");
-  CHECK(stage.error() == "there is no viewer number 9");
-  stage.say(1, R"({"do":"pass","to":2})");
-  CHECK(stage.state["pilot"] == 2);
-  stage.look(2, 1, 8);
-  CHECK(stage.shot().view.from.x == 8);
 }
 
 TEST_CASE("steering: the camera by hand, and back to the script where it was left") {
@@ -408,6 +309,21 @@ TEST_CASE("steering: what moves plays again and again, and goes on under a camer
   CHECK((back.moment == 13 && back.view.from.x == 3 && back.cut));
 }
 
+TEST_CASE("steering: given back at its end, what moves begins again, and what does not rests") {
+  for (const bool moves : {true, false}) {
+    Stage stage(3, false, moves);
+    stage.steering.joined(1);
+    stage.say(1, R"({"do":"take"})");
+    stage.say(1, R"({"do":"seek","frame":3})");
+    CHECK(stage.shot().position == 3);
+    stage.say(1, R"({"do":"give"})");
+    CHECK(stage.state["plays"] == moves);
+    CHECK(stage.steering.is_played_out() == !moves);
+    const LiveShot next = stage.shot();
+    CHECK((next.position == (moves ? 1 : 3) && next.cut == moves && next.pilot == 0));
+  }
+}
+
 TEST_CASE("steering: a film of what moves lasts as long as it does") {
   Stage stage(5, false, true);
   stage.steering.joined(1);
@@ -472,14 +388,6 @@ TEST_CASE("steering: a size that memory cannot hold is refused") {
   stage.say(1, R"({"do":"size","width":4000,"height":4000})");
   CHECK(stage.error() == "too large");
   CHECK(stage.steering.next_shot());
-}
-
-TEST_CASE("steering: a name that is no UTF-8 can be told") {
-  std::string told;
-  Steering steering({.title = "caf\xe9"}, {.tell = [&](int, std::string text) { told = std::move(text); },
-                                           .tell_all = [](const std::string&) {}});
-  CHECK_NOTHROW(steering.joined(1));
-  CHECK(Json::accept(told));
 }
 
 TEST_CASE("steering: frames are wanted while somebody watches and the picture is not finished") {

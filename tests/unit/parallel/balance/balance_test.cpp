@@ -324,6 +324,10 @@ TEST_CASE("global balancing: a resting picture is cut anew only if few samples c
       for (TileReport& tile : tiles) tile.cost = 1e6;
     frame.accumulates = true;
     CHECK(repartitions(balancer, frame, Carry::kAccumulate) == is_even);
+    // Where samples are dropped there is nothing to take in.
+    settings.keep_samples = false;
+    GlobalBalancer dropping(settings, traits_of(settings.sampler), TileGrid(40, 10, 10), 2, kUnitsPerFrame);
+    CHECK(repartitions(dropping, frame, Carry::kAccumulate));
   }
 }
 

@@ -207,6 +207,20 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("local balancing: any tile of a region may go, the first and the last of the picture, too") {
+  // 2 x 4 tiles, a column each; one tile of the giver's costs something. A quarter of its tiles may go.
+  for (const int giver : {0, 1}) {
+    const Partition partition{
+        TileGrid(20, 40, 10), 2, {0, 1, 0, 1, 0, 1, 0, 1}, std::vector<std::uint64_t>(8, 0)};
+    for (const int dear : {giver, giver + 6}) {
+      const auto offer = [&](int tile) { return TileOffer{tile == dear ? 100.0 : 0.0, 10, 0}; };
+      INFO("tile " << dear);
+      const std::vector<int> given = tiles_to_give({}, partition, giver, 1 - giver, {1000, 1, 1e18}, offer);
+      CHECK(given == std::vector{dear});
+    }
+  }
+}
+
 TEST_CASE("partition: neighbours touch at a side or a corner, not across the picture's edge") {
   // 3 x 3 tiles, each its own rank's.
   Partition partition{TileGrid(30, 30, 10), 9, {0, 1, 2, 3, 4, 5, 6, 7, 8}, std::vector<std::uint64_t>(9, 0)};

@@ -21,10 +21,11 @@ class Stage {
  public:
   explicit Stage(SamplerChoice sampler = SamplerChoice::kAuto, ClockKind clock = ClockKind::kWall,
                  double frames_per_second = 1 / kPeriod, double ranks_per_core = 16,
-                 BalanceMode balance = BalanceMode::kLocal, bool late_orders = false)
-      : settings_(settings_for(sampler, clock, frames_per_second, balance, late_orders)),
+                 BalanceMode balance = BalanceMode::kLocal, bool late_orders = false,
+                 CastChoice cast = CastChoice::kOff, int cut = -1)
+      : settings_(settings_for(sampler, clock, frames_per_second, balance, late_orders, cast)),
         master_(
-            communicator_, settings_, partition_, ranks_per_core, still_or_pan(settings_, 40, 1),
+            communicator_, settings_, partition_, ranks_per_core, pan_with_cut(settings_, cut),
             [this](FinishedFrame&& frame) { delivered.push_back(std::move(frame)); },
             [this] { return now_; }) {
     master_.begin_sequence(0);
@@ -49,6 +50,7 @@ class Stage {
     message.report.sampling_ended_s = sampling_ended_s;
     message.report.cpu_ms.reconstruction = reconstruction_ms;
     message.report.samples_in_region = 10;
+    message.report.evidence.asked = 1;
     for (int tile = 0; tile < partition_.grid.tile_count(); ++tile) {
       if (partition_.owner[static_cast<std::size_t>(tile)] != rank) continue;
       // The middle rank's triangles weigh more: worth a new partition.
@@ -116,16 +118,24 @@ class Stage {
 
  private:
   static SessionSettings settings_for(SamplerChoice sampler, ClockKind clock, double frames_per_second,
-                                      BalanceMode balance, bool late_orders) {
+                                      BalanceMode balance, bool late_orders, CastChoice cast) {
     SessionSettings settings{.sampler = sampler};
     settings.width = 24, settings.height = 16;
     settings.clock = clock;
     settings.frames_per_second = frames_per_second;
     settings.budget_units = 1'000'000;
     settings.balance = balance;
-    settings.cast = CastChoice::kOff;
+    settings.cast = cast;
     settings.late_orders = late_orders;
     return settings;
+  }
+
+  static CameraSource pan_with_cut(const SessionSettings& settings, int cut) {
+    return [pan = still_or_pan(settings, 40, 1), cut](int index) {
+      std::optional<FrameRequest> request = pan(index);
+      if (request && index == cut) request->cut = true;
+      return request;
+    };
   }
 
   SessionSettings settings_;
@@ -158,6 +168,20 @@ TEST_CASE("master: a whole frame is delivered at once") {
   REQUIRE(stage.delivered.size() == 1);
   CHECK(stage.delivered[0].late_ranks.empty());
   CHECK(stage.delivered[0].late_ms == Approx(-50));
+}
+
+TEST_CASE("master: what all ranks have found of casting goes with the orders, half of it a frame later") {
+  Stage stage(SamplerChoice::kDelaunay, ClockKind::kWall, 1 / kPeriod, 16, BalanceMode::kNone, false,
+              CastChoice::kAuto, 4);
+  std::vector<double> asked;
+  for (int frame = 0; frame < 7; ++frame) {
+    stage.begin();
+    stage.send_all(frame);
+  }
+  for (const FrameOrder& order : stage.orders()) asked.push_back(order.evidence.asked);
+  // Frames are ordered one ahead. Across the cut before frame 4 nothing is carried, and nothing that was
+  // found before it counts any more.
+  CHECK(asked == std::vector{0.0, 0.0, 3.0, 4.5, 0.0, 0.0, 3.0, 4.5});
 }
 
 TEST_CASE("master: transfers are told by round and giver, whichever message comes first") {

@@ -3,8 +3,12 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <set>
+#include <span>
+#include <vector>
 
+#include "pipeline/core/display_values.h"
 #include "unit/parallel/rank/one_rank.h"
 
 namespace pprt::reprojection_test {
@@ -88,6 +92,93 @@ TEST_CASE("reprojection: colour that depends on the eye is carried where it is t
   CHECK(cast.size() == rank.reprojection.retraced());
   for (const Sample& sample : cast) CHECK(sample.frame == 2);
   CHECK(rank.reprojection.evidence().stale == static_cast<double>(cast.size()));
+}
+
+TEST_CASE("reprojection: proof of other ranks or of the frame before lets all such colour be carried, once") {
+  RaySample shiny;
+  shiny.eye_dependent = true;
+  CastEvidence proof;  // the picture is wrong, and its samples dear
+  proof.fresh = proof.fresh_area = 10, proof.fresh_error = 1, proof.fresh_rays = 1000;
+  for (const bool is_own : {false, true}) {
+    Caster rank(SamplerChoice::kDelaunay, shiny);
+    FrameOrder order = Caster::order(2, Carry::kCastWherePaying);
+    (is_own ? rank.reprojection.evidence() : order.evidence) = proof;
+    const auto carried = [&] {
+      rank.tracer.begin_frame(order);
+      rank.reprojection.begin_frame();
+      return rank.reprojection.cast(order, false);
+    };
+    const std::vector<Sample> cast = carried();
+    CHECK(static_cast<double>(cast.size()) > 0.9 * static_cast<double>(rank.seen_at_right()));
+    CHECK((rank.reprojection.retraced() > 0 && cast.size() > 4 * rank.reprojection.retraced()));
+    CHECK(std::count_if(cast.begin(), cast.end(), [](const Sample& s) { return s.frame == 1; }) ==
+          static_cast<std::ptrdiff_t>(cast.size() - rank.reprojection.retraced()));
+    order.evidence = {};  // what this frame has found says nothing of the picture
+    CHECK(carried().size() == rank.reprojection.retraced());
+  }
+}
+
+TEST_CASE("reprojection: each frame's evidence is its own, and what was traced anew is counted anew") {
+  RaySample shiny;
+  shiny.eye_dependent = true;
+  Caster rank(SamplerChoice::kDelaunay, shiny);
+  const std::size_t first = rank.cast(Carry::kCastWherePaying).size();
+  const CastEvidence found = rank.reprojection.evidence();
+  CHECK(
+      (first > 0 && found.stale == static_cast<double>(first) && found.asked - found.hidden == found.stale));
+  CHECK(found.stale_error == Approx(0).margin(1e-4));  // the colours are as they were
+  rank.cast(Carry::kCastWherePaying);
+  CHECK(rank.reprojection.evidence().asked == found.asked);
+  CHECK(rank.reprojection.retraced() == first);
+  rank.reprojection.begin_frame();
+  CHECK((rank.reprojection.retraced() == 0 && rank.reprojection.evidence().asked == 0));
+}
+
+TEST_CASE("reprojection: what is traced anew shows how wrong the old colours were") {
+  RaySample shiny;
+  shiny.eye_dependent = true;
+  Caster rank(SamplerChoice::kDelaunay, shiny);
+  rank.shade = [](double x, double y, RaySample& found) {
+    found.hit = Vec3f(ray_direction(straight(), x, y) * 5);
+    found.color = Color(0.0F);
+  };
+  const std::vector<Sample> cast = rank.cast(Carry::kCastWherePaying);
+  const std::span<const Sample> before = rank.sampling.sampler().samples();
+  double error = 0;
+  for (const Sample& now : cast) {
+    const auto old = std::find_if(before.begin(), before.end(), [&](const Sample& s) {
+      return std::abs(s.x - now.x) < 1e-3 && std::abs(s.y - now.y) < 1e-3;
+    });
+    REQUIRE(old != before.end());
+    error += display_error(old->ray.color, now.ray.color);
+  }
+  CHECK(error > 0);
+  CHECK(rank.reprojection.evidence().stale_error == Approx(error));
+}
+
+TEST_CASE("reprojection: the paper's way guesses what is hidden, and sends no ray") {
+  Caster rank(SamplerChoice::kDelaunay);
+  const std::size_t all = rank.sampling.sampler().samples().size();
+  CHECK(static_cast<double>(rank.cast(Carry::kCastPaper).size()) > 0.9 * static_cast<double>(all));
+  CHECK(rank.counts.visibility == 0);
+  CHECK(rank.reprojection.evidence().asked == 0);
+}
+
+TEST_CASE(
+    "reprojection: a picture at rest keeps one sample a pixel where it has outlines and enough samples") {
+  for (const bool shines : {false, true}) {
+    RaySample seen;
+    seen.eye_dependent = shines;
+    Caster rank(SamplerChoice::kDelaunay, seen);
+    while (rank.sampling.in_region() < 2 * rank.sampling.region().pixel_count())
+      REQUIRE(rank.sampling.refine(nullptr));
+    const std::vector<Sample> cast = rank.cast(Carry::kCastWherePaying, true);
+    const std::size_t pixels = rank.sampling.region().pixel_count();
+    CHECK((cast.size() > pixels) == shines);
+    CHECK(rank.counts.visibility == 0);
+    CHECK(rank.cast(Carry::kCastVerified, true).size() >
+          pixels);  // the choice is that of casting where it pays
+  }
 }
 
 TEST_CASE("reprojection: under an eye at rest nothing is hidden, and no ray is sent") {

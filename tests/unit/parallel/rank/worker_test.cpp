@@ -62,15 +62,18 @@ class Scene {
     return bundles;
   }
 
-  // What rank 1 has sent of the frame rendered last.
-  PixelMessage pixels() {
+  // What rank 1 has sent to the master of the frame rendered last, and its bundles to the others meanwhile.
+  std::pair<PixelMessage, std::vector<Bundle>> sent() {
     std::optional<PixelMessage> pixels;
+    std::vector<Bundle> bundles = sent_to(2);
     while (const std::optional<Message> m = communicators_[0]->receive()) {
       if (m->tag == Tag::kPixels) pixels = decode_pixels(m->payload);
+      if (m->tag == Tag::kBundle) bundles.push_back(decode_bundle(m->payload));
     }
     REQUIRE(pixels);
-    return *pixels;
+    return {*pixels, std::move(bundles)};
   }
+  PixelMessage pixels() { return sent().first; }
   RankReport report() { return pixels().report; }
 
   void set_rays(std::uint32_t of_a_sample) { rays_ = of_a_sample; }
@@ -263,6 +266,49 @@ BOTH_SAMPLERS_TEST_CASE(
     CHECK(ms.sampling + ms.casting + ms.reconstruction + ms.balancing ==
           Approx(scene.clock().readings() - 1));
   }
+}
+
+TEST_CASE("worker: a frame's report counts what was traced, what came, and what was sent of each kind") {
+  Scene scene(SamplerChoice::kDelaunay);
+  const int own = 2 * 12 + 5;  // rank 1's
+  scene.render(Carry::kNothing);
+  const PixelMessage before = scene.pixels();
+  CHECK((before.report.samples_cast == 0 && before.report.samples_received == before.report.samples_known));
+  CHECK(before.report.samples_in_region == before.report.samples_new);
+  // Two samples, one of which comes a second time; a tile of rank 0's.
+  const Sample one = scene.sample_in(own, kMarked), other = scene.sample_in(own + 1, kMarked + 1);
+  const int taken = 2 * 12 + 3;
+  scene.send(0, {.frame_index = 1, .round = 3, .samples = {one, other}});
+  scene.send(2, {.frame_index = 1, .round = 3, .samples = {one}});
+  scene.render(Carry::kAccumulate);
+  const auto [pixels, bundles] = scene.sent();
+  const RankReport& report = pixels.report;
+  CHECK(pixels.frame_index == 1);
+  CHECK((report.samples_received == 2 && report.samples_known == 1));
+  CHECK((report.samples_new > 0 && report.samples_cast == before.report.samples_in_region));
+  CHECK(report.samples_in_region == before.report.samples_in_region + report.samples_new + 2);
+  CHECK((report.tiles_given == 0 && report.non_finite == 0 && report.pace == 1));
+  CHECK((report.mean_weight > 0 && report.candidates_in_region > 0));
+  std::int64_t triangles = 0;
+  for (const TileReport& tile : pixels.tiles) triangles += tile.triangles;
+  CHECK(report.candidates_in_region == static_cast<std::uint64_t>(triangles));
+  CHECK((report.finished_s == kPeriod && report.sampling_ended_s == kNow));
+  CHECK((pixels.tiles.size() == 32 && pixels.given.empty() && pixels.colors.size() == 32 * 64));
+  CHECK(report.bytes_pixels == pixels.colors.size() * sizeof(Color));
+  CHECK(report.bytes_balance == pixels.tiles.size() * kTileReportBytes);
+  // What it has sent, and with a tile that it takes what it tells of that.
+  std::size_t samples = 0;
+  for (const Bundle& bundle : bundles) samples += bundle.samples.size();
+  CHECK((samples > 0 && report.bytes_samples == samples * kSampleBytes));
+  CHECK(report.bytes_progress > 0);
+  scene.send(0,
+             {.frame_index = 1, .round = 5, .tiles = {.given = {{.tile = taken, .owner = 1, .version = 1}}}});
+  scene.render(Carry::kAccumulate);
+  const auto [larger, later] = scene.sent();
+  std::size_t news = 0;
+  for (const Bundle& bundle : later) news += news_bytes(bundle.tiles);
+  CHECK((news > 0 && larger.tiles.size() == 33));
+  CHECK(larger.report.bytes_balance == 33 * kTileReportBytes + news);
 }
 
 // The frame before may become whole on rank 0, or due.

@@ -1,6 +1,12 @@
 // Which frames are told of as finished when some could not be written.
 #include "render/output/frame_recorder.h"
 
+#include <OpenEXR/ImfDoubleAttribute.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfIntAttribute.h>
+#include <OpenEXR/ImfStringAttribute.h>
+
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <string>
@@ -74,6 +80,38 @@ TEST_CASE("frames whose directory is removed in mid-run are missed") {
   fs::remove_all(run.directory.path() / "out");
   for (const int number : {2, 3}) run.record(recorder, number);
   CHECK_THROWS_WITH(recorder.finish(false), Catch::Contains("removed, renamed or replaced"));
+}
+
+TEST_CASE("an EXR has its frame's figures in its header, but for those that rest on the frames before") {
+  ThreeFrames run;
+  const std::string name = (run.directory.path() / "out/%d.exr").string();
+  run.plan.output.pictures.push_back(parse_frame_pattern(name, FrameCount::kMany));
+  FrameRecorder recorder({run.plan, 1, "hash"}, run.scene, run.progress);
+  FinishedFrame frame;
+  frame.order.number = 2, frame.order.cut = true;
+  frame.image = Image(8, 8);
+  frame.late_ranks = {3, 5};
+  frame.late_ms = 1.25;
+  frame.ranks.resize(1);
+  frame.ranks[0].samples_new = 70, frame.ranks[0].rays.shadow = 90;
+  frame.error.emplace();
+  recorder.record(std::move(frame));
+  recorder.finish(true);
+  const Imf::InputFile file((run.directory.path() / "out/2.exr").c_str());
+  const Imf::Header& header = file.header();
+  CHECK(header.typedAttribute<Imf::IntAttribute>("pprt.frame").value() == 2);
+  CHECK(header.typedAttribute<Imf::IntAttribute>("pprt.cut").value() == 1);
+  CHECK(header.typedAttribute<Imf::IntAttribute>("pprt.samples_new").value() == 70);
+  CHECK(header.typedAttribute<Imf::IntAttribute>("pprt.rays.shadow").value() == 90);
+  CHECK(header.typedAttribute<Imf::DoubleAttribute>("pprt.late_ms").value() == 1.25);
+  CHECK(header.typedAttribute<Imf::StringAttribute>("pprt.late_ranks").value() == "[3,5]");
+  CHECK(header.find("pprt.error.rmse") != header.end());
+  CHECK(header.find("pprt.error.probes") != header.end());
+  for (const char* left_out : {"pprt.record", "pprt.error.low", "pprt.error.high", "pprt.error.shot.rmse",
+                               "pprt.error.unexpected"}) {
+    INFO(left_out);
+    CHECK(header.find(left_out) == header.end());
+  }
 }
 
 TEST_CASE("frames that are removed in mid-run are missed, though the manifest stays") {

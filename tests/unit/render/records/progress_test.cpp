@@ -1,11 +1,14 @@
 #include "render/records/progress.h"
 
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "unit/render/records/printed_text.h"
@@ -126,6 +129,33 @@ TEST_CASE("at the end of a run with a rate its lateness is told, and its error w
             "; good enough after 75 % of the time\n");
 }
 
+TEST_CASE("a frame that is whole at its deadline is in time") {
+  const RunScope scope{.frames = 2, .frames_per_second = 25, .width = 64, .height = 64};
+  CHECK(told_at_end(scope, RunEnd::kDone, 2, totals_of({-12, 0})) ==
+        "done: 2 of 2 frames in a.png to b.png; 2 on time at 25 frames/s, the slowest 0 ms before its "
+        "deadline; 1,234 samples a frame\n");
+}
+
+TEST_CASE("the error of a run is told with its bounds, or what it is at most where it may be none") {
+  const auto told = [](double squared) {
+    RunTotals totals;
+    FrameSummary frame;
+    frame.samples = 1234;
+    frame.error.emplace();
+    frame.error->own = frame.error->frame = {.squared = squared, .variance = 4e-10, .third = 0};
+    totals.add(frame);
+    return std::pair(told_at_end({.frames = 1}, RunEnd::kDone, 1, totals), totals.error().mean().interval());
+  };
+  const std::string begin = "done: 1 of 1 frame in a.png to b.png; 1,234 samples; RMSE ";
+  const auto [sure, bounds] = told(1e-4);
+  CHECK((bounds.low > 0 && bounds.low < bounds.rmse && bounds.rmse < bounds.high));
+  CHECK(sure == fmt::format("{}{:.4f} ({:.4f} to {:.4f})\n", begin, bounds.rmse, bounds.low, bounds.high));
+  CHECK(bounds.rmse == Approx(0.01));
+  const auto [unsure, around_none] = told(1e-5);
+  CHECK((around_none.low <= 0 && around_none.high > 1.5 * around_none.rmse));
+  CHECK(unsure == fmt::format("{}at most {:.4f}\n", begin, around_none.high));
+}
+
 TEST_CASE("at the end advice is given where frames were late, but none for a film that has a time") {
   RunScope scope{.frames = 4, .frames_per_second = 50, .width = 64, .height = 64, .ranks = 2, .cores = 2};
   const RunTotals late = totals_of({5, 5, 5, -1});
@@ -239,6 +269,78 @@ TEST_CASE("programs are told once a second how far a frame is, and how long it a
     const double left_s = told[0]["seconds_left"].get<double>(), times = 3 + 4 * (frames - 1);
     CHECK((left_s >= 0.999 * times * least_s && left_s <= 1.001 * times * most_s));
   }
+}
+
+TEST_CASE("at a terminal each line goes over the one before, and the last is wiped out at the end") {
+  const std::string over = "\r\033[?7l", end = "\033[K\033[?7h", wiped = "\r\033[K";
+  ProgressReporter reporter(ProgressKind::kTty);
+  reporter.begin({.frames = 4, .finished_before = 1});
+  for (const int frames : {1, 2}) {
+    const RunTotals totals = totals_of(std::vector<double>(static_cast<std::size_t>(frames), 0.0));
+    const std::string line = printed_by([&] { reporter.frame_done({}, totals); });
+    CHECK(line.starts_with(over + "frame " + std::to_string(1 + frames) + " of 4  "));
+    CHECK(line.ends_with(" left" + end));
+    CHECK(line.find('\n') == std::string::npos);
+  }
+  CHECK(printed_by([&] { reporter.status(totals_of({0, 0})); }).starts_with(wiped + "frame 3 of 4  "));
+  CHECK(printed_by([&] { reporter.stopping(); }) ==
+        wiped + "pprt-render: the run ends after the frame at hand; a second signal ends it at once\n");
+  CHECK(printed_by([&] {
+          reporter.finish(RunEnd::kStopped, 2, totals_of({0, 0}), "a.png");
+          reporter.close(143);
+        }) == wiped + "stopped: 2 of 4 frames (1 was there already) in a.png; 1,234 samples a frame\n");
+  ProgressReporter idle(ProgressKind::kTty);  // there is no line to wipe out
+  idle.begin({.frames = 4});
+  CHECK(printed_by([&] { idle.finish(RunEnd::kStopped, 0, {}, "a.png"); }) ==
+        "stopped: 0 of 4 frames in a.png\n");
+}
+
+TEST_CASE("that a run is going to end is told people, not programs, nor where nothing is to be told") {
+  CHECK(printed_by([] { ProgressReporter(ProgressKind::kAuto).stopping(); }).starts_with("pprt-render: "));
+  for (const ProgressKind kind : {ProgressKind::kJson, ProgressKind::kNone})
+    CHECK(printed_by([&] { ProgressReporter(kind).stopping(); }).empty());
+}
+
+TEST_CASE("at a terminal people are told four times a second how far the frame at hand is") {
+  const std::string over = "\r\033[?7l", end = "\033[K\033[?7h";
+  ProgressReporter reporter(ProgressKind::kTty);
+  reporter.begin({.frames = 6, .finished_before = 2});
+  const auto told = [&](const SamplingProgress& now) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(260));
+    return printed_by([&] { reporter.sampled(now); });
+  };
+  CHECK(told({.samples_per_pixel = 0.25}).starts_with(over + "frame 3 of 6  0.2 samples a pixel  0:0"));
+  CHECK(told({.samples_per_pixel = 0.25}).ends_with(" elapsed" + end));
+  const std::string half = told({.share = 0.5, .samples_per_pixel = 1.5});
+  CHECK(half.starts_with(over + "frame 3 of 6  1.5 samples a pixel  50 %  "));
+  CHECK(half.ends_with(" left" + end));
+  printed_by([&] { reporter.frame_done({}, totals_of({0})); });
+  CHECK(told({.share = 0.125}).starts_with(over + "frame 4 of 6  0.0 samples a pixel  12 %  "));
+  // Without a frame or a line there is nothing to wipe out; the line of samples is one.
+  ProgressReporter other(ProgressKind::kTty);
+  other.begin({.frames = 1});
+  std::this_thread::sleep_for(std::chrono::milliseconds(260));
+  printed_by([&] { other.sampled({.share = 0.5}); });
+  CHECK(printed_by([&] { other.finish(RunEnd::kFailed, 0, {}, "a.png"); }) ==
+        "\r\033[Kfailed: 0 of 1 frame in a.png\n");
+}
+
+TEST_CASE("of a frame whose share is not known programs are told the samples alone, and each frame anew") {
+  using Clock = std::chrono::steady_clock;
+  ProgressReporter reporter(ProgressKind::kJson);
+  reporter.begin({.frames = 2});
+  std::this_thread::sleep_for(std::chrono::milliseconds(1050));
+  CHECK(objects_in(printed_by([&] { reporter.sampled({.samples_per_pixel = 2}); })) ==
+        std::vector<Json>{{{"event", "sampling"}, {"samples_per_pixel", 2.0}}});
+  printed_by([&] { reporter.frame_done({}, totals_of({0})); });
+  const Clock::time_point begun = Clock::now();
+  std::this_thread::sleep_for(std::chrono::milliseconds(1050));
+  const double least_s = std::chrono::duration<double>(Clock::now() - begun).count();
+  const std::vector<Json> told = objects_in(printed_by([&] { reporter.sampled({.share = 0.5}); }));
+  const double most_s = std::chrono::duration<double>(Clock::now() - begun).count();
+  REQUIRE(told.size() == 1);
+  const double left_s = told[0]["seconds_left"].get<double>();  // of the last frame, since it began
+  CHECK((left_s >= 0.99 * least_s && left_s <= 1.05 * most_s + 0.05));
 }
 
 TEST_CASE("numbers of samples are grouped by thousands") {

@@ -1,0 +1,119 @@
+// What extensions of glTF say, and what lights are worth within a scene.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <string>
+#include <vector>
+
+#include "convert/gltf/gltf_holes.h"
+#include "convert/model/display_values.h"
+#include "image/image_io.h"
+#include "unit/convert/gltf_sample.h"
+
+namespace pprt::gltf_extensions_test {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kGlossiness = "KHR_materials_pbrSpecularGlossiness";
+
+const Material& material_of(const SceneDescription& scene) {
+  return scene.materials.at(material_of(scene, scene.order.at(0)));
+}
+
+bool tells_of_tint(const ReadMesh& read) {
+  return std::any_of(read.notes.begin(), read.notes.end(), [](const std::string& note) {
+    return note.find("coloured glass") != std::string::npos;
+  });
+}
+
+}  // namespace
+
+TEST_CASE("gltf extensions: the colour of the older materials counts, and they are no metal") {
+  GltfSample sample;
+  sample.triangle_of({{"pbrMetallicRoughness",
+                       {{"baseColorFactor", {0, 0, 0, 1}}, {"metallicFactor", 1}, {"roughnessFactor", 0}}},
+                      {"extensions", {{kGlossiness, {{"diffuseFactor", {0.5, 0.25, 0.125, 1}}}}}}});
+  const SceneDescription scene = sample.read().scene;
+  const Material& material = material_of(scene);
+  CHECK(material.color.x == Approx(display_value(0.5)));
+  CHECK(material.color.y == Approx(display_value(0.25)));
+  CHECK(material.color.z == Approx(display_value(0.125)));
+  CHECK((material.specular == 0 && !material.texture));
+  // Without a factor that of the newer way counts.
+  GltfSample plain;
+  plain.triangle_of({{"pbrMetallicRoughness", {{"baseColorFactor", {1, 0, 0, 1}}}},
+                     {"extensions", {{kGlossiness, json::object()}}}});
+  CHECK(material_of(plain.read().scene).color == Rgb(1, 0, 0));
+}
+
+TEST_CASE("gltf extensions: the picture of the older materials is shown by its own coordinates") {
+  GltfSample sample;
+  Image picture(2, 2);
+  picture.at(1, 0) = Color(1, 1, 1);
+  write_image(sample.folder() / "a.png", picture);
+  const int texture = sample.texture("a.png");
+  const int other_places = sample.numbers({0.25, 0.5, 0.75, 0.5, 0.25, 1}, "VEC2");
+  const int material = sample.add(
+      "materials",
+      {{"extensions", {{kGlossiness, {{"diffuseTexture", {{"index", texture}, {"texCoord", 1}}}}}}}});
+  sample.node(
+      {{"mesh", sample.triangle({{"material", material}, {"attributes", {{"TEXCOORD_1", other_places}}}})}});
+  const SceneDescription scene = sample.read().scene;
+  REQUIRE((scene.meshes.size() == 1 && scene.textures.size() == 1));
+  CHECK(material_of(scene).texture == TextureIndex{0});
+  CHECK(scene.meshes[0].texture_points == std::vector<Vec2d>{{0.25, 0.5}, {0.75, 0.5}, {0.25, 1}});
+}
+
+TEST_CASE("gltf extensions: of glass that colours the light the colour is told to be lost") {
+  const auto read = [](const json& extensions) {
+    GltfSample sample;
+    sample.triangle_of({{"pbrMetallicRoughness", {{"metallicFactor", 0}}}, {"extensions", extensions}});
+    return sample.read();
+  };
+  const json glass = {{"transmissionFactor", 0.75}};
+  const ReadMesh plain =
+      read({{"KHR_materials_transmission", glass}, {"KHR_materials_volume", json::object()}});
+  CHECK_FALSE(tells_of_tint(plain));
+  CHECK(material_of(plain.scene).transmittance == 0.75);
+  CHECK(material_of(plain.scene).refractive_index == 1.5);
+  const ReadMesh tinted = read(
+      {{"KHR_materials_transmission", glass}, {"KHR_materials_volume", {{"attenuationColor", {1, 0.5, 1}}}}});
+  CHECK(tells_of_tint(tinted));
+  CHECK(material_of(tinted.scene) == material_of(plain.scene));
+}
+
+TEST_CASE("gltf extensions: a lamp in the scene's middle counts as one a tenth of its size away") {
+  GltfSample sample;
+  sample.node({{"mesh", sample.triangle()}});  // its box is 1 wide and high: the square of its size is 2
+  sample.document["extensions"]["KHR_lights_punctual"]["lights"] = {
+      {{"type", "point"}, {"intensity", 1}},
+      {{"type", "point"}, {"intensity", 1}},
+      {{"type", "directional"}, {"intensity", 100}}};
+  const std::vector<std::vector<double>> places = {{0.5, 0.5, 0}, {0.5, 0.5, 0.2}, {0, 0, 0}};
+  for (int i = 0; i < 3; ++i)
+    sample.node({{"translation", places[static_cast<std::size_t>(i)]},
+                 {"extensions", {{"KHR_lights_punctual", {{"light", i}}}}}});
+  const std::vector<Light> lights = sample.read().scene.lights;
+  REQUIRE(lights.size() == 3);
+  CHECK_FALSE(lights[2].color);                                     // the brightest
+  CHECK(lights[0].color.value().x == Approx(display_value(0.5)));   // 1 / .02 of 100
+  CHECK(lights[1].color.value().x == Approx(display_value(0.25)));  // 1 / .2^2 of 100
+}
+
+TEST_CASE("gltf extensions: alpha between texels is that of a straight course, and a picture's repeats") {
+  const AlphaPicture picture{2, 2, {0, 1, 0.5F, 0.25F}};
+  CHECK(picture.at({0.25, 0.25}) == 0);
+  CHECK(picture.at({0.75, 0.25}) == 1);
+  CHECK(picture.at({0.25, 0.75}) == 0.5);
+  CHECK(picture.at({0.75, 0.75}) == 0.25);
+  CHECK(picture.at({0.5, 0.25}) == Approx(0.5));
+  CHECK(picture.at({0.25, 0.375}) == Approx(0.125));
+  CHECK(picture.at({0.375, 0.625}) ==
+        Approx(0.75 * (0.25 * 0 + 0.75 * 0.5) + 0.25 * (0.25 * 1 + 0.75 * 0.25)));
+  CHECK(picture.at({1.75, -0.75}) == 1);
+  CHECK(picture.at({0, 0.25}) == Approx(0.5));  // between the last column and the first
+  CHECK(picture.mean() == 0.4375);
+  CHECK((AlphaPicture{2, 2, {}}.at({0.5, 0.5}) == 1 && AlphaPicture{2, 2, {}}.mean() == 1));
+}
+
+}  // namespace pprt::gltf_extensions_test
