@@ -14,7 +14,8 @@ constexpr std::size_t kPooledFrames = 24;
 // Returns the estimate of the mean over the pixels.
 ErrorEstimate per_pixel(const ErrorSums& sums) {
   const double n = sums.pixels;
-  return {sums.squared / n, sums.variance / (n * n), sums.third / (n * n * n)};
+  return {sums.squared / n, sums.variance / (n * n), sums.third / (n * n * n),
+          static_cast<double>(sums.probes)};
 }
 
 ErrorSums sum_of(std::span<const RankReport> ranks) {
@@ -31,24 +32,28 @@ ErrorSums sum_of(std::span<const RankReport> ranks) {
 }  // namespace
 
 // Rare large errors make the distribution skewed: an estimate is often too small, seldom much too large. So
-// the upper bound is farther off, by the skewness.
+// the upper bound is farther off, by the skewness. Few probes seldom show it, for they miss what is rare. So
+// it is taken to be at least what the skewness of one probe makes of it.
 RmseInterval ErrorEstimate::interval() const {
   constexpr double kNormal = 1.96, kMostSkewness = 1;
+  constexpr double kOfAProbe = 8;  // 3 to 5 in tree, 3 in balls, 7 to 9 in BART's kitchen
   const double deviation = std::sqrt(variance);
-  const double skewness = deviation > 0 ? third / (deviation * variance) : 0;
-  const double above = kNormal * deviation * (1 + std::clamp(skewness, 0.0, kMostSkewness));
+  const double least = probes > 0 ? kOfAProbe / std::sqrt(probes) : 0;
+  const double found = deviation > 0 ? third / (deviation * variance) : 0;
+  const double above = kNormal * deviation * (1 + std::max(least, std::clamp(found, 0.0, kMostSkewness)));
   const auto root = [](double square) { return std::sqrt(std::max(0.0, square)); };
   return {root(squared), root(squared - kNormal * deviation), root(squared + above)};
 }
 
 void MeanErrorEstimate::add(const ErrorEstimate& estimate) {
   sum_.squared += estimate.squared, sum_.variance += estimate.variance, sum_.third += estimate.third;
+  sum_.probes += estimate.probes;
   ++count_;
 }
 
 ErrorEstimate MeanErrorEstimate::mean() const {
   const double n = std::max(1, count_);
-  return {sum_.squared / n, sum_.variance / (n * n), sum_.third / (n * n * n)};
+  return {sum_.squared / n, sum_.variance / (n * n), sum_.third / (n * n * n), sum_.probes};
 }
 
 std::optional<FrameError> ShotErrors::add(bool cut, std::span<const RankReport> ranks, std::size_t pixels) {
@@ -72,6 +77,7 @@ std::optional<FrameError> ShotErrors::add(bool cut, std::span<const RankReport> 
   for (const ErrorEstimate& e : last_) {
     error.frame.variance += e.variance / static_cast<double>(last_.size());
     error.frame.third += e.third / static_cast<double>(last_.size());
+    error.frame.probes += e.probes;
   }
   const double unexpected = std::accumulate(unexpected_.begin(), unexpected_.end(), 0.0);
   const double squared = std::accumulate(last_.begin(), last_.end(), 0.0,

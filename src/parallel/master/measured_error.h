@@ -21,6 +21,7 @@ struct ErrorEstimate {
   double squared = 0;   // chance may make it negative
   double variance = 0;  // standard error, squared
   double third = 0;     // third central moment
+  double probes = 0;    // by which these moments are known; 0: by other means
 
   RmseInterval interval() const;
 };

@@ -127,8 +127,7 @@ ProbePlan plan_probes(std::uint64_t traced, std::uint64_t samples, std::size_t p
 }
 
 std::vector<PixelProbe> trace_probes(const Region& region, const PixelBlock& shown, const ProbePlan& plan,
-                                     const ProbeStream& stream,
-                                     const std::function<Color(double x, double y)>& look) {
+                                     const ProbeStream& stream, const Look& look) {
   constexpr std::uint64_t kCandidatesPerProbe = 16;
   const std::uint64_t pixels = region.pixel_count(), count = plan.probes;
   if (pixels == 0) return {};
@@ -137,13 +136,14 @@ std::vector<PixelProbe> trace_probes(const Region& region, const PixelBlock& sho
   normalize(all);
   const Random choice(stream, Purpose::kChoice), place(stream, Purpose::kPlace);
   std::uint64_t drawn = 0;
-  // Mean of a jittered grid over the pixel.
+  // Mean of a jittered grid over the pixel. Each ray stands for its cell: filtered over the whole pixel,
+  // textures would be blurred twice.
   const auto estimate = [&](const Candidate& at) {
     Color sum(0, 0, 0);
     for (int cell = 0; cell < plan.side * plan.side; ++cell, drawn += 2) {
       const double x = (cell % plan.side + place(drawn)) / plan.side;
       const double y = (cell / plan.side + place(drawn + 1)) / plan.side;
-      sum += displayed(look(at.x + x, at.y + y));
+      sum += displayed(look(at.x + x, at.y + y, 1.0 / plan.side));
     }
     return sum / static_cast<float>(plan.side * plan.side);
   };
@@ -179,7 +179,7 @@ ErrorSums error_by(std::span<const PixelProbe> probes, const Region& region, con
 }
 
 ErrorSums measure_error(const Region& region, const PixelBlock& shown, const ProbePlan& plan,
-                        const ProbeStream& stream, const std::function<Color(double x, double y)>& look) {
+                        const ProbeStream& stream, const Look& look) {
   if (region.pixel_count() == 0) return {};
   const std::vector<PixelProbe> probes = trace_probes(region, shown, plan, stream, look);
   ErrorSums sums = error_by(probes, region, shown);

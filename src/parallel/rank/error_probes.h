@@ -61,17 +61,19 @@ struct PixelProbe {
   Color first, second;
 };
 
+// Returns the colour at an image point. Textures are filtered over a square of side `footprint`, pixels.
+using Look = std::function<Color(double x, double y, double footprint)>;
+
 // Traces probes at pixels of `region`, chosen by what is `shown` now. They measure any picture of the same
-// scene. `look` returns the colour at an image point.
+// scene.
 std::vector<PixelProbe> trace_probes(const Region& region, const PixelBlock& shown, const ProbePlan& plan,
-                                     const ProbeStream& stream,
-                                     const std::function<Color(double x, double y)>& look);
+                                     const ProbeStream& stream, const Look& look);
 
 // Returns what the probes tell of the pixels of `region` in `shown`: all but `samples` and `rays`.
 ErrorSums error_by(std::span<const PixelProbe> probes, const Region& region, const PixelBlock& shown);
 
 // Measures the pixels of `region` in `shown` by new probes. Returns all but `rays`.
 ErrorSums measure_error(const Region& region, const PixelBlock& shown, const ProbePlan& plan,
-                        const ProbeStream& stream, const std::function<Color(double x, double y)>& look);
+                        const ProbeStream& stream, const Look& look);
 
 }  // namespace pprt

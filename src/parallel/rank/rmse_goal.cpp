@@ -105,7 +105,8 @@ void RmseGoal::add_probes(const Region& region, const PixelBlock& shown, std::ui
   const std::uint64_t rays = tracer_.looked().traced();
   const ProbeStream stream{.seed = seed_, .frame = frame_, .rank = rank_, .batch = ++batches_};
   const std::vector<PixelProbe> added =
-      trace_probes(region, shown, plan, stream, [this](double x, double y) { return tracer_.look(x, y); });
+      trace_probes(region, shown, plan, stream,
+                   [this](double x, double y, double footprint) { return tracer_.look(x, y, footprint); });
   probes_.insert(probes_.end(), added.begin(), added.end());
   probe_samples_ += plan.samples();
   probe_rays_ += tracer_.looked().traced() - rays;

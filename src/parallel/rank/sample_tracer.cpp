@@ -31,7 +31,7 @@ Sample SampleTracer::trace(double x, double y, std::span<const KnownLights> know
   sample.y = y;
   sample.frame = frame_number_;
   sample.id = (static_cast<SampleId>(rank_) << 40) | next_id_++;
-  sample.ray = probe_.trace_knowing ? probe_.trace_knowing(x, y, known, footprint) : probe_.trace(x, y);
+  sample.ray = ray_through(x, y, known, footprint);
   if (!is_finite(sample.ray.color)) {
     ++non_finite_;
     sample.ray.color = Color(0, 0, 0);
@@ -44,9 +44,14 @@ Sample SampleTracer::trace(double x, double y, std::span<const KnownLights> know
   return sample;
 }
 
-Color SampleTracer::look(double x, double y) {
+RaySample SampleTracer::ray_through(double x, double y, std::span<const KnownLights> known,
+                                    double footprint) {
+  return probe_.trace_knowing ? probe_.trace_knowing(x, y, known, footprint) : probe_.trace(x, y);
+}
+
+Color SampleTracer::look(double x, double y, double footprint) {
   const RayCounts before = probe_.counts();
-  const RaySample ray = probe_.trace(x, y);
+  const RaySample ray = ray_through(x, y, {}, footprint);
   looked_ += probe_.counts() - before;
   poll_(ray.rays);
   return is_finite(ray.color) ? ray.color : Color(0, 0, 0);

@@ -38,7 +38,7 @@ class SampleTracer {
 
   // Returns the colour at an image point, for a measurement: no sample is made, nothing is charged, and its
   // rays are not among rays().
-  Color look(double x, double y);
+  Color look(double x, double y, double footprint = 1);
 
   // Whether nothing hides a hit point from the eye.
   bool is_visible(const Vec3f& hit, bool at_infinity);
@@ -53,6 +53,8 @@ class SampleTracer {
   int frame_number() const { return frame_number_; }
 
  private:
+  RaySample ray_through(double x, double y, std::span<const KnownLights> known, double footprint);
+
   Probe probe_;
   int rank_;
   FrameClock& clock_;

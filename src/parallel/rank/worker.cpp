@@ -217,8 +217,9 @@ void Worker::measure(const FrameOrder& order) {
     const double share =
         probe_price_.affordable_share(settings_.probe_share, samples_new(), tracer_.rays().traced());
     const ProbePlan plan = plan_probes(samples_new(), sampler_.in_region(), region.pixel_count(), share);
-    error_ = measure_error(region, picture_.pixels(), plan, stream,
-                           [this](double x, double y) { return tracer_.look(x, y); });
+    error_ =
+        measure_error(region, picture_.pixels(), plan, stream,
+                      [this](double x, double y, double footprint) { return tracer_.look(x, y, footprint); });
     error_.rays = tracer_.looked().traced();
     probe_price_.add(error_);
   }

@@ -57,6 +57,25 @@ TEST_CASE("measured error: the upper bound is farther off where the distribution
   CHECK(ErrorEstimate{-0.1, 0, 0}.interval().rmse == 0);
 }
 
+TEST_CASE("measured error: few probes are taken to miss the skewness, many show it") {
+  const double deviation = 0.001;
+  const auto growth = [&](double skewness, double probes) {
+    const ErrorEstimate estimate{0.0036, deviation * deviation, skewness * std::pow(deviation, 3), probes};
+    return (std::pow(estimate.interval().high, 2) - 0.0036) / (1.96 * deviation) - 1;
+  };
+  CHECK(growth(0.1, 16) == Approx(2));
+  CHECK(growth(0.1, 256) == Approx(0.5));
+  CHECK(growth(0.7, 256) == Approx(0.7));
+  CHECK(growth(0.1, 1e6) == Approx(0.1));
+  // Those of all frames count: 10 a frame.
+  ShotErrors errors;
+  const std::vector<RankReport> ranks = {report_of(1, 1, 0, 50), report_of(1, 1, 0, 50)};
+  FrameError error;
+  for (int frame = 0; frame < 10; ++frame) error = errors.add(frame == 0, ranks, 100).value();
+  CHECK((error.own.probes == 10 && error.frame.probes == 100));
+  CHECK(error.shot.high == Approx(std::sqrt(0.02 + 1.96 * std::sqrt(2e-4 / 10) * 1.8)));
+}
+
 TEST_CASE("measured error: the frames of a shot narrow its interval, and a cut begins another shot") {
   ShotErrors errors;
   const std::vector<RankReport> small = {report_of(4, 16, 0, 100)}, large = {report_of(16, 48, 0, 100)};
@@ -64,7 +83,7 @@ TEST_CASE("measured error: the frames of a shot narrow its interval, and a cut b
   const FrameError second = errors.add(false, large, 100).value();
   CHECK(second.shot_frames == 2);
   CHECK(second.shot.rmse == Approx(std::sqrt(0.10)));
-  CHECK(second.shot.high == Approx(std::sqrt(0.10 + 1.96 * std::sqrt((0.0016 + 0.0048) / 4))));
+  CHECK(second.shot.high == Approx(std::sqrt(0.10 + 1.96 * 0.04 * (1 + 8 / std::sqrt(10)))));
   // Its own figure has the mean of both variances.
   CHECK(second.frame.squared == Approx(0.16));
   CHECK(second.frame.variance == Approx(0.0032));

@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "unit/parallel/rank/one_rank.h"
 
@@ -69,6 +71,20 @@ TEST_CASE("sample tracer: rays are charged to the clock and to their tile, and m
   CHECK(rank.spent() == 7 * price(Work::kRay));
   CHECK(rank.costs.now(5).cost == own);
   CHECK(rank.polled == std::vector<std::uint64_t>{5, 1, 1});
+}
+
+TEST_CASE("sample tracer: samples and looks tell over what textures are filtered") {
+  OneRank rank(plain());
+  Probe probe = rank.probe();
+  std::vector<double> footprints;
+  probe.trace_knowing = [&](double, double, std::span<const KnownLights>, double footprint) {
+    footprints.push_back(footprint);
+    return RaySample();
+  };
+  SampleTracer tracer(probe, 0, rank.clock, rank.costs, [](std::uint64_t) {});
+  tracer.trace(1, 1, {}, 0.5);
+  tracer.look(1, 1, 0.25);
+  CHECK(footprints == std::vector<double>{0.5, 0.25});
 }
 
 TEST_CASE("sample tracer: rays of looks cost nothing and are told apart, in each frame anew") {

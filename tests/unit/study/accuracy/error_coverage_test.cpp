@@ -91,7 +91,7 @@ Coverage coverage_of(const Film& film, const std::vector<Shown>& shown) {
         reports[static_cast<std::size_t>(rank)].error = measure_error(
             region, shown[f].pixels, plan_probes(shown[f].samples, shown[f].samples, region.pixel_count()),
             {repeat + 1, f, static_cast<std::uint64_t>(rank)},
-            [&](double x, double y) { return tracer.trace(x, y).color; });
+            [&](double x, double y, double side) { return tracer.trace(x, y, {}, side).color; });
       }
       const FrameError error = errors.add(f == 0, reports, kSize * kSize).value();
       sum += shown[f].squared;
