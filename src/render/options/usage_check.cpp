@@ -5,6 +5,7 @@
 
 #include "base/diagnostics.h"
 #include "convert/model_scene.h"
+#include "parallel/settings/session_words.h"
 #include "render/options/render_options.h"
 #include "scene/animation/animation.h"
 #include "spd/spd.h"
@@ -90,11 +91,13 @@ void check_usage(const RenderOptions& options) {
     throw UsageError(
         fmt::format("--fps {:g}: want 0, for no rate, or at least {:g}", fps, kLeastFramesPerSecond));
   }
-  if (options.method.sampler == SamplerChoice::kGrid &&
-      needs_triangulation(options.method, options.weights)) {
+  const SamplerChoice sampler = options.method.sampler;
+  const bool may_triangulate = sampler == SamplerChoice::kAuto || sampler == SamplerChoice::kDelaunay;
+  if (!may_triangulate && needs_triangulation(options.method, options.weights)) {
     throw UsageError(
-        "--sampler grid has no triangles: --cast paper, --weights paper and --pixels other than "
-        "edges need --sampler delaunay");
+        fmt::format("--sampler {} has no triangles: --cast paper, --weights paper and --pixels other than "
+                    "edges need --sampler delaunay",
+                    word_for(sampler)));
   }
   if (options.end.budget && !counts_work) throw UsageError("--budget counts work: it needs --clock work");
   if (options.end.film_time) require_film_time_usage(options);
