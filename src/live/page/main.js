@@ -112,7 +112,7 @@ function tell(header) {
 
 // `rmse`: an error and the ends of its interval, or nothing.
 function errorText(rmse) {
-  if (!rmse) return "–";
+  if (!rmse || rmse[2] === 0) return "–";  // rays that met no error know of none
   const [error, low, high] = rmse.map((value) => value.toFixed(4));
   return rmse[1] > 0 ? `${error} (${low} to ${high})` : `at most ${high}`;
 }

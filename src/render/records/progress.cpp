@@ -36,10 +36,11 @@ std::string lateness(double late_ms) {
   return fmt::format("{:.0f} ms {} its deadline", std::abs(late_ms), late_ms <= 0 ? "before" : "after");
 }
 
-// "; RMSE 0.0117 (0.0101 to 0.0135)", "; RMSE at most 0.0042", or nothing.
+// "; RMSE 0.0117 (0.0101 to 0.0135)", "; RMSE at most 0.0042", or nothing where no ray met an error.
 std::string measured(const MeanErrorEstimate& error) {
   if (error.count() == 0) return "";
   const RmseInterval interval = error.mean().interval();
+  if (interval.high <= 0) return "";
   if (interval.low <= 0) return fmt::format("; RMSE at most {:.4f}", interval.high);
   return fmt::format("; RMSE {:.4f} ({:.4f} to {:.4f})", interval.rmse, interval.low, interval.high);
 }

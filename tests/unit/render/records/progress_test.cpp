@@ -137,12 +137,12 @@ TEST_CASE("a frame that is whole at its deadline is in time") {
 }
 
 TEST_CASE("the error of a run is told with its bounds, or what it is at most where it may be none") {
-  const auto told = [](double squared) {
+  const auto told = [](double squared, double variance = 4e-10) {
     RunTotals totals;
     FrameSummary frame;
     frame.samples = 1234;
     frame.error.emplace();
-    frame.error->own = frame.error->frame = {.squared = squared, .variance = 4e-10, .third = 0};
+    frame.error->own = frame.error->frame = {.squared = squared, .variance = variance, .third = 0};
     totals.add(frame);
     return std::pair(told_at_end({.frames = 1}, RunEnd::kDone, 1, totals), totals.error().mean().interval());
   };
@@ -154,6 +154,8 @@ TEST_CASE("the error of a run is told with its bounds, or what it is at most whe
   const auto [unsure, around_none] = told(1e-5);
   CHECK((around_none.low <= 0 && around_none.high > 1.5 * around_none.rmse));
   CHECK(unsure == fmt::format("{}at most {:.4f}\n", begin, around_none.high));
+  // Rays that met no error know of none: 0 would be a promise.
+  CHECK(told(0, 0).first == "done: 1 of 1 frame in a.png to b.png; 1,234 samples\n");
 }
 
 TEST_CASE("at the end advice is given where frames were late, but none for a film that has a time") {
