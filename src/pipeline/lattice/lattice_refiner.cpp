@@ -226,8 +226,8 @@ bool LatticeRefiner::next_nodes() {
   return true;
 }
 
-// What the pass has found so far is expected of its other tiles: where a picture is empty the candidates of a
-// whole level wait, and a few of them tell that there is nothing.
+// What the pass has found so far is expected of its other tiles. Where a picture is empty the candidates of a
+// whole level wait: a few of them tell that there is nothing.
 void LatticeRefiner::learn_within_pass() {
   constexpr std::size_t kLeast = 64, kShare = 32;
   if (samples_ - learned_from_ < std::max(kLeast, samples_ / kShare)) return;
