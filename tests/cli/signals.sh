@@ -1,9 +1,18 @@
 #!/usr/bin/env bash
 # A signal ends the run after the frame at hand, with manifest and summary.
+
+# What starts a test in the background may ignore SIGINT. A shell hands that on, and can never take it back.
+[[ -v DEFAULT_SIGNALS ]] || DEFAULT_SIGNALS=1 exec env --default-signal=HUP,INT,TERM bash "$0"
 source "$(dirname "$0")/check.sh"
 
 # Some minutes of frames, so that the run cannot end by itself before the signal comes.
 sed -i 's/frames 12/frames 60000/; s/key 12/key 60000/' ball.anim
+
+# wait_for CONDITION: a minute at most; what is not so by then is told by the checks that follow.
+wait_for() { for ((tries = 0; tries < 600; ++tries)); do eval "$1" && break || sleep 0.1; done; }
+
+# pictures: how many there are.
+pictures() { find out_frames -name '?????.png' 2>/dev/null | wc -l; }
 
 # stopped_by SIGNAL CODE OPTIONS...: sends the signal once two frames are there.
 stopped_by() {
@@ -11,12 +20,12 @@ stopped_by() {
   shift 2
   rm -rf out_frames
   command="pprt-render $* with SIG$signal"
-  env --default-signal=HUP pprt-render ball.anim --clock work --budget 1000000 -o out_frames/%05d.png \
+  pprt-render ball.anim --clock work --budget 1000000 -o out_frames/%05d.png \
     --progress auto "$@" >out 2>err &
   local pid=$!
-  for ((i = 0; i < 600 && $(find out_frames -name '*.png' 2>/dev/null | wc -l) < 2; ++i)); do sleep 0.1; done
+  wait_for '[[ $(pictures) -ge 2 ]]'
   kill -USR1 "$pid"
-  sleep 0.5
+  wait_for 'grep -q elapsed err'
   kill "-$signal" "$pid"
   code=0
   wait "$pid" || code=$?
@@ -24,11 +33,10 @@ stopped_by() {
   expect_line err 'frame [0-9]* of 60000  [0-9.]* of 4/s  worst [0-9]* ms early  [0-9,]* samples a frame  [0-9:]* left  [0-9.]* s elapsed'
   expect_line err 'stopped: [0-9]* of 60000 frames in out_frames/0.*.png; .*'
   # Every picture is whole and told of in the manifest, and nothing else lies about.
-  local pictures others
-  pictures=$(find out_frames -name '?????.png' | wc -l)
+  local others
   others=$(find out_frames -type f ! -name '?????.png' ! -name manifest.ndjson)
   [[ -z $others ]] || complain "'$command' left $others"
-  [[ $(wc -l <out_frames/manifest.ndjson) -eq $((pictures + 1)) ]] || complain "'$command': manifest and pictures differ"
+  [[ $(wc -l <out_frames/manifest.ndjson) -eq $(($(pictures) + 1)) ]] || complain "'$command': manifest and pictures differ"
 }
 
 stopped_by INT 130
@@ -62,10 +70,10 @@ for np in 1 2; do
   rm -rf out_frames
   nohup pprt-render ball.anim --clock work --budget 1000000 -np $np -o out_frames/%05d.png >out 2>err </dev/null &
   pid=$! command="a run on $np ranks under nohup"
-  for ((i = 0; i < 600 && $(find out_frames -name '*.png' 2>/dev/null | wc -l) < 2; ++i)); do sleep 0.1; done
+  wait_for '[[ $(pictures) -ge 2 ]]'
   kill -HUP "$pid"
-  before=$(find out_frames -name '*.png' | wc -l)
-  for ((i = 0; i < 600 && $(find out_frames -name '*.png' | wc -l) <= before + 4; ++i)); do sleep 0.1; done
+  before=$(pictures)
+  wait_for '[[ $(pictures) -gt $((before + 4)) ]]'
   kill -TERM "$pid"
   code=0
   wait "$pid" || code=$?
@@ -76,7 +84,7 @@ done
 rm -rf out_frames
 pprt-render ball.anim -np 2 --clock work --budget 1000000 -o out_frames/%05d.png --contact-sheet file/sheet.png >out 2>err &
 pid=$!
-for ((i = 0; i < 600 && $(find out_frames -name '*.png' 2>/dev/null | wc -l) < 2; ++i)); do sleep 0.1; done
+wait_for '[[ $(pictures) -ge 2 ]]'
 touch file
 kill -INT "$pid"
 code=0
@@ -88,7 +96,8 @@ expect_code 1
 signal_still() {
   pprt-render ball.nff --sampler delaunay --time "$2" -s 512x512 -o long.png >out 2>err &
   pid=$!
-  sleep 1.5
+  wait_for '[[ $(grep SigCgt /proc/$pid/status | cut -f 2) =~ [2367abef]..$ ]]' # it hears SIGUSR1, and what it hears before it
+  sleep 1
   kill "-$1" "$pid"
   sleep 1
   command="a still that was sent SIG$1"
