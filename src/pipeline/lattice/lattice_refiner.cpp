@@ -11,16 +11,10 @@ namespace {
 
 // In the time of a ray: what a sample takes beside its rays, and a quadric or facet before one was seen.
 constexpr double kRaysOfASample = 5, kFirstPrice = 0.4;
-constexpr double kGridShare = 0.35;   // of all samples that the grid may take
-constexpr float kGreatestFall = 3;    // of the threshold, from pass to pass
+constexpr double kSurfacesOfASample = 2;  // what surfaces that are seen add to a sample, in rays
+constexpr double kGridShare = 0.35;       // of all samples that the grid may take
+constexpr float kGreatestFall = 3;        // of the threshold, from pass to pass
 constexpr float kShareOfLast = 0.2F;  // that light on textures in the last picture counts as, of this one's
-
-// Returns the SurfaceShare from which it pays to see. Where a sample says little of its surface, as in
-// mirrors, more samples bring more, and most of all where there are few. From ratios of error at equal cost.
-double least_share(double samples_per_pixel) {
-  constexpr double kAtOne = 0.5, kPerHalving = 0.045, kLeast = 0.4, kMost = 0.75;
-  return std::clamp(kAtOne - kPerHalving * std::log2(samples_per_pixel), kLeast, kMost);
-}
 
 // Returns the tiles in bands of two rows. Bands follow each other by steps of the golden section, which fall
 // evenly over the picture.
@@ -65,6 +59,7 @@ void LatticeRefiner::clear() {
   forget_visibility(VisibilityBuffer::kFine);
   estimates_.clear();
   share_.clear();
+  gain_.clear();
   textures_.clear();
   errors_.clear();
   forget_samples();
@@ -283,27 +278,27 @@ void LatticeRefiner::start(const Pass& pass) {
 }
 
 // Where there are few samples finer edges would not show. What they cost does not grow with the samples, nor
-// does what it costs to see. A picture that begins without an estimate of its samples is a still's: it gets
-// all.
+// does what it costs to see. So seeing may take the more time, the more of the error it takes away. A picture
+// that begins without an estimate of its samples is a still's: it gets all.
 void LatticeRefiner::choose_fineness() {
   constexpr double kVeryFew = 0.07, kFew = 0.4;  // samples a pixel
-  // Of the time of the picture before. What was seen then is seen on for a while: a change flickers.
-  constexpr double kShare = 0.35, kShareAgain = 0.45, kSeenAgain = 0.1;
-  if (expected_ == 0) return;
+  // Of the time. What was seen is seen on for a while: a change flickers.
+  constexpr double kMostShare = 0.9, kSeenAgain = 1.1;
+  if (expected_ == 0) {
+    visibility_.limit(VisibilityBuffer::kNoLimit, price_of_item_, region().bounds());
+    return;
+  }
   const double samples = static_cast<double>(samples_) + samples_left();
   const double per_pixel = samples / static_cast<double>(region().pixel_count());
   const VisibilityBuffer::Fineness fineness = per_pixel < kVeryFew ? VisibilityBuffer::kCoarse
                                               : per_pixel < kFew   ? VisibilityBuffer::kMiddle
                                                                    : VisibilityBuffer::kFine;
   if (fineness != visibility_.fineness()) forget_visibility(fineness);
-  if (static_cast<double>(share_.of_one()) < least_share(per_pixel) - (has_seen_ ? kSeenAgain : 0)) {
-    visibility_.limit(0);
-    return;
-  }
   const double a_sample =
       static_cast<double>(rays_) / static_cast<double>(std::max<std::size_t>(samples_, 1));
   const double time = time_ > 0 ? time_ : (a_sample + kRaysOfASample) * samples;
-  visibility_.limit((has_seen_ ? kShareAgain : kShare) * time, price_of_item_, region().bounds());
+  const double share = std::min(kMostShare, (has_seen_ ? kSeenAgain : 1) * gain_.worthwhile_share());
+  visibility_.limit(share * time - kSurfacesOfASample * samples, price_of_item_, region().bounds());
 }
 
 // With many samples a pixel the shares of what is seen in it must not err by more than its colours, nor must

@@ -29,6 +29,7 @@
 #include "pipeline/lattice/surface_samples.h"
 #include "pipeline/lattice/surface_textures.h"
 #include "pipeline/lattice/unsampled_surfaces.h"
+#include "pipeline/visibility/seeing_gain.h"
 #include "pipeline/visibility/visibility_buffer.h"
 
 namespace pprt {
@@ -170,6 +171,7 @@ class LatticeRefiner {
   LocalErrors errors_;
   ErrorEstimates estimates_;
   SurfaceShare share_;
+  SeeingGain gain_;
   SurfaceTextures textures_;
   SurfaceLights lights_;
   NodePredictor predictor_;

@@ -103,10 +103,10 @@ void LatticeRefiner::learn_share(const Wanted& at, const float4& seen) {
                sum_of_channels(direction * direction));
 }
 
-// How much a sample tells of its surface is known before anything is seen: the corners of base squares are
-// compared with each beside them that lies on the same one. Where a texture or all light is known, one tells
-// all.
+// What seeing brings is known before anything is seen: the corners of base squares are compared with those
+// beside them that lie on the same surface. Where a texture or all light is known, one sample tells all.
 void LatticeRefiner::learn_from_base() {
+  gain_.fade();
   for (const LatticeNode& node : own_.base_nodes()) {
     const NodeValue* seen = store_.sample_at(node);
     if (seen == nullptr) continue;
@@ -114,7 +114,7 @@ void LatticeRefiner::learn_from_base() {
     const bool is_known = lights_.of(surface).is_all || textures_.has(surface);
     std::array<float4, 4> same;
     std::size_t on_it = 0, count = 0;
-    float4 sum{};
+    float4 sum{}, sum_on_it{};
     for (int side = 0; side < 4; ++side) {
       const int step = side % 2 == 0 ? kBaseSide : -kBaseSide;
       const LatticeNode beside{node.x + (side < 2 ? step : 0), node.y + (side < 2 ? 0 : step)};
@@ -122,13 +122,22 @@ void LatticeRefiner::learn_from_base() {
       if (other == nullptr) continue;
       const float4 color = on_display(other->channels());
       sum += color, ++count;
-      if (other->surface() == surface) same[on_it++] = color;
+      if (other->surface() == surface) same[on_it++] = color, sum_on_it += color;
+    }
+    if (count == 0) continue;
+    const float4 mean = sum * (1.0F / static_cast<float>(count));
+    const float4 differs = on_display(seen->channels()) - mean;
+    if (is_known) {
+      gain_.learn_known(sum_of_channels(differs * differs));
+    } else {
+      const float4 direction = on_it == 0 ? float4{} : sum_on_it * (1.0F / static_cast<float>(on_it)) - mean;
+      gain_.learn(sum_of_channels(differs * differs), sum_of_channels(differs * direction),
+                  sum_of_channels(direction * direction));
     }
     if (on_it == count) continue;
-    const float4 mean = sum * (1.0F / static_cast<float>(count));
     for (std::size_t i = 0; i < on_it; ++i) {
       const float4 direction = same[i] - mean;
-      const float4 found = is_known ? direction : on_display(seen->channels()) - mean;
+      const float4 found = is_known ? direction : differs;
       share_.learn(Basis::kOne, errors_.near(node).level, sum_of_channels(found * direction),
                    sum_of_channels(direction * direction));
     }

@@ -1,5 +1,5 @@
 // What the lattice sampler learns from its samples: errors near a point, errors by class, what one sample
-// says of its surface.
+// says of its surface, what seeing would bring.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
@@ -8,6 +8,7 @@
 #include "pipeline/lattice/local_errors.h"
 #include "pipeline/lattice/pass_growth.h"
 #include "pipeline/lattice/surface_share.h"
+#include "pipeline/visibility/seeing_gain.h"
 
 namespace pprt::learning_test {
 
@@ -113,6 +114,39 @@ TEST_CASE("surface share: the share is the one with which predictions would have
   CHECK(share.of(Basis::kSome, 5) == 1);
   CHECK(share.of_one() == Approx(0.3F).margin(0.01));  // of one sample, and of those near by
   CHECK(share.of(Basis::kAllAround, 5) == 1);
+}
+
+TEST_CASE("seeing gain: what surfaces explain of the differences is not left of the error") {
+  SeeingGain gain;
+  const double expected = gain.error_left();
+  CHECK((expected > 0.5 && expected < 0.9));
+  for (int i = 0; i < 1000; ++i) gain.learn(1, 0.6, 1);  // 36 %, with a share of .6
+  CHECK(gain.error_left() == Approx(0.8).margin(0.001));
+  for (int i = 0; i < 1000; ++i) gain.learn_known(1);
+  CHECK(gain.error_left() == Approx(std::sqrt(0.32)).margin(0.001));
+  gain.clear();
+  CHECK(gain.error_left() == expected);
+  for (int i = 0; i < 1000; ++i) gain.learn(1, i % 2 == 0 ? -0.9 : 0.8, 1);  // the wrong way, in the mean
+  CHECK(gain.error_left() == Approx(1).margin(0.001));
+}
+
+TEST_CASE("seeing gain: what fades counts half") {
+  SeeingGain gain;
+  for (int i = 0; i < 1000; ++i) gain.learn_known(1);
+  gain.fade();
+  for (int i = 0; i < 500; ++i) gain.learn(1, 0, 0);
+  CHECK(gain.error_left() == Approx(std::sqrt(0.5)).margin(0.001));
+}
+
+TEST_CASE("seeing gain: the more error it takes away, the more time it is worth") {
+  const auto worth = [](double explained) {
+    SeeingGain gain;
+    for (int i = 0; i < 1000; ++i) gain.learn(1, std::sqrt(explained), 1);
+    return gain.worthwhile_share();
+  };
+  CHECK(worth(0) == Approx(0).margin(0.001));
+  CHECK(worth(1) > 0.9);  // almost all: the rest is the least that samples need
+  CHECK(worth(0.75) == Approx(1 - 0.6 * 0.6).margin(0.001));
 }
 
 TEST_CASE("pass growth: it is what passes made of what they promised, by halves, within bounds") {

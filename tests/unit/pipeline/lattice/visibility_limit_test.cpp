@@ -24,27 +24,40 @@ PrimitiveShapes walls(std::uint32_t count, std::uint32_t& asked) {
   return {project, count};
 }
 
-void sample(LatticeRefiner& sampler) {
+enum class Stripes : std::uint8_t { kAlike, kEachItsOwn, kNoise };
+
+// Two surfaces in stripes. In mirrors each sample finds another colour.
+RaySample striped(const Vec2d& point, Stripes stripes) {
+  static std::uint32_t noise = 1;
+  noise = noise * 1664525 + 1013904223;
+  RaySample seen;
+  seen.primitive = static_cast<std::uint32_t>(point.x / 24) % 2 + 1;
+  const float brightness = stripes == Stripes::kNoise   ? static_cast<float>(noise >> 16) / 65536
+                           : stripes == Stripes::kAlike ? 0.5F
+                           : seen.primitive == 1        ? 0.2F
+                                                        : 0.8F;
+  seen.color = Color(brightness, brightness, brightness);
+  return seen;
+}
+
+void sample(LatticeRefiner& sampler, Stripes stripes = Stripes::kAlike) {
   for (int i = 0; i < kSamples; ++i) {
     const auto point = sampler.next_point();
     if (!point) break;
-    RaySample seen;
-    seen.color = Color(0.5F, 0.5F, 0.5F);
-    seen.primitive = 1;
-    sampler.insert(*point, seen);
+    sampler.insert(*point, striped(*point, stripes));
   }
 }
 
 // Returns how many shapes the second picture asks for, when the first one saw all of them.
-std::uint32_t asked_in_second(std::uint32_t count) {
+std::uint32_t asked_in_second(std::uint32_t count, Stripes stripes = Stripes::kAlike) {
   std::uint32_t asked = 0;
   LatticeRefiner sampler(Region::whole({kSide, kSide, 32}), walls(count, asked));
-  sample(sampler);
+  sample(sampler, stripes);
   REQUIRE(asked == count);
   sampler.camera_changed();
   sampler.restart();
   asked = 0;
-  sample(sampler);
+  sample(sampler, stripes);
   return asked;
 }
 
@@ -72,35 +85,33 @@ TEST_CASE("visibility limit: shapes that were too many to be seen took no time")
   }
 }
 
-// Stripes of two surfaces. In mirrors each sample finds another colour.
+TEST_CASE("visibility limit: the more of the error seeing takes away, the more of the time it may take") {
+  constexpr std::uint32_t kTwoThirds = 2000, kNearlyAll = 20000;
+  CHECK(asked_in_second(kTwoThirds, Stripes::kEachItsOwn) == kTwoThirds);
+  CHECK(asked_in_second(kTwoThirds, Stripes::kNoise) < kTwoThirds);
+  CHECK(asked_in_second(kNearlyAll, Stripes::kEachItsOwn) < kNearlyAll);
+}
+
 TEST_CASE(
     "visibility limit: where samples say nothing of their surface a first picture of few does without") {
-  const auto asked_by = [](bool mirrors, const PrimitiveLights& lights) {
+  const auto asked_by = [](Stripes stripes, const PrimitiveLights& lights) {
     std::uint32_t asked = 0;
     LatticeRefiner sampler(Region::whole({kSide, kSide, 32}), walls(2, asked), LatticeOrder::kAdaptive, {},
                            lights);
     constexpr int kFew = 1000;
-    std::uint32_t noise = 1;
     for (int i = 0; i < kFew; ++i) {
       sampler.expect(kFew - i);
       const auto point = sampler.next_point();
       if (!point) break;
-      RaySample seen;
-      seen.primitive = static_cast<std::uint32_t>(point->x / 24) % 2 + 1;
-      noise = noise * 1664525 + 1013904223;
-      const float brightness = mirrors               ? static_cast<float>(noise >> 16) / 65536
-                               : seen.primitive == 1 ? 0.2F
-                                                     : 0.8F;
-      seen.color = Color(brightness, brightness, brightness);
-      sampler.insert(*point, seen);
+      sampler.insert(*point, striped(*point, stripes));
     }
     return asked;
   };
   constexpr std::array<LitSurface, 3> kAllKnown = {{{}, {LitShape::kRound, true}, {LitShape::kRound, true}}};
   const PrimitiveLights lights = {kAllKnown, [](auto, auto, auto, UnshadowedLight&) {}};
-  CHECK(asked_by(true, {}) == 0);
-  CHECK(asked_by(false, {}) == 2);
-  CHECK(asked_by(true, lights) == 2);  // what they differ by is their lights
+  CHECK(asked_by(Stripes::kNoise, {}) == 0);
+  CHECK(asked_by(Stripes::kEachItsOwn, {}) == 2);
+  CHECK(asked_by(Stripes::kNoise, lights) == 2);  // what they differ by is their lights
 }
 
 TEST_CASE("visibility limit: what was not to be seen in one picture may be seen in the next") {
