@@ -10,7 +10,7 @@ namespace pprt {
 namespace {
 
 // In the time of a ray: what a sample takes beside its rays, and a quadric or facet before one was seen.
-constexpr double kRaysOfASample = 5, kFirstPrice = 0.4;
+constexpr double kRaysOfASample = 5, kFirstPrice = 5;
 constexpr double kSurfacesOfASample = 2;  // what surfaces that are seen add to a sample, in rays
 constexpr double kGridShare = 0.35;       // of all samples that the grid may take
 constexpr float kGreatestFall = 3;        // of the threshold, from pass to pass

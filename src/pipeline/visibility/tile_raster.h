@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include "base/image_shape.h"
 #include "base/vector.h"
@@ -27,6 +29,14 @@ inline constexpr int kBlockSide = 8, kBlocks = kTileIntervals / kBlockSide + 1;
 
 // Blocks of a tile: a bit for each column, row by row.
 using BlockSet = std::array<std::uint16_t, kBlocks>;
+
+inline std::size_t count_of(const BlockSet& blocks) {
+  std::array<std::uint64_t, 3> words{};
+  std::memcpy(words.data(), blocks.data(), sizeof(blocks));
+  std::size_t count = 0;
+  for (const std::uint64_t word : words) count += static_cast<std::size_t>(std::popcount(word));
+  return count;
+}
 
 // A tile that is rasterised, and where it lies to a shape. Points lie `step` pixels apart; there are
 // kTileIntervals + 1 in a row, and kTileStride places.

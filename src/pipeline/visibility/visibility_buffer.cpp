@@ -58,7 +58,7 @@ bool VisibilityBuffer::bound_all() {
   bounds_.resize(shapes_.count);
   state_ = State::kKnown;
   std::size_t& items = items_within_;
-  items = 0, trials_ = tiles_seen_ = 0;
+  items = 0, trials_ = tiles_seen_ = quadric_blocks_ = facet_blocks_ = 0;
   for (std::size_t first = 0; first < bounds_.size(); first += kAtOnce) {
     const std::span<ShapeBounds> now(bounds_.data() + first, std::min(kAtOnce, bounds_.size() - first));
     if (shapes_.bound) shapes_.bound(static_cast<std::uint32_t>(first), now);
@@ -215,8 +215,10 @@ void VisibilityBuffer::see(std::size_t number) {
     if (!item.is_quadric && misses(facets_[item.shape], to)) continue;
     ++trials_;
     if (!blocks_.find_shown(columns, rows, nearest_.data(), nearest, to.blocks)) continue;
-    blocks_.touch(item.is_quadric ? rasterise(quadrics_[item.shape], own, to)
-                                  : rasterise(facets_[item.shape], own, to));
+    const BlockSet changed =
+        item.is_quadric ? rasterise(quadrics_[item.shape], own, to) : rasterise(facets_[item.shape], own, to);
+    blocks_.touch(changed);
+    (item.is_quadric ? quadric_blocks_ : facet_blocks_) += count_of(changed);
   }
   compress(tile);
   find_surfaces(tile);
