@@ -6,7 +6,7 @@ set terminal pngcairo size 800, 700 font "sans,10"
 set output "film/ledger.png"
 set multiplot layout 3, 1
 set grid
-set key bottom right
+set key bottom right opaque
 set title "ready, milliseconds before the deadline; right: measured RMSE of the shot so far, and its 95 % interval"
 set ytics nomirror
 set y2tics
@@ -27,4 +27,5 @@ plot figure("samples_new") with lines linewidth 2 title "new", \
 set title "mean weight of what is left to refine: smaller is finer"
 set xlabel "frame"
 unset key
-plot figure("mean_weight") with lines linewidth 2
+# 0 where a frame came too late for any sample: nothing is known of it.
+plot figure("mean_weight") using 1:($2 > 0 ? $2 : NaN) with lines linewidth 2
