@@ -6,7 +6,11 @@ set terminal pngcairo size 800, 700 font "sans,10"
 set output "film/ledger.png"
 set multiplot layout 3, 1
 set grid
-set key bottom right opaque
+# One scale of frames for all three, with room at the right for the keys.
+set lmargin 8
+set rmargin 18
+set autoscale xfixmax
+set key outside right top
 set title "ready, milliseconds before the deadline; right: measured RMSE of the shot so far, and its 95 % interval"
 set ytics nomirror
 set y2tics
@@ -21,7 +25,7 @@ set ytics mirror
 unset key
 set title "samples, new and carried"
 set yrange [0:*]
-set key bottom right
+set key
 plot figure("samples_new") with lines linewidth 2 title "new", \
      figure("samples_cast") with lines linewidth 2 title "carried"
 set title "mean weight of what is left to refine: smaller is finer"
