@@ -10,7 +10,7 @@ set grid
 set lmargin 8
 set rmargin 18
 set autoscale xfixmax
-set key outside right top
+set key outside right top samplen 2
 set title "ready, milliseconds before the deadline; right: measured RMSE of the shot so far, and its 95 % interval"
 set ytics nomirror
 set y2tics
