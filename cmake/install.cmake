@@ -22,7 +22,17 @@ install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR}
 file(GLOB guides CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/*.md)
 install(FILES ${guides} DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)
 install(DIRECTORY docs/images docs/decisions DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)
-install(DIRECTORY scenes examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+# Named one by one: an example is also worked through where it stands, and what it makes there is not installed.
+foreach(file
+    README.md
+    accuracy/README.md accuracy/lamp.nff
+    load-balancing/README.md load-balancing/tables
+    previsualisation/README.md previsualisation/ledger.gp previsualisation/shots.anim previsualisation/stage.aff)
+  cmake_path(GET file PARENT_PATH folder)
+  install(FILES examples/${file} DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples/${folder})
+endforeach()
+install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # The programs tell their own completion; the folders are those in which Debian's shells look.
 function(pprt_completion program shell file directory)
@@ -41,3 +51,6 @@ foreach(program pprt-render pprt-convert pprt-compare pprt-study)
 endforeach()
 get_property(completion_files GLOBAL PROPERTY PPRT_COMPLETION)
 add_custom_target(completion_scripts ALL DEPENDS ${completion_files})
+
+# What `cmake --install` needs, without tests and benchmarks.
+add_custom_target(programs DEPENDS pprt-render pprt-convert pprt-compare pprt-study manual_pages completion_scripts)

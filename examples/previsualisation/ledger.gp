@@ -6,7 +6,11 @@ set terminal pngcairo size 800, 700 font "sans,10"
 set output "film/ledger.png"
 set multiplot layout 3, 1
 set grid
-set key bottom right
+# One scale of frames for all three, with room at the right for the keys.
+set lmargin 8
+set rmargin 18
+set autoscale xfixmax
+set key outside right top samplen 2
 set title "ready, milliseconds before the deadline; right: measured RMSE of the shot so far, and its 95 % interval"
 set ytics nomirror
 set y2tics
@@ -21,10 +25,11 @@ set ytics mirror
 unset key
 set title "samples, new and carried"
 set yrange [0:*]
-set key bottom right
+set key
 plot figure("samples_new") with lines linewidth 2 title "new", \
      figure("samples_cast") with lines linewidth 2 title "carried"
 set title "mean weight of what is left to refine: smaller is finer"
 set xlabel "frame"
 unset key
-plot figure("mean_weight") with lines linewidth 2
+# 0 where a frame came too late for any sample: nothing is known of it.
+plot figure("mean_weight") using 1:($2 > 0 ? $2 : NaN) with lines linewidth 2

@@ -3,6 +3,7 @@
 # the other, with the programs built on the PATH; every command must succeed. There must be LEAST commands of pprt.
 # A block marked "```sh live" is one command that runs until Ctrl-C: it gets that once it has printed its address.
 # Blocks marked "```sh building" are run by tests/package/builds.sh, and there are no others.
+# What stands in a block "```" is a line that they print, but for the last digits of its numbers.
 # A script "tables" beside the README prints all of its tables from what the commands have made in the folder "study".
 set -euo pipefail
 readme=$1 source=$2 least=$3
@@ -36,20 +37,49 @@ awk '/^```/ { inside = ($0 == "```sh runnable"); live = ($0 == "```sh live"); ne
      inside { print }
      live { sub(/--live 8080/, "--live 0"); print "until_address " $0 }' "$readme" >"$scratch/commands.sh"
 [[ $(grep -cE '^ *(until_address )?pprt-' "$scratch/commands.sh") -ge $least ]] || { echo "hardly a command to run in $readme"; exit 1; }
+exec 3>&1 > >(tee "$scratch/said") 2>&1
+tee=$!
 set -x
 source "$scratch/commands.sh"
 set +x
+exec >&3 2>&3 3>&-
+wait "$tee"  # until it has written all
 
 # A number may differ by a tenth, or by two of its last digit: another make of processor may take a sample more, and then
 # other tiles change hands. Everything else is the same.
-compare_tables() {
-  awk -F '|' '
-    function is_number(cell) { return cell ~ /^ *[0-9]*\.?[0-9]+ *$/ }
-    function allowed(cell) {
-      gsub(/ /, "", cell)
-      least = 2 / 10 ^ (index(cell, ".") ? length(cell) - index(cell, ".") : 0)
-      return (cell / 10 > least ? cell / 10 : least) + 1e-9
+allowed='
+  function allowed(cell) {
+    gsub(/ /, "", cell)
+    least = 2 / 10 ^ (index(cell, ".") ? length(cell) - index(cell, ".") : 0)
+    return (cell / 10 > least ? cell / 10 : least) + 1e-9
+  }'
+awk "$allowed"'
+  # Takes the numbers out of a line: into number[1] to number[n]. Returns what is left of it.
+  function words(line, number,    left) {
+    n = 0
+    while (match(line, /[0-9]([0-9.,]*[0-9])?/)) {
+      number[++n] = substr(line, RSTART, RLENGTH)
+      gsub(/,/, "", number[n])
+      left = left substr(line, 1, RSTART - 1) "#"
+      line = substr(line, RSTART + RLENGTH)
     }
+    return left line
+  }
+  NR == FNR { said[++lines] = $0; next }
+  /^```/ { plain = $0 == "```" && !inside; inside = !inside; next }
+  plain {
+    found = 0
+    for (i = 1; i <= lines && !found; ++i) {
+      if (words(said[i], made) != words($0, told)) continue
+      found = 1
+      for (k = 1; k <= n; ++k) if ((made[k] - told[k])^2 > allowed(told[k])^2) found = 0
+    }
+    if (!found) { print "no command prints: " $0; failed = 1 }
+  }
+  END { exit failed }' "$scratch/said" "$readme"
+compare_tables() {
+  awk -F '|' "$allowed"'
+    function is_number(cell) { return cell ~ /^ *[0-9]*\.?[0-9]+ *$/ }
     NR == FNR { made[FNR] = $0; lines = FNR; next }
     {
       cells = split(made[FNR], cell, "|")

@@ -48,7 +48,7 @@ std::string rate_with_error(std::vector<RatePoint> points, double rmse) {
                        fastest.fps);
   }
   if (rmse < slowest.rmse) {
-    return fmt::format("{}: an RMSE of {:g} needs less than {:g} frame/s, at which it is {:.4f}.",
+    return fmt::format("{}: an RMSE of {:g} needs less than {:g} frames/s, at which it is {:.4f}.",
                        slowest.scene, rmse, slowest.fps, slowest.rmse);
   }
   std::reverse(points.begin(), points.end());  // the fastest rate that still has it comes first

@@ -33,7 +33,9 @@ TEST_CASE("planner: names the rate that has an error") {
   const std::vector<RatePoint> points = error_with_root_of_rate();
   CHECK(rate_with_error(points, 0.03) == "s: an RMSE of 0.03 can be had at about 9 frames/s.");
   CHECK(rate_with_error(points, 0.001) ==
-        "s: an RMSE of 0.001 needs less than 1 frame/s, at which it is 0.0100.");
+        "s: an RMSE of 0.001 needs less than 1 frames/s, at which it is 0.0100.");
+  CHECK(rate_with_error({points[1]}, 0.001) ==
+        "s: an RMSE of 0.001 needs less than 4 frames/s, at which it is 0.0200.");
   CHECK(rate_with_error(points, 0.5) == "s: an RMSE of 0.5 is kept at 16 frames/s and more.");
   CHECK_THROWS_AS(rate_with_error({}, 0.5), std::invalid_argument);
 }
