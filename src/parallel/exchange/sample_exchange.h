@@ -1,4 +1,5 @@
-// Which samples other ranks need. Each kind of sampler has an exchange of its own.
+// Which samples other ranks need. There are two kinds: for samplers of points (point_exchange.h) and for a
+// triangulation (mesh_exchange.h).
 #pragma once
 
 #include <cstddef>

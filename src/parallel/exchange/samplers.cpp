@@ -3,9 +3,10 @@
 #include <array>
 #include <utility>
 
-#include "parallel/exchange/lattice_exchange.h"
 #include "parallel/exchange/mesh_exchange.h"
+#include "parallel/exchange/point_exchange.h"
 #include "pipeline/lattice/lattice_node.h"
+#include "pipeline/lattice/lattice_sampler.h"
 #include "pipeline/mesh/mesh_sampler.h"
 
 namespace pprt {
@@ -31,7 +32,7 @@ SamplerWithExchange make_lattice(const SessionSettings& settings, const Partitio
       PrimitiveShapes{probe.project, probe.primitives, probe.surfaces, probe.bound}, probe.textures,
       probe.lights);
   auto exchange =
-      std::make_unique<LatticeExchange>(*sampler, settings.cast != CastChoice::kOff, partition, rank);
+      std::make_unique<PointExchange>(*sampler, settings.cast != CastChoice::kOff, partition, rank);
   return {std::move(sampler), std::move(exchange)};
 }
 
@@ -72,11 +73,13 @@ constexpr SamplerTraits with_all_nodes(SamplerTraits traits) {
 }
 
 // By SamplerChoice.
-constexpr std::array<SamplerEntry, 3> kSamplers = {{
+constexpr auto kSamplers = std::to_array<SamplerEntry>({
     {kLatticeTraits, make_lattice<LatticeOrder::kAdaptive>},               // kAuto
     {kMeshTraits, make_mesh},                                              // kDelaunay
     {with_all_nodes(kLatticeTraits), make_lattice<LatticeOrder::kLevels>}  // kGrid
-}};
+});
+static_assert(kSamplers.size() == static_cast<std::size_t>(kLast<SamplerChoice>) + 1,
+              "each SamplerChoice has its row");
 
 const SamplerEntry& entry(SamplerChoice choice) {
   return kSamplers[static_cast<std::size_t>(choice)];

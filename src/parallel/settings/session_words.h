@@ -1,6 +1,7 @@
 // The words for the choices in SessionSettings, as options, ledger and pages of studies spell them.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "base/words.h"
@@ -44,6 +45,12 @@ inline constexpr std::array<Word<PixelRule>, 4> kWords<PixelRule>{{
     {PixelRule::kMean, "mean", "mean of the samples, as in the paper"},
     {PixelRule::kCenter, "center", "the value at the centre"},
 }};
+
+// A value that has no word, or that is not read back, is one that was forgotten here or in kLast.
+template <typename E>
+inline constexpr bool kHasAllWords = kWords<E>.size() == static_cast<std::size_t>(kLast<E>) + 1;
+static_assert(kHasAllWords<ClockKind> && kHasAllWords<BalanceMode> && kHasAllWords<CastChoice> &&
+              kHasAllWords<SamplerChoice> && kHasAllWords<PixelRule>);
 
 // SessionSettings::learned_weights, spelt out.
 enum class WeightRule : std::uint8_t { kLearned, kPaper };

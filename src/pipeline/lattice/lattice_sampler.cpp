@@ -44,6 +44,12 @@ void LatticeSampler::set_region(const Region& region) {
   expect_goal();
 }
 
+double LatticeSampler::reach(const Sample& sample) const {
+  const LatticeNode node = node_at({sample.x, sample.y});
+  const bool is_center = !is_base(node) && level_of(node).kind == LatticeKind::kCenter;
+  return is_center ? 0.5 * level_of(node).side / kPixelSide : 0;
+}
+
 // The corners of the base squares, those on the border included: the same point shows the same on each rank
 // that needs it, and none must wait for another.
 std::vector<SeedPoint> LatticeSampler::seeds() const {

@@ -7,11 +7,11 @@
 
 #include "pipeline/casting/carried_lights.h"
 #include "pipeline/lattice/lattice_refiner.h"
-#include "pipeline/sampling/sampler.h"
+#include "pipeline/sampling/point_sampler.h"
 
 namespace pprt {
 
-class LatticeSampler final : public Sampler {
+class LatticeSampler final : public PointSampler {
  public:
   struct Goal {
     std::uint64_t samples =
@@ -23,12 +23,11 @@ class LatticeSampler final : public Sampler {
   LatticeSampler(const Region& region, LatticeOrder order, const Goal& goal, PrimitiveShapes shapes,
                  PrimitiveTextures textures = {}, PrimitiveLights lights = {});
 
-  // Changes which nodes are wanted; keeps all samples.
-  void set_region(const Region& region);
-
-  // Takes the lights that these cast samples know, in place of those before.
-  void take_lights(std::span<const Sample> samples) { carried_.take(samples, region().bounds()); }
-
+  void set_region(const Region& region) override;
+  // The centre of a square predicts the middles of the square's sides. All other nodes lie on the squares
+  // that they predict.
+  double reach(const Sample& sample) const override;
+  void take_lights(std::span<const Sample> samples) override { carried_.take(samples, region().bounds()); }
   void clear(bool keep_learned) override;
   std::vector<SeedPoint> seeds() const override;
   std::vector<Vec2d> missing_base() const override { return refiner_.missing_base(); }

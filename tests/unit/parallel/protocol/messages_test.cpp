@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "base/wire.h"
-#include "parallel/settings/session_settings.h"
+#include "parallel/settings/session_words.h"
 
 namespace pprt::messages_test {
 namespace {
@@ -287,13 +287,18 @@ TEST_CASE("messages: a value that its type does not have is refused") {
   CHECK(decode_frame_order(with(order, 10, 4)).carry == Carry::kCastWherePaying);
   CHECK_THROWS_AS(decode_bundle(with(bundle, 0, 16)), ProtocolError);  // flags
   const Bytes settings = encode(some_settings());
-  CHECK_THROWS_AS(decode_settings(with(settings, 8, 2)), ProtocolError);   // clock
-  CHECK_THROWS_AS(decode_settings(with(settings, 65, 4)), ProtocolError);  // balance
-  CHECK_THROWS_AS(decode_settings(with(settings, 66, 4)), ProtocolError);  // cast
-  CHECK_THROWS_AS(decode_settings(with(settings, 67, 2)), ProtocolError);  // keep_samples
-  CHECK_THROWS_AS(decode_settings(with(settings, 68, 4)), ProtocolError);  // pixel_rule
-  CHECK_THROWS_AS(decode_settings(with(settings, 69, 3)), ProtocolError);  // sampler
-  CHECK_THROWS_AS(decode_settings(with(settings, 70, 2)), ProtocolError);  // learned_weights
+  const auto refuses_beyond = [&](std::size_t at, unsigned last) {
+    CHECK_NOTHROW(decode_settings(with(settings, at, last)));
+    CHECK_THROWS_AS(decode_settings(with(settings, at, last + 1)), ProtocolError);
+  };
+  const auto last_of = [](const auto& words) { return static_cast<unsigned>(words.size()) - 1; };
+  refuses_beyond(8, last_of(kWords<ClockKind>));
+  refuses_beyond(65, last_of(kWords<BalanceMode>));
+  refuses_beyond(66, last_of(kWords<CastChoice>));
+  refuses_beyond(67, 1);  // keep_samples
+  refuses_beyond(68, last_of(kWords<PixelRule>));
+  refuses_beyond(69, last_of(kWords<SamplerChoice>));
+  refuses_beyond(70, 1);  // learned_weights
 }
 
 TEST_CASE("messages: owners of tiles that an image has not, or has twice, are refused") {

@@ -1,8 +1,7 @@
-// The exchange of a lattice.
+// The exchange of samplers whose samples each reach a known distance.
 //
-// A node's sample is needed by the ranks whose region touches what it predicts. The centre of a square
-// predicts the middles of the square's sides. All other nodes lie on the squares that they predict. A base
-// square lies in one tile. So a rank is told of nodes on its border, and of centres half a square beyond it.
+// A sample is needed by the ranks with a tile in its reach, the tile's border included. Cast samples tell of
+// lights only. Seeds go to nobody: each rank samples those that it needs itself.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +9,14 @@
 #include <vector>
 
 #include "parallel/exchange/sample_exchange.h"
-#include "pipeline/lattice/lattice_sampler.h"
+#include "pipeline/sampling/point_sampler.h"
 
 namespace pprt {
 
-class LatticeExchange final : public SampleExchange {
+class PointExchange final : public SampleExchange {
  public:
   // `sampler` must outlive the exchange. `casts`: samples are cast from frame to frame.
-  LatticeExchange(LatticeSampler& sampler, bool casts, const Partition& partition, int rank);
+  PointExchange(PointSampler& sampler, bool casts, const Partition& partition, int rank);
 
   void clear() override;
   bool insert(const Sample& sample, int from) override;
@@ -44,7 +43,7 @@ class LatticeExchange final : public SampleExchange {
   TileRange tiles_that_need(const Sample& sample) const;
   void tell_others(const Sample& sample, int from);
 
-  LatticeSampler& sampler_;
+  PointSampler& sampler_;
   int rank_;
   Partition partition_;
   std::vector<std::vector<Sample>> outbox_;  // per rank

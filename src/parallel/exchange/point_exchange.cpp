@@ -1,12 +1,10 @@
-#include "parallel/exchange/lattice_exchange.h"
+#include "parallel/exchange/point_exchange.h"
 
 #include <algorithm>
 
-#include "pipeline/lattice/lattice_node.h"
-
 namespace pprt {
 
-LatticeExchange::LatticeExchange(LatticeSampler& sampler, bool casts, const Partition& partition, int rank)
+PointExchange::PointExchange(PointSampler& sampler, bool casts, const Partition& partition, int rank)
     : sampler_(sampler),
       rank_(rank),
       partition_(partition),
@@ -15,35 +13,33 @@ LatticeExchange::LatticeExchange(LatticeSampler& sampler, bool casts, const Part
       casts_(casts),
       neighbours_(ranks_beside(partition, rank)) {}
 
-void LatticeExchange::clear() {
+void PointExchange::clear() {
   for (auto& box : outbox_) box.clear();
   std::fill(was_own_.begin(), was_own_.end(), std::uint8_t{0});
   forwards_ = false;
 }
 
 // What others send is theirs to tell, but for tiles that were this rank's.
-bool LatticeExchange::insert(const Sample& sample, int from) {
+bool PointExchange::insert(const Sample& sample, int from) {
   if (!sampler_.insert(sample)) return false;
   if (partition_.ranks > 1 && (from == rank_ || forwards_)) tell_others(sample, from);
   return true;
 }
 
-void LatticeExchange::insert_cast(std::span<const Sample> samples, const Inserted& done) {
+void PointExchange::insert_cast(std::span<const Sample> samples, const Inserted& done) {
   sampler_.take_lights(samples);
   for (const Sample& sample : samples) done(sample, false);
 }
 
-LatticeExchange::TileRange LatticeExchange::tiles_that_need(const Sample& sample) const {
-  constexpr double kBefore = 0.25 / kPixelSide;  // less than between two nodes
-  const LatticeNode node = node_at({sample.x, sample.y});
-  const bool is_center = !is_base(node) && level_of(node).kind == LatticeKind::kCenter;
-  const double reach = is_center ? 0.5 * level_of(node).side / kPixelSide : 0;
+PointExchange::TileRange PointExchange::tiles_that_need(const Sample& sample) const {
+  constexpr double kBefore = 1.0 / 64;  // pixels: on its lower border a tile is touched from both sides
+  const double reach = sampler_.reach(sample);
   const TileGrid& grid = partition_.grid;
   return {grid.column_at(sample.x - reach - kBefore), grid.row_at(sample.y - reach - kBefore),
           grid.column_at(sample.x + reach), grid.row_at(sample.y + reach)};
 }
 
-void LatticeExchange::tell_others(const Sample& sample, int from) {
+void PointExchange::tell_others(const Sample& sample, int from) {
   const TileRange tiles = tiles_that_need(sample);
   if (from == rank_ && tiles.x0 == tiles.x1 && tiles.y0 == tiles.y1) return;
   ++applied_;
@@ -61,11 +57,11 @@ void LatticeExchange::tell_others(const Sample& sample, int from) {
   }
 }
 
-std::vector<Sample> LatticeExchange::take_outbox(int rank) {
+std::vector<Sample> PointExchange::take_outbox(int rank) {
   return std::exchange(outbox_[static_cast<std::size_t>(rank)], {});
 }
 
-void LatticeExchange::introduce(std::span<const int> tiles, int taker) {
+void PointExchange::introduce(std::span<const int> tiles, int taker) {
   std::vector<std::uint8_t> is_given(partition_.owner.size(), 0);
   for (const int tile : tiles) is_given[static_cast<std::size_t>(tile)] = 1;
   for (const Sample& sample : sampler_.samples()) {
@@ -79,7 +75,7 @@ void LatticeExchange::introduce(std::span<const int> tiles, int taker) {
   }
 }
 
-void LatticeExchange::forward_tile(int tile) {
+void PointExchange::forward_tile(int tile) {
   const auto t = static_cast<std::size_t>(tile);
   if (partition_.owner[t] == rank_) return;
   was_own_[t] = 1;
@@ -87,7 +83,7 @@ void LatticeExchange::forward_tile(int tile) {
   introduce({&tile, 1}, partition_.owner[t]);
 }
 
-bool LatticeExchange::transfer(const Partition& partition) {
+bool PointExchange::transfer(const Partition& partition) {
   for (std::size_t tile = 0; tile < was_own_.size(); ++tile) {
     if (partition_.owner[tile] == rank_) was_own_[tile] = 1;
     if (partition.owner[tile] == rank_) was_own_[tile] = 0;
@@ -101,7 +97,7 @@ bool LatticeExchange::transfer(const Partition& partition) {
   return true;
 }
 
-std::vector<std::uint32_t> LatticeExchange::known_in_tiles(int rank) const {
+std::vector<std::uint32_t> PointExchange::known_in_tiles(int rank) const {
   std::vector<std::uint32_t> known(partition_.owner.size(), 0);
   if (rank != rank_) return known;
   for (const Sample& s : sampler_.samples())

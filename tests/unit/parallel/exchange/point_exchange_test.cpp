@@ -1,10 +1,12 @@
-// What one rank tells the others of its lattice, tile by tile.
-#include "parallel/exchange/lattice_exchange.h"
+// What one rank tells the others of its samples, tile by tile: of a lattice, where nothing else is said.
+#include "parallel/exchange/point_exchange.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-namespace pprt::lattice_exchange_test {
+#include "pipeline/lattice/lattice_sampler.h"
+
+namespace pprt::point_exchange_test {
 namespace {
 
 constexpr int kSide = 16;  // of the tiles
@@ -30,14 +32,67 @@ struct Rank {
         exchange(sampler, true, partition, rank) {}
 
   LatticeSampler sampler;
-  LatticeExchange exchange;
+  PointExchange exchange;
+};
+
+// Samples that reach as far as their primitive's number.
+class NumberedReach final : public PointSampler {
+ public:
+  explicit NumberedReach(const Region& region) : region_(region) {}
+  void set_region(const Region& region) override { region_ = region; }
+  double reach(const Sample& sample) const override { return sample.ray.primitive; }
+  void clear(bool /*keep_learned*/) override { samples_.clear(); }
+  std::vector<SeedPoint> seeds() const override { return {}; }
+  std::optional<Vec2d> next_point() override { return std::nullopt; }
+  bool insert(const Sample& sample) override { return samples_.push_back(sample), true; }
+  void expect_growth(double /*factor*/) override {}
+  void camera_changed() override {}
+  const Region& region() const override { return region_; }
+  std::size_t size() const override { return samples_.size(); }
+  std::span<const Sample> samples() const override { return samples_; }
+  RegionQuality quality() override { return {region_, {}, 0}; }
+  bool is_refined_to(double /*weight*/) override { return false; }
+  void paint(std::span<const std::int32_t> /*further*/, PixelBlock& /*pixels*/) override {}
+  std::size_t repaint(std::span<const std::int32_t> tiles, const std::function<bool()>& /*is_over*/,
+                      PixelBlock& /*pixels*/) override {
+    return tiles.size();
+  }
+  CastResult cast(const Camera& /*next*/, int /*next_frame*/,
+                  const CastSettings& /*settings*/) const override {
+    return {};
+  }
+
+ private:
+  Region region_;
+  std::vector<Sample> samples_;
 };
 
 }  // namespace
 
-TEST_CASE("lattice exchange: a sample on a border goes to the rank beyond, one elsewhere to nobody") {
+TEST_CASE(
+    "point exchange: whatever the sampler, a rank is told of samples within whose reach it has a tile") {
+  NumberedReach sampler(region_of(columns(), 1));
+  PointExchange middle(sampler, true, columns(), 1);
+  const auto told = [&](double x, std::uint32_t reach) {
+    Sample sample = sample_at(x, 4);
+    sample.ray.primitive = reach;
+    CHECK(middle.insert(sample, 1));
+    const bool left = !middle.take_outbox(0).empty(), right = !middle.take_outbox(2).empty();
+    return std::pair(left, right);
+  };
+  CHECK(told(kSide + 5, 4) == std::pair(false, false));
+  CHECK(told(kSide + 5, 5) == std::pair(true, false));
+  CHECK(told(2 * kSide - 5, 4) == std::pair(false, false));
+  CHECK(told(2 * kSide - 5, 5) == std::pair(false, true));
+  CHECK(told(kSide + 8, 8) == std::pair(true, true));
+  const std::array tile = {1};
+  middle.introduce(tile, 0);
+  CHECK(middle.take_outbox(0).size() == 5);
+}
+
+TEST_CASE("point exchange: a sample on a border goes to the rank beyond, one elsewhere to nobody") {
   Rank rank_1(1);
-  LatticeExchange& middle = rank_1.exchange;
+  PointExchange& middle = rank_1.exchange;
   CHECK(middle.neighbours() == std::vector{0, 2});
   CHECK(middle.insert(sample_at(kSide, 4), 1));          // on the left border
   CHECK(middle.insert(sample_at(2 * kSide - 4, 4), 1));  // the centre of a square that ends at the right one
@@ -51,7 +106,7 @@ TEST_CASE("lattice exchange: a sample on a border goes to the rank beyond, one e
 }
 
 // What a node predicts lies within half a square's side of a centre, and at any other node itself.
-TEST_CASE("lattice exchange: each rank is told of the samples that touch its region, on every side") {
+TEST_CASE("point exchange: each rank is told of the samples that touch its region, on every side") {
   const TileGrid grid{3 * kSide, 3 * kSide, kSide};
   Partition squares{grid, 9, {}, std::vector<std::uint64_t>(9, 0)};
   for (int tile = 0; tile < 9; ++tile) squares.owner.push_back(tile);
@@ -78,7 +133,7 @@ TEST_CASE("lattice exchange: each rank is told of the samples that touch its reg
   CHECK(told > 100);
 }
 
-TEST_CASE("lattice exchange: of others nothing is known but what they have said") {
+TEST_CASE("point exchange: of others nothing is known but what they have said") {
   Rank rank_1(1);
   CHECK(rank_1.exchange.insert(sample_at(kSide + 4, 4), 1));
   CHECK(rank_1.exchange.insert(sample_at(kSide + 4, 8), 1));
@@ -89,7 +144,7 @@ TEST_CASE("lattice exchange: of others nothing is known but what they have said"
   CHECK(rank_1.exchange.known_in_tiles(2) == std::vector<std::uint32_t>(12, 0));
 }
 
-TEST_CASE("lattice exchange: once a tile that was given away is back nothing is forwarded any more") {
+TEST_CASE("point exchange: once a tile that was given away is back nothing is forwarded any more") {
   Rank rank_1(1);
   Partition given = columns();
   given.owner[1] = 0;
@@ -103,7 +158,7 @@ TEST_CASE("lattice exchange: once a tile that was given away is back nothing is 
   CHECK(rank_1.exchange.announce() == 0);  // nor looked at
 }
 
-TEST_CASE("lattice exchange: neighbours are those of the regions as they are now") {
+TEST_CASE("point exchange: neighbours are those of the regions as they are now") {
   Rank rank_1(1);
   Partition given = columns();
   std::replace(given.owner.begin(), given.owner.end(), 0, 2);
@@ -111,9 +166,9 @@ TEST_CASE("lattice exchange: neighbours are those of the regions as they are now
   CHECK(rank_1.exchange.neighbours() == std::vector{2});
 }
 
-TEST_CASE("lattice exchange: what comes for a tile that was given away is forwarded to its owner") {
+TEST_CASE("point exchange: what comes for a tile that was given away is forwarded to its owner") {
   Rank rank_1(1);
-  LatticeExchange& middle = rank_1.exchange;
+  PointExchange& middle = rank_1.exchange;
   Partition given = columns();
   given.owner[1] = 0;  // the uppermost tile of the middle
   CHECK(middle.transfer(given));
@@ -131,9 +186,9 @@ TEST_CASE("lattice exchange: what comes for a tile that was given away is forwar
   CHECK(middle.take_outbox(0).empty());
 }
 
-TEST_CASE("lattice exchange: nobody is told what it has said itself, nor of a picture that is over") {
+TEST_CASE("point exchange: nobody is told what it has said itself, nor of a picture that is over") {
   Rank rank_1(1);
-  LatticeExchange& middle = rank_1.exchange;
+  PointExchange& middle = rank_1.exchange;
   Partition given = columns();
   given.owner[1] = 0;
   CHECK(middle.transfer(given));
@@ -147,9 +202,9 @@ TEST_CASE("lattice exchange: nobody is told what it has said itself, nor of a pi
   CHECK(middle.take_outbox(0).empty());
 }
 
-TEST_CASE("lattice exchange: a tile's samples and those on its border are handed over with it") {
+TEST_CASE("point exchange: a tile's samples and those on its border are handed over with it") {
   Rank rank_1(1);
-  LatticeExchange& middle = rank_1.exchange;
+  PointExchange& middle = rank_1.exchange;
   for (int y = 0; y <= 2 * kSide; y += 4) {
     for (int x = kSide; x <= 2 * kSide; x += 4) middle.insert(sample_at(x, y), 1);
   }
@@ -167,9 +222,9 @@ TEST_CASE("lattice exchange: a tile's samples and those on its border are handed
   CHECK(middle.take_outbox(0).size() == 5 * 5 + 2);  // and the centres of the two squares below
 }
 
-TEST_CASE("lattice exchange: what comes first, from all ranks or from pictures before, is told to nobody") {
+TEST_CASE("point exchange: what comes first, from all ranks or from pictures before, is told to nobody") {
   Rank rank_1(1);
-  LatticeExchange& middle = rank_1.exchange;
+  PointExchange& middle = rank_1.exchange;
   CHECK(middle.seed_peers() == std::vector{0, 2});
   CHECK(middle.insert_seed(sample_at(kSide, kSide), 0));  // at the border: each rank samples it itself
   CHECK_FALSE(middle.insert_seed(sample_at(kSide, kSide), 0));
@@ -181,11 +236,11 @@ TEST_CASE("lattice exchange: what comes first, from all ranks or from pictures b
   CHECK_FALSE(rank_1.sampler.known_lights({kSide + 4, 4}).empty());
   CHECK((middle.take_outbox(0).empty() && middle.take_outbox(2).empty()));
   CHECK(middle.announce() == 0);
-  LatticeExchange without(rank_1.sampler, false, columns(), 1);
+  PointExchange without(rank_1.sampler, false, columns(), 1);
   CHECK(without.seed_peers().empty());
 }
 
-TEST_CASE("lattice exchange: a rank is told once, however many of its tiles a sample touches") {
+TEST_CASE("point exchange: a rank is told once, however many of its tiles a sample touches") {
   Partition two = columns();
   for (std::int32_t& owner : two.owner) owner = owner == 2 ? 0 : owner;  // on both sides of the middle
   two.ranks = 2;
@@ -198,7 +253,7 @@ TEST_CASE("lattice exchange: a rank is told once, however many of its tiles a sa
   CHECK(rank_1.exchange.announce() == 0);
 }
 
-TEST_CASE("lattice exchange: a rank alone tells nobody and counts nothing") {
+TEST_CASE("point exchange: a rank alone tells nobody and counts nothing") {
   Partition alone = columns();
   std::fill(alone.owner.begin(), alone.owner.end(), 0);
   alone.ranks = 1;
@@ -211,9 +266,9 @@ TEST_CASE("lattice exchange: a rank alone tells nobody and counts nothing") {
   CHECK(rank.exchange.take_outbox(0).empty());
 }
 
-TEST_CASE("lattice exchange: a tile that is this rank's own is forwarded to nobody") {
+TEST_CASE("point exchange: a tile that is this rank's own is forwarded to nobody") {
   Rank rank_1(1);
-  LatticeExchange& middle = rank_1.exchange;
+  PointExchange& middle = rank_1.exchange;
   for (int y = 0; y <= kSide; y += 4) middle.insert(sample_at(kSide + 8, y), 1);
   middle.announce();
   middle.forward_tile(1);
@@ -229,9 +284,9 @@ TEST_CASE("lattice exchange: a tile that is this rank's own is forwarded to nobo
   CHECK(middle.take_outbox(0).empty());
 }
 
-TEST_CASE("lattice exchange: all tiles that change hands at once are told with what touches any of them") {
+TEST_CASE("point exchange: all tiles that change hands at once are told with what touches any of them") {
   Rank rank_1(1);
-  LatticeExchange& middle = rank_1.exchange;
+  PointExchange& middle = rank_1.exchange;
   std::vector<Sample> samples;
   for (int row = 0; row < 4; ++row) samples.push_back(sample_at(kSide + 10, row * kSide + 6));
   for (const Sample& s : samples) CHECK(middle.insert(s, 1));
@@ -244,4 +299,4 @@ TEST_CASE("lattice exchange: all tiles that change hands at once are told with w
   CHECK(middle.take_outbox(0).empty());
 }
 
-}  // namespace pprt::lattice_exchange_test
+}  // namespace pprt::point_exchange_test
