@@ -1,6 +1,7 @@
 // Ranks that answer no more: who notices, who takes over, when the run ends.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <future>
 #include <set>
 #include <utility>
 
@@ -38,16 +39,31 @@ double rmse(const Image& a, const Image& b) {
   return difference(a, b, 0).rmse;
 }
 
+struct RunWithLoss {
+  VirtualRun run;
+  std::vector<int> told;  // to be lost
+};
+
+// In real time; rank 2 is cut off.
+RunWithLoss lose_rank_2(SamplerChoice sampler, BalanceMode balance, double shift) {
+  const SessionSettings settings = real_time(sampler, balance);
+  RunWithLoss result;
+  Conditions conditions{.unplugged = {2}, .unplugged_at_s = 0.5};
+  conditions.loss = {.patience_s = 0.5, .goes_on = true};
+  conditions.loss.told = [&](std::span<const int> ranks) { result.told.assign(ranks.begin(), ranks.end()); };
+  result.run = run_session(4, settings, still_or_pan(settings, kFrames, shift), conditions);
+  return result;
+}
+
 BOTH_SAMPLERS_TEST_CASE("lost ranks: the others take over, and the picture is whole again", "[realtime]") {
   for (const double shift : {0.0, 1.0}) {  // a resting camera accumulates samples, some of which are lost
     const FinishedFrame undisturbed = last_frame_of_counted_work(sampler, shift);
-    for (const BalanceMode balance : {BalanceMode::kNone, BalanceMode::kCombined}) {
-      const SessionSettings settings = real_time(sampler, balance);
-      std::vector<int> told;
-      Conditions conditions{.unplugged = {2}, .unplugged_at_s = 0.5};
-      conditions.loss = {.patience_s = 0.5, .goes_on = true};
-      conditions.loss.told = [&](std::span<const int> ranks) { told.assign(ranks.begin(), ranks.end()); };
-      const VirtualRun run = run_session(4, settings, still_or_pan(settings, kFrames, shift), conditions);
+    // Both at a time: each waits for its next frame most of the time.
+    std::future<RunWithLoss> both[] = {
+        std::async(std::launch::async, lose_rank_2, sampler, BalanceMode::kNone, shift),
+        std::async(std::launch::async, lose_rank_2, sampler, BalanceMode::kCombined, shift)};
+    for (std::future<RunWithLoss>& one : both) {
+      const auto [run, told] = one.get();
       INFO(run.error);
       CHECK(run.error.empty());
       CHECK(told == std::vector<int>{2});
@@ -75,11 +91,14 @@ BOTH_SAMPLERS_TEST_CASE("lost ranks: a run that does not go on ends once no rank
   Conditions conditions{.unplugged_at_s = 0.4, .patience_s = 2};
   conditions.loss.patience_s = 0.5;
   conditions.loss.host_of = [](int rank) { return rank < 2 ? "alpha" : "beta"; };
-  conditions.unplugged = {2, 3};
-  CHECK_THAT(run_session(4, settings, still_or_pan(settings, kFrames, 1), conditions).error,
-             Catch::Contains("no answer for 0.5 s from ranks 2 to 3 on beta"));
-  conditions.unplugged = {3};  // may be slow
-  CHECK(run_session(4, settings, still_or_pan(settings, kFrames, 1), conditions).frames.size() == kFrames);
+  const auto run_without = [&](std::set<int> ranks) {
+    Conditions cut = conditions;
+    cut.unplugged = std::move(ranks);
+    return run_session(4, settings, still_or_pan(settings, kFrames, 1), cut);
+  };
+  std::future<VirtualRun> one_lost = std::async(std::launch::async, run_without, std::set{3});  // may be slow
+  CHECK_THAT(run_without({2, 3}).error, Catch::Contains("no answer for 0.5 s from ranks 2 to 3 on beta"));
+  CHECK(one_lost.get().frames.size() == kFrames);
 }
 
 TEST_CASE("lost ranks: ranks are named by host, those in a row together") {
