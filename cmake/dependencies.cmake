@@ -1,12 +1,12 @@
 # Every third-party library, found once. Which module may see which is said by its own CMakeLists.txt.
 find_package(Threads REQUIRED)
+find_package(PNG REQUIRED)
+find_package(ZLIB REQUIRED)
 # Debian 12's Imath names a library for Python that another package has. That does not matter here, but is told in ten lines.
 set(CMAKE_MESSAGE_LOG_LEVEL WARNING)
 find_package(Imath REQUIRED)
 find_package(OpenEXR REQUIRED)
 unset(CMAKE_MESSAGE_LOG_LEVEL)
-find_package(PNG REQUIRED)
-find_package(ZLIB REQUIRED)
 find_package(libjpeg-turbo CONFIG REQUIRED)
 find_package(fmt REQUIRED)
 find_package(spdlog REQUIRED)

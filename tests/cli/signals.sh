@@ -74,6 +74,7 @@ for np in 1 2; do
   kill -HUP "$pid"
   before=$(pictures)
   wait_for '[[ $(pictures) -gt $((before + 4)) ]]'
+  [[ $(pictures) -gt $((before + 4)) ]] || complain "$command makes no more pictures after SIGHUP"
   kill -TERM "$pid"
   code=0
   wait "$pid" || code=$?

@@ -3,7 +3,7 @@
 # the other, with the programs built on the PATH; every command must succeed. There must be LEAST commands of pprt.
 # A block marked "```sh live" is one command that runs until Ctrl-C: it gets that once it has printed its address.
 # Blocks marked "```sh building" are run by tests/package/builds.sh, and there are no others.
-# What stands in a block "```" is a line that they print, but for the last digits of its numbers.
+# What stands in a block "```" is a line that they print, with numbers that differ by a tenth at most.
 # A script "tables" beside the README prints all of its tables from what the commands have made in the folder "study".
 set -euo pipefail
 readme=$1 source=$2 least=$3

@@ -164,6 +164,8 @@ GltfSurface GltfMaterials::read(const tinygltf::Material& from) {
   }
   const double let_through =
       share(number_in(from.extensions, "KHR_materials_transmission", "transmissionFactor", 0)) * (1 - metal);
+  const auto glass = from.extensions.find("KHR_materials_transmission");
+  if (let_through > 0 && glass->second.Has("transmissionTexture")) losses_.add(ModelLoss::kGlassPicture);
   Material& m = surface.material;
   m.specular = metal * (1 - rough);
   m.transmittance = is_blended ? std::max(1 - alpha, let_through) : let_through;

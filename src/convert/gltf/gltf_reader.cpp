@@ -53,7 +53,6 @@ class GltfReader {
     for (const int root : roots()) node(root, {}, true);
     builder_.scene().ambient = Rgb(1, 1, 1);
     add_gltf_lights(model_, lights_, losses_, builder_);
-    if (cameras_ > 1) losses_.add(ModelLoss::kCameras, cameras_ - 1);
     losses_.tell(builder_.notes());
     return std::move(builder_).finish(files_.opened);
   }
@@ -153,7 +152,7 @@ class GltfReader {
       if (from.perspective.aspectRatio > 0) camera.aspect = from.perspective.aspectRatio;
       camera.near = from.perspective.znear;
     }
-    ++cameras_;
+    if (builder_.scene().view) losses_.add(ModelLoss::kCameras);  // the first that can be shown is
     builder_.add(camera, space);
   }
 
@@ -164,7 +163,6 @@ class GltfReader {
   GltfMaterials materials_;
   std::vector<std::string> tracks_;  // the name of each node's track
   std::vector<PlacedGltfLight> lights_;
-  std::size_t cameras_ = 0;
   int depth_ = 0;
 };
 

@@ -54,7 +54,8 @@ LatticeRefiner::LatticeRefiner(const Region& region, PrimitiveShapes shapes, Lat
 }
 
 void LatticeRefiner::clear() {
-  time_ = 0, has_seen_ = false, price_of_item_ = kFirstPrice;
+  time_ = 0, has_seen_ = false;
+  price_ = {.each = kFirstPrice};
   visibility_.limit(VisibilityBuffer::kNoLimit);
   forget_visibility(VisibilityBuffer::kFine);
   estimates_.clear();
@@ -71,8 +72,10 @@ void LatticeRefiner::restart() {
   const double seeing = has_seen_ ? visibility_.work() : 0;
   const double time = static_cast<double>(rays_) + kRaysOfASample * as_many + seeing;
   time_ = time_ > 0 ? 0.5 * (time_ + time) : time;
-  if (seeing > 0)
-    price_of_item_ = seeing / static_cast<double>(std::max<std::size_t>(visibility_.items_within(), 1));
+  if (seeing > 0) {
+    const std::size_t items = std::max<std::size_t>(visibility_.items_within(), 1);
+    price_ = {.each = seeing / static_cast<double>(items), .seen = items, .further = kFirstPrice};
+  }
   errors_.clear();
   textures_.fade(kShareOfLast);
   forget_samples();
@@ -279,13 +282,13 @@ void LatticeRefiner::start(const Pass& pass) {
 
 // Where there are few samples finer edges would not show. What they cost does not grow with the samples, nor
 // does what it costs to see. So seeing may take the more time, the more of the error it takes away. A picture
-// that begins without an estimate of its samples is a still's: it gets all.
+// that begins without an estimate of its samples gets all: a still without their number, a first frame.
 void LatticeRefiner::choose_fineness() {
   constexpr double kVeryFew = 0.07, kFew = 0.4;  // samples a pixel
   // Of the time. What was seen is seen on for a while: a change flickers.
   constexpr double kMostShare = 0.9, kSeenAgain = 1.1;
   if (expected_ == 0) {
-    visibility_.limit(VisibilityBuffer::kNoLimit, price_of_item_, region().bounds());
+    visibility_.limit(VisibilityBuffer::kNoLimit, price_, region().bounds());
     return;
   }
   const double samples = static_cast<double>(samples_) + samples_left();
@@ -298,7 +301,7 @@ void LatticeRefiner::choose_fineness() {
       static_cast<double>(rays_) / static_cast<double>(std::max<std::size_t>(samples_, 1));
   const double time = time_ > 0 ? time_ : (a_sample + kRaysOfASample) * samples;
   const double share = std::min(kMostShare, (has_seen_ ? kSeenAgain : 1) * gain_.worthwhile_share());
-  visibility_.limit(share * time - kSurfacesOfASample * samples, price_of_item_, region().bounds());
+  visibility_.limit(share * time - kSurfacesOfASample * samples, price_, region().bounds());
 }
 
 // With many samples a pixel the shares of what is seen in it must not err by more than its colours, nor must

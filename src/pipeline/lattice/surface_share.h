@@ -38,9 +38,6 @@ class SurfaceShare {
   // Returns the share where errors have this level.
   float of(Basis basis, int error_level) const { return shares_[class_of(basis, error_level)]; }
 
-  // Returns the share of one sample alone, in the mean of all levels.
-  float of_one() const { return of_one_; }
-
   // Returns the part of a surface's squared error that one sample alone takes away, in the mean of all
   // levels.
   float gain_of_one() const { return of_one_ * of_one_; }

@@ -68,7 +68,7 @@ bool VisibilityBuffer::bound_all() {
       if (meets(now[i].box, within_)) items += now[i].parts;
     }
     const double bounding = shapes_.bound ? kRaysOfABound * static_cast<double>(first) : 0;
-    if (bounding + rays_per_item_ * static_cast<double>(items) > most_rays_) state_ = State::kUnknown;
+    if (bounding + price_.of(items) > most_rays_) state_ = State::kUnknown;
     if (state_ == State::kUnknown) {
       items_.clear(), quadrics_.clear(), facets_.clear();
       return false;

@@ -76,6 +76,19 @@ struct PrimitiveShapes {
   }
 };
 
+// What seeing is expected to take, in rays. Quadrics and facets beyond those that were seen have a price of
+// their own: what few large ones took says nothing of many.
+struct SeeingPrice {
+  double each = 0;                                             // of those seen
+  std::size_t seen = std::numeric_limits<std::size_t>::max();  // how many were
+  double further = 0;                                          // of each beyond
+
+  double of(std::size_t items) const {
+    const std::size_t known = std::min(items, seen);
+    return each * static_cast<double>(known) + further * static_cast<double>(items - known);
+  }
+};
+
 class VisibilityBuffer {
  public:
   static constexpr std::size_t kMostInPixel = 8;
@@ -101,17 +114,17 @@ class VisibilityBuffer {
   void count_shares_at(int points) { share_points_ = points; }
 
   // Counts as not known where seeing would take longer than so many rays. All primitives are bounded for it,
-  // and each quadric and facet that may be in a part of the picture takes `per_item` rays. 0 rays: nothing is
-  // even bounded.
-  void limit(double rays, double per_item, const PixelRect& within) {
+  // and each quadric and facet that may be in a part of the picture has its price. 0 rays: nothing is even
+  // bounded.
+  void limit(double rays, const SeeingPrice& price, const PixelRect& within) {
     if (rays <= 0) {
       state_ = State::kUnknown;
     } else if (most_rays_ <= 0 && has_shapes()) {
       state_ = State::kNotAsked;
     }
-    most_rays_ = rays, rays_per_item_ = per_item, within_ = within;
+    most_rays_ = rays, price_ = price, within_ = within;
   }
-  void limit(double rays) { limit(rays, 0, {0, 0, right_, bottom_}); }
+  void limit(double rays) { limit(rays, {}, {0, 0, right_, bottom_}); }
 
   // Returns how many quadrics and facets limit() counted in its part of the picture.
   std::size_t items_within() const { return items_within_; }
@@ -242,7 +255,8 @@ class VisibilityBuffer {
   PrimitiveShapes shapes_;
   State state_ = State::kNotAsked;
   bool was_known_ = false;  // when it was forgotten
-  double most_rays_ = kNoLimit, rays_per_item_ = 0;
+  double most_rays_ = kNoLimit;
+  SeeingPrice price_;
   std::size_t items_within_ = 0;
   std::size_t trials_ = 0, tiles_seen_ = 0;            // trials of items in tiles
   std::size_t quadric_blocks_ = 0, facet_blocks_ = 0;  // in which items were rasterised

@@ -79,6 +79,13 @@ TEST_CASE("gltf extensions: of glass that colours the light the colour is told t
   const ReadMesh tinted = read(
       {{"KHR_materials_transmission", glass}, {"KHR_materials_volume", {{"attenuationColor", {1, 0.5, 1}}}}});
   CHECK(tells_of_tint(tinted));
+  const auto tells_of_picture = [](const ReadMesh& mesh) {
+    return std::count(mesh.notes.begin(), mesh.notes.end(),
+                      "1 material with a picture of how much light it lets through: it does so all over");
+  };
+  CHECK(tells_of_picture(plain) == 0);
+  const json pattern = {{"transmissionFactor", 0.75}, {"transmissionTexture", {{"index", 0}}}};
+  CHECK(tells_of_picture(read({{"KHR_materials_transmission", pattern}})) == 1);
   CHECK(material_of(tinted.scene) == material_of(plain.scene));
 }
 

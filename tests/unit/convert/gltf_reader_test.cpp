@@ -380,6 +380,9 @@ TEST_CASE("gltf: every loss is told") {
   sample.triangle_of(far);
   sample.triangle_of(
       {{"pbrMetallicRoughness", {{"baseColorFactor", {1, 0.5, 0, 1}}, {"roughnessFactor", 0}}}});
+  const json pattern = {{"transmissionFactor", 1}, {"transmissionTexture", {{"index", 0}}}};
+  sample.triangle_of({{"pbrMetallicRoughness", {{"metallicFactor", 0}}},
+                      {"extensions", {{"KHR_materials_transmission", pattern}}}});
   const int colors = sample.numbers({1, 0, 0, 1, 0, 0, 0.25F, 0, 0}, "VEC3");
   const int shapes = sample.numbers({0, 0, 0, 0, 0, 0, 0, 0, 1}, "VEC3");
   json coloured;
@@ -388,9 +391,10 @@ TEST_CASE("gltf: every loss is told") {
   coloured["targets"].push_back({{"POSITION", shapes}});
   sample.node({{"mesh", sample.triangle(coloured)}, {"skin", 0}});
   sample.document["skins"].push_back({{"joints", {0}}});
-  sample.document["cameras"].push_back(
-      {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}});
-  for (int i = 0; i < 2; ++i) sample.node({{"camera", 0}, {"translation", {0, 0, 5}}});
+  sample.document["cameras"] = {
+      {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}},
+      {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 1}, {"zfar", 9}}}}};
+  for (const int camera : {1, 0, 0}) sample.node({{"camera", camera}, {"translation", {0, 0, 5}}});
   sample.document["scenes"].push_back(json::object());
   sample.document["extensions"]["KHR_lights_punctual"]["lights"] = {
       {{"type", "spot"}, {"spot", json::object()}}};
@@ -410,6 +414,7 @@ TEST_CASE("gltf: every loss is told") {
           return note == counted(1, one, many) || (note.ends_with(many) && !note.starts_with("1 "));
         }));
   }
+  CHECK(tells(read, "1 camera besides the first: left out"));  // the one without perspective counts by itself
   CHECK(tells(read, "the extension KHR_materials_clearcoat is not known: what it adds is left out"));
   CHECK(std::set<std::string>(read.notes.begin(), read.notes.end()).size() == read.notes.size());
   const Material red = read.scene.materials[material_of(read.scene, read.scene.order.back())];

@@ -1,9 +1,10 @@
-// How many shapes are rasterised in a sequence: as many as the time of the picture before allows.
+// How many shapes are rasterised in a sequence: as many as it is worth in the time of the picture before.
 #include <array>
 #include <catch2/catch.hpp>
 #include <cstdint>
 #include <optional>
 
+#include "base/hash.h"
 #include "pipeline/lattice/lattice_refiner.h"
 
 namespace pprt::visibility_limit_test {
@@ -28,11 +29,11 @@ enum class Stripes : std::uint8_t { kAlike, kEachItsOwn, kNoise };
 
 // Two surfaces in stripes. In mirrors each sample finds another colour.
 RaySample striped(const Vec2d& point, Stripes stripes) {
-  static std::uint32_t noise = 1;
-  noise = noise * 1664525 + 1013904223;
+  const auto place = [](double at) { return static_cast<std::uint64_t>(1024 * at); };
   RaySample seen;
   seen.primitive = static_cast<std::uint32_t>(point.x / 24) % 2 + 1;
-  const float brightness = stripes == Stripes::kNoise   ? static_cast<float>(noise >> 16) / 65536
+  const float brightness = stripes == Stripes::kNoise
+                               ? static_cast<float>(uniform(1, place(point.x), place(point.y)))
                            : stripes == Stripes::kAlike ? 0.5F
                            : seen.primitive == 1        ? 0.2F
                                                         : 0.8F;

@@ -191,9 +191,9 @@ TEST_CASE(
     two.project(primitive, shape);
   };
   VisibilityBuffer buffer(kSize, kSize, {count, 2});
-  buffer.limit(30, 10, {0, 0, kSize, kSize});
+  buffer.limit(30, {10}, {0, 0, kSize, kSize});
   CHECK_FALSE(buffer.is_known());
-  buffer.limit(40, 10, {0, 0, kSize, kSize});
+  buffer.limit(40, {10}, {0, 0, kSize, kSize});
   buffer.forget();
   CHECK(buffer.is_known());
   const int before = asked;
@@ -201,6 +201,38 @@ TEST_CASE(
   buffer.forget();
   CHECK_FALSE(buffer.is_known());
   CHECK(asked == before);
+}
+
+TEST_CASE("visibility buffer: shapes beyond those that were seen have a price of their own") {
+  const SeeingPrice price{.each = 20, .seen = 2, .further = 5};
+  CHECK(price.of(1) == 20);
+  CHECK(price.of(2) == 40);
+  CHECK(price.of(4) == 50);
+  CHECK(SeeingPrice{.each = 20}.of(1000) == 20000);
+}
+
+// Prices: 1.25 for a facet and .75 for a quadric, .6 for each in a tile, 7 for the tile, .2 and .55 for a
+// block of 8 x 8 points.
+TEST_CASE("visibility buffer: its work is of what it projects, tries in tiles and rasterises in blocks") {
+  const auto work_of = [](const PrimitiveShapes& shapes) {
+    VisibilityBuffer buffer(kSize, kSize, shapes);
+    buffer.forget(VisibilityBuffer::kCoarse);
+    REQUIRE(buffer.is_known());
+    buffer.tile(0, 0);  // of four; 32 x 32 pixels, 64 x 64 intervals
+    return buffer.work();
+  };
+  const auto one = [](const ImageShape& shape) {
+    return PrimitiveShapes{[shape](std::uint32_t, ImageShape& to) { to = shape; }, 1};
+  };
+  ImageShape triangles;
+  triangles.kind = ImageShape::Kind::kFacets;
+  triangles.facets = {triangle({{{1, 1}, {3.5, 1}, {1, 3.5}}}, 1)};  // in the first block
+  CHECK(work_of(one(triangles)) == Approx(1.25 + 0.6 + 7 + 0.2));
+  triangles.facets.push_back(triangle({{{5, 1}, {7.5, 1}, {5, 3.5}}}, 1));  // in the second
+  CHECK(work_of(one(triangles)) == Approx(2 * (1.25 + 0.6 + 0.2) + 7));
+  triangles.facets = {
+      triangle({{{40, 1}, {43, 1}, {40, 4}}}, 1)};  // in the next tile, projected to be bounded
+  CHECK(work_of(one(triangles)) == Approx(1.25 + 7));
 }
 
 TEST_CASE("visibility buffer: what is bounded is projected when a tile that it may meet is seen first") {
@@ -231,10 +263,10 @@ TEST_CASE("visibility buffer: what is bounded is projected when a tile that it m
   CHECK(wrong == 0);
   CHECK(asked == std::vector<std::uint32_t>{1, 3, 2});
   // The limit is about a part of the picture: four triangles of the first and the third meet it.
-  buffer.limit(30, 10, {0, 0, 20, 20});
+  buffer.limit(30, {10}, {0, 0, 20, 20});
   buffer.forget();
   CHECK_FALSE(buffer.is_known());
-  buffer.limit(40, 10, {0, 0, 20, 20});
+  buffer.limit(40, {10}, {0, 0, 20, 20});
   buffer.forget();
   CHECK(buffer.is_known());
   // What may be anywhere is projected at once, and whether it has a shape is known then.
