@@ -285,7 +285,7 @@ void LatticeRefiner::start(const Pass& pass) {
 // that begins without an estimate of its samples gets all: a still without their number, a first frame.
 void LatticeRefiner::choose_fineness() {
   constexpr double kVeryFew = 0.07, kFew = 0.4;  // samples a pixel
-  // Of the time. What was seen is seen on for a while: a change flickers.
+  // Shares of the time, and their factor where the picture before was seen, too: a change flickers.
   constexpr double kMostShare = 0.9, kSeenAgain = 1.1;
   if (expected_ == 0) {
     visibility_.limit(VisibilityBuffer::kNoLimit, price_, region().bounds());

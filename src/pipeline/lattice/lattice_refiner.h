@@ -185,9 +185,9 @@ class LatticeRefiner {
   std::size_t grid_levels_ = 0;  // taken whole, the base not counted
   bool has_base_ = false, has_grid_ = false;
   bool has_fineness_ = false;
-  double time_ = 0;        // that the picture before took, in rays; 0: there was none
-  bool has_seen_ = false;  // the picture before
-  SeeingPrice price_;
+  double time_ = 0;                                // that the picture before took, in rays; 0: there was none
+  bool has_seen_ = false;                          // the picture before
+  SeeingPrice price_;                              // by the last picture that was seen
   bool has_looked_ = false;                        // for unsampled surfaces
   std::vector<UnsampledSurface> surfaces_wanted_;  // of the tile, in this pass
   bool is_region_new_ = false;                     // its base may be missing

@@ -38,8 +38,9 @@ class SeeingGain {
   // the RMSE is the same: it falls about as their root. A little is left even where predictions are
   // perfect: they are not where surfaces meet within a pixel.
   double worthwhile_share() const {
-    constexpr double kFall = 0.5, kLeastLeft = 0.2;
-    return 1 - std::pow(kLeastLeft + (1 - kLeastLeft) * error_left(), 1 / kFall);
+    constexpr double kLeastLeft = 0.2;
+    const double left = kLeastLeft + (1 - kLeastLeft) * error_left();
+    return 1 - left * left;
   }
 
  private:

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "base/hash.h"
 #include "pipeline/lattice/lattice_refiner.h"
@@ -22,7 +23,10 @@ PrimitiveShapes walls(std::uint32_t count, std::uint32_t& asked) {
     const LinearForm everywhere{1, 0, 0}, nearness{1.0 / primitive, 0, 0};
     shape.facets = {{{everywhere, everywhere, everywhere}, nearness, {0, 0, kSide, kSide}}};
   };
-  return {project, count};
+  const auto bound = [](std::uint32_t, std::span<ShapeBounds> bounds) {
+    for (ShapeBounds& bounded : bounds) bounded = {{0, 0, kSide, kSide}, 1};
+  };
+  return {project, count, {}, bound};
 }
 
 enum class Stripes : std::uint8_t { kAlike, kEachItsOwn, kNoise };
@@ -65,9 +69,29 @@ std::uint32_t asked_in_second(std::uint32_t count, Stripes stripes = Stripes::kA
 }  // namespace
 
 TEST_CASE("visibility limit: what was seen counts as time that samples could have had") {
-  constexpr std::uint32_t kAffordable = 300, kTooMany = 4000;
+  constexpr std::uint32_t kAffordable = 100, kTooMany = 250;
   CHECK(asked_in_second(kAffordable) == kAffordable);
   CHECK(asked_in_second(kTooMany) < kTooMany);
+}
+
+TEST_CASE("visibility limit: what a few large shapes took is not the price of many that come into view") {
+  constexpr std::uint32_t kFew = 5, kMany = 400;
+  std::uint32_t asked = 0, in_view = kFew;
+  PrimitiveShapes shapes = walls(kMany, asked);
+  shapes.bound = [&in_view](std::uint32_t first, std::span<ShapeBounds> bounds) {
+    constexpr float kOut = 2 * kSide;
+    for (std::size_t i = 0; i < bounds.size(); ++i)
+      bounds[i] = first + i < in_view ? ShapeBounds{{0, 0, kSide, kSide}, 1}
+                                      : ShapeBounds{{kOut, kOut, kOut, kOut}, 1};
+  };
+  LatticeRefiner sampler(Region::whole({kSide, kSide, 32}), shapes);
+  sample(sampler, Stripes::kEachItsOwn);
+  sampler.camera_changed();
+  sampler.restart();
+  in_view = kMany;
+  asked = 0;
+  sample(sampler, Stripes::kEachItsOwn);
+  CHECK(asked == kMany);
 }
 
 TEST_CASE("visibility limit: shapes that were too many to be seen took no time") {
@@ -113,6 +137,34 @@ TEST_CASE(
   CHECK(asked_by(Stripes::kNoise, {}) == 0);
   CHECK(asked_by(Stripes::kEachItsOwn, {}) == 2);
   CHECK(asked_by(Stripes::kNoise, lights) == 2);  // what they differ by is their lights
+}
+
+TEST_CASE(
+    "visibility limit: what seeing would bring is learned anew when pictures change, and at once when "
+    "cleared") {
+  constexpr std::uint32_t kSome = 300;
+  std::uint32_t asked = 0;
+  LatticeRefiner sampler(Region::whole({kSide, kSide, 32}), walls(kSome, asked));
+  const auto asked_in_next = [&](Stripes stripes) {
+    sampler.camera_changed();
+    sampler.restart();
+    asked = 0;
+    sample(sampler, stripes);
+    return asked;
+  };
+  sample(sampler, Stripes::kNoise);
+  REQUIRE(asked == kSome);
+  CHECK(asked_in_next(Stripes::kNoise) == 0);
+  CHECK(asked_in_next(Stripes::kEachItsOwn) == 0);
+  for (int picture = 0; picture < 5; ++picture) asked_in_next(Stripes::kEachItsOwn);
+  CHECK(asked_in_next(Stripes::kEachItsOwn) == kSome);
+
+  for (int picture = 0; picture < 8; ++picture) asked_in_next(Stripes::kNoise);
+  REQUIRE(asked == 0);
+  sampler.clear();
+  sampler.expect(kSamples);
+  sample(sampler, Stripes::kEachItsOwn);
+  CHECK(asked == kSome);
 }
 
 TEST_CASE("visibility limit: what was not to be seen in one picture may be seen in the next") {
