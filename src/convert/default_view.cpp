@@ -20,32 +20,63 @@ double bounding_radius(const SceneDescription& scene) {
   return radius > 0 ? radius : 1;
 }
 
-// Calls `use` for the corners of each object's box.
-template <typename Use>
-void for_each_corner(const SceneDescription& scene, const Use& use) {
-  for (const PrimitiveRef ref : scene.order) {
-    const Box3d box = bounds(scene, ref);
-    for (unsigned corner = 0; corner < 8; ++corner)
-      use(Vec3d((corner & 1) != 0 ? box.max.x : box.min.x, (corner & 2) != 0 ? box.max.y : box.min.y,
-                (corner & 4) != 0 ? box.max.z : box.min.z));
+// Returns how far an object reaches along a direction of any length: the largest dot product.
+double reach(const SceneDescription& scene, PrimitiveRef ref, const Vec3d& along) {
+  double most = -std::numeric_limits<double>::infinity();
+  const auto take = [&](const Vec3d& p) { most = std::max(most, p.dot(along)); };
+  const auto take_disc = [&](const Vec3d& center, double radius, const Vec3d& unit_axis) {
+    const double off_axis = std::max(along.length2() - std::pow(along.dot(unit_axis), 2), 0.0);
+    most = std::max(most, center.dot(along) + radius * std::sqrt(off_axis));
+  };
+  switch (ref.kind) {
+    case PrimitiveKind::kSphere: {
+      const Sphere& s = scene.spheres[ref.index];
+      take_disc(s.center, std::abs(s.radius), Vec3d(0, 0, 0));
+      break;
+    }
+    case PrimitiveKind::kCone: {
+      const Cone& c = scene.cones[ref.index];
+      const Vec3d axis = (c.apex - c.base).normalized();
+      take_disc(c.base, c.base_radius, axis);
+      take_disc(c.apex, c.apex_radius, axis);
+      break;
+    }
+    case PrimitiveKind::kPolygon:
+      for (const Vec3d& v : scene.vertices(scene.polygons[ref.index])) take(v);
+      break;
+    case PrimitiveKind::kPatch:
+      for (const PatchVertex& v : scene.vertices(scene.patches[ref.index])) take(v.position);
+      break;
+    case PrimitiveKind::kTriangle: {
+      const Triangle& t = scene.triangles[ref.index];
+      for (const std::uint32_t i : t.corners.position) take(scene.meshes[t.mesh].positions[i]);
+      break;
+    }
+    case PrimitiveKind::kMovingTriangle:
+      for (const MovingTriangle::Key& key : scene.moving_triangles[ref.index].keys) {
+        for (const Vec3d& p : key.positions) take(p);
+      }
+      break;
   }
+  return most;
 }
 
 // Moves a camera, whose direction stays, so that what it sees just fits between the margins. Tangents of half
 // the picture's angle are `slope`.
 Vec3d fitted_place(const SceneDescription& scene, const ViewFrame& frame, double slope) {
   const Vec3d middle = bounds(scene).center();
-  constexpr double kNone = -std::numeric_limits<double>::infinity();
-  // How far corners reach beyond planes of the slope through the middle: to the right, left, up and down.
-  std::array<double, 4> reach{kNone, kNone, kNone, kNone};
-  for_each_corner(scene, [&](const Vec3d& corner) {
-    const Vec3d p = corner - middle;
-    const double x = p.dot(frame.right), y = p.dot(frame.up), recede = slope * p.dot(frame.forward);
-    reach = {std::max(reach[0], x - recede), std::max(reach[1], -x - recede), std::max(reach[2], y - recede),
-             std::max(reach[3], -y - recede)};
-  });
-  const double distance = std::max({(reach[0] + reach[1]), (reach[2] + reach[3]), 0.0}) / (2 * slope);
-  return middle + frame.right * ((reach[0] - reach[1]) / 2) + frame.up * ((reach[2] - reach[3]) / 2) -
+  // How far objects reach beyond planes of the slope through the middle: to the right, left, up and down.
+  const Vec3d recede = frame.forward * slope;
+  const std::array<Vec3d, 4> sides{frame.right - recede, -frame.right - recede, frame.up - recede,
+                                   -frame.up - recede};
+  std::array<double, 4> most{};
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    most[i] = -std::numeric_limits<double>::infinity();
+    for (const PrimitiveRef ref : scene.order) most[i] = std::max(most[i], reach(scene, ref, sides[i]));
+    most[i] -= middle.dot(sides[i]);
+  }
+  const double distance = std::max({most[0] + most[1], most[2] + most[3], 0.0}) / (2 * slope);
+  return middle + frame.right * ((most[0] - most[1]) / 2) + frame.up * ((most[2] - most[3]) / 2) -
          frame.forward * distance;
 }
 

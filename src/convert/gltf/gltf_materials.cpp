@@ -10,12 +10,17 @@
 #include "convert/model/display_values.h"
 #include "image/atomic_file.h"
 #include "image/image_io.h"
+#include "scene/description/shading_rules.h"
 
 namespace pprt {
 namespace {
 
+constexpr const char* kTransmission = "KHR_materials_transmission";
 constexpr double kUsualIndex = 1.5;     // of refraction, by the specification
+constexpr double kMirrored = 0.04;      // of the light, by what is no metal, by the specification
 constexpr double kSmoothest = 0.05;     // roughness: a highlight of some degrees
+constexpr double kClear = 0.1;          // roughness: glass up to it looks clear
+constexpr double kMatte = 0.56;         // roughness: a highlight on what is no metal is a tenth of the light
 constexpr double kLargestPicture = 64;  // tiles of a picture that continues beyond its border
 
 double share(double v) {
@@ -50,6 +55,13 @@ std::vector<double> list_in(const tinygltf::Value& from, const char* member) {
   return values;
 }
 
+// Returns the index of refraction within what lets light through. Glass bends light where it encloses a
+// volume; without a thickness it is a thin wall (KHR_materials_volume).
+double index_within(const tinygltf::Material& from, bool is_glass) {
+  const bool is_thick = number_in(from.extensions, "KHR_materials_volume", "thicknessFactor", 0) > 0;
+  return is_glass && is_thick ? number_in(from.extensions, "KHR_materials_ior", "ior", kUsualIndex) : 1;
+}
+
 GltfPicture picture_of(int texture, int coordinates, const tinygltf::ExtensionMap& extensions) {
   constexpr const char* kTransform = "KHR_texture_transform";
   GltfPicture picture{.texture = texture, .coordinates = coordinates};
@@ -70,6 +82,9 @@ void take_glossiness(const tinygltf::Value& from, tinygltf::PbrMetallicRoughness
   const std::vector<double> factor = list_in(from, "diffuseFactor");
   if (factor.size() == 4) to.baseColorFactor = factor;
   to.metallicFactor = 0;
+  const double glossiness =
+      from.Has("glossinessFactor") ? from.Get("glossinessFactor").GetNumberAsDouble() : 1;
+  to.roughnessFactor = 1 - share(glossiness);
   if (!from.Has("diffuseTexture")) return;
   const tinygltf::Value& texture = from.Get("diffuseTexture");
   if (texture.Has("index") && texture.Get("index").IsInt())
@@ -115,7 +130,9 @@ TransparentImage continued(const TransparentImage& whole, const tinygltf::Sample
 
 const GltfSurface& GltfMaterials::surface(int material) {
   if (material < 0) {
-    if (!default_) default_ = read(tinygltf::Material());
+    if (default_) return *default_;
+    default_ = read(tinygltf::Material());
+    default_->is_double_sided = true;  // nobody has said otherwise
     return *default_;
   }
   element(model_.materials, material, "a material");
@@ -162,28 +179,42 @@ GltfSurface GltfMaterials::read(const tinygltf::Material& from) {
     if (seen < 1) losses_.add(ModelLoss::kAlphaPicture);
     alpha *= seen;
   }
-  const double let_through =
-      share(number_in(from.extensions, "KHR_materials_transmission", "transmissionFactor", 0)) * (1 - metal);
-  const auto glass = from.extensions.find("KHR_materials_transmission");
-  if (let_through > 0 && glass->second.Has("transmissionTexture")) losses_.add(ModelLoss::kGlassPicture);
+  surface.is_double_sided = from.doubleSided;
+  const double let_through = read_glass(from, metal, rough);
   Material& m = surface.material;
   m.specular = metal * (1 - rough);
   m.transmittance = is_blended ? std::max(1 - alpha, let_through) : let_through;
-  const bool is_glass = let_through > 0 || from.extensions.contains("KHR_materials_ior");
-  if (m.transmittance > 0)
-    m.refractive_index = is_glass ? number_in(from.extensions, "KHR_materials_ior", "ior", kUsualIndex) : 1;
+  m.refractive_index = m.transmittance > 0 ? index_within(from, let_through > 0) : 1;
   if (m.specular > 0 && rough > 0)
     m.shine = 2 / std::pow(std::max(rough, kSmoothest), 4) - 2;  // Blinn's exponent of that roughness
+  const bool is_unlit = from.extensions.contains("KHR_materials_unlit");
+  if (metal < kMirrored && rough < kMatte && let_through == 0 && !is_unlit)
+    losses_.add(ModelLoss::kHighlight);
   const auto volume = from.extensions.find("KHR_materials_volume");
   const bool is_tinted = volume != from.extensions.end() && volume->second.Has("attenuationColor");
   if (is_tinted || ((m.specular > 0 || let_through > 0) && !is_grey(surface.base)))
     losses_.add(ModelLoss::kTint);
   m.color = display_color(surface.base) * ((1 - m.specular) * (1 - m.transmittance));
 
+  if (m.refractive_index != 1)  // what is reflected totally within it is seen
+    m.terms = {.ambient = m.color * kAmbientReflectance,
+               .diffuse = m.color,
+               .specular = {m.specular, m.specular, m.specular}};
+
   if (from.normalTexture.index >= 0) losses_.add(ModelLoss::kNormalMap);
   if (from.occlusionTexture.index >= 0) losses_.add(ModelLoss::kOcclusion);
   set_glow(from, surface);
   return surface;
+}
+
+// Returns which share of the light is let through.
+double GltfMaterials::read_glass(const tinygltf::Material& from, double metal, double rough) {
+  const double let_through =
+      share(number_in(from.extensions, kTransmission, "transmissionFactor", 0)) * (1 - metal);
+  if (let_through == 0) return 0;
+  if (from.extensions.at(kTransmission).Has("transmissionTexture")) losses_.add(ModelLoss::kGlassPicture);
+  if (rough > kClear) losses_.add(ModelLoss::kFrosted);
+  return let_through;
 }
 
 // What is unlit shows by ambient light: the scene's is 1, and each material says what it reflects of it.

@@ -39,7 +39,8 @@ struct GltfSurface {
   int emission_texture = -1;            // placed as `picture`
   bool is_coloured = false;             // by `picture`
   std::optional<double> cutoff = {};    // of a picture's alpha, below which there is nothing
-  bool is_hidden = false;               // its alpha lies below the cutoff everywhere
+  bool is_double_sided = false;
+  bool is_hidden = false;  // its alpha lies below the cutoff everywhere
 };
 
 // Reads the materials and pictures of a file, each once.
@@ -75,6 +76,7 @@ class GltfMaterials {
 
  private:
   GltfSurface read(const tinygltf::Material& from);
+  double read_glass(const tinygltf::Material& from, double metal, double rough);
   void set_glow(const tinygltf::Material& from, GltfSurface& surface);
   std::array<double, 4> mean(int texture);
   std::optional<TextureIndex> tiled(int texture, const Vec2d& low, const Vec2d& tiles);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "convert/model/closed_mesh.h"
 #include "convert/model/display_values.h"
 #include "convert/model/vertex_colours.h"
 
@@ -119,6 +120,7 @@ void add_gltf_primitive(const tinygltf::Model& model, const tinygltf::Primitive&
       losses.add(ModelLoss::kVertexColours);
     }
   }
+  if (!surface.is_double_sided && !is_closed(mesh)) losses.add(ModelLoss::kOneSide);
   builder.add(mesh, material, space);
 }
 

@@ -96,7 +96,8 @@ std::vector<Rgb> vertex_colors(const aiMesh& from) {
 }
 
 std::unique_ptr<aiMaterial> to_assimp(const Material& m, const std::string& name_in_file,
-                                      bool physically_based, const MaterialPictures& pictures) {
+                                      bool physically_based, const MaterialPictures& pictures,
+                                      double thickness) {
   auto material = std::make_unique<aiMaterial>();
   const aiString name(name_in_file);
   const aiColor3D diffuse = to_color(m.terms ? m.terms->diffuse : m.color * m.diffuse);
@@ -123,11 +124,15 @@ std::unique_ptr<aiMaterial> to_assimp(const Material& m, const std::string& name
     const aiColor4D base(light_share(diffuse.r), light_share(diffuse.g), light_share(diffuse.b), 1);
     const auto glass = static_cast<float>(effective_refractive_index(m));
     const auto through = static_cast<float>(std::min(m.transmittance / std::max(1 - m.specular, 1e-9), 1.0));
+    const auto thick = static_cast<float>(thickness);
     if (m.transmittance > 0) {
       material->AddProperty(&glass, 1, AI_MATKEY_REFRACTI);
       material->AddProperty(&through, 1, AI_MATKEY_TRANSMISSION_FACTOR);
+      if (glass != 1) material->AddProperty(&thick, 1, AI_MATKEY_VOLUME_THICKNESS_FACTOR);
     }
-    const float roughness = m.specular > 0 ? 0 : 1;
+    const int both_sides = 1;
+    material->AddProperty(&both_sides, 1, AI_MATKEY_TWOSIDED);
+    const float roughness = m.specular > 0 || m.transmittance > 0 ? 0 : 1;
     material->AddProperty(&base, 1, AI_MATKEY_BASE_COLOR);
     material->AddProperty(&mirror, 1, AI_MATKEY_METALLIC_FACTOR);
     material->AddProperty(&roughness, 1, AI_MATKEY_ROUGHNESS_FACTOR);

@@ -38,8 +38,10 @@ struct MaterialPictures {
 };
 
 // Returns a material for a file. Phong's model is that of NFF without the mirror. Formats with only
-// physically based materials get smooth metal for it. They hold an emission of at most 1.
+// physically based materials get smooth metal for it. They hold an emission of at most 1. `thickness`: of
+// what lets light through, in units of its mesh; without one it would be a thin wall there.
 std::unique_ptr<aiMaterial> to_assimp(const Material& material, const std::string& name,
-                                      bool physically_based, const MaterialPictures& pictures);
+                                      bool physically_based, const MaterialPictures& pictures,
+                                      double thickness);
 
 }  // namespace pprt

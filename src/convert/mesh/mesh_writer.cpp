@@ -88,6 +88,15 @@ std::unique_ptr<aiMesh> to_mesh(const MaterialMesh& from, unsigned material) {
   return mesh;
 }
 
+// Returns the shortest side of a mesh's box; of what is flat, 1.
+double thickness(const MaterialMesh& mesh) {
+  Box3d box;
+  for (const PatchVertex& v : mesh.vertices) box.extendBy(v.position);
+  const Vec3d size = box.size();
+  const double shortest = std::min({size.x, size.y, size.z});
+  return shortest > 0 ? shortest : 1;
+}
+
 // Fills Assimp's scene, which takes what it is given.
 class AssimpScene {
  public:
@@ -192,19 +201,20 @@ class AssimpScene {
   void add_meshes(const MaterialMeshes& meshes) {
     for (const auto& [place, mesh] : meshes) {
       nodes_[place.first].meshes.push_back(static_cast<unsigned>(meshes_.size()));
-      meshes_.push_back(to_mesh(mesh, material(place.second)).release());
+      meshes_.push_back(to_mesh(mesh, material(place.second, mesh)).release());
     }
   }
 
   // Keeps only materials of some mesh: most formats drop the others.
-  unsigned material(MaterialIndex index) {
+  unsigned material(MaterialIndex index, const MaterialMesh& mesh) {
     std::optional<unsigned>& to = materials_[index];
     if (to) return *to;
     to = static_cast<unsigned>(used_materials_.size());
     const Material& from = scene_.materials[index];
     const MaterialPictures pictures{path_of(from.texture), path_of(from.emission_texture)};
     used_materials_.push_back(
-        to_assimp(from, "material_" + std::to_string(index + 1), format_.is_gltf, pictures).release());
+        to_assimp(from, "material_" + std::to_string(index + 1), format_.is_gltf, pictures, thickness(mesh))
+            .release());
     return *to;
   }
 

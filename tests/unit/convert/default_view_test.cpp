@@ -36,40 +36,78 @@ TEST_CASE("a fitted view shows every corner of the scene, upright") {
   }
 }
 
-// Slopes of the outermost corners, in half pictures: right, left, up, down.
-std::array<double, 4> reach(const SceneDescription& scene, const View& view) {
-  const ViewFrame frame = view_frame(view, scene.name);
+// Slopes of the outermost points, in half pictures: right, left, up, down.
+std::array<double, 4> reach(const std::vector<Vec3d>& points, const View& view) {
+  const ViewFrame frame = view_frame(view, "");
   const double half = frame.slope_per_pixel * view.width / 2;
   std::array<double, 4> most{-9, -9, -9, -9};
-  for (const PrimitiveRef ref : scene.order) {
-    const Box3d box = bounds(scene, ref);
-    for (int corner = 0; corner < 8; ++corner) {
-      const Vec3d p(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
-                    corner & 4 ? box.max.z : box.min.z);
-      const Vec3d seen = p - view.from;
-      const double x = seen.dot(frame.right) / seen.dot(frame.forward) / half;
-      const double y = seen.dot(frame.up) / seen.dot(frame.forward) / half;
-      most = {std::max(most[0], x), std::max(most[1], -x), std::max(most[2], y), std::max(most[3], -y)};
-    }
+  for (const Vec3d& p : points) {
+    const Vec3d seen = p - view.from;
+    const double x = seen.dot(frame.right) / seen.dot(frame.forward) / half;
+    const double y = seen.dot(frame.up) / seen.dot(frame.forward) / half;
+    most = {std::max(most[0], x), std::max(most[1], -x), std::max(most[2], y), std::max(most[3], -y)};
   }
   return most;
+}
+
+// Points of a disc's edge.
+void add_disc(std::vector<Vec3d>& points, const Vec3d& center, const Vec3d& across, const Vec3d& other) {
+  for (int i = 0; i < 360; ++i)
+    points.push_back(center + across * std::cos(i * 0.0174533) + other * std::sin(i * 0.0174533));
+}
+
+void check_margins(const SceneDescription& scene, const std::vector<Vec3d>& points) {
+  const std::array<double, 4> most = reach(points, fitted_view(scene, UpAxis::kY));
+  CAPTURE(most[0], most[1], most[2], most[3]);
+  const double across = std::max(most[0], most[1]), upright = std::max(most[2], most[3]);
+  CHECK(std::max(across, upright) == Approx(0.88).margin(0.01));  // 6 % of the picture on each side
+  // Both sides that decide are alike.
+  CHECK((across > upright ? most[0] - most[1] : most[2] - most[3]) == Approx(0).margin(2e-3));
 }
 
 TEST_CASE("a fitted view has even margins, whatever is seen and however large") {
   for (const Vec3d& size :
        {Vec3d(1, 1, 1), Vec3d(0.01, 0.01, 0.01), Vec3d(1000, 1, 1), Vec3d(1, 9, 1), Vec3d(2, 0, 5)}) {
-    SceneDescription scene;
-    scene.materials = {{}};
+    CAPTURE(size.x, size.y, size.z);
     const Vec3d at = size * 3.0;
-    const Vec3d corners[] = {at, at + Vec3d(size.x, 0, 0), at + size, at + Vec3d(0, size.y, size.z)};
-    add_polygon(scene, corners, 0);
-    const std::array<double, 4> most = reach(scene, fitted_view(scene, UpAxis::kY));
-    CAPTURE(size.x, size.y, size.z, most[0], most[1], most[2], most[3]);
-    const double across = std::max(most[0], most[1]), upright = std::max(most[2], most[3]);
-    CHECK(std::max(across, upright) == Approx(0.88).margin(0.01));  // 6 % of the picture on each side
-    // Both sides that decide are alike.
-    CHECK((across > upright ? most[0] - most[1] : most[2] - most[3]) == Approx(0).margin(1e-6));
+    const std::vector<Vec3d> corners{at, at + Vec3d(size.x, 0, 0), at + size, at + Vec3d(0, size.y, size.z)};
+    SceneDescription polygon, patch, mesh, moving;
+    for (SceneDescription* scene : {&polygon, &patch, &mesh, &moving}) scene->materials = {{}};
+    add_polygon(polygon, corners, 0);
+    check_margins(polygon, corners);
+    std::vector<PatchVertex> vertices;
+    for (const Vec3d& p : corners) vertices.push_back({p, {0, 0, 1}});
+    add_patch(patch, vertices, 0);
+    check_margins(patch, corners);
+    const std::vector<Vec3d> three(corners.begin(), corners.begin() + 3);
+    TriangleMesh triangles;
+    triangles.positions = three;
+    add_mesh(mesh, triangles, std::vector<TriangleCorners>{{.position = {0, 1, 2}}});
+    check_margins(mesh, three);
+    MovingTriangle triangle;
+    triangle.keys = {{0, {corners[0], corners[1], corners[2]}, {}},
+                     {1, {corners[1], corners[2], corners[3]}, {}}};
+    add_moving_triangle(moving, triangle);
+    check_margins(moving, corners);
   }
+}
+
+TEST_CASE("a fitted view has even margins about what is round") {
+  SceneDescription ball, cone;
+  ball.materials = cone.materials = {{}};
+  add_sphere(ball, {{3, 1, 2}, 2, 0, {}});
+  std::vector<Vec3d> points;
+  for (int i = -80; i <= 80; ++i) {
+    const double height = 2 * std::sin(i * 0.0196), radius = 2 * std::cos(i * 0.0196);
+    add_disc(points, {3, 1 + height, 2}, {radius, 0, 0}, {0, 0, radius});
+  }
+  check_margins(ball, points);
+  points.clear();
+  const Vec3d across = Vec3d(2, -1, 0).normalized(), other = across.cross(Vec3d(1, 2, 0).normalized());
+  add_cone(cone, {{0, 0, 0}, 3, {4, 8, 0}, 0.5, 0, {}});
+  add_disc(points, {0, 0, 0}, across * 3.0, other * 3.0);
+  add_disc(points, {4, 8, 0}, across * 0.5, other * 0.5);
+  check_margins(cone, points);
 }
 
 TEST_CASE("default lights are left of the eye and above it, and to the right") {

@@ -7,6 +7,7 @@
 #include "convert/gltf/gltf_holes.h"
 #include "convert/model/display_values.h"
 #include "image/image_io.h"
+#include "scene/description/shading_rules.h"
 #include "unit/convert/gltf_sample.h"
 
 namespace pprt::gltf_extensions_test {
@@ -72,12 +73,13 @@ TEST_CASE("gltf extensions: of glass that colours the light the colour is told t
   };
   const json glass = {{"transmissionFactor", 0.75}};
   const ReadMesh plain =
-      read({{"KHR_materials_transmission", glass}, {"KHR_materials_volume", json::object()}});
+      read({{"KHR_materials_transmission", glass}, {"KHR_materials_volume", {{"thicknessFactor", 0.1}}}});
   CHECK_FALSE(tells_of_tint(plain));
   CHECK(material_of(plain.scene).transmittance == 0.75);
   CHECK(material_of(plain.scene).refractive_index == 1.5);
-  const ReadMesh tinted = read(
-      {{"KHR_materials_transmission", glass}, {"KHR_materials_volume", {{"attenuationColor", {1, 0.5, 1}}}}});
+  const ReadMesh tinted =
+      read({{"KHR_materials_transmission", glass},
+            {"KHR_materials_volume", {{"thicknessFactor", 0.1}, {"attenuationColor", {1, 0.5, 1}}}}});
   CHECK(tells_of_tint(tinted));
   const auto tells_of_picture = [](const ReadMesh& mesh) {
     return std::count(mesh.notes.begin(), mesh.notes.end(),
@@ -87,6 +89,60 @@ TEST_CASE("gltf extensions: of glass that colours the light the colour is told t
   const json pattern = {{"transmissionFactor", 0.75}, {"transmissionTexture", {{"index", 0}}}};
   CHECK(tells_of_picture(read({{"KHR_materials_transmission", pattern}})) == 1);
   CHECK(material_of(tinted.scene) == material_of(plain.scene));
+}
+
+TEST_CASE("gltf extensions: glass bends light where it has a thickness, and is a thin wall without") {
+  const auto read = [](const json& volume, const json& more = json::object()) {
+    json material = {{"pbrMetallicRoughness", {{"metallicFactor", 0}}}, {"extensions", more}};
+    material["extensions"]["KHR_materials_ior"] = {{"ior", 1.25}};
+    if (!volume.is_null()) material["extensions"]["KHR_materials_volume"] = volume;
+    GltfSample sample;
+    sample.triangle_of(material);
+    return material_of(sample.read().scene);
+  };
+  const json glass = {{"KHR_materials_transmission", {{"transmissionFactor", 0.5}}}};
+  const Material thick = read({{"thicknessFactor", 2}}, glass);
+  CHECK((thick.transmittance == 0.5 && thick.refractive_index == 1.25));
+  for (const json& volume : {json(), json::object(), json{{"thicknessFactor", 0}}}) {
+    const Material thin = read(volume, glass);
+    CHECK((thin.transmittance == 0.5 && thin.refractive_index == 1 && !thin.terms));
+  }
+  CHECK(read({{"thicknessFactor", 2}}).refractive_index == 1);  // lets nothing through
+  // What is reflected totally within is seen; all else is as without terms.
+  REQUIRE(thick.terms);
+  CHECK(thick.terms->ambient == thick.color * kAmbientReflectance);
+  CHECK(thick.terms->diffuse == thick.color);
+  CHECK(thick.terms->specular == Rgb(0, 0, 0));
+}
+
+TEST_CASE("gltf extensions: rough glass, highlights on no metal and open one-sided meshes are told") {
+  const auto tells = [](json pbr, const json& extensions, const char* line, bool is_double_sided = false) {
+    GltfSample sample;
+    sample.triangle_of({{"pbrMetallicRoughness", std::move(pbr)},
+                        {"doubleSided", is_double_sided},
+                        {"extensions", extensions}});
+    const std::vector<std::string> notes = sample.read().notes;
+    return std::count(notes.begin(), notes.end(), line) == 1;
+  };
+  const json glass = {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}, none = json::object();
+  const char* rough = "1 material of rough glass: it is clear";
+  CHECK(tells({{"metallicFactor", 0}, {"roughnessFactor", 0.2}}, glass, rough));
+  CHECK(tells({{"metallicFactor", 0}}, glass, rough));  // as rough as can be
+  CHECK_FALSE(tells({{"metallicFactor", 0}, {"roughnessFactor", 0}}, glass, rough));
+  CHECK_FALSE(tells({{"metallicFactor", 0}, {"roughnessFactor", 0.2}}, none, rough));
+  const char* highlight = "1 smooth material that is no metal: its highlight is not shown";
+  CHECK(tells({{"metallicFactor", 0}, {"roughnessFactor", 0.2}}, none, highlight));
+  CHECK_FALSE(tells({{"metallicFactor", 0}, {"roughnessFactor", 0.2}}, glass, highlight));
+  CHECK_FALSE(tells({{"metallicFactor", 0}, {"roughnessFactor", 0.6}}, none, highlight));
+  CHECK_FALSE(tells({{"metallicFactor", 0.1}, {"roughnessFactor", 0.2}}, none, highlight));
+  CHECK_FALSE(tells({{"metallicFactor", 0}, {"roughnessFactor", 0.2}},
+                    {{"KHR_materials_unlit", json::object()}}, highlight));
+  // The older materials are as rough as they do not gloss, which they do without a word.
+  CHECK(tells(none, {{kGlossiness, json::object()}}, highlight));
+  CHECK_FALSE(tells(none, {{kGlossiness, {{"glossinessFactor", 0.25}}}}, highlight));
+  const char* one_side = "1 open mesh of a one-sided material: it is seen from behind, too";
+  CHECK(tells(none, none, one_side));
+  CHECK_FALSE(tells(none, none, one_side, true));
 }
 
 TEST_CASE("gltf extensions: a lamp in the scene's middle counts as one a tenth of its size away") {

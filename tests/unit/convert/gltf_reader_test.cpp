@@ -225,6 +225,7 @@ TEST_CASE("gltf: glass has its index, and metal mirrors as far as it is smooth")
   GltfSample glass;
   glass.triangle_of(colored({1, 1, 1, 1}, {{"extensions",
                                             {{"KHR_materials_transmission", {{"transmissionFactor", 0.75}}},
+                                             {"KHR_materials_volume", {{"thicknessFactor", 1}}},
                                              {"KHR_materials_ior", {{"ior", 1.3}}}}}}));
   const Material m = material_of(glass.read());
   CHECK((m.transmittance == 0.75 && m.refractive_index == 1.3 && m.color.x == 0.25));
@@ -383,6 +384,8 @@ TEST_CASE("gltf: every loss is told") {
   const json pattern = {{"transmissionFactor", 1}, {"transmissionTexture", {{"index", 0}}}};
   sample.triangle_of({{"pbrMetallicRoughness", {{"metallicFactor", 0}}},
                       {"extensions", {{"KHR_materials_transmission", pattern}}}});
+  sample.triangle_of(
+      {{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 0}}}, {"doubleSided", false}});
   const int colors = sample.numbers({1, 0, 0, 1, 0, 0, 0.25F, 0, 0}, "VEC3");
   const int shapes = sample.numbers({0, 0, 0, 0, 0, 0, 0, 0, 1}, "VEC3");
   json coloured;

@@ -102,6 +102,9 @@ class GltfSample {
   std::string write() const {
     nlohmann::json whole = document;
     whole["buffers"][0]["byteLength"] = bytes_.size();
+    for (nlohmann::json& material : whole["materials"]) {  // what a triangle alone is seen with
+      if (!material.contains("doubleSided")) material["doubleSided"] = true;
+    }
     const std::filesystem::path path = folder() / "sample.gltf";
     std::ofstream(path) << whole;
     std::ofstream(folder() / "numbers.bin", std::ios::binary) << bytes_;

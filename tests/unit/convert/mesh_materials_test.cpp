@@ -12,7 +12,7 @@ namespace pprt::mesh_materials_test {
 namespace {
 
 Material there_and_back(const Material& material, bool physically_based) {
-  return to_material(*to_assimp(material, "m", physically_based, {}));
+  return to_material(*to_assimp(material, "m", physically_based, {}, 1));
 }
 
 aiMaterial named(const char* name) {
@@ -55,12 +55,12 @@ TEST_CASE("mesh materials: Phong's model keeps each term, the mirror as its high
 TEST_CASE("mesh materials: physically based, what is mirrored or let through is not reflected to all sides") {
   const auto base_of = [](const Material& m) {
     aiColor4D base;
-    REQUIRE(to_assimp(m, "m", true, {})->Get(AI_MATKEY_BASE_COLOR, base) == aiReturn_SUCCESS);
+    REQUIRE(to_assimp(m, "m", true, {}, 1)->Get(AI_MATKEY_BASE_COLOR, base) == aiReturn_SUCCESS);
     return Rgb(base.r, base.g, base.b);
   };
   const auto factor_of = [](const Material& m, const char* key, unsigned type, unsigned index) {
     float value = -1;
-    to_assimp(m, "m", true, {})->Get(key, type, index, value);
+    to_assimp(m, "m", true, {}, 1)->Get(key, type, index, value);
     return static_cast<double>(value);
   };
   Material matte{.color = {0.2, 0.4, 0.8}, .diffuse = 0.5};
@@ -81,12 +81,20 @@ TEST_CASE("mesh materials: physically based, what is mirrored or let through is 
   CHECK(factor_of(glass, AI_MATKEY_TRANSMISSION_FACTOR) == 0.5);
   CHECK(factor_of(glass, AI_MATKEY_REFRACTI) == 1.25);
   CHECK(factor_of(glass, AI_MATKEY_OPACITY) == 1);
+  // It is clear, and bends light only where it is thick.
+  glass.specular = 0;
+  CHECK(factor_of(glass, AI_MATKEY_ROUGHNESS_FACTOR) == 0);
+  float thick = 0;
+  to_assimp(glass, "m", true, {}, 0.5)->Get(AI_MATKEY_VOLUME_THICKNESS_FACTOR, thick);
+  CHECK(thick == 0.5F);
+  glass.refractive_index = 1;
+  CHECK(factor_of(glass, AI_MATKEY_VOLUME_THICKNESS_FACTOR) == -1);
   Material lamp = matte;
   lamp.emission = {4, 0.5, 0};
   aiColor3D emitted;
-  REQUIRE(to_assimp(lamp, "m", true, {})->Get(AI_MATKEY_COLOR_EMISSIVE, emitted) == aiReturn_SUCCESS);
+  REQUIRE(to_assimp(lamp, "m", true, {}, 1)->Get(AI_MATKEY_COLOR_EMISSIVE, emitted) == aiReturn_SUCCESS);
   CHECK(close(Rgb(emitted.r, emitted.g, emitted.b), {1, light_of(0.5), 0}));
-  CHECK(to_assimp(matte, "m", true, {})->Get(AI_MATKEY_COLOR_EMISSIVE, emitted) != aiReturn_SUCCESS);
+  CHECK(to_assimp(matte, "m", true, {}, 1)->Get(AI_MATKEY_COLOR_EMISSIVE, emitted) != aiReturn_SUCCESS);
 }
 
 TEST_CASE(
@@ -125,9 +133,9 @@ TEST_CASE("mesh materials: a metal mirrors as far as it is smooth, and is rough 
 }
 
 TEST_CASE("mesh materials: pictures have their paths, that of the base colour first") {
-  const auto material = to_assimp({}, "m", true, {"a.png", "b.png"});
+  const auto material = to_assimp({}, "m", true, {"a.png", "b.png"}, 1);
   CHECK((picture_path(*material) == "a.png" && emission_path(*material) == "b.png"));
-  const auto phong = to_assimp({}, "m", false, {"a.png", ""});
+  const auto phong = to_assimp({}, "m", false, {"a.png", ""}, 1);
   CHECK((picture_path(*phong) == "a.png" && emission_path(*phong).empty()));
   aiMaterial both = named("both");
   const aiString diffuse("diffuse.png"), base("base.png");
