@@ -9,11 +9,13 @@
 #include <utility>
 
 #include "image/contact_sheet.h"
-#include "pipeline/lattice/lattice_refiner.h"
+#include "parallel/balance/partition.h"
+#include "parallel/exchange/samplers.h"
 #include "pipeline/mesh/reconstruction.h"
 #include "pipeline/mesh/sample_mesh.h"
 #include "pipeline/mesh/seeds.h"
 #include "study/word_list.h"
+#include "trace/tracer_probe.h"
 
 namespace pprt {
 namespace {
@@ -234,53 +236,73 @@ std::string word_of(const Method& method) {
   return word;
 }
 
-// The lattice's samples of one picture.
-class LatticePicture {
+// A sampler of pprt-render, made as a rank alone makes it: what it knows of the scene counts.
+class SamplerPicture {
  public:
-  explicit LatticePicture(const Subject& subject)
+  SamplerPicture(const Subject& subject, SamplerChoice choice)
       : camera_(subject.camera),
         tracer_(tracer_of(subject)),
-        sampler_(
-            Region::whole({camera_.width, camera_.height, kTilePixels}),
-            {[this](std::uint32_t primitive, ImageShape& shape) { tracer_.project(primitive, shape); },
-             tracer_.primitive_count(), tracer_.surfaces(),
-             [this](std::uint32_t first, std::span<ShapeBounds> bounds) { tracer_.bound(first, bounds); }}) {}
+        probe_(probe_of(tracer_)),
+        made_(make_sampler(settings_of(subject, choice), undivided(camera_), 0, probe_)),
+        seeds_(made_.sampler->seeds()) {}
 
   // Whether so few samples leave parts of the picture black.
   bool is_too_coarse(double density) const {
-    return samples_per_pixel(static_cast<double>(sampler_.least_samples()), camera_) > density;
+    return samples_per_pixel(static_cast<double>(seeds_.size()), camera_) > density;
   }
 
   // Makes the picture anew from so many samples, or fewer when nothing is worth more.
   Rendering render(double density) {
+    constexpr int kSamplesPerHint = 64;
     const double begin = thread_cpu_seconds();
     const double samples = density * camera_.width * camera_.height;
-    sampler_.clear();
+    Sampler& sampler = *made_.sampler;
+    sampler.clear(false);
+    for (const SeedPoint& seed : seeds_) sampler.insert(trace(seed.at));
     bool is_exhausted = false;
-    while (static_cast<double>(sampler_.samples()) < samples && !is_exhausted) {
-      sampler_.expect(samples - static_cast<double>(sampler_.samples()));
-      const std::optional<Vec2d> point = sampler_.next_point();
+    for (int i = 0; static_cast<double>(sampler.size()) < samples && !is_exhausted; ++i) {
+      if (i % kSamplesPerHint == 0) sampler.expect_growth(samples / static_cast<double>(sampler.size()));
+      const std::optional<Vec2d> point = sampler.next_point();
       is_exhausted = !point;
-      if (point) sampler_.insert(*point, tracer_.trace(point->x, point->y));
+      if (point) sampler.insert(trace(*point));
     }
-    sampler_.paint({0, 0, camera_.width, camera_.height}, pixels_);
+    sampler.paint({}, pixels_);
     Image image;
     image.width = camera_.width, image.height = camera_.height;
     image.pixels = std::exchange(pixels_.colors, {});
-    return {samples_per_pixel(static_cast<double>(sampler_.samples()), camera_), thread_cpu_seconds() - begin,
+    return {samples_per_pixel(static_cast<double>(sampler.size()), camera_), thread_cpu_seconds() - begin,
             std::move(image), is_exhausted};
   }
 
  private:
+  static SessionSettings settings_of(const Subject& subject, SamplerChoice choice) {
+    return {
+        .width = subject.camera.width, .height = subject.camera.height, .sampler = choice, .is_still = true};
+  }
+  static Partition undivided(const Camera& camera) {
+    const TileGrid grid(camera.width, camera.height, kTilePixels);
+    return bisect(grid, std::vector<double>(static_cast<std::size_t>(grid.tile_count()), 1), 1);
+  }
+
+  Sample trace(const Vec2d& point) const {
+    Sample sample;
+    sample.x = point.x, sample.y = point.y;
+    const double footprint = probe_.has_textures ? std::min(1.0, made_.sampler->footprint(point)) : 1;
+    sample.ray = probe_.trace_knowing(point.x, point.y, {}, footprint);
+    return sample;
+  }
+
   Camera camera_;
   Tracer tracer_;
-  LatticeRefiner sampler_;
+  Probe probe_;
+  SamplerWithExchange made_;
+  std::vector<SeedPoint> seeds_;
   PixelBlock pixels_;
 };
 
 // The first picture is made twice: the frames of a sequence, too, find the storage of those before them.
-void run_lattice(const CurveTask& task) {
-  LatticePicture picture(task.subject);
+void run_default(const CurveTask& task) {
+  SamplerPicture picture(task.subject, SamplerChoice::kAuto);
   picture.render(task.densities.back());
   for (const double density : task.densities) {
     if (picture.is_too_coarse(density)) continue;
@@ -297,7 +319,7 @@ Method default_method() {
   return {kDefaultMethod,
           "this renderer's default: what is visible, then nodes of a lattice where the picture is expected "
           "to be wrong",
-          run_lattice};
+          run_default};
 }
 
 Method delaunay_method() {
