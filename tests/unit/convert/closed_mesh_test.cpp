@@ -41,6 +41,16 @@ TEST_CASE("closed meshes: rounding parts no corners, wherever they lie") {
   }
 }
 
+TEST_CASE("closed meshes: corners on both sides of a cell's border are one") {
+  for (const double border : {0.500025, 0.500075}) {  // of each of the two grids
+    ModelMesh mesh = tetrahedron();
+    for (Vec3d& p : mesh.positions)
+      if (p.y == 1) p.y = border + 1e-9;
+    mesh.positions[1].y -= 2e-9;
+    CHECK(is_closed(mesh));
+  }
+}
+
 TEST_CASE("closed meshes: one that lacks a face, or has one turned, is open") {
   ModelMesh mesh = tetrahedron();
   std::swap(mesh.corners[0], mesh.corners[1]);

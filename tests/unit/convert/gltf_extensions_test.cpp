@@ -108,6 +108,12 @@ TEST_CASE("gltf extensions: glass bends light where it has a thickness, and is a
     CHECK((thin.transmittance == 0.5 && thin.refractive_index == 1 && !thin.terms));
   }
   CHECK(read({{"thicknessFactor", 2}}).refractive_index == 1);  // lets nothing through
+  GltfSample smoke;  // what is transparent by its alpha bends nothing
+  smoke.triangle_of({{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"baseColorFactor", {1, 1, 1, 0.5}}}},
+                     {"alphaMode", "BLEND"},
+                     {"extensions", {{"KHR_materials_volume", {{"thicknessFactor", 2}}}}}});
+  const Material through = material_of(smoke.read().scene);
+  CHECK((through.transmittance == 0.5 && through.refractive_index == 1));
   // What is reflected totally within is seen; all else is as without terms.
   REQUIRE(thick.terms);
   CHECK(thick.terms->ambient == thick.color * kAmbientReflectance);
