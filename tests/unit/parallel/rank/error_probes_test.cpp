@@ -165,9 +165,10 @@ TEST_CASE("error probes: a rank looks at its own pixels alone, elsewhere in ever
   CHECK(first != second);
 }
 
-// Every second pixel of a row is white: the picture of the texture is exact. Filtered over cells of the grid,
-// values near a pixel's edge are off by an eighth on average; over whole pixels by a quarter.
-TEST_CASE("error probes: textures are filtered over a ray's cell, not over the pixel") {
+// Every second pixel of a row is white: the picture of the texture is exact. Filtered over an eighth of a
+// pixel, pixels are off by 1/32 on average; over cells of 2x2 or 4x4 by 1/8 or 1/16, over whole pixels by
+// 1/4.
+TEST_CASE("error probes: textures are hardly filtered beyond the pixel's edge, whatever the rays") {
   const auto texture = [](double x, double, double footprint) {
     const double within = x - std::floor(x),
                  reach = std::max(0.0, footprint / 2 - std::min(within, 1 - within));
@@ -180,8 +181,8 @@ TEST_CASE("error probes: textures are filtered over a ray's cell, not over the p
     const ErrorSums sums = measure_error(halves()[0], shown, {400, side}, {}, texture);
     return sums.squared / sums.pixels;
   };
-  CHECK(error(2) == Approx(1.0 / 64).epsilon(0.1));
-  CHECK(error(4) == Approx(1.0 / 256).epsilon(0.1));
+  CHECK(error(2) == Approx(1.0 / 1024).epsilon(0.1));
+  CHECK(error(4) == Approx(1.0 / 1024).epsilon(0.1));
 }
 
 TEST_CASE("error probes: a region without pixels has no error") {
