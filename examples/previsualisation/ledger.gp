@@ -6,6 +6,7 @@ set terminal pngcairo size 800, 700 font "sans,10"
 set output "film/ledger.png"
 set multiplot layout 3, 1
 set grid
+# Frames up to which too few rays have measured the error have none, and are left out.
 # One scale of frames for all three, with room at the right for the keys.
 set lmargin 8
 set rmargin 18

@@ -288,6 +288,8 @@ const cases = {
     const told = (figures, id) => page.evaluate(`tell({...shown, frames: [{number: 1, slack_ms: 1, samples: 0, late: [], ...${JSON.stringify(figures)}}]}), element("${id}").textContent + (element("${id}").hidden ? " hidden" : "")`);
     assert.equal(await told({rmse: [0.0174, 0.01512, 0.02], advice: ""}, "rmse"), "0.0174 (0.0151 to 0.0200)");
     assert.equal(await told({rmse: [0.0174, 0, 0.02], advice: ""}, "rmse"), "at most 0.0200");
+    assert.equal(await told({rmse: [0.0081, 0.00809, 0.00811], advice: ""}, "rmse"), "0.00810 (0.00809 to 0.00811)");
+    assert.equal(await told({rmse: [0, 0, 0.00002], advice: ""}, "rmse"), "at most 0.00002");
     assert.equal(await told({rmse: [0, 0, 0], advice: ""}, "rmse"), "–");
     assert.equal(await told({rmse: null, advice: ""}, "rmse"), "–");
     assert.equal(await told({rmse: null, advice: "a smaller picture helps"}, "advice"), "a smaller picture helps");

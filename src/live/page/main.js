@@ -110,11 +110,17 @@ function tell(header) {
   document.body.dataset.frame = last.number;
 }
 
-// `rmse`: an error and the ends of its interval, or nothing.
+// `rmse`: an error and the ends of its interval, or nothing where too few rays know of it. Has as many decimals
+// as show these apart, four at least.
 function errorText(rmse) {
-  if (!rmse || rmse[2] === 0) return "–";  // rays that met no error know of none
-  const [error, low, high] = rmse.map((value) => value.toFixed(4));
-  return rmse[1] > 0 ? `${error} (${low} to ${high})` : `at most ${high}`;
+  if (!rmse || rmse[2] === 0) return "–";
+  const [least, most] = [4, 12];
+  for (let decimals = least; ; ++decimals) {
+    const [error, low, high] = rmse.map((value) => value.toFixed(decimals));
+    const isApart = rmse[1] <= 0 || (Number(low) < Number(error) && Number(error) < Number(high));
+    if ((!isApart || Number(high) === 0) && decimals < most) continue;
+    return rmse[1] > 0 ? `${error} (${low} to ${high})` : `at most ${high}`;
+  }
 }
 
 function welcome(message) {

@@ -29,19 +29,39 @@ ErrorSums sum_of(std::span<const RankReport> ranks) {
   return sum;
 }
 
+double root(double square) {
+  return std::sqrt(std::clamp(square, 0.0, 1.0));
+}
+
+// Returns a 95 % bound of the mean squared error where no probe need have met what is wrong. They miss a
+// share q of their weight with probability (1 - q)^n, so q <= 1 - 0.05^(1/n), about 3/n: the rule of three
+// (Hanley, Lippman-Hand, If nothing goes wrong, is everything all right? JAMA 249(13), 1983). Each pixel has
+// a third of an even weight at least, and a squared error of 1 at most.
+double unseen(double probes) {
+  constexpr double kMissed = 0.05, kLeastWeight = 1.0 / 3;
+  return (1 - std::pow(kMissed, 1 / probes)) / kLeastWeight;
+}
+
 }  // namespace
 
 // Rare large errors make the distribution skewed: an estimate is often too small, seldom much too large. So
 // the upper bound is farther off, by the skewness. Few probes seldom show it, for they miss what is rare. So
-// it is taken to be at least what the skewness of one probe makes of it.
+// it is taken to be at least what the skewness of one probe makes of it. Probes that agree by chance know no
+// better: one deviates by at least the mean.
 RmseInterval ErrorEstimate::interval() const {
   constexpr double kNormal = 1.96, kMostSkewness = 1;
-  constexpr double kOfAProbe = 8;  // 3 to 5 in tree, 3 in balls, 7 to 9 in BART's kitchen
-  const double deviation = std::sqrt(variance);
-  const double least = probes > 0 ? kOfAProbe / std::sqrt(probes) : 0;
-  const double found = deviation > 0 ? third / (deviation * variance) : 0;
+  constexpr double kOfAProbe = 8;      // skewness; 3 to 5 in tree, 3 in balls, 7 to 9 in BART's kitchen
+  constexpr double kLeastSpread = 1;   // a probe's deviation by the mean; 1.2 to 136 in the databases
+  constexpr double kRounding = 1e-10;  // squared: what sums of float colours differ by is no error
+  const double count = std::sqrt(probes);
+  const double spread = probes > 0 ? kLeastSpread * std::abs(squared) / count : 0;
+  const double deviation = std::max(std::sqrt(variance), spread);
+  const double least = probes > 0 ? kOfAProbe / count : 0;
+  const double found = deviation > 0 ? third / (deviation * deviation * deviation) : 0;
   const double above = kNormal * deviation * (1 + std::max(least, std::clamp(found, 0.0, kMostSkewness)));
-  const auto root = [](double square) { return std::sqrt(std::max(0.0, square)); };
+  const bool has_met = std::abs(squared) > kRounding || deviation > kRounding;
+  if (probes > 0 && (probes < kProbesForRmse || !has_met))
+    return {root(squared), 0, root(std::max(squared + above, unseen(probes))), false};
   return {root(squared), root(squared - kNormal * deviation), root(squared + above)};
 }
 

@@ -14,7 +14,11 @@ namespace pprt {
 // An RMSE on the display scale, over all pixels and channels, with its 95 % interval.
 struct RmseInterval {
   double rmse = 0, low = 0, high = 0;
+  bool is_known = true;  // false: too few probes, or none met an error; `low` is 0 then, `high` holds
 };
+
+// Fewer tell no RMSE: too many of their intervals would miss it (docs/accuracy.md).
+inline constexpr double kProbesForRmse = 32;
 
 // An estimate of a mean squared error, with moments of its distribution about the true one.
 struct ErrorEstimate {

@@ -129,6 +129,7 @@ ProbePlan plan_probes(std::uint64_t traced, std::uint64_t samples, std::size_t p
 std::vector<PixelProbe> trace_probes(const Region& region, const PixelBlock& shown, const ProbePlan& plan,
                                      const ProbeStream& stream, const Look& look) {
   constexpr std::uint64_t kCandidatesPerProbe = 16;
+  constexpr double kFootprint = 1.0 / 8;
   const std::uint64_t pixels = region.pixel_count(), count = plan.probes;
   if (pixels == 0) return {};
   std::vector<Candidate> all = candidates(region, shown, std::min(pixels, count * kCandidatesPerProbe),
@@ -136,14 +137,15 @@ std::vector<PixelProbe> trace_probes(const Region& region, const PixelBlock& sho
   normalize(all);
   const Random choice(stream, Purpose::kChoice), place(stream, Purpose::kPlace);
   std::uint64_t drawn = 0;
-  // Mean of a jittered grid over the pixel. Each ray stands for its cell: filtered over the whole pixel,
-  // textures would be blurred twice.
+  // Mean of a jittered grid over the pixel. A texture's filter reaches beyond the pixel's edge, and what is
+  // there is no part of the pixel: the wider it is, the more biased is the mean, and the less noisy. This is
+  // the width in references of 128 samples a pixel.
   const auto estimate = [&](const Candidate& at) {
     Color sum(0, 0, 0);
     for (int cell = 0; cell < plan.side * plan.side; ++cell, drawn += 2) {
       const double x = (cell % plan.side + place(drawn)) / plan.side;
       const double y = (cell / plan.side + place(drawn + 1)) / plan.side;
-      sum += displayed(look(at.x + x, at.y + y, 1.0 / plan.side));
+      sum += displayed(look(at.x + x, at.y + y, kFootprint));
     }
     return sum / static_cast<float>(plan.side * plan.side);
   };

@@ -43,11 +43,14 @@ void append_metadata(Metadata& metadata, const std::string& prefix, const Json& 
   }
 }
 
-// Leaves out what rests on the frames before: a resumed run's files equal those of an undisturbed one.
-Metadata header_metadata(Json record) {
+// Leaves out what rests on the frames before: a resumed run's files equal those of an undisturbed one. So the
+// RMSE is told where the frame's own probes know it.
+Metadata header_metadata(Json record, const FrameSummary& frame) {
   record.erase("record");
-  if (const auto error = record.find("error"); error != record.end())
+  if (const auto error = record.find("error"); error != record.end()) {
     for (const char* field : {"low", "high", "shot", "unexpected"}) error->erase(field);
+    if (!frame.error->own.interval().is_known) error->erase("rmse");
+  }
   Metadata metadata;
   append_metadata(metadata, "pprt", record);
   return metadata;
@@ -110,7 +113,7 @@ void FrameRecorder::record(FinishedFrame&& frame) {
   if (finished_before(frame.order.number)) return;
   const FrameSummary summary = summarize(frame);
   Json record = frame_record(summary);
-  Metadata metadata = header_metadata(record);
+  Metadata metadata = header_metadata(record, summary);
   if (ledger_.enabled()) ledger_.write_frame(std::move(record), measurements_of(frame));
   {
     const std::scoped_lock lock(mutex_);

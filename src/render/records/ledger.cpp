@@ -23,7 +23,7 @@ Json rays_record(const RayCounts& rays) {
 }
 
 Json interval_record(const RmseInterval& error) {
-  return {{"rmse", error.rmse}, {"low", error.low}, {"high", error.high}};
+  return {{"rmse", error.is_known ? Json(error.rmse) : Json()}, {"low", error.low}, {"high", error.high}};
 }
 
 Json error_record(const FrameError& error) {

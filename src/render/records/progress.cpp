@@ -36,13 +36,35 @@ std::string lateness(double late_ms) {
   return fmt::format("{:.0f} ms {} its deadline", std::abs(late_ms), late_ms <= 0 ? "before" : "after");
 }
 
-// "; RMSE 0.0117 (0.0101 to 0.0135)", "; RMSE at most 0.0042", or nothing where no ray met an error.
+// As few as show an interval's bounds apart and above 0, four at least.
+int decimals_of(const RmseInterval& interval) {
+  constexpr int kFewest = 4, kMost = 12;
+  const auto step = [](int decimals) { return std::pow(10.0, decimals); };
+  for (int decimals = kFewest; decimals < kMost; ++decimals) {
+    const auto steps = [&](double value) { return std::llround(value * step(decimals)); };
+    const bool is_apart = interval.low <= 0 || (steps(interval.low) < steps(interval.rmse) &&
+                                                steps(interval.rmse) < steps(interval.high));
+    if (is_apart && steps(interval.high) > 0) return decimals;
+  }
+  return kMost;
+}
+
+// "; RMSE 0.0117 (0.0101 to 0.0135)", "; RMSE at most 0.0042", or why it is not known.
 std::string measured(const MeanErrorEstimate& error) {
   if (error.count() == 0) return "";
-  const RmseInterval interval = error.mean().interval();
+  const ErrorEstimate mean = error.mean();
+  const RmseInterval interval = mean.interval();
+  const std::string high = fmt::format("{:.{}f}", interval.high, decimals_of(interval));
+  if (!interval.is_known) {
+    const std::string pixels = grouped(mean.probes);
+    return mean.probes < kProbesForRmse
+               ? fmt::format("; RMSE not known (measured at {} pixels)", pixels)
+               : fmt::format("; RMSE at most {} (no error at {} pixels)", high, pixels);
+  }
   if (interval.high <= 0) return "";
-  if (interval.low <= 0) return fmt::format("; RMSE at most {:.4f}", interval.high);
-  return fmt::format("; RMSE {:.4f} ({:.4f} to {:.4f})", interval.rmse, interval.low, interval.high);
+  if (interval.low <= 0) return fmt::format("; RMSE at most {}", high);
+  const int decimals = decimals_of(interval);
+  return fmt::format("; RMSE {:.{}f} ({:.{}f} to {})", interval.rmse, decimals, interval.low, decimals, high);
 }
 
 RunFigures figures_of(const RunScope& scope, const RunTotals& totals) {

@@ -32,7 +32,7 @@ FrameFigures LiveFigures::add(const FinishedFrame& frame) {
   if (frame.error) errors_.push_back(frame.error->own);
   if (errors_.size() > kMostErrors) errors_.pop_front();
   const RmseInterval error = recent_error(errors_);
-  if (!errors_.empty()) figures.rmse = {error.rmse, error.low, error.high};
+  if (!errors_.empty() && error.is_known) figures.rmse = {error.rmse, error.low, error.high};
   figures.advice = advice(error.low);
   return figures;
 }

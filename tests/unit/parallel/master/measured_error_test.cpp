@@ -7,13 +7,13 @@
 namespace pprt::measured_error_test {
 namespace {
 
-RankReport report_of(double squared, double variance, double third, double pixels) {
+RankReport report_of(double squared, double variance, double third, double pixels, std::uint64_t probes = 5) {
   RankReport report;
   report.error = {.squared = squared,
                   .variance = variance,
                   .third = third,
                   .pixels = pixels,
-                  .probes = 5,
+                  .probes = probes,
                   .samples = 40,
                   .rays = 90};
   return report;
@@ -63,7 +63,7 @@ TEST_CASE("measured error: few probes are taken to miss the skewness, many show 
     const ErrorEstimate estimate{0.0036, deviation * deviation, skewness * std::pow(deviation, 3), probes};
     return (std::pow(estimate.interval().high, 2) - 0.0036) / (1.96 * deviation) - 1;
   };
-  CHECK(growth(0.1, 16) == Approx(2));
+  CHECK(growth(0.1, 64) == Approx(1));
   CHECK(growth(0.1, 256) == Approx(0.5));
   CHECK(growth(0.7, 256) == Approx(0.7));
   CHECK(growth(0.1, 1e6) == Approx(0.1));
@@ -78,12 +78,13 @@ TEST_CASE("measured error: few probes are taken to miss the skewness, many show 
 
 TEST_CASE("measured error: the frames of a shot narrow its interval, and a cut begins another shot") {
   ShotErrors errors;
-  const std::vector<RankReport> small = {report_of(4, 16, 0, 100)}, large = {report_of(16, 48, 0, 100)};
+  const std::vector<RankReport> small = {report_of(4, 16, 0, 100, 40)},
+                                large = {report_of(16, 48, 0, 100, 40)};
   errors.add(true, small, 100);
   const FrameError second = errors.add(false, large, 100).value();
   CHECK(second.shot_frames == 2);
   CHECK(second.shot.rmse == Approx(std::sqrt(0.10)));
-  CHECK(second.shot.high == Approx(std::sqrt(0.10 + 1.96 * 0.04 * (1 + 8 / std::sqrt(10)))));
+  CHECK(second.shot.high == Approx(std::sqrt(0.10 + 1.96 * 0.04 * (1 + 8 / std::sqrt(80)))));
   // Its own figure has the mean of both variances.
   CHECK(second.frame.squared == Approx(0.16));
   CHECK(second.frame.variance == Approx(0.0032));
@@ -91,6 +92,48 @@ TEST_CASE("measured error: the frames of a shot narrow its interval, and a cut b
   const FrameError after_cut = errors.add(true, large, 100).value();
   CHECK(after_cut.shot_frames == 1);
   CHECK(after_cut.frame.variance == Approx(0.0048));
+}
+
+TEST_CASE("measured error: few probes do not tell an RMSE, whatever they find") {
+  const auto interval = [](double squared, double deviation, double probes) {
+    return ErrorEstimate{squared, deviation * deviation, 0, probes}.interval();
+  };
+  // What they may have missed all is at most this.
+  const auto missed = [](double probes) { return std::sqrt(3 * (1 - std::pow(0.05, 1 / probes))); };
+  for (const RmseInterval& few :
+       {interval(0.0036, 1e-6, 10), interval(0, 0, 10), interval(1e-16, 1e-17, 10)}) {
+    CHECK_FALSE(few.is_known);
+    CHECK(few.low == 0);
+    CHECK(few.high == Approx(missed(10)));
+  }
+  CHECK(interval(0.0036, 1e-6, 2).high == 1);
+  CHECK_FALSE(interval(0.0036, 1e-3, kProbesForRmse - 1).is_known);
+  CHECK(interval(0.0036, 1e-3, kProbesForRmse).is_known);
+  CHECK(interval(0.0036, 1e-3, kProbesForRmse).high < 0.2);
+}
+
+TEST_CASE("measured error: probes that met none do not tell that there is none") {
+  const RmseInterval none = ErrorEstimate{0, 0, 0, 1000}.interval();
+  CHECK_FALSE(none.is_known);
+  CHECK(none.low == 0);
+  CHECK(none.high == Approx(std::sqrt(9.0 / 1000)).epsilon(0.01));           // the rule of three
+  CHECK(ErrorEstimate{4e-17, 1e-34, 0, 1000}.interval().high == none.high);  // rounding
+  CHECK(ErrorEstimate{1e-9, 1e-20, 0, 1000}.interval().is_known);
+  // Two frames of few know more than one.
+  ShotErrors errors;
+  const std::vector<RankReport> ranks = {report_of(0, 0, 0, 50), report_of(0, 0, 0, 50)};
+  const double first = errors.add(true, ranks, 100).value().shot.high;
+  const FrameError second = errors.add(false, ranks, 100).value();
+  CHECK((second.shot.high < first && second.shot_frames == 2));
+  CHECK_FALSE(second.shot.is_known);
+}
+
+TEST_CASE("measured error: an interval has a width where all probes agree") {
+  const RmseInterval told = ErrorEstimate{0.04, 0, 0, 64}.interval();
+  CHECK(told.low == Approx(std::sqrt(0.04 * (1 - 1.96 / 8))));
+  CHECK(told.high == Approx(std::sqrt(0.04 * (1 + 2 * 1.96 / 8))));
+  const RmseInterval spread = ErrorEstimate{0.04, 4e-4, 0, 64}.interval();
+  CHECK(spread.low == Approx(std::sqrt(0.04 - 1.96 * 0.02)));
 }
 
 }  // namespace pprt::measured_error_test

@@ -87,16 +87,21 @@ TEST_CASE("an EXR has its frame's figures in its header, but for those that rest
   const std::string name = (run.directory.path() / "out/%d.exr").string();
   run.plan.output.pictures.push_back(parse_frame_pattern(name, FrameCount::kMany));
   FrameRecorder recorder({run.plan, 1, "hash"}, run.scene, run.progress);
-  FinishedFrame frame;
-  frame.order.number = 2, frame.order.cut = true;
-  frame.image = Image(8, 8);
-  frame.late_ranks = {3, 5};
-  frame.late_ms = 1.25;
-  frame.ranks.resize(1);
-  frame.ranks[0].samples_new = 70, frame.ranks[0].rays.shadow = 90;
-  frame.error.emplace();
-  recorder.record(std::move(frame));
-  recorder.finish(true);
+  // The third was measured by few probes, though by more with those of the frames before.
+  for (const int number : {2, 3}) {
+    FinishedFrame frame;
+    frame.order.number = number, frame.order.cut = true;
+    frame.image = Image(8, 8);
+    frame.late_ranks = {3, 5};
+    frame.late_ms = 1.25;
+    frame.ranks.resize(1);
+    frame.ranks[0].samples_new = 70, frame.ranks[0].rays.shadow = 90;
+    frame.error.emplace();
+    frame.error->frame = {.squared = 0.01, .variance = 1e-6, .probes = 100};
+    frame.error->own = {.squared = 0.01, .variance = 1e-6, .probes = number == 2 ? 50.0 : 2.0};
+    recorder.record(std::move(frame));
+  }
+  recorder.finish(false);
   const Imf::InputFile file((run.directory.path() / "out/2.exr").c_str());
   const Imf::Header& header = file.header();
   CHECK(header.typedAttribute<Imf::IntAttribute>("pprt.frame").value() == 2);
@@ -112,6 +117,9 @@ TEST_CASE("an EXR has its frame's figures in its header, but for those that rest
     INFO(left_out);
     CHECK(header.find(left_out) == header.end());
   }
+  const Imf::InputFile third((run.directory.path() / "out/3.exr").c_str());
+  CHECK(third.header().find("pprt.error.rmse") == third.header().end());
+  CHECK(third.header().find("pprt.error.probes") != third.header().end());
 }
 
 TEST_CASE("frames that are removed in mid-run are missed, though the manifest stays") {

@@ -165,6 +165,19 @@ TEST_CASE("a frame's record has its measured error, and so have a shot and a run
         Approx(std::sqrt(0.0004 + 1.96e-4 / std::sqrt(2) * (1 + 0.5 / std::sqrt(2)))));
 }
 
+TEST_CASE("what few probes find is no RMSE in a record") {
+  FrameSummary frame;
+  const ErrorEstimate few{.squared = 0.0004, .variance = 1e-8, .third = 0, .probes = 2};
+  frame.error = {.frame = few, .own = few, .shot = few.interval(), .probes = 2};
+  const Json record = frame_record(frame)["error"];
+  RunTotals totals;
+  totals.add(frame);
+  for (const Json& told : {record, record["shot"], summary_record(totals, false)["error"]}) {
+    CHECK(told["rmse"].is_null());
+    CHECK((told["low"] == 0 && told["high"] == 1));
+  }
+}
+
 TEST_CASE("a run's summary sums its frames") {
   FrameSummary frame;
   frame.late_ms = 1, frame.samples = 5, frame.non_finite = 2;

@@ -137,12 +137,13 @@ TEST_CASE("a frame that is whole at its deadline is in time") {
 }
 
 TEST_CASE("the error of a run is told with its bounds, or what it is at most where it may be none") {
-  const auto told = [](double squared, double variance = 4e-10) {
+  const auto told = [](double squared, double variance = 4e-10, double probes = 0) {
     RunTotals totals;
     FrameSummary frame;
     frame.samples = 1234;
     frame.error.emplace();
-    frame.error->own = frame.error->frame = {.squared = squared, .variance = variance, .third = 0};
+    frame.error->own =
+        frame.error->frame = {.squared = squared, .variance = variance, .third = 0, .probes = probes};
     totals.add(frame);
     return std::pair(told_at_end({.frames = 1}, RunEnd::kDone, 1, totals), totals.error().mean().interval());
   };
@@ -154,8 +155,15 @@ TEST_CASE("the error of a run is told with its bounds, or what it is at most whe
   const auto [unsure, around_none] = told(1e-5);
   CHECK((around_none.low <= 0 && around_none.high > 1.5 * around_none.rmse));
   CHECK(unsure == fmt::format("{}at most {:.4f}\n", begin, around_none.high));
-  // Rays that met no error know of none: 0 would be a promise.
+  // Rays that met no error know of none, and few rays of little: 0 would be a promise.
   CHECK(told(0, 0).first == "done: 1 of 1 frame in a.png to b.png; 1,234 samples\n");
+  CHECK(told(0, 0, 10).first == begin + "not known (measured at 10 pixels)\n");
+  CHECK(told(1e-4, 4e-10, 2).first == begin + "not known (measured at 2 pixels)\n");
+  CHECK(told(0, 0, 1500).first == begin + "at most 0.0774 (no error at 1,500 pixels)\n");
+  // Digits tell bounds apart, from each other and from 0.
+  CHECK(told(1e-4, 1e-16).first == begin + "0.010000 (0.009999 to 0.010001)\n");
+  CHECK(told(6.4e-5, 0, 1e6).first == begin + "0.00800 (0.00799 to 0.00801)\n");
+  CHECK(told(1e-12, 9e-20, 400).first == begin + "at most 0.00003\n");
 }
 
 TEST_CASE("at the end advice is given where frames were late, but none for a film that has a time") {

@@ -45,6 +45,15 @@ TEST_CASE("live figures: a frame's own, and the error of the last frames since a
   CHECK_FALSE(figures.add(unmeasured).rmse);
 }
 
+TEST_CASE("live figures: the error of few probes is not told, that of some frames is") {
+  LiveFigures figures(settings_at(24), 2, 2, Remedies::kPage);
+  FinishedFrame frame = frame_with(-3, 0.03);
+  frame.error->own.probes = 12;
+  CHECK_FALSE(figures.add(frame).rmse);
+  CHECK_FALSE(figures.add(frame).rmse);
+  CHECK(figures.add(frame).rmse.value()[0] == Approx(0.03));
+}
+
 TEST_CASE("live figures: advice comes with late or coarse frames, and goes with them") {
   LiveFigures figures(settings_at(50), 2, 2, Remedies::kPage);
   for (int i = 0; i < 23; ++i) CHECK(figures.add(frame_with(5)).advice.empty());
