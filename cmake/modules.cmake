@@ -93,11 +93,12 @@ function(pprt_program name source module)
   install(TARGETS ${name})
 endfunction()
 
-# pprt_unit_test(NAME [OWN_FLAGS] [REAL_TIME] SOURCES a.cpp ... USES modules ... LABELS labels ...): a Catch2 program, one
-# CTest entry a case. With REAL_TIME its cases tagged [realtime], whose outcome needs a machine that keeps up, get the
-# label "realtime" instead, and run one at a time.
+# pprt_unit_test(NAME [OWN_FLAGS] [REAL_TIME [ALONE]] SOURCES a.cpp ... USES modules ... LABELS labels ...): a
+# Catch2 program, one CTest entry a case. With REAL_TIME its
+# cases tagged [realtime], whose outcome needs a machine that keeps up, get the label "realtime" instead. They run one at a
+# time, and the others give way (tests/CMakeLists.txt). With ALONE those tagged [alone], too, run beside no other.
 function(pprt_unit_test name)
-  cmake_parse_arguments(T "OWN_FLAGS;REAL_TIME" "" "SOURCES;USES;LABELS" ${ARGN})
+  cmake_parse_arguments(T "OWN_FLAGS;REAL_TIME;ALONE" "" "SOURCES;USES;LABELS" ${ARGN})
   if(NOT T_LABELS)
     set(T_LABELS unit)
   endif()
@@ -111,11 +112,18 @@ function(pprt_unit_test name)
   if(PPRT_PCH AND NOT T_OWN_FLAGS)
     target_precompile_headers(test_${name} REUSE_FROM pprt_test_pch)
   endif()
+  # What stands before the program in CTest's commands, for the calls that follow.
+  set_target_properties(test_${name} PROPERTIES CROSSCOMPILING_EMULATOR "${PPRT_BESIDE}")
   catch_discover_tests(test_${name} TEST_SPEC "~[realtime]~[.]" TEST_PREFIX "${name}: "
                        PROPERTIES LABELS "${T_LABELS}" TIMEOUT 300)
   if(T_REAL_TIME)
-    catch_discover_tests(test_${name} TEST_SPEC "[realtime]" TEST_LIST test_${name}_realtime TEST_PREFIX "${name}, real time: "
-                         PROPERTIES LABELS realtime TIMEOUT 300 RUN_SERIAL ON)
+    set_target_properties(test_${name} PROPERTIES CROSSCOMPILING_EMULATOR "")
+    catch_discover_tests(test_${name} TEST_SPEC "[realtime]~[alone]" TEST_LIST test_${name}_realtime
+                         TEST_PREFIX "${name}, real time: " PROPERTIES LABELS realtime TIMEOUT 300 ${PPRT_REAL_TIME})
+  endif()
+  if(T_ALONE)
+    catch_discover_tests(test_${name} TEST_SPEC "[realtime][alone]" TEST_LIST test_${name}_alone
+                         TEST_PREFIX "${name}, real time: " PROPERTIES LABELS realtime TIMEOUT 300 RUN_SERIAL ON)
   endif()
   add_dependencies(unit_tests test_${name})
 endfunction()
