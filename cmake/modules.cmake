@@ -39,10 +39,11 @@ function(pprt_precompile target)
     <numeric> <optional> <random> <set> <span> <sstream> <stdexcept> <string> <string_view> <thread> <tuple>
     <unordered_map> <utility> <vector> <Imath/ImathBox.h> <Imath/ImathColor.h> <Imath/ImathVec.h> ${ARGN})
 endfunction()
-# Code that no frame and no measurement waits for: options, conversions, pages, studies, programs' mains, and the own code
-# of unit tests. What takes their time is in other libraries, and compiling it is most of a build.
+# Code that no frame and no measurement waits for: options, conversions, pages, studies and programs' mains. What takes
+# their time is in other libraries, and compiling it is most of a build. That of unit tests is not optimised at all.
 if(CMAKE_BUILD_TYPE STREQUAL "Release" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   set(PPRT_COLD_FLAGS -O1 -Wno-stringop-overread)  # which GCC 12 sees in short literals then
+  set(PPRT_TEST_FLAGS -O0)
 endif()
 if(PPRT_PCH)
   file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/precompiled.cpp CONTENT "int main() {}\n")
@@ -54,7 +55,7 @@ if(PPRT_PCH)
   if(BUILD_TESTING)
     add_executable(pprt_test_pch ${PROJECT_BINARY_DIR}/generated/precompiled.cpp)
     target_link_libraries(pprt_test_pch PRIVATE Catch2::Catch2)
-    target_compile_options(pprt_test_pch PRIVATE ${PPRT_COLD_FLAGS})
+    target_compile_options(pprt_test_pch PRIVATE ${PPRT_TEST_FLAGS})
     if(Catch2_VERSION VERSION_GREATER_EQUAL 3)
       target_include_directories(pprt_test_pch PRIVATE ${PROJECT_SOURCE_DIR}/tests/catch2_3)
     endif()
@@ -93,29 +94,42 @@ function(pprt_program name source module)
   install(TARGETS ${name})
 endfunction()
 
-# pprt_unit_test(NAME [OWN_FLAGS] [REAL_TIME] SOURCES a.cpp ... USES modules ... LABELS labels ...): a Catch2 program, one
-# CTest entry a case. With REAL_TIME its cases tagged [realtime], whose outcome needs a machine that keeps up, get the
-# label "realtime" instead, and run one at a time.
+# pprt_unit_test(NAME [OWN_FLAGS] [COMPUTES] [REAL_TIME [ALONE]] SOURCES a.cpp ... USES modules ... LABELS labels ...):
+# a Catch2 program, one CTest entry a case. With COMPUTES its own code takes so long that optimising it pays. With
+# REAL_TIME its cases tagged [realtime], whose outcome needs a machine that keeps up, get the label "realtime" instead.
+# They run one at a time, and the others give way (tests/CMakeLists.txt). With ALONE those tagged [alone], too, run beside
+# no other.
 function(pprt_unit_test name)
-  cmake_parse_arguments(T "OWN_FLAGS;REAL_TIME" "" "SOURCES;USES;LABELS" ${ARGN})
+  cmake_parse_arguments(T "OWN_FLAGS;COMPUTES;REAL_TIME;ALONE" "" "SOURCES;USES;LABELS" ${ARGN})
   if(NOT T_LABELS)
     set(T_LABELS unit)
   endif()
   add_executable(test_${name} ${T_SOURCES})
   target_link_libraries(test_${name} PRIVATE ${T_USES} pprt_flags Catch2::Catch2WithMain)
   target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-  target_compile_options(test_${name} PRIVATE ${PPRT_COLD_FLAGS})
+  set(flags ${PPRT_TEST_FLAGS})
+  if(T_COMPUTES)
+    set(flags ${PPRT_COLD_FLAGS})
+  endif()
+  target_compile_options(test_${name} PRIVATE ${flags})
   if(Catch2_VERSION VERSION_GREATER_EQUAL 3)
     target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests/catch2_3)
   endif()
-  if(PPRT_PCH AND NOT T_OWN_FLAGS)
+  if(PPRT_PCH AND NOT T_OWN_FLAGS AND NOT T_COMPUTES)
     target_precompile_headers(test_${name} REUSE_FROM pprt_test_pch)
   endif()
+  # What stands before the program in CTest's commands, for the calls that follow.
+  set_target_properties(test_${name} PROPERTIES CROSSCOMPILING_EMULATOR "${PPRT_BESIDE}")
   catch_discover_tests(test_${name} TEST_SPEC "~[realtime]~[.]" TEST_PREFIX "${name}: "
                        PROPERTIES LABELS "${T_LABELS}" TIMEOUT 300)
   if(T_REAL_TIME)
-    catch_discover_tests(test_${name} TEST_SPEC "[realtime]" TEST_LIST test_${name}_realtime TEST_PREFIX "${name}, real time: "
-                         PROPERTIES LABELS realtime TIMEOUT 300 RUN_SERIAL ON)
+    set_target_properties(test_${name} PROPERTIES CROSSCOMPILING_EMULATOR "")
+    catch_discover_tests(test_${name} TEST_SPEC "[realtime]~[alone]" TEST_LIST test_${name}_realtime
+                         TEST_PREFIX "${name}, real time: " PROPERTIES LABELS realtime TIMEOUT 300 ${PPRT_REAL_TIME})
+  endif()
+  if(T_ALONE)
+    catch_discover_tests(test_${name} TEST_SPEC "[realtime][alone]" TEST_LIST test_${name}_alone
+                         TEST_PREFIX "${name}, real time: " PROPERTIES LABELS realtime TIMEOUT 300 RUN_SERIAL ON)
   endif()
   add_dependencies(unit_tests test_${name})
 endfunction()

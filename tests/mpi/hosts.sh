@@ -93,7 +93,7 @@ case $case in
     frames=16
     start $frames
     await_frames 2
-    for process in $(pgrep -x pprt-render); do
+    for process in $(pgrep -f "=$work/out"); do
       if tr '\0' '\n' 2>/dev/null <"/proc/$process/environ" | grep -qx OMPI_COMM_WORLD_RANK=2; then
         ahead=$(awk '$1 == "monotonic" { print $2 }' "/proc/$process/timens_offsets")
       fi

@@ -17,6 +17,10 @@ constexpr std::string_view kEventError = "] PMIX ERROR: BAD-PARAM in file ";
 constexpr std::string_view kTornText = "] ORTE_ERROR_LOG: Data unpack ";
 constexpr std::string_view kTextReader = "/orte/util/show_help.c ";
 
+// And this where a process that enters another host has begun before its group was set: the process sets it,
+// too.
+constexpr std::string_view kGroupWarning = "] plm:rsh: Warning: setpgid(";
+
 // Open MPI's lines of dashes have 74 of them.
 bool is_rule(const std::string& line) {
   return line.size() > 60 && line.find_first_not_of("-\n") == std::string::npos;
@@ -35,8 +39,8 @@ bool may_be_mpiruns(const std::string& line) {
 
 bool is_dropped(const std::string& line) {
   const auto has = [&](std::string_view words) { return line.find(words) != std::string::npos; };
-  return line.starts_with(kForwarding) ||
-         (line.starts_with('[') && (has(kEventError) || (has(kTornText) && has(kTextReader))));
+  return line.starts_with(kForwarding) || (line.starts_with('[') && (has(kEventError) || has(kGroupWarning) ||
+                                                                     (has(kTornText) && has(kTextReader))));
 }
 
 // Whether a message says only that ranks had an exit code, which the ranks have explained themselves.

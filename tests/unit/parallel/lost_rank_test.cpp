@@ -55,7 +55,8 @@ RunWithLoss lose_rank_2(SamplerChoice sampler, BalanceMode balance, double shift
   return result;
 }
 
-BOTH_SAMPLERS_TEST_CASE("lost ranks: the others take over, and the picture is whole again", "[realtime]") {
+BOTH_SAMPLERS_TEST_CASE("lost ranks: the others take over, and the picture is whole again",
+                        "[realtime][alone]") {
   for (const double shift : {0.0, 1.0}) {  // a resting camera accumulates samples, some of which are lost
     const FinishedFrame undisturbed = last_frame_of_counted_work(sampler, shift);
     // Both at a time: each waits for its next frame most of the time.

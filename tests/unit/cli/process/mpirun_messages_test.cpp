@@ -109,6 +109,13 @@ TEST_CASE("what Open MPI says of its text about MPI_Abort, torn on its way, is d
   CHECK(shown(messages, torn + other + torn, 3) == other);
 }
 
+TEST_CASE("what Open MPI says of the group of a process that has begun already is dropped") {
+  MpirunMessages messages;
+  const std::string said =
+      "[vm:1] plm:rsh: Warning: setpgid(2,2) failed in parent with errno=Permission denied(13)\n";
+  CHECK(shown(messages, said + "[vm:1] plm:rsh: other\n" + said, 3) == "[vm:1] plm:rsh: other\n");
+}
+
 TEST_CASE("mpirun's message about a forwarded signal is dropped") {
   MpirunMessages messages;
   CHECK(shown(messages, "mpirun: Forwarding signal 12 to job\nmpirun: x\n", 3) == "mpirun: x\n");
