@@ -390,8 +390,10 @@ const cases = {
   },
 };
 
+const clean = () => rmSync(directory, {recursive: true, force: true});
 if (process.argv[2] === "list") {
   console.log(Object.keys(cases).join("\n"));
+  clean();
   process.exit(0);
 }
 const run = cases[process.argv[2]];
@@ -406,6 +408,6 @@ try {
 } finally {
   await browser.close();
   for (const program of programs) program.child.kill("SIGKILL");
-  rmSync(directory, {recursive: true, force: true});
+  clean();
 }
 process.exit();
