@@ -119,12 +119,17 @@ function(pprt_unit_test name)
     target_precompile_headers(test_${name} REUSE_FROM pprt_test_pch)
   endif()
   # What stands before the program in CTest's commands, for the calls that follow.
-  set_target_properties(test_${name} PROPERTIES CROSSCOMPILING_EMULATOR "${PPRT_BESIDE}")
+  set(beside ${PPRT_BESIDE} ${CMAKE_CROSSCOMPILING_EMULATOR})
+  set_target_properties(test_${name} PROPERTIES CROSSCOMPILING_EMULATOR "${beside}")
   catch_discover_tests(test_${name} TEST_SPEC "~[realtime]~[.]" TEST_PREFIX "${name}: "
                        PROPERTIES LABELS "${T_LABELS}" TIMEOUT 300)
   if(T_REAL_TIME)
-    set_target_properties(test_${name} PROPERTIES CROSSCOMPILING_EMULATOR "")
-    catch_discover_tests(test_${name} TEST_SPEC "[realtime]~[alone]" TEST_LIST test_${name}_realtime
+    set_target_properties(test_${name} PROPERTIES CROSSCOMPILING_EMULATOR "${CMAKE_CROSSCOMPILING_EMULATOR}")
+    set(those "[realtime]")
+    if(T_ALONE)
+      set(those "[realtime]~[alone]")
+    endif()
+    catch_discover_tests(test_${name} TEST_SPEC "${those}" TEST_LIST test_${name}_realtime
                          TEST_PREFIX "${name}, real time: " PROPERTIES LABELS realtime TIMEOUT 300 ${PPRT_REAL_TIME})
   endif()
   if(T_ALONE)

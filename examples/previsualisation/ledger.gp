@@ -1,12 +1,12 @@
 # Draws film/ledger.png from film/ledger.ndjson: when frames were ready and how wrong they are, their samples, and how
 # fine they are.
 figure(name) = "< sed -n 's/.*\"frame\":\\([0-9]*\\),.*\"".name."\":\\([-0-9.e]*\\)[,}].*/\\1 \\2/p' film/ledger.ndjson"
+# Frames up to which too few rays have measured the error have none, and are left out.
 error = "< sed -n 's/.*\"frame\":\\([0-9]*\\),.*\"shot\":{\"rmse\":\\([-0-9.e]*\\),\"low\":\\([-0-9.e]*\\),\"high\":\\([-0-9.e]*\\)[,}].*/\\1 \\2 \\3 \\4/p' film/ledger.ndjson"
 set terminal pngcairo size 800, 700 font "sans,10"
 set output "film/ledger.png"
 set multiplot layout 3, 1
 set grid
-# Frames up to which too few rays have measured the error have none, and are left out.
 # One scale of frames for all three, with room at the right for the keys.
 set lmargin 8
 set rmargin 18

@@ -55,6 +55,12 @@ std::vector<double> list_in(const tinygltf::Value& from, const char* member) {
   return values;
 }
 
+// Whether light is mirrored at the surface of what is no metal.
+bool is_glossy(const tinygltf::Material& from) {
+  return number_in(from.extensions, "KHR_materials_specular", "specularFactor", 1) > 0 &&
+         number_in(from.extensions, "KHR_materials_ior", "ior", kUsualIndex) != 1;
+}
+
 // Returns the index of refraction within what lets light through. Glass bends light where it encloses a
 // volume; without a thickness it is a thin wall (KHR_materials_volume).
 double index_within(const tinygltf::Material& from, bool is_glass) {
@@ -132,7 +138,7 @@ const GltfSurface& GltfMaterials::surface(int material) {
   if (material < 0) {
     if (default_) return *default_;
     default_ = read(tinygltf::Material());
-    default_->is_double_sided = true;  // nobody has said otherwise
+    default_->is_double_sided = true;  // who names no material has chosen no side
     return *default_;
   }
   element(model_.materials, material, "a material");
@@ -188,7 +194,7 @@ GltfSurface GltfMaterials::read(const tinygltf::Material& from) {
   if (m.specular > 0 && rough > 0)
     m.shine = 2 / std::pow(std::max(rough, kSmoothest), 4) - 2;  // Blinn's exponent of that roughness
   const bool is_unlit = from.extensions.contains("KHR_materials_unlit");
-  if (metal < kMirrored && rough < kMatte && let_through == 0 && !is_unlit)
+  if (metal < kMirrored && rough < kMatte && let_through == 0 && !is_unlit && is_glossy(from))
     losses_.add(ModelLoss::kHighlight);
   const auto volume = from.extensions.find("KHR_materials_volume");
   const bool is_tinted = volume != from.extensions.end() && volume->second.Has("attenuationColor");

@@ -1,6 +1,7 @@
 #include "convert/gltf/gltf_mesh.h"
 
 #include <array>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
@@ -120,8 +121,29 @@ void add_gltf_primitive(const tinygltf::Model& model, const tinygltf::Primitive&
       losses.add(ModelLoss::kVertexColours);
     }
   }
-  if (!surface.is_double_sided && !is_closed(mesh)) losses.add(ModelLoss::kOneSide);
   builder.add(mesh, material, space);
+}
+
+bool is_open_behind(const tinygltf::Model& model, const tinygltf::Mesh& from, GltfMaterials& materials) {
+  ModelMesh whole;
+  std::map<int, std::uint32_t> first_of;  // by accessor: parts may share their positions
+  bool is_one_sided = false;
+  for (const tinygltf::Primitive& part : from.primitives) {
+    const int place = attribute(part, "POSITION");
+    if (place < 0 || materials.surface(part.material).is_hidden) continue;
+    const auto [known, is_new] = first_of.emplace(place, static_cast<std::uint32_t>(whole.positions.size()));
+    if (is_new) {
+      const std::vector<Vec3d> positions = vectors(numbers(model, place));
+      whole.positions.insert(whole.positions.end(), positions.begin(), positions.end());
+    }
+    const std::size_t count = model.accessors[static_cast<std::size_t>(place)].count;
+    for (const std::uint32_t corner : triangle_corners(model, part, count)) {
+      whole.corners.push_back(known->second + corner);
+      if (whole.corners.size() % 3 == 0) whole.ends.push_back(whole.corners.size());
+    }
+    is_one_sided = is_one_sided || !materials.surface(part.material).is_double_sided;
+  }
+  return is_one_sided && !is_closed(whole);
 }
 
 }  // namespace pprt

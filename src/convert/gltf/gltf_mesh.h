@@ -14,4 +14,8 @@ void add_gltf_primitive(const tinygltf::Model& model, const tinygltf::Primitive&
                         GltfMaterials& materials, ModelLosses& losses, ModelBuilder& builder,
                         const ModelSpace& space);
 
+// Whether a mesh has a material of one side and an edge beyond which its faces are seen from behind. Throws
+// std::runtime_error for numbers that are not there.
+bool is_open_behind(const tinygltf::Model& model, const tinygltf::Mesh& from, GltfMaterials& materials);
+
 }  // namespace pprt

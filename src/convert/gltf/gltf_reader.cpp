@@ -127,7 +127,7 @@ class GltfReader {
     const std::string& track = tracks_[static_cast<std::size_t>(index)];
     const ModelSpace space = builder_.space_of(parent, transform_of(from), track);
     shown = shown && is_shown(from, track);
-    if (shown && from.mesh >= 0) mesh(element(model_.meshes, from.mesh, "a mesh"), from.skin >= 0, space);
+    if (shown && from.mesh >= 0) mesh(from.mesh, from.skin >= 0, space);
     if (from.camera >= 0) camera(element(model_.cameras, from.camera, "a camera"), track, space);
     const double light = number_in(from.extensions, "KHR_lights_punctual", "light", -1);
     if (light >= 0) lights_.push_back({static_cast<int>(std::min(light, 1e9)), space});
@@ -135,7 +135,8 @@ class GltfReader {
     --depth_;
   }
 
-  void mesh(const tinygltf::Mesh& from, bool has_skin, const ModelSpace& space) {
+  void mesh(int index, bool has_skin, const ModelSpace& space) {
+    const tinygltf::Mesh& from = element(model_.meshes, index, "a mesh");
     if (has_skin) losses_.add(ModelLoss::kSkin);
     bool has_shapes = false;
     for (const tinygltf::Primitive& primitive : from.primitives) {
@@ -143,6 +144,8 @@ class GltfReader {
       add_gltf_primitive(model_, primitive, materials_, losses_, builder_, space);
     }
     if (has_shapes) losses_.add(ModelLoss::kShapes);
+    if (seen_meshes_.insert(index).second && is_open_behind(model_, from, materials_))
+      losses_.add(ModelLoss::kOneSide);
   }
 
   void camera(const tinygltf::Camera& from, const std::string& name, const ModelSpace& space) {
@@ -158,6 +161,7 @@ class GltfReader {
 
   const tinygltf::Model& model_;
   GltfFiles& files_;
+  std::set<int> seen_meshes_;
   ModelLosses losses_;
   ModelBuilder builder_;
   GltfMaterials materials_;

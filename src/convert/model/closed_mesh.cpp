@@ -12,56 +12,75 @@ namespace {
 
 constexpr double kCell = 1e-4;  // of the mesh's longest side: beyond rounding, below what is seen
 
-// Returns the cell of a grid that each position lies in, by the same number for the same cell. `shift`: of
-// the grid, in cells.
-std::vector<std::uint32_t> places(const std::vector<Vec3d>& positions, double shift) {
+using Cell = std::array<std::int32_t, 3>;
+
+// Returns the cells of a grid that positions in range lie in; others are in one of their own. `shift`: of the
+// grid, in cells.
+std::vector<Cell> cells_of(const std::vector<Vec3d>& positions, double shift) {
   Box3d box;
   for (const Vec3d& p : positions) {
     if (is_in_range(p)) box.extendBy(p);
   }
   const Vec3d size = box.isEmpty() ? Vec3d(0, 0, 0) : box.size();
-  const double longest = std::max({size.x, size.y, size.z});
-  const double scale = longest > 0 ? 1 / (kCell * longest) : 0;
-  std::vector<std::array<std::int32_t, 3>> cells(positions.size());
+  const double scale = 1 / (kCell * std::max({size.x, size.y, size.z, 1e-200}));
+  std::vector<Cell> cells(positions.size());
   for (std::size_t i = 0; i < positions.size(); ++i) {
-    if (!is_in_range(positions[i])) continue;
+    if (!is_in_range(positions[i])) {
+      cells[i] = {-1, static_cast<std::int32_t>(i & 0x7FFFFFFF), -1};
+      continue;
+    }
     const Vec3d p = (positions[i] - box.min) * scale;
     for (int k = 0; k < 3; ++k)
       cells[i][static_cast<std::size_t>(k)] = static_cast<std::int32_t>(std::floor(p[k] + shift));
   }
-  std::vector<std::uint32_t> order(positions.size()), place(positions.size());
+  return cells;
+}
+
+// Sets of numbers, each told by one of them.
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t count) : above_(count) { std::iota(above_.begin(), above_.end(), 0U); }
+  std::uint32_t of(std::uint32_t i) {
+    while (above_[i] != i) i = above_[i] = above_[above_[i]];
+    return i;
+  }
+  void join(std::uint32_t a, std::uint32_t b) { above_[of(a)] = of(b); }
+
+ private:
+  std::vector<std::uint32_t> above_;
+};
+
+// Joins the positions that share a cell.
+void join_in_cells(const std::vector<Cell>& cells, DisjointSets& places) {
+  std::vector<std::uint32_t> order(cells.size());
   std::iota(order.begin(), order.end(), 0U);
   std::sort(order.begin(), order.end(),
             [&](std::uint32_t a, std::uint32_t b) { return cells[a] < cells[b]; });
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool is_new = i == 0 || cells[order[i - 1]] != cells[order[i]];
-    place[order[i]] = is_new ? order[i] : place[order[i - 1]];
-  }
-  return place;
+  for (std::size_t i = 1; i < order.size(); ++i)
+    if (cells[order[i - 1]] == cells[order[i]]) places.join(order[i - 1], order[i]);
 }
 
-bool is_closed(const ModelMesh& mesh, const std::vector<std::uint32_t>& place) {
+}  // namespace
+
+bool is_closed(const ModelMesh& mesh) {
+  // What a border between two cells parts, though it is one, lies in one cell of the other grid.
+  DisjointSets places(mesh.positions.size());
+  for (const double shift : {0.25, 0.75}) join_in_cells(cells_of(mesh.positions, shift), places);
   std::vector<std::uint64_t> up, down;  // edges to the higher and to the lower place, named alike
   std::size_t begin = 0;
   for (const std::size_t end : mesh.ends) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint32_t from = mesh.corners[i], to = mesh.corners[i + 1 < end ? i + 1 : begin];
-      if (from >= place.size() || to >= place.size() || place[from] == place[to]) continue;
-      const auto [low, high] = std::minmax(place[from], place[to]);
-      (place[from] == low ? up : down).push_back(std::uint64_t{low} << 32 | high);
+      if (from >= mesh.positions.size() || to >= mesh.positions.size()) continue;
+      const std::uint32_t a = places.of(from), b = places.of(to);
+      if (a == b) continue;
+      (a < b ? up : down).push_back(std::uint64_t{std::min(a, b)} << 32 | std::max(a, b));
     }
     begin = end;
   }
   std::sort(up.begin(), up.end());
   std::sort(down.begin(), down.end());
   return up == down;
-}
-
-}  // namespace
-
-bool is_closed(const ModelMesh& mesh) {
-  // Where a border between two cells parts what is one, it does not on the other grid.
-  return is_closed(mesh, places(mesh.positions, 0.25)) || is_closed(mesh, places(mesh.positions, 0.75));
 }
 
 }  // namespace pprt

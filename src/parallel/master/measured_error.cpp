@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace pprt {
@@ -11,11 +12,25 @@ namespace {
 // it takes its error and its deviation for small alike.
 constexpr std::size_t kPooledFrames = 24;
 
+// Returns how many probes would bound what is not seen as well if they lay evenly: the rank with the fewest
+// for its pixels could hide most.
+double even_probes(std::span<const RankReport> ranks, double pixels) {
+  double fewest = std::numeric_limits<double>::infinity();
+  for (const RankReport& rank : ranks) {
+    const ErrorSums& e = rank.error;
+    if (e.pixels > 0) fewest = std::min(fewest, static_cast<double>(e.probes) / e.pixels);
+  }
+  return fewest * pixels;
+}
+
 // Returns the estimate of the mean over the pixels.
-ErrorEstimate per_pixel(const ErrorSums& sums) {
+ErrorEstimate per_pixel(const ErrorSums& sums, std::span<const RankReport> ranks) {
   const double n = sums.pixels;
-  return {sums.squared / n, sums.variance / (n * n), sums.third / (n * n * n),
-          static_cast<double>(sums.probes)};
+  return {.squared = sums.squared / n,
+          .variance = sums.variance / (n * n),
+          .third = sums.third / (n * n * n),
+          .probes = static_cast<double>(sums.probes),
+          .even = even_probes(ranks, n)};
 }
 
 ErrorSums sum_of(std::span<const RankReport> ranks) {
@@ -47,33 +62,40 @@ double unseen(double probes) {
 // Rare large errors make the distribution skewed: an estimate is often too small, seldom much too large. So
 // the upper bound is farther off, by the skewness. Few probes seldom show it, for they miss what is rare. So
 // it is taken to be at least what the skewness of one probe makes of it. Probes that agree by chance know no
-// better: one deviates by at least the mean.
+// better: one deviates by at least the mean. Pooled moments know nothing of an error that this estimate has
+// not met.
 RmseInterval ErrorEstimate::interval() const {
   constexpr double kNormal = 1.96, kMostSkewness = 1;
   constexpr double kOfAProbe = 8;      // skewness; 3 to 5 in tree, 3 in balls, 7 to 9 in BART's kitchen
   constexpr double kLeastSpread = 1;   // a probe's deviation by the mean; 1.2 to 136 in the databases
   constexpr double kRounding = 1e-10;  // squared: what sums of float colours differ by is no error
-  const double count = std::sqrt(probes);
-  const double spread = probes > 0 ? kLeastSpread * std::abs(squared) / count : 0;
+  const double known_by = pooled > 0 ? pooled : probes;
+  const double spread = probes > 0 ? kLeastSpread * std::abs(squared) / std::sqrt(probes) : 0;
   const double deviation = std::max(std::sqrt(variance), spread);
-  const double least = probes > 0 ? kOfAProbe / count : 0;
+  const double least = probes > 0 ? kOfAProbe / std::sqrt(known_by) : 0;
   const double found = deviation > 0 ? third / (deviation * deviation * deviation) : 0;
   const double above = kNormal * deviation * (1 + std::max(least, std::clamp(found, 0.0, kMostSkewness)));
-  const bool has_met = std::abs(squared) > kRounding || deviation > kRounding;
-  if (probes > 0 && (probes < kProbesForRmse || !has_met))
-    return {root(squared), 0, root(std::max(squared + above, unseen(probes))), false};
+  const bool has_met = std::abs(squared) > kRounding || (pooled == 0 && deviation > kRounding);
+  if (probes > 0 && (known_by < kProbesForRmse || !has_met))
+    return {root(squared), 0, root(std::max(squared + above, unseen(even > 0 ? even : probes))), false};
   return {root(squared), root(squared - kNormal * deviation), root(squared + above)};
 }
 
 void MeanErrorEstimate::add(const ErrorEstimate& estimate) {
   sum_.squared += estimate.squared, sum_.variance += estimate.variance, sum_.third += estimate.third;
   sum_.probes += estimate.probes;
+  const double even = estimate.even > 0 ? estimate.even : estimate.probes;
+  least_even_ = count_ == 0 ? even : std::min(least_even_, even);
   ++count_;
 }
 
 ErrorEstimate MeanErrorEstimate::mean() const {
   const double n = std::max(1, count_);
-  return {sum_.squared / n, sum_.variance / (n * n), sum_.third / (n * n * n), sum_.probes};
+  return {.squared = sum_.squared / n,
+          .variance = sum_.variance / (n * n),
+          .third = sum_.third / (n * n * n),
+          .probes = sum_.probes,
+          .even = least_even_ * n};
 }
 
 std::optional<FrameError> ShotErrors::add(bool cut, std::span<const RankReport> ranks, std::size_t pixels) {
@@ -81,7 +103,7 @@ std::optional<FrameError> ShotErrors::add(bool cut, std::span<const RankReport> 
   const ErrorSums sums = sum_of(ranks);
   if (sums.pixels <= 0) return std::nullopt;
   FrameError error{.frame = {},
-                   .own = per_pixel(sums),
+                   .own = per_pixel(sums, ranks),
                    .shot = {},
                    .shot_frames = 0,
                    .unexpected = 0,
@@ -94,10 +116,11 @@ std::optional<FrameError> ShotErrors::add(bool cut, std::span<const RankReport> 
   unexpected_.push_back(sums.unexpected / sums.pixels);
   if (last_.size() > kPooledFrames) last_.pop_front(), unexpected_.pop_front();
   error.frame.squared = error.own.squared;
+  error.frame.probes = error.own.probes, error.frame.even = error.own.even;
   for (const ErrorEstimate& e : last_) {
     error.frame.variance += e.variance / static_cast<double>(last_.size());
     error.frame.third += e.third / static_cast<double>(last_.size());
-    error.frame.probes += e.probes;
+    error.frame.pooled += e.probes;
   }
   const double unexpected = std::accumulate(unexpected_.begin(), unexpected_.end(), 0.0);
   const double squared = std::accumulate(last_.begin(), last_.end(), 0.0,

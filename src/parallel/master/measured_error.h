@@ -25,7 +25,9 @@ struct ErrorEstimate {
   double squared = 0;   // chance may make it negative
   double variance = 0;  // standard error, squared
   double third = 0;     // third central moment
-  double probes = 0;    // by which these moments are known; 0: by other means
+  double probes = 0;    // that made the estimate; 0: it is known by other means
+  double pooled = 0;    // probes by which the moments are known; 0: these
+  double even = 0;      // of probes, as many as bound what is not seen where they lie evenly; 0: these
 
   RmseInterval interval() const;
 };
@@ -39,6 +41,7 @@ class MeanErrorEstimate {
 
  private:
   ErrorEstimate sum_;
+  double least_even_ = 0;  // of one estimate
   int count_ = 0;
 };
 

@@ -246,6 +246,8 @@ class SamplerPicture {
         made_(make_sampler(settings_of(subject, choice), undivided(camera_), 0, probe_)),
         seeds_(made_.sampler->seeds()) {}
 
+  SamplerPicture(SamplerPicture&&) = delete;  // the probe refers to the tracer
+
   // Whether so few samples leave parts of the picture black.
   bool is_too_coarse(double density) const {
     return samples_per_pixel(static_cast<double>(seeds_.size()), camera_) > density;

@@ -42,13 +42,22 @@ TEST_CASE("closed meshes: rounding parts no corners, wherever they lie") {
 }
 
 TEST_CASE("closed meshes: corners on both sides of a cell's border are one") {
-  for (const double border : {0.500025, 0.500075}) {  // of each of the two grids
+  const auto part_at = [](ModelMesh& mesh, int axis, double border) {
+    bool is_first = true;
+    for (Vec3d& p : mesh.positions) {
+      if (p[axis] != 1) continue;
+      p[axis] = border + (std::exchange(is_first, false) ? -1e-9 : 1e-9);
+    }
+  };
+  constexpr double kFirst = 0.500025, kSecond = 0.500075;  // of each of the two grids
+  for (const double border : {kFirst, kSecond}) {
     ModelMesh mesh = tetrahedron();
-    for (Vec3d& p : mesh.positions)
-      if (p.y == 1) p.y = border + 1e-9;
-    mesh.positions[1].y -= 2e-9;
+    part_at(mesh, 1, border);
     CHECK(is_closed(mesh));
   }
+  ModelMesh both = tetrahedron();
+  part_at(both, 1, kFirst), part_at(both, 2, kSecond);
+  CHECK(is_closed(both));
 }
 
 TEST_CASE("closed meshes: one that lacks a face, or has one turned, is open") {

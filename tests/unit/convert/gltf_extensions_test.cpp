@@ -149,6 +149,43 @@ TEST_CASE("gltf extensions: rough glass, highlights on no metal and open one-sid
   const char* one_side = "1 open mesh of a one-sided material: it is seen from behind, too";
   CHECK(tells(none, none, one_side));
   CHECK_FALSE(tells(none, none, one_side, true));
+  // What mirrors nothing has no highlight.
+  const json smooth = {{"metallicFactor", 0}, {"roughnessFactor", 0.2}};
+  CHECK_FALSE(tells(smooth, {{"KHR_materials_specular", {{"specularFactor", 0}}}}, highlight));
+  CHECK_FALSE(tells(smooth, {{"KHR_materials_ior", {{"ior", 1}}}}, highlight));
+}
+
+TEST_CASE("gltf extensions: a mesh of several materials is closed as a whole, and told once") {
+  GltfSample sample;
+  const int front = sample.numbers({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3"),
+            back = sample.numbers({0, 0, 0, 0, 1, 0, 1, 0, 0}, "VEC3");
+  const auto material = [&] { return sample.add("materials", {{"name", "one"}, {"doubleSided", false}}); };
+  const auto part = [&](int positions) -> json {
+    return {{"material", material()}, {"attributes", {{"POSITION", positions}}}};
+  };
+  const auto told = [](const ReadMesh& read) {
+    return std::count(read.notes.begin(), read.notes.end(),
+                      "1 open mesh of a one-sided material: it is seen from behind, too");
+  };
+  const int closed = sample.add("meshes", {{"primitives", {part(front), part(back)}}});
+  sample.node({{"mesh", closed}});
+  CHECK(told(sample.read()) == 0);
+  // Parts may share their positions.
+  const auto indices = [&](const std::vector<std::uint16_t>& of) {
+    return sample.accessor({reinterpret_cast<const char*>(of.data()), 2 * of.size()},
+                           {{"componentType", 5123}, {"count", of.size()}, {"type", "SCALAR"}});
+  };
+  json one = part(front), other = part(front);
+  one["indices"] = indices({0, 1, 2}), other["indices"] = indices({0, 2, 1});
+  sample.node({{"mesh", sample.add("meshes", {{"primitives", {one, other}}})}});
+  CHECK(told(sample.read()) == 0);
+  const int open = sample.add("meshes", {{"primitives", {part(front)}}});
+  for (const double x : {0.0, 2.0}) sample.node({{"mesh", open}, {"translation", {x, 0, 0}}});
+  CHECK(told(sample.read()) == 1);
+  // Without a word a material has one side.
+  sample.document["materials"].back().erase("doubleSided");
+  sample.keeps_sides = true;
+  CHECK(told(sample.read()) == 1);
 }
 
 TEST_CASE("gltf extensions: a lamp in the scene's middle counts as one a tenth of its size away") {

@@ -20,6 +20,8 @@ class GltfSample {
       R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[]}],"nodes":[],"meshes":[],"materials":[],
           "accessors":[],"bufferViews":[],"buffers":[{"uri":"numbers.bin"}]})");
 
+  bool keeps_sides = false;  // materials that tell no sides stay so
+
   // Each appends to a list of the document and returns the place.
   int add(const char* list, nlohmann::json what) {
     document[list].push_back(std::move(what));
@@ -103,7 +105,7 @@ class GltfSample {
     nlohmann::json whole = document;
     whole["buffers"][0]["byteLength"] = bytes_.size();
     for (nlohmann::json& material : whole["materials"]) {  // what a triangle alone is seen with
-      if (!material.contains("doubleSided")) material["doubleSided"] = true;
+      if (!keeps_sides && !material.contains("doubleSided")) material["doubleSided"] = true;
     }
     const std::filesystem::path path = folder() / "sample.gltf";
     std::ofstream(path) << whole;

@@ -72,7 +72,7 @@ TEST_CASE("measured error: few probes are taken to miss the skewness, many show 
   const std::vector<RankReport> ranks = {report_of(1, 1, 0, 50), report_of(1, 1, 0, 50)};
   FrameError error;
   for (int frame = 0; frame < 10; ++frame) error = errors.add(frame == 0, ranks, 100).value();
-  CHECK((error.own.probes == 10 && error.frame.probes == 100));
+  CHECK((error.own.probes == 10 && error.frame.probes == 10 && error.frame.pooled == 100));
   CHECK(error.shot.high == Approx(std::sqrt(0.02 + 1.96 * std::sqrt(2e-4 / 10) * 1.8)));
 }
 
@@ -126,6 +126,42 @@ TEST_CASE("measured error: probes that met none do not tell that there is none")
   const FrameError second = errors.add(false, ranks, 100).value();
   CHECK((second.shot.high < first && second.shot_frames == 2));
   CHECK_FALSE(second.shot.is_known);
+}
+
+TEST_CASE("measured error: others' probes tell a frame's deviation, not that it has no error") {
+  ShotErrors errors;
+  const std::vector<RankReport> wrong = {report_of(4, 16, 0, 100, 2)},
+                                met_none = {report_of(0, 0, 0, 100, 2)};
+  FrameError error;
+  for (int frame = 0; frame < 15; ++frame) error = errors.add(frame == 0, wrong, 100).value();
+  CHECK_FALSE(error.frame.interval().is_known);  // 30 of the shot so far
+  for (int frame = 0; frame < 2; ++frame) error = errors.add(false, wrong, 100).value();
+  const RmseInterval known = error.frame.interval();
+  CHECK(known.is_known);
+  CHECK(known.rmse == Approx(0.2));
+  CHECK(known.high == Approx(std::sqrt(0.04 + 1.96 * 0.04 * (1 + 8 / std::sqrt(34)))));
+  error = errors.add(false, met_none, 100).value();
+  CHECK_FALSE(error.frame.interval().is_known);
+  CHECK(error.frame.interval().high == 1);  // two probes bound nothing
+  CHECK(error.shot.is_known);
+  // One frame of two probes deviates by its mean at least, however well the others agree.
+  ShotErrors alike;
+  const std::vector<RankReport> same = {report_of(4, 1e-9, 0, 100, 2)};
+  for (int frame = 0; frame < 24; ++frame) error = alike.add(frame == 0, same, 100).value();
+  CHECK(error.frame.interval().low == 0);
+}
+
+TEST_CASE("measured error: what is not seen is bounded by the rank, or the frame, with the fewest probes") {
+  const auto bound = [](double probes) { return std::sqrt(3 * (1 - std::pow(0.05, 1 / probes))); };
+  ShotErrors errors;
+  const std::vector<RankReport> uneven = {report_of(0, 0, 0, 80, 100), report_of(0, 0, 0, 20, 100)};
+  FrameError error = errors.add(true, uneven, 100).value();
+  CHECK(error.own.interval().high == Approx(bound(125)));
+  CHECK(error.frame.interval().high == Approx(bound(125)));
+  errors.add(false, uneven, 100);
+  const std::vector<RankReport> few = {report_of(0, 0, 0, 100, 40)};
+  error = errors.add(false, few, 100).value();
+  CHECK(error.shot.high == Approx(bound(3 * 40)));
 }
 
 TEST_CASE("measured error: an interval has a width where all probes agree") {

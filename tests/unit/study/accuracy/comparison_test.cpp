@@ -258,7 +258,7 @@ TEST_CASE("curves: threads that keep the machine busy change no picture") {
   }
 }
 
-TEST_CASE("busy threads: they render until they are ended", "[realtime]") {
+TEST_CASE("busy threads: they render until they are ended", "[realtime][alone]") {
   const TreeSetup tree(32);
   // CPU seconds of all threads but this one.
   const auto others = [] {
@@ -278,7 +278,7 @@ TEST_CASE("busy threads: they render until they are ended", "[realtime]") {
   CHECK(others() - ended < 0.01);
 }
 
-TEST_CASE("control: it has ratio 1 by the processor's clock, within noise", "[realtime]") {
+TEST_CASE("control: it has ratio 1 by the processor's clock, within noise", "[realtime][alone]") {
   const TreeSetup tree(128);
   Method impostor = uniform_method();
   impostor.name = kDelaunayMethod;
@@ -291,7 +291,7 @@ TEST_CASE("control: it has ratio 1 by the processor's clock, within noise", "[re
   }
 }
 
-TEST_CASE("control: a sampler that takes twice the time has ratios above 1", "[realtime]") {
+TEST_CASE("control: a sampler that takes twice the time has ratios above 1", "[realtime][alone]") {
   const TreeSetup tree;
   const SceneCurves curves = curves_of(
       tree, {priced(uniform_method(), kDelaunayMethod, 2), priced(uniform_method(), kUniform, 1)}, 1);
