@@ -1,8 +1,9 @@
 #include "trace/connected_surfaces.h"
 
 #include <bit>
-#include <numeric>
 #include <unordered_map>
+
+#include "base/disjoint_sets.h"
 
 namespace pprt {
 namespace {
@@ -28,25 +29,7 @@ std::uint64_t hash_of(const Vec3f& position) {
   return hash;
 }
 
-// Sets of primitives; each is known by its least number.
-class Sets {
- public:
-  explicit Sets(std::uint32_t count) : parents_(count) { std::iota(parents_.begin(), parents_.end(), 0U); }
-
-  std::uint32_t find(std::uint32_t i) {
-    while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
-    return i;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = find(a), b = find(b);
-    parents_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parents_;
-};
-
-void join_corners(const ScenePart& part, const Mesh& mesh, Sets& sets) {
+void join_corners(const ScenePart& part, const Mesh& mesh, DisjointSets& sets) {
   constexpr std::uint32_t kNone = ~std::uint32_t{0};
   std::unordered_map<std::uint64_t, std::uint32_t> first;  // corner by the hash of its position
   first.reserve(mesh.triangles.size());
@@ -78,7 +61,7 @@ void join_corners(const ScenePart& part, const Mesh& mesh, Sets& sets) {
 }  // namespace
 
 std::vector<std::uint32_t> connected_surfaces(std::span<const ScenePart> parts, std::uint32_t primitives) {
-  Sets sets(primitives + 1);
+  DisjointSets sets(primitives + 1);
   for (const ScenePart& part : parts) {
     const Mesh* mesh = std::get_if<Mesh>(&part.shape);
     if (mesh != nullptr && part.shapes.empty()) join_corners(part, *mesh, sets);

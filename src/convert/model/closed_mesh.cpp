@@ -7,6 +7,8 @@
 #include <numeric>
 #include <vector>
 
+#include "base/disjoint_sets.h"
+
 namespace pprt {
 namespace {
 
@@ -36,20 +38,6 @@ std::vector<Cell> cells_of(const std::vector<Vec3d>& positions, double shift) {
   return cells;
 }
 
-// Sets of numbers, each told by one of them.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t count) : above_(count) { std::iota(above_.begin(), above_.end(), 0U); }
-  std::uint32_t of(std::uint32_t i) {
-    while (above_[i] != i) i = above_[i] = above_[above_[i]];
-    return i;
-  }
-  void join(std::uint32_t a, std::uint32_t b) { above_[of(a)] = of(b); }
-
- private:
-  std::vector<std::uint32_t> above_;
-};
-
 // Joins the positions that share a cell.
 void join_in_cells(const std::vector<Cell>& cells, DisjointSets& places) {
   std::vector<std::uint32_t> order(cells.size());
@@ -72,7 +60,7 @@ bool is_closed(const ModelMesh& mesh) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint32_t from = mesh.corners[i], to = mesh.corners[i + 1 < end ? i + 1 : begin];
       if (from >= mesh.positions.size() || to >= mesh.positions.size()) continue;
-      const std::uint32_t a = places.of(from), b = places.of(to);
+      const std::uint32_t a = places.find(from), b = places.find(to);
       if (a == b) continue;
       (a < b ? up : down).push_back(std::uint64_t{std::min(a, b)} << 32 | std::max(a, b));
     }

@@ -48,10 +48,10 @@ double root(double square) {
   return std::sqrt(std::clamp(square, 0.0, 1.0));
 }
 
-// Returns a 95 % bound of the mean squared error where no probe need have met what is wrong. They miss a
-// share q of their weight with probability (1 - q)^n, so q <= 1 - 0.05^(1/n), about 3/n: the rule of three
-// (Hanley, Lippman-Hand, If nothing goes wrong, is everything all right? JAMA 249(13), 1983). Each pixel has
-// a third of an even weight at least, and a squared error of 1 at most.
+// Returns a 95 % bound of the mean squared error where no probe need have met what is wrong. Probes miss a
+// share q of their weight with probability (1 - q)^n, so q is at most 1 - 0.05^(1/n). That is about 3/n, the
+// rule of three. Each pixel has a third of an even weight at least, and a squared error of 1 at most. Source:
+// Hanley, Lippman-Hand, If nothing goes wrong, is everything all right? JAMA 249(13), 1983.
 double unseen(double probes) {
   constexpr double kMissed = 0.05, kLeastWeight = 1.0 / 3;
   return (1 - std::pow(kMissed, 1 / probes)) / kLeastWeight;
