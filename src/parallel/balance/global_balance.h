@@ -7,9 +7,9 @@
 
 #include "parallel/protocol/messages.h"
 #include "parallel/protocol/tile_cost.h"
-#include "parallel/settings/sampler_traits.h"
 #include "parallel/settings/session_settings.h"
 #include "pipeline/core/tile_grid.h"
+#include "pipeline/sampling/sampler_traits.h"
 
 namespace pprt {
 

@@ -7,9 +7,9 @@
 #include "base/probe.h"
 #include "parallel/balance/partition.h"
 #include "parallel/exchange/sample_exchange.h"
-#include "parallel/settings/sampler_traits.h"
 #include "parallel/settings/session_settings.h"
 #include "pipeline/sampling/sampler.h"
+#include "pipeline/sampling/sampler_traits.h"
 
 namespace pprt {
 

@@ -15,7 +15,8 @@ RankSampling::RankSampling(const SessionSettings& settings, const Partition& par
       costs_(costs),
       clock_(clock),
       poll_(std::move(poll)),
-      traits_(traits_of(settings.sampler)) {
+      traits_(traits_of(settings.sampler)),
+      work_(work_of(traits_)) {
   SamplerWithExchange made = make_sampler(settings, partition, rank, tracer.probe());
   sampler_ = std::move(made.sampler);
   exchange_ = std::move(made.exchange);
@@ -32,7 +33,7 @@ void RankSampling::begin_picture(bool keep_learned) {
 void RankSampling::trace_seeds() {
   for (const SeedPoint& seed : sampler_->seeds()) {
     const Sample sample = trace(seed.at);
-    clock_.spend(seed.own ? traits_.work.own : traits_.work.received, 1);
+    clock_.spend(seed.own ? work_.own : work_.received, 1);
     if (!seed.own) costs_.add_received();
     if (exchange_->insert_seed(sample, seed.number)) in_region_ += seed.own;
     counts_.traced += seed.own;
@@ -41,7 +42,7 @@ void RankSampling::trace_seeds() {
 
 void RankSampling::trace_missing_base() {
   for (const Vec2d& point : sampler_->missing_base()) {
-    insert(trace(point), rank_, traits_.work.own);
+    insert(trace(point), rank_, work_.own);
     ++counts_.traced;
   }
 }
@@ -76,7 +77,7 @@ bool RankSampling::refine(CastEvidence* evidence) {
     evidence->fresh_area += guess.area;
     evidence->fresh_rays += sample.ray.rays;
   }
-  insert(sample, rank_, traits_.work.own);
+  insert(sample, rank_, work_.own);
   ++(sample.frame == tracer_.frame_number() ? counts_.traced : counts_.cast);
   return true;
 }
@@ -92,7 +93,7 @@ void RankSampling::reinsert_all(std::span<const Sample> samples) {
 // A cast sample counts like one traced here: a tile's quality is that of all its samples, and so is its cost.
 void RankSampling::note_reinserted(const Sample& sample, bool is_new) {
   poll_();
-  clock_.spend(traits_.work.kept, 1);
+  clock_.spend(work_.kept, 1);
   if (!is_new) return;
   in_region_ += owns(sample);
   costs_.add_own(sample);
@@ -102,13 +103,13 @@ void RankSampling::note_reinserted(const Sample& sample, bool is_new) {
 void RankSampling::insert_received(std::span<const Sample> samples, int from) {
   for (const Sample& s : samples) {
     costs_.add_received();
-    ++(insert(s, from, traits_.work.received) ? counts_.received : counts_.known);
+    ++(insert(s, from, work_.received) ? counts_.received : counts_.known);
   }
 }
 
 void RankSampling::insert_late(std::span<const Sample> samples) {
   for (const Sample& s : samples) {
-    const bool inserted = insert(s, rank_, traits_.work.own);
+    const bool inserted = insert(s, rank_, work_.own);
     ++(inserted ? counts_.received : counts_.known);
     counts_.cast += inserted && owns(s);
   }

@@ -12,6 +12,7 @@
 #include "parallel/exchange/samplers.h"
 #include "parallel/rank/sample_tracer.h"
 #include "parallel/settings/session_settings.h"
+#include "parallel/settings/work_units.h"
 
 namespace pprt {
 
@@ -105,6 +106,7 @@ class RankSampling {
   FrameClock& clock_;
   std::function<void()> poll_;
   const SamplerTraits& traits_;
+  SampleWork work_;
   std::unique_ptr<Sampler> sampler_;
   std::unique_ptr<SampleExchange> exchange_;
   std::uint64_t in_region_ = 0;

@@ -30,7 +30,7 @@ Worker::Worker(Communicator& network, Inbox& inbox, const SessionSettings& setti
       settings_(settings),
       clock_(std::move(clock)),
       timer_(*clock_),
-      costs_(partition.grid, traits_of(settings_.sampler).work),
+      costs_(partition.grid, work_of(traits_of(settings_.sampler))),
       bundles_(network, inbox, make_exchange_policy(settings, network.size()), *clock_, timer_),
       tracer_(std::move(probe), network.rank(), *clock_, costs_,
               [this](std::uint64_t rays) { bundles_.poll(rays); }),

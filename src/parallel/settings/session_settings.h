@@ -1,10 +1,12 @@
 // Settings of one run, equal on all ranks.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "base/wire.h"
 #include "parallel/settings/machine.h"
+#include "parallel/settings/sampler_list.h"
 #include "parallel/settings/work_units.h"
 #include "pipeline/core/pixel_block.h"
 
@@ -19,12 +21,14 @@ enum class ClockKind : std::uint8_t {
 // kOff.
 enum class CastChoice : std::uint8_t { kOff, kPaper, kVerified, kAuto };
 
-// What chooses a frame's samples and makes pixels of them.
-enum class SamplerChoice : std::uint8_t {
-  kAuto,      // a grid first, then what is expected to be most wrong: on a lattice
-  kDelaunay,  // the triangles of greatest weight: the paper's
-  kGrid       // all nodes of the lattice, level by level
-};
+// What chooses a frame's samples and makes pixels of them: on a lattice kAuto and kGrid, on a triangulation
+// kDelaunay, which is the paper's.
+#define PPRT_CHOICE(choice, ...) choice,
+enum class SamplerChoice : std::uint8_t { PPRT_SAMPLERS(PPRT_CHOICE, PPRT_CHOICE) };
+#undef PPRT_CHOICE
+#define PPRT_CHOICE(choice, ...) SamplerChoice::choice,
+inline constexpr std::array kSamplerChoices = {PPRT_SAMPLERS(PPRT_CHOICE, PPRT_CHOICE)};
+#undef PPRT_CHOICE
 
 // A sampler that must be named: SessionSettings without one do not compile. The samplers keep different
 // promises, so a default would hide which of them a run or a test is about.
@@ -93,7 +97,7 @@ inline constexpr ClockKind kLast<ClockKind> = ClockKind::kWork;
 template <>
 inline constexpr CastChoice kLast<CastChoice> = CastChoice::kAuto;
 template <>
-inline constexpr SamplerChoice kLast<SamplerChoice> = SamplerChoice::kGrid;
+inline constexpr SamplerChoice kLast<SamplerChoice> = kSamplerChoices.back();
 template <>
 inline constexpr BalanceMode kLast<BalanceMode> = BalanceMode::kCombined;
 template <>

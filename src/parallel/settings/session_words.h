@@ -32,10 +32,10 @@ inline constexpr std::array<Word<CastChoice>, 4> kWords<CastChoice>{{
 }};
 
 template <>
-inline constexpr std::array<Word<SamplerChoice>, 3> kWords<SamplerChoice>{{
-    {SamplerChoice::kAuto, "auto", "a grid, then what is most wrong"},
-    {SamplerChoice::kDelaunay, "delaunay", "the heaviest triangles, as in the paper"},
-    {SamplerChoice::kGrid, "grid", "evenly, ever finer"},
+inline constexpr std::array<Word<SamplerChoice>, kSamplerChoices.size()> kWords<SamplerChoice>{{
+#define PPRT_WORD(choice, word, help, ...) {SamplerChoice::choice, word, help},
+    PPRT_SAMPLERS(PPRT_WORD, PPRT_WORD)
+#undef PPRT_WORD
 }};
 
 template <>
@@ -50,7 +50,7 @@ inline constexpr std::array<Word<PixelRule>, 4> kWords<PixelRule>{{
 template <typename E>
 inline constexpr bool kHasAllWords = kWords<E>.size() == static_cast<std::size_t>(kLast<E>) + 1;
 static_assert(kHasAllWords<ClockKind> && kHasAllWords<BalanceMode> && kHasAllWords<CastChoice> &&
-              kHasAllWords<SamplerChoice> && kHasAllWords<PixelRule>);
+              kHasAllWords<PixelRule>);
 
 // SessionSettings::learned_weights, spelt out.
 enum class WeightRule : std::uint8_t { kLearned, kPaper };

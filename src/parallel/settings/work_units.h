@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "pipeline/casting/cast_choice.h"
+#include "pipeline/sampling/sampler_traits.h"
 
 namespace pprt {
 
@@ -57,8 +58,18 @@ constexpr WorkUnits price(Work work) {
 
 // What a sampler does with a sample: one that is traced here, another rank's, and one that was cast.
 struct SampleWork {
-  Work own = Work::kOwnSample, received = Work::kReceivedSample, kept = Work::kKeptSample;
+  Work own, received, kept;
 };
+
+constexpr SampleWork work_of(const SamplerTraits& traits) {
+  switch (traits.store) {
+    case SampleStore::kTriangulation:
+      return {Work::kOwnSample, Work::kReceivedSample, Work::kKeptSample};
+    case SampleStore::kLattice:
+      break;
+  }
+  return {Work::kOwnNode, Work::kReceivedNode, Work::kKeptNode};
+}
 
 // What the choice of casting compares on this clock.
 constexpr CastPrices cast_prices() {

@@ -5,6 +5,11 @@
 #include <utility>
 
 namespace pprt {
+LatticeSampler::LatticeSampler(const SamplerSetup& setup, LatticeOrder order)
+    : LatticeSampler(setup.region, order, {.samples = setup.samples, .keeps_samples = setup.keeps_samples},
+                     {setup.probe.project, setup.probe.primitives, setup.probe.surfaces, setup.probe.bound},
+                     setup.probe.textures, setup.probe.lights) {}
+
 LatticeSampler::LatticeSampler(const Region& region, LatticeOrder order, const Goal& goal,
                                PrimitiveShapes shapes, PrimitiveTextures textures, PrimitiveLights lights)
     : goal_(goal), refiner_(region, std::move(shapes), order, std::move(textures), std::move(lights)) {

@@ -6,8 +6,11 @@
 #include <vector>
 
 #include "pipeline/casting/carried_lights.h"
+#include "pipeline/lattice/lattice_node.h"
 #include "pipeline/lattice/lattice_refiner.h"
 #include "pipeline/sampling/point_sampler.h"
+#include "pipeline/sampling/sampler_setup.h"
+#include "pipeline/sampling/sampler_traits.h"
 
 namespace pprt {
 
@@ -19,7 +22,10 @@ class LatticeSampler final : public PointSampler {
     bool keeps_samples = true;  // somebody asks for samples()
   };
 
+  static constexpr SamplerTraits traits(LatticeOrder order);
+
   // The region's tiles are whole base squares.
+  LatticeSampler(const SamplerSetup& setup, LatticeOrder order);
   LatticeSampler(const Region& region, LatticeOrder order, const Goal& goal, PrimitiveShapes shapes,
                  PrimitiveTextures textures = {}, PrimitiveLights lights = {});
 
@@ -65,5 +71,23 @@ class LatticeSampler final : public PointSampler {
   std::size_t weighed_ = 0;           // samples when the weights were computed; 0: they are not
   std::vector<PixelRect> parts_;      // to paint
 };
+
+constexpr SamplerTraits LatticeSampler::traits(LatticeOrder order) {
+  // Mean worth of what is still to be sampled at which a still looks converged: the structural similarity to
+  // a converged picture is at least 0.99 on every SPD scene tried (docs/decisions/0007-still-quality.md,
+  // 0021-lattice.md).
+  constexpr double kStillWorth = 2.8e-5;
+  // Without a rate each rank ends at its own region's mean. A region of costly tiles alone reaches it late:
+  // with three times the samples that the picture needs. Under rest other tiles are costly than in a picture
+  // that begins.
+  return {.tile_multiple = kBaseSide / kPixelSide,
+          .store = SampleStore::kLattice,
+          .still_weight = order == LatticeOrder::kAdaptive ? kStillWorth : 0,
+          .weights_are_roots = true,
+          .cast_use = CastUse::kLights,
+          .refreshes_in_parts = true,
+          .balances_without_rate = false,
+          .costs_outlast_rest = false};
+}
 
 }  // namespace pprt

@@ -8,11 +8,14 @@
 #include "pipeline/mesh/sample_mesh.h"
 #include "pipeline/mesh/seeds.h"
 #include "pipeline/sampling/sampler.h"
+#include "pipeline/sampling/sampler_traits.h"
 
 namespace pprt {
 
 class MeshSampler final : public Sampler {
  public:
+  static constexpr SamplerTraits traits();
+
   // `view` computes a primitive's shape as Probe::project does; empty: shapes are not known.
   MeshSampler(const Region& region, SeedPattern seeds, PixelRule rule, bool learned_weights,
               ProjectedShapeCache::View view);
@@ -48,5 +51,19 @@ class MeshSampler final : public Sampler {
   ReconstructionBuffers buffers_;
   ProjectedShapeCache projected_shapes_;
 };
+
+constexpr SamplerTraits MeshSampler::traits() {
+  // Mean triangle weight at which a still looks converged: the structural similarity to a converged picture
+  // is at least 0.99 on every SPD scene tried (docs/decisions/0007-still-quality.md).
+  constexpr double kStillWeight = 0.005;
+  return {.tile_multiple = 1,
+          .store = SampleStore::kTriangulation,
+          .still_weight = kStillWeight,
+          .weights_are_roots = false,
+          .cast_use = CastUse::kSamples,
+          .refreshes_in_parts = false,
+          .balances_without_rate = true,
+          .costs_outlast_rest = true};
+}
 
 }  // namespace pprt

@@ -4,8 +4,9 @@
 #include <set>
 
 #include "parallel/balance/partition.h"
+#include "parallel/exchange/samplers.h"
 #include "parallel/settings/work_units.h"
-#include "unit/parallel/both_samplers.h"
+#include "unit/each_sampler.h"
 #include "unit/parallel/virtual_run.h"
 
 namespace pprt::casting_session_test {
@@ -48,9 +49,14 @@ double distance_to_region(const Region& region, const Sample& s) {
   return nearest;
 }
 
+// Whether what is cast becomes samples of the next picture.
+bool casts_samples(SamplerChoice sampler) {
+  return traits_of(sampler).cast_use == CastUse::kSamples;
+}
+
 }  // namespace
 
-BOTH_SAMPLERS_TEST_CASE("casting: cast samples serve the next frame, the same each time") {
+EACH_SAMPLER_TEST_CASE("casting: cast samples serve the next frame, the same each time") {
   for (const CastChoice cast : {CastChoice::kPaper, CastChoice::kVerified}) {
     const SessionSettings settings = casting_settings(sampler, cast);
     const VirtualRun run = run_session(kRanks, settings, still_or_pan(settings, 4, 3));
@@ -60,10 +66,10 @@ BOTH_SAMPLERS_TEST_CASE("casting: cast samples serve the next frame, the same ea
     CHECK(same_pictures(run, again));
     REQUIRE(run.frames.size() == 4);
     CHECK(total(run.frames[0], &RankReport::samples_cast) == 0);
-    // Those that are verified are dropped when they are older than two frames: up to here none is. On a
-    // lattice all are, and they serve samples on the disc alone, where there are lights.
-    const bool is_lattice = sampler == SamplerChoice::kAuto;
-    const std::size_t end = is_lattice || cast == CastChoice::kVerified ? 3 : 4;
+    // Those that are verified are dropped when they are older than two frames: up to here none is.
+    // Lights always are, and they serve samples on the disc alone.
+    const bool are_samples = casts_samples(sampler);
+    const std::size_t end = !are_samples || cast == CastChoice::kVerified ? 3 : 4;
     for (std::size_t i = 1; i < end; ++i) {
       const std::uint64_t cast_in = total(run.frames[i], &RankReport::samples_cast);
       const std::uint64_t before = total(run.frames[i - 1], &RankReport::samples_in_region);
@@ -71,13 +77,13 @@ BOTH_SAMPLERS_TEST_CASE("casting: cast samples serve the next frame, the same ea
       // Of 128 columns three leave the picture, and a plane hides nothing; but putting samples back takes at
       // most half of each rank's frame.
       const std::uint64_t room = kRanks * (settings.budget_units / 2 / price(Work::kKeptSample));
-      CHECK(cast_in > (is_lattice ? before / 10 : std::min(before, room) * 85 / 100));
+      CHECK(cast_in > (are_samples ? std::min(before, room) * 85 / 100 : before / 10));
       CHECK(cast_in <= before);
     }
   }
 }
 
-BOTH_SAMPLERS_TEST_CASE(
+EACH_SAMPLER_TEST_CASE(
     "casting: auto carries samples where they pay, the same each time, and learns from the frames before") {
   const SessionSettings settings = casting_settings(sampler, CastChoice::kAuto);
   const VirtualRun run = run_session(kRanks, settings, still_or_pan(settings, 4, 3), {.more_rays = 4});
@@ -86,15 +92,15 @@ BOTH_SAMPLERS_TEST_CASE(
   CHECK(run.error.empty());
   CHECK(same_pictures(run, again));
   REQUIRE(run.frames.size() == 4);
-  // On a lattice the choice goes by the shadow rays of samples, and there is nothing to learn.
-  CHECK((run.frames[3].order.evidence.fresh > 0) == (sampler == SamplerChoice::kDelaunay));
+  // Where lights are cast the choice goes by the shadow rays of samples, and there is nothing to learn.
+  CHECK((run.frames[3].order.evidence.fresh > 0) == casts_samples(sampler));
   for (std::size_t i = 1; i < 4; ++i) {
     CHECK(run.frames[i].order.carry == Carry::kCastWherePaying);
     CHECK(total(run.frames[i], &RankReport::samples_cast) > 0);
   }
 }
 
-BOTH_SAMPLERS_TEST_CASE("casting: where it does not pay it costs a few samples, not all") {
+EACH_SAMPLER_TEST_CASE("casting: where it does not pay it costs a few samples, not all") {
   // Rays are cheap: one carried sample costs 935 units, and a fresh one 815.
   const auto casting_ms = [&](CastChoice cast) {
     double sum = 0;
@@ -105,7 +111,7 @@ BOTH_SAMPLERS_TEST_CASE("casting: where it does not pay it costs a few samples, 
     return sum;
   };
   const double by_choice = casting_ms(CastChoice::kAuto), of_all = casting_ms(CastChoice::kVerified);
-  CHECK((by_choice > 0) == (sampler == SamplerChoice::kDelaunay));  // the trial; a lattice needs none
+  CHECK((by_choice > 0) == casts_samples(sampler));  // the trial; lights need none
   CHECK(by_choice < 0.05 * of_all);
 }
 
@@ -128,7 +134,7 @@ TEST_CASE("casting: ranks measure what samples cost in real time, and on no othe
   }
 }
 
-BOTH_SAMPLERS_TEST_CASE(
+EACH_SAMPLER_TEST_CASE(
     "casting: where the eye rests and the view turns no ray checks samples, and they live for four frames or "
     "two") {
   const SessionSettings settings = casting_settings(sampler, CastChoice::kAuto);
@@ -148,10 +154,10 @@ BOTH_SAMPLERS_TEST_CASE(
   }
   int oldest = 7;
   for (const Sample& s : run.frames[6].samples) oldest = std::min(oldest, s.frame);
-  CHECK(oldest == (sampler == SamplerChoice::kDelaunay ? 3 : 5));  // what lights are seen is asked sooner
+  CHECK(oldest == (casts_samples(sampler) ? 3 : 5));  // what lights are seen is asked sooner
 }
 
-BOTH_SAMPLERS_TEST_CASE("casting: frames that carry many samples are on time") {
+EACH_SAMPLER_TEST_CASE("casting: frames that carry many samples are on time") {
   for (const CastChoice cast : {CastChoice::kPaper, CastChoice::kVerified, CastChoice::kAuto}) {
     const SessionSettings settings = casting_settings(sampler, cast);
     for (const FinishedFrame& frame : run_session(kRanks, settings, still_or_pan(settings, 8, 1)).frames) {
@@ -161,13 +167,12 @@ BOTH_SAMPLERS_TEST_CASE("casting: frames that carry many samples are on time") {
   }
 }
 
-BOTH_SAMPLERS_TEST_CASE(
-    "casting: a cast sample that crosses a border is announced to the rank it came from") {
+EACH_SAMPLER_TEST_CASE("casting: a cast sample that crosses a border is announced to the rank it came from") {
   // Its triangles reach over the border it has crossed: the former owner needs it as much as any. So near to
   // the border no other sample comes between.
-  const double reach = sampler == SamplerChoice::kDelaunay ? 0.25 : 1;  // pixels
+  const double reach = casts_samples(sampler) ? 0.25 : 1;  // pixels
   SessionSettings settings = casting_settings(sampler, CastChoice::kPaper);
-  if (sampler == SamplerChoice::kAuto) settings.budget_units *= 4;  // so that enough samples lie there
+  if (!casts_samples(sampler)) settings.budget_units *= 4;  // so that enough samples lie there
   const Partition partition = partition_of(settings);
   const VirtualRun run = run_session(kRanks, settings, still_or_pan(settings, 2, 3));
   REQUIRE(run.frames.size() == 2);
@@ -188,7 +193,7 @@ BOTH_SAMPLERS_TEST_CASE(
   }
   INFO(back << " of " << crossed);
   CHECK(crossed > 10);
-  if (sampler == SamplerChoice::kDelaunay) {
+  if (casts_samples(sampler)) {
     CHECK(back >= crossed * 9 / 10);
   } else {
     CHECK(back == 0);  // it is no sample of the picture

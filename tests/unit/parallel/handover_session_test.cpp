@@ -4,7 +4,8 @@
 #include <map>
 #include <set>
 
-#include "unit/parallel/both_samplers.h"
+#include "parallel/exchange/samplers.h"
+#include "unit/each_sampler.h"
 #include "unit/parallel/virtual_run.h"
 
 namespace pprt::handover_session_test {
@@ -101,15 +102,15 @@ CameraSource still_with_disc_aside(const SessionSettings& settings, int frames) 
 
 }  // namespace
 
-BOTH_SAMPLERS_TEST_CASE(
+EACH_SAMPLER_TEST_CASE(
     "handover: no repartition and no transfer loses a sample at rest, and every tile has one owner") {
   for (const BalanceMode balance : {BalanceMode::kLocal, BalanceMode::kGlobal, BalanceMode::kCombined}) {
     SessionSettings settings = settings_for(sampler, balance, ClockKind::kWork);
-    // Without a rate no rank gives tiles of a lattice away.
-    const bool is_lattice = sampler == SamplerChoice::kAuto;
-    if (is_lattice && balance == BalanceMode::kLocal)
+    const bool balances_without_rate = traits_of(sampler).balances_without_rate;
+    if (!balances_without_rate && balance == BalanceMode::kLocal)
       settings.frames_per_second = 10, settings.budget_units = 3'000'000, settings.stop = {};
-    const bool gives = balance == BalanceMode::kLocal || (balance == BalanceMode::kCombined && !is_lattice);
+    const bool gives =
+        balance == BalanceMode::kLocal || (balance == BalanceMode::kCombined && balances_without_rate);
     const VirtualRun run = run_session(kRanks, settings, still_with_disc_aside(settings, 8));
     REQUIRE(run.error.empty());
     REQUIRE(run.frames.size() == 8);
@@ -125,7 +126,7 @@ BOTH_SAMPLERS_TEST_CASE(
   }
 }
 
-BOTH_SAMPLERS_TEST_CASE("handover: a repartition that does not keep samples loses them") {
+EACH_SAMPLER_TEST_CASE("handover: a repartition that does not keep samples loses them") {
   SessionSettings settings = settings_for(sampler, BalanceMode::kGlobal, ClockKind::kWork);
   settings.keep_samples = false;
   const VirtualRun run = run_session(kRanks, settings, still_with_disc_aside(settings, 5));
@@ -134,8 +135,8 @@ BOTH_SAMPLERS_TEST_CASE("handover: a repartition that does not keep samples lose
   CHECK(missing_from(points_of(run.frames[4]), points_of(run.frames[0])) > 100);
 }
 
-BOTH_SAMPLERS_TEST_CASE(
-    "handover: in real time no sample is lost whatever the order in which messages arrive", "[realtime]") {
+EACH_SAMPLER_TEST_CASE("handover: in real time no sample is lost whatever the order in which messages arrive",
+                       "[realtime]") {
   constexpr int kFrames = 6;
   const std::vector<Conditions> all_conditions = {{.slow_at_random = true, .arrive_at_random = true},
                                                   {.bundle_delay_s = 0.003}};

@@ -4,9 +4,10 @@
 #include <cmath>
 #include <set>
 
+#include "parallel/exchange/samplers.h"
 #include "parallel/network/local_communicator.h"
 #include "parallel/rank/worker.h"
-#include "unit/parallel/both_samplers.h"
+#include "unit/each_sampler.h"
 #include "unit/parallel/clock/set_clock.h"
 #include "unit/parallel/virtual_run.h"
 
@@ -159,22 +160,22 @@ const Step kFirst{0, Carry::kNothing};
 
 }  // namespace
 
-BOTH_SAMPLERS_TEST_CASE(
+EACH_SAMPLER_TEST_CASE(
     "late rank: leaves out frames that are past and joins at the first whose deadline is to come") {
   Pair pair(sampler);
   pair.step(kFirst);
   for (int i = 1; i <= 4; ++i) pair.step({2.0 * i}, true);
   pair.step({10});
   CHECK(pair.frames_of(1) == std::vector<int>{0, 5});
-  // Those of frame 0, in the view of frame 5. On a lattice they are too old to tell which lights are seen.
-  CHECK((pair.last_of(1).report.samples_cast > 100) == (sampler == SamplerChoice::kDelaunay));
+  // Those of frame 0, in the view of frame 5. They are too old to tell which lights are seen.
+  CHECK((pair.last_of(1).report.samples_cast > 100) == (traits_of(sampler).cast_use == CastUse::kSamples));
   pair.check_last_frame_is_whole();
   pair.step({12});
   CHECK(pair.last_of(1).report.samples_cast > 100);
   pair.check_last_frame_is_whole();
 }
 
-BOTH_SAMPLERS_TEST_CASE("late rank: the first frame is never left out") {
+EACH_SAMPLER_TEST_CASE("late rank: the first frame is never left out") {
   Pair pair(sampler);
   pair.step(kFirst, true);
   pair.step({2}, true);
@@ -184,7 +185,7 @@ BOTH_SAMPLERS_TEST_CASE("late rank: the first frame is never left out") {
   pair.check_last_frame_is_whole();
 }
 
-BOTH_SAMPLERS_TEST_CASE(
+EACH_SAMPLER_TEST_CASE(
     "late rank: after a rest of the camera it has kept its samples, and takes in what it was sent") {
   Pair pair(sampler);
   pair.step(kFirst);
@@ -199,7 +200,7 @@ BOTH_SAMPLERS_TEST_CASE(
   pair.check_last_frame_is_whole();
 }
 
-BOTH_SAMPLERS_TEST_CASE("late rank: one that missed the beginning of the others' triangulation begins anew") {
+EACH_SAMPLER_TEST_CASE("late rank: one that missed the beginning of the others' triangulation begins anew") {
   Pair pair(sampler);
   pair.step(kFirst);
   pair.step({3}, true);
@@ -218,8 +219,7 @@ BOTH_SAMPLERS_TEST_CASE("late rank: one that missed the beginning of the others'
   pair.check_last_frame_is_whole();
 }
 
-BOTH_SAMPLERS_TEST_CASE(
-    "late rank: where it joins a new picture at rest it shows nothing of the one before") {
+EACH_SAMPLER_TEST_CASE("late rank: where it joins a new picture at rest it shows nothing of the one before") {
   Pair pair(sampler);
   pair.step(kFirst);
   pair.forbid_refresh();
@@ -228,7 +228,7 @@ BOTH_SAMPLERS_TEST_CASE(
   pair.check_last_frame_is_whole();
 }
 
-BOTH_SAMPLERS_TEST_CASE("late rank: nothing is carried across a camera cut that was left out") {
+EACH_SAMPLER_TEST_CASE("late rank: nothing is carried across a camera cut that was left out") {
   Pair pair(sampler);
   pair.step(kFirst);
   pair.step({3, Carry::kNothing}, true);
@@ -240,7 +240,7 @@ BOTH_SAMPLERS_TEST_CASE("late rank: nothing is carried across a camera cut that 
   pair.check_last_frame_is_whole();
 }
 
-BOTH_SAMPLERS_TEST_CASE("late rank: a partition that comes with a frame left out is in force all the same") {
+EACH_SAMPLER_TEST_CASE("late rank: a partition that comes with a frame left out is in force all the same") {
   for (const Carry carry : {Carry::kCastPaper, Carry::kAccumulate, Carry::kNothing}) {
     for (const bool keep : {true, false}) {
       Pair pair(sampler, keep);

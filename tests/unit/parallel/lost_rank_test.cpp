@@ -8,7 +8,7 @@
 #include "image/metrics.h"
 #include "parallel/master/loss_watch.h"
 #include "parallel/network/local_communicator.h"
-#include "unit/parallel/both_samplers.h"
+#include "unit/each_sampler.h"
 #include "unit/parallel/virtual_run.h"
 
 namespace pprt::lost_rank_test {
@@ -55,8 +55,8 @@ RunWithLoss lose_rank_2(SamplerChoice sampler, BalanceMode balance, double shift
   return result;
 }
 
-BOTH_SAMPLERS_TEST_CASE("lost ranks: the others take over, and the picture is whole again",
-                        "[realtime][alone]") {
+EACH_SAMPLER_TEST_CASE("lost ranks: the others take over, and the picture is whole again",
+                       "[realtime][alone]") {
   for (const double shift : {0.0, 1.0}) {  // a resting camera accumulates samples, some of which are lost
     const FinishedFrame undisturbed = last_frame_of_counted_work(sampler, shift);
     // Both at a time: each waits for its next frame most of the time.
@@ -86,8 +86,8 @@ BOTH_SAMPLERS_TEST_CASE("lost ranks: the others take over, and the picture is wh
   }
 }
 
-BOTH_SAMPLERS_TEST_CASE("lost ranks: a run that does not go on ends once no rank of a host answers",
-                        "[realtime]") {
+EACH_SAMPLER_TEST_CASE("lost ranks: a run that does not go on ends once no rank of a host answers",
+                       "[realtime]") {
   const SessionSettings settings = real_time(sampler);
   Conditions conditions{.unplugged_at_s = 0.4, .patience_s = 2};
   conditions.loss.patience_s = 0.5;

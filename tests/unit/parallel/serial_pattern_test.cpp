@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "parallel/virtual_ranks.h"
-#include "unit/parallel/both_samplers.h"
+#include "unit/each_sampler.h"
 #include "unit/parallel/virtual_run.h"
 
 namespace pprt::serial_pattern_test {
@@ -74,7 +74,7 @@ TEST_CASE("serial pattern: samples near borders are those from which a step lead
   CHECK(samples_near_borders(at({{7, 7}}), grid, std::vector<std::int32_t>(4, 3), 2) == 0);
 }
 
-BOTH_SAMPLERS_TEST_CASE(
+EACH_SAMPLER_TEST_CASE(
     "serial pattern: the serial sampler makes as many samples as asked for, where the picture calls for "
     "them") {
   const SessionSettings s = settings(sampler);
@@ -87,7 +87,7 @@ BOTH_SAMPLERS_TEST_CASE(
   CHECK(near_edge > (sampler == SamplerChoice::kDelaunay ? 750 : 500));
 }
 
-BOTH_SAMPLERS_TEST_CASE("serial pattern: one rank has it, many without balancing have not") {
+EACH_SAMPLER_TEST_CASE("serial pattern: one rank has it, many without balancing have not") {
   SessionSettings s = settings(sampler);
   if (sampler == SamplerChoice::kDelaunay) {
     s.learned_weights = GENERATE(true, false);

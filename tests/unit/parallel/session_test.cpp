@@ -5,8 +5,9 @@
 #include <cmath>
 #include <set>
 
+#include "parallel/exchange/samplers.h"
 #include "parallel/settings/work_units.h"
-#include "unit/parallel/both_samplers.h"
+#include "unit/each_sampler.h"
 #include "unit/parallel/virtual_run.h"
 
 namespace pprt::session_test {
@@ -52,31 +53,35 @@ void check_shows_disc(const Image& image) {
   }
 }
 
-// Samples that a rank traces beside another one that counts them. On a triangulation: the image's corners, by
-// each rank. On a lattice: the corners of base squares, by each rank that owns one of the four around.
+// Samples that a rank traces beside another one that counts them: other regions' seeds that its own needs.
 std::uint64_t traced_twice(const FinishedFrame& frame, const SessionSettings& settings, int ranks) {
-  if (settings.sampler == SamplerChoice::kDelaunay) return 4 * (static_cast<std::uint64_t>(ranks) - 1);
-  constexpr int kBase = 8, kHalf = kBase / 2;  // pixels
-  const TileGrid grid = tile_grid(settings, ranks);
+  const Partition partition{tile_grid(settings, ranks), ranks, frame.owners, {}};
   std::uint64_t count = 0;
-  for (int y = 0; y <= grid.height; y += kBase) {
-    for (int x = 0; x <= grid.width; x += kBase) {
-      std::set<int> owners;
-      for (const int v : {y - kHalf, y + kHalf}) {
-        for (const int u : {x - kHalf, x + kHalf}) {
-          if (u > 0 && v > 0 && u < grid.width && v < grid.height)
-            owners.insert(frame.owners[static_cast<std::size_t>(grid.tile_at(u, v))]);
-        }
-      }
-      count += owners.size() - 1;
-    }
+  for (int rank = 0; rank < ranks; ++rank) {
+    const SamplerWithExchange made = make_sampler(settings, partition, rank, {});
+    for (const SeedPoint& seed : made.sampler->seeds()) count += !seed.own;
   }
   return count;
 }
 
+// The first points of a picture, as one rank chooses them.
+std::vector<Vec2d> first_points(const SessionSettings& settings) {
+  const TileGrid grid = tile_grid(settings, 1);
+  const auto tiles = static_cast<std::size_t>(grid.tile_count());
+  const Partition partition{grid, 1, std::vector<std::int32_t>(tiles, 0), std::vector<std::uint64_t>(tiles)};
+  const SamplerWithExchange made = make_sampler(settings, partition, 0, {});
+  made.sampler->clear(false);
+  std::vector<Vec2d> points;
+  for (const SeedPoint& seed : made.sampler->seeds()) points.push_back(seed.at);
+  for (int i = 0; i < 100; ++i) {
+    if (const std::optional<Vec2d> point = made.sampler->next_point()) points.push_back(*point);
+  }
+  return points;
+}
+
 }  // namespace
 
-BOTH_SAMPLERS_TEST_CASE("session: frames of counted work are whole, on time, and the same each time") {
+EACH_SAMPLER_TEST_CASE("session: frames of counted work are whole, on time, and the same each time") {
   const SessionSettings settings = work_settings(sampler);
   for (const int ranks : {1, 2, 3, 5, 8}) {
     INFO(ranks << " ranks");
@@ -97,19 +102,21 @@ BOTH_SAMPLERS_TEST_CASE("session: frames of counted work are whole, on time, and
   }
 }
 
-BOTH_SAMPLERS_TEST_CASE("session: another seed gives another pattern, more budget a finer one") {
+EACH_SAMPLER_TEST_CASE(
+    "session: another seed gives another pattern where there is chance, more budget a finer one") {
   SessionSettings settings = work_settings(sampler);
   const VirtualRun one = run_session(2, settings, still_or_pan(settings, 1));
+  const std::vector<Vec2d> points = first_points(settings);
   settings.seed = 2;
   // A lattice is where it is.
   CHECK(same_pictures(one, run_session(2, settings, still_or_pan(settings, 1))) ==
-        (sampler == SamplerChoice::kAuto));
+        (first_points(settings) == points));
   settings.budget_units *= 2;
   const VirtualRun finer = run_session(2, settings, still_or_pan(settings, 1));
   CHECK(finer.frames.at(0).ranks[1].mean_weight < one.frames.at(0).ranks[1].mean_weight);
 }
 
-BOTH_SAMPLERS_TEST_CASE("session: samples accumulate while the camera rests, unless casting is off") {
+EACH_SAMPLER_TEST_CASE("session: samples accumulate while the camera rests, unless casting is off") {
   SessionSettings settings = work_settings(sampler);
   settings.cast = CastChoice::kAuto;
   const VirtualRun rest = run_session(3, settings, still_or_pan(settings, 4));
@@ -128,7 +135,7 @@ BOTH_SAMPLERS_TEST_CASE("session: samples accumulate while the camera rests, unl
   CHECK(total(off.frames[1], &RankReport::samples_cast) == 0);
 }
 
-BOTH_SAMPLERS_TEST_CASE("session: nothing is carried across a camera cut") {
+EACH_SAMPLER_TEST_CASE("session: nothing is carried across a camera cut") {
   SessionSettings settings = work_settings(sampler);
   settings.cast = CastChoice::kPaper;
   const auto source = [&](int index) -> std::optional<FrameRequest> {
@@ -141,7 +148,7 @@ BOTH_SAMPLERS_TEST_CASE("session: nothing is carried across a camera cut") {
   CHECK(run.frames[2].order.carry == Carry::kNothing);
 }
 
-BOTH_SAMPLERS_TEST_CASE("session: a stop rule on samples counts those of the whole image") {
+EACH_SAMPLER_TEST_CASE("session: a stop rule on samples counts those of the whole image") {
   for (const int ranks : {1, 3, 5}) {
     const SessionSettings settings = free_settings(sampler, ClockKind::kWork, {.samples = 2000});
     const VirtualRun run = run_session(ranks, settings, still_or_pan(settings, 1));
@@ -153,23 +160,22 @@ BOTH_SAMPLERS_TEST_CASE("session: a stop rule on samples counts those of the who
   }
 }
 
-BOTH_SAMPLERS_TEST_CASE("session: a stop rule on weight holds in every region") {
-  // On a lattice the rule is about worth, and its reports are about the square root.
-  const bool is_lattice = sampler == SamplerChoice::kAuto;
-  const double rule = is_lattice ? 0.001 : 0.1;
+EACH_SAMPLER_TEST_CASE("session: a stop rule on weight holds in every region") {
+  const SamplerTraits traits = traits_of(sampler);
+  const double rule = traits.weights_are_roots ? 0.001 : 0.1;
   for (const int ranks : {1, 3, 5}) {
     const SessionSettings settings = free_settings(sampler, ClockKind::kWork, {.weight = rule});
     const VirtualRun run = run_session(ranks, settings, still_or_pan(settings, 1));
     REQUIRE(run.frames.size() == 1);
     for (const RankReport& r : run.frames[0].ranks) {
       CHECK(r.mean_weight > 0);
-      const double reached = is_lattice ? r.mean_weight * r.mean_weight : r.mean_weight;
+      const double reached = traits.weights_are_roots ? r.mean_weight * r.mean_weight : r.mean_weight;
       CHECK(reached <= 1.05 * rule);  // what neighbours send after a rank is done may disturb it a little
     }
   }
 }
 
-BOTH_SAMPLERS_TEST_CASE("session: a stop rule on time counts work") {
+EACH_SAMPLER_TEST_CASE("session: a stop rule on time counts work") {
   const SessionSettings settings = free_settings(sampler, ClockKind::kWork, {.seconds = 0.03});
   const VirtualRun run = run_session(2, settings, still_or_pan(settings, 1));
   REQUIRE(run.frames.size() == 1);
@@ -180,14 +186,14 @@ BOTH_SAMPLERS_TEST_CASE("session: a stop rule on time counts work") {
   }
 }
 
-BOTH_SAMPLERS_TEST_CASE("session: the first stop rule reached ends the frame") {
+EACH_SAMPLER_TEST_CASE("session: the first stop rule reached ends the frame") {
   const SessionSettings settings = free_settings(sampler, ClockKind::kWork, {.samples = 600, .weight = 1e-9});
   const VirtualRun run = run_session(2, settings, still_or_pan(settings, 1));
   REQUIRE(run.frames.size() == 1);
   CHECK(total(run.frames[0], &RankReport::samples_in_region) < 610);
 }
 
-BOTH_SAMPLERS_TEST_CASE("session: colours that are not finite are counted and never shown") {
+EACH_SAMPLER_TEST_CASE("session: colours that are not finite are counted and never shown") {
   const SessionSettings settings = work_settings(sampler);
   const VirtualRun run = run_session(3, settings, still_or_pan(settings, 2), {.no_number_every = 40});
   REQUIRE(run.frames.size() == 2);
@@ -203,7 +209,7 @@ BOTH_SAMPLERS_TEST_CASE("session: colours that are not finite are counted and ne
   CHECK(counted == asked);
 }
 
-BOTH_SAMPLERS_TEST_CASE("session: more ranks than tiles still make a whole picture") {
+EACH_SAMPLER_TEST_CASE("session: more ranks than tiles still make a whole picture") {
   SessionSettings settings = work_settings(sampler);
   settings.width = 9, settings.height = 7;  // six tiles
   for (const ClockKind clock : {ClockKind::kWork, ClockKind::kWall}) {
@@ -223,7 +229,7 @@ BOTH_SAMPLERS_TEST_CASE("session: more ranks than tiles still make a whole pictu
   }
 }
 
-BOTH_SAMPLERS_TEST_CASE(
+EACH_SAMPLER_TEST_CASE(
     "session: a budget too small for anything still gives a whole picture, and says it is late") {
   SessionSettings settings = work_settings(sampler);
   settings.budget_units = 1;
@@ -235,25 +241,29 @@ BOTH_SAMPLERS_TEST_CASE(
   }
 }
 
-BOTH_SAMPLERS_TEST_CASE("session: the ranks' reports add up to the rays that were traced") {
+EACH_SAMPLER_TEST_CASE("session: the ranks' reports add up to the rays that were traced") {
   SessionSettings settings = work_settings(sampler);
   settings.balance = BalanceMode::kNone;  // owners are those of the frame's beginning
   const VirtualRun run = run_session(3, settings, still_or_pan(settings, 3, 1));
   REQUIRE(run.frames.size() == 3);
   for (std::size_t i = 0; i < 3; ++i) {
     std::uint64_t asked = 0, reported = 0;
+    std::set<std::pair<double, double>> points;
     for (const auto& of_rank : run.traced) {
-      asked += static_cast<std::uint64_t>(std::count_if(of_rank.begin(), of_rank.end(), [&](const Traced& t) {
-        return t.frame == static_cast<int>(i) + 1;
-      }));
+      for (const Traced& t : of_rank) {
+        if (t.frame != static_cast<int>(i) + 1) continue;
+        ++asked;
+        points.emplace(t.x, t.y);
+      }
     }
     for (const RankReport& r : run.frames[i].ranks) reported += r.rays.primary;
     CHECK(reported == asked);
-    CHECK(total(run.frames[i], &RankReport::samples_new) + traced_twice(run.frames[i], settings, 3) == asked);
+    CHECK(total(run.frames[i], &RankReport::samples_new) == points.size());
+    CHECK(points.size() + traced_twice(run.frames[i], settings, 3) == asked);
   }
 }
 
-BOTH_SAMPLERS_TEST_CASE("session: a sequence in real time delivers every frame", "[realtime]") {
+EACH_SAMPLER_TEST_CASE("session: a sequence in real time delivers every frame", "[realtime]") {
   SessionSettings settings = work_settings(sampler);
   settings.clock = ClockKind::kWall;
   settings.frames_per_second = 10;
@@ -266,7 +276,7 @@ BOTH_SAMPLERS_TEST_CASE("session: a sequence in real time delivers every frame",
   }
 }
 
-BOTH_SAMPLERS_TEST_CASE(
+EACH_SAMPLER_TEST_CASE(
     "session: balancing takes CPU time in real time, none without balancing, and has no price in work "
     "units",
     "[realtime]") {
@@ -288,8 +298,8 @@ BOTH_SAMPLERS_TEST_CASE(
   CHECK(balancing_ms(ClockKind::kWork, BalanceMode::kLocal) == 0);
 }
 
-BOTH_SAMPLERS_TEST_CASE("session: a rank that stands still is reported late, and delays no frame",
-                        "[realtime]") {
+EACH_SAMPLER_TEST_CASE("session: a rank that stands still is reported late, and delays no frame",
+                       "[realtime]") {
   SessionSettings settings = work_settings(sampler);
   settings.clock = ClockKind::kWall;
   settings.frames_per_second = 10;
@@ -313,8 +323,8 @@ BOTH_SAMPLERS_TEST_CASE("session: a rank that stands still is reported late, and
   }
 }
 
-BOTH_SAMPLERS_TEST_CASE("session: ranks whose clocks are far apart and drift keep one sequence's deadlines",
-                        "[realtime]") {
+EACH_SAMPLER_TEST_CASE("session: ranks whose clocks are far apart and drift keep one sequence's deadlines",
+                       "[realtime]") {
   SessionSettings settings = work_settings(sampler);
   settings.clock = ClockKind::kWall;
   settings.frames_per_second = 10;
@@ -330,8 +340,8 @@ BOTH_SAMPLERS_TEST_CASE("session: ranks whose clocks are far apart and drift kee
   CHECK(std::count_if(run.frames.begin(), run.frames.end(), is_in_time) >= 15);
 }
 
-BOTH_SAMPLERS_TEST_CASE("session: a frame without a rate ends when it is said to be good enough",
-                        "[realtime]") {
+EACH_SAMPLER_TEST_CASE("session: a frame without a rate ends when it is said to be good enough",
+                       "[realtime]") {
   // By itself it ends when every pixel has its samples.
   SessionSettings settings = free_settings(sampler, ClockKind::kWall, {.seconds = 3600});
   settings.width = 192, settings.height = 128;
@@ -343,8 +353,8 @@ BOTH_SAMPLERS_TEST_CASE("session: a frame without a rate ends when it is said to
   CHECK(total(run.frames[0], &RankReport::samples_in_region) < 192 * 128);
 }
 
-BOTH_SAMPLERS_TEST_CASE("session: frames without a rate end in real time, whenever the last messages arrive",
-                        "[realtime]") {
+EACH_SAMPLER_TEST_CASE("session: frames without a rate end in real time, whenever the last messages arrive",
+                       "[realtime]") {
   // Messages say when a frame may end: none may be overlooked.
   for (int repeat = 0; repeat < 5; ++repeat) {
     const SessionSettings settings = free_settings(sampler, ClockKind::kWall, {.weight = 0.5});
@@ -355,14 +365,14 @@ BOTH_SAMPLERS_TEST_CASE("session: frames without a rate end in real time, whenev
   }
 }
 
-BOTH_SAMPLERS_TEST_CASE("session: an empty sequence ends at once") {
+EACH_SAMPLER_TEST_CASE("session: an empty sequence ends at once") {
   const SessionSettings settings = work_settings(sampler);
   const VirtualRun run = run_session(3, settings, still_or_pan(settings, 0));
   CHECK(run.error.empty());
   CHECK(run.frames.empty());
 }
 
-BOTH_SAMPLERS_TEST_CASE(
+EACH_SAMPLER_TEST_CASE(
     "session: a slow simulated network delays samples past the frame's end, a fast one changes nothing") {
   SessionSettings settings = work_settings(sampler);
   const auto received = [&](double latency_s) {
@@ -378,7 +388,7 @@ BOTH_SAMPLERS_TEST_CASE(
   CHECK(received(10) < at_once / 2);  // what is under way when the frame ends is of no more use
 }
 
-BOTH_SAMPLERS_TEST_CASE("session: a picture of more pixels than one message holds is whole") {
+EACH_SAMPLER_TEST_CASE("session: a picture of more pixels than one message holds is whole") {
   SessionSettings settings = free_settings(sampler, ClockKind::kWork, {.samples = 10'000});
   settings.width = 1040, settings.height = 1020;
   const std::size_t pixels = std::size_t{1040} * 1020;

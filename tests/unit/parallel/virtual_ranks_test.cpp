@@ -6,7 +6,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "unit/parallel/both_samplers.h"
+#include "unit/each_sampler.h"
 #include "unit/parallel/virtual_run.h"
 
 namespace pprt::virtual_ranks_test {
@@ -34,7 +34,7 @@ Probe grey_probe() {
 
 }  // namespace
 
-BOTH_SAMPLERS_TEST_CASE("virtual ranks: a frame reports every sample once, and the owner of each tile") {
+EACH_SAMPLER_TEST_CASE("virtual ranks: a frame reports every sample once, and the owner of each tile") {
   const SessionSettings s = settings(sampler);
   std::vector<FinishedFrame> frames;
   run_virtual_ranks(
@@ -55,7 +55,7 @@ BOTH_SAMPLERS_TEST_CASE("virtual ranks: a frame reports every sample once, and t
   }
 }
 
-BOTH_SAMPLERS_TEST_CASE("virtual ranks: samples stay with their ranks unless the settings ask for them") {
+EACH_SAMPLER_TEST_CASE("virtual ranks: samples stay with their ranks unless the settings ask for them") {
   SessionSettings s = settings(sampler);
   s.report_samples = false;
   bool empty = false;
@@ -65,7 +65,7 @@ BOTH_SAMPLERS_TEST_CASE("virtual ranks: samples stay with their ranks unless the
   CHECK(empty);
 }
 
-BOTH_SAMPLERS_TEST_CASE("virtual ranks: a rank that fails ends the run of all") {
+EACH_SAMPLER_TEST_CASE("virtual ranks: a rank that fails ends the run of all") {
   const SessionSettings s = settings(sampler);
   const auto failing = [](int rank) {
     Probe probe = grey_probe();

@@ -1,11 +1,13 @@
 // Series of frames in which objects move: what is carried must never show where they were.
 #include <catch2/catch.hpp>
 
+#include "parallel/exchange/samplers.h"
 #include "parser/aff_parser.h"
 #include "scene/animation/resting_nodes.h"
 #include "study/frame_series.h"
 #include "study/rate/moving_scene.h"
 #include "study/reference.h"
+#include "unit/each_sampler.h"
 
 namespace pprt::moving_series_test {
 namespace {
@@ -65,7 +67,7 @@ TEST_CASE("moving series: what is carried shows nothing of where things were") {
   for (const FrameRequest& frame : frames)
     references.push_back(converged_reference({scene, frame.camera, frame.time}, 6).image);
 
-  for (const SamplerChoice sampler : {SamplerChoice::kAuto, SamplerChoice::kDelaunay}) {
+  for (const SamplerChoice sampler : kEachSampler) {
     for (const int ranks : {1, 3}) {
       const Series off = render(scene, frames, ranks, settings_for(sampler, CastChoice::kOff));
       for (const CastChoice cast : {CastChoice::kAuto, CastChoice::kVerified}) {
@@ -75,8 +77,9 @@ TEST_CASE("moving series: what is carried shows nothing of where things were") {
           INFO(static_cast<int>(sampler) << " " << ranks << " " << static_cast<int>(cast) << " frame " << i);
           CHECK(on.carried[i] != Carry::kAccumulate);
           const double error = rmse_of(on.pictures[i], references[i]);
-          // With --cast verified the triangulation carries colours that depend on the eye for two frames.
-          const bool may_be_stale = sampler == SamplerChoice::kDelaunay && cast == CastChoice::kVerified;
+          // With --cast verified samples carry colours that depend on the eye for two frames.
+          const bool may_be_stale =
+              traits_of(sampler).cast_use == CastUse::kSamples && cast == CastChoice::kVerified;
           // Errors of a fortieth of a display step are of chance alone.
           constexpr double kChance = 1e-4;
           CHECK((may_be_stale || error < 1.1 * rmse_of(off.pictures[i], references[i]) + kChance));

@@ -20,7 +20,7 @@ struct Side {
   Partition partition = test::halves();
   Region own = region_of(partition, 0);
   std::vector<TileWeights> weights = std::vector<TileWeights>(32);
-  CostEstimator costs{partition.grid, traits_of(SamplerChoice::kDelaunay).work};
+  CostEstimator costs{partition.grid, work_of(traits_of(SamplerChoice::kDelaunay))};
   TransferHandshake handshake{2};
   std::vector<int> beside = {1};
   Balancer balancer{0, 2, costs};

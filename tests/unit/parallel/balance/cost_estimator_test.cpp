@@ -22,8 +22,8 @@ TEST_CASE("cost estimator: a sample costs its tile its rays, and what its sample
   const std::array<TileWeights, 2> weights{
       {{.total_weight = 4, .count = 1}, {.total_weight = 2, .count = 1}}};
   const auto [work, own, received] = GENERATE(table<SampleWork, double, double>(
-      {{traits_of(SamplerChoice::kDelaunay).work, 705, 580},
-       {traits_of(SamplerChoice::kAuto).work, 370, 200}}));  // docs/decisions/0006-work-clock.md
+      {{work_of(traits_of(SamplerChoice::kDelaunay)), 705, 580},
+       {work_of(traits_of(SamplerChoice::kAuto)), 370, 200}}));  // docs/decisions/0006-work-clock.md
   CostEstimator costs(grid, work);
   costs.begin_frame(true, FrameLikeness::kUnknown);
   costs.add_own(sample_at(2, 3));
@@ -39,7 +39,7 @@ TEST_CASE("cost estimator: a sample costs its tile its rays, and what its sample
 
 TEST_CASE("cost estimator: a tile that comes brings what it cost in this frame and in the one before") {
   const TileGrid grid(20, 10, 10);
-  CostEstimator costs(grid, traits_of(SamplerChoice::kAuto).work);
+  CostEstimator costs(grid, work_of(traits_of(SamplerChoice::kAuto)));
   costs.begin_frame(true, FrameLikeness::kSimilar);
   costs.accept(
       {.tile = 1, .now = {.cost = 10, .average_weight = 2}, .last = {.cost = 70, .average_weight = 3}});
@@ -53,7 +53,7 @@ TEST_CASE("cost estimator: a tile still costs what its target takes, less what h
   const Region region = Region::whole(grid);
   const std::array<TileWeights, 2> weights{
       {{.total_weight = 4, .count = 1}, {.total_weight = 4, .count = 1}}};
-  CostEstimator costs(grid, traits_of(SamplerChoice::kAuto).work);
+  CostEstimator costs(grid, work_of(traits_of(SamplerChoice::kAuto)));
   costs.begin_frame(true, FrameLikeness::kUnknown);
   for (int i = 0; i < 100; ++i) costs.add_own(sample_at(i % 2 == 0 ? 2 : 12, 3));
   const RegionQuality refined{region, weights, 4};
@@ -74,7 +74,7 @@ TEST_CASE("cost estimator: the frame before counts by its likeness, and gives wa
       {{.total_weight = 6, .count = 2}, {.total_weight = 3, .count = 1}}};  // mean 3
   const RegionQuality refined{region, weights, 3};
   const auto future = [&](FrameLikeness likeness, double elapsed) {
-    CostEstimator costs(grid, traits_of(SamplerChoice::kAuto).work);
+    CostEstimator costs(grid, work_of(traits_of(SamplerChoice::kAuto)));
     costs.begin_frame(true, likeness);
     costs.accept({.tile = 0, .now = {.cost = 1000}, .last = {.cost = 200, .average_weight = 5}});
     costs.accept({.tile = 1, .now = {.cost = 800}, .last = {}});
@@ -94,7 +94,7 @@ TEST_CASE("cost estimator: what received samples cost before is still to come, i
   const std::array<TileWeights, 2> weights{
       {{.total_weight = 2, .count = 1}, {.total_weight = 2, .count = 1}}};
   const RegionQuality refined{region, weights, 2};
-  const SampleWork work = traits_of(SamplerChoice::kAuto).work;
+  const SampleWork work = work_of(traits_of(SamplerChoice::kAuto));
   for (const FrameLikeness likeness : {FrameLikeness::kSame, FrameLikeness::kUnknown}) {
     CostEstimator costs(grid, work);
     costs.begin_frame(true, FrameLikeness::kUnknown);
@@ -118,7 +118,7 @@ TEST_CASE("cost estimator: a new picture's tiles remember the last one's weights
   const TileGrid grid(20, 10, 10);
   const Region region = Region::whole(grid);
   std::array<TileWeights, 2> weights{{{.total_weight = 6, .count = 2}, {.total_weight = 9, .count = 1}}};
-  CostEstimator costs(grid, traits_of(SamplerChoice::kAuto).work);
+  CostEstimator costs(grid, work_of(traits_of(SamplerChoice::kAuto)));
   costs.begin_frame(true, FrameLikeness::kUnknown);
   costs.add_own(sample_at(2, 3));
   costs.report({region, weights, 5});

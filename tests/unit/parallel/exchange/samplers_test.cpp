@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "parallel/settings/work_units.h"
 #include "pipeline/lattice/lattice_refiner.h"
 
 namespace pprt::samplers_test {
@@ -145,10 +146,11 @@ TEST_CASE("samplers: each choice has its own order, traits and exchange") {
   CHECK((lattice.refreshes_in_parts && grid.refreshes_in_parts && !mesh.refreshes_in_parts));
   CHECK((mesh.balances_without_rate && !lattice.balances_without_rate));
   CHECK((mesh.costs_outlast_rest && !lattice.costs_outlast_rest));
-  CHECK((lattice.work.own == Work::kOwnNode && lattice.work.received == Work::kReceivedNode &&
-         lattice.work.kept == Work::kKeptNode));
-  CHECK((mesh.work.own == Work::kOwnSample && mesh.work.received == Work::kReceivedSample &&
-         mesh.work.kept == Work::kKeptSample));
+  CHECK((lattice.weights_are_roots && !mesh.weights_are_roots));
+  const SampleWork node = work_of(lattice), sample = work_of(mesh);
+  CHECK((node.own == Work::kOwnNode && node.received == Work::kReceivedNode && node.kept == Work::kKeptNode));
+  CHECK((sample.own == Work::kOwnSample && sample.received == Work::kReceivedSample &&
+         sample.kept == Work::kKeptSample));
   for (const CastChoice cast : {CastChoice::kOff, CastChoice::kAuto}) {
     SessionSettings settings = settings_of(SamplerChoice::kAuto);
     settings.cast = cast;

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "parallel/network/local_communicator.h"
-#include "unit/parallel/both_samplers.h"
+#include "unit/each_sampler.h"
 #include "unit/parallel/virtual_run.h"
 
 namespace pprt::master_test {
@@ -198,7 +198,7 @@ TEST_CASE("master: transfers are told by round and giver, whichever message come
   CHECK(told == std::vector<std::pair<int, int>>{{7, 1}, {7, 2}, {9, 1}});
 }
 
-BOTH_SAMPLERS_TEST_CASE("master: goes on without lost ranks, and lets the others take over their tiles") {
+EACH_SAMPLER_TEST_CASE("master: goes on without lost ranks, and lets the others take over their tiles") {
   Stage stage(sampler);
   CHECK_THROWS(stage.master().give_up({2}));  // nothing has been shown yet
   stage.begin();
@@ -390,7 +390,7 @@ TEST_CASE("master: rank 0 does not begin a frame while it must still deliver the
   CHECK_FALSE(alone.master().may_begin(1));
 }
 
-BOTH_SAMPLERS_TEST_CASE("master: a frame that lacks a rank's report leads to no new partition") {
+EACH_SAMPLER_TEST_CASE("master: a frame that lacks a rank's report leads to no new partition") {
   for (const bool late : {false, true}) {
     Stage stage(sampler, ClockKind::kWall, 1 / kPeriod, 1, BalanceMode::kCombined);
     stage.begin();
@@ -406,7 +406,7 @@ BOTH_SAMPLERS_TEST_CASE("master: a frame that lacks a rank's report leads to no 
   }
 }
 
-BOTH_SAMPLERS_TEST_CASE(
+EACH_SAMPLER_TEST_CASE(
     "master: the two frames after a picture of which nothing is known are ordered with its partition") {
   Stage stage(sampler, ClockKind::kWall, 1 / kPeriod, 1, BalanceMode::kCombined);
   stage.orders();
@@ -428,7 +428,7 @@ BOTH_SAMPLERS_TEST_CASE(
   CHECK(local.orders().size() == 1);
 }
 
-BOTH_SAMPLERS_TEST_CASE("master: an order that waits for reports goes out when its frame ends without them") {
+EACH_SAMPLER_TEST_CASE("master: an order that waits for reports goes out when its frame ends without them") {
   Stage stage(sampler, ClockKind::kWall, 1 / kPeriod, 1, BalanceMode::kCombined);
   stage.begin();
   stage.send_all(0);

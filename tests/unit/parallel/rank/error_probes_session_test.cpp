@@ -7,7 +7,7 @@
 #include "image/metrics.h"
 #include "parallel/rank/error_probes.h"
 #include "parallel/virtual_ranks.h"
-#include "unit/parallel/both_samplers.h"
+#include "unit/each_sampler.h"
 #include "unit/parallel/rank/discs.h"
 
 namespace pprt::error_probes_session_test {
@@ -60,7 +60,7 @@ Probe mirroring_bars() {
 
 }  // namespace
 
-BOTH_SAMPLERS_TEST_CASE("measured error: the picture is the same without") {
+EACH_SAMPLER_TEST_CASE("measured error: the picture is the same without") {
   const int ranks = GENERATE(1, 3);
   const double shift = GENERATE(0.0, 1.5);  // a resting and a moving camera
   const SessionSettings with = settings_for(sampler, true), without = settings_for(sampler, false);
@@ -82,7 +82,7 @@ BOTH_SAMPLERS_TEST_CASE("measured error: the picture is the same without") {
   }
 }
 
-BOTH_SAMPLERS_TEST_CASE("measured error: runs of one seed measure the same, at one ray in seventy at most") {
+EACH_SAMPLER_TEST_CASE("measured error: runs of one seed measure the same, at one ray in seventy at most") {
   SessionSettings settings = settings_for(sampler, true);
   settings.budget_units = 20'000'000;
   const VirtualRun first = run_session(2, settings, still_or_pan(settings, 3, 1.5), discs());

@@ -34,7 +34,7 @@ struct OneRank {
       : settings(the_settings),
         partition(columns(ranks)),
         clock(budget, 0),
-        costs(partition.grid, traits_of(settings.sampler).work),
+        costs(partition.grid, work_of(traits_of(settings.sampler))),
         tracer(probe(), rank, clock, costs, [this](std::uint64_t rays) { polled.push_back(rays); }),
         sampling(settings, partition, rank, tracer, costs, clock, [this] { ++polls; }) {}
   OneRank(const OneRank&) = delete;

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "parallel/exchange/samplers.h"
-#include "unit/parallel/both_samplers.h"
+#include "unit/each_sampler.h"
 
 namespace pprt::picture_refresh_test {
 namespace {
@@ -117,7 +117,7 @@ TEST_CASE("picture refresh: without new samples each tile has one turn") {
   CHECK(tiles_that_differ(picture, whole_picture(samples)).empty());
 }
 
-BOTH_SAMPLERS_TEST_CASE("picture refresh: a region that has changed is reconstructed as a whole") {
+EACH_SAMPLER_TEST_CASE("picture refresh: a region that has changed is reconstructed as a whole") {
   const SamplerWithExchange made = rank_0(sampler, 2);
   Sampler& samples = *made.sampler;
   seed(made);

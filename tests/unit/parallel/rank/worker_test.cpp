@@ -5,8 +5,9 @@
 #include <catch2/catch.hpp>
 #include <set>
 
+#include "parallel/exchange/samplers.h"
 #include "parallel/network/local_communicator.h"
-#include "unit/parallel/both_samplers.h"
+#include "unit/each_sampler.h"
 #include "unit/parallel/clock/set_clock.h"
 #include "unit/parallel/virtual_run.h"
 
@@ -146,7 +147,7 @@ constexpr SampleId kMarked = 4711;
 
 }  // namespace
 
-BOTH_SAMPLERS_TEST_CASE(
+EACH_SAMPLER_TEST_CASE(
     "worker: bundles of the frame before are read before this frame's seeds that came with them") {
   Scene scene(sampler);
   scene.render(Carry::kNothing);
@@ -164,7 +165,7 @@ BOTH_SAMPLERS_TEST_CASE(
   CHECK(acknowledged == 1);
 }
 
-BOTH_SAMPLERS_TEST_CASE(
+EACH_SAMPLER_TEST_CASE(
     "worker: samples that come with a tile that has another owner by now reach that owner") {
   Scene scene(sampler);
   const int tile = 2 * 12 + 3;  // rank 0's, beside rank 1's
@@ -180,7 +181,7 @@ BOTH_SAMPLERS_TEST_CASE(
   CHECK(contain(scene.sent_to(2), kMarked));
 }
 
-BOTH_SAMPLERS_TEST_CASE(
+EACH_SAMPLER_TEST_CASE(
     "worker: all ranks are told once of a tile that this one has taken, and of none that it has lost") {
   const int taken = 2 * 12 + 3, lost = 3 * 12 + 3;  // rank 0's, beside rank 1's
   const auto times_told = [](const std::vector<Bundle>& bundles, int tile) {
@@ -215,7 +216,7 @@ BOTH_SAMPLERS_TEST_CASE(
 }
 
 // Where a rank is late, those of the tile are of a picture that it has not begun.
-BOTH_SAMPLERS_TEST_CASE("worker: a tile that comes without its samples is not black, even without time") {
+EACH_SAMPLER_TEST_CASE("worker: a tile that comes without its samples is not black, even without time") {
   Scene scene(sampler, BalanceMode::kLocal, 0);
   const int tile = 2 * 12 + 3;  // rank 0's, beside rank 1's
   scene.render(Carry::kNothing);
@@ -228,7 +229,7 @@ BOTH_SAMPLERS_TEST_CASE("worker: a tile that comes without its samples is not bl
                     [](const Color& color) { return color.z > 0.19F; }));
 }
 
-BOTH_SAMPLERS_TEST_CASE(
+EACH_SAMPLER_TEST_CASE(
     "worker: a cast sample that comes late reaches the owner of its tile, even the rank that sent it") {
   for (const int taker : {0, 2}) {
     Scene scene(sampler);
@@ -240,12 +241,12 @@ BOTH_SAMPLERS_TEST_CASE(
     scene.sent_to(taker);
     scene.send(0, {.round = kSeedRound, .samples = {scene.sample_in(tile, kMarked)}});
     scene.render(Carry::kAccumulate);
-    // On a lattice it would tell the owner which lights are seen, too late.
-    CHECK(contain(scene.sent_to(taker), kMarked) == (sampler == SamplerChoice::kDelaunay));
+    // Where it tells of lights alone it would do so too late.
+    CHECK(contain(scene.sent_to(taker), kMarked) == (traits_of(sampler).cast_use == CastUse::kSamples));
   }
 }
 
-BOTH_SAMPLERS_TEST_CASE(
+EACH_SAMPLER_TEST_CASE(
     "worker: balancing takes CPU time where tiles are given away, none without, and the stages add up") {
   for (const BalanceMode mode : {BalanceMode::kLocal, BalanceMode::kNone}) {
     Scene scene(sampler, mode);
@@ -312,7 +313,7 @@ TEST_CASE("worker: a frame's report counts what was traced, what came, and what 
 }
 
 // The frame before may become whole on rank 0, or due.
-BOTH_SAMPLERS_TEST_CASE("worker: messages do not wait for long while samples take many rays") {
+EACH_SAMPLER_TEST_CASE("worker: messages do not wait for long while samples take many rays") {
   Scene scene(sampler);
   scene.render(Carry::kNothing);
   scene.report();
@@ -324,7 +325,7 @@ BOTH_SAMPLERS_TEST_CASE("worker: messages do not wait for long while samples tak
   CHECK(scene.looks() >= usual + samples);
 }
 
-BOTH_SAMPLERS_TEST_CASE("worker: a new partition is charged to balancing") {
+EACH_SAMPLER_TEST_CASE("worker: a new partition is charged to balancing") {
   Scene scene(sampler, BalanceMode::kGlobal);
   scene.render(Carry::kNothing);
   CHECK(scene.report().cpu_ms.balancing == 0);

@@ -7,6 +7,7 @@
 
 #include "base/diagnostics.h"
 #include "parallel/settings/session_words.h"
+#include "unit/each_sampler.h"
 #include "unit/study/balance/recorded_run.h"
 
 namespace pprt::figures_test {
@@ -74,7 +75,7 @@ TEST_CASE("balancing figures: deviation, largest load and tiles moved, by hand")
 TEST_CASE("balancing figures: what ranks recorded explains who owns each tile") {
   for (const BalanceMode mode :
        {BalanceMode::kNone, BalanceMode::kLocal, BalanceMode::kGlobal, BalanceMode::kCombined}) {
-    for (const SamplerChoice sampler : {SamplerChoice::kDelaunay, SamplerChoice::kAuto}) {
+    for (const SamplerChoice sampler : kEachSampler) {
       INFO(word_for(mode) << ", " << word_for(sampler));
       const BalanceTrace run = recorded_run(uneven_settings(sampler, mode));
       const std::vector<FrameFigures> figures = figures_of(run);
