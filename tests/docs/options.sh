@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # options.sh PAGE PROGRAM [SUBCOMMAND...]: the options in the program's help, those of its subcommands
-# included, are those that the manual page tags, in both directions.
+# included, are those that the manual page tags, in both directions. Where a tag lists an option's words, they are those
+# of the help.
 set -euo pipefail
 page=$1 program=$2
 shift 2
@@ -25,8 +26,14 @@ options_in_page() {
        }' "$page"
 }
 
+# "  --cast off|paper   Which" and ".It Fl -cast Cm off | paper" -> "--cast off|paper"
+choices_in_help() { sed -nE 's/^  (-[^ ]+,)?(--[^ ]+ [a-z0-9]+(\|[a-z0-9]+)+)( .*)?$/\2/p'; }
+choices_in_page() { sed -nE '/^\.It .*Fl -[^ ]+ Cm [a-z0-9]+( \| [a-z0-9]+)+$/ { s/^\.It .*Fl -([^ ]+) Cm /--\1 /; s/ \| /|/gp }' "$page"; }
+
 help=$("$program" --help all)
 for subcommand in "$@"; do help+=$'\n'$("$program" "$subcommand" --help); done
+choices=$(comm -13 <(choices_in_help <<<"$help" | sort -u) <(choices_in_page | sort -u))
+[[ -z $choices ]] || { printf 'words in %s that are not in the help of %s:\n%s\n' "$page" "$program" "$choices"; exit 1; }
 if differences=$(diff <(options_in_help <<<"$help" | sort -u) <(options_in_page | sort -u)); then exit 0; fi
 echo "options in the help of $program only (<) or in $page only (>):"
 grep '^[<>]' <<<"$differences"

@@ -5,8 +5,7 @@
 #include <cstdlib>
 #include <span>
 
-#include "parallel/protocol/messages.h"
-#include "parallel/settings/session_settings.h"
+#include "message_kinds.h"
 
 namespace {
 
@@ -26,20 +25,7 @@ void there_and_back(std::span<const std::byte> bytes, Decode decode) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const auto bytes = std::as_bytes(std::span(data, size)).subspan(1);
-  switch (data[0] % 4) {
-    case 0:
-      there_and_back(bytes, pprt::decode_frame_order);
-      break;
-    case 1:
-      there_and_back(bytes, pprt::decode_bundle);
-      break;
-    case 2:
-      there_and_back(bytes, pprt::decode_pixels);
-      break;
-    default:
-      there_and_back(bytes, [](std::span<const std::byte> b) {
-        return pprt::decode_settings(pprt::Bytes(b.begin(), b.end()));
-      });
-  }
+  pprt::message_kinds::with_kind(data[0] % pprt::message_kinds::kKinds,
+                                 [&](auto decode) { there_and_back(bytes, decode); });
   return 0;
 }

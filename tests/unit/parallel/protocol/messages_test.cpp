@@ -90,21 +90,6 @@ SessionSettings some_settings() {
   return settings;
 }
 
-// Every message, cut short after each of its bytes, and with one byte too many.
-void check_cut_short(const Bytes& whole, const std::function<void(const Bytes&)>& decode) {
-  for (std::size_t size = 0; size < whole.size(); ++size) {
-    INFO("cut after " << size << " of " << whole.size() << " bytes");
-    CHECK_THROWS_AS(decode(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size))),
-                    ProtocolError);
-  }
-  CHECK_NOTHROW(decode(whole));
-}
-
-void check_one_too_many(Bytes whole, const std::function<void(const Bytes&)>& decode) {
-  whole.push_back(std::byte{0});
-  CHECK_THROWS_AS(decode(whole), ProtocolError);
-}
-
 // Announces counts that no message can hold at the place where the count stands.
 void check_hostile_count(Bytes whole, std::size_t at, const std::function<void(const Bytes&)>& decode) {
   for (const std::uint32_t count : {std::numeric_limits<std::uint32_t>::max(), std::uint32_t{1} << 31,
@@ -115,11 +100,8 @@ void check_hostile_count(Bytes whole, std::size_t at, const std::function<void(c
   }
 }
 
-const auto kDecodeOrder = [](const Bytes& bytes) { decode_frame_order(bytes); };
 const auto kDecodeBundle = [](const Bytes& bytes) { decode_bundle(bytes); };
 const auto kDecodePixels = [](const Bytes& bytes) { decode_pixels(bytes); };
-const auto kDecodeTransfers = [](const Bytes& bytes) { decode_transfers(bytes); };
-const auto kDecodeSettings = [](const Bytes& bytes) { decode_settings(bytes); };
 
 }  // namespace
 
@@ -258,21 +240,6 @@ TEST_CASE("messages: choices of transfers are decoded as they were encoded") {
 
 TEST_CASE("messages: settings are decoded as they were encoded") {
   CHECK((decode_settings(encode(some_settings())) == some_settings()));
-}
-
-TEST_CASE("messages: a message cut short anywhere is refused") {
-  check_cut_short(encode(some_order()), kDecodeOrder);
-  check_cut_short(encode(some_bundle()), kDecodeBundle);
-  check_cut_short(encode(some_pixels()), kDecodePixels);
-  check_cut_short(encode(some_transfers()), kDecodeTransfers);
-  check_cut_short(encode(some_settings()), kDecodeSettings);
-}
-
-TEST_CASE("messages: a message with trailing bytes is refused") {
-  check_one_too_many(encode(some_order()), kDecodeOrder);
-  check_one_too_many(encode(some_bundle()), kDecodeBundle);
-  check_one_too_many(encode(some_pixels()), kDecodePixels);
-  check_one_too_many(encode(some_transfers()), kDecodeTransfers);
 }
 
 TEST_CASE("messages: a value that its type does not have is refused") {
