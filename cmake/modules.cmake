@@ -105,6 +105,8 @@ function(pprt_unit_test name)
     set(T_LABELS unit)
   endif()
   add_executable(test_${name} ${T_SOURCES})
+  # In a unity build: each unit reads the same headers anew, and the tests' sources are small.
+  set_target_properties(test_${name} PROPERTIES UNITY_BUILD_BATCH_SIZE 32)
   target_link_libraries(test_${name} PRIVATE ${T_USES} pprt_flags Catch2::Catch2WithMain)
   target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   set(flags ${PPRT_TEST_FLAGS})

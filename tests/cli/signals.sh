@@ -93,20 +93,21 @@ wait "$pid" || code=$?
 command='a stopped run without its sheet'
 expect_code 1
 
-# signal_still SIGNAL SECONDS: sends the signal while the one frame of a still is being made. The still is $pid.
+# signal_still SIGNAL ANSWER: sends the signal while the one frame of a still is being made, and awaits the answer, which
+# comes before the picture. The still is $pid.
 signal_still() {
-  pprt-render ball.nff --sampler delaunay --time "$2" -s 512x512 -o long.png >out 2>err &
+  pprt-render ball.nff --sampler delaunay --time 3 -s 512x512 -o long.png >out 2>err &
   pid=$!
   wait_for '[[ $(grep SigCgt /proc/$pid/status | cut -f 2) =~ [2367abef]..$ ]]' # it hears SIGUSR1, and what it hears before it
   sleep 1
   kill "-$1" "$pid"
-  sleep 1
+  wait_for "grep -q '$2' err"
   command="a still that was sent SIG$1"
   expect_no_file long.png
 }
 
 # A signal is answered at once, though the frame at hand goes on.
-signal_still TERM 6
+signal_still TERM 'a second signal'
 expect_line err 'pprt-render: the run ends after the frame at hand; a second signal ends it at once'
 code=0
 wait "$pid" || code=$?
@@ -115,7 +116,14 @@ expect_file long.png
 rm long.png
 
 # A frame that takes long does not keep the status back.
-signal_still USR1 4
+signal_still USR1 elapsed
 expect_line err 'frame 0 of 1  [0-9.]* s elapsed'
-wait "$pid"
+kill -TERM "$pid"
+wait_for 'grep -q "a second signal" err'
+kill -TERM "$pid"
+command='a still that was sent SIGTERM twice'
+code=0
+wait "$pid" || code=$?
+expect_code 143
+expect_no_file long.png
 finish
