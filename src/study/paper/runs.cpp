@@ -40,22 +40,6 @@ double budget(double total_units, const PaperRun& run) {
   return run.share * total_units * pixels_of(run.side) / pixels_of(kPaperSide) / run.ranks;
 }
 
-SessionSettings settings_of(const PaperRun& run, double total_units, const PaperOptions& options) {
-  SessionSettings s{.sampler = SamplerChoice::kDelaunay};
-  s.width = s.height = run.side;
-  s.clock = ClockKind::kWork;
-  s.budget_units = static_cast<std::uint64_t>(budget(total_units, run));
-  s.frames_per_second = run.machine.units_per_second / static_cast<double>(s.budget_units);
-  s.balance = run.balance;
-  s.cast = run.cast;
-  s.keep_samples = run.keep_samples;
-  s.learned_weights = options.weights == WeightRule::kLearned;
-  s.seed = options.seed;
-  s.report_samples = run.compare_serial;
-  s.machine = run.machine;
-  return s;
-}
-
 std::string hash_of(const Image& image) {
   const auto* bytes = reinterpret_cast<const char*>(image.pixels.data());
   return content_hash({bytes, image.pixels.size() * sizeof(Color)});
@@ -77,7 +61,7 @@ void compare_with_serial(const FinishedFrame& frame, const SessionSettings& sett
 MeasuredRun carry_out(const PaperSetup& setup, const PaperRun& run, double total_units,
                       const std::function<void(const FinishedFrame&)>& watch = {}) {
   const Animation& animation = run.sequence == kSimple ? setup.simple : setup.casting;
-  const SessionSettings settings = settings_of(run, total_units, setup.options);
+  const SessionSettings settings = settings_of_run(run, total_units, setup.options);
   Tracer serial_tracer(setup.scene, Camera());
   MeasuredRun measured{run};
   render_series(setup.scene, frames_of(setup.scene, animation, run.frames, View(), run.side), run.ranks,
@@ -246,6 +230,22 @@ Machine machine_of(const PaperOptions& options) {
   return machine;
 }
 
+SessionSettings settings_of_run(const PaperRun& run, double total_units, const PaperOptions& options) {
+  SessionSettings s{.sampler = SamplerChoice::kDelaunay};
+  s.width = s.height = run.side;
+  s.clock = ClockKind::kWork;
+  s.budget_units = static_cast<std::uint64_t>(budget(total_units, run));
+  s.frames_per_second = run.machine.units_per_second / static_cast<double>(s.budget_units);
+  s.balance = run.balance;
+  s.cast = run.cast;
+  s.keep_samples = run.keep_samples;
+  s.learned_weights = options.weights == WeightRule::kLearned;
+  s.seed = options.seed;
+  s.report_samples = run.compare_serial;
+  s.machine = run.machine;
+  return s;
+}
+
 std::vector<PaperRun> paper_runs(const PaperOptions& options, const Calibration& calibration) {
   RunList list{options, calibration};
   list.add_sequences();
@@ -254,7 +254,8 @@ std::vector<PaperRun> paper_runs(const PaperOptions& options, const Calibration&
   return std::move(list.runs);
 }
 
-PaperResults run_paper(const PaperOptions& options, const std::function<void(const std::string&)>& report) {
+PaperResults run_experiments(const PaperOptions& options,
+                             const std::function<void(const std::string&)>& report) {
   constexpr int kQuickTree = 5;
   const PaperSetup setup{options,
                          compile(make_spd("tree", options.quick ? std::optional(kQuickTree) : std::nullopt)),
@@ -270,6 +271,11 @@ PaperResults run_paper(const PaperOptions& options, const std::function<void(con
                        counted(run.ranks, "rank", "ranks"), word_for(run.balance),
                        counted(run.frames, "frame", "frames"), watch.lap()));
   }
+  return results;
+}
+
+PaperResults run_paper(const PaperOptions& options, const std::function<void(const std::string&)>& report) {
+  PaperResults results = run_experiments(options, report);
   results.casting_errors = run_casting_trial(casting_trial(options), report);
   return results;
 }

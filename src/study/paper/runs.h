@@ -83,6 +83,9 @@ Machine machine_of(const PaperOptions& options);
 // Returns the runs that settled options ask for, in the order of the tables.
 std::vector<PaperRun> paper_runs(const PaperOptions& options, const Calibration& calibration);
 
+// Returns the settings of a run. `total_units`: work of a frame of the paper's size, of all ranks together.
+SessionSettings settings_of_run(const PaperRun& run, double total_units, const PaperOptions& options);
+
 // Adds the pictures of the paper's figures 1, 2 and 4 that show this frame of the run, if any. `run` must
 // have asked for its samples.
 void add_pictures(const PaperOptions& options, const PaperRun& run, const FinishedFrame& frame,
@@ -91,5 +94,9 @@ void add_pictures(const PaperOptions& options, const PaperRun& run, const Finish
 // Makes all runs that settled options ask for. Calls `report` with a line on each when it is done. Throws
 // std::runtime_error.
 PaperResults run_paper(const PaperOptions& options, const std::function<void(const std::string&)>& report);
+
+// The same without the casting trial.
+PaperResults run_experiments(const PaperOptions& options,
+                             const std::function<void(const std::string&)>& report);
 
 }  // namespace pprt

@@ -69,6 +69,20 @@ TEST_CASE("casting trial: auto casting keeps small objects that earlier frames h
   CHECK(with_anchors < 0.95 * verified);
 }
 
+TEST_CASE("casting trial: other weights and another seed make other errors") {
+  PaperOptions options;
+  options.quick = true;
+  CastingTrial trial = casting_trial(settled(options));
+  trial.densities = {0.3}, trial.judged = {2};
+  std::erase_if(trial.sequences, [](const TurnSequence& s) { return s.scene != "tree" || s.speed != 1; });
+  const auto errors = [&] { return run_casting_trial(trial, [](const std::string&) {}).at(0).rmse; };
+  const auto plain = errors();
+  trial.weights = WeightRule::kLearned;
+  CHECK(errors() != plain);
+  trial.weights = WeightRule::kPaper, trial.seed = 2;
+  CHECK(errors() != plain);
+}
+
 TEST_CASE("casting trial: auto is compared with the best of the other ways") {
   CHECK(CastingErrors{{"tree", 1}, 1, {0.04, 0.02, 0.03, 0.021}}.auto_ratio() == Approx(1.05));
 }

@@ -77,6 +77,18 @@ TEST_CASE("paper study: as many ranks as are asked for have regions of one size"
   CHECK(greatest() == 64);
 }
 
+TEST_CASE("paper study: seed and weights are those of every run") {
+  PaperOptions options = settled({});
+  for (const WeightRule rule : {WeightRule::kLearned, WeightRule::kPaper}) {
+    options.seed = 7, options.weights = rule;
+    for (const PaperRun& run : paper_runs(options, even(options.ranks))) {
+      const SessionSettings settings = settings_of_run(run, 3e7, options);
+      CHECK((settings.seed == 7 && weight_rule(settings) == rule));
+    }
+    CHECK((casting_trial(options).seed == 7 && casting_trial(options).weights == rule));
+  }
+}
+
 TEST_CASE("paper study: a quick study measures every frame of every run") {
   PaperOptions options;
   options.quick = true;
@@ -84,9 +96,9 @@ TEST_CASE("paper study: a quick study measures every frame of every run") {
   options.frames = 5;
   options = settled(options);
   std::vector<std::string> reports;
-  const PaperResults results = run_paper(options, [&](const std::string& run) { reports.push_back(run); });
-  CHECK(reports.size() == results.runs.size() + casting_trial(options).sequences.size());
-  CHECK(results.casting_errors.size() == 16);
+  const PaperResults results =
+      run_experiments(options, [&](const std::string& run) { reports.push_back(run); });
+  CHECK(reports.size() == results.runs.size());
   CHECK(results.calibration.share.at(2) == 1);
   std::size_t rows = 0;
   for (const MeasuredRun& r : results.runs) {
