@@ -151,9 +151,9 @@ TEST_CASE("visibility: shares of a pixel are those that many rays find") {
   Tracer tracer(compiled, compiled.camera(square(*scene.view)));
   VisibilityBuffer buffer(kSize, kSize, shapes_of(tracer));
   REQUIRE(buffer.is_known());
-  const int points = GENERATE(64, 256);
-  const double mean_allowed = points == 64 ? 0.02 : 0.006, worst_allowed = points == 64 ? 0.1 : 0.05;
-  buffer.count_shares_at(points);
+  const bool is_refined = GENERATE(false, true);
+  const double mean_allowed = is_refined ? 0.006 : 0.02, worst_allowed = is_refined ? 0.05 : 0.1;
+  if (is_refined) buffer.refine_shares();
   constexpr int kRays = 32;  // along a side
   double error = 0, worst = 0;
   int mixed = 0;
@@ -165,7 +165,8 @@ TEST_CASE("visibility: shares of a pixel are those that many rays find") {
       const std::uint32_t first = tile.surfaces()[numbers[0]], second = tile.surfaces()[numbers[1]];
       if (first == second) continue;
       std::vector<float> shares(2);
-      buffer.shares(x, y, numbers, shares);
+      const bool are_rows = tile.row(top)[left + 4] != tile.row(top)[left];
+      buffer.shares(x, y, numbers, are_rows, shares);
       CHECK(shares[0] + shares[1] == Approx(1));
       int found_first = 0, found_both = 0;
       for (int j = 0; j < kRays; ++j) {
@@ -181,7 +182,7 @@ TEST_CASE("visibility: shares of a pixel are those that many rays find") {
     }
   }
   REQUIRE(mixed > 100);
-  INFO(points << " points: " << error / mixed << ", at most " << worst);
+  INFO((is_refined ? "refined: " : "") << error / mixed << ", at most " << worst);
   CHECK(error / mixed < mean_allowed);
   CHECK(worst < worst_allowed);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 
 namespace pprt {
@@ -310,9 +311,12 @@ LatticePainter::SeenInPixel LatticePainter::seen_in(const LatticeNode& corner) c
     const Vec2d place = Vec2d(points.places[i]) * (1 / static_cast<double>(density * points.shares[i]));
     found.primitives[i] = primitive(points.numbers[i], Vec2d(pixel_x, pixel_y) + place);
   }
-  if (found.count > 1)
-    visibility_.shares(pixel_x, pixel_y, {points.numbers.data(), points.count},
+  if (found.count > 1) {
+    const Vec2d apart = found.primitives[0].at - found.primitives[1].at;
+    const bool are_rows = std::fabs(apart.x) >= std::fabs(apart.y);
+    visibility_.shares(pixel_x, pixel_y, {points.numbers.data(), points.count}, are_rows,
                        {found.shares.data(), found.count});
+  }
   return found;
 }
 

@@ -308,9 +308,8 @@ void LatticeRefiner::choose_fineness() {
 // the textures. A place of a texture takes about a hundredth of a sample's time.
 void LatticeRefiner::choose_shares() {
   constexpr double kMany = 1.5;  // samples a pixel
-  constexpr int kPoints = 256;
   const double per_pixel = static_cast<double>(samples_) / static_cast<double>(region().pixel_count());
-  if (per_pixel > kMany) visibility_.count_shares_at(kPoints);
+  if (per_pixel > kMany) visibility_.refine_shares();
   constexpr double kOnePlace = 0.02, kFour = 0.3, kSixteen = 3;
   textures_.divide_by(per_pixel < kOnePlace ? 1 : per_pixel < kFour ? 2 : per_pixel < kSixteen ? 4 : 8);
 }

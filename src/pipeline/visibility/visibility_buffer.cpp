@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 #include "pipeline/silhouettes/shape_nearness.h"
@@ -42,7 +43,7 @@ void VisibilityBuffer::forget(const Fineness& fineness) {
   was_known_ = has_seen();
   state_ = has_shapes() && most_rays_ > 0 ? State::kNotAsked : State::kUnknown;
   density_ = fineness.points_per_side, log2_density_ = std::countr_zero(static_cast<unsigned>(density_)),
-  share_points_ = fineness.share_points;
+  share_lines_ = fineness.share_lines, share_points_ = fineness.share_points;
   columns_ = (right_ + tile_pixels() - 1) / tile_pixels(),
   rows_ = (bottom_ + tile_pixels() - 1) / tile_pixels();
   is_seen_.assign(static_cast<std::size_t>(columns_ * rows_), 0);
@@ -328,25 +329,49 @@ std::uint32_t VisibilityBuffer::at(const Vec2d& point) {
   return seen.surfaces()[nearest];
 }
 
-void VisibilityBuffer::shares(int pixel_x, int pixel_y, std::span<const std::uint16_t> numbers,
+void VisibilityBuffer::shares(int pixel_x, int pixel_y, std::span<const std::uint16_t> numbers, bool are_rows,
                               std::span<float> shares) {
   const VisibleTile& seen = tile(pixel_x, pixel_y);
   const auto x = static_cast<float>(pixel_x), y = static_cast<float>(pixel_y);
-  NearestInPixel nearest(share_points_);
+  in_pixel_.clear();
   for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const auto owner = static_cast<std::uint32_t>(i);
     for_each_item(seen, numbers[i], {x, y, x + 1, y + 1}, [&](const auto& shape, const Vec2f& from) {
-      nearest.show(shape, from.x, from.y, static_cast<std::int32_t>(i + 1));
+      if constexpr (std::is_same_v<decltype(shape), const ProjectedQuadric&>) {
+        in_pixel_.push_back({&shape, nullptr, from.x, from.y, owner});
+      } else {
+        in_pixel_.push_back({nullptr, &shape, from.x, from.y, owner});
+      }
     });
   }
-  std::array<int, kMostInPixel + 1> counts;
-  nearest.count({counts.data(), numbers.size() + 1});
-  int all = 0;
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const int points = counts[i + 1] + (numbers[i] == 0 ? counts[0] : 0);
-    shares[i] = static_cast<float>(points), all += points;
+  std::fill(shares.begin(), shares.end(), 0.0F);
+  if (!shares_on_lines(in_pixel_, are_rows, share_lines_, shares)) count_shares(shares);
+  float all = 0;
+  for (const float share : shares) all += share;
+  // What is left shows the background, if it is one of those.
+  const auto background = std::find(numbers.begin(), numbers.end(), std::uint16_t{0});
+  if (background != numbers.end() && all < 1) {
+    shares[static_cast<std::size_t>(background - numbers.begin())] += 1 - all;
+    all = 1;
   }
-  const float each = all > 0 ? 1 / static_cast<float>(all) : 0;
-  for (float& share : shares) share = all > 0 ? share * each : 1 / static_cast<float>(numbers.size());
+  for (float& share : shares) share = all > 0 ? share * (1 / all) : 1 / static_cast<float>(shares.size());
+}
+
+// The same by points.
+void VisibilityBuffer::count_shares(std::span<float> shares) const {
+  NearestInPixel nearest(share_points_);
+  for (const ShapeInPixel& shape : in_pixel_) {
+    const auto number = static_cast<std::int32_t>(shape.owner) + 1;
+    if (shape.quadric != nullptr) {
+      nearest.show(*shape.quadric, shape.left, shape.top, number);
+    } else {
+      nearest.show(*shape.facet, shape.left, shape.top, number);
+    }
+  }
+  std::array<int, kMostInPixel + 1> counts;
+  nearest.count({counts.data(), shares.size() + 1});
+  for (std::size_t i = 0; i < shares.size(); ++i)
+    shares[i] = static_cast<float>(counts[i + 1]) / static_cast<float>(share_points_);
 }
 
 }  // namespace pprt

@@ -20,6 +20,7 @@
 #include "base/vector.h"
 #include "pipeline/core/tile_grid.h"
 #include "pipeline/silhouettes/projected_shape_cache.h"
+#include "pipeline/visibility/pixel_lines.h"
 #include "pipeline/visibility/tile_raster.h"
 
 namespace pprt {
@@ -100,18 +101,19 @@ class VisibilityBuffer {
   // How fine it is. Little is seen of finer edges where samples are few.
   struct Fineness {
     int points_per_side;  // of a pixel
-    int share_points;     // of a pixel, for shares()
+    int share_lines;      // across a pixel, for shares()
+    int share_points;     // in it, where lines cannot tell
 
     friend bool operator==(const Fineness&, const Fineness&) = default;
   };
-  static constexpr Fineness kCoarse = {2, 16}, kMiddle = {2, 32}, kFine = {4, 64};
+  static constexpr Fineness kCoarse = {2, 8, 32}, kMiddle = {2, 8, 64}, kFine = {4, 16, 128};
 
   // The eye or what it sees has moved: all is to be seen anew.
   void forget(const Fineness& fineness);
   void forget() { forget(fineness()); }
 
-  // Shares are counted at so many points of a pixel from now on, a power of two from 16 to 256.
-  void count_shares_at(int points) { share_points_ = points; }
+  // The shares of what is seen in a pixel are as fine as can be from now on.
+  void refine_shares() { share_lines_ = 32, share_points_ = 256; }
 
   // Counts as not known where seeing would take longer than so many rays. All primitives are bounded for it,
   // and each quadric and facet that may be in a part of the picture has its price. 0 rays: nothing is even
@@ -140,7 +142,7 @@ class VisibilityBuffer {
            of(kTile, tiles_seen_) + of(kFacetBlock, facet_blocks_) + of(kQuadricBlock, quadric_blocks_);
   }
 
-  Fineness fineness() const { return {density_, share_points_}; }
+  Fineness fineness() const { return {density_, share_lines_, share_points_}; }
 
   std::uint32_t surface_of(std::uint32_t primitive) const { return shapes_.surface_of(primitive); }
 
@@ -180,7 +182,9 @@ class VisibilityBuffer {
 
   // Replaces `shares` by the part of a pixel in which each of some primitives is seen, where no others are.
   // They are told by the tile's own numbers, at most kMostInPixel. Shares sum up to 1. Only if is_known().
-  void shares(int pixel_x, int pixel_y, std::span<const std::uint16_t> numbers, std::span<float> shares);
+  // `are_rows`: what is seen changes more along x than along y.
+  void shares(int pixel_x, int pixel_y, std::span<const std::uint16_t> numbers, bool are_rows,
+              std::span<float> shares);
 
   int tile_pixels() const { return kTileIntervals >> log2_density_; }
 
@@ -245,13 +249,14 @@ class VisibilityBuffer {
   void see(std::size_t tile);
   void list_items(std::size_t number, VisibleTile& tile);
   void compress(VisibleTile& tile);
+  void count_shares(std::span<float> shares) const;
   void find_surfaces(VisibleTile& tile);
 
   int right_, bottom_;
   int log2_density_ = 2;
-  int density_ = 4;             // points along a pixel's side
-  int share_points_ = 64;       // Fineness
-  int columns_ = 0, rows_ = 0;  // of tiles
+  int density_ = 4;                          // points along a pixel's side
+  int share_lines_ = 8, share_points_ = 64;  // Fineness
+  int columns_ = 0, rows_ = 0;               // of tiles
   PrimitiveShapes shapes_;
   State state_ = State::kNotAsked;
   bool was_known_ = false;  // when it was forgotten
@@ -281,6 +286,7 @@ class VisibilityBuffer {
   std::vector<std::uint32_t> numbers_;  // the same
   std::vector<std::uint16_t> on_surface_;
   std::vector<std::uint16_t> first_of_surface_;  // in the tile, by surface
+  std::vector<ShapeInPixel> in_pixel_;           // whose shares are asked for
   ImageShape asked_;
 };
 

@@ -108,7 +108,7 @@ TEST_CASE("visibility buffer: shares are areas") {
   std::vector<std::uint16_t> numbers;
   for (std::uint16_t i = 0; i < tile.surfaces().size(); ++i) numbers.push_back(i);
   std::vector<float> shares(numbers.size());
-  buffer.shares(10, 10, numbers, shares);
+  buffer.shares(10, 10, numbers, true, shares);
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const std::uint32_t surface = tile.surfaces()[numbers[i]];
     const double area = surface == 1 ? 0.75 * 0.5 : surface == 2 ? 0.25 * 0.5 : surface == 3 ? 0.5 : 0;

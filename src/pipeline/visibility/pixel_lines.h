@@ -1,0 +1,27 @@
+// How much of a pixel each shape is seen in, by lines across it. Private to the pipeline.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "pipeline/silhouettes/projected_shape_cache.h"
+
+namespace pprt {
+
+// A part of a primitive that may be seen in a pixel: a quadric or a facet.
+struct ShapeInPixel {
+  const ProjectedQuadric* quadric;  // null: a facet
+  const ProjectedFacet* facet;
+  float left, top;      // the pixel's corner, from the shape's origin, pixels
+  std::uint32_t owner;  // the primitive, by a number of its own
+};
+
+// Adds to `shares` the part of a pixel in which each owner is seen: the mean over `count` lines, a multiple of
+// eight. On each line it is exact where shapes end and where facets pass through each other. So is the share
+// of a straight edge that crosses all lines. `are_rows`: the lines lie along x, otherwise along y. Shapes of
+// one owner follow each other and do not overlap. Returns false where lines cannot tell, and leaves `shares`:
+// of more than 16 shapes on the lines, of one that more than three owners hide, and of a cone that is seen in
+// parts of its outline.
+bool shares_on_lines(std::span<const ShapeInPixel> shapes, bool are_rows, int count, std::span<float> shares);
+
+}  // namespace pprt
