@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pipeline/lattice/lattice_refiner.h"
+#include "unit/pipeline/lattice/disc_before_wall.h"
 
 namespace pprt::lattice_painter_test {
 namespace {
@@ -165,6 +166,58 @@ TEST_CASE("lattice painter: between primitives of unknown shape colours change a
   for (std::size_t i = 0; i < pictures[0].colors.size(); ++i)
     worst = std::max(worst, (pictures[0].colors[i] - pictures[1].colors[i]).length());
   CHECK(worst < 1e-5F);
+}
+
+TEST_CASE(
+    "lattice painter: where two surfaces meet a pixel shows both by their areas, however finely sampled") {
+  constexpr double kX = 15.3, kY = 16.8, kRadius = 9.4, kSide = 32;
+  constexpr float kDisc = 1;
+  const float wall = GENERATE(0.25F, 1.0F);  // of one colour there is no error at all
+  const auto is_on_disc = [](double x, double y) { return std::hypot(x - kX, y - kY) < kRadius; };
+  for (const int samples : {25, 100, 800}) {
+    LatticeRefiner refiner(region_of_image(true), test::disc_before_wall(kX, kY, kRadius));
+    refiner.expect(2 * kSize * kSize);  // so that it is worth seeing
+    for (int i = 0; i < samples; ++i) {
+      const auto at = refiner.next_point();
+      REQUIRE(at);
+      const bool disc = is_on_disc(at->x, at->y);
+      refiner.insert(*at, sample_of(disc ? kDisc : wall, disc ? 2 : 1));
+    }
+    PixelBlock pixels;
+    refiner.paint({0, 0, kSize, kSize}, pixels);
+    float worst = 0;
+    for (int y = 0; y < kSize; ++y) {
+      for (int x = 0; x < kSize; ++x) {
+        int inside = 0;
+        for (int v = 0; v < kSide; ++v)
+          for (int u = 0; u < kSide; ++u)
+            inside += is_on_disc(x + (u + 0.5) / kSide, y + (v + 0.5) / kSide) ? 1 : 0;
+        const float share = static_cast<float>(inside) / (kSide * kSide);
+        worst = std::max(worst, std::abs(pixels.at(x, y).x - (wall + (kDisc - wall) * share)));
+      }
+    }
+    INFO(samples << " samples, wall " << wall);
+    CHECK(worst < 0.06F * (kDisc - wall) + 1e-6F);
+  }
+}
+
+TEST_CASE("lattice painter: a sample within a pixel shows in it, be it of one surface or of two") {
+  const auto is_on_disc = [](const Vec2d& at) { return std::hypot(at.x - 15.3, at.y - 16.8) < 9.4; };
+  LatticeRefiner refiner(region_of_image(true), test::disc_before_wall(15.3, 16.8, 9.4));
+  const auto add = [&](const Vec2d& at, float value) {
+    refiner.insert(at, sample_of(value, is_on_disc(at) ? 2 : 1));
+  };
+  for (int y = 0; y <= kSize; ++y)
+    for (int x = 0; x <= kSize; ++x) add({x + 0.0, y + 0.0}, 0.25F);
+  PixelBlock before, after;
+  refiner.paint({0, 0, kSize, kSize}, before);
+  for (int y = 0; y < kSize; ++y)
+    for (int x = 0; x < kSize; ++x) add({x + 0.5, y + 0.5}, 3);
+  refiner.paint({0, 0, kSize, kSize}, after);
+  int unchanged = 0;
+  for (std::size_t i = 0; i < after.colors.size(); ++i)
+    unchanged += after.colors[i].x < before.colors[i].x + 0.2F ? 1 : 0;
+  CHECK(unchanged == 0);
 }
 
 }  // namespace pprt::lattice_painter_test

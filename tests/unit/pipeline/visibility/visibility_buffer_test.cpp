@@ -178,6 +178,11 @@ TEST_CASE("visibility buffer: nothing is known where a shape is unknown, and all
   buffer.forget();
   REQUIRE(buffer.is_known());
   CHECK(buffer.at(4 * 9, 4) == 0);
+  REQUIRE_FALSE(buffer.tile(20, 16).is_uniform(0, 0, 16));  // the edge goes through this tile
+  left = 200;                                               // out of the picture
+  buffer.forget();
+  REQUIRE(buffer.is_known());
+  CHECK((buffer.at(4 * 25, 4) == 0 && buffer.tile(20, 16).is_uniform(0, 0, 16)));
   CHECK_FALSE(VisibilityBuffer(kSize, kSize, {}).is_known());
 }
 
