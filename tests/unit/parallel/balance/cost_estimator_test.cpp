@@ -35,6 +35,9 @@ TEST_CASE("cost estimator: a sample costs its tile its rays, and what its sample
   const std::vector<TileReport> report = costs.report({region, weights, 3});
   REQUIRE(report.size() == 2);
   for (const TileReport& tile : report) CHECK(tile.preparation == received / 2);
+  // At least what a candidate costs in the mean.
+  CHECK(report[0].cost == 4 * 110 + 2 * own);
+  CHECK(report[1].cost == Approx((4 * 110 + 3 * own) / 2));
 }
 
 TEST_CASE("cost estimator: a tile that comes brings what it cost in this frame and in the one before") {
