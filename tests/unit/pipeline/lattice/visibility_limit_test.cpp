@@ -139,6 +139,31 @@ TEST_CASE(
   CHECK(asked_by(Stripes::kNoise, lights) == 2);  // what they differ by is their lights
 }
 
+// On the left all is known and nothing differs. On the right samples say nothing of their surface.
+TEST_CASE("visibility limit: what is known counts by how far it differs, not by how much of it there is") {
+  constexpr std::array<LitSurface, 2> kFirstIsKnown = {{{}, {LitShape::kRound, true}}};
+  const auto asked_where_known = [&](float difference) {
+    std::uint32_t asked = 0;
+    LatticeRefiner sampler(Region::whole({kSide, kSide, 32}), walls(2, asked), LatticeOrder::kAdaptive, {},
+                           {kFirstIsKnown, [](auto, auto, auto, UnshadowedLight&) {}});
+    constexpr int kFew = 1000;
+    for (int i = 0; i < kFew; ++i) {
+      sampler.expect(kFew - i);
+      const auto point = sampler.next_point();
+      if (!point) break;
+      RaySample seen = striped(*point, Stripes::kNoise);
+      seen.primitive = point->x < 0.5 * kSide ? 1 : 2;
+      const bool is_odd = (static_cast<int>(point->x) + static_cast<int>(point->y)) / 8 % 2 == 1;
+      const float known = 0.5F + (is_odd ? difference : -difference);
+      if (seen.primitive == 1) seen.color = Color(known, known, known);
+      sampler.insert(*point, seen);
+    }
+    return asked;
+  };
+  CHECK(asked_where_known(0) == 0);
+  CHECK(asked_where_known(0.5F) == 2);
+}
+
 TEST_CASE(
     "visibility limit: what seeing would bring is learned anew when pictures change, and at once when "
     "cleared") {
