@@ -161,15 +161,9 @@ TEST_CASE("lattice prediction: at every node the nodes around count that are to,
 }
 
 TEST_CASE("lattice prediction: surroundings in other colours are as if these had been added, in each order") {
-  constexpr int kSide = 64;
-  const std::array<LatticeNode, 8> nodes = {{{0, 0},
-                                             {kSide, 0},
-                                             {0, kSide},
-                                             {kSide, kSide},
-                                             {0, kSide / 2},
-                                             {kSide, kSide / 2},
-                                             {kSide / 2, 0},
-                                             {kSide / 2, kSide}}};
+  constexpr int kSide = 64, kLeft = 192, kTop = 64;
+  std::array<LatticeNode, 8> nodes = {{{0, 0}, {2, 0}, {0, 2}, {2, 2}, {0, 1}, {2, 1}, {1, 0}, {1, 2}}};
+  for (LatticeNode& node : nodes) node = {kLeft + node.x * kSide / 2, kTop + node.y * kSide / 2};
   constexpr std::array<std::array<std::size_t, 2>, 4> kEnds = {{{0, 2}, {1, 3}, {0, 1}, {2, 3}}};
   std::mt19937 random(3);
   const auto color = [&] {

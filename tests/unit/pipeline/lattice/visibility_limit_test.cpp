@@ -110,6 +110,18 @@ TEST_CASE("visibility limit: shapes that were too many to be seen took no time")
   }
 }
 
+TEST_CASE("visibility limit: what was not seen is not cheap for that") {
+  std::uint32_t asked = 0;
+  LatticeRefiner sampler(Region::whole({kSide, kSide, 32}), walls(900, asked));
+  for (int picture = 0; picture < 3; ++picture) {
+    sampler.expect(kSamples);
+    sample(sampler, Stripes::kNoise);
+    CHECK(asked == 0);
+    sampler.camera_changed();
+    sampler.restart();
+  }
+}
+
 TEST_CASE("visibility limit: the more of the error seeing takes away, the more of the time it may take") {
   constexpr std::uint32_t kTwoThirds = 2000, kNearlyAll = 20000;
   CHECK(asked_in_second(kTwoThirds, Stripes::kEachItsOwn) == kTwoThirds);
