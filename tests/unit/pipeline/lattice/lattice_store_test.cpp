@@ -104,7 +104,7 @@ TEST_CASE("lattice store: the levels hold every node but the base once") {
 }
 
 TEST_CASE("lattice store: all nodes of a level in a tile are those that may be candidates, each once") {
-  LatticeStore store(20, 18);
+  LatticeStore store(20, 40);  // some tiles lie below others
   for (const LatticeNode& n : all_nodes(store)) store.set_state(n, 100);
   std::vector<LatticeNode> candidates, all;
   const auto by_place = [](const LatticeNode& a, const LatticeNode& b) {
