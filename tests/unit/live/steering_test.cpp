@@ -125,7 +125,11 @@ TEST_CASE("steering: play, pause, step and seek") {
   CHECK(stage.shot().position == 4);
   stage.say(1, R"({"do":"step","by":-2147483647})");
   CHECK(stage.shot().position == 1);
-  stage.say(1, R"({"do":"seek","frame":4})");
+  for (const auto& [frame, position] :
+       {std::pair(2, 2), std::pair(1, 1), std::pair(0, 1), std::pair(99, 4)}) {
+    stage.say(1, R"({"do":"seek","frame":)" + std::to_string(frame) + "}");
+    CHECK(stage.shot().position == position);
+  }
   stage.say(1, R"({"do":"play"})");  // at the end it begins again
   CHECK(stage.shot().position == 1);
   stage.say(1, R"({"do":"pause"})");
