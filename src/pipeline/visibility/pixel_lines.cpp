@@ -221,9 +221,9 @@ bool add_seen(std::span<const ShapeInPixel> shapes, const Lines& lines, std::spa
   for (std::size_t i = 1; i < count; ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       const ShapeInPixel &before = shapes[met[k]], &shape = shapes[met[i]];
-      if (before.owner == shape.owner) continue;
       const Ends overlap = both(ends[i], ends[k]);
       if (!is_any(length_of(overlap) > kNoOverlap)) continue;
+      if (before.owner == shape.owner) return false;
       Ends *hidden_before = hidden[k].add(shape.owner), *hidden_here = hidden[i].add(before.owner);
       if (hidden_before == nullptr || hidden_here == nullptr) return false;
       if (!hide(before, shape, overlap, lines, *hidden_before, *hidden_here)) return false;

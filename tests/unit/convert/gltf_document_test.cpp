@@ -95,6 +95,14 @@ TEST_CASE("gltf document: names in UTF-8 stay, others lose the bytes that are no
   CHECK(utf8("h\xc3\xb6lzern \xe2\x82\xac \xf0\x9f\x98\x80") ==
         "h\xc3\xb6lzern \xe2\x82\xac \xf0\x9f\x98\x80");
   CHECK(utf8("h\xf6lzern") == "h_lzern");
+  // The first and the last of each length, and those beside what UTF-16 takes for its pairs.
+  for (const std::string one : {"\xc2\x80", "\xdf\xbf", "\xe0\xa0\x80", "\xe0\xbf\xbf", "\xed\x9f\xbf",
+                                "\xee\x80\x80", "\xef\xbf\xbf", "\xf0\x90\x80\x80", "\xf4\x8f\xbf\xbf"}) {
+    INFO(one);
+    CHECK(utf8("a" + one + one + "z") == "a" + one + one + "z");
+    const std::string cut = one.substr(0, one.size() - 1);
+    CHECK(utf8(cut + "z") == std::string(cut.size(), '_') + "z");
+  }
   CHECK(utf8("\xc0\xaf\xed\xa0\x80\xf4\x90\x80\x80\xc3") == "__________");
 }
 

@@ -180,6 +180,25 @@ TEST_CASE("gltf: holes of single texels are cut, wherever corners lie between th
   CHECK(area == Approx(0.5).epsilon(0.05));
 }
 
+TEST_CASE(
+    "gltf: holes leave what they do not meet as it is, and the edges of too many are told to be coarse") {
+  const auto cut = [](int width, const std::vector<int>& holes) {
+    AlphaPicture picture{width, 1, std::vector<float>(static_cast<std::size_t>(width), 1.0F)};
+    for (const int hole : holes) picture.alpha[static_cast<std::size_t>(hole)] = 0;
+    ModelMesh square;
+    square.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    square.texture_points = {{0, 0}, {1, 0}, {1, 0}, {0, 0}};
+    square.corners = {0, 1, 2, 0, 2, 3}, square.ends = {3, 6};
+    const bool is_fine = cut_holes(square, picture, 0.5);
+    return std::pair(is_fine, square.corners.size());
+  };
+  CHECK(cut(100, {}) == std::pair(true, std::size_t{6}));
+  CHECK(cut(2, {0, 1}) == std::pair(true, std::size_t{0}));
+  const auto [is_fine, corners] = cut(100, {50});
+  CHECK((is_fine && corners > 6));
+  CHECK_FALSE(cut(4000, {1777}).first);  // a triangle is halved nine times
+}
+
 TEST_CASE("gltf: what glows is bright without light, and unlit shows its colour") {
   GltfSample sample;
   sample.triangle_of(colored({0, 0, 0, 1}, {{"emissiveFactor", {1, 0.5, 0}}}));

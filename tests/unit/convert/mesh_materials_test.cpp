@@ -52,6 +52,11 @@ TEST_CASE("mesh materials: Phong's model keeps each term, the mirror as its high
   CHECK(back.specular == Approx(0.6));
 }
 
+TEST_CASE("mesh materials: they keep their names") {
+  for (const bool physically_based : {true, false})
+    CHECK(to_assimp({}, "glass", physically_based, {}, 1)->GetName() == aiString(std::string("glass")));
+}
+
 TEST_CASE("mesh materials: physically based, what is mirrored or let through is not reflected to all sides") {
   const auto base_of = [](const Material& m) {
     aiColor4D base;

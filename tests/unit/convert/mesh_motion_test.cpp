@@ -253,6 +253,17 @@ TEST_CASE("of two animations that move one node the first counts, and the others
   CHECK(read.tracks.at("cube").translation.back().value == Vec3d(1, 0, 0));
 }
 
+TEST_CASE("movements of shapes are told, of meshes and of morph targets") {
+  aiScene scene;
+  scene.mNumAnimations = 1;
+  scene.mAnimations = new aiAnimation*[1];
+  scene.mAnimations[0] = new aiAnimation;
+  scene.mAnimations[0]->mNumMeshChannels = 2, scene.mAnimations[0]->mNumMorphMeshChannels = 3;  // told unread
+  const std::vector<std::string> notes = read_animation(scene, "").notes;
+  REQUIRE(notes.size() == 1);
+  CHECK(notes[0].starts_with("5 "));
+}
+
 TEST_CASE("a node called camera does not move the view, and one that does moves it in the world") {
   const ReadMesh named = read_gltf(gltf(R"("name":"camera","mesh":0)"));
   CHECK(!named.scene.movement.tracks.contains(kCameraTrack));

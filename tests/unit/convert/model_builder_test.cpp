@@ -92,6 +92,18 @@ TEST_CASE("model builder: triangles of a textured mesh share its corners, mirror
       CHECK((c[1].position - c[0].position).cross(c[2].position - c[0].position).z > 0);
     }
   }
+  mesh.normals.assign(4, Vec3d(0.6, 0, 0.8));
+  {
+    ModelBuilder builder("model");
+    builder.scene().textures.resize(1);
+    builder.add(mesh, material, world());
+    const SceneDescription smooth = std::move(builder).finish({}).scene;
+    REQUIRE(smooth.meshes.at(0).normals.size() == 4);
+    for (const Triangle& t : smooth.triangles)
+      for (const auto& corner : corners_of(smooth, t))
+        CHECK((corner.normal - Vec3d(0.6, 0, 0.8)).length() < 1e-6);
+  }
+  mesh.normals.clear();
   // Without texture points there is no texture, and polygons stay whole.
   mesh.texture_points.clear();
   const SceneDescription plain = built(mesh, material, world());
@@ -162,7 +174,8 @@ TEST_CASE("model animation: frames are 24 a second from the first key to the las
   const FrameTimes second = *frames({1.5, 0.5, 1});
   CHECK((second.start == 0.5 && second.end == 1.5 && second.frames == 25));
   CHECK(frames({0, 1.01})->frames == 26);
-  CHECK(frames({0, 1 + 1e-5})->frames == 25);  // a float's rounding
+  CHECK(frames({0, 1 + 1e-5})->frames == 25);                           // a float's rounding
+  CHECK(frames({0, (kMostFrames - 1) / 24.0})->frames == kMostFrames);  // no more: nothing to tell
 }
 
 TEST_CASE("model animation: the one that is shown is named, and ten of the others") {

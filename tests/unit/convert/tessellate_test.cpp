@@ -77,6 +77,29 @@ TEST_CASE(
   CHECK(area(tessellate(Sphere{{0, 0, 0}, 1, 0, {}}, 100)) == Approx(4 * M_PI).epsilon(1e-4));
 }
 
+TEST_CASE("a tessellated sphere's cells are cut along the shorter diagonal") {
+  for (int n = 1; n <= 7; ++n) {
+    const Surface surface = tessellate(Sphere{{0, 0, 0}, 1, 0, {}}, n);
+    REQUIRE(surface.triangles.size() == static_cast<std::size_t>(12 * n * n));
+    for (std::size_t i = 0; i < surface.triangles.size(); i += 2) {
+      std::vector<Vec3d> both, alone;  // the corners that two triangles share, and the others
+      const TriangleIndices &a = surface.triangles[i], &b = surface.triangles[i + 1];
+      for (const TriangleIndices* t : {&a, &b}) {
+        const TriangleIndices& other = t == &a ? b : a;
+        for (const std::uint32_t corner : *t) {
+          const bool is_shared = std::count(other.begin(), other.end(), corner) > 0;
+          (is_shared ? both : alone).push_back(surface.vertices[corner].position);
+        }
+      }
+      REQUIRE((both.size() == 4 && alone.size() == 2));
+      const Vec3d& from = both[0];
+      const Vec3d to = both[1];
+      INFO("n " << n << ", cell " << i / 2);
+      CHECK((from - to).length() <= (alone[0] - alone[1]).length() + 1e-9);
+    }
+  }
+}
+
 TEST_CASE("a tessellated cone is a ring of 4N x 2 triangles with slanted normals and without caps") {
   const Cone cone{{1, 1, 1}, 2, {1, 1, 4}, 0.5, 0, {}};
   const Surface surface = tessellate(cone, 3);

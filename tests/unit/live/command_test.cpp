@@ -57,6 +57,9 @@ TEST_CASE("live commands: what is none is refused in words") {
   CHECK(refused(R"({"do":"pass"})") == "'to' is missing");
   CHECK(refused(R"({"do":"pass","to":1.5})") == "'to' is not a whole number");
   CHECK(refused(R"({"do":"pass","to":"1"})").starts_with("'to' is not a number from 1 to"));
+  for (const char* text : {R"({"do":"photo","format":"gif"})", R"({"do":"photo","format":7})"})
+    CHECK(refused(text) == "'format' has no such value");
+  CHECK(refused(R"({"do":"overlay","name":"nothing"})") == "'name' has no such value");
   CHECK(refused(R"({"do":"rate","fps":121})") == "'fps' is not a number from 1 to 120");
   CHECK(refused(R"({"do":"rate","fps":1e999})") == "a message is no JSON object");
   CHECK(refused(R"({"do":"size","width":0,"height":9})") == "'width' is not a number from 1 to 4096");

@@ -125,7 +125,11 @@ TEST_CASE("steering: play, pause, step and seek") {
   CHECK(stage.shot().position == 4);
   stage.say(1, R"({"do":"step","by":-2147483647})");
   CHECK(stage.shot().position == 1);
-  stage.say(1, R"({"do":"seek","frame":4})");
+  for (const auto& [frame, position] :
+       {std::pair(2, 2), std::pair(1, 1), std::pair(0, 1), std::pair(99, 4)}) {
+    stage.say(1, R"({"do":"seek","frame":)" + std::to_string(frame) + "}");
+    CHECK(stage.shot().position == position);
+  }
   stage.say(1, R"({"do":"play"})");  // at the end it begins again
   CHECK(stage.shot().position == 1);
   stage.say(1, R"({"do":"pause"})");
@@ -209,6 +213,7 @@ TEST_CASE("steering: keys make a film, which plays and is saved") {
     const LiveShot shot = stage.shot();
     CHECK((shot.position == n && shot.script_frame == 0));
     if (n == 1 || n == 5 || n == 9) CHECK(shot.view.from.x == 1 + (n - 1) / 4);
+    stage.say(1, R"({"do":"film","on":true})");  // it plays already
   }
 
   stage.say(1, R"({"do":"undo"})");

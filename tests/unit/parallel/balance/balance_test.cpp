@@ -173,6 +173,17 @@ TEST_CASE("local balancing: a tile goes if those of its giver around it hang tog
   CHECK(kept > 50);
 }
 
+TEST_CASE("local balancing: a tile of a ring goes, for what is beside it hangs together the long way round") {
+  Partition partition{TileGrid(50, 50, 10), 2, std::vector<std::int32_t>(25, 0),
+                      std::vector<std::uint64_t>(25)};
+  for (const std::size_t inner : {6U, 7U, 8U, 11U, 12U, 13U, 16U, 17U, 18U}) partition.owner[inner] = 1;
+  const auto offer = [](int) { return TileOffer{100, 10, 0}; };
+  const std::vector<int> tiles = tiles_to_give({}, partition, 0, 1, {1e9, 1, kUnlimited}, offer);
+  CHECK(tiles.size() == 4);  // a quarter of the ring
+  for (const int tile : tiles) partition.owner[static_cast<std::size_t>(tile)] = 1;
+  CHECK(is_connected(partition, 0));
+}
+
 TEST_CASE("local balancing: over random regions every transfer leaves the giver connected") {
   std::mt19937 random(7);
   int transfers = 0;
@@ -407,6 +418,13 @@ TEST_CASE("global balancing: on a lattice, a partition from accumulated samples 
     CHECK(is_made(SamplerChoice::kDelaunay, true, next));
   }
   CHECK(is_made(SamplerChoice::kAuto, true, Carry::kAccumulate));
+}
+
+TEST_CASE("global balancing: a rank alone is never given a partition") {
+  SessionSettings settings{.sampler = SamplerChoice::kAuto};
+  settings.balance = BalanceMode::kGlobal;
+  GlobalBalancer alone(settings, traits_of(settings.sampler), TileGrid(40, 10, 10), 1, 0);
+  CHECK_FALSE(repartitions(alone, {.tiles = {{report(0, 100, 9, 1), report(1, 1, 9, 9)}}, .speeds = {1}}));
 }
 
 EACH_SAMPLER_TEST_CASE("balancing: every mode evens the refinement out") {

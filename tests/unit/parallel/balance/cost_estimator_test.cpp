@@ -32,9 +32,17 @@ TEST_CASE("cost estimator: a sample costs its tile its rays, and what its sample
   costs.add_received();
   CHECK(costs.now(0).cost == 4 * 110 + 2 * own);
   CHECK(costs.now(1).cost == own);
+  CHECK(costs.counted() == 4 * 110 + 3 * own + received);
   const std::vector<TileReport> report = costs.report({region, weights, 3});
   REQUIRE(report.size() == 2);
   for (const TileReport& tile : report) CHECK(tile.preparation == received / 2);
+  // What was received is shared by the tiles of the region, be it one.
+  const std::vector<TileReport> alone = costs.report({Region(grid, {0, 1}), weights, 2});
+  REQUIRE(alone.size() == 1);
+  CHECK((alone[0].tile == 1 && alone[0].preparation == received));
+  // At least what a candidate costs in the mean.
+  CHECK(report[0].cost == 4 * 110 + 2 * own);
+  CHECK(report[1].cost == Approx((4 * 110 + 3 * own) / 2));
 }
 
 TEST_CASE("cost estimator: a tile that comes brings what it cost in this frame and in the one before") {

@@ -112,6 +112,10 @@ TEST_CASE("on the work clock a frame of several periods has their budgets") {
   order.deadline_s = 2, order.periods = 2;
   CHECK(clock.delivery_time(order, ranks).finished_s == Approx(2 - 2 * 0.25 + 0.25));
   CHECK(clock.delivery_time(order, ranks).late_ms == Approx(1e3 * (0.25 - 2 * 0.1)));
+  const WorkDeliveryClock slow(0.5, 5'000'000);  // frames may be seconds apart
+  order.periods = 1;
+  CHECK(slow.delivery_time(order, ranks).finished_s == Approx(2 - 2 + 0.25));
+  CHECK(slow.delivery_time(order, ranks).late_ms == Approx(1e3 * (0.25 - 0.1)));
 }
 
 TEST_CASE("clocks are made as the settings say: kind, rate, budget, and slow ranks") {

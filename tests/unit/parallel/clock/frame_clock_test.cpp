@@ -288,6 +288,12 @@ TEST_CASE("work clock: rounds share what a frame leaves beside its reconstructio
   clock.end_frame(0, 1);
   CHECK(clock.frame_seconds() == 0);
   CHECK(clock.used_ns() == static_cast<std::int64_t>(2 * rays * price(Work::kRay)));
+  FrameOrder order;
+  for (const double periods : {3.0, 1.0}) {  // a frame that has several periods, and the next
+    order.periods = periods;
+    clock.begin_frame(order);
+    CHECK(clock.affordable(Work::kRay, 1) == Approx(periods * kBudget / (2 * price(Work::kRay))).margin(1));
+  }
 }
 
 TEST_CASE("work clock: without a rate a round has its fixed units, and sampling has no end") {

@@ -242,6 +242,12 @@ TEST_CASE("exchange: what comes for a tile that was given away is forwarded, not
   of_others_to_rank_0();
   CHECK(exchange.insert(sample_at(88.9, 50.3), 2));
   CHECK(of_others_to_rank_0().empty());
+  // Nor does a tile elsewhere that goes now bring those of the last picture back.
+  given.owner[6] = 0;
+  CHECK(exchange.transfer(given));
+  of_others_to_rank_0();
+  CHECK(exchange.insert(sample_at(88.7, 40.1), 2));
+  CHECK(of_others_to_rank_0().empty());
 }
 
 TEST_CASE("exchange: cast samples are the rank's own, and are told of like others") {

@@ -179,10 +179,14 @@ TEST_CASE("point exchange: what comes for a tile that was given away is forwarde
   CHECK(middle.take_outbox(0).empty());
   CHECK(middle.take_outbox(2).empty());
 
-  // After clear() everybody knows.
+  // After clear() everybody knows, and it stays so when another tile goes.
   rank_1.sampler.clear(true);
   middle.clear();
   CHECK(middle.insert(sample_at(2 * kSide, 4), 2));
+  CHECK(middle.take_outbox(0).empty());
+  given.owner[10] = 0;
+  CHECK(middle.transfer(given));
+  CHECK(middle.insert(sample_at(2 * kSide, 8), 2));
   CHECK(middle.take_outbox(0).empty());
 }
 

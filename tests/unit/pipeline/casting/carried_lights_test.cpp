@@ -77,6 +77,8 @@ TEST_CASE("carried lights: at most four primitives, and nothing after clear()") 
   CHECK(most == 4);
   carried.take(std::span(samples).first(1), kBounds);  // in the place of those before
   CHECK(carried.near({20, 20}).size() <= 1);
+  carried.take(samples, kBounds);
+  REQUIRE_FALSE(carried.near({20, 20}).empty());
   carried.clear();
   for (double x = 9; x < 39; ++x) CHECK(carried.near({x, 20}).empty());
 }

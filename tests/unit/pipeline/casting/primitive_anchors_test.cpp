@@ -117,6 +117,11 @@ TEST_CASE("anchors: they move with their primitives, and end with them") {
   CHECK(sought[1].x == Approx(35).margin(1e-4));
   // Those that are left are found again by their primitive.
   CHECK(anchors.unseen(std::vector{seen_at(1, 1, 3)}, camera_at(0), kWhole, kAll).size() == 1);
+  // Each is carried once from frame to frame, until it ends.
+  anchors.carry([](RaySample&) { return Carried::kKept; });
+  CHECK(anchors.unseen({}, camera_at(0), kWhole, kAll).size() == 2);
+  anchors.carry([](RaySample&) { return Carried::kNothing; });
+  CHECK(anchors.unseen({}, camera_at(0), kWhole, kAll).empty());
 }
 
 }  // namespace pprt::primitive_anchors_test

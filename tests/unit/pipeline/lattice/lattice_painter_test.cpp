@@ -1,6 +1,7 @@
 // What single samples make of the picture, side by side and corner by corner.
 #include "pipeline/lattice/lattice_painter.h"
 
+#include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "pipeline/lattice/lattice_refiner.h"
+#include "unit/pipeline/lattice/disc_before_wall.h"
 
 namespace pprt::lattice_painter_test {
 namespace {
@@ -94,6 +96,63 @@ float linear(const LatticeNode& node) {
   return 0.001F * static_cast<float>(node.x) + 0.0003F * static_cast<float>(node.y);
 }
 
+// A disc before a wall.
+class DiscPicture {
+ public:
+  explicit DiscPicture(float wall) : wall_(wall) {}
+
+  void sample(int count) {
+    for (int i = 0; i < count; ++i) {
+      const auto at = refiner_.next_point();
+      REQUIRE(at);
+      add(*at);
+    }
+  }
+  // Samples the corners of all pixels, or their centres.
+  void add_corners() {
+    for (int y = 0; y <= kSize; ++y)
+      for (int x = 0; x <= kSize; ++x) add({x + 0.0, y + 0.0});
+  }
+  void add_centers(float brighter = 0) {
+    for (int y = 0; y < kSize; ++y)
+      for (int x = 0; x < kSize; ++x) add({x + 0.5, y + 0.5}, brighter);
+  }
+  PixelBlock painted() {
+    PixelBlock pixels;
+    refiner_.paint({0, 0, kSize, kSize}, pixels);
+    return pixels;
+  }
+  // The largest error of a pixel, against both surfaces' areas.
+  float worst_error() {
+    constexpr int kSide = 32;
+    const PixelBlock pixels = painted();
+    float worst = 0;
+    for (int y = 0; y < kSize; ++y) {
+      for (int x = 0; x < kSize; ++x) {
+        int inside = 0;
+        for (int i = 0; i < kSide * kSide; ++i)
+          inside += is_on_disc({x + (i % kSide + 0.5) / kSide, y + (i / kSide + 0.5) / kSide}) ? 1 : 0;
+        const float share = static_cast<float>(inside) / (kSide * kSide);
+        worst = std::max(worst, std::abs(pixels.at(x, y).x - (wall_ + (kDisc - wall_) * share)));
+      }
+    }
+    return worst;
+  }
+
+ private:
+  static constexpr double kX = 15.3, kY = 16.8, kRadius = 9.4;
+  static constexpr float kDisc = 1;
+
+  static bool is_on_disc(const Vec2d& at) { return std::hypot(at.x - kX, at.y - kY) < kRadius; }
+  void add(const Vec2d& at, float brighter = 0) {
+    const bool is_disc = is_on_disc(at);
+    refiner_.insert(at, sample_of((is_disc ? kDisc : wall_) + brighter, is_disc ? 2 : 1));
+  }
+
+  float wall_;
+  LatticeRefiner refiner_{region_of_image(true), test::disc_before_wall(kX, kY, kRadius)};
+};
+
 }  // namespace
 
 TEST_CASE("lattice painter: one odd sample shows in every square that it touches") {
@@ -116,6 +175,26 @@ TEST_CASE("lattice painter: one odd sample shows in every square that it touches
       INFO("side " << square.side << ", sample at " << odd.x << ", " << odd.y);
       CHECK(shows);
     }
+  }
+}
+
+// The centre is predicted from the corners and the middle: a fifth of what this differs by. Of a pixel's four
+// quarters two have the middle at a corner, and all have the centre.
+TEST_CASE("lattice painter: a sample on a side of a pixel counts by the squares that it is a corner of") {
+  const auto flat = [](const LatticeNode&) { return 0.25F; };
+  const Path path = GENERATE(from_range(kPaths));
+  const std::vector<Square> squares = nested_squares(path);
+  const Square& pixel =
+      *std::find_if(squares.begin(), squares.end(), [](const Square& s) { return s.side == kPixelSide; });
+  const std::array<LatticeNode, 5> nodes = inner_nodes(pixel);
+  for (std::size_t i = 1; i < nodes.size(); ++i) {
+    Picture picture;
+    picture.add_base(flat);
+    add_path(picture, path, pixel, flat);
+    REQUIRE(picture.add(nodes[i], 1.25F));
+    INFO("middle " << i);
+    CHECK(picture.painted().at(pixel.corner.x / kPixelSide, pixel.corner.y / kPixelSide).x ==
+          Approx(0.25 + (2 * 1 + 4 * 0.2) / 16));
   }
 }
 
@@ -165,6 +244,37 @@ TEST_CASE("lattice painter: between primitives of unknown shape colours change a
   for (std::size_t i = 0; i < pictures[0].colors.size(); ++i)
     worst = std::max(worst, (pictures[0].colors[i] - pictures[1].colors[i]).length());
   CHECK(worst < 1e-5F);
+}
+
+TEST_CASE(
+    "lattice painter: where two surfaces meet a pixel shows both by their areas, however finely sampled") {
+  const int samples = GENERATE(25, 100, 800);
+  INFO(samples << " samples");
+  DiscPicture picture(0.25F), of_one_color(1);
+  picture.sample(samples), of_one_color.sample(samples);
+  CHECK(picture.worst_error() < 0.045F);
+  CHECK(of_one_color.worst_error() < 1e-6F);
+}
+
+TEST_CASE("lattice painter: where there are many samples areas are counted more finely") {
+  DiscPicture picture(0.25F);
+  picture.add_corners();
+  const float coarse = picture.worst_error();
+  CHECK(coarse < 0.02F);
+  picture.add_centers();
+  CHECK(picture.worst_error() < 0.5F * coarse);
+}
+
+TEST_CASE("lattice painter: a sample within a pixel shows in it, be it of one surface or of two") {
+  DiscPicture picture(0.25F);
+  picture.add_corners();
+  const PixelBlock before = picture.painted();
+  picture.add_centers(2);
+  const PixelBlock after = picture.painted();
+  int unchanged = 0;
+  for (std::size_t i = 0; i < after.colors.size(); ++i)
+    unchanged += after.colors[i].x < before.colors[i].x + 0.2F ? 1 : 0;
+  CHECK(unchanged == 0);
 }
 
 }  // namespace pprt::lattice_painter_test

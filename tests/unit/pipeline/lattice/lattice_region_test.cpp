@@ -109,4 +109,19 @@ TEST_CASE("lattice region: what changes are the squares that one of two regions 
   }
 }
 
+TEST_CASE("lattice region: level by level, squares that come are sampled at every node, too") {
+  const TileGrid grid{16, 8, 8};
+  LatticeRefiner refiner(Region(grid, {1, 0}), {}, LatticeOrder::kLevels);
+  std::size_t sampled = 0;
+  const auto sample_all = [&] {
+    for (auto point = refiner.next_point(); point; point = refiner.next_point(), ++sampled)
+      REQUIRE(refiner.insert(*point, RaySample()));
+  };
+  sample_all();
+  CHECK((sampled > 128 * 128 && sampled < 130 * 130));
+  refiner.set_region(Region::whole(grid));
+  sample_all();
+  CHECK(sampled == 256 * 128 + 16 + 8 + 1);  // on the last borders the corners of pixels only
+}
+
 }  // namespace pprt::lattice_region_test

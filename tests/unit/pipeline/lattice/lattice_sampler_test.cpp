@@ -154,6 +154,34 @@ TEST_CASE("lattice sampler: a sample stands for the area of its node") {
   CHECK(sampler.footprint({1.0 / 16, 0}) == Approx(1.0 / 16));     // the finest
 }
 
+TEST_CASE("lattice sampler: a sample reaches as far as the square whose centre it is, and no other does") {
+  const LatticeSampler sampler = whole();
+  const auto reach = [&](double x, double y) { return sampler.reach(seen_at({x, y})); };
+  CHECK(
+      (reach(8, 16) == 0 && reach(4, 8) == 0 && reach(8, 4) == 0));  // a corner, and the middles of its sides
+  CHECK((reach(4, 4) == 4 && reach(12, 20) == 4));
+  CHECK((reach(2, 6) == 2 && reach(2, 4) == 0 && reach(0.5, 3.5) == 0.5));
+}
+
+TEST_CASE("lattice sampler: of a goal its region's share is expected, whatever the region becomes") {
+  constexpr double kGoal = 2000;
+  LatticeSampler sampler(columns(0, 4), LatticeOrder::kAdaptive, {.samples = 2000}, {});
+  LatticeRefiner refiner(columns(0, 4), {});
+  sampler.clear(false);
+  refiner.clear();
+  refiner.expect(kGoal);
+  CHECK(refine(sampler, 300) == refine(refiner, 300));
+  sampler.set_region(columns(1, 3));
+  LatticeRefiner untold(columns(0, 4), {});
+  untold.expect(kGoal);
+  refine(untold, 300);
+  for (LatticeRefiner* each : {&refiner, &untold}) each->set_region(columns(1, 3));
+  refiner.expect(kGoal / 2 - 300);
+  const std::vector<Vec2d> points = refine(sampler, 500);
+  CHECK(points == refine(refiner, 500));
+  CHECK(points != refine(untold, 500));
+}
+
 TEST_CASE("lattice sampler: samples are kept if somebody asks, and none after clear()") {
   for (const bool keeps : {true, false}) {
     LatticeSampler sampler = whole(keeps);

@@ -103,6 +103,25 @@ TEST_CASE("lattice store: the levels hold every node but the base once") {
   CHECK(as_set(all) == as_set(wanted));
 }
 
+TEST_CASE("lattice store: all nodes of a level in a tile are those that may be candidates, each once") {
+  LatticeStore store(20, 40);  // some tiles lie below others
+  for (const LatticeNode& n : all_nodes(store)) store.set_state(n, 100);
+  std::vector<LatticeNode> candidates, all;
+  const auto by_place = [](const LatticeNode& a, const LatticeNode& b) {
+    return std::pair(a.y, a.x) < std::pair(b.y, b.x);
+  };
+  for (int tile = 0; tile < store.tile_count(); ++tile) {
+    for (const LatticeLevel& level : kLatticeLevels) {
+      store.collect(tile, level, 100, candidates);
+      store.collect_all(tile, level, all);
+      std::sort(candidates.begin(), candidates.end(), by_place);
+      std::sort(all.begin(), all.end(), by_place);
+      INFO("tile " << tile << ", side " << level.side);
+      CHECK(all == candidates);
+    }
+  }
+}
+
 TEST_CASE("lattice store: only candidates of the least priority are collected") {
   LatticeStore store(kWidth, kHeight);
   const LatticeNode low{64, 64}, high{192, 64}, sampled{320, 64};

@@ -1,10 +1,12 @@
 // What predicts a node, and how: every side and corner of a square counts alike.
 #include "pipeline/lattice/node_prediction.h"
 
+#include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "unit/pipeline/lattice/disc_before_wall.h"
 
@@ -13,19 +15,24 @@ namespace {
 
 constexpr int kMiddle = 32 * kPixelSide;  // of the image, which the eight symmetries of a square turn about
 
-// A lattice of 64x64 pixels, on one primitive.
+// A lattice of 64x64 pixels if nothing else is said, on one primitive.
 class Lattice {
  public:
+  explicit Lattice(int width = 64, int height = 64) : width_(width), height_(height) {}
+
   void add(const LatticeNode& node, float value) { store_.set_sample(node, NodeValue(float4{value}, 1)); }
   float predicted(const LatticeNode& node) {
-    return predictor_.predict(node, predictor_.around(node, level_of(node))).value.channels()[0];
+    return predictor_.predict(node, around(node)).value.channels()[0];
   }
+  Surroundings around(const LatticeNode& node) { return predictor_.around(node, level_of(node)); }
+  bool is_sampled(const LatticeNode& node) const { return store_.is_sampled(node); }
 
  private:
-  LatticeStore store_{64, 64};
-  VisibilityBuffer visibility_{64, 64, {}};
-  SurfaceSamples surfaces_{64 * kPixelSide, 64 * kPixelSide};
-  LocalErrors errors_{64 * kPixelSide, 64 * kPixelSide};
+  int width_, height_;
+  LatticeStore store_{width_, height_};
+  VisibilityBuffer visibility_{width_, height_, {}};
+  SurfaceSamples surfaces_{width_ * kPixelSide, height_* kPixelSide};
+  LocalErrors errors_{width_ * kPixelSide, height_* kPixelSide};
   SurfaceShare share_;
   SurfaceTextures textures_{{}, visibility_};
   SurfaceLights lights_{{}, visibility_};
@@ -93,6 +100,96 @@ TEST_CASE("lattice prediction: a lattice that is turned or mirrored predicts the
         CHECK(other.predicted(turned(node, way)) == Approx(as_is.predicted(node)).epsilon(1e-5));
     }
   }
+}
+
+// Which nodes predict another is told here by their distance: the ends of a side lie on the coarser squares.
+TEST_CASE("lattice prediction: at every node the nodes around count that are to, on all borders, too") {
+  constexpr int kRight = 3 * kBaseSide, kBottom = 2 * kBaseSide, kFinest = 8;
+  const unsigned seed = GENERATE(1U, 2U, 3U);
+  std::mt19937 random(seed);
+  Lattice lattice(kRight / kPixelSide, kBottom / kPixelSide);
+  std::vector<LatticeNode> nodes;
+  for (int y = 0; y <= kBottom; y += kFinest)
+    for (int x = 0; x <= kRight; x += kFinest) nodes.push_back({x, y});
+  for (const LatticeNode& node : nodes)
+    if (random() % 10 < (is_base(node) ? 8U : 3U)) lattice.add(node, 1);
+  const auto knows_base = [&](const LatticeNode& node) {
+    int known = 0;
+    for (const LatticeNode& n : nodes)
+      known += is_base(n) &&
+                       std::max(std::abs(2 * (n.x - node.x)), std::abs(2 * (n.y - node.y))) < 2 * kBaseSide &&
+                       lattice.is_sampled(n)
+                   ? 1
+                   : 0;
+    return known == 4;
+  };
+  int alone = 0, with_centers = 0, with_middles = 0;
+  for (const LatticeNode& node : nodes) {
+    if (is_base(node)) continue;
+    const auto [side, kind] = level_of(node);
+    const int half = side / 2;
+    std::vector<LatticeNode> expected, centers;
+    bool counts = true, any = false;
+    for (const LatticeNode& by : {LatticeNode{-half, -half}, LatticeNode{half, -half},
+                                  LatticeNode{-half, half}, LatticeNode{half, half}, LatticeNode{-half, 0},
+                                  LatticeNode{half, 0}, LatticeNode{0, -half}, LatticeNode{0, half}}) {
+      const LatticeNode other{node.x + by.x, node.y + by.y};
+      const bool is_corner = other.x % side == 0 && other.y % side == 0;
+      const bool is_diagonal = by.x != 0 && by.y != 0;
+      if (kind == LatticeKind::kCenter) {
+        if (is_corner || lattice.is_sampled(other)) expected.push_back(other);
+      } else if (is_corner && !is_diagonal) {
+        expected.push_back(other);
+      } else if (!is_diagonal) {
+        const bool is_inside = other.x > 0 && other.y > 0 && other.x < kRight && other.y < kBottom;
+        const bool is_on_base_line = (by.x == 0 ? node.y : node.x) % kBaseSide == 0;
+        counts = counts && is_inside && (!is_on_base_line || lattice.is_sampled(other) || knows_base(other));
+        any = any || (is_inside && lattice.is_sampled(other));
+        centers.push_back(other);
+      }
+    }
+    if (counts && any) expected.insert(expected.end(), centers.begin(), centers.end());
+    const Surroundings found = lattice.around(node);
+    INFO("seed " << seed << ", node " << node.x << ", " << node.y);
+    REQUIRE(found.count() == expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) REQUIRE(found.node(i) == expected[i]);
+    alone += expected.size() == 2 ? 1 : 0;
+    with_centers += kind == LatticeKind::kMiddle && expected.size() == 4 ? 1 : 0;
+    with_middles += expected.size() > 4 ? 1 : 0;
+  }
+  CHECK((alone > 100 && with_centers > 100 && with_middles > 100));
+}
+
+TEST_CASE("lattice prediction: surroundings in other colours are as if these had been added, in each order") {
+  constexpr int kSide = 64, kLeft = 192, kTop = 64;
+  std::array<LatticeNode, 8> nodes = {{{0, 0}, {2, 0}, {0, 2}, {2, 2}, {0, 1}, {2, 1}, {1, 0}, {1, 2}}};
+  for (LatticeNode& node : nodes) node = {kLeft + node.x * kSide / 2, kTop + node.y * kSide / 2};
+  constexpr std::array<std::array<std::size_t, 2>, 4> kEnds = {{{0, 2}, {1, 3}, {0, 1}, {2, 3}}};
+  std::mt19937 random(3);
+  const auto color = [&] {
+    return float4{std::uniform_real_distribution<float>(0, 1)(random), 0.5F, 0.25F, 0};
+  };
+  std::array<std::size_t, 4> order = {0, 1, 2, 3};
+  do {
+    for (std::size_t count = 0; count <= 4; ++count) {
+      const auto around = [&](const auto& color_of) {
+        Surroundings made;
+        for (std::size_t i = 0; i < 4; ++i) made.add(NodeValue(color_of(i), 1), nodes[i]);
+        for (std::size_t i = 0; i < count; ++i)
+          made.add_middle(NodeValue(color_of(4 + i), 1), nodes[4 + order[i]], kEnds[order[i]][0],
+                          kEnds[order[i]][1]);
+        return made;
+      };
+      std::array<float4, 8> others;
+      for (float4& other : others) other = color();
+      const auto other = [&](std::size_t i) { return others[i]; };
+      const Surroundings wanted = around(other),
+                         found = around([&](std::size_t) { return color(); }).with_colors(other);
+      REQUIRE(found.count() == wanted.count());
+      CHECK(found.mean()[0] == Approx(wanted.mean()[0]));
+      CHECK(found.variance() == Approx(wanted.variance()));
+    }
+  } while (std::next_permutation(order.begin(), order.end()));
 }
 
 TEST_CASE(

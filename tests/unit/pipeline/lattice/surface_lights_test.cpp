@@ -145,6 +145,18 @@ struct Around {
   }
 };
 
+TEST_CASE("lights: where none are known a surface without a sample is as what lies around it") {
+  const PrimitiveLights unknown = {kAllKnown, [](auto, auto, auto, UnshadowedLight&) {}};
+  LatticeRefiner refiner(Region::whole({kSize, kSize, 32}), test::disc_before_wall(36, 35, 1.2),
+                         LatticeOrder::kAdaptive, {}, unknown);
+  const PixelBlock pixels = test::picture_of(refiner, kSize, 81, [](double, double) {
+    RaySample wall;  // all that the coarsest nodes meet
+    wall.primitive = kWall, wall.color = Color(0.5F, 0.5F, 0.5F);
+    return wall;
+  });
+  for (const Color& color : pixels.colors) REQUIRE(color.x == Approx(0.5));
+}
+
 TEST_CASE("lights: without a sample on it a surface sees the lights of those around") {
   Around around(lights(kAllKnown));
   around.add_corner(0, 1), around.add_corner(1, 3), around.add_corner(2, 3), around.add_corner(3, 0);

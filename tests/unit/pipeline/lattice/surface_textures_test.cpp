@@ -87,6 +87,11 @@ TEST_CASE("textures: a few samples show a texture that they do not resolve") {
   CHECK(known < 0.2 * unknown);
 }
 
+TEST_CASE("textures: they show between samples of a pixel, too") {
+  CHECK(error_of(picture(textures(), 2000)) < 0.0065);
+  CHECK(error_of(picture(textures(), 8000)) < 0.0038);  // two samples a pixel
+}
+
 TEST_CASE("textures: they are right up to edges, and what has none is as it was") {
   const PixelBlock pixels = picture(textures(), 600);
   CHECK(error_of(pixels, 0, 28) < 0.01);

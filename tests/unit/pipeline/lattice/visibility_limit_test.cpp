@@ -110,6 +110,18 @@ TEST_CASE("visibility limit: shapes that were too many to be seen took no time")
   }
 }
 
+TEST_CASE("visibility limit: what was not seen is not cheap for that") {
+  std::uint32_t asked = 0;
+  LatticeRefiner sampler(Region::whole({kSide, kSide, 32}), walls(11000, asked));
+  for (int picture = 0; picture < 3; ++picture) {
+    sampler.expect(kSamples);
+    sample(sampler, Stripes::kEachItsOwn);
+    CHECK(asked == 0);
+    sampler.camera_changed();
+    sampler.restart();
+  }
+}
+
 TEST_CASE("visibility limit: the more of the error seeing takes away, the more of the time it may take") {
   constexpr std::uint32_t kTwoThirds = 2000, kNearlyAll = 20000;
   CHECK(asked_in_second(kTwoThirds, Stripes::kEachItsOwn) == kTwoThirds);
@@ -137,6 +149,31 @@ TEST_CASE(
   CHECK(asked_by(Stripes::kNoise, {}) == 0);
   CHECK(asked_by(Stripes::kEachItsOwn, {}) == 2);
   CHECK(asked_by(Stripes::kNoise, lights) == 2);  // what they differ by is their lights
+}
+
+// On the left all is known and nothing differs. On the right samples say nothing of their surface.
+TEST_CASE("visibility limit: what is known counts by how far it differs, not by how much of it there is") {
+  constexpr std::array<LitSurface, 2> kFirstIsKnown = {{{}, {LitShape::kRound, true}}};
+  const auto asked_where_known = [&](float difference) {
+    std::uint32_t asked = 0;
+    LatticeRefiner sampler(Region::whole({kSide, kSide, 32}), walls(2, asked), LatticeOrder::kAdaptive, {},
+                           {kFirstIsKnown, [](auto, auto, auto, UnshadowedLight&) {}});
+    constexpr int kFew = 1000;
+    for (int i = 0; i < kFew; ++i) {
+      sampler.expect(kFew - i);
+      const auto point = sampler.next_point();
+      if (!point) break;
+      RaySample seen = striped(*point, Stripes::kNoise);
+      seen.primitive = point->x < 0.5 * kSide ? 1 : 2;
+      const bool is_odd = (static_cast<int>(point->x) + static_cast<int>(point->y)) / 8 % 2 == 1;
+      const float known = 0.5F + (is_odd ? difference : -difference);
+      if (seen.primitive == 1) seen.color = Color(known, known, known);
+      sampler.insert(*point, seen);
+    }
+    return asked;
+  };
+  CHECK(asked_where_known(0) == 0);
+  CHECK(asked_where_known(0.5F) == 2);
 }
 
 TEST_CASE(

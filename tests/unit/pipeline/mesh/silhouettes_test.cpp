@@ -54,13 +54,15 @@ void view(std::uint32_t primitive, ImageShape& shape) {
   shape.quadric.middle = {-2, 0, 0};
 }
 
-SampleMesh mesh_of(int refinements) {
+// `wall`: its primitive, 0 for a background.
+SampleMesh mesh_of(int refinements, std::uint32_t wall = 3) {
   SampleMesh mesh(Region::whole(kGrid));
   const auto add = [&](double x, double y) {
     Sample sample;
     sample.x = x, sample.y = y;
     sample.ray.primitive = primitive_at(x, y);
     sample.ray.color = color_of(sample.ray.primitive);
+    if (sample.ray.primitive == 3) sample.ray.primitive = wall;
     mesh.insert(sample);
   };
   for (const Vec2d& p : seed_points(kGrid.width, kGrid.height, 5)) add(p.x, p.y);
@@ -158,6 +160,13 @@ TEST_CASE("silhouettes: a pixel wholly on a corner's primitive has three quarter
   }
   CHECK(looked_at > 500);
   CHECK(largest < 1e-5f);
+}
+
+TEST_CASE("silhouettes: before a background edges are as before a wall") {
+  for (const int refinements : {20, 250}) {
+    const SampleMesh walled = mesh_of(refinements), open = mesh_of(refinements, 0);
+    CHECK(largest_difference(rebuild(walled, PixelRule::kEdges), rebuild(open, PixelRule::kEdges)) < 1e-5F);
+  }
 }
 
 TEST_CASE("silhouettes: cutting a shape into more facets changes no picture") {

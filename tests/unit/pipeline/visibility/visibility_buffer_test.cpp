@@ -178,6 +178,11 @@ TEST_CASE("visibility buffer: nothing is known where a shape is unknown, and all
   buffer.forget();
   REQUIRE(buffer.is_known());
   CHECK(buffer.at(4 * 9, 4) == 0);
+  REQUIRE_FALSE(buffer.tile(20, 16).is_uniform(0, 0, 16));  // the edge goes through this tile
+  left = 200;                                               // out of the picture
+  buffer.forget();
+  REQUIRE(buffer.is_known());
+  CHECK((buffer.at(4 * 25, 4) == 0 && buffer.tile(20, 16).is_uniform(0, 0, 16)));
   CHECK_FALSE(VisibilityBuffer(kSize, kSize, {}).is_known());
 }
 
@@ -233,6 +238,12 @@ TEST_CASE("visibility buffer: its work is of what it projects, tries in tiles an
   triangles.facets = {
       triangle({{{40, 1}, {43, 1}, {40, 4}}}, 1)};  // in the next tile, projected to be bounded
   CHECK(work_of(one(triangles)) == Approx(1.25 + 7));
+  ImageShape disc;  // in the first block
+  disc.kind = ImageShape::Kind::kQuadric;
+  disc.quadric.discriminant = {1.5 - 2 * 2.25 * 2.25, 2 * 2.25, 2 * 2.25, -1, 0, -1};
+  disc.quadric.middle = {-2, 0, 0};
+  disc.quadric.bounds = {1, 1, 3.5F, 3.5F};
+  CHECK(work_of(one(disc)) == Approx(0.75 + 0.6 + 7 + 0.55));
 }
 
 TEST_CASE("visibility buffer: what is bounded is projected when a tile that it may meet is seen first") {

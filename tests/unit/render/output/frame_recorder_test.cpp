@@ -267,6 +267,21 @@ TEST_CASE("frames that an earlier run has finished are neither written again nor
         contact_sheet(three, layout, std::vector{1, 2, 3}).width);
 }
 
+TEST_CASE("a frame without the layers that are asked for now is not finished") {
+  ThreeFrames run;
+  const std::string name = (run.directory.path() / "out/%d.exr").string();
+  run.plan.output.pictures = {parse_frame_pattern(name, FrameCount::kMany)};
+  {
+    FrameRecorder first({run.plan, 1, "hash"}, run.scene, run.progress);
+    run.record(first, 1);
+    first.finish(true);
+  }
+  run.plan.output.existing = ExistingFiles::kResume;
+  CHECK(FrameRecorder({run.plan, 1, "hash"}, run.scene, run.progress).finished_before(1));
+  run.plan.output.layers = {Layer::kDepth};
+  CHECK_FALSE(FrameRecorder({run.plan, 1, "hash"}, run.scene, run.progress).finished_before(1));
+}
+
 TEST_CASE("the balancing trace has the frames of an earlier run, too") {
   ThreeFrames run;
   const fs::path trace = run.directory.path() / "run.trace";
