@@ -1,6 +1,7 @@
 // What the visibility buffer shows is what eye rays hit, whatever the scene's place and size.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "numeric/pictures.h"
@@ -164,20 +165,23 @@ TEST_CASE("visibility: shares of a pixel are those that many rays find") {
       const std::vector<std::uint16_t> numbers = {tile.row(top)[left], tile.row(top + 4)[left + 4]};
       const std::uint32_t first = tile.surfaces()[numbers[0]], second = tile.surfaces()[numbers[1]];
       if (first == second) continue;
-      std::vector<float> shares(2);
+      SeenInPixel seen;
+      seen.count = 2, seen.numbers[0] = numbers[0], seen.numbers[1] = numbers[1];
       const bool are_rows = tile.row(top)[left + 4] != tile.row(top)[left];
-      buffer.shares(x, y, numbers, are_rows, shares);
-      CHECK(shares[0] + shares[1] == Approx(1));
+      seen.places[0] = Vec2f(0, 0), seen.places[1] = are_rows ? Vec2f(1, 0) : Vec2f(0, 1);
+      buffer.find_shares(x, y, seen);
+      CHECK(std::accumulate(seen.shares.begin(), seen.shares.begin() + static_cast<int>(seen.count), 0.0) ==
+            Approx(1));
       int found_first = 0, found_both = 0;
       for (int j = 0; j < kRays; ++j) {
         for (int i = 0; i < kRays; ++i) {
-          const std::uint32_t seen = tracer.first_hit(x + (i + 0.5) / kRays, y + (j + 0.5) / kRays).primitive;
-          found_first += seen == first ? 1 : 0;
-          found_both += seen == first || seen == second ? 1 : 0;
+          const std::uint32_t hit = tracer.first_hit(x + (i + 0.5) / kRays, y + (j + 0.5) / kRays).primitive;
+          found_first += hit == first ? 1 : 0;
+          found_both += hit == first || hit == second ? 1 : 0;
         }
       }
       if (found_both < kRays * kRays) continue;  // a third primitive is seen
-      const double wrong = std::abs(shares[0] - found_first / static_cast<double>(found_both));
+      const double wrong = std::abs(seen.shares[0] - found_first / static_cast<double>(found_both));
       error += wrong, worst = std::max(worst, wrong), ++mixed;
     }
   }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstring>
 
 namespace pprt {
@@ -231,12 +230,11 @@ float4 LatticePainter::mean_of_mixed(const LatticeNode& corner, const SquareCorn
   if (!is_refined(corner, kPixelSide)) return mixed_mean(corner, square);
   summed_ = 0;
   gather(corner, kPixelSide, corners);
-  const SeenInPixel seen = seen_in(corner);
+  const SeenPrimitives seen = seen_in(corner);
   const Vec2d middle = middle_point(corner);
   constexpr std::array<float, 4> kInTheMiddle = {0.25F, 0.25F, 0.25F, 0.25F};
   float4 mean{};
   for (std::size_t i = 0; i < seen.count; ++i) {
-    if (seen.shares[i] <= 0) continue;
     const SeenPrimitive& primitive = seen.primitives[i];
     const auto end = sums_.begin() + static_cast<std::ptrdiff_t>(summed_);
     const auto found =
@@ -287,49 +285,45 @@ void LatticePainter::paint_mixed(const LatticeNode& corner, int side, const Squa
 
 // Returns the surfaces seen at the points of a pixel, its border included, and their shares: points on the
 // border count half, and a quarter in a corner.
-LatticePainter::SeenInPixel LatticePainter::seen_in(const LatticeNode& corner) const {
+LatticePainter::SeenPrimitives LatticePainter::seen_in(const LatticeNode& corner) const {
   const int density = visibility_.points_per_side();
   const int pixel_x = corner.x / kPixelSide, pixel_y = corner.y / kPixelSide;
-  const VisibleTile& seen = visibility_.tile(pixel_x, pixel_y);
+  const VisibleTile& tile = visibility_.tile(pixel_x, pixel_y);
   const int in_tile_x = visibility_.in_tile(pixel_x), in_tile_y = visibility_.in_tile(pixel_y);
-  SeenInPixel found;
+  SeenPrimitives found;
   const auto primitive = [&](std::uint16_t number, const Vec2d& at) -> SeenPrimitive {
-    return {seen.surfaces()[number], seen.primitive(number), at};
+    return {tile.surfaces()[number], tile.primitive(number), at};
   };
-  if (seen.is_uniform(in_tile_x, in_tile_y, 1)) {
+  if (tile.is_uniform(in_tile_x, in_tile_y, 1)) {
     const std::uint16_t number =
-        seen.row(in_tile_y * density + density / 2)[in_tile_x * density + density / 2];
+        tile.row(in_tile_y * density + density / 2)[in_tile_x * density + density / 2];
     found.primitives[0] = primitive(number, middle_point(corner)), found.shares[0] = 1;
     found.count = 1;
     return found;
   }
-  NumbersInPixel points;
-  const auto* first = seen.row(in_tile_y * density) + in_tile_x * density;
-  density == 2 ? count_points<2>(first, points) : count_points<4>(first, points);
-  found.count = points.count, found.shares = points.shares;
-  for (std::size_t i = 0; i < found.count; ++i) {
-    const Vec2d place = Vec2d(points.places[i]) * (1 / static_cast<double>(density * points.shares[i]));
-    found.primitives[i] = primitive(points.numbers[i], Vec2d(pixel_x, pixel_y) + place);
-  }
-  if (found.count > 1) {
-    const Vec2d apart = found.primitives[0].at - found.primitives[1].at;
-    const bool are_rows = std::fabs(apart.x) >= std::fabs(apart.y);
-    visibility_.shares(pixel_x, pixel_y, {points.numbers.data(), points.count}, are_rows,
-                       {found.shares.data(), found.count});
+  SeenInPixel seen;
+  const auto* first = tile.row(in_tile_y * density) + in_tile_x * density;
+  density == 2 ? count_points<2>(first, seen) : count_points<4>(first, seen);
+  if (seen.count > 1) visibility_.find_shares(pixel_x, pixel_y, seen);
+  for (std::size_t i = 0; i < seen.count; ++i) {
+    if (seen.shares[i] <= 0) continue;
+    found.primitives[found.count] =
+        primitive(seen.numbers[i], Vec2d(pixel_x, pixel_y) + Vec2d(seen.places[i]));
+    found.shares[found.count++] = seen.shares[i];
   }
   return found;
 }
 
 // `first`: the point at the pixel's upper left corner.
 template <int kDensity>
-void LatticePainter::count_points(const std::uint16_t* first, NumbersInPixel& found) {
+void LatticePainter::count_points(const std::uint16_t* first, SeenInPixel& found) {
   constexpr float kEach = 0.25F / (kDensity * kDensity);
   for (int y = 0; y <= kDensity; ++y, first += kTileStride) {
     const float down = y == 0 || y == kDensity ? kEach : 2 * kEach;
     for (int x = 0; x <= kDensity; ++x) {
       std::size_t i = 0;
       while (i < found.count && found.numbers[i] != first[x]) ++i;
-      if (i == kMostInPixel) continue;
+      if (i == SeenInPixel::kMost) continue;
       if (i == found.count) {
         found.numbers[i] = first[x], found.shares[i] = 0, found.places[i] = Vec2f(0, 0);
         ++found.count;
@@ -339,6 +333,7 @@ void LatticePainter::count_points(const std::uint16_t* first, NumbersInPixel& fo
       found.places[i] += Vec2f(static_cast<float>(x), static_cast<float>(y)) * weight;
     }
   }
+  for (std::size_t i = 0; i < found.count; ++i) found.places[i] *= 1 / (kDensity * found.shares[i]);
 }
 
 // Returns the mean over a pixel of a square: the surfaces seen in it by their shares, each with its colour in
@@ -346,10 +341,9 @@ void LatticePainter::count_points(const std::uint16_t* first, NumbersInPixel& fo
 float4 LatticePainter::mixed_mean(const LatticeNode& corner, const Square& square) {
   const LatticeNode middle = middle_of_pixel(corner.x / kPixelSide, corner.y / kPixelSide);
   const std::array<float, 4> weights = weights_in(square.corner, square.side, middle);
-  const SeenInPixel seen = seen_in(corner);
+  const SeenPrimitives seen = seen_in(corner);
   float4 sum{};
   for (std::size_t i = 0; i < seen.count; ++i) {
-    if (seen.shares[i] <= 0) continue;
     sum += surfaces_.in_pixel(square, seen.primitives[i], middle_point(corner), weights) * seen.shares[i];
   }
   return sum;

@@ -41,24 +41,15 @@ class LatticePainter {
   }
   void paint_uniform(const Square& square);
   float4 mixed_mean(const LatticeNode& corner, const Square& square);
-  static constexpr std::size_t kMostInPixel = VisibilityBuffer::kMostInPixel;
-  // The primitives seen in a pixel, by their tile's own numbers: the share of the points of each, and the sum
-  // of their places, intervals from the pixel's corner, by their weights.
-  struct NumbersInPixel {
-    std::array<std::uint16_t, kMostInPixel> numbers;
-    std::array<float, kMostInPixel> shares;
-    std::array<Vec2f, kMostInPixel> places;
-    std::size_t count = 0;
-  };
   // The primitives seen in a pixel, and the share of each.
-  struct SeenInPixel {
-    std::array<SeenPrimitive, kMostInPixel> primitives;
-    std::array<float, kMostInPixel> shares;
+  struct SeenPrimitives {
+    std::array<SeenPrimitive, SeenInPixel::kMost> primitives;
+    std::array<float, SeenInPixel::kMost> shares;
     std::size_t count = 0;
   };
-  SeenInPixel seen_in(const LatticeNode& corner) const;
+  SeenPrimitives seen_in(const LatticeNode& corner) const;
   template <int kDensity>
-  static void count_points(const std::uint16_t* first, NumbersInPixel& found);
+  static void count_points(const std::uint16_t* first, SeenInPixel& found);
 
   float4 mean_of_mixed(const LatticeNode& pixel, const SquareCorners& corners);
   void gather(const LatticeNode& corner, int side, const SquareCorners& corners);

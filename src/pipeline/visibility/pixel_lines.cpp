@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <limits>
 
 #include "base/simd.h"
 #include "pipeline/silhouettes/shape_nearness.h"
@@ -101,6 +102,25 @@ PerPoint nearness_on_lines(const ShapeInPixel& shape, const Lines& lines, const 
   return shape.quadric != nullptr ? nearness(*shape.quadric, x, y) : nearness(*shape.facet, x, y);
 }
 
+bool is_round(const ShapeInPixel& shape) {
+  return shape.quadric != nullptr;
+}
+bool may_jump(const ShapeInPixel& shape) {
+  return is_round(shape) && shape.quadric->has_ends;
+}
+
+// Bounds of a shape's nearness in a pixel.
+struct Depths {
+  float least, most;
+};
+Depths depths_of(const ShapeInPixel& shape) {
+  if (is_round(shape)) return {0, std::numeric_limits<float>::infinity()};
+  const NearLinear& n = shape.facet->nearness;
+  const float at_corner = value(n, shape.left, shape.top);
+  return {at_corner + std::min(n.per_x, 0.0F) + std::min(n.per_y, 0.0F),
+          at_corner + std::max(n.per_x, 0.0F) + std::max(n.per_y, 0.0F)};
+}
+
 // Finds where a shape is seen if no other hides it. False where it is seen in parts of what lies within its
 // outline.
 bool find_ends(const ShapeInPixel& shape, const Lines& lines, Ends& ends) {
@@ -123,13 +143,6 @@ bool find_ends(const ShapeInPixel& shape, const Lines& lines, Ends& ends) {
   return true;
 }
 
-bool is_round(const ShapeInPixel& shape) {
-  return shape.quadric != nullptr;
-}
-bool may_jump(const ShapeInPixel& shape) {
-  return is_round(shape) && shape.quadric->has_ends;
-}
-
 PerPoint length_of(const Ends& ends) {
   return max(ends.end - ends.begin, PerPoint{});
 }
@@ -143,14 +156,14 @@ class HiddenParts {
  public:
   void clear() { count_ = owners_ = 0; }
 
-  // Adds the parts that one shape hides, to be set. Null where these would be too many. Shapes of one owner
-  // follow each other.
-  Ends* add(std::uint32_t owner) {
-    const bool is_new = count_ == 0 || owner_[count_ - 1] != owner;
-    if (count_ == kMost || (is_new && owners_ == kMostOwners)) return nullptr;
+  // Adds the parts that a shape hides. False where these are too many.
+  bool add(std::uint32_t owner, const Ends& parts) {
+    const auto end = owner_.begin() + static_cast<std::ptrdiff_t>(count_);
+    const bool is_new = std::find(owner_.begin(), end, owner) == end;
+    if (count_ == kMost || (is_new && owners_ == kMostOwners)) return false;
     owners_ += is_new ? 1 : 0;
-    owner_[count_] = owner;
-    return &parts_[count_++];
+    owner_[count_] = owner, parts_[count_++] = parts;
+    return true;
   }
 
   // By inclusion and exclusion: what has one owner does not overlap.
@@ -206,31 +219,54 @@ bool hide(const ShapeInPixel& a, const ShapeInPixel& b, const Ends& overlap, con
   return true;
 }
 
+// A shape on eight lines.
+struct OnLines {
+  std::size_t shape;
+  Ends ends;
+  Depths depths;
+  HiddenParts hidden;
+};
+
+// Whether all of a shape is behind another.
+bool is_behind(const OnLines& one, const OnLines& other) {
+  const auto sticks_out = (one.ends.begin < other.ends.begin) | (one.ends.end > other.ends.end);
+  return other.depths.least > one.depths.most && !is_any(sticks_out & (one.ends.end > one.ends.begin));
+}
+
 // Adds to `seen` what is seen of each shape, the sum over eight lines.
 bool add_seen(std::span<const ShapeInPixel> shapes, const Lines& lines, std::span<float> seen) {
-  std::array<std::size_t, kMostMet> met;  // shapes that meet a line
-  std::array<Ends, kMostMet> ends;        // of these, as the rest
-  std::array<HiddenParts, kMostMet> hidden;
+  std::array<OnLines, kMostMet> met;  // those that meet a line
   std::size_t count = 0;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
-    if (!find_ends(shapes[i], lines, ends[count])) return false;
-    if (!is_any(ends[count].end > ends[count].begin)) continue;
-    met[count] = i, hidden[count].clear();
+    OnLines& one = met[count];
+    if (!find_ends(shapes[i], lines, one.ends)) return false;
+    if (!is_any(one.ends.end > one.ends.begin)) continue;
+    one.shape = i, one.depths = depths_of(shapes[i]);
+    const auto end = met.begin() + static_cast<std::ptrdiff_t>(count);
+    if (std::any_of(met.begin(), end, [&](const OnLines& other) { return is_behind(one, other); })) continue;
+    one.hidden.clear();
     if (++count == kMostMet) return false;
   }
   for (std::size_t i = 1; i < count; ++i) {
     for (std::size_t k = 0; k < i; ++k) {
-      const ShapeInPixel &before = shapes[met[k]], &shape = shapes[met[i]];
-      const Ends overlap = both(ends[i], ends[k]);
+      OnLines &one = met[i], &other = met[k];
+      const ShapeInPixel &shape = shapes[one.shape], &before = shapes[other.shape];
+      const Ends overlap = both(one.ends, other.ends);
       if (!is_any(length_of(overlap) > kNoOverlap)) continue;
       if (before.owner == shape.owner) return false;
-      Ends *hidden_before = hidden[k].add(shape.owner), *hidden_here = hidden[i].add(before.owner);
-      if (hidden_before == nullptr || hidden_here == nullptr) return false;
-      if (!hide(before, shape, overlap, lines, *hidden_before, *hidden_here)) return false;
+      Ends hidden_of_one = overlap, hidden_of_other = overlap;
+      const bool is_one_behind = other.depths.least > one.depths.most;
+      const bool is_other_behind = one.depths.least > other.depths.most;
+      if (!is_one_behind && !is_other_behind &&
+          !hide(before, shape, overlap, lines, hidden_of_other, hidden_of_one))
+        return false;
+      if ((!is_other_behind && !one.hidden.add(before.owner, hidden_of_one)) ||
+          (!is_one_behind && !other.hidden.add(shape.owner, hidden_of_other)))
+        return false;
     }
   }
   for (std::size_t i = 0; i < count; ++i)
-    seen[met[i]] += sum_of(max(length_of(ends[i]) - hidden[i].length(), PerPoint{}));
+    seen[met[i].shape] += sum_of(max(length_of(met[i].ends) - met[i].hidden.length(), PerPoint{}));
   return true;
 }
 

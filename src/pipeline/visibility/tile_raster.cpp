@@ -1,7 +1,9 @@
 #include "pipeline/visibility/tile_raster.h"
 
+#include <bit>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 #include "base/simd.h"
 #include "pipeline/silhouettes/shape_nearness.h"
@@ -199,14 +201,29 @@ BlockSet rasterise(const ProjectedFacet& f, std::uint32_t number, const TileTarg
   return changed;
 }
 
-bool misses(const ProjectedFacet& f, const TileTarget& to) {
-  const float x0 = to.corner.x + std::max(to.box.x0, 0.0F), x1 = to.corner.x + to.box.x1;
-  const float y0 = to.corner.y + std::max(to.box.y0, 0.0F), y1 = to.corner.y + to.box.y1;
+bool misses(const ProjectedFacet& f, float x0, float y0, float x1, float y1) {
   return std::any_of(f.edges.begin(), f.edges.end(), [&](const NearLinear& e) {
     const float most =
         e.constant + std::max(e.per_x * x0, e.per_x * x1) + std::max(e.per_y * y0, e.per_y * y1);
     return most < -kOverlap * (std::fabs(e.per_x) + std::fabs(e.per_y));
   });
+}
+
+bool misses(const ProjectedFacet& f, const TileTarget& to) {
+  return misses(f, to.corner.x + std::max(to.box.x0, 0.0F), to.corner.y + std::max(to.box.y0, 0.0F),
+                to.corner.x + to.box.x1, to.corner.y + to.box.y1);
+}
+
+PPRT_CLONED_FOR_WIDE_REGISTERS
+const DepthBlocks::OfBlocks& DepthBlocks::least(const float* points) {
+  for (std::size_t row = 0; row < kBlocks; ++row) {
+    for (unsigned columns = std::exchange(is_new_[row], std::uint16_t{0}); columns != 0;
+         columns &= columns - 1) {
+      const auto column = static_cast<std::size_t>(std::countr_zero(columns));
+      least_[row][column] = least_of(row, column, points);
+    }
+  }
+  return least_;
 }
 
 PPRT_CLONED_FOR_WIDE_REGISTERS

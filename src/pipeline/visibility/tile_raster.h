@@ -68,6 +68,9 @@ void clear_points(float* nearest, std::uint32_t* numbers);
 BlockSet rasterise(const ProjectedQuadric& q, std::uint32_t number, const TileTarget& to);
 BlockSet rasterise(const ProjectedFacet& f, std::uint32_t number, const TileTarget& to);
 
+// Whether an edge of a facet keeps all of it out of a rectangle, from its origin.
+bool misses(const ProjectedFacet& f, float x0, float y0, float x1, float y1);
+
 // Whether an edge of a facet keeps all of it out of the tile.
 bool misses(const ProjectedFacet& f, const TileTarget& to);
 
@@ -84,13 +87,17 @@ class DepthBlocks {
   bool find_shown(const PointSpan& columns, const PointSpan& rows, const float* points, float nearest,
                   BlockSet& shown);
 
+  // Returns the least nearness of the points in each block, row by row.
+  using OfBlocks = std::array<std::array<float, kBlocks>, kBlocks>;
+  const OfBlocks& least(const float* points);
+
   // Points of these blocks have come nearer.
   void touch(const BlockSet& blocks) {
     for (std::size_t row = 0; row < blocks.size(); ++row) is_new_[row] |= blocks[row];
   }
 
  private:
-  std::array<std::array<float, kBlocks>, kBlocks> least_;
+  OfBlocks least_;
   BlockSet is_new_;
 };
 

@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <type_traits>
 #include <utility>
 
 #include "pipeline/silhouettes/shape_nearness.h"
@@ -18,6 +17,13 @@ bool meets(const ImageBounds& box, const PixelRect& pixels) {
   return box.x0 <= box.x1 && box.x1 >= static_cast<float>(pixels.x0) &&
          box.y1 >= static_cast<float>(pixels.y0) && box.x0 <= static_cast<float>(pixels.x1) &&
          box.y0 <= static_cast<float>(pixels.y1);
+}
+
+ShapeInPixel shape_in_pixel(const ProjectedQuadric& quadric, const Vec2f& from, std::size_t owner) {
+  return {&quadric, nullptr, from.x, from.y, static_cast<std::uint32_t>(owner)};
+}
+ShapeInPixel shape_in_pixel(const ProjectedFacet& facet, const Vec2f& from, std::size_t owner) {
+  return {nullptr, &facet, from.x, from.y, static_cast<std::uint32_t>(owner)};
 }
 
 // Returns an upper bound of a facet's nearness.
@@ -44,6 +50,7 @@ void VisibilityBuffer::forget(const Fineness& fineness) {
   state_ = has_shapes() && most_rays_ > 0 ? State::kNotAsked : State::kUnknown;
   density_ = fineness.points_per_side, log2_density_ = std::countr_zero(static_cast<unsigned>(density_)),
   share_lines_ = fineness.share_lines, share_points_ = fineness.share_points;
+  has_more_ = fineness.has_more;
   columns_ = (right_ + tile_pixels() - 1) / tile_pixels(),
   rows_ = (bottom_ + tile_pixels() - 1) / tile_pixels();
   is_seen_.assign(static_cast<std::size_t>(columns_ * rows_), 0);
@@ -192,6 +199,7 @@ void VisibilityBuffer::see(std::size_t number) {
     tile.points_.fill(0);
     tile.uniform_.fill(~0U);
     tile.surfaces_.assign(1, 0), tile.first_of_surface_.assign(1, 0);
+    tile.in_blocks_.clear(), tile.first_in_block_.fill(0);
     return;
   }
   clear_points(nearest_.data(), numbers_.data());
@@ -223,6 +231,58 @@ void VisibilityBuffer::see(std::size_t number) {
   }
   compress(tile);
   find_surfaces(tile);
+  if (has_more_) list_by_block(number, tile);
+}
+
+// By bounds, edges and nearness, in the order of nearness.
+void VisibilityBuffer::list_by_block(std::size_t number, VisibleTile& tile) {
+  constexpr auto kSide = static_cast<int>(VisibleTile::kBlocksOfPixels);
+  const int pixels = kBlockSide / density_;  // along a block's side
+  const DepthBlocks::OfBlocks& least_of = blocks_.least(nearest_.data());
+  std::array<std::array<float, kSide>, kSide> least;  // of a block's points and those next to them
+  std::array<std::uint32_t, kSide> mixed{};           // a bit for each block of a row
+  for (std::size_t y = 0; y < kSide; ++y) {
+    for (std::size_t x = 0; x < kSide; ++x) {
+      const bool is_uniform =
+          tile.is_uniform(pixels * static_cast<int>(x), pixels * static_cast<int>(y), pixels);
+      mixed[y] |= (is_uniform ? 0U : 1U) << x;
+      least[y][x] = std::min(std::min(least_of[y][x], least_of[y][x + 1]),
+                             std::min(least_of[y + 1][x], least_of[y + 1][x + 1]));
+    }
+  }
+  entries_.clear();
+  const int left = static_cast<int>(number) % columns_ * tile_pixels();
+  const int top = static_cast<int>(number) / columns_ * tile_pixels();
+  const auto side = static_cast<float>(pixels);
+  for (const auto& [nearest, number_of_item, own] : order_) {
+    if (own == 0) continue;
+    const Item& item = items_[number_of_item];
+    const ImageBounds& box = item.bounds;
+    const auto block_of = [&](float at, int begin) {
+      return static_cast<int>(std::clamp((at - static_cast<float>(begin)) / side, 0.0F, kSide - 1.0F));
+    };
+    const int x0 = block_of(box.x0, left), x1 = block_of(box.x1, left), y1 = block_of(box.y1, top);
+    for (int y = block_of(box.y0, top); y <= y1; ++y) {
+      std::uint32_t blocks = mixed[static_cast<std::size_t>(y)] & ((2U << x1) - (1U << x0));
+      for (; blocks != 0; blocks &= blocks - 1) {
+        const int x = std::countr_zero(blocks);
+        if (nearest < least[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)]) continue;
+        const auto u = static_cast<float>(left + pixels * x - item.origin.x);
+        const auto v = static_cast<float>(top + pixels * y - item.origin.y);
+        if (!item.is_quadric && misses(facets_[item.shape], u, v, u + side, v + side)) continue;
+        entries_.push_back(
+            {{number_of_item, static_cast<std::uint16_t>(own)}, static_cast<std::uint8_t>(y * kSide + x)});
+      }
+    }
+  }
+  auto& first = tile.first_in_block_;
+  first.fill(0);
+  for (const BlockEntry& entry : entries_) ++first[entry.block + 1U];
+  for (std::size_t block = 1; block < first.size(); ++block) first[block] += first[block - 1];
+  tile.in_blocks_.resize(entries_.size());
+  std::array<std::uint32_t, kSide * kSide> next;
+  std::copy_n(first.begin(), next.size(), next.begin());
+  for (const BlockEntry& entry : entries_) tile.in_blocks_[next[entry.block]++] = entry.item;
 }
 
 // Numbers each surface by the first of its primitives, and marks the pixels that see one only.
@@ -269,6 +329,7 @@ void VisibilityBuffer::compress(VisibleTile& tile) {
       number = new_number[number];
     }
     tile.primitives_ = std::move(seen), tile.first_item_ = std::move(first_item);
+    for (Numbered& item : order_) item.number = new_number[item.number];
   }
   narrow(numbers_.data(), numbers_.size(), tile.points_.data());
 }
@@ -329,32 +390,67 @@ std::uint32_t VisibilityBuffer::at(const Vec2d& point) {
   return seen.surfaces()[nearest];
 }
 
-void VisibilityBuffer::shares(int pixel_x, int pixel_y, std::span<const std::uint16_t> numbers, bool are_rows,
-                              std::span<float> shares) {
-  const VisibleTile& seen = tile(pixel_x, pixel_y);
+// Lists the shapes of a pixel that are parts of what its points see.
+void VisibilityBuffer::find_shapes(int pixel_x, int pixel_y, const SeenInPixel& seen) {
+  const VisibleTile& tile = this->tile(pixel_x, pixel_y);
   const auto x = static_cast<float>(pixel_x), y = static_cast<float>(pixel_y);
   in_pixel_.clear();
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const auto owner = static_cast<std::uint32_t>(i);
-    for_each_item(seen, numbers[i], {x, y, x + 1, y + 1}, [&](const auto& shape, const Vec2f& from) {
-      if constexpr (std::is_same_v<decltype(shape), const ProjectedQuadric&>) {
-        in_pixel_.push_back({&shape, nullptr, from.x, from.y, owner});
-      } else {
-        in_pixel_.push_back({nullptr, &shape, from.x, from.y, owner});
-      }
+  for (std::size_t i = 0; i < seen.count; ++i) {
+    for_each_item(tile, seen.numbers[i], {x, y, x + 1, y + 1}, [&](const auto& shape, const Vec2f& from) {
+      in_pixel_.push_back(shape_in_pixel(shape, from, i));
     });
   }
+}
+
+// Lists the shapes that may be seen in a pixel, and adds their primitives where no point sees these.
+void VisibilityBuffer::find_more_shapes(int pixel_x, int pixel_y, SeenInPixel& seen) {
+  const VisibleTile& tile = this->tile(pixel_x, pixel_y);
+  const auto x = static_cast<float>(pixel_x), y = static_cast<float>(pixel_y);
+  const auto block_of = [this](int pixel) {
+    return static_cast<std::size_t>(in_tile(pixel) * density_ / kBlockSide);
+  };
+  const std::size_t block = block_of(pixel_y) * VisibleTile::kBlocksOfPixels + block_of(pixel_x);
+  in_pixel_.clear();
+  for (std::size_t i = tile.first_in_block_[block]; i < tile.first_in_block_[block + 1]; ++i) {
+    const auto& [item_number, number] = tile.in_blocks_[i];
+    const Item& item = items_[item_number];
+    const ImageBounds& b = item.bounds;
+    if (b.x0 > x + 1 || b.x1 < x || b.y0 > y + 1 || b.y1 < y) continue;
+    const Vec2f from(static_cast<float>(x - item.origin.x), static_cast<float>(y - item.origin.y));
+    if (!item.is_quadric && misses(facets_[item.shape], from.x, from.y, from.x + 1, from.y + 1)) continue;
+    std::size_t owner = 0;
+    while (owner < seen.count && seen.numbers[owner] != number) ++owner;
+    if (owner == SeenInPixel::kMost) continue;
+    if (owner == seen.count) {
+      seen.numbers[owner] = number, seen.places[owner] = Vec2f(0.5F, 0.5F);
+      ++seen.count;
+    }
+    in_pixel_.push_back(item.is_quadric ? shape_in_pixel(quadrics_[item.shape], from, owner)
+                                        : shape_in_pixel(facets_[item.shape], from, owner));
+  }
+}
+
+void VisibilityBuffer::find_shares(int pixel_x, int pixel_y, SeenInPixel& seen) {
+  const Vec2f apart = seen.places[0] - seen.places[1];
+  const bool are_rows = std::fabs(apart.x) >= std::fabs(apart.y);
+  if (has_more_) {
+    find_more_shapes(pixel_x, pixel_y, seen);
+  } else {
+    find_shapes(pixel_x, pixel_y, seen);
+  }
+  const std::span<float> shares(seen.shares.data(), seen.count);
   std::fill(shares.begin(), shares.end(), 0.0F);
   if (!shares_on_lines(in_pixel_, are_rows, share_lines_, shares)) count_shares(shares);
   float all = 0;
   for (const float share : shares) all += share;
-  // What is left shows the background, if it is one of those.
-  const auto background = std::find(numbers.begin(), numbers.end(), std::uint16_t{0});
-  if (background != numbers.end() && all < 1) {
-    shares[static_cast<std::size_t>(background - numbers.begin())] += 1 - all;
+  // What is left shows the background, if a point does.
+  const auto end = seen.numbers.begin() + static_cast<std::ptrdiff_t>(seen.count);
+  const auto background = std::find(seen.numbers.begin(), end, std::uint16_t{0});
+  if (background != end && all < 1) {
+    shares[static_cast<std::size_t>(background - seen.numbers.begin())] += 1 - all;
     all = 1;
   }
-  for (float& share : shares) share = all > 0 ? share * (1 / all) : 1 / static_cast<float>(shares.size());
+  for (float& share : shares) share = all > 0 ? share * (1 / all) : 1 / static_cast<float>(seen.count);
 }
 
 // The same by points.
@@ -368,7 +464,7 @@ void VisibilityBuffer::count_shares(std::span<float> shares) const {
       nearest.show(*shape.facet, shape.left, shape.top, number);
     }
   }
-  std::array<int, kMostInPixel + 1> counts;
+  std::array<int, SeenInPixel::kMost + 1> counts;
   nearest.count({counts.data(), shares.size() + 1});
   for (std::size_t i = 0; i < shares.size(); ++i)
     shares[i] = static_cast<float>(counts[i + 1]) / static_cast<float>(share_points_);
