@@ -144,7 +144,8 @@ TEST_CASE(
     }
     return asked;
   };
-  constexpr std::array<LitSurface, 3> kAllKnown = {{{}, {LitShape::kRound, true}, {LitShape::kRound, true}}};
+  static constexpr std::array<LitSurface, 3> kAllKnown = {
+      {{}, {LitShape::kRound, true}, {LitShape::kRound, true}}};
   const PrimitiveLights lights = {kAllKnown, [](auto, auto, auto, UnshadowedLight&) {}};
   CHECK(asked_by(Stripes::kNoise, {}) == 0);
   CHECK(asked_by(Stripes::kEachItsOwn, {}) == 2);
@@ -153,7 +154,7 @@ TEST_CASE(
 
 // On the left all is known and nothing differs. On the right samples say nothing of their surface.
 TEST_CASE("visibility limit: what is known counts by how far it differs, not by how much of it there is") {
-  constexpr std::array<LitSurface, 2> kFirstIsKnown = {{{}, {LitShape::kRound, true}}};
+  static constexpr std::array<LitSurface, 2> kFirstIsKnown = {{{}, {LitShape::kRound, true}}};
   const auto asked_where_known = [&](float difference) {
     std::uint32_t asked = 0;
     LatticeRefiner sampler(Region::whole({kSide, kSide, 32}), walls(2, asked), LatticeOrder::kAdaptive, {},
