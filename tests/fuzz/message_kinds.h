@@ -46,35 +46,31 @@ inline SessionSettings decode_broadcast(std::span<const std::byte> bytes) {
   return decode_settings(Bytes(bytes.begin(), bytes.end()));
 }
 
-// Calls `use` with the function that decodes what a message of this tag holds. Of two there is none to
-// decode: the start is a time alone, and kEnough is empty. Returns whether there is such a tag.
+// Calls `use` with the function that decodes what a message of this tag holds. Two hold nothing to decode: a
+// start is a time alone, and kEnough is empty. Returns whether there is such a tag.
 template <typename Use>
 constexpr bool with_decoder(Tag tag, const Use& use) {
+  const auto used = [&](const auto& decode) {
+    use(decode);
+    return true;
+  };
   switch (tag) {
     case Tag::kClockPing:
-      use(decode_clock_ping);
-      return true;
+      return used(decode_clock_ping);
     case Tag::kClockPong:
-      use(decode_clock_pong);
-      return true;
+      return used(decode_clock_pong);
     case Tag::kFrameOrder:
-      use(decode_frame_order);
-      return true;
+      return used(decode_frame_order);
     case Tag::kBundle:
-      use(decode_bundle);
-      return true;
+      return used(decode_bundle);
     case Tag::kPixels:
-      use(decode_pixels);
-      return true;
+      return used(decode_pixels);
     case Tag::kRoundSent:
-      use(decode_round_sent);
-      return true;
+      return used(decode_round_sent);
     case Tag::kRoundDue:
-      use(decode_round_due);
-      return true;
+      return used(decode_round_due);
     case Tag::kTransfers:
-      use(decode_transfers);
-      return true;
+      return used(decode_transfers);
     case Tag::kStart:
     case Tag::kEnough:
       return true;

@@ -1,6 +1,6 @@
-// The samplers that there are, a row each. All that is known of them by name comes from here: SamplerChoice,
-// the words of --sampler with their help, what is made for each (parallel/exchange/samplers.cpp), and the
-// tests of what holds on all (tests/unit/each_sampler.h). docs/extending.md shows how to add one.
+// The samplers that there are, a row each. SamplerChoice comes from here, and so do the words of --sampler
+// with their help. parallel/exchange/samplers.cpp makes a sampler by its row, and tests/unit/each_sampler.h
+// tests each. docs/extending.md shows how to add one.
 #pragma once
 
 // Calls sampler(CHOICE, WORD, HELP, KIND, ...) for each sampler, and order(the same) for another order of the

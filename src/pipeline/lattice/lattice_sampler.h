@@ -73,8 +73,8 @@ class LatticeSampler final : public PointSampler {
 };
 
 constexpr SamplerTraits LatticeSampler::traits(LatticeOrder order) {
-  // Mean worth of what is still to be sampled at which a still looks converged: the structural similarity to
-  // a converged picture is at least 0.99 on every SPD scene tried (docs/decisions/0007-still-quality.md,
+  // A still looks converged at this mean worth of what is still to be sampled. The structural similarity to a
+  // converged picture is at least 0.99 then, on every SPD scene tried (docs/decisions/0007-still-quality.md,
   // 0021-lattice.md).
   constexpr double kStillWorth = 2.8e-5;
   // Without a rate each rank ends at its own region's mean. A region of costly tiles alone reaches it late:

@@ -19,9 +19,9 @@ struct ShapeInPixel {
 // Adds to `shares` the part of a pixel in which each owner is seen: the mean over `count` lines, a multiple
 // of eight. On each line it is exact where shapes end and where facets pass through each other. So is the
 // share of a straight edge that crosses all lines. `are_rows`: the lines lie along x, otherwise along y.
-// Shapes of one owner follow each other. Returns false where lines cannot tell, and leaves `shares`: of more
-// than 16 shapes on the lines, of one that more than three owners hide, where shapes of one owner lie before
-// each other, and of a cone that is seen in parts of its outline.
+// Returns false and leaves `shares` where lines cannot tell. They cannot of more than 16 shapes on the lines,
+// nor of one that more than three owners hide. Nor can they where shapes of one owner lie before each other,
+// or where a cone is seen in parts of its outline.
 bool shares_on_lines(std::span<const ShapeInPixel> shapes, bool are_rows, int count, std::span<float> shares);
 
 }  // namespace pprt

@@ -178,8 +178,8 @@ TEST_CASE("lattice painter: one odd sample shows in every square that it touches
   }
 }
 
-// The centre is predicted from the corners and the middle: a fifth of what this differs by. Of a pixel's four
-// quarters two have the middle at a corner, and all have the centre.
+// The centre is predicted from the corners and the middle: a fifth of what this differs by. All four quarters
+// of a pixel have the centre at a corner, and two have the middle.
 TEST_CASE("lattice painter: a sample on a side of a pixel counts by the squares that it is a corner of") {
   const auto flat = [](const LatticeNode&) { return 0.25F; };
   const Path path = GENERATE(from_range(kPaths));
