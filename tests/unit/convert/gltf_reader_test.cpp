@@ -317,6 +317,23 @@ TEST_CASE("gltf: sparse, strided and whole numbers, strips and mirrored nodes ar
   CHECK(read.notes == Notes{"2 points, lines and faces without extent left out"});
 }
 
+TEST_CASE("gltf: whole numbers without a sign reach as far as their bits") {
+  const std::uint16_t wide[] = {0, 0, 0, 65535, 0, 0, 0, 40000, 0};
+  for (const bool normalized : {false, true}) {
+    GltfSample sample;
+    const int corners = sample.accessor(
+        {reinterpret_cast<const char*>(wide), sizeof wide},
+        {{"componentType", 5123}, {"count", 3}, {"type", "VEC3"}, {"normalized", normalized}});
+    sample.node({{"mesh", sample.triangle({{"attributes", {{"POSITION", corners}}}})}});
+    const ReadMesh read = sample.read();
+    REQUIRE(read.scene.polygons.size() == 1);
+    const auto vertices = read.scene.vertices(read.scene.polygons[0]);
+    const double unit = normalized ? 65535 : 1;
+    CHECK(vertices[1].x == Approx(65535 / unit));
+    CHECK(vertices[2].y == Approx(40000 / unit));
+  }
+}
+
 TEST_CASE("gltf: all triangles of strips and fans show the side of the first") {
   // A zigzag, and the corners of a pentagon around the first.
   const std::vector<float> zigzag = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0},

@@ -282,6 +282,16 @@ mesh {
 )"));
 }
 
+TEST_CASE("for POV-Ray a patch after a triangle with a texture shows none") {
+  SceneDescription scene = textured();
+  const PatchVertex patch[] = {{{0, 0, 0}, {0, 0, 1}}, {{4, 0, 0}, {0, 0, 1}}, {{0, 4, 0}, {0, 0, 1}}};
+  add_patch(scene, patch, 0);
+  CHECK(contains(pov(scene), R"( texture { Textured_1 } }
+mesh {
+  smooth_triangle { <0, 0, 0>, <0, 0, 1>, <4, 0, 0>, <0, 0, 1>, <0, 4, 0>, <0, 0, 1> } texture { Material_1 } }
+)"));
+}
+
 TEST_CASE("the pictures of textures have their bytes, one for each tint, under distinct names") {
   SceneDescription scene = textured();
   scene.textures.push_back({"red \"blue\".png", 1, 1, {9, 9, 9}});

@@ -52,6 +52,8 @@ TEST_CASE("gate: nothing else is served, and nothing but GET") {
     GateRequest request = page_request();
     request.method = method;
     CHECK(answer(request) == GateAnswer::kNotAllowed);
+    request.target = "/0123456789abcdef0123456789abcdee/";  // who has no token is not told even that
+    CHECK(answer(request) == GateAnswer::kForbidden);
   }
   GateRequest no_upgrade = socket_request();
   no_upgrade.upgrade = false;
