@@ -165,11 +165,7 @@ TEST_CASE("visibility: shares of a pixel are those that many rays find") {
       const std::vector<std::uint16_t> numbers = {tile.row(top)[left], tile.row(top + 4)[left + 4]};
       const std::uint32_t first = tile.surfaces()[numbers[0]], second = tile.surfaces()[numbers[1]];
       if (first == second) continue;
-      SeenInPixel seen;
-      seen.count = 2, seen.numbers[0] = numbers[0], seen.numbers[1] = numbers[1];
-      const bool are_rows = tile.row(top)[left + 4] != tile.row(top)[left];
-      seen.places[0] = Vec2f(0, 0), seen.places[1] = are_rows ? Vec2f(1, 0) : Vec2f(0, 1);
-      buffer.find_shares(x, y, seen);
+      const SeenInPixel& seen = buffer.seen_in(x, y);
       CHECK(std::accumulate(seen.shares.begin(), seen.shares.begin() + static_cast<int>(seen.count), 0.0) ==
             Approx(1));
       int found_first = 0, found_both = 0;

@@ -230,18 +230,16 @@ float4 LatticePainter::mean_of_mixed(const LatticeNode& corner, const SquareCorn
   if (!is_refined(corner, kPixelSide)) return mixed_mean(corner, square);
   summed_ = 0;
   gather(corner, kPixelSide, corners);
-  const SeenPrimitives seen = seen_in(corner);
   const Vec2d middle = middle_point(corner);
   constexpr std::array<float, 4> kInTheMiddle = {0.25F, 0.25F, 0.25F, 0.25F};
   float4 mean{};
-  for (std::size_t i = 0; i < seen.count; ++i) {
-    const SeenPrimitive& primitive = seen.primitives[i];
+  for_each_seen(corner, [&](const SeenPrimitive& seen) {
     const auto end = sums_.begin() + static_cast<std::ptrdiff_t>(summed_);
     const auto found =
-        std::find_if(sums_.begin(), end, [&](const SurfaceSum& s) { return s.surface == primitive.surface; });
-    mean += found != end ? found->sum * (seen.shares[i] / found->weight)
-                         : surfaces_.in_pixel(square, primitive, middle, kInTheMiddle) * seen.shares[i];
-  }
+        std::find_if(sums_.begin(), end, [&](const SurfaceSum& s) { return s.surface == seen.surface; });
+    mean += found != end ? found->sum * (seen.share / found->weight)
+                         : surfaces_.in_pixel(square, seen, middle, kInTheMiddle) * seen.share;
+  });
   return mean;
 }
 
@@ -283,69 +281,15 @@ void LatticePainter::paint_mixed(const LatticeNode& corner, int side, const Squa
   });
 }
 
-// Returns the surfaces seen at the points of a pixel, its border included, and their shares: points on the
-// border count half, and a quarter in a corner.
-LatticePainter::SeenPrimitives LatticePainter::seen_in(const LatticeNode& corner) const {
-  const int density = visibility_.points_per_side();
-  const int pixel_x = corner.x / kPixelSide, pixel_y = corner.y / kPixelSide;
-  const VisibleTile& tile = visibility_.tile(pixel_x, pixel_y);
-  const int in_tile_x = visibility_.in_tile(pixel_x), in_tile_y = visibility_.in_tile(pixel_y);
-  SeenPrimitives found;
-  const auto primitive = [&](std::uint16_t number, const Vec2d& at) -> SeenPrimitive {
-    return {tile.surfaces()[number], tile.primitive(number), at};
-  };
-  if (tile.is_uniform(in_tile_x, in_tile_y, 1)) {
-    const std::uint16_t number =
-        tile.row(in_tile_y * density + density / 2)[in_tile_x * density + density / 2];
-    found.primitives[0] = primitive(number, middle_point(corner)), found.shares[0] = 1;
-    found.count = 1;
-    return found;
-  }
-  SeenInPixel seen;
-  const auto* first = tile.row(in_tile_y * density) + in_tile_x * density;
-  density == 2 ? count_points<2>(first, seen) : count_points<4>(first, seen);
-  if (seen.count > 1) visibility_.find_shares(pixel_x, pixel_y, seen);
-  for (std::size_t i = 0; i < seen.count; ++i) {
-    if (seen.shares[i] <= 0) continue;
-    found.primitives[found.count] =
-        primitive(seen.numbers[i], Vec2d(pixel_x, pixel_y) + Vec2d(seen.places[i]));
-    found.shares[found.count++] = seen.shares[i];
-  }
-  return found;
-}
-
-// `first`: the point at the pixel's upper left corner.
-template <int kDensity>
-void LatticePainter::count_points(const std::uint16_t* first, SeenInPixel& found) {
-  constexpr float kEach = 0.25F / (kDensity * kDensity);
-  for (int y = 0; y <= kDensity; ++y, first += kTileStride) {
-    const float down = y == 0 || y == kDensity ? kEach : 2 * kEach;
-    for (int x = 0; x <= kDensity; ++x) {
-      std::size_t i = 0;
-      while (i < found.count && found.numbers[i] != first[x]) ++i;
-      if (i == SeenInPixel::kMost) continue;
-      if (i == found.count) {
-        found.numbers[i] = first[x], found.shares[i] = 0, found.places[i] = Vec2f(0, 0);
-        ++found.count;
-      }
-      const float weight = x == 0 || x == kDensity ? down : 2 * down;
-      found.shares[i] += weight;
-      found.places[i] += Vec2f(static_cast<float>(x), static_cast<float>(y)) * weight;
-    }
-  }
-  for (std::size_t i = 0; i < found.count; ++i) found.places[i] *= 1 / (kDensity * found.shares[i]);
-}
-
 // Returns the mean over a pixel of a square: the surfaces seen in it by their shares, each with its colour in
 // the middle.
 float4 LatticePainter::mixed_mean(const LatticeNode& corner, const Square& square) {
   const LatticeNode middle = middle_of_pixel(corner.x / kPixelSide, corner.y / kPixelSide);
   const std::array<float, 4> weights = weights_in(square.corner, square.side, middle);
-  const SeenPrimitives seen = seen_in(corner);
   float4 sum{};
-  for (std::size_t i = 0; i < seen.count; ++i) {
-    sum += surfaces_.in_pixel(square, seen.primitives[i], middle_point(corner), weights) * seen.shares[i];
-  }
+  for_each_seen(corner, [&](const SeenPrimitive& seen) {
+    sum += surfaces_.in_pixel(square, seen, middle_point(corner), weights) * seen.share;
+  });
   return sum;
 }
 

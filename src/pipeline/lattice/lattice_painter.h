@@ -41,16 +41,20 @@ class LatticePainter {
   }
   void paint_uniform(const Square& square);
   float4 mixed_mean(const LatticeNode& corner, const Square& square);
-  // The primitives seen in a pixel, and the share of each.
-  struct SeenPrimitives {
-    std::array<SeenPrimitive, SeenInPixel::kMost> primitives;
-    std::array<float, SeenInPixel::kMost> shares;
-    std::size_t count = 0;
-  };
-  SeenPrimitives seen_in(const LatticeNode& corner) const;
-  template <int kDensity>
-  static void count_points(const std::uint16_t* first, SeenInPixel& found);
 
+  // Calls visit(SeenPrimitive) for what is seen in a pixel.
+  template <class Visit>
+  void for_each_seen(const LatticeNode& corner, const Visit& visit) const {
+    const int x = corner.x / kPixelSide, y = corner.y / kPixelSide;
+    const SeenInPixel& seen = visibility_.seen_in(x, y);
+    const VisibleTile& tile = visibility_.tile(x, y);
+    for (std::size_t i = 0; i < seen.count; ++i) {
+      if (seen.shares[i] <= 0) continue;
+      const std::uint16_t number = seen.numbers[i];
+      visit(SeenPrimitive{tile.surfaces()[number], tile.primitive(number),
+                          Vec2d(x, y) + Vec2d(seen.places[i]), seen.shares[i]});
+    }
+  }
   float4 mean_of_mixed(const LatticeNode& pixel, const SquareCorners& corners);
   void gather(const LatticeNode& corner, int side, const SquareCorners& corners);
   void paint_mixed(const LatticeNode& corner, int side, const SquareCorners& corners);

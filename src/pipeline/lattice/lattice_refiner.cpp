@@ -284,7 +284,7 @@ void LatticeRefiner::start(const Pass& pass) {
 // does what it costs to see. So seeing may take the more time, the more of the error it takes away. A picture
 // that begins without an estimate of its samples gets all: a still without their number, a first frame.
 void LatticeRefiner::choose_fineness() {
-  constexpr double kVeryFew = 0.07, kFew = 0.2, kEnough = 0.4;  // samples a pixel
+  constexpr double kFew = 0.07, kEnough = 0.4;  // samples a pixel
   // Shares of the time, and their factor where the picture before was seen, too: a change flickers.
   constexpr double kMostShare = 0.9, kSeenAgain = 1.1;
   if (expected_ == 0) {
@@ -293,9 +293,8 @@ void LatticeRefiner::choose_fineness() {
   }
   const double samples = static_cast<double>(samples_) + samples_left();
   const double per_pixel = samples / static_cast<double>(region().pixel_count());
-  const VisibilityBuffer::Fineness fineness = per_pixel < kVeryFew  ? VisibilityBuffer::kCoarse
-                                              : per_pixel < kFew    ? VisibilityBuffer::kMiddle
-                                              : per_pixel < kEnough ? VisibilityBuffer::kDense
+  const VisibilityBuffer::Fineness fineness = per_pixel < kFew      ? VisibilityBuffer::kCoarse
+                                              : per_pixel < kEnough ? VisibilityBuffer::kMiddle
                                                                     : VisibilityBuffer::kFine;
   if (fineness != visibility_.fineness()) forget_visibility(fineness);
   const double a_sample =

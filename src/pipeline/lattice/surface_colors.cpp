@@ -14,13 +14,13 @@ constexpr std::array<float, 4> kInTheMiddle = {0.25F, 0.25F, 0.25F, 0.25F};
 
 }  // namespace
 
-const SurfaceColors::AtCorners& SurfaceColors::at_corners(const Square& square, std::uint32_t surface,
-                                                          const Vec2d& middle) {
+SurfaceColors::AtCorners& SurfaceColors::at_corners(const Square& square, std::uint32_t surface,
+                                                    const Vec2d& middle) {
   for (std::size_t i = 0; i < known_; ++i)
     if (found_[i].surface == surface) return found_[i];
   if (known_ == found_.size()) known_ = 0;
   AtCorners& found = found_[known_++];
-  found.surface = surface;
+  found.surface = surface, found.lit_primitive = 0;
   find(square, node_at(middle), found);
   return found;
 }
@@ -126,12 +126,12 @@ float4 SurfaceColors::on_texture(const AtCorners& at, const std::array<float, 4>
 }
 
 float4 SurfaceColors::in_light(const AtCorners& at, const std::array<float, 4>& weights,
-                               const UnshadowedLight& light) {
+                               const UnshadowedLight& light, const float4& of_seen) {
   float4 color = bilinear(at.without_lights, weights);
   if (at.seen[0] == at.seen[1] && at.seen[0] == at.seen[2] && at.seen[0] == at.seen[3]) {
     float share = 0;
     for (std::size_t i = 0; i < 4; ++i) share += at.shares[i] * weights[i];
-    color += light.of(at.seen[0]) * share;
+    color += of_seen * share;
   } else {
     for (std::size_t i = 0; i < 4; ++i) color += light.of(at.seen[i]) * (at.shares[i] * weights[i]);
   }
@@ -140,13 +140,16 @@ float4 SurfaceColors::in_light(const AtCorners& at, const std::array<float, 4>& 
 
 float4 SurfaceColors::in_pixel(const Square& square, const SeenPrimitive& seen, const Vec2d& middle,
                                const std::array<float, 4>& weights) {
-  const AtCorners& at = at_corners(square, seen.surface, middle);
+  AtCorners& at = at_corners(square, seen.surface, middle);
   if (textures_.has(seen.surface)) {
     const TextureFactor texture = textures_.in_pixel(middle, seen.primitive);
     if (is_known(texture)) return on_texture(at, weights, texture);
   } else if (lights_.is_curved(seen.surface)) {
-    const UnshadowedLight& light = lights_.at(seen.at, seen.primitive);
-    if (light.is_known) return in_light(at, weights, light);
+    if (seen.share >= kLittle || at.lit_primitive != seen.primitive) {
+      lights_.at(seen.at, seen.primitive, at.light);
+      at.lit_primitive = seen.primitive, at.of_seen = at.light.of(at.seen[0]);
+    }
+    if (at.light.is_known) return in_light(at, weights, at.light, at.of_seen);
   }
   return bilinear(at.colors, weights);
 }
@@ -160,7 +163,8 @@ bool SurfaceColors::varies_in(const Square& square, std::uint32_t surface) {
   const LatticeNode middle{square.corner.x + half, square.corner.y + half};
   const AtCorners& at = at_corners(square, surface, point_of(middle));
   const UnshadowedLight& light = lights_.at(middle, surface);
-  const float4 difference = abs(in_light(at, kInTheMiddle, light) - bilinear(at.colors, kInTheMiddle));
+  const float4 difference =
+      abs(in_light(at, kInTheMiddle, light, light.of(at.seen[0])) - bilinear(at.colors, kInTheMiddle));
   return light.is_known && std::max({difference[0], difference[1], difference[2]}) > kNotSeen;
 }
 

@@ -30,10 +30,12 @@ inline std::array<LatticeNode, 4> nodes_of(const LatticeNode& corner, int side) 
   return {{{x, y}, {x + side, y}, {x, y + side}, {x + side, y + side}}};
 }
 
-// A primitive that is seen in a pixel, and a point of the image where it is, the mean of those found.
+// A primitive that is seen in a pixel, a point of the image where it is, the mean of those found, and its
+// share.
 struct SeenPrimitive {
   std::uint32_t surface = 0, primitive = 0;
-  Vec2d at{0, 0};  // pixels
+  Vec2d at{0, 0};   // pixels
+  float share = 1;  // of the pixel
 };
 
 // The references must outlive the object. All is asked only if the visibility is known.
@@ -57,6 +59,9 @@ class SurfaceColors {
   float4 mean_over(const Square& square);
 
  private:
+  // A primitive with a smaller part of a pixel is lit as in the last one of the square.
+  static constexpr float kLittle = 0.25F;
+
   // What a surface is taken to show at the corners of a square.
   struct AtCorners {
     std::uint32_t surface = 0;
@@ -66,9 +71,13 @@ class SurfaceColors {
     std::array<float4, 4> without_lights;
     std::array<std::uint8_t, 4> seen;
     std::array<float, 4> shares;
+    // What the surface was lit by last in the square, by the lights that the first corner sees.
+    std::uint32_t lit_primitive = 0;
+    UnshadowedLight light;
+    float4 of_seen;
   };
 
-  const AtCorners& at_corners(const Square& square, std::uint32_t surface, const Vec2d& middle);
+  AtCorners& at_corners(const Square& square, std::uint32_t surface, const Vec2d& middle);
   void find(const Square& square, const LatticeNode& at, AtCorners& found);
   void find_textures(const Square& square, AtCorners& found);
   void find_light(const Square& square, AtCorners& found);
@@ -78,7 +87,7 @@ class SurfaceColors {
   float4 on_texture(const AtCorners& at, const std::array<float, 4>& weights,
                     const TextureFactor& texture) const;
   static float4 in_light(const AtCorners& at, const std::array<float, 4>& weights,
-                         const UnshadowedLight& light);
+                         const UnshadowedLight& light, const float4& of_seen);
 
   const SurfaceSamples& samples_;
   LocalErrors& errors_;

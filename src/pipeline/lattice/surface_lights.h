@@ -36,6 +36,11 @@ class SurfaceLights {
   const UnshadowedLight& at(const LatticeNode& node, std::uint32_t surface);
   const UnshadowedLight& at(const Vec2d& point, std::uint32_t primitive);
 
+  // The same into `light`.
+  void at(const Vec2d& point, std::uint32_t primitive, UnshadowedLight& light) const {
+    lights_.at(primitive, point.x, point.y, light);
+  }
+
   // Returns the part of a node's colour that the lights bring that it sees.
   float4 part_of(const NodeValue& value, const LatticeNode& node);
 

@@ -10,6 +10,15 @@
 #include "pipeline/silhouettes/shape_nearness.h"
 
 namespace pprt {
+
+Depths depths_of(const ShapeInPixel& shape) {
+  if (shape.quadric != nullptr) return {0, std::numeric_limits<float>::infinity()};
+  const NearLinear& n = shape.facet->nearness;
+  const float at_corner = value(n, shape.left, shape.top);
+  return {at_corner + std::min(n.per_x, 0.0F) + std::min(n.per_y, 0.0F),
+          at_corner + std::max(n.per_x, 0.0F) + std::max(n.per_y, 0.0F)};
+}
+
 namespace {
 
 constexpr std::size_t kMostShapes = 64, kMostMet = 16;  // in the pixel's bounds, and on its lines
@@ -107,18 +116,6 @@ bool is_round(const ShapeInPixel& shape) {
 }
 bool may_jump(const ShapeInPixel& shape) {
   return is_round(shape) && shape.quadric->has_ends;
-}
-
-// Bounds of a shape's nearness in a pixel.
-struct Depths {
-  float least, most;
-};
-Depths depths_of(const ShapeInPixel& shape) {
-  if (is_round(shape)) return {0, std::numeric_limits<float>::infinity()};
-  const NearLinear& n = shape.facet->nearness;
-  const float at_corner = value(n, shape.left, shape.top);
-  return {at_corner + std::min(n.per_x, 0.0F) + std::min(n.per_y, 0.0F),
-          at_corner + std::max(n.per_x, 0.0F) + std::max(n.per_y, 0.0F)};
 }
 
 // Finds where a shape is seen if no other hides it. False where it is seen in parts of what lies within its
@@ -276,7 +273,8 @@ PPRT_CLONED_FOR_WIDE_REGISTERS
 bool shares_on_lines(std::span<const ShapeInPixel> shapes, bool are_rows, int count,
                      std::span<float> shares) {
   if (shapes.size() > kMostShapes) return false;
-  std::array<float, kMostShapes> seen{};
+  std::array<float, kMostShapes> seen;
+  std::fill_n(seen.begin(), shapes.size(), 0.0F);
   const int groups = count / kPoints;
   const float per_group = 1 / static_cast<float>(groups);
   for (int group = 0; group < groups; ++group) {

@@ -16,6 +16,12 @@ struct ShapeInPixel {
   std::uint32_t owner;  // the primitive, by a number of its own
 };
 
+// Bounds of a shape's nearness in a pixel. Of a quadric's little is known.
+struct Depths {
+  float least, most;
+};
+Depths depths_of(const ShapeInPixel& shape);
+
 // Adds to `shares` the part of a pixel in which each owner is seen: the mean over `count` lines, a multiple
 // of eight. On each line it is exact where shapes end and where facets pass through each other. So is the
 // share of a straight edge that crosses all lines. `are_rows`: the lines lie along x, otherwise along y.

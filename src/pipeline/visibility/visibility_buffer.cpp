@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "pipeline/silhouettes/shape_nearness.h"
-#include "pipeline/visibility/pixel_shares.h"
 
 namespace pprt {
 namespace {
@@ -17,13 +16,6 @@ bool meets(const ImageBounds& box, const PixelRect& pixels) {
   return box.x0 <= box.x1 && box.x1 >= static_cast<float>(pixels.x0) &&
          box.y1 >= static_cast<float>(pixels.y0) && box.x0 <= static_cast<float>(pixels.x1) &&
          box.y0 <= static_cast<float>(pixels.y1);
-}
-
-ShapeInPixel shape_in_pixel(const ProjectedQuadric& quadric, const Vec2f& from, std::size_t owner) {
-  return {&quadric, nullptr, from.x, from.y, static_cast<std::uint32_t>(owner)};
-}
-ShapeInPixel shape_in_pixel(const ProjectedFacet& facet, const Vec2f& from, std::size_t owner) {
-  return {nullptr, &facet, from.x, from.y, static_cast<std::uint32_t>(owner)};
 }
 
 // Returns an upper bound of a facet's nearness.
@@ -50,7 +42,7 @@ void VisibilityBuffer::forget(const Fineness& fineness) {
   state_ = has_shapes() && most_rays_ > 0 ? State::kNotAsked : State::kUnknown;
   density_ = fineness.points_per_side, log2_density_ = std::countr_zero(static_cast<unsigned>(density_)),
   share_lines_ = fineness.share_lines, share_points_ = fineness.share_points;
-  has_more_ = fineness.has_more;
+  has_thin_ = fineness.has_thin;
   columns_ = (right_ + tile_pixels() - 1) / tile_pixels(),
   rows_ = (bottom_ + tile_pixels() - 1) / tile_pixels();
   is_seen_.assign(static_cast<std::size_t>(columns_ * rows_), 0);
@@ -213,6 +205,7 @@ void VisibilityBuffer::see(std::size_t number) {
   const auto side = static_cast<float>(tile_pixels()), density = static_cast<float>(density_);
   const auto x = static_cast<float>(left), y = static_cast<float>(top);
   blocks_.clear();
+  not_hidden_.clear();
   for (const auto& [nearest, number_of_item, own] : order_) {
     const Item& item = items_[number_of_item];
     const ImageBounds box = {item.bounds.x0 - x, item.bounds.y0 - y, std::min(item.bounds.x1 - x, side),
@@ -220,10 +213,14 @@ void VisibilityBuffer::see(std::size_t number) {
     const Vec2f corner(static_cast<float>(left - item.origin.x), static_cast<float>(top - item.origin.y));
     TileTarget to{1 / density, density, corner, box, nearest_.data(), numbers_.data(), {}};
     const PointSpan columns = to.columns(), rows = to.rows();
-    if (columns.begin >= columns.end || rows.begin >= rows.end) continue;
+    if (columns.begin >= columns.end || rows.begin >= rows.end) {
+      not_hidden_.push_back({nearest, number_of_item, own});
+      continue;
+    }
     if (!item.is_quadric && misses(facets_[item.shape], to)) continue;
     ++trials_;
     if (!blocks_.find_shown(columns, rows, nearest_.data(), nearest, to.blocks)) continue;
+    not_hidden_.push_back({nearest, number_of_item, own});
     const BlockSet changed =
         item.is_quadric ? rasterise(quadrics_[item.shape], own, to) : rasterise(facets_[item.shape], own, to);
     blocks_.touch(changed);
@@ -231,11 +228,32 @@ void VisibilityBuffer::see(std::size_t number) {
   }
   compress(tile);
   find_surfaces(tile);
-  if (has_more_) list_by_block(number, tile);
+  if (has_thin_) list_thin(number, tile);
 }
 
-// By bounds, edges and nearness, in the order of nearness.
-void VisibilityBuffer::list_by_block(std::size_t number, VisibleTile& tile) {
+// Counts the points that each primitive is seen at.
+void VisibilityBuffer::count_points(const VisibleTile& tile) {
+  points_of_.assign(tile.primitives_.size(), 0);
+  for (int y = 0; y <= kTileIntervals; ++y) {
+    const std::uint16_t* row = tile.row(y);
+    for (int x = 0; x <= kTileIntervals; ++x) ++points_of_[row[x]];
+  }
+}
+
+// Whether an item is so thin that it may pass between points. `x`, `y`: the tile's corner.
+bool VisibilityBuffer::is_thin(const Item& item, std::uint32_t own, float x, float y) const {
+  constexpr float kThin = 1.5F;  // points across it
+  const auto side = static_cast<float>(tile_pixels());
+  const ImageBounds& b = item.bounds;
+  const float width = std::min(b.x1, x + side) - std::max(b.x0, x);
+  const float height = std::min(b.y1, y + side) - std::max(b.y0, y);
+  const float points_along = static_cast<float>(density_) * std::max(width, height);
+  return static_cast<float>(points_of_[own]) <= kThin * points_along;
+}
+
+// Lists by block what is thin and may be seen there: by bounds, edges and nearness, in the order of nearness.
+void VisibilityBuffer::list_thin(std::size_t number, VisibleTile& tile) {
+  count_points(tile);
   constexpr auto kSide = static_cast<int>(VisibleTile::kBlocksOfPixels);
   const int pixels = kBlockSide / density_;  // along a block's side
   const DepthBlocks::OfBlocks& least_of = blocks_.least(nearest_.data());
@@ -254,9 +272,10 @@ void VisibilityBuffer::list_by_block(std::size_t number, VisibleTile& tile) {
   const int left = static_cast<int>(number) % columns_ * tile_pixels();
   const int top = static_cast<int>(number) / columns_ * tile_pixels();
   const auto side = static_cast<float>(pixels);
-  for (const auto& [nearest, number_of_item, own] : order_) {
+  for (const auto& [nearest, number_of_item, own] : not_hidden_) {
     if (own == 0) continue;
     const Item& item = items_[number_of_item];
+    if (!is_thin(item, own, static_cast<float>(left), static_cast<float>(top))) continue;
     const ImageBounds& box = item.bounds;
     const auto block_of = [&](float at, int begin) {
       return static_cast<int>(std::clamp((at - static_cast<float>(begin)) / side, 0.0F, kSide - 1.0F));
@@ -329,31 +348,9 @@ void VisibilityBuffer::compress(VisibleTile& tile) {
       number = new_number[number];
     }
     tile.primitives_ = std::move(seen), tile.first_item_ = std::move(first_item);
-    for (Numbered& item : order_) item.number = new_number[item.number];
+    for (Numbered& item : not_hidden_) item.number = new_number[item.number];
   }
   narrow(numbers_.data(), numbers_.size(), tile.points_.data());
-}
-
-// Calls visit(quadric or facet, from its origin) for the parts of a primitive in a tile whose bounds meet a
-// rectangle.
-template <class Visit>
-void VisibilityBuffer::for_each_item(const VisibleTile& tile, std::uint16_t number, const ImageBounds& within,
-                                     const Visit& visit) const {
-  const std::uint32_t primitive = tile.primitives_[number];
-  if (primitive == 0) return;
-  for (std::uint32_t i = tile.first_item_[number]; i < tile.items_.size(); ++i) {
-    const Item& item = items_[tile.items_[i]];
-    if (item.primitive != primitive) return;
-    const ImageBounds& b = item.bounds;
-    if (b.x0 > within.x1 || b.x1 < within.x0 || b.y0 > within.y1 || b.y1 < within.y0) continue;
-    const Vec2f from(static_cast<float>(within.x0 - item.origin.x),
-                     static_cast<float>(within.y0 - item.origin.y));
-    if (item.is_quadric) {
-      visit(quadrics_[item.shape], from);
-    } else {
-      visit(facets_[item.shape], from);
-    }
-  }
 }
 
 VisibilityBuffer::PointsAround VisibilityBuffer::points_around(const Vec2d& point) {
@@ -388,86 +385,6 @@ std::uint32_t VisibilityBuffer::at(const Vec2d& point) {
     });
   }
   return seen.surfaces()[nearest];
-}
-
-// Lists the shapes of a pixel that are parts of what its points see.
-void VisibilityBuffer::find_shapes(int pixel_x, int pixel_y, const SeenInPixel& seen) {
-  const VisibleTile& tile = this->tile(pixel_x, pixel_y);
-  const auto x = static_cast<float>(pixel_x), y = static_cast<float>(pixel_y);
-  in_pixel_.clear();
-  for (std::size_t i = 0; i < seen.count; ++i) {
-    for_each_item(tile, seen.numbers[i], {x, y, x + 1, y + 1}, [&](const auto& shape, const Vec2f& from) {
-      in_pixel_.push_back(shape_in_pixel(shape, from, i));
-    });
-  }
-}
-
-// Lists the shapes that may be seen in a pixel, and adds their primitives where no point sees these.
-void VisibilityBuffer::find_more_shapes(int pixel_x, int pixel_y, SeenInPixel& seen) {
-  const VisibleTile& tile = this->tile(pixel_x, pixel_y);
-  const auto x = static_cast<float>(pixel_x), y = static_cast<float>(pixel_y);
-  const auto block_of = [this](int pixel) {
-    return static_cast<std::size_t>(in_tile(pixel) * density_ / kBlockSide);
-  };
-  const std::size_t block = block_of(pixel_y) * VisibleTile::kBlocksOfPixels + block_of(pixel_x);
-  in_pixel_.clear();
-  for (std::size_t i = tile.first_in_block_[block]; i < tile.first_in_block_[block + 1]; ++i) {
-    const auto& [item_number, number] = tile.in_blocks_[i];
-    const Item& item = items_[item_number];
-    const ImageBounds& b = item.bounds;
-    if (b.x0 > x + 1 || b.x1 < x || b.y0 > y + 1 || b.y1 < y) continue;
-    const Vec2f from(static_cast<float>(x - item.origin.x), static_cast<float>(y - item.origin.y));
-    if (!item.is_quadric && misses(facets_[item.shape], from.x, from.y, from.x + 1, from.y + 1)) continue;
-    std::size_t owner = 0;
-    while (owner < seen.count && seen.numbers[owner] != number) ++owner;
-    if (owner == SeenInPixel::kMost) continue;
-    if (owner == seen.count) {
-      seen.numbers[owner] = number, seen.places[owner] = Vec2f(0.5F, 0.5F);
-      ++seen.count;
-    }
-    in_pixel_.push_back(item.is_quadric ? shape_in_pixel(quadrics_[item.shape], from, owner)
-                                        : shape_in_pixel(facets_[item.shape], from, owner));
-  }
-}
-
-void VisibilityBuffer::find_shares(int pixel_x, int pixel_y, SeenInPixel& seen) {
-  const Vec2f apart = seen.places[0] - seen.places[1];
-  const bool are_rows = std::fabs(apart.x) >= std::fabs(apart.y);
-  if (has_more_) {
-    find_more_shapes(pixel_x, pixel_y, seen);
-  } else {
-    find_shapes(pixel_x, pixel_y, seen);
-  }
-  const std::span<float> shares(seen.shares.data(), seen.count);
-  std::fill(shares.begin(), shares.end(), 0.0F);
-  if (!shares_on_lines(in_pixel_, are_rows, share_lines_, shares)) count_shares(shares);
-  float all = 0;
-  for (const float share : shares) all += share;
-  // What is left shows the background, if a point does.
-  const auto end = seen.numbers.begin() + static_cast<std::ptrdiff_t>(seen.count);
-  const auto background = std::find(seen.numbers.begin(), end, std::uint16_t{0});
-  if (background != end && all < 1) {
-    shares[static_cast<std::size_t>(background - seen.numbers.begin())] += 1 - all;
-    all = 1;
-  }
-  for (float& share : shares) share = all > 0 ? share * (1 / all) : 1 / static_cast<float>(seen.count);
-}
-
-// The same by points.
-void VisibilityBuffer::count_shares(std::span<float> shares) const {
-  NearestInPixel nearest(share_points_);
-  for (const ShapeInPixel& shape : in_pixel_) {
-    const auto number = static_cast<std::int32_t>(shape.owner) + 1;
-    if (shape.quadric != nullptr) {
-      nearest.show(*shape.quadric, shape.left, shape.top, number);
-    } else {
-      nearest.show(*shape.facet, shape.left, shape.top, number);
-    }
-  }
-  std::array<int, SeenInPixel::kMost + 1> counts;
-  nearest.count({counts.data(), shares.size() + 1});
-  for (std::size_t i = 0; i < shares.size(); ++i)
-    shares[i] = static_cast<float>(counts[i + 1]) / static_cast<float>(share_points_);
 }
 
 }  // namespace pprt

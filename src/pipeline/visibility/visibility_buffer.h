@@ -71,8 +71,7 @@ class VisibleTile {
   std::vector<std::uint32_t> items_;       // by primitive: their numbers in VisibilityBuffer::items_
   std::vector<std::uint32_t> first_item_;  // of each primitive, in items_
 
-  // What may be seen in a block of points whose pixels do not all see one surface, points between them
-  // included.
+  // What may pass between the points of a block whose pixels do not all see one surface.
   struct InBlock {
     std::uint32_t item;
     std::uint16_t number;  // of its primitive
@@ -122,12 +121,12 @@ class VisibilityBuffer {
     int points_per_side;  // of a pixel
     int share_lines;      // across a pixel, for shares()
     int share_points;     // in it, where lines cannot tell
-    bool has_more;        // what is seen between points only has a share, too
+    bool has_thin;        // what passes between points has a share, too
 
     friend bool operator==(const Fineness&, const Fineness&) = default;
   };
-  static constexpr Fineness kCoarse = {2, 8, 32, false}, kMiddle = {2, 8, 64, false},
-                            kDense = {2, 8, 64, true}, kFine = {4, 16, 128, true};
+  static constexpr Fineness kCoarse = {2, 8, 32, false}, kMiddle = {2, 8, 64, true},
+                            kFine = {4, 16, 128, true};
 
   // The eye or what it sees has moved: all is to be seen anew.
   void forget(const Fineness& fineness);
@@ -164,7 +163,7 @@ class VisibilityBuffer {
            of(kTile, tiles_seen_) + of(kFacetBlock, facet_blocks_) + of(kQuadricBlock, quadric_blocks_);
   }
 
-  Fineness fineness() const { return {density_, share_lines_, share_points_, has_more_}; }
+  Fineness fineness() const { return {density_, share_lines_, share_points_, has_thin_}; }
 
   std::uint32_t surface_of(std::uint32_t primitive) const { return shapes_.surface_of(primitive); }
 
@@ -202,9 +201,9 @@ class VisibilityBuffer {
   // is_known().
   std::uint32_t primitive_at(const Vec2d& point, std::uint32_t surface);
 
-  // Completes what the points of a pixel see: finds the shares of what is seen there, and what is seen
-  // between the points. Shares sum up to 1. Only if is_known().
-  void find_shares(int pixel_x, int pixel_y, SeenInPixel& seen);
+  // Returns what is seen in a pixel, until the next call. Shares sum up to 1. Where all its points see one
+  // surface that is all. Only if is_known().
+  const SeenInPixel& seen_in(int pixel_x, int pixel_y);
 
   int tile_pixels() const { return kTileIntervals >> log2_density_; }
 
@@ -252,6 +251,8 @@ class VisibilityBuffer {
     std::array<std::uint16_t, 4> numbers;
   };
   PointsAround points_around(const Vec2d& point);
+  // Calls visit(quadric or facet, from its origin) for the parts of a primitive in a tile whose bounds meet a
+  // rectangle.
   template <class Visit>
   void for_each_item(const VisibleTile& tile, std::uint16_t number, const ImageBounds& within,
                      const Visit& visit) const;
@@ -269,9 +270,19 @@ class VisibilityBuffer {
   void see(std::size_t tile);
   void list_items(std::size_t number, VisibleTile& tile);
   void compress(VisibleTile& tile);
-  void list_by_block(std::size_t number, VisibleTile& tile);
+  void count_points(const VisibleTile& tile);
+  bool is_thin(const Item& item, std::uint32_t own, float x, float y) const;
+  void list_thin(std::size_t number, VisibleTile& tile);
+  void find_shares(int pixel_x, int pixel_y, SeenInPixel& seen);
+  float share_out(bool are_rows, SeenInPixel& seen);
   void find_shapes(int pixel_x, int pixel_y, const SeenInPixel& seen);
-  void find_more_shapes(int pixel_x, int pixel_y, SeenInPixel& seen);
+  // What the points of a pixel see: how many primitives, and up to which nearness.
+  struct SeenAtPoints {
+    std::size_t count;
+    float most_nearness;
+  };
+  void find_thin_shapes(int pixel_x, int pixel_y, const SeenAtPoints& at_points, bool is_before,
+                        SeenInPixel& seen);
   void count_shares(std::span<float> shares) const;
   void find_surfaces(VisibleTile& tile);
 
@@ -279,7 +290,7 @@ class VisibilityBuffer {
   int log2_density_ = 2;
   int density_ = 4;                          // points along a pixel's side
   int share_lines_ = 8, share_points_ = 64;  // Fineness
-  bool has_more_ = true;                     // the same
+  bool has_thin_ = true;                     // the same
   int columns_ = 0, rows_ = 0;               // of tiles
   PrimitiveShapes shapes_;
   State state_ = State::kNotAsked;
@@ -304,7 +315,7 @@ class VisibilityBuffer {
     std::uint32_t item;
     std::uint32_t number;
   };
-  std::vector<Numbered> order_;
+  std::vector<Numbered> order_, not_hidden_;  // both the nearest first
   DepthBlocks blocks_;
   std::vector<float> nearest_;          // of the tile being rasterised
   std::vector<std::uint32_t> numbers_;  // the same
@@ -315,8 +326,30 @@ class VisibilityBuffer {
     std::uint8_t block;
   };
   std::vector<BlockEntry> entries_;
-  std::vector<ShapeInPixel> in_pixel_;  // whose shares are asked for
+  std::vector<std::uint32_t> points_of_;  // by a tile's own number
+  SeenInPixel seen_;                      // of the pixel asked for last
+  std::vector<ShapeInPixel> in_pixel_;    // its shapes
   ImageShape asked_;
 };
+
+template <class Visit>
+void VisibilityBuffer::for_each_item(const VisibleTile& tile, std::uint16_t number, const ImageBounds& within,
+                                     const Visit& visit) const {
+  const std::uint32_t primitive = tile.primitives_[number];
+  if (primitive == 0) return;
+  for (std::uint32_t i = tile.first_item_[number]; i < tile.items_.size(); ++i) {
+    const Item& item = items_[tile.items_[i]];
+    if (item.primitive != primitive) return;
+    const ImageBounds& b = item.bounds;
+    if (b.x0 > within.x1 || b.x1 < within.x0 || b.y0 > within.y1 || b.y1 < within.y0) continue;
+    const Vec2f from(static_cast<float>(within.x0 - item.origin.x),
+                     static_cast<float>(within.y0 - item.origin.y));
+    if (item.is_quadric) {
+      visit(quadrics_[item.shape], from);
+    } else {
+      visit(facets_[item.shape], from);
+    }
+  }
+}
 
 }  // namespace pprt

@@ -100,40 +100,61 @@ TEST_CASE("visibility buffer: a square is uniform if all its points see one surf
   }
 }
 
-// What the points of a pixel see, in some order, all of them in its middle.
-SeenInPixel seen_by(const std::vector<std::uint16_t>& numbers) {
-  SeenInPixel seen;
-  for (const std::uint16_t number : numbers) {
-    seen.numbers[seen.count] = number, seen.places[seen.count] = Vec2f(0.5F, 0.5F);
-    ++seen.count;
+// The share of a surface in the pixel (10, 10).
+double share_of(VisibilityBuffer& buffer, std::uint32_t surface) {
+  const SeenInPixel& seen = buffer.seen_in(10, 10);
+  const VisibleTile& tile = buffer.tile(10, 10);
+  double share = 0, sum = 0;
+  for (std::size_t i = 0; i < seen.count; ++i) {
+    sum += seen.shares[i];
+    if (tile.surfaces()[seen.numbers[i]] == surface) share += seen.shares[i];
   }
-  return seen;
+  CHECK(sum == Approx(1));
+  return share;
 }
 
 TEST_CASE("visibility buffer: shares are areas") {
   VisibilityBuffer buffer(kSize, kSize,
                           shapes_of({{0, 0, 64, 64, 1}, {0, 0, 10.25, 64, 2}, {0, 0, 64, 10.5, 3}}));
   REQUIRE(buffer.is_known());
-  const VisibleTile& tile = buffer.tile(10, 10);
-  std::vector<std::uint16_t> numbers;
-  for (std::uint16_t i = 0; i < tile.surfaces().size(); ++i) numbers.push_back(i);
-  SeenInPixel seen = seen_by(numbers);
-  buffer.find_shares(10, 10, seen);
-  REQUIRE(seen.count == numbers.size());
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const std::uint32_t surface = tile.surfaces()[numbers[i]];
-    const double area = surface == 1 ? 0.75 * 0.5 : surface == 2 ? 0.25 * 0.5 : surface == 3 ? 0.5 : 0;
-    INFO("surface " << surface);
-    CHECK(seen.shares[i] == Approx(area).margin(0.02));
-  }
+  CHECK(share_of(buffer, 1) == Approx(0.75 * 0.5).margin(0.02));
+  CHECK(share_of(buffer, 2) == Approx(0.25 * 0.5).margin(0.02));
+  CHECK(share_of(buffer, 3) == Approx(0.5).margin(0.02));
+  CHECK(share_of(buffer, 0) == 0);
   CHECK(buffer.at(Vec2d(10.1, 10.4)) == 3);
   CHECK(buffer.at(Vec2d(10.1, 10.6)) == 2);
   CHECK(buffer.at(Vec2d(10.4, 10.6)) == 1);
 }
 
+TEST_CASE("visibility buffer: a pixel whose points all see one surface shows that alone") {
+  VisibilityBuffer buffer(kSize, kSize, shapes_of({{0, 0, 64, 64, 1}, {10.3, 10.3, 10.4, 10.4, 2}}));
+  REQUIRE(buffer.is_known());
+  CHECK(share_of(buffer, 1) == 1);
+  CHECK(buffer.seen_in(10, 10).places[0] == Vec2f(0.5F, 0.5F));
+}
+
+TEST_CASE("visibility buffer: a place is the middle of the points that see a primitive") {
+  VisibilityBuffer buffer(kSize, kSize, shapes_of({{0, 0, 64, 64, 1}, {0, 0, 10.3, 64, 2}}));
+  for (const auto& fineness : {VisibilityBuffer::kMiddle, VisibilityBuffer::kFine}) {
+    buffer.forget(fineness);
+    REQUIRE(buffer.is_known());
+    const bool is_fine = fineness == VisibilityBuffer::kFine;
+    const SeenInPixel& seen = buffer.seen_in(10, 10);
+    const VisibleTile& tile = buffer.tile(10, 10);
+    REQUIRE(seen.count == 2);
+    for (std::size_t i = 0; i < seen.count; ++i) {
+      // Columns of points at 0, 1/4 and so on, those on the border with half the weight.
+      const bool is_left = tile.surfaces()[seen.numbers[i]] == 2;
+      const double x = is_left ? (is_fine ? 1.0 / 6 : 0) : is_fine ? (0.5 + 0.75 + 0.5) / 2.5 : 2.0 / 3;
+      CHECK(seen.places[i].x == Approx(x));
+      CHECK(seen.places[i].y == Approx(0.5));
+    }
+  }
+}
+
 TEST_CASE("visibility buffer: what lies between the points of a pixel has its share, unless it is coarse") {
-  const auto fineness = GENERATE(VisibilityBuffer::kCoarse, VisibilityBuffer::kMiddle,
-                                 VisibilityBuffer::kDense, VisibilityBuffer::kFine);
+  const auto fineness =
+      GENERATE(VisibilityBuffer::kCoarse, VisibilityBuffer::kMiddle, VisibilityBuffer::kFine);
   // Two halves of a wall, and a strip before them that no point meets; behind them nothing is seen.
   VisibilityBuffer buffer(
       kSize, kSize,
@@ -141,22 +162,32 @@ TEST_CASE("visibility buffer: what lies between the points of a pixel has its sh
           {{0, 0, 10.3, 64, 1}, {10.3, 0, 64, 64, 1}, {0, 10.58, 64, 10.7, 2}, {0, 10.4, 64, 10.45, 0.5}}));
   buffer.forget(fineness);
   REQUIRE(buffer.is_known());
-  const VisibleTile& tile = buffer.tile(10, 10);
-  SeenInPixel seen = seen_by({1, 2});
-  REQUIRE(tile.surfaces()[1] == 1);
-  REQUIRE(tile.surfaces()[2] == 2);
-  buffer.find_shares(10, 10, seen);
-  double strip = 0, sum = 0;
-  for (std::size_t i = 0; i < seen.count; ++i) {
-    sum += seen.shares[i];
-    if (tile.surfaces()[seen.numbers[i]] == 3) strip += seen.shares[i];
-    if (tile.surfaces()[seen.numbers[i]] == 4) CHECK(seen.shares[i] == 0);
-  }
-  CHECK(sum == Approx(1));
-  const bool is_coarse = fineness == VisibilityBuffer::kCoarse || fineness == VisibilityBuffer::kMiddle;
-  CHECK(strip == Approx(is_coarse ? 0 : 0.12).margin(0.03));
-  CHECK(seen.shares[0] == Approx(is_coarse ? 0.3 : 0.264).margin(0.03));
-  CHECK(seen.shares[1] == Approx(is_coarse ? 0.7 : 0.616).margin(0.03));
+  const bool is_coarse = fineness == VisibilityBuffer::kCoarse;
+  CHECK(share_of(buffer, 3) == Approx(is_coarse ? 0 : 0.12).margin(0.03));
+  CHECK(share_of(buffer, 1) == Approx(is_coarse ? 0.3 : 0.264).margin(0.03));
+  CHECK(share_of(buffer, 2) == Approx(is_coarse ? 0.7 : 0.616).margin(0.03));
+  CHECK(share_of(buffer, 4) == 0);
+}
+
+TEST_CASE(
+    "visibility buffer: a strip between points is seen beside nearer things, where these leave a part") {
+  const auto fineness = GENERATE(VisibilityBuffer::kMiddle, VisibilityBuffer::kFine);
+  VisibilityBuffer buffer(kSize, kSize,
+                          shapes_of({{0, 0, 64, 10.05, 2}, {0, 10.3, 64, 10.45, 1}, {0, 10.98, 64, 64, 2}}));
+  buffer.forget(fineness);
+  REQUIRE(buffer.is_known());
+  CHECK(share_of(buffer, 2) == Approx(0.15).margin(0.03));
+  CHECK(share_of(buffer, 0) == Approx(0.78).margin(0.03));
+}
+
+TEST_CASE("visibility buffer: the background has a share where it shows between points alone") {
+  const auto fineness = GENERATE(VisibilityBuffer::kMiddle, VisibilityBuffer::kFine);
+  VisibilityBuffer buffer(kSize, kSize, shapes_of({{0, 0, 64, 10.55, 1}, {0, 10.7, 64, 64, 1}}));
+  buffer.forget(fineness);
+  REQUIRE(buffer.is_known());
+  CHECK(share_of(buffer, 1) == Approx(0.55).margin(0.03));
+  CHECK(share_of(buffer, 2) == Approx(0.3).margin(0.03));
+  CHECK(share_of(buffer, 0) == Approx(0.15).margin(0.03));
 }
 
 TEST_CASE("visibility buffer: of two that are equally near the first is seen") {

@@ -213,21 +213,9 @@ TEST_CASE("visibility buffer: shares of random shapes in a pixel are those of th
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       const VisibleTile& tile = buffer.tile(x, y);
-      SeenInPixel seen;
-      std::array<int, SeenInPixel::kMost> points{};
-      for (int v = 0; v <= 4; ++v) {
-        for (int u = 0; u <= 4; ++u) {
-          const std::uint16_t number = tile.row(4 * buffer.in_tile(y) + v)[4 * buffer.in_tile(x) + u];
-          std::size_t i = 0;
-          while (i < seen.count && seen.numbers[i] != number) ++i;
-          if (i == seen.count) seen.numbers[seen.count] = number, seen.places[seen.count++] = Vec2f(0, 0);
-          seen.places[i] += Vec2f(static_cast<float>(u), static_cast<float>(v)) * 0.25F, ++points[i];
-        }
-      }
+      const SeenInPixel& seen = buffer.seen_in(x, y);
       if (seen.count < 2) continue;
       ++mixed;
-      for (std::size_t i = 0; i < seen.count; ++i) seen.places[i] *= 1.0F / static_cast<float>(points[i]);
-      buffer.find_shares(x, y, seen);
       constexpr int kSide = 24;
       std::map<std::uint32_t, double> areas;
       for (int j = 0; j < kSide; ++j)
