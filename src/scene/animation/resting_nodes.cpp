@@ -26,6 +26,15 @@ double common_scale(const Affine& map) {
   return is_similar && map.determinant() > 0 ? scale : 0;
 }
 
+// Maps a normal. Where the map scales so much that it would be no number of a scene any more its length
+// becomes 1.
+Vec3d outward(const Affine& map, const Vec3d& normal) {
+  constexpr double kMost = 1e50;
+  const Vec3d mapped = map.outward(normal);
+  const double length = mapped.length();
+  return length > kMost || length < 1 / kMost ? mapped.normalized() : mapped;
+}
+
 class Settler {
  public:
   explicit Settler(SceneDescription& scene) : scene_(scene), mesh_maps_(scene.meshes.size()) {}
@@ -126,7 +135,7 @@ class Settler {
         const Patch& p = scene_.patches[ref.index];
         for (std::uint32_t i = 0; i < p.vertex_count; ++i) {
           PatchVertex& v = scene_.patch_vertices[p.first_vertex + i];
-          v = {base.map.point(v.position), base.map.outward(v.normal)};
+          v = {base.map.point(v.position), outward(base.map, v.normal)};
         }
         if (mirrors) reverse(p, scene_.patch_vertices);
         break;
@@ -138,7 +147,7 @@ class Settler {
       case PrimitiveKind::kMovingTriangle:
         for (MovingTriangle::Key& key : scene_.moving_triangles[ref.index].keys) {
           for (Vec3d& p : key.positions) p = base.map.point(p);
-          for (Vec3d& n : key.normals) n = base.map.outward(n);
+          for (Vec3d& n : key.normals) n = outward(base.map, n);
           if (mirrors)
             std::swap(key.positions[1], key.positions[2]), std::swap(key.normals[1], key.normals[2]);
         }
@@ -160,7 +169,7 @@ class Settler {
   static void move(TriangleMesh& mesh, const Affine& map) {
     if (map == Affine()) return;
     for (Vec3d& p : mesh.positions) p = map.point(p);
-    for (Vec3d& n : mesh.normals) n = map.outward(n);
+    for (Vec3d& n : mesh.normals) n = outward(map, n);
   }
 
   // A primitive that the resting node's map would turn into another kind.

@@ -104,4 +104,22 @@ TEST_CASE("resting nodes: a mirror keeps fronts in front") {
   CHECK(front(v[0], v[1], v[2]) > 0);
 }
 
+TEST_CASE("resting nodes: normals stay numbers of a scene where a node scales beyond all measure") {
+  const double scale = GENERATE(1e-63, 1.0, 1e63);
+  SceneDescription scene;
+  scene.materials.resize(1);
+  const NodeIndex node = add_node(scene, kWorld, scaling({scale, scale, scale}));
+  TriangleMesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.normals = {{0, 0, 1}, {0, 0.6, 0.8}, {0, 0, 0}};
+  const TriangleCorners corners{.position = {0, 1, 2}, .normal = {0, 1, 2}, .texture_point = {}};
+  add_mesh(scene, mesh, {&corners, 1});
+  scene.nodes.push_back(node);
+  const TriangleMesh still = without_resting_nodes(scene).meshes[0];
+  CHECK(still.positions[1].x == scale);
+  CHECK(close(still.normals[0], {0, 0, 1}));
+  CHECK(close(still.normals[1], {0, 0.6, 0.8}));
+  CHECK(still.normals[2] == Vec3d(0, 0, 0));
+}
+
 }  // namespace pprt::resting_nodes_test
