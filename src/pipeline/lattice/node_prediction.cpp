@@ -60,14 +60,17 @@ Prediction NodePredictor::predict_on(std::uint32_t seen, const LatticeNode& node
   }
   found.is_all = lights_.of(seen).is_all;
   std::uint8_t lights = around[0].lights();
-  Surroundings same;
-  for (std::size_t i = 0; i < around.count(); ++i)
-    if (around[i].surface() == seen) same.add(around[i], around.node(i));
-  if (same.count() > 0) {
+  ColorSums same;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < around.count(); ++i) {
+    if (around[i].surface() != seen) continue;
+    if (count++ == 0) lights = around[i].lights();
+    same.add(around[i].channels());
+  }
+  if (count > 0) {
     found.variance = same.variance();
-    found.basis = basis_of(same.count(), around.count());
+    found.basis = basis_of(count, around.count());
     found.on_surface = same.mean();
-    lights = same[0].lights();
   } else if (const SurfaceSamples::Known* near = surfaces_.nearest(node, seen)) {
     found.basis = Basis::kNearSample;
     found.on_surface = color_of(*near);

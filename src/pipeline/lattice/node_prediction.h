@@ -21,6 +21,25 @@
 
 namespace pprt {
 
+// Sums of some colours: as they are, and on the display scale.
+struct ColorSums {
+  float count = 0;
+  float4 all{}, shown{}, squares{};
+
+  void add(const float4& channels) {
+    const float4 on_scale = on_display(channels);
+    count += 1, all += channels, shown += on_scale, squares += on_scale * on_scale;
+  }
+  float4 mean() const { return all * (1 / count); }
+
+  // Mean over the channels of the variance of the colours on the display scale.
+  float variance() const {
+    const float each = 1 / count;
+    const float4 mean = shown * each, variances = squares * each - mean * mean;
+    return std::max((variances[0] + variances[1] + variances[2]) * (1.0F / 3), 0.0F);
+  }
+};
+
 // Some nodes around a point, at most eight, and what they have in common.
 class Surroundings {
  public:
@@ -28,15 +47,14 @@ class Surroundings {
     nodes_[count_] = node;
     values_[count_++] = value;
     differ_ |= value.surface() ^ values_[0].surface();
-    const float4 channels = value.channels(), shown = on_display(channels);
-    sum_ += channels, shown_ += shown, squares_ += shown * shown;
+    sums_.add(value.channels());
   }
 
   // Adds the middle of a side of a square whose corners are values 0 to 3. The side's ends are a and b.
   void add_middle(const NodeValue& value, const LatticeNode& node, std::size_t a, std::size_t b) {
     const float4 all =
         (values_[0].channels() + values_[1].channels()) + (values_[2].channels() + values_[3].channels());
-    sum_ += all * 0.25F - (values_[a].channels() + values_[b].channels()) * 0.5F;
+    sums_.all += all * 0.25F - (values_[a].channels() + values_[b].channels()) * 0.5F;
     add(value, node);
   }
 
@@ -67,22 +85,15 @@ class Surroundings {
   bool are_on(std::uint32_t surface) const { return differ_ == 0 && values_[0].surface() == surface; }
 
   // Mean colour, exact at the centre of what changes evenly: a middle counts by how it differs from its ends.
-  float4 mean() const { return sum_ * (1.0F / static_cast<float>(count_)); }
-
-  // Mean over the channels of the variance of the colours on the display scale.
-  float variance() const {
-    const float each = 1.0F / static_cast<float>(count_);
-    const float4 mean = shown_ * each, variances = squares_ * each - mean * mean;
-    return std::max((variances[0] + variances[1] + variances[2]) * (1.0F / 3), 0.0F);
-  }
+  float4 mean() const { return sums_.mean(); }
+  float variance() const { return sums_.variance(); }
 
  private:
   std::array<NodeValue, 8> values_;   // the first count_ of them
   std::array<LatticeNode, 8> nodes_;  // the same
   std::size_t count_ = 0;
   std::uint32_t differ_ = 0;  // bits in which the surfaces do
-  float4 sum_{};  // of the colours, less what even change makes of the middles' distance from the centre
-  float4 shown_{}, squares_{};  // sums of the colours on the display scale, and of their squares
+  ColorSums sums_;            // less what even change makes of the middles' distance from the centre
 };
 
 struct Prediction {
