@@ -209,6 +209,26 @@ TEST_CASE("stretched balls are told by their number, where they become triangles
   }
 }
 
+TEST_CASE("stretched balls become as many triangles as asked for, like the others") {
+  const Folder folder;
+  write_whole_file(folder.file("a.aff"),
+                   "fm 0 0 0 1 1 1 0 0 0 0 0 0 s 3 0 0 1\nxs 1 2 1 0 0 1 0 0 5 0 { s 0 0 0 1 }\n");
+  const auto triangles = [&](std::optional<int> tessellate, std::optional<double> chord_error) {
+    const Told told;
+    convert({.input = folder.file("a.aff"),
+             .output = folder.file("b.obj"),
+             .tessellate = tessellate,
+             .chord_error = chord_error});
+    std::istringstream lines(read_whole_file(folder.file("b.obj")));
+    int faces = 0;
+    for (std::string line; std::getline(lines, line);) faces += line.starts_with("f ") ? 1 : 0;
+    return faces;
+  };
+  CHECK(triangles({}, {}) == 2 * 432);
+  CHECK(triangles(2, {}) == 2 * 48);
+  CHECK(triangles({}, 2) == 2 * 12);  // more than the radius: faces of a cube
+}
+
 TEST_CASE("a mesh of a moving scene has its materials' colours and its stretched balls") {
   const Folder folder;
   write_moving_scene(folder);

@@ -150,6 +150,35 @@ TEST_CASE("exchange: seed peers are mutual, and no rank is its own") {
   }
 }
 
+TEST_CASE("exchange: seed peers are those of whom one has a corner that the other's triangles need") {
+  const Partition partition = random_growths(TileGrid(400, 300, 10), 20, 5);
+  const SeedPattern seeds = seed_pattern(400, 300, 1);
+  std::vector<std::set<int>> expected(static_cast<std::size_t>(partition.ranks));
+  for (const MeshTriangle& triangle : seeds.triangles) {
+    const Vec2d& center = triangle.circumcircle.center;
+    std::set<int> meeting;
+    for (std::size_t tile = 0; tile < partition.owner.size(); ++tile) {
+      const PixelRect pixels = partition.grid.pixels(static_cast<int>(tile));
+      const Vec2d nearest(std::clamp<double>(center.x, pixels.x0, pixels.x1),
+                          std::clamp<double>(center.y, pixels.y0, pixels.y1));
+      const Vec2d way = center - nearest;
+      if (way.dot(way) <= triangle.circumcircle.radius_squared) meeting.insert(partition.owner[tile]);
+    }
+    for (const std::uint32_t seed : triangle.corners) {
+      const int owner = partition.owner_at(seeds.points[seed].x, seeds.points[seed].y);
+      for (const int rank : meeting) {
+        if (rank == owner) continue;
+        expected[static_cast<std::size_t>(rank)].insert(owner);
+        expected[static_cast<std::size_t>(owner)].insert(rank);
+      }
+    }
+  }
+  for (int rank = 0; rank < partition.ranks; ++rank) {
+    const std::set<int>& peers = expected[static_cast<std::size_t>(rank)];
+    CHECK(seed_peers_of(partition, rank, seeds) == std::vector<int>(peers.begin(), peers.end()));
+  }
+}
+
 TEST_CASE("exchange: a sample is sent to a rank once") {
   ExchangingRanks run(random_rectangles(TileGrid(128, 96, 8), 5, 3), 3);
   run.seed();

@@ -95,6 +95,13 @@ TEST_CASE("cast choice: a coarse picture that moved far and hides much reinserts
   CHECK(limits_of(e, {5, 0, 0.5}).share == Approx(0.5));
 }
 
+TEST_CASE("cast choice: samples have moved far beyond two pixels and a half, not at that") {
+  CastEvidence e = evidence(0.01);
+  e.hidden = 4;  // of 20
+  CHECK(limits_of(e, {2.5, 0, 0.5}).share == Approx(0.5));
+  CHECK(limits_of(e, {2.501, 0, 0.5}).share == Approx(0.2));
+}
+
 TEST_CASE(
     "cast choice: nothing is carried where a cast sample that proves right is priced as high as a fresh "
     "one") {

@@ -319,6 +319,25 @@ TEST_CASE("casting: a sample goes where its object is, and is dropped where it i
   CHECK(cast().samples.size() == 3);
 }
 
+TEST_CASE("casting: a sample that went with its object is cast on from there") {
+  const std::vector<Sample> samples = {look(straight(), 20, 10.5, 1)};
+  CastSettings settings{.method = CastMethod::kVerified};
+  settings.carry = [](RaySample& ray) {
+    ray.hit.x += 0.5F, ray.lights = {1, 1};
+    return Carried::kKept;
+  };
+  const auto cast = [&](const std::vector<Sample>& from, int frame) {
+    return cast_samples(from, Region::whole(kGrid), straight(), frame, settings).samples;
+  };
+  const std::vector<Sample> once = cast(samples, 2);
+  REQUIRE(once.size() == 1);
+  CHECK(once[0].ray.hit.x == samples[0].ray.hit.x + 0.5F);
+  CHECK(once[0].ray.lights.asked == 1);
+  const std::vector<Sample> twice = cast(once, 3);
+  REQUIRE(twice.size() == 1);
+  CHECK(twice[0].x - once[0].x == Approx(once[0].x - 20));
+}
+
 TEST_CASE("casting: of what is there no more only what would be in view counts as hidden") {
   const std::vector<Sample> samples = {look(straight(), 20, 10.5, 1), look(straight(), 44, 10.5, 1)};
   CastSettings settings{.method = CastMethod::kVerified};

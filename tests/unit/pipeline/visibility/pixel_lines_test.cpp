@@ -145,6 +145,22 @@ TEST_CASE("pixel lines: what hides two surfaces that hide each other is taken of
   for (const float share : five) CHECK(share == 0);
 }
 
+TEST_CASE("pixel lines: what hid a surface on the lines before is not counted again") {
+  const auto is_told = [](bool has_third) {
+    Pixel pixel;
+    pixel.add({{{-9, -9}, {9, -9}, {0, 9}}}, {1, 0, 0}, 0);  // all of it, the farthest
+    pixel.add({{{0.1, -1}, {0.2, -1}, {0.15, 5}}}, {2, 0, 0}, 1);
+    pixel.add({{{0.3, -1}, {0.4, -1}, {0.35, 5}}}, {3, 0, 0}, 2);
+    pixel.add({{{0.5, 0.5}, {0.6, 0.5}, {0.55, -1}}}, {3, 0, 0}, 2);                // in the upper half
+    if (has_third) pixel.add({{{0.5, 0.5}, {0.6, 0.5}, {0.55, 2}}}, {4, 0, 0}, 3);  // in the lower half
+    pixel.add({{{0.8, -1}, {0.9, -1}, {0.85, 5}}}, {5, 0, 0}, 4);
+    std::vector<float> found(5, 0);
+    return shares_on_lines(pixel.shapes, true, 16, found);
+  };
+  CHECK(is_told(false));
+  CHECK_FALSE(is_told(true));  // in the lower half four hide the first
+}
+
 TEST_CASE("pixel lines: facets that pass through each other are divided where they do") {
   Pixel pixel;
   pixel.add_half({1, 0, 0}, {1, 1, 0});  // nearer where x > .3 + .2 y
