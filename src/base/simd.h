@@ -3,9 +3,13 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
+#if defined(__SSE__)
+#include <xmmintrin.h>
+#endif
 
 #include "base/vector.h"
 
@@ -57,6 +61,17 @@ Lanes max(const Lanes& a, const Lanes& b) {
 template <class Lanes>
 Lanes abs(const Lanes& a) {
   return a < 0 ? -a : a;
+}
+
+// Four roots at once, correctly rounded: the compiler would take them one by one.
+inline float4 square_root(const float4& v) {
+#if defined(__SSE__)
+  return _mm_sqrt_ps(v);
+#else
+  float4 root;
+  for (int i = 0; i < kLanes; ++i) root[i] = std::sqrt(v[i]);
+  return root;
+#endif
 }
 
 // Returns red, green, blue and 0. Reads 16 bytes: four more bytes must follow the colour in memory.

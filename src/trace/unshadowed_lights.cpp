@@ -79,12 +79,6 @@ float4 to_float(const double4& v) {
   return __builtin_convertvector(v, float4);
 }
 
-float4 inverse_root(const float4& v) {
-  float4 root;
-  for (std::size_t i = 0; i < kLanes; ++i) root[i] = std::sqrt(v[i]);
-  return 1 / root;
-}
-
 float4 channels(const Color& c) {
   return float4{c.x, c.y, c.z, 0};
 }
@@ -180,7 +174,7 @@ void UnshadowedLights::at(const Pose& pose, std::uint32_t primitive, const Camer
   for (std::size_t first = 0; first < static_cast<std::size_t>(count_); first += kLanes) {
     const Four& four = lights_[first / kLanes];
     const float4 dx = to_float(four.x - at.x), dy = to_float(four.y - at.y), dz = to_float(four.z - at.z);
-    const float4 inverse = inverse_root(dx * dx + dy * dy + dz * dz);
+    const float4 inverse = 1 / square_root(dx * dx + dy * dy + dz * dz);
     const float4 cosines = max((dx * n.x + dy * n.y + dz * n.z) * inverse, float4{});
     for (std::size_t i = 0; i < kLanes; ++i) light.each[first + i] = four.colors[i] * diffuse * cosines[i];
     if (!shines) continue;

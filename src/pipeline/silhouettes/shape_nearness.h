@@ -33,9 +33,9 @@ inline float square_root(float v) {
   return std::sqrt(v);
 }
 inline PerPoint square_root(const PerPoint& v) {
-  PerPoint root;
-  for (int i = 0; i < kPoints; ++i) root[i] = std::sqrt(v[i]);
-  return root;
+  const float4 low = square_root(float4(__builtin_shufflevector(v, v, 0, 1, 2, 3)));
+  const float4 high = square_root(float4(__builtin_shufflevector(v, v, 4, 5, 6, 7)));
+  return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
 }
 
 // Returns the nearness of a shape (image_shape.h); 0 where the shape is not seen.
