@@ -284,7 +284,7 @@ void LatticeRefiner::start(const Pass& pass) {
 // does what it costs to see. So seeing may take the more time, the more of the error it takes away. A picture
 // that begins without an estimate of its samples gets all: a still without their number, a first frame.
 void LatticeRefiner::choose_fineness() {
-  constexpr double kFew = 0.07, kEnough = 0.4;  // samples a pixel
+  constexpr double kFew = 0.1, kEnough = 0.4;  // samples a pixel
   // Shares of the time, and their factor where the picture before was seen, too: a change flickers.
   constexpr double kMostShare = 0.9, kSeenAgain = 1.1;
   if (expected_ == 0) {
