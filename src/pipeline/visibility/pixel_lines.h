@@ -16,7 +16,7 @@ struct ShapeInPixel {
   std::uint32_t owner;  // the primitive, by a number of its own
 };
 
-// Bounds of a shape's nearness in a pixel. Of a quadric's little is known.
+// Bounds a shape's nearness in a pixel; a quadric's by 0 and infinity.
 struct Depths {
   float least, most;
 };
