@@ -201,12 +201,24 @@ void ModelBuilder::add(Light light, const ModelSpace& space) {
   scene_.light_nodes.push_back({.node = space.node});
 }
 
-// Gives the camera a track in the world where its node moves.
+// Gives the camera a track in the world where its node moves. While its nodes flatten it, it looks as it does
+// at the start.
 void ModelBuilder::move_camera() {
   if (camera_space_.node == 0) return;
-  const auto view_at = [&](double time) {
+  const auto placed_at = [&](double time) {
     View view = *scene_.view;
     aim(view, placements_at(scene_.movement, time)[camera_space_.node].to_parent * camera_space_.map);
+    return view;
+  };
+  const View start = placed_at(start_time(scene_.movement));
+  if (!is_usable(start)) {
+    notes_.push_back("the camera '" + printable(camera_.name) + "' is flattened by its nodes: left out");
+    scene_.view.reset();
+    return;
+  }
+  const auto view_at = [&](double time) {
+    View view = placed_at(time);
+    if (!is_usable(view)) view.at = view.from + (start.at - start.from), view.up = start.up;
     return view;
   };
   std::vector<double> times;
@@ -218,7 +230,7 @@ void ModelBuilder::move_camera() {
   }
   if (times.empty()) times.push_back(0);
   MotionTrack track = camera_track(std::move(times), view_at);
-  scene_.view = view_at(start_time(scene_.movement));
+  scene_.view = start;
   scene_.movement.tracks[kCameraTrack] = std::move(track);
 }
 

@@ -99,6 +99,37 @@ TEST_CASE("model builder: what moves has a node of its own, in the space of the 
   CHECK((place_at(2) - Vec3d(18, 2, 0)).length() < 1e-9);
 }
 
+TEST_CASE("model builder: a camera that its nodes flatten is left out, or looks as it did at the start") {
+  const auto built = [](const Vec3d& first, const Vec3d& last) {
+    ModelBuilder builder("model");
+    MotionTrack track;
+    track.scale = {{0, first}, {2, last}};
+    make_straight(track.scale);
+    note_order(track);
+    builder.scene().movement.tracks["moves"] = track;
+    builder.add(ModelCamera{.name = "eye", .half_height = 0.5, .from = {1, 2, 3}},
+                builder.space_of({}, Affine(), "moves"));
+    return std::move(builder).finish({});
+  };
+  const ReadMesh flat = built({1, 0, 1}, {1, 1, 1});  // up has no direction
+  CHECK_FALSE(flat.scene.view);
+  CHECK_FALSE(flat.scene.movement.tracks.contains(kCameraTrack));
+  CHECK(flat.notes == std::vector<std::string>{"the camera 'eye' is flattened by its nodes: left out"});
+  const ReadMesh passing = built({1, 1, 1}, {1, 1, -1});  // at 1 it has no direction
+  CHECK(passing.notes.empty());
+  REQUIRE(passing.scene.view);
+  CHECK(passing.scene.view->from == Vec3d(1, 2, 3));
+  const MotionTrack& track = passing.scene.movement.tracks.at(kCameraTrack);
+  for (const RotationKey& key : track.rotation) {
+    CAPTURE(key.time, key.degrees);
+    CHECK((std::isfinite(key.degrees) && std::isfinite(key.axis.length())));
+  }
+  const auto turned_at = [&](double time) { return values_at(track, time).rotation.z.z; };
+  CHECK(turned_at(0) == Approx(1));
+  CHECK(turned_at(0.9) == Approx(1));
+  CHECK(turned_at(2) == Approx(-1));
+}
+
 TEST_CASE("model animation: Assimp's keys are in ticks, and turns by half their quaternions' angle") {
   aiScene scene;
   auto wheel = channel("wheel");
