@@ -14,16 +14,49 @@ struct LitPoint {
   Vec3d position{0, 0, 0}, normal{0, 0, 1};
 };
 
-// `direction`: unit. Where a ray passes beside, its point nearest the middle is moved onto the surface.
+// Where a ray passes beside, its point nearest the middle is moved onto the surface. `direction`: unit, as in
+// all that follow.
 template <class Record>
-LitPoint meet(const Record& record, VisibleFaces faces, const Vec3d& from, const Vec3d& direction) {
-  const Crossings crossed = crossings(record, from, direction);
-  const bool is_outer = crossed.front == crossed.front && faces != VisibleFaces::kBack;  // not NaN
-  double t = is_outer ? crossed.front : crossed.back;
-  const bool is_beside = !(t == t);
-  if (is_beside) t = (bounds(record).center() - from).dot(direction);
+LitPoint beside(const Record& record, const Vec3d& from, const Vec3d& direction) {
+  const double t = (bounds(record).center() - from).dot(direction);
   const SurfacePoint point = on_surface(record, from + direction * t);
-  return {point.position, is_outer || is_beside ? point.normal : -point.normal};
+  return {point.position, point.normal};
+}
+
+LitPoint meet(const SphereRecord& sphere, VisibleFaces faces, const Vec3d& from, const Vec3d& direction) {
+  const Vec3d from_center = from - sphere.center;
+  const Vec3d middle = from_center - direction * from_center.dot(direction);
+  const double inside = sphere.radius * sphere.radius - middle.dot(middle);
+  if (!(inside >= 0)) return beside(sphere, from, direction);
+  const double sign = faces == VisibleFaces::kBack ? -1 : 1;
+  const Vec3d outwards = (middle - direction * (sign * std::sqrt(inside))) * (1 / sphere.radius);
+  return {sphere.center + outwards * sphere.radius, outwards * sign};
+}
+
+// The equation of crossings(), along the axis and across it: with a unit axis the normal needs no root.
+LitPoint meet(const ConeRecord& cone, const LitCone& shape, VisibleFaces faces, const Vec3d& from,
+              const Vec3d& direction) {
+  const Vec3d from_base = from - cone.base;
+  const Vec3d middle = from_base - direction * from_base.dot(direction);
+  const double along = direction.dot(shape.axis), height = middle.dot(shape.axis);
+  const Vec3d across = direction - shape.axis * along, aside = middle - shape.axis * height;
+  const double growth = shape.slope * along, radius = cone.base_radius + shape.slope * height;
+  const double a = across.dot(across) - growth * growth, b = across.dot(aside) - radius * growth,
+               c = aside.dot(aside) - radius * radius;
+  const double root = std::sqrt(std::max(b * b - a * c, 0.0));
+  const double sum = b >= 0 ? -b - root : -b + root, first = sum / a, second = c / sum;
+  const double entered = b >= 0 ? first : second, left = b >= 0 ? second : first;
+  const auto is_there = [&](double t) {
+    const double h = height + t * along;
+    return h >= 0 && h <= shape.length;
+  };
+  const bool is_outer = faces != VisibleFaces::kBack && is_there(entered);
+  const double t = is_outer ? entered : left, radius_there = radius + t * growth;
+  if (!(b * b >= a * c) || !(is_outer || is_there(left)) || !(radius_there > 0))
+    return beside(cone, from, direction);
+  const Vec3d radial = (aside + across * t) * (1 / radius_there);
+  const Vec3d outwards = (radial - shape.axis * shape.slope) * shape.per_slant;
+  return {cone.base + middle + direction * t, is_outer ? outwards : -outwards};
 }
 
 Vec3d turned_against(const Vec3d& normal, const Vec3d& direction) {
@@ -53,16 +86,21 @@ LitPoint meet_smooth(const Mesh& mesh, std::uint32_t first, std::uint32_t count,
           normal.dot(against) < 0 ? -normal : normal};
 }
 
-// `first`, `count`: the primitive's own ones in the part.
-LitPoint meet(const ScenePart& part, std::uint32_t first, std::uint32_t count, const Vec3d& from,
-              const Vec3d& direction) {
+// `first`, `count`: the primitive's own ones in the part. `cone`: if it is one.
+LitPoint meet(const ScenePart& part, std::uint32_t first, std::uint32_t count, const LitCone& cone,
+              const Vec3d& from, const Vec3d& direction) {
+  if (const auto* cones = std::get_if<std::vector<ConeRecord>>(&part.shape))
+    return meet((*cones)[first], cone, part.faces, from, direction);
   if (const auto* spheres = std::get_if<std::vector<SphereRecord>>(&part.shape))
     return meet((*spheres)[first], part.faces, from, direction);
-  if (const auto* cones = std::get_if<std::vector<ConeRecord>>(&part.shape))
-    return meet((*cones)[first], part.faces, from, direction);
   const Mesh& mesh = *std::get_if<Mesh>(&part.shape);
   return part.smooth ? meet_smooth(mesh, first, count, from, direction)
                      : meet_plane(mesh, first, from, direction);
+}
+
+LitCone lit_cone(const ConeRecord& cone) {
+  const double length = std::sqrt(cone.axis.dot(cone.axis)), slope = cone.radius_change / length;
+  return {cone.axis * (1 / length), length, slope, 1 / std::sqrt(1 + slope * slope)};
 }
 
 // Returns the cosine from which a highlight is brighter than can be seen.
@@ -127,7 +165,8 @@ void UnshadowedLights::prepare(const Pose& pose) {
 const UnshadowedLights::Place& UnshadowedLights::place_of(const Pose& pose, std::uint32_t primitive) {
   Place& kept = kept_[primitive % kept_.size()];
   if (kept.primitive == primitive) return kept;
-  kept = {primitive};
+  kept = {};
+  kept.primitive = primitive;
   const CompiledScene::Impl& scene = pose.scene();
   if (primitive - 1 >= scene.part_of_primitive.size()) return kept;
   const std::uint32_t number = scene.part_of_primitive[primitive - 1];
@@ -137,6 +176,8 @@ const UnshadowedLights::Place& UnshadowedLights::place_of(const Pose& pose, std:
   if (first == end) return kept;
   kept.part = &part, kept.first = static_cast<std::uint32_t>(first - part.primitives.begin());
   kept.count = static_cast<std::uint32_t>(end - first);
+  if (const auto* cones = std::get_if<std::vector<ConeRecord>>(&part.shape))
+    kept.cone = lit_cone((*cones)[kept.first]);
   const ShadingMaterial& material = scene.materials[part.materials[kept.first]];
   if (scene.effects.has(Effect::kHighlights) && material.shine > 0)
     kept.least_cosine = least_cosine_of(material.shine);
@@ -156,9 +197,9 @@ void UnshadowedLights::at(const Pose& pose, std::uint32_t primitive, const Camer
   const BodyPlace* body = pose.place_of(part);
   LitPoint point;
   if (body == nullptr) {
-    point = meet(part, place.first, place.count, camera.eye, along);
+    point = meet(part, place.first, place.count, place.cone, camera.eye, along);
   } else {
-    point = meet(part, place.first, place.count, body->from_world.point(camera.eye),
+    point = meet(part, place.first, place.count, place.cone, body->from_world.point(camera.eye),
                  unit(body->from_world.vector(along)));
     point.position = body->to_world.point(point.position);
     point.normal = unit(body->gradient(point.normal));

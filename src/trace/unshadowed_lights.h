@@ -18,6 +18,14 @@ class Pose;
 // for all of its primitives. Those with pictures count as not lit, and so do faces that coincide.
 std::vector<LitSurface> lit_surfaces(const CompiledScene::Impl& scene);
 
+// What is known of a cone before a ray meets it.
+struct LitCone {
+  Vec3d axis{0, 0, 1};   // unit
+  double length = 0;     // of the cone
+  double slope = 0;      // change of the radius along it
+  double per_slant = 1;  // 1 / sqrt(1 + slope^2)
+};
+
 // Evaluates the kernel's direct light, of all lights at once. Keeps what it has found of the last primitives.
 class UnshadowedLights {
  public:
@@ -38,6 +46,7 @@ class UnshadowedLights {
     std::uint32_t primitive = 0;         // 0: none is kept here
     const ScenePart* part = nullptr;     // null: the primitive is not in the scene
     std::uint32_t first = 0, count = 0;  // its own ones in the part
+    LitCone cone;                        // if it is one
     float least_cosine = 2;              // from which a highlight counts; above 1: none does
   };
 
