@@ -224,6 +224,9 @@ GltfNumbers numbers(const tinygltf::Model& model, int accessor) {
                 .type = from.componentType,
                 .normalized = from.normalized});
   } else {
+    constexpr std::size_t kMost = std::size_t{1} << 25;  // a quarter of a gigabyte
+    if (from.count > kMost / result.components)
+      throw std::runtime_error("it has too many numbers without data");
     result.values.resize(from.count * result.components, 0);
   }
   if (from.sparse.isSparse) replace_sparse(model, from, result);

@@ -482,6 +482,8 @@ TEST_CASE("gltf: numbers that are not there, and packed ones, are refused") {
   };
   CHECK(with("/accessors/0/count", 1000) == "it has numbers beyond the end of their buffer");
   CHECK(with("/accessors/0/bufferView", 99) == "it names a part of a buffer that is not there");
+  const json no_data = {{"componentType", 5126}, {"count", 4294967295U}, {"type", "VEC3"}};
+  CHECK(with("/accessors/0", no_data) == "it has too many numbers without data");
   CHECK(with("/bufferViews/0/byteLength", 4000) == "a part of a buffer lies beyond its end");
   CHECK(with("/nodes/0/mesh", 7) == "it names a mesh that is not there");
   CHECK(with("/meshes/0/primitives/0/material", 7) == "it names a material that is not there");
