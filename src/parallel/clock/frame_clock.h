@@ -40,6 +40,8 @@ class FrameClock {
   // Begins a packet; ranks exchange messages after each. `samples`: count in the region so far, all of which
   // reconstruction will have to deal with.
   virtual void begin_packet(std::uint64_t samples) = 0;
+
+  // To be asked after each sample. Once over a packet stays so.
   virtual bool packet_over() = 0;
 
   // With a rate: whether the rest of the frame's time is needed for what follows sampling. Without a rate:

@@ -65,7 +65,8 @@ void WallClock::begin_packet(std::uint64_t samples) {
 }
 
 bool WallClock::packet_over() {
-  if (left_in_packet_-- == 0) return true;
+  if (left_in_packet_ == 0) return true;
+  --left_in_packet_;
   return (left_in_packet_ & 7) == 0 && sampling_over();
 }
 

@@ -39,6 +39,12 @@ std::uint64_t FrameGoal::sample_share(const RankSampling& sampler) const {
   return (stop_.samples * sampler.region().pixel_count() + image_pixels_ - 1) / image_pixels_;
 }
 
+std::size_t FrameGoal::samples_left(const RankSampling& sampler) const {
+  if (stop_.samples == 0) return kAnyNumber;
+  const std::uint64_t share = sample_share(sampler);
+  return share > sampler.in_region() ? share - sampler.in_region() : 0;
+}
+
 // The rule that is nearest ends the frame.
 SamplingProgress FrameGoal::progress(const RankSampling& sampler, const FrameClock& clock) const {
   const auto samples = static_cast<double>(sampler.in_region());

@@ -1,7 +1,9 @@
 // When a frame without a rate is good enough, on this rank and on all others.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -19,6 +21,8 @@ struct SamplingProgress {
   double samples_per_pixel = 0;      // of the rank's region
 };
 
+inline constexpr std::size_t kAnyNumber = std::numeric_limits<std::size_t>::max();  // of samples
+
 // Every bundle says whether its sender has reached its goal. The frame ends when all ranks have.
 class FrameGoal {
  public:
@@ -31,6 +35,9 @@ class FrameGoal {
   // Whether a stop rule is reached in this rank's region, or an RMSE in the whole picture. A rank takes its
   // pixels' share of a number of samples. May reconstruct `picture`, to find out how good it is.
   bool is_reached(RankSampling& sampler, PictureRefresh& picture, FrameClock& clock);
+
+  // Returns how many samples this rank still takes of those asked for; kAnyNumber without such a goal.
+  std::size_t samples_left(const RankSampling& sampler) const;
 
   SamplingProgress progress(const RankSampling& sampler, const FrameClock& clock) const;
 

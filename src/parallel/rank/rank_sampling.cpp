@@ -61,25 +61,33 @@ Sample RankSampling::trace(const Vec2d& point) {
   return sample;
 }
 
-bool RankSampling::is_full() const {
-  return in_region_ >= kMostSamplesPerPixel * region().pixel_count();
+std::size_t RankSampling::room() const {
+  const std::size_t most = kMostSamplesPerPixel * region().pixel_count();
+  return most - std::min<std::size_t>(in_region_, most);
 }
 
-bool RankSampling::refine(CastEvidence* evidence) {
+bool RankSampling::refine(CastEvidence* evidence, std::size_t most) {
   if (is_full()) return false;
-  const std::optional<Vec2d> point = sampler_->next_point();
-  if (!point) return false;
-  const Sample sample = trace(*point);
-  if (evidence != nullptr) {
-    const PictureGuess guess = sampler_->guess(sample.ray.primitive);
-    ++evidence->fresh;
-    evidence->fresh_error += guess.area * display_error(sample.ray.color, guess.color);
-    evidence->fresh_area += guess.area;
-    evidence->fresh_rays += sample.ray.rays;
+  const std::size_t wanted = evidence != nullptr ? 1 : std::min(most, room());
+  const std::span<const Vec2d> points = sampler_->next_points(wanted);
+  if (points.empty()) return false;
+  traced_.clear();
+  while (traced_.size() < points.size() && (traced_.empty() || !clock_.packet_over()))
+    traced_.push_back(trace(points[traced_.size()]));
+  if (evidence != nullptr) note(traced_.front(), *evidence);
+  for (const Sample& sample : traced_) {
+    insert(sample, rank_, work_.own);
+    ++(sample.frame == tracer_.frame_number() ? counts_.traced : counts_.cast);
   }
-  insert(sample, rank_, work_.own);
-  ++(sample.frame == tracer_.frame_number() ? counts_.traced : counts_.cast);
   return true;
+}
+
+void RankSampling::note(const Sample& sample, CastEvidence& evidence) const {
+  const PictureGuess guess = sampler_->guess(sample.ray.primitive);
+  ++evidence.fresh;
+  evidence.fresh_error += guess.area * display_error(sample.ray.color, guess.color);
+  evidence.fresh_area += guess.area;
+  evidence.fresh_rays += sample.ray.rays;
 }
 
 void RankSampling::reinsert(const Sample& sample) {

@@ -51,9 +51,10 @@ class RankSampling {
   // Traces what nothing can stand in for, whatever time is left: without it parts of the region are black.
   void trace_missing_base();
 
-  // Traces one sample where it is wanted most. False when nothing is, or when the region is full. Unless
-  // null, `evidence` learns how far the picture at that point was from the sample.
-  bool refine(CastEvidence* evidence);
+  // Traces samples where they are wanted most: `most` or fewer, until the packet is over. False when nothing
+  // is wanted, or when the region is full. Unless null, `evidence` learns how far the picture at the point of
+  // one sample was from it.
+  bool refine(CastEvidence* evidence, std::size_t most = 1);
 
   // Inserts cast samples, which this rank owns and announces from now on.
   void reinsert(const Sample& sample);
@@ -68,7 +69,7 @@ class RankSampling {
   void insert_late(std::span<const Sample> samples);
 
   // Whether further samples would serve nothing.
-  bool is_full() const;
+  bool is_full() const { return room() == 0; }
 
   // Hint: the frame will end with `factor` times the current samples.
   void expect_growth(double factor) { sampler_->expect_growth(factor); }
@@ -96,6 +97,8 @@ class RankSampling {
 
  private:
   bool insert(const Sample& sample, int from, Work work);
+  std::size_t room() const;  // for samples that still serve something
+  void note(const Sample& sample, CastEvidence& evidence) const;
   Sample trace(const Vec2d& point);
   void note_reinserted(const Sample& sample, bool is_new);
   void region_changed();
@@ -111,6 +114,7 @@ class RankSampling {
   std::unique_ptr<SampleExchange> exchange_;
   std::uint64_t in_region_ = 0;
   SampleCounts counts_;
+  std::vector<Sample> traced_;  // and not yet inserted
 };
 
 }  // namespace pprt

@@ -108,7 +108,7 @@ void Worker::begin_packet(const FrameOrder& order, int round) {
 Worker::Packet Worker::sample_packet(bool has_rate) {
   Packet packet;
   while (!packet.idle && !clock_->packet_over()) {
-    packet.idle = (!has_rate && has_reached_goal()) || !sample_once();
+    packet.idle = (!has_rate && has_reached_goal()) || !sample_some(has_rate);
     packet.traced = packet.traced || !packet.idle;
   }
   return packet;
@@ -126,12 +126,21 @@ void Worker::exchange_and_set_goal(bool is_done) {
 }
 
 // Anchors come first, but not while evidence is taken. False when there is nothing to sample.
-bool Worker::sample_once() {
+bool Worker::sample_some(bool has_rate) {
   if (sampler_.is_full() || clock_->is_fine_enough()) return false;
   const std::optional<Sample> anchor = takes_evidence_ ? std::nullopt : anchors_.next();
-  if (!anchor) return sampler_.refine(takes_evidence_ ? &reprojection_.evidence() : nullptr);
+  if (!anchor)
+    return sampler_.refine(takes_evidence_ ? &reprojection_.evidence() : nullptr,
+                           std::min(at_once(), has_rate ? kAnyNumber : goal_.samples_left(sampler_)));
   if (tracer_.is_visible(anchor->ray.hit, anchor->ray.at_infinity)) sampler_.reinsert(*anchor);
   return true;
+}
+
+// Returns how many samples are chosen together. They know nothing of each other, so in a small region they
+// are fewer.
+std::size_t Worker::at_once() const {
+  constexpr std::size_t kPixelsOfOne = 4096, kMost = 16;  // more find no better caches
+  return std::clamp<std::size_t>(sampler_.region().pixel_count() / kPixelsOfOne, 1, kMost);
 }
 
 void Worker::exchange_bundles(bool concerns_all) {

@@ -86,7 +86,8 @@ class Worker {
   void begin_packet(const FrameOrder& order, int round);
   Packet sample_packet(bool has_rate);
   bool has_reached_goal();
-  bool sample_once();
+  bool sample_some(bool has_rate);
+  std::size_t at_once() const;
   void exchange_and_set_goal(bool is_done);
   void exchange_bundles(bool concerns_all);
   void send_bundles(bool concerns_all);

@@ -106,17 +106,25 @@ void LatticeRefiner::forget_samples() {
   nodes_.clear();
   next_ = 0;
   std::fill(greatest_.begin(), greatest_.end(), kNotWanted);
-  has_wanted_ = false;
+  awaited_.clear();
+  arrived_ = 0;
 }
 
 // The region.
 
 // The nodes that the pass has not come to stay candidates, which a later one finds by `greatest_`.
 void LatticeRefiner::leave_nodes() {
-  for (; !pass_.takes_all && next_ < nodes_.size(); ++next_) {
-    NodeState& greatest = greatest_in(store_.tile_at(nodes_[next_]), level_ - 1);
-    greatest = std::max(greatest, store_.state(nodes_[next_]));
+  const auto leave = [this](const LatticeNode& node, std::size_t level) {
+    NodeState& greatest = greatest_in(store_.tile_at(node), level);
+    greatest = std::max(greatest, store_.state(node));
+  };
+  if (!pass_.takes_all) {
+    for (; next_ < nodes_.size(); ++next_) leave(nodes_[next_], level_ - 1);
+    for (std::size_t i = arrived_; i < awaited_.size(); ++i)
+      if (awaited_[i].area == 0) leave(awaited_[i].node, index_of(awaited_[i].level));
   }
+  awaited_.clear();
+  arrived_ = 0;
   nodes_.clear();
   next_ = 0;
 }
@@ -183,24 +191,36 @@ double LatticeRefiner::samples_left() const {
 
 // The order of nodes.
 
-std::optional<Vec2d> LatticeRefiner::next_point() {
+// Many at once, so that deciding and tracing each find their code and data in the caches. Nodes of one level
+// in a tile do not predict each other. Which ones come together does not depend on when sampling pauses.
+std::span<const Vec2d> LatticeRefiner::next_points(std::size_t most) {
+  awaited_.erase(awaited_.begin(),
+                 awaited_.begin() + static_cast<std::ptrdiff_t>(std::exchange(arrived_, 0)));
+  std::erase_if(awaited_, [this](const Wanted& at) { return !is_open(at.node, at.is_base); });
+  if (awaited_.empty())
+    while (awaited_.size() < most && choose_next(awaited_.empty())) awaited_.push_back(wanted_);
+  points_.clear();
+  for (const Wanted& at : awaited_) points_.push_back(point_of(at.node));
+  return std::span(points_).first(std::min(most, points_.size()));
+}
+
+// Chooses the next sample. `may_go_on`: to another level or tile. False if there is none.
+bool LatticeRefiner::choose_next(bool may_go_on) {
   for (;;) {
-    if (const std::optional<LatticeNode> node = next_surface()) return point_of(*node);
+    if (next_surface()) return true;
     if (next_ == nodes_.size()) {
-      if (!next_nodes()) return std::nullopt;
+      if (!may_go_on || !next_nodes()) return false;
       continue;
     }
     const LatticeNode node = nodes_[next_++];
     // By now the node may hold another region's sample, or its square may have gone.
-    if (store_.is_sampled(node) || !(pass_.takes_base ? own_.needs_base(node) : own_.owns(node))) continue;
+    if (!is_open(node, pass_.takes_base)) continue;
     wanted_.area = 0;
     if (pass_.takes_base) {
       wanted_.node = node, wanted_.is_base = true;
-    } else if (!is_wanted(node, kLatticeLevels[level_ - 1])) {
-      continue;
+      return true;
     }
-    has_wanted_ = true;
-    return point_of(node);
+    if (is_wanted(node, kLatticeLevels[level_ - 1])) return true;
   }
 }
 

@@ -72,13 +72,18 @@ class LatticeRefiner {
   // Returns those without a sample. Squares between them are black.
   std::vector<Vec2d> missing_base() const;
 
-  // Returns the image point of the next sample, pixels. It may lie up to eight pixels beyond the right and
-  // lower border. Empty when nothing is worth a sample.
-  std::optional<Vec2d> next_point();
+  // Returns the image points of the next samples, pixels: `most` or fewer, at least one. They may lie up to
+  // eight pixels beyond the right and lower border. Empty when nothing is worth a sample. Those that no
+  // sample is inserted for come again. Valid until the next call.
+  std::span<const Vec2d> next_points(std::size_t most);
+  std::optional<Vec2d> next_point() {
+    const std::span<const Vec2d> points = next_points(1);
+    return points.empty() ? std::nullopt : std::optional(points.front());
+  }
 
   // Takes in a sample. False if the lattice has no node at the point, or one that holds a sample. What was
-  // predicted for the last next_point() is compared with the sample taken there; of other samples less is
-  // learned.
+  // predicted at the last next_points() is compared with the samples taken there, if they come in this order.
+  // Of other samples less is learned.
   bool insert(const Vec2d& point, const RaySample& sample);
 
   std::size_t samples() const { return samples_; }  // other regions' included
@@ -123,7 +128,11 @@ class LatticeRefiner {
     double promised = 0;                // samples that its candidates were expected to lead to
   };
 
-  void insert_wanted(const RaySample& sample);
+  void insert_wanted(const Wanted& at, const RaySample& sample);
+  bool choose_next(bool may_go_on);
+  bool is_open(const LatticeNode& node, bool is_base) const {
+    return !store_.is_sampled(node) && (is_base ? own_.needs_base(node) : own_.owns(node));
+  }
   void forget_samples();
   void forget_visibility(const VisibilityBuffer::Fineness& fineness);
   void begin_square(const LatticeNode& corner);
@@ -154,7 +163,7 @@ class LatticeRefiner {
   void set_sample(const LatticeNode& node, const NodeValue& value);
   void look_for_unsampled();
   void look_for_unsampled(const LatticeNode& square, int tile);
-  std::optional<LatticeNode> next_surface();
+  bool next_surface();
   float worth_of_surface(const UnsampledSurface& surface);
   Surroundings base_corners(const LatticeNode& node);
   void make_candidates(const LatticeNode& node, const LatticeLevel& level, float worth_per_area);
@@ -199,8 +208,10 @@ class LatticeRefiner {
   std::vector<LatticeNode> nodes_;   // of the level in the tile
   std::size_t next_ = 0;
   std::vector<NodeState> greatest_;  // per tile and level: no candidate has a greater priority
-  Wanted wanted_;
-  bool has_wanted_ = false;  // next_point() has returned it
+  Wanted wanted_;                    // looked at last
+  std::vector<Wanted> awaited_;      // returned by next_points()
+  std::size_t arrived_ = 0;          // of them, from the front
+  std::vector<Vec2d> points_;        // of those awaited
 };
 
 }  // namespace pprt

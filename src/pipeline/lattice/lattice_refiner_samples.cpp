@@ -65,9 +65,7 @@ float LatticeRefiner::worth_of(const LatticeNode& node, const LatticeLevel& leve
 }
 
 // Takes in the sample of the wanted node.
-void LatticeRefiner::insert_wanted(const RaySample& sample) {
-  const Wanted& at = wanted_;
-  has_wanted_ = false;
+void LatticeRefiner::insert_wanted(const Wanted& at, const RaySample& sample) {
   const float4 seen{sample.color.x, sample.color.y, sample.color.z, 0};
   const auto rays = static_cast<float>(sample.rays);
   ++samples_, rays_ += sample.rays;
@@ -178,8 +176,8 @@ void LatticeRefiner::look_for_unsampled(const LatticeNode& square, int tile) {
   }
 }
 
-// Returns the next surface of the tile that is worth a sample in this pass. Keeps the others.
-std::optional<LatticeNode> LatticeRefiner::next_surface() {
+// Chooses the next surface of the tile that is worth a sample in this pass. Keeps the others.
+bool LatticeRefiner::next_surface() {
   while (!surfaces_wanted_.empty()) {
     UnsampledSurface surface = surfaces_wanted_.back();
     surfaces_wanted_.pop_back();
@@ -195,10 +193,9 @@ std::optional<LatticeNode> LatticeRefiner::next_surface() {
     wanted_.node = surface.node, wanted_.is_base = false, wanted_.area = surface.area;
     wanted_.predicted = predictor_.predict(surface.node, base_corners(surface.node));
     wanted_.predicted.variance = surface.variance, wanted_.predicted.basis = Basis::kNothing;
-    has_wanted_ = true;
-    return surface.node;
+    return true;
   }
-  return std::nullopt;
+  return false;
 }
 
 Surroundings LatticeRefiner::base_corners(const LatticeNode& node) {
@@ -221,8 +218,9 @@ float LatticeRefiner::worth_of_surface(const UnsampledSurface& surface) {
 bool LatticeRefiner::insert(const Vec2d& point, const RaySample& sample) {
   Wanted at;
   at.node = node_at(point);
-  if (has_wanted_ && wanted_.node == at.node) {
-    insert_wanted(sample);
+  if (arrived_ < awaited_.size() && awaited_[arrived_].node == at.node) {
+    if (store_.is_sampled(at.node)) return false;
+    insert_wanted(awaited_[arrived_++], sample);
     return true;
   }
   if (point_of(at.node) != point || !store_.has(at.node) || store_.is_sampled(at.node)) return false;
@@ -230,8 +228,7 @@ bool LatticeRefiner::insert(const Vec2d& point, const RaySample& sample) {
   const auto rays = static_cast<float>(sample.rays);
   if (is_base(at.node)) {
     at.is_base = true;
-    wanted_ = at;
-    insert_wanted(sample);
+    insert_wanted(at, sample);
     return true;
   }
   ++samples_, rays_ += sample.rays;

@@ -37,7 +37,7 @@ class LatticeSampler final : public PointSampler {
   void clear(bool keep_learned) override;
   std::vector<SeedPoint> seeds() const override;
   std::vector<Vec2d> missing_base() const override { return refiner_.missing_base(); }
-  std::optional<Vec2d> next_point() override { return refiner_.next_point(); }
+  std::span<const Vec2d> next_points(std::size_t most) override { return refiner_.next_points(most); }
   double footprint(const Vec2d& point) const override;
   bool insert(const Sample& sample) override;
   void expect_growth(double factor) override;

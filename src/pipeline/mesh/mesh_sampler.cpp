@@ -35,9 +35,10 @@ std::vector<SeedPoint> MeshSampler::seeds() const {
   return seeds;
 }
 
-std::optional<Vec2d> MeshSampler::next_point() {
-  wanted_ = mesh_.next_point();
-  return wanted_ ? std::optional(wanted_->point) : std::nullopt;
+// Each sample changes the triangles that the next one is chosen by.
+std::span<const Vec2d> MeshSampler::next_points(std::size_t most) {
+  wanted_ = most > 0 ? mesh_.next_point() : std::nullopt;
+  return wanted_ ? std::span<const Vec2d>(&wanted_->point, 1) : std::span<const Vec2d>();
 }
 
 PictureGuess MeshSampler::guess(std::uint32_t primitive) const {

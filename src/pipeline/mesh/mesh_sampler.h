@@ -27,7 +27,7 @@ class MeshSampler final : public Sampler {
 
   void clear(bool keep_learned) override;
   std::vector<SeedPoint> seeds() const override;
-  std::optional<Vec2d> next_point() override;
+  std::span<const Vec2d> next_points(std::size_t most) override;
   PictureGuess guess(std::uint32_t primitive) const override;
   bool insert(const Sample& sample) override { return mesh_.insert(sample); }
   void expect_growth(double factor) override { mesh_.expect_growth(factor); }

@@ -56,14 +56,19 @@ class Sampler {
   // without their samples.
   virtual std::vector<Vec2d> missing_base() const { return {}; }
 
-  // Returns the image point of the sample that is wanted most, pixels. Empty when none is worth its time. The
-  // same point is not returned again, whether a sample is inserted there or not.
-  virtual std::optional<Vec2d> next_point() = 0;
+  // Returns the image points of the samples that are wanted most, pixels: `most` or fewer, at least one.
+  // What is found at one changes nothing about the others. Empty when none is worth its time. Valid until the
+  // next call; points that no sample was inserted for may come again.
+  virtual std::span<const Vec2d> next_points(std::size_t most) = 0;
+  std::optional<Vec2d> next_point() {
+    const std::span<const Vec2d> points = next_points(1);
+    return points.empty() ? std::nullopt : std::optional(points.front());
+  }
 
   // Returns the side of the square of the image that a sample at this point stands for, pixels.
   virtual double footprint(const Vec2d& /*point*/) const { return 1; }
 
-  // Returns what the picture shows at the last next_point(), for a sample on this primitive. For samplers
+  // Returns what the picture shows at the last point returned, for a sample on this primitive. For samplers
   // that insert cast samples, whose worth is judged by it.
   virtual PictureGuess guess(std::uint32_t /*primitive*/) const { return {}; }
 

@@ -255,18 +255,26 @@ class SamplerPicture {
 
   // Makes the picture anew from so many samples, or fewer when nothing is worth more.
   Rendering render(double density) {
-    constexpr int kSamplesPerHint = 64;
+    constexpr std::size_t kSamplesPerHint = 64, kAtOnce = 16;
     const double begin = thread_cpu_seconds();
     const double samples = density * camera_.width * camera_.height;
     Sampler& sampler = *made_.sampler;
     sampler.clear(false);
     for (const SeedPoint& seed : seeds_) sampler.insert(trace(seed.at));
     bool is_exhausted = false;
-    for (int i = 0; static_cast<double>(sampler.size()) < samples && !is_exhausted; ++i) {
-      if (i % kSamplesPerHint == 0) sampler.expect_growth(samples / static_cast<double>(sampler.size()));
-      const std::optional<Vec2d> point = sampler.next_point();
-      is_exhausted = !point;
-      if (point) sampler.insert(trace(*point));
+    std::size_t next_hint = sampler.size();
+    std::vector<Sample> traced;
+    while (static_cast<double>(sampler.size()) < samples && !is_exhausted) {
+      if (sampler.size() >= next_hint) {
+        sampler.expect_growth(samples / static_cast<double>(sampler.size()));
+        next_hint = sampler.size() + kSamplesPerHint;
+      }
+      const double left = std::ceil(samples - static_cast<double>(sampler.size()));
+      traced.clear();
+      for (const Vec2d& point : sampler.next_points(std::min(kAtOnce, static_cast<std::size_t>(left))))
+        traced.push_back(trace(point));
+      for (const Sample& sample : traced) sampler.insert(sample);
+      is_exhausted = traced.empty();
     }
     sampler.paint({}, pixels_);
     Image image;

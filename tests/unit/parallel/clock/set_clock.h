@@ -21,7 +21,11 @@ class SetClock final : public FrameClock {
   void region_changed(std::size_t) override {}
 
   void begin_packet(std::uint64_t) override { left_ = samples_per_packet_, ++packets_; }
-  bool packet_over() override { return left_-- == 0; }
+  bool packet_over() override {
+    if (left_ == 0) return true;
+    --left_;
+    return false;
+  }
   bool sampling_over() override { return packets_ >= kPackets; }
   bool is_fine_enough() const override { return false; }
   bool reconstruction_over() override { return !may_refresh_; }

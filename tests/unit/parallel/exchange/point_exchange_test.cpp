@@ -43,7 +43,7 @@ class NumberedReach final : public PointSampler {
   double reach(const Sample& sample) const override { return sample.ray.primitive; }
   void clear(bool /*keep_learned*/) override { samples_.clear(); }
   std::vector<SeedPoint> seeds() const override { return {}; }
-  std::optional<Vec2d> next_point() override { return std::nullopt; }
+  std::span<const Vec2d> next_points(std::size_t /*most*/) override { return {}; }
   bool insert(const Sample& sample) override { return samples_.push_back(sample), true; }
   void expect_growth(double /*factor*/) override {}
   void camera_changed() override {}

@@ -92,6 +92,20 @@ TEST_CASE("rank sampling: a sample that is wanted is traced here, or cast where 
   CHECK(rank.count().cast == rank.sampling.in_region());
 }
 
+TEST_CASE("rank sampling: several samples are traced before they are inserted, until the packet is over") {
+  LeftHalf rank;
+  rank.sampling.trace_seeds();
+  const std::uint64_t before = rank.sampling.in_region();
+  REQUIRE(rank.sampling.refine(nullptr, 8));  // no packet has begun
+  CHECK(rank.sampling.in_region() == before + 1);
+  rank.clock.begin_packet(0);
+  int calls = 0;
+  for (; rank.sampling.in_region() < before + 20; ++calls) REQUIRE(rank.sampling.refine(nullptr, 8));
+  CHECK(calls < 10);
+  CHECK(rank.polled.size() == rank.sampling.sampler().size());  // each is traced once
+  CHECK(rank.count().traced == rank.sampling.in_region());
+}
+
 TEST_CASE("rank sampling: cast samples of triangulations count as this frame's own, where they are new") {
   LeftHalf rank(SamplerChoice::kDelaunay);
   rank.sampling.begin_picture(false);
