@@ -14,49 +14,68 @@ struct LitPoint {
   Vec3d position{0, 0, 0}, normal{0, 0, 1};
 };
 
-// Where a ray passes beside, its point nearest the middle is moved onto the surface. `direction`: unit, as in
-// all that follow.
+// Where a ray passes beside, its point nearest the middle is moved onto the surface.
 template <class Record>
 LitPoint beside(const Record& record, const Vec3d& from, const Vec3d& direction) {
-  const double t = (bounds(record).center() - from).dot(direction);
+  const double t = (bounds(record).center() - from).dot(direction) / direction.dot(direction);
   const SurfacePoint point = on_surface(record, from + direction * t);
   return {point.position, point.normal};
 }
 
-LitPoint meet(const SphereRecord& sphere, VisibleFaces faces, const Vec3d& from, const Vec3d& direction) {
-  const Vec3d from_center = from - sphere.center;
-  const Vec3d middle = from_center - direction * from_center.dot(direction);
-  const double inside = sphere.radius * sphere.radius - middle.dot(middle);
-  if (!(inside >= 0)) return beside(sphere, from, direction);
+LitPoint meet(const SphereRecord& sphere, const SeenQuadric& seen, VisibleFaces faces, const Vec3d& from,
+              const Vec3d& direction) {
+  const double a = direction.dot(direction), b = seen.aside.dot(direction);
+  const double discriminant = b * b - a * seen.c;
+  if (!(discriminant >= 0)) return beside(sphere, from, direction);
   const double sign = faces == VisibleFaces::kBack ? -1 : 1;
-  const Vec3d outwards = (middle - direction * (sign * std::sqrt(inside))) * (1 / sphere.radius);
-  return {sphere.center + outwards * sphere.radius, outwards * sign};
+  const double t = (-b - sign * std::sqrt(discriminant)) / a;
+  const Vec3d outwards = (seen.aside + direction * t) * seen.per_slant;
+  return {from + direction * t, outwards * sign};
 }
 
 // The equation of crossings(), along the axis and across it: with a unit axis the normal needs no root.
-LitPoint meet(const ConeRecord& cone, const LitCone& shape, VisibleFaces faces, const Vec3d& from,
+LitPoint meet(const ConeRecord& cone, const SeenQuadric& seen, VisibleFaces faces, const Vec3d& from,
               const Vec3d& direction) {
-  const Vec3d from_base = from - cone.base;
-  const Vec3d middle = from_base - direction * from_base.dot(direction);
-  const double along = direction.dot(shape.axis), height = middle.dot(shape.axis);
-  const Vec3d across = direction - shape.axis * along, aside = middle - shape.axis * height;
-  const double growth = shape.slope * along, radius = cone.base_radius + shape.slope * height;
-  const double a = across.dot(across) - growth * growth, b = across.dot(aside) - radius * growth,
-               c = aside.dot(aside) - radius * radius;
-  const double root = std::sqrt(std::max(b * b - a * c, 0.0));
-  const double sum = b >= 0 ? -b - root : -b + root, first = sum / a, second = c / sum;
-  const double entered = b >= 0 ? first : second, left = b >= 0 ? second : first;
+  const double along = direction.dot(seen.axis), growth = seen.slope * along;
+  const Vec3d across = direction - seen.axis * along;
+  const double a = across.dot(across) - growth * growth, b = across.dot(seen.aside) - seen.radius * growth;
+  const double discriminant = b * b - a * seen.c, root = std::sqrt(std::max(discriminant, 0.0));
+  const double sum = b >= 0 ? -b - root : -b + root;
+  const auto parameter = [&](bool enters) { return enters == (b >= 0) ? sum / a : seen.c / sum; };
   const auto is_there = [&](double t) {
-    const double h = height + t * along;
-    return h >= 0 && h <= shape.length;
+    const double height = seen.height + t * along;
+    return height >= 0 && height <= seen.length;
   };
-  const bool is_outer = faces != VisibleFaces::kBack && is_there(entered);
-  const double t = is_outer ? entered : left, radius_there = radius + t * growth;
-  if (!(b * b >= a * c) || !(is_outer || is_there(left)) || !(radius_there > 0))
-    return beside(cone, from, direction);
-  const Vec3d radial = (aside + across * t) * (1 / radius_there);
-  const Vec3d outwards = (radial - shape.axis * shape.slope) * shape.per_slant;
-  return {cone.base + middle + direction * t, is_outer ? outwards : -outwards};
+  double t = parameter(faces != VisibleFaces::kBack);
+  bool is_outer = faces != VisibleFaces::kBack;
+  if (is_outer && !is_there(t)) t = parameter(false), is_outer = false;
+  const double radius = seen.radius + t * growth;
+  if (!(discriminant >= 0) || !is_there(t) || !(radius > 0)) return beside(cone, from, direction);
+  const Vec3d radial = (seen.aside + across * t) * (1 / radius);
+  const Vec3d outwards = (radial - seen.axis * seen.slope) * seen.per_slant;
+  return {from + direction * t, is_outer ? outwards : -outwards};
+}
+
+SeenQuadric seen_from(const SphereRecord& sphere, const Vec3d& eye) {
+  SeenQuadric seen;
+  seen.aside = eye - sphere.center;
+  seen.c = seen.aside.dot(seen.aside) - sphere.radius * sphere.radius;
+  seen.per_slant = 1 / sphere.radius;
+  return seen;
+}
+
+SeenQuadric seen_from(const ConeRecord& cone, const Vec3d& eye) {
+  SeenQuadric seen;
+  seen.length = std::sqrt(cone.axis.dot(cone.axis));
+  seen.axis = cone.axis * (1 / seen.length);
+  seen.slope = cone.radius_change / seen.length;
+  seen.per_slant = 1 / std::sqrt(1 + seen.slope * seen.slope);
+  const Vec3d from_base = eye - cone.base;
+  seen.height = from_base.dot(seen.axis);
+  seen.aside = from_base - seen.axis * seen.height;
+  seen.radius = cone.base_radius + seen.slope * seen.height;
+  seen.c = seen.aside.dot(seen.aside) - seen.radius * seen.radius;
+  return seen;
 }
 
 Vec3d turned_against(const Vec3d& normal, const Vec3d& direction) {
@@ -86,21 +105,16 @@ LitPoint meet_smooth(const Mesh& mesh, std::uint32_t first, std::uint32_t count,
           normal.dot(against) < 0 ? -normal : normal};
 }
 
-// `first`, `count`: the primitive's own ones in the part. `cone`: if it is one.
-LitPoint meet(const ScenePart& part, std::uint32_t first, std::uint32_t count, const LitCone& cone,
+// `first`, `count`: the primitive's own ones in the part. `seen`: if it is round.
+LitPoint meet(const ScenePart& part, std::uint32_t first, std::uint32_t count, const SeenQuadric& seen,
               const Vec3d& from, const Vec3d& direction) {
   if (const auto* cones = std::get_if<std::vector<ConeRecord>>(&part.shape))
-    return meet((*cones)[first], cone, part.faces, from, direction);
+    return meet((*cones)[first], seen, part.faces, from, direction);
   if (const auto* spheres = std::get_if<std::vector<SphereRecord>>(&part.shape))
-    return meet((*spheres)[first], part.faces, from, direction);
+    return meet((*spheres)[first], seen, part.faces, from, direction);
   const Mesh& mesh = *std::get_if<Mesh>(&part.shape);
   return part.smooth ? meet_smooth(mesh, first, count, from, direction)
                      : meet_plane(mesh, first, from, direction);
-}
-
-LitCone lit_cone(const ConeRecord& cone) {
-  const double length = std::sqrt(cone.axis.dot(cone.axis)), slope = cone.radius_change / length;
-  return {cone.axis * (1 / length), length, slope, 1 / std::sqrt(1 + slope * slope)};
 }
 
 // Returns the cosine from which a highlight is brighter than can be seen.
@@ -172,12 +186,19 @@ const UnshadowedLights::Place& UnshadowedLights::place_of(const Pose& pose, std:
   const std::uint32_t number = scene.part_of_primitive[primitive - 1];
   if (number == kNoPart) return kept;
   const ScenePart& part = pose.part(number);
-  const auto [first, end] = std::equal_range(part.primitives.begin(), part.primitives.end(), primitive - 1);
-  if (first == end) return kept;
+  const auto end = part.primitives.end();
+  const auto first = std::lower_bound(part.primitives.begin(), end, primitive - 1);
+  const auto is_own = [&](std::uint32_t other) { return other == primitive - 1; };
+  kept.count = static_cast<std::uint32_t>(std::find_if_not(first, end, is_own) - first);
+  if (kept.count == 0) return kept;
   kept.part = &part, kept.first = static_cast<std::uint32_t>(first - part.primitives.begin());
-  kept.count = static_cast<std::uint32_t>(end - first);
-  if (const auto* cones = std::get_if<std::vector<ConeRecord>>(&part.shape))
-    kept.cone = lit_cone((*cones)[kept.first]);
+  const BodyPlace* body = pose.place_of(part);
+  const Vec3d from = body == nullptr ? eye_ : body->from_world.point(eye_);
+  if (const auto* cones = std::get_if<std::vector<ConeRecord>>(&part.shape)) {
+    kept.seen = seen_from((*cones)[kept.first], from);
+  } else if (const auto* spheres = std::get_if<std::vector<SphereRecord>>(&part.shape)) {
+    kept.seen = seen_from((*spheres)[kept.first], from);
+  }
   const ShadingMaterial& material = scene.materials[part.materials[kept.first]];
   if (scene.effects.has(Effect::kHighlights) && material.shine > 0)
     kept.least_cosine = least_cosine_of(material.shine);
@@ -188,19 +209,20 @@ PPRT_CLONED_FOR_WIDE_REGISTERS
 void UnshadowedLights::at(const Pose& pose, std::uint32_t primitive, const Camera& camera, double x, double y,
                           UnshadowedLight& light) {
   if (!is_ready_) prepare(pose);
+  if (camera.eye != eye_) kept_.fill({}), eye_ = camera.eye;
   const Place& place = place_of(pose, primitive);
   light.is_known = place.part != nullptr;
   if (!light.is_known) return;
   const CompiledScene::Impl& scene = pose.scene();
   const ScenePart& part = *place.part;
-  const Vec3d along = unit(ray_direction(camera, x, y));
+  const Vec3d along = ray_direction(camera, x, y);
   const BodyPlace* body = pose.place_of(part);
   LitPoint point;
   if (body == nullptr) {
-    point = meet(part, place.first, place.count, place.cone, camera.eye, along);
+    point = meet(part, place.first, place.count, place.seen, camera.eye, along);
   } else {
-    point = meet(part, place.first, place.count, place.cone, body->from_world.point(camera.eye),
-                 unit(body->from_world.vector(along)));
+    point = meet(part, place.first, place.count, place.seen, body->from_world.point(camera.eye),
+                 body->from_world.vector(along));
     point.position = body->to_world.point(point.position);
     point.normal = unit(body->gradient(point.normal));
   }
@@ -211,7 +233,7 @@ void UnshadowedLights::at(const Pose& pose, std::uint32_t primitive, const Camer
   const Vec3f n(point.normal);
   const float4 diffuse = channels(material.diffuse), specular = channels(material.specular_color);
   const bool shines = place.least_cosine < 1;
-  const Vec3f mirrored = shines ? Vec3f(mirrored_at(along, point.normal)) : Vec3f(0, 0, 0);
+  const Vec3f mirrored = shines ? Vec3f(mirrored_at(unit(along), point.normal)) : Vec3f(0, 0, 0);
   for (std::size_t first = 0; first < static_cast<std::size_t>(count_); first += kLanes) {
     const Four& four = lights_[first / kLanes];
     const float4 dx = to_float(four.x - at.x), dy = to_float(four.y - at.y), dz = to_float(four.z - at.z);

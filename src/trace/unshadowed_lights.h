@@ -18,15 +18,20 @@ class Pose;
 // for all of its primitives. Those with pictures count as not lit, and so do faces that coincide.
 std::vector<LitSurface> lit_surfaces(const CompiledScene::Impl& scene);
 
-// What is known of a cone before a ray meets it.
-struct LitCone {
+// A sphere or cone as the eye sees it: what its crossings with any ray need.
+struct SeenQuadric {
   Vec3d axis{0, 0, 1};   // unit
+  Vec3d aside{0, 0, 0};  // the eye from the centre, or from the axis
+  double height = 0;     // of the eye along the axis, from the base
   double length = 0;     // of the cone
-  double slope = 0;      // change of the radius along it
-  double per_slant = 1;  // 1 / sqrt(1 + slope^2)
+  double radius = 0;     // at the eye's height
+  double slope = 0;      // change of the radius along the axis
+  double per_slant = 1;  // 1 / sqrt(1 + slope^2), or 1 / radius of the sphere
+  double c = 0;          // the surface's equation at the eye: aside^2 - radius^2
 };
 
-// Evaluates the kernel's direct light, of all lights at once. Keeps what it has found of the last primitives.
+// Evaluates the kernel's direct light, of all lights at once. Keeps what it has found of the last primitives,
+// as the eye sees them.
 class UnshadowedLights {
  public:
   // Poses have changed.
@@ -46,7 +51,7 @@ class UnshadowedLights {
     std::uint32_t primitive = 0;         // 0: none is kept here
     const ScenePart* part = nullptr;     // null: the primitive is not in the scene
     std::uint32_t first = 0, count = 0;  // its own ones in the part
-    LitCone cone;                        // if it is one
+    SeenQuadric seen;                    // if it is round
     float least_cosine = 2;              // from which a highlight counts; above 1: none does
   };
 
@@ -56,7 +61,8 @@ class UnshadowedLights {
   bool is_ready_ = false;
   int count_ = 0;
   std::array<Four, kNotedLights / kLanes> lights_;
-  std::array<Place, 256> kept_;  // by the last bits of their numbers
+  Vec3d eye_{0, 0, 0};
+  std::array<Place, 64> kept_;  // by the last bits of their numbers
 };
 
 }  // namespace pprt
