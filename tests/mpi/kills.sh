@@ -70,7 +70,7 @@ case $process$signal in
   mpirunSTOP) words='error: mpirun was stopped by a signal and has not gone on for 8 s;' ;;
   rank?KILL) words="error: rank ${process#rank} on .* was ended by signal 9 (Killed);" ;;
   rank?STOP) words="error: rank ${process#rank} on .* was stopped by signal 19 .* and has not gone on for 8 s;" ;;
-  guard*) words='error: \(\(rank 0 on .*\|a rank\) was ended by signal 9 (Killed)\|no sign of rank 0 on .* for 10 s\);' ;;
+  guard*) words='error: \(\(rank 0 on .*\|a rank\) was ended by signal 9 (Killed)\|no sign of rank 0 \(on .* \)\?for 10 s\);' ;;
   *) words='no run ends by this' ;;
 esac
 expected=1

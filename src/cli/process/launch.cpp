@@ -33,6 +33,7 @@ std::string program_path() {
 // How long mpirun has to end when it is asked to, in seconds. It may wait for a lost host in vain. Otherwise
 // it ends its ranks first, and removes what lies in shared memory.
 constexpr double kEndPatience_s = 5, kLostHostPatience_s = 2;
+constexpr double kArrivalPatience_s = 10, kHostArrivalPatience_s = 60;  // hosts may answer late
 
 // mpirun has a process group of its own: a terminal's Ctrl-C must reach it through this process alone.
 constexpr SubprocessSettings kMpirunSettings{
@@ -94,7 +95,10 @@ class FollowedRun {
               const std::function<void(std::string_view)>& overhear)
       : launch_(launch),
         overhear_(overhear),
-        watch_({.goes_on = launch.goes_on, .start_patience_s = launch.start_patience_s}),
+        watch_({.goes_on = launch.goes_on,
+                .ranks = launch.processes,
+                .arrival_patience_s = launch.hostfile.empty() ? kArrivalPatience_s : kHostArrivalPatience_s,
+                .start_patience_s = launch.start_patience_s}),
         mpirun_(mpirun_command(launch, words), kMpirunSettings) {}
 
   // Returns the exit code. Throws std::runtime_error with what was lost.

@@ -9,6 +9,8 @@ namespace pprt {
 void RunWatch::hear(const RankNews& news, double now_s) {
   Rank& rank = ranks_[news.rank];
   rank.heard_s = now_s;
+  arrived_.insert(news.rank);
+  if (!begun_s_) begun_s_ = now_s;
   if (rank.name.empty() || !news.host.empty()) rank.name = rank_name(news.rank, news.host);
   switch (news.event) {
     case RankEvent::kLives:
@@ -72,10 +74,21 @@ std::optional<std::string> RunWatch::failure(double now_s) const {
     if (!is_needed(number)) continue;
     if (const std::optional<std::string> standstill = standstill_of(rank, now_s)) return standstill;
   }
+  // One that was killed or stopped before it could speak keeps the others waiting.
+  if (!have_met_ && begun_s_ && now_s > *begun_s_ + settings_.arrival_patience_s) {
+    if (const std::optional<int> rank = missing())
+      return fmt::format("no sign of rank {} for {:g} s", *rank, settings_.arrival_patience_s);
+  }
   if (settings_.goes_on && !have_met_ && now_s > settings_.start_patience_s) {
     return fmt::format("the ranks have not found each other within {:g} s; is the program on every host?",
                        settings_.start_patience_s);
   }
+  return std::nullopt;
+}
+
+std::optional<int> RunWatch::missing() const {
+  for (int rank = 0; rank < settings_.ranks; ++rank)
+    if (!arrived_.contains(rank)) return rank;
   return std::nullopt;
 }
 

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "cli/process/rank_news.h"
@@ -11,11 +12,13 @@ namespace pprt {
 
 struct RunWatchSettings {
   bool goes_on = false;            // without ranks that were killed
+  int ranks = 0;                   // all of which are to be heard; 0: it is not known
+  double arrival_patience_s = 10;  // after the first rank was heard: until all have been
   double start_patience_s = 60;    // with goes_on: until all processes have met
   double stand_patience_s = 8;     // with a process that was stopped and that frames wait for
   double silence_patience_s = 10;  // with a guard that says nothing
   // with mpirun, after rank 0 has told its exit code, or where it ends the ranks itself after a loss
-  double end_patience_s = 10;
+  double end_patience_s = 8;
   double last_patience_s = 2;  // likewise, once rank 0 itself has ended
 };
 
@@ -58,12 +61,15 @@ class RunWatch {
     double seen_s = 0;
   };
   void forget(int rank, double now_s);
+  std::optional<int> missing() const;  // rank that has never been heard
   bool is_needed(int rank) const { return rank == 0 || !spares_; }
   std::optional<std::string> standstill_of(const Rank& rank, double now_s) const;
 
   RunWatchSettings settings_;
-  std::map<int, Rank> ranks_;  // that have been heard
-  std::optional<Loss> loss_;   // the first
+  std::map<int, Rank> ranks_;      // that have been heard, and have not ended
+  std::set<int> arrived_;          // that have ever been heard
+  std::optional<double> begun_s_;  // when the first one was
+  std::optional<Loss> loss_;       // the first
   bool have_met_ = false, listens_ = false, spares_ = false;
   std::optional<double> mpirun_stopped_s_;
   std::optional<int> end_code_;

@@ -117,12 +117,10 @@ NodeState LatticeStore::state_in_cell(const LatticeNode& node) const {
   return block == kNone ? kNotWanted : cell_blocks_[block].states[slot_in_cell(node)];
 }
 
-NodeState& LatticeStore::state_for_writing(const LatticeNode& node) {
+NodeState& LatticeStore::state_in_pixel_for_writing(const LatticeNode& node) {
   if (!is_cell_corner(node)) return cell_block_for_writing(node).states[slot_in_cell(node)];
   const std::size_t number = tile_of(node), pixel = pixel_in_tile(node), slot = cell_of(node);
-  Tile& tile = tile_for_writing(number);
-  if (slot == 0) return tile.corner_states[place_of_pixel(pixel)];
-  if (slot == kCenterSlot) return tile.center_states[pixel];
+  if (slot == kCenterSlot) return tile_for_writing(number).center_states[pixel];
   return pixel_block_for_writing(number, pixel).states[slot];
 }
 

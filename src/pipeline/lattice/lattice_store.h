@@ -324,7 +324,12 @@ class LatticeStore {
     is_touched_[number] = 1;
     return tiles_[number];
   }
-  NodeState& state_for_writing(const LatticeNode& node);
+  NodeState& state_for_writing(const LatticeNode& node) {
+    if (!is_corner(node)) [[unlikely]]
+      return state_in_pixel_for_writing(node);
+    return tile_for_writing(tile_of(node)).corner_states[place_in_tile(node)];
+  }
+  NodeState& state_in_pixel_for_writing(const LatticeNode& node);
   PixelBlock& pixel_block_for_writing(std::size_t tile, std::size_t pixel);
   PixelCells& cells_for_writing(std::size_t tile, std::size_t pixel);
   CellBlock& cell_block_for_writing(const LatticeNode& node);

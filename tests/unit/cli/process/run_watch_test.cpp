@@ -79,6 +79,33 @@ TEST_CASE("a guard that keeps silent ends a run, but not one whose rank has ende
   CHECK_FALSE(watch.failure(100));
 }
 
+TEST_CASE("a rank that is not heard at all ends a run, unless all have met") {
+  for (const bool goes_on : {false, true}) {
+    for (const int missing : {0, 2}) {
+      CAPTURE(goes_on, missing);
+      const auto heard = [&](double now_s) {
+        RunWatch watch({.goes_on = goes_on, .ranks = 3});
+        CHECK_FALSE(watch.failure(50));  // mpirun itself takes its time
+        for (const int rank : {0, 1, 2})
+          if (rank != missing) watch.hear(news(RankEvent::kLives, rank, 0), now_s);
+        return watch;
+      };
+      RunWatch watch = heard(3);
+      CHECK_FALSE(watch.failure(13));
+      CHECK(watch.failure(13.1) == "no sign of rank " + std::to_string(missing) + " for 10 s");
+      watch.hear(news(RankEvent::kLives, missing, 0), 13.2);
+      CHECK_FALSE(watch.failure(14));
+      RunWatch met = heard(3);
+      met.hear(news(RankEvent::kMet, 1), 4);
+      CHECK_FALSE(met.failure(50));
+    }
+  }
+  // As many as come.
+  RunWatch any({});
+  any.hear(news(RankEvent::kLives, 2, 0), 0);
+  CHECK_FALSE(any.failure(50));
+}
+
 TEST_CASE("an mpirun that was stopped is given time to go on, and nothing is expected of ranks meanwhile") {
   RunWatch watch = three_ranks(false);
   watch.see_mpirun(true, 5);
@@ -95,8 +122,8 @@ TEST_CASE("a run that has told its end cannot fail any more, and mpirun's time e
   watch.hear(news(RankEvent::kEnded, 0, 130), 5);
   CHECK(watch.end_code() == 130);
   CHECK_FALSE(watch.failure(100));
-  CHECK_FALSE(watch.is_over(15));
-  CHECK(watch.is_over(15.1));
+  CHECK_FALSE(watch.is_over(13));
+  CHECK(watch.is_over(13.1));
   watch.hear(news(RankEvent::kLeft, 0), 6);
   CHECK_FALSE(watch.is_over(8));
   CHECK(watch.is_over(8.1));

@@ -323,63 +323,6 @@ TEST_CASE("lattice sampler: a sample at no node, or at one that has a sample, is
   CHECK(sampler.samples() == 1);
 }
 
-TEST_CASE("lattice sampler: points that come together are of one level, and are as good as one by one") {
-  constexpr int kSamples = 1500;
-  constexpr std::size_t kAtOnce = 16;
-  const Scene scene = disc(true);
-  LatticeRefiner sampler(Region::whole({kWidth, kHeight, 32}), shapes_of_disc(0));
-  std::size_t calls = 0, made = 0;
-  while (made < kSamples) {
-    sampler.expect(static_cast<double>(kSamples - made));
-    const std::span<const Vec2d> points = sampler.next_points(std::min(kAtOnce, kSamples - made));
-    REQUIRE((!points.empty() && points.size() <= std::min(kAtOnce, kSamples - made)));
-    const std::vector<Vec2d> together(points.begin(), points.end());
-    for (const Vec2d& p : together) {
-      const bool is_base_too = is_base(node_at(p)) && is_base(node_at(together[0]));
-      if (!is_base_too && made > 800) CHECK(level_of(node_at(p)) == level_of(node_at(together[0])));
-      CHECK(sampler.insert(p, scene(p.x, p.y)));
-    }
-    made += together.size(), ++calls;
-  }
-  CHECK(calls < kSamples / 2);
-  CHECK(error_of(painted(sampler), scene) < 1.1 * error_with(kSamples, scene, shapes_of_disc(0)));
-}
-
-TEST_CASE("lattice sampler: points without samples come again, but for those that another sample took") {
-  const Scene scene = disc(true);
-  LatticeRefiner sampler(Region::whole({kWidth, kHeight, 32}), kNoShapes);
-  const auto next = [&] {
-    const std::span<const Vec2d> points = sampler.next_points(8);
-    return std::vector<Vec2d>(points.begin(), points.end());
-  };
-  sample(sampler, scene, 300);
-  std::vector<Vec2d> points = next();
-  while (points.size() < 4) {
-    for (const Vec2d& p : points) sampler.insert(p, scene(p.x, p.y));
-    points = next();
-  }
-  CHECK(sampler.insert(points[0], scene(points[0].x, points[0].y)));
-  // One that another rank has made comes out of turn.
-  CHECK(sampler.insert(points[2], scene(points[2].x, points[2].y)));
-  const std::vector<Vec2d> rest = next();
-  points.erase(points.begin() + 2), points.erase(points.begin());
-  CHECK(rest == points);
-  CHECK(sampler.next_points(1).size() == 1);
-  CHECK(next() == points);
-}
-
-TEST_CASE("lattice sampler: points that nothing came for before the region changed stay candidates") {
-  const Scene scene = disc(true);
-  std::set<std::pair<double, double>> missing;
-  LatticeRefiner sampler(part_of_image(48, true), shapes_of_disc(0));
-  sample_all(sampler, scene, 500);
-  for (const Vec2d& p : sampler.next_points(16)) missing.insert({p.x, p.y});
-  REQUIRE_FALSE(missing.empty());
-  sampler.set_region(part_of_image(56, true));
-  for (const Vec2d& p : sample_all(sampler, scene)) missing.erase({p.x, p.y});
-  CHECK(missing.empty());
-}
-
 TEST_CASE("lattice sampler: squares that come are refined, squares that go are not, and sampling ends") {
   const Scene scene = disc(true);
   LatticeRefiner sampler(part_of_image(48, true), shapes_of_disc(0));
