@@ -36,6 +36,11 @@ printf '#!/bin/sh\nexit 9\n' >broken/ffmpeg
 PATH=$PWD/broken:$PATH run pprt-render ball.anim "${work[@]}" -o f/%d.png --film f.mp4; expect_code 1
 expect_text err "pprt-render: error: --film needs ffmpeg, and that on the PATH does not run: 'ffmpeg -version' ended with code 9"
 
+# Nor is one waited for that does not even tell its version.
+printf '#!/bin/sh\nexec sleep 600\n' >broken/ffmpeg
+PATH=$PWD/broken:$PATH run pprt-render ball.anim "${work[@]}" -o f/%d.png --film f.mp4; expect_code 1
+expect_text err "pprt-render: error: --film needs ffmpeg, and that on the PATH hangs: 'ffmpeg -version' has not ended within 5 s"
+
 # One that hangs and hears no signal is ended when the run is told to end, and at once when it is told twice.
 printf '#!/bin/sh\ncase "$*" in *-version) exit 0 ;; esac\ntrap "" TERM\necho $$ >hung\nexec sleep 600\n' >broken/ffmpeg
 for signals in 1 2; do

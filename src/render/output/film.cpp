@@ -172,7 +172,19 @@ void encode(const std::filesystem::path& film, const Words& encoding, const std:
 
 void require_ffmpeg() {
   // Prints its version and ends, which shows that it can be run.
+  constexpr std::chrono::seconds kPatience(5);
   Subprocess ffmpeg = start_encoder({"ffmpeg", "-loglevel", "quiet", "-version"}, StreamTo::kSame);
+  const auto begin = std::chrono::steady_clock::now();
+  while (!ffmpeg.has_ended()) {
+    if (std::chrono::steady_clock::now() - begin > kPatience) {
+      ffmpeg.end_within(0.5);
+      throw std::runtime_error(
+          fmt::format("--film needs ffmpeg, and that on the PATH hangs: 'ffmpeg -version' has not ended "
+                      "within {} s",
+                      kPatience.count()));
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
   if (const int code = ffmpeg.wait().code; code != 0) {
     throw std::runtime_error(fmt::format(
         "--film needs ffmpeg, and that on the PATH does not run: 'ffmpeg -version' ended with code {}",

@@ -108,6 +108,7 @@ double median(std::vector<double> values) {
 
 // Returns the box of the objects that rest near the middle one, if others are so far away that they would
 // take the digits of these; otherwise that of all. A share of many objects tells where the middle one is.
+// What the view looks at counts as one of them: of two objects it tells which is far away.
 Box3d resting_core(const SceneDescription& scene, const Box3d& all) {
   constexpr std::size_t kMostAsked = 100'000;
   std::vector<Box3d> boxes;
@@ -116,6 +117,12 @@ Box3d resting_core(const SceneDescription& scene, const Box3d& all) {
   }
   std::erase_if(boxes, [](const Box3d& box) { return box.isEmpty() || !is_finite(box); });
   if (boxes.empty()) return all;
+  const std::size_t objects = boxes.size();
+  if (scene.view) {
+    Box3d seen(scene.view->from);
+    seen.extendBy(scene.view->at);
+    if (is_finite(seen)) boxes.push_back(seen);
+  }
   const auto median_of = [&](const auto& value_of) {
     std::vector<double> values;
     for (const Box3d& box : boxes) values.push_back(value_of(box));
@@ -129,10 +136,9 @@ Box3d resting_core(const SceneDescription& scene, const Box3d& all) {
   if (!(spread > 0) || !(spread < kSmallDetail * size_of(all))) return all;
   const Box3d near(middle - Vec3d(kFarAway * spread), middle + Vec3d(kFarAway * spread));
   Box3d core;
-  for (const Box3d& box : boxes) {
-    if (contains(near, box)) core.extendBy(box);
-  }
-  return core;
+  for (std::size_t i = 0; i < objects; ++i)
+    if (contains(near, boxes[i])) core.extendBy(boxes[i]);
+  return core.isEmpty() ? all : core;
 }
 
 // Returns the origin of the compiled space, about which floats are finest. Usually it is the middle of the

@@ -65,6 +65,17 @@ TEST_CASE("far objects: one that rests far away takes no digits of the others") 
   }
 }
 
+TEST_CASE("far objects: of two objects the one that the view looks at is near") {
+  const std::string one = kView + kLight + "s 0 0 0 1\n";
+  for (const char* far :
+       {"0 0 1e7", "0 0 -1e7", "0 1e8 0", "1e9 0 0", "-1e10 0 1e10", "0 0 1e16", "0 -1e18 0"}) {
+    INFO(far);
+    const Difference found = difference(one, one + "s " + far + " 1\n");
+    CHECK(found.seen > 20);
+    CHECK(found.pixels <= 2);
+  }
+}
+
 TEST_CASE("far objects: one that flies away takes no digits of the others, at any time") {
   for (const char* distance : {"1e6", "1e10", "1e14", "1e18", "1e38", "1e60", "1e100"}) {
     for (const double time : {0.0, 4.0}) {
