@@ -22,44 +22,49 @@ LitPoint beside(const Record& record, const Vec3d& from, const Vec3d& direction)
   return {point.position, point.normal};
 }
 
+// From the ray's point nearest the middle, as in crossings(): a far ray loses no digits.
 LitPoint meet(const SphereRecord& sphere, const SeenQuadric& seen, VisibleFaces faces, const Vec3d& from,
               const Vec3d& direction) {
-  const double a = direction.dot(direction), b = seen.aside.dot(direction);
-  const double discriminant = b * b - a * seen.c;
-  if (!(discriminant >= 0)) return beside(sphere, from, direction);
+  const double per_square = 1 / direction.dot(direction);
+  const Vec3d middle = seen.aside - direction * (seen.aside.dot(direction) * per_square);
+  const double inside = sphere.radius * sphere.radius - middle.dot(middle);
+  if (!(inside >= 0)) return beside(sphere, from, direction);
   const double sign = faces == VisibleFaces::kBack ? -1 : 1;
-  const double t = (-b - sign * std::sqrt(discriminant)) / a;
-  const Vec3d outwards = (seen.aside + direction * t) * seen.per_slant;
-  return {from + direction * t, outwards * sign};
+  const Vec3d outwards = (middle - direction * (sign * std::sqrt(inside * per_square))) * seen.per_slant;
+  return {sphere.center + outwards * sphere.radius, outwards * sign};
 }
 
-// The equation of crossings(), along the axis and across it: with a unit axis the normal needs no root.
+// The equation of crossings(), along the axis and across it: with a unit axis the normal needs no root. From
+// the ray's point nearest the axis.
 LitPoint meet(const ConeRecord& cone, const SeenQuadric& seen, VisibleFaces faces, const Vec3d& from,
               const Vec3d& direction) {
   const double along = direction.dot(seen.axis), growth = seen.slope * along;
   const Vec3d across = direction - seen.axis * along;
-  const double a = across.dot(across) - growth * growth, b = across.dot(seen.aside) - seen.radius * growth;
-  const double discriminant = b * b - a * seen.c, root = std::sqrt(std::max(discriminant, 0.0));
+  const double square = across.dot(across), to_middle = -across.dot(seen.aside) / square;
+  const Vec3d aside = seen.aside + across * to_middle;
+  const double at_middle = seen.height + to_middle * along, radius = seen.radius + to_middle * growth;
+  const double a = square - growth * growth, b = across.dot(aside) - radius * growth,
+               c = aside.dot(aside) - radius * radius;
+  const double discriminant = b * b - a * c, root = std::sqrt(std::max(discriminant, 0.0));
   const double sum = b >= 0 ? -b - root : -b + root;
-  const auto parameter = [&](bool enters) { return enters == (b >= 0) ? sum / a : seen.c / sum; };
+  const auto parameter = [&](bool enters) { return enters == (b >= 0) ? sum / a : c / sum; };
   const auto is_there = [&](double t) {
-    const double height = seen.height + t * along;
+    const double height = at_middle + t * along;
     return height >= 0 && height <= seen.length;
   };
   double t = parameter(faces != VisibleFaces::kBack);
   bool is_outer = faces != VisibleFaces::kBack;
   if (is_outer && !is_there(t)) t = parameter(false), is_outer = false;
-  const double radius = seen.radius + t * growth;
-  if (!(discriminant >= 0) || !is_there(t) || !(radius > 0)) return beside(cone, from, direction);
-  const Vec3d radial = (seen.aside + across * t) * (1 / radius);
+  const double radius_there = radius + t * growth;
+  if (!(discriminant >= 0) || !is_there(t) || !(radius_there > 0)) return beside(cone, from, direction);
+  const Vec3d radial = (aside + across * t) * (1 / radius_there);
   const Vec3d outwards = (radial - seen.axis * seen.slope) * seen.per_slant;
-  return {from + direction * t, is_outer ? outwards : -outwards};
+  return {from + direction * (to_middle + t), is_outer ? outwards : -outwards};
 }
 
 SeenQuadric seen_from(const SphereRecord& sphere, const Vec3d& eye) {
   SeenQuadric seen;
   seen.aside = eye - sphere.center;
-  seen.c = seen.aside.dot(seen.aside) - sphere.radius * sphere.radius;
   seen.per_slant = 1 / sphere.radius;
   return seen;
 }
@@ -74,7 +79,6 @@ SeenQuadric seen_from(const ConeRecord& cone, const Vec3d& eye) {
   seen.height = from_base.dot(seen.axis);
   seen.aside = from_base - seen.axis * seen.height;
   seen.radius = cone.base_radius + seen.slope * seen.height;
-  seen.c = seen.aside.dot(seen.aside) - seen.radius * seen.radius;
   return seen;
 }
 

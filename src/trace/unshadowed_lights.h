@@ -27,7 +27,6 @@ struct SeenQuadric {
   double radius = 0;     // at the eye's height
   double slope = 0;      // change of the radius along the axis
   double per_slant = 1;  // 1 / sqrt(1 + slope^2), or 1 / radius of the sphere
-  double c = 0;          // the surface's equation at the eye: aside^2 - radius^2
 };
 
 // Evaluates the kernel's direct light, of all lights at once. Keeps what it has found of the last primitives,

@@ -81,9 +81,8 @@ class LatticeRefiner {
     return points.empty() ? std::nullopt : std::optional(points.front());
   }
 
-  // Takes in a sample. False if the lattice has no node at the point, or one that holds a sample. What was
-  // predicted at the last next_points() is compared with the samples taken there, if they come in this order.
-  // Of other samples less is learned.
+  // Takes in a sample. False if the lattice has no node at the point, or one that holds a sample. Compares it
+  // with what was predicted at the last next_points(), if samples come in that order. Learns less of others.
   bool insert(const Vec2d& point, const RaySample& sample);
 
   std::size_t samples() const { return samples_; }  // other regions' included

@@ -88,6 +88,26 @@ TEST_CASE("unshadowed lights: with those that a sample sees they are its colour"
   }
 }
 
+TEST_CASE("unshadowed lights: what is far away for its size is lit as it is near") {
+  for (const char* shape : {"s 0 0 0 1", "c 0 -3 0 1 0 3 0 1"}) {
+    for (const char* distance : {"1e7", "1e9", "1e11"}) {
+      CAPTURE(shape, distance);
+      const std::string text =
+          "v from 0 0 " + std::string(distance) +
+          " at 0 0 0 up 0 1 0 angle 1 hither 1 resolution 9 9\nam 0 0 0 l 0 0 1e30 1 1 1\n"
+          "fm 0 0 0 .5 .5 .5 0 0 0 0 0 1\n" +
+          shape + "\n";
+      const SceneDescription scene = parse_aff(text, "far.aff").scene;
+      const CompiledScene compiled = compile(scene);
+      Tracer tracer(compiled, compiled.camera(*scene.view));
+      UnshadowedLight light;
+      tracer.unshadowed_light(1, 4.5, 4.5, light);
+      REQUIRE(light.is_known);
+      CHECK(light.of(0xFF)[0] == Approx(0.5).epsilon(1e-3));
+    }
+  }
+}
+
 TEST_CASE("unshadowed lights: of what mirrors the rest is not known") {
   Material mirror;
   mirror.diffuse = 0.5, mirror.specular = 0.4, mirror.shine = 20;
