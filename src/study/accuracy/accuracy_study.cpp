@@ -42,6 +42,7 @@ struct Effort {
   int script_frames_planned = 40;  // of a script for --want-fps, at most
   int orbit_frames_planned = 24;   // for --want-fps without a script
   int judged_cells = 3;            // n of true pictures, for --want-fps
+  double played_s = 2;             // in real time, at least
   std::vector<double> rates = {1, 2, 4, 8, 15, 24, 30, 60};  // frames per second
 };
 const Effort kFull;
@@ -54,6 +55,7 @@ const Effort kQuick = {.size = 96,
                        .script_frames_planned = 20,
                        .orbit_frames_planned = 12,
                        .judged_cells = 2,
+                       .played_s = 1,
                        .rates = {60, 120, 240}};
 
 // Returns the ways of casting that differ. Where only lights are carried there is one.
@@ -129,8 +131,9 @@ MovingScene moving_scene_of(const StudiedScene& studied) {
 Sequence sequence_of(const StudiedScene& studied, int script_frames,
                      const std::vector<FrameRequest>& without_script) {
   const AccuracyOptions& options = studied.options;
-  Sequence sequence{studied.name, studied.scene, without_script, {}, options.ranks, options.sampler, 0,
-                    options.seed};
+  Sequence sequence{
+      studied.name, studied.scene,          without_script, {}, options.ranks, options.sampler, 0,
+      options.seed, studied.effort.played_s};
   if (studied.script || studied.has_frames()) {
     const int frames = studied.script ? studied.script->frames : studied.description.movement.times->frames;
     const MovingScene moving = moving_scene_of(studied);

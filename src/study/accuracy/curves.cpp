@@ -34,6 +34,7 @@ std::vector<Shown> pictures_of(const Method& method, const CurveTask& task, int 
     point.samples = rendering.samples, point.seconds = rendering.seconds;
     point.exhausted = rendering.exhausted;
   };
+  kept.takes_coarsest = true;  // what a small budget buys
   const BusyThreads busy(task.subject, busy_threads);
   method.run(kept);
   return pictures;

@@ -176,6 +176,14 @@ class MeshPainter {
   ReconstructionBuffers buffers_;
 };
 
+// Returns the task's densities that a method can have whose coarsest picture has this one.
+std::vector<double> densities_from(double coarsest, const CurveTask& task) {
+  const auto begin = std::lower_bound(task.densities.begin(), task.densities.end(), coarsest);
+  std::vector<double> densities(begin, task.densities.end());
+  if (task.takes_coarsest && begin != task.densities.begin()) densities.insert(densities.begin(), coarsest);
+  return densities;
+}
+
 // Makes one refinement, with a picture at each density. A picture's time is that of all sampling before it
 // and of its own reconstruction. The refinement is made twice and the second counts: the frames of a
 // sequence, too, find the storage of those before them.
@@ -191,8 +199,7 @@ void run_refinement(const WeightTerms& terms, PixelRule rule, const CurveTask& t
 
   double sampling = 0, begin = thread_cpu_seconds();
   for (const Vec2d& point : seeds) painter.add(point);
-  for (const double density : task.densities) {
-    if (density < painter.density()) continue;
+  for (const double density : densities_from(painter.density(), task)) {
     const auto stop = painter.refine_until(density * pixels, begin + task.limit_s - sampling);
     const double sampled = thread_cpu_seconds();
     sampling += sampled - begin;
@@ -248,10 +255,8 @@ class SamplerPicture {
 
   SamplerPicture(SamplerPicture&&) = delete;  // the probe refers to the tracer
 
-  // Whether so few samples leave parts of the picture black.
-  bool is_too_coarse(double density) const {
-    return samples_per_pixel(static_cast<double>(seeds_.size()), camera_) > density;
-  }
+  // The least density: with fewer samples parts of the picture would be black.
+  double least_density() const { return samples_per_pixel(static_cast<double>(seeds_.size()), camera_); }
 
   // Makes the picture anew from so many samples, or fewer when nothing is worth more.
   Rendering render(double density) {
@@ -310,12 +315,12 @@ class SamplerPicture {
   PixelBlock pixels_;
 };
 
-// The first picture is made twice: the frames of a sequence, too, find the storage of those before them.
+// The last picture is made before all others, too: the frames of a sequence find the storage of those before
+// them.
 void run_default(const CurveTask& task) {
   SamplerPicture picture(task.subject, SamplerChoice::kAuto);
   picture.render(task.densities.back());
-  for (const double density : task.densities) {
-    if (picture.is_too_coarse(density)) continue;
+  for (const double density : densities_from(picture.least_density(), task)) {
     Rendering rendering = picture.render(density);
     const bool is_last = rendering.exhausted || rendering.seconds > task.limit_s;
     task.sink(std::move(rendering));

@@ -34,6 +34,7 @@ struct CurveTask {
   double limit_s = 0;                 // the first picture that took longer is the last
   std::uint64_t seed = 1;
   std::function<void(Rendering&&)> sink = {};
+  bool takes_coarsest = false;  // the coarsest possible picture in place of all densities below its own
 };
 
 struct Method {

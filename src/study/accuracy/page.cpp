@@ -284,7 +284,8 @@ void write_rates(const AccuracyResults& results, StudyOutput& output) {
   output.add_table("rates", rates_table(results.rates));
   output.section(
       "Deadlines in real time",
-      "The same sequences in real time, repeated for at least two seconds: the share of frames that met "
+      "The same sequences in real time, repeated for at least two seconds (--quick: one): the share of "
+      "frames that met "
       "their deadline, and their lateness (below 0: early). Errors and samples that differ from those above "
       "show how far the work clock's second is from this machine's. Uniform rmse: a uniform grid of samples "
       "that takes all of the ranks' time, with nothing lost to deadlines.");

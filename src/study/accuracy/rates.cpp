@@ -65,10 +65,9 @@ double frames_until(const std::vector<double>& errors, std::size_t first, double
   return static_cast<double>(i - first);
 }
 
-// The frames so often that they last two seconds; each round starts with a camera cut.
-std::vector<FrameRequest> repeated(const std::vector<FrameRequest>& frames, double fps) {
-  constexpr double kSeconds = 2;
-  const double rounds = std::max(1.0, std::ceil(kSeconds * fps / static_cast<double>(frames.size())));
+// The frames so often that they last so many seconds; each round starts with a camera cut.
+std::vector<FrameRequest> repeated(const std::vector<FrameRequest>& frames, double fps, double seconds) {
+  const double rounds = std::max(1.0, std::ceil(seconds * fps / static_cast<double>(frames.size())));
   std::vector<FrameRequest> all;
   for (int round = 0; round < rounds; ++round) {
     for (const FrameRequest& frame : frames) {
@@ -149,7 +148,7 @@ std::vector<RatePoint> measure_rates(const Sequence& sequence, std::span<const d
 
 RealTimePoint measure_in_real_time(const Sequence& sequence, CastChoice cast, double fps) {
   Sequence played = sequence;
-  played.frames = repeated(sequence.frames, fps);
+  played.frames = repeated(sequence.frames, fps, sequence.played_s);
   const PlayedFrames series = play(played, cast, fps, ClockKind::kWall);
   const RunTotals& totals = series.totals;
   RealTimePoint point{.scene = sequence.name,

@@ -22,6 +22,7 @@ struct Sequence {
   SamplerChoice sampler = SamplerChoice::kAuto;
   double units_per_second = 1e9;  // of the work clock, each rank
   std::uint64_t seed = 1;
+  double played_s = 2;  // in real time, at least
 };
 
 // Returns `count` frames that go round the scene's target by equal steps. Frame `cut`, counted from 0, comes
@@ -68,7 +69,7 @@ void judge_sequence(const Sequence& sequence, const std::vector<Image>& pictures
 std::vector<RatePoint> measure_rates(const Sequence& sequence, std::span<const double> rates,
                                      std::span<const CastChoice> casts);
 
-// Plays the sequence in real time, again and again for at least two seconds. Leaves out `uniform`.
+// Plays the sequence in real time, again and again. Leaves out `uniform`.
 RealTimePoint measure_in_real_time(const Sequence& sequence, CastChoice cast, double fps);
 
 // Plays it at each rate with auto casting, and adds the error of uniform grids.
