@@ -35,6 +35,9 @@ class FrameClock {
   // Number of pixels that this rank reconstructs from now on.
   virtual void region_changed(std::size_t pixels) = 0;
 
+  // Number of them that show several surfaces, as far as is known in this frame.
+  virtual void mixed_pixels_found(std::size_t pixels) = 0;
+
   // --- Packets of samples
 
   // Begins a packet; ranks exchange messages after each. `samples`: count in the region so far, all of which

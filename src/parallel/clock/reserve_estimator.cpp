@@ -17,7 +17,7 @@ void ReserveEstimator::learn(double after_sampling_s) {
 }
 
 double ReserveEstimator::reserve_s() const {
-  constexpr double kFirstGuess = 0.35, kMost = 0.7;  // of the period
+  constexpr double kFirstGuess = 0.2, kMost = 0.7;  // of the period
   if (period_s_ == 0) return 0;
   if (after_sampling_s_.empty()) return kFirstGuess * period_s_;
   const double worst = *std::max_element(after_sampling_s_.begin(), after_sampling_s_.end());

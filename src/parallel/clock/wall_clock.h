@@ -41,6 +41,7 @@ class WallClock final : public FrameClock {
   void begin_frame(const FrameOrder& order) override;
   void end_frame(double reconstruction_ms, double share) override;
   void region_changed(std::size_t pixels) override;
+  void mixed_pixels_found(std::size_t pixels) override;
 
   void begin_packet(std::uint64_t samples) override;
   bool packet_over() override;
@@ -90,6 +91,7 @@ class WallClock final : public FrameClock {
   bool knows_pace_ = false;
   double size_ = 1;         // of what is to be reconstructed, in samples
   double region_size_ = 0;  // what the region's pixels add to it
+  double mixed_size_ = 0;   // what those of several surfaces add
   RecentMaximum reconstruction_s_per_size_;
   int left_in_packet_ = 0;
 };

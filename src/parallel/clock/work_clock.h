@@ -27,6 +27,8 @@ class WorkClock final : public FrameClock {
   void end_frame(double, double) override { frames_before_ += std::exchange(frame_units_, 0); }
   void region_changed(std::size_t pixels) override { reconstruction_ = cost(Work::kPixel, pixels); }
 
+  void mixed_pixels_found(std::size_t) override {}
+
   void begin_packet(std::uint64_t samples) override;
   bool packet_over() override { return frame_units_ >= round_end_; }
   bool sampling_over() override { return budget_ > 0 && round_ >= kRoundsPerFrame; }

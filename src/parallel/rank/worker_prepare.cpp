@@ -64,6 +64,11 @@ void Worker::begin_anew(const FrameOrder& order, bool keeps_samples, bool eye_re
   if (seeks_anchors) anchors_.allow(sampler_.in_region());
   begin_picture(order.index, keeps_samples);
   sampler_.trace_seeds();
+  if (!keeps_samples) {
+    // Nothing tells how many samples there will be but the time that the first ones took.
+    if (const auto growth = clock_->expected_growth(0, sampler_.sampler().size()))
+      sampler_.expect_growth(*growth);
+  }
   distribute(order, cast);
 }
 

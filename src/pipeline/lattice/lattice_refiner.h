@@ -87,6 +87,9 @@ class LatticeRefiner {
 
   std::size_t samples() const { return samples_; }  // other regions' included
 
+  // Returns how many pixels show several surfaces, as far as that is known.
+  std::size_t mixed_pixels() const { return visibility_.mixed_pixels(); }
+
   // Returns how many samples the coarsest grid has. They come first.
   std::size_t least_samples() const { return base_points().size(); }
 

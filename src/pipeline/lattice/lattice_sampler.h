@@ -47,6 +47,7 @@ class LatticeSampler final : public PointSampler {
   std::span<const Sample> samples() const override { return samples_; }
   RegionQuality quality() override;
   bool is_refined_to(double weight) override;
+  std::size_t mixed_pixels() const override { return refiner_.mixed_pixels(); }
   void paint(std::span<const std::int32_t> further_tiles, PixelBlock& pixels) override;
   std::size_t repaint(std::span<const std::int32_t> tiles, const std::function<bool()>& is_over,
                       PixelBlock& pixels) override;

@@ -97,6 +97,9 @@ class Sampler {
 
   // --- Pixels
 
+  // Returns how many pixels show several surfaces, as far as that is known. They take the longest to paint.
+  virtual std::size_t mixed_pixels() const { return 0; }
+
   // Replaces `pixels` by those of the region, and of further tiles that the samples cover.
   virtual void paint(std::span<const std::int32_t> further_tiles, PixelBlock& pixels) = 0;
 

@@ -58,7 +58,7 @@ bool VisibilityBuffer::bound_all() {
   bounds_.resize(shapes_.count);
   state_ = State::kKnown;
   std::size_t& items = items_within_;
-  items = 0, trials_ = tiles_seen_ = quadric_blocks_ = facet_blocks_ = 0;
+  items = 0, trials_ = tiles_seen_ = mixed_pixels_ = quadric_blocks_ = facet_blocks_ = 0;
   for (std::size_t first = 0; first < bounds_.size(); first += kAtOnce) {
     const std::span<ShapeBounds> now(bounds_.data() + first, std::min(kAtOnce, bounds_.size() - first));
     if (shapes_.bound) shapes_.bound(static_cast<std::uint32_t>(first), now);
@@ -228,7 +228,15 @@ void VisibilityBuffer::see(std::size_t number) {
   }
   compress(tile);
   find_surfaces(tile);
+  count_mixed(tile);
   if (has_thin_) list_thin(number, tile);
+}
+
+void VisibilityBuffer::count_mixed(const VisibleTile& tile) {
+  const auto side = static_cast<std::size_t>(tile_pixels());
+  const std::uint32_t all = side < 32 ? (1U << side) - 1 : ~0U;
+  for (std::size_t y = 0; y < side; ++y)
+    mixed_pixels_ += static_cast<std::size_t>(std::popcount(~tile.uniform_[y] & all));
 }
 
 // Counts the points that each primitive is seen at.

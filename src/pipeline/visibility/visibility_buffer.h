@@ -163,6 +163,9 @@ class VisibilityBuffer {
            of(kTile, tiles_seen_) + of(kFacetBlock, facet_blocks_) + of(kQuadricBlock, quadric_blocks_);
   }
 
+  // Returns how many pixels of the tiles seen so far show several surfaces.
+  std::size_t mixed_pixels() const { return state_ == State::kKnown ? mixed_pixels_ : 0; }
+
   Fineness fineness() const { return {density_, share_lines_, share_points_, has_thin_}; }
 
   std::uint32_t surface_of(std::uint32_t primitive) const { return shapes_.surface_of(primitive); }
@@ -285,6 +288,7 @@ class VisibilityBuffer {
                         SeenInPixel& seen);
   void count_shares(std::span<float> shares) const;
   void find_surfaces(VisibleTile& tile);
+  void count_mixed(const VisibleTile& tile);
 
   int right_, bottom_;
   int log2_density_ = 2;
@@ -299,6 +303,7 @@ class VisibilityBuffer {
   SeeingPrice price_;
   std::size_t items_within_ = 0;
   std::size_t trials_ = 0, tiles_seen_ = 0;            // trials of items in tiles
+  std::size_t mixed_pixels_ = 0;                       // of these tiles
   std::size_t quadric_blocks_ = 0, facet_blocks_ = 0;  // in which items were rasterised
   PixelRect within_;
   std::vector<ShapeBounds> bounds_;  // of each primitive

@@ -9,7 +9,7 @@ constexpr double kPeriod = 0.25;
 
 TEST_CASE("reserve: the worst of the last twelve frames and a quarter more") {
   ReserveEstimator reserve(kPeriod, 1);
-  CHECK(reserve.reserve_s() == Approx(0.35 * kPeriod));  // nothing is known yet
+  CHECK(reserve.reserve_s() == Approx(0.2 * kPeriod));  // nothing is known yet
   reserve.learn(0.02);
   CHECK(reserve.reserve_s() == Approx(1.25 * 0.02 + 0.0005));
   for (int frame = 0; frame < 11; ++frame) reserve.learn(0.01);

@@ -19,6 +19,7 @@ class SetClock final : public FrameClock {
   void begin_frame(const FrameOrder&) override { packets_ = 0; }
   void end_frame(double, double) override {}
   void region_changed(std::size_t) override {}
+  void mixed_pixels_found(std::size_t) override {}
 
   void begin_packet(std::uint64_t) override { left_ = samples_per_packet_, ++packets_; }
   bool packet_over() override {
@@ -32,7 +33,10 @@ class SetClock final : public FrameClock {
   void end_sampling(double) override {}
   double pace() const override { return 1; }
   double sampling_share() const override { return packets_ < kPackets ? 0.25 : 1; }
-  std::optional<double> expected_growth(std::size_t, std::size_t) const override { return std::nullopt; }
+  std::optional<double> expected_growth(std::size_t begin, std::size_t now) const override {
+    asked_before_packets_ += begin == 0 && now > 0 && packets_ == 0;
+    return std::nullopt;
+  }
 
   void spend(Work, std::uint64_t) override {}
   std::size_t affordable(Work, double) const override { return 100'000; }
@@ -45,6 +49,9 @@ class SetClock final : public FrameClock {
 
   int readings() const { return readings_; }
 
+  // How often it was asked before a frame's first packet how many samples there will be.
+  int asked_before_packets() const { return asked_before_packets_; }
+
   // From now on no time is left for the reconstruction of a resting picture.
   void forbid_refresh() { may_refresh_ = false; }
 
@@ -54,7 +61,7 @@ class SetClock final : public FrameClock {
   int samples_per_packet_;
   double period_s_;
   const double& now_s_;
-  mutable int readings_ = 0;
+  mutable int readings_ = 0, asked_before_packets_ = 0;
   int packets_ = 0;
   int left_ = 0;
   bool may_refresh_ = true;

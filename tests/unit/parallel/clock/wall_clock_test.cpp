@@ -212,6 +212,29 @@ TEST_CASE("set wall clock: reconstruction is expected by samples and pixels, by 
   CHECK(left_with(300) == Approx(0.01 + 1.25 * 2 * 0.001));
 }
 
+TEST_CASE("set wall clock: a pixel of several surfaces counts as eight samples, in its own frame alone") {
+  Timed timed;
+  timed.begin(1, 0.01);
+  timed.clock.mixed_pixels_found(50);
+  timed.reconstruct(100, 5);
+  const auto left_with = [&](std::size_t mixed_pixels) {
+    timed.clock.mixed_pixels_found(mixed_pixels);
+    timed.clock.begin_packet(100);
+    return 1 - timed.clock.sampling_end_seconds();
+  };
+  const double each_s = 0.005 / 500;
+  CHECK(left_with(50) == Approx(0.01 + 1.25 * each_s * 500));
+  CHECK(left_with(0) == Approx(0.01 + 1.25 * each_s * 100));
+  CHECK(left_with(100) == Approx(0.01 + 1.25 * each_s * 900));
+}
+
+TEST_CASE("set wall clock: before it is measured reconstruction is expected to take 130 ns for a sample") {
+  Timed timed;
+  timed.begin(1, 0.01);
+  timed.clock.begin_packet(100'000);
+  CHECK(1 - timed.clock.sampling_end_seconds() == Approx(0.01 + 1.25 * 0.013));
+}
+
 TEST_CASE("set wall clock: a resting picture in parts leaves at most 35 % of the time for them") {
   for (const bool rests : {true, false}) {
     Timed timed(1, true);

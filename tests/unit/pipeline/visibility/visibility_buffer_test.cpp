@@ -43,6 +43,28 @@ PrimitiveShapes shapes_of(const std::vector<Rectangle>& rectangles) {
 
 }  // namespace
 
+TEST_CASE("visibility buffer: pixels of several surfaces are counted in the tiles seen so far") {
+  for (const auto& fineness : {VisibilityBuffer::kCoarse, VisibilityBuffer::kFine}) {
+    VisibilityBuffer buffer(kSize, kSize, shapes_of({{10.3, 3.3, 40.7, 50.7, 1}, {12, 12, 20, 20, 2}}));
+    buffer.forget(fineness);
+    CHECK(buffer.mixed_pixels() == 0);
+    REQUIRE(buffer.is_known());
+    std::size_t mixed = 0;
+    for (int y = 0; y < kSize; ++y) {
+      for (int x = 0; x < kSize; ++x)
+        mixed += !buffer.tile(x, y).is_uniform(buffer.in_tile(x), buffer.in_tile(y), 1);
+    }
+    CHECK(mixed > 150);
+    CHECK(buffer.mixed_pixels() == mixed);
+    buffer.forget();
+    CHECK(buffer.mixed_pixels() == 0);
+    REQUIRE(buffer.is_known());
+    buffer.tile(0, 0);
+    CHECK(buffer.mixed_pixels() > 0);
+    CHECK(buffer.mixed_pixels() < mixed);
+  }
+}
+
 TEST_CASE(
     "visibility buffer: the nearest is seen, whatever the order, and the background where there is none") {
   const std::vector<Rectangle> rectangles = {
