@@ -3,7 +3,8 @@
 set -euo pipefail
 
 scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
+# Not by a process of this shell that is killed before it has become another program.
+trap '[[ $BASHPID != $$ ]] || rm -rf "$scratch"' EXIT
 cd "$scratch"
 failures=0
 

@@ -2,7 +2,8 @@
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+# Not by a process of this shell that is killed before it has become another program.
+trap '[[ $BASHPID != $$ ]] || rm -rf "$work"' EXIT
 cd "$work"
 
 fail() { echo "mpi: $*" >&2; exit 1; }
