@@ -304,6 +304,8 @@ void LatticeRefiner::start(const Pass& pass) {
 // does what it costs to see. So seeing may take the more time, the more of the error it takes away. A picture
 // that begins without an estimate of its samples gets all: a still without their number, a first frame.
 void LatticeRefiner::choose_fineness() {
+  learn_from_base();
+  has_fineness_ = true;
   constexpr double kFew = 0.1, kEnough = 0.4;  // samples a pixel
   // Shares of the time, and their factor where the picture before was seen, too: a change flickers.
   constexpr double kMostShare = 0.9, kSeenAgain = 1.1;
@@ -340,10 +342,7 @@ bool LatticeRefiner::start_grid_pass() {
     start({.first_level = 0, .end_level = 1, .takes_base = true, .takes_all = true});
     return true;
   }
-  if (!std::exchange(has_fineness_, true)) {
-    learn_from_base();
-    choose_fineness();
-  }
+  if (!has_fineness_) choose_fineness();
   if (has_grid_ || grid_levels_ == kLatticeLevels.size()) return false;
   const LatticeLevel& level = kLatticeLevels[grid_levels_];
   const auto with_level = static_cast<double>(region().pixel_count()) / level.area();
@@ -392,6 +391,7 @@ bool LatticeRefiner::start_refinement_pass() {
 std::size_t LatticeRefiner::paint(const PixelRect& bounds, std::span<const PixelRect> parts,
                                   PixelBlock& pixels, const std::function<bool()>& is_over) {
   store_.forget_predictions();
+  if (!has_fineness_ && samples_ >= least_samples()) choose_fineness();  // no others were asked for
   choose_shares();
   pixels.bounds = bounds;
   pixels.colors.resize(bounds.area());

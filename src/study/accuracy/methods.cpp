@@ -266,8 +266,9 @@ class SamplerPicture {
     Sampler& sampler = *made_.sampler;
     sampler.clear(false);
     for (const SeedPoint& seed : seeds_) sampler.insert(trace(seed.at));
+    sampler.expect_growth(std::max(1.0, samples / static_cast<double>(sampler.size())));
     bool is_exhausted = false;
-    std::size_t next_hint = sampler.size();
+    std::size_t next_hint = sampler.size() + kSamplesPerHint;
     std::vector<Sample> traced;
     while (static_cast<double>(sampler.size()) < samples && !is_exhausted) {
       if (sampler.size() >= next_hint) {

@@ -94,6 +94,23 @@ TEST_CASE("visibility limit: what a few large shapes took is not the price of ma
   CHECK(asked == kMany);
 }
 
+TEST_CASE("visibility limit: it holds for a picture of the coarsest nodes alone, if no more are expected") {
+  const auto asked_with = [](bool is_told, std::uint32_t count) {
+    std::uint32_t asked = 0;
+    LatticeRefiner sampler(Region::whole({kSide, kSide, 32}), walls(count, asked));
+    for (const Vec2d& point : sampler.base_points())
+      sampler.insert(point, striped(point, Stripes::kEachItsOwn));
+    if (is_told) sampler.expect(0);
+    PixelBlock pixels;
+    sampler.paint({0, 0, kSide, kSide}, pixels);
+    return asked;
+  };
+  constexpr std::uint32_t kFew = 5, kTooMany = 2000;
+  CHECK(asked_with(true, kFew) == kFew);
+  CHECK(asked_with(false, kTooMany) == kTooMany);
+  CHECK(asked_with(true, kTooMany) < kTooMany);
+}
+
 TEST_CASE("visibility limit: shapes that were too many to be seen took no time") {
   std::uint32_t asked = 0;
   LatticeRefiner sampler(Region::whole({kSide, kSide, 32}), walls(100000, asked));

@@ -77,4 +77,28 @@ TEST_CASE("default method: it knows the light on what is round between its sampl
   CHECK(error_over_grid(balls()) < 0.3);  // .45 without
 }
 
+TEST_CASE("methods: the coarsest picture stands for all densities below its own, where that is asked for") {
+  const TreeSetup tree(kSize);
+  for (const Method& method : {default_method(), delaunay_method()}) {
+    CAPTURE(method.name);
+    const auto densities_of = [&](bool takes_coarsest) {
+      std::vector<double> found;
+      const std::vector<double> densities = {1e-4, 1e-3, 0.05, 0.1};
+      method.run({.subject = tree.subject(),
+                  .densities = densities,
+                  .limit_s = 1e9,
+                  .sink = [&](Rendering&& rendering) { found.push_back(rendering.samples); },
+                  .takes_coarsest = takes_coarsest});
+      return found;
+    };
+    const std::vector<double> without = densities_of(false), with = densities_of(true);
+    REQUIRE(without.size() == 2);
+    CHECK(without[0] == Approx(0.05).epsilon(0.01));
+    REQUIRE(with.size() == 3);
+    CHECK(with[0] > 1e-3);
+    CHECK(with[0] < 0.9 * with[1]);
+    CHECK(with[1] == without[0]);
+  }
+}
+
 }  // namespace pprt::default_method_test
