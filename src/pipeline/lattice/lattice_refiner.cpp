@@ -302,13 +302,14 @@ void LatticeRefiner::start(const Pass& pass) {
 
 // Where there are few samples finer edges would not show. What they cost does not grow with the samples, nor
 // does what it costs to see. So seeing may take the more time, the more of the error it takes away. A picture
-// that begins without an estimate of its samples gets all: a still without their number, a first frame.
+// that begins without an estimate of its samples gets all: a still without their number, and on the work
+// clock a first frame.
 void LatticeRefiner::choose_fineness() {
-  learn_from_base();
-  has_fineness_ = true;
   constexpr double kFew = 0.1, kEnough = 0.4;  // samples a pixel
   // Shares of the time, and their factor where the picture before was seen, too: a change flickers.
   constexpr double kMostShare = 0.9, kSeenAgain = 1.1;
+  learn_from_base();
+  has_fineness_ = true;
   if (expected_ == 0) {
     visibility_.limit(VisibilityBuffer::kNoLimit, price_, region().bounds());
     return;

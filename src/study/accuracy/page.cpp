@@ -285,8 +285,8 @@ void write_rates(const AccuracyResults& results, StudyOutput& output) {
   output.section(
       "Deadlines in real time",
       "The same sequences in real time, repeated for at least two seconds (--quick: one): the share of "
-      "frames that met "
-      "their deadline, and their lateness (below 0: early). Errors and samples that differ from those above "
+      "frames that met their deadline, and their lateness (below 0: early). Errors and samples that differ "
+      "from those above "
       "show how far the work clock's second is from this machine's. Uniform rmse: a uniform grid of samples "
       "that takes all of the ranks' time, with nothing lost to deadlines.");
   output.add_table("punctuality", real_time_table(results.real_time));

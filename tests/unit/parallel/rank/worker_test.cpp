@@ -215,7 +215,6 @@ EACH_SAMPLER_TEST_CASE(
   }
 }
 
-// Where a rank is late, those of the tile are of a picture that it has not begun.
 EACH_SAMPLER_TEST_CASE(
     "worker: how many samples there will be is asked before the first packet where no frame before tells") {
   Scene scene(sampler);
@@ -228,6 +227,7 @@ EACH_SAMPLER_TEST_CASE(
   CHECK(scene.clock().asked_before_packets() == 2);
 }
 
+// Where a rank is late, those of the tile are of a picture that it has not begun.
 EACH_SAMPLER_TEST_CASE("worker: a tile that comes without its samples is not black, even without time") {
   Scene scene(sampler, BalanceMode::kLocal, 0);
   const int tile = 2 * 12 + 3;  // rank 0's, beside rank 1's
