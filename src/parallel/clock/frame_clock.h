@@ -7,6 +7,7 @@
 
 #include "parallel/protocol/messages.h"
 #include "parallel/settings/work_units.h"
+#include "pipeline/sampling/time_forecast.h"
 
 namespace pprt {
 
@@ -75,6 +76,10 @@ class FrameClock {
   // coming as from the `begin` ones to the `now` ones. Empty without a rate, and where the order of samples
   // cannot save time.
   virtual std::optional<double> expected_growth(std::size_t begin, std::size_t now) const = 0;
+
+  // What the frame's time is good for, if its first samples took this rank so much CPU time each. Empty
+  // without a rate, and where the order of samples cannot save time.
+  virtual std::optional<TimeForecast> forecast(std::size_t samples, double seconds_of_each) const = 0;
 
   // --- Work
 

@@ -41,7 +41,7 @@ bool WallClock::is_past(const FrameOrder& order) const {
 
 void WallClock::begin_frame(const FrameOrder& order) {
   frame_began_s_ = sequence_.now_s();
-  sampling_began_s_ = frame_began_s_;
+  sampling_began_s_ = packet_began_s_ = frame_began_s_;
   is_sampling_ = false;
   deadline_s_ = order.deadline_s;
   period_s_ = order.periods * usual_period_s_;
@@ -53,7 +53,9 @@ void WallClock::begin_frame(const FrameOrder& order) {
 }
 
 void WallClock::end_frame(double reconstruction_ms, double share) {
-  if (size_ > 0 && share > 0) reconstruction_s_per_size_.add(1e-3 * reconstruction_ms / (share * size_));
+  if (size_ <= 0 || share <= 0) return;
+  RecentValues& per_size = mixed_size_ > 0 ? seen_s_per_size_ : unseen_s_per_size_;
+  per_size.add(1e-3 * reconstruction_ms / (share * size_));
 }
 
 void WallClock::region_changed(std::size_t pixels) {
@@ -69,8 +71,9 @@ void WallClock::begin_packet(std::uint64_t samples) {
   size_ = static_cast<double>(samples) + region_size_ + mixed_size_;
   set_stop();
   if (is_at_rest_ && sampling_over()) left_in_packet_ = 0;
+  packet_began_s_ = sequence_.now_s();
   if (!std::exchange(is_sampling_, true))
-    sampling_began_s_ = sequence_.now_s(), rested_before_sampling_s_ = rested_s_;
+    sampling_began_s_ = packet_began_s_, rested_before_sampling_s_ = rested_s_;
   // With more ranks than cores, short turns keep every rank near its deadline.
   if (ranks_per_core_ > 1) sched_yield();
 }
@@ -115,6 +118,17 @@ std::optional<double> WallClock::expected_growth(std::size_t begin, std::size_t 
   return 1 + (1 - static_cast<double>(begin) / static_cast<double>(now)) * (1 - share) / share;
 }
 
+// Before anything is seen a pixel of several surfaces takes no longer than others.
+std::optional<TimeForecast> WallClock::forecast(std::size_t samples, double seconds_of_each) const {
+  if (deadline_s_ == 0 || samples == 0 || seconds_of_each <= 0) return std::nullopt;
+  const double now = static_cast<double>(samples);
+  const double left_s = latest_s(now + region_size_, false) - sequence_.now_s();
+  const double each_s = seconds_of_each * ranks_per_core_;
+  const double seen_s = seen_s_per_size_.least();
+  return TimeForecast{now + std::max(left_s, 0.0) / (each_s + reconstruction_s(1, false)),
+                      kSamplesPerMixedPixel * (seen_s > 0 ? seen_s : kFirstSecondsPerSize) / seconds_of_each};
+}
+
 std::size_t WallClock::affordable(Work work, double share) const {
   const double seconds = 1e-9 * static_cast<double>(price(work)) * ranks_per_core_;
   return static_cast<std::size_t>(share * period_s_ / seconds);
@@ -127,14 +141,14 @@ double WallClock::rested(double seconds) {
 
 bool WallClock::is_fine_enough() const {
   return deadline_s_ > 0 && is_at_rest_ && !refreshes_in_parts_ &&
-         reserve_s_ + reconstruction_s() >= period_s_;
+         reserve_s_ + reconstruction_s(size_, mixed_size_ > 0) >= period_s_;
 }
 
 // Seconds after sampling: for this rank's own reconstruction beside those of the ranks that share its core,
 // and for what else the master has seen to pass until a frame is whole. A new picture gets some samples,
 // whatever that takes. A resting one is reconstructed in parts or by turns.
-double WallClock::left_for_the_rest() const {
-  double reconstruction_s = is_turn_ ? this->reconstruction_s() : 0;
+double WallClock::left_for_the_rest(double size, bool is_seen) const {
+  double reconstruction_s = is_turn_ ? this->reconstruction_s(size, is_seen) : 0;
   if (is_at_rest_ && refreshes_in_parts_)
     reconstruction_s = std::min(reconstruction_s, kMostForRefreshing * period_s_);
   const double most = is_at_rest_ ? 1 : kMostLeftOfANewPicture;
@@ -146,21 +160,24 @@ void WallClock::take_turns() {
   is_turn_ = true;
   if (!is_at_rest_ || refreshes_in_parts_) return;
   saved_s_ += kMostForRefreshing * period_s_;
-  is_turn_ = saved_s_ >= reconstruction_s();
+  is_turn_ = saved_s_ >= reconstruction_s(size_, mixed_size_ > 0);
   if (is_turn_) saved_s_ = 0;
 }
 
 void WallClock::set_stop() {
-  stop_s_ = 0;
-  if (deadline_s_ <= 0) return;
-  const double latest_s = deadline_s_ - left_for_the_rest();
-  stop_s_ = effort_ < 1 ? frame_began_s_ + effort_ * std::max(0.0, latest_s - frame_began_s_) : latest_s;
+  stop_s_ = deadline_s_ > 0 ? latest_s(size_, mixed_size_ > 0) : 0;
+}
+
+// When sampling must stop, of a frame with a deadline and so much to reconstruct.
+double WallClock::latest_s(double size, bool is_seen) const {
+  const double latest_s = deadline_s_ - left_for_the_rest(size, is_seen);
+  return effort_ < 1 ? frame_began_s_ + effort_ * std::max(0.0, latest_s - frame_began_s_) : latest_s;
 }
 
 // Predicted seconds: as in the slowest of the last frames, and a quarter more.
-double WallClock::reconstruction_s() const {
-  const double slowest = reconstruction_s_per_size_.get();
-  return 1.25 * (slowest > 0 ? slowest : kFirstSecondsPerSize) * size_ * ranks_per_core_;
+double WallClock::reconstruction_s(double size, bool is_seen) const {
+  const double slowest = (is_seen ? seen_s_per_size_ : unseen_s_per_size_).greatest();
+  return 1.25 * (slowest > 0 ? slowest : kFirstSecondsPerSize) * size * ranks_per_core_;
 }
 
 }  // namespace pprt

@@ -13,11 +13,15 @@
 
 namespace pprt {
 
-// The largest of the last eight values: what a careful prediction assumes. 0 before there is any.
-class RecentMaximum {
+// The last eight values. 0 before there is any.
+class RecentValues {
  public:
   void add(double value) { values_[next_++ % values_.size()] = value; }
-  double get() const { return *std::max_element(values_.begin(), values_.end()); }
+  double greatest() const { return *std::max_element(values_.begin(), values_.end()); }
+  double least() const {
+    const auto end = values_.begin() + static_cast<std::ptrdiff_t>(std::min(next_, values_.size()));
+    return next_ > 0 ? *std::min_element(values_.begin(), end) : 0;
+  }
 
  private:
   std::array<double, 8> values_{};
@@ -52,6 +56,7 @@ class WallClock final : public FrameClock {
   double pace() const override { return pace_; }
   double sampling_share() const override;
   std::optional<double> expected_growth(std::size_t begin, std::size_t now) const override;
+  std::optional<TimeForecast> forecast(std::size_t samples, double seconds_of_each) const override;
 
   void spend(Work, std::uint64_t) override {}
   std::size_t affordable(Work work, double share) const override;
@@ -60,13 +65,14 @@ class WallClock final : public FrameClock {
   std::int64_t used_ns() const override { return thread_cpu_ns(); }
   double as_evidence_ms(double measured_ms) const override { return measured_ms; }
   double frame_seconds() const override { return sequence_.now_s() - frame_began_s_; }
-  double sampling_end_seconds() const override { return std::max(stop_s_, sampling_began_s_); }
+  double sampling_end_seconds() const override { return std::max(stop_s_, packet_began_s_); }
 
  private:
   void take_turns();
   void set_stop();
-  double left_for_the_rest() const;
-  double reconstruction_s() const;
+  double latest_s(double size, bool is_seen) const;
+  double left_for_the_rest(double size, bool is_seen) const;
+  double reconstruction_s(double size, bool is_seen) const;
 
   // All times are seconds since the sequence began.
   const SequenceClock& sequence_;
@@ -81,18 +87,20 @@ class WallClock final : public FrameClock {
   bool is_at_rest_ = false;
   double stop_s_ = 0;  // when sampling must stop; 0: no rate
   double sampling_began_s_ = 0;
-  double part_began_s_ = 0;   // of reconstruction
-  double saved_s_ = 0;        // for the next reconstruction as a whole, while the picture rests
-  bool is_turn_ = true;       // of reconstruction as a whole
-  bool is_sampling_ = false;  // this frame has begun to
-  double rested_s_ = 0;       // since the beginning
+  double packet_began_s_ = 0;  // the last one; until there is one, the frame
+  double part_began_s_ = 0;    // of reconstruction
+  double saved_s_ = 0;         // for the next reconstruction as a whole, while the picture rests
+  bool is_turn_ = true;        // of reconstruction as a whole
+  bool is_sampling_ = false;   // this frame has begun to
+  double rested_s_ = 0;        // since the beginning
   double rested_before_sampling_s_ = 0;
   double pace_ = 1;
   bool knows_pace_ = false;
   double size_ = 1;         // of what is to be reconstructed, in samples
   double region_size_ = 0;  // what the region's pixels add to it
   double mixed_size_ = 0;   // what those of several surfaces add
-  RecentMaximum reconstruction_s_per_size_;
+  // Of pictures whose surfaces are seen, and of others.
+  RecentValues seen_s_per_size_, unseen_s_per_size_;
   int left_in_packet_ = 0;
 };
 

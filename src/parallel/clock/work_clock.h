@@ -38,6 +38,7 @@ class WorkClock final : public FrameClock {
   double pace() const override { return slowness_; }
   double sampling_share() const override;
   std::optional<double> expected_growth(std::size_t, std::size_t) const override { return std::nullopt; }
+  std::optional<TimeForecast> forecast(std::size_t, double) const override { return std::nullopt; }
 
   void spend(Work work, std::uint64_t count) override { frame_units_ += cost(work, count); }
   std::size_t affordable(Work work, double share) const override;

@@ -204,8 +204,10 @@ void Worker::take_in(const std::vector<Inbox::Arrived>& bundles) {
 void Worker::reconstruct(bool rests) {
   sampler_.trace_missing_base();
   reconstructed_ = 1;
-  if (rests && ownership_.given().empty()) {
-    reconstructed_ = picture_.refresh(sampler_.sampler(), [this] { return clock_->reconstruction_over(); });
+  if (rests) {
+    reconstructed_ =
+        picture_.refresh(sampler_.sampler(), ownership_.given(), sampler_.traits().refreshes_in_parts,
+                         [this] { return clock_->reconstruction_over(); });
   } else {
     picture_.reconstruct(sampler_.sampler(), ownership_.given());
   }

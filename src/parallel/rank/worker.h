@@ -73,6 +73,7 @@ class Worker {
   FrameLikeness likeness_to_last(const FrameOrder& order, const MissedFrames& missed) const;
   void rejoin(const FrameOrder& order, const MissedFrames& missed);
   void begin_anew(const FrameOrder& order, bool keeps_samples, bool eye_rests);
+  void trace_seeds(bool has_last_picture);
   void begin_picture(int begun_in, bool keep_learned);
   void distribute(const FrameOrder& order, const std::vector<Sample>& cast);
   std::vector<Sample> receive_seeds();

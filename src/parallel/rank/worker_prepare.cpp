@@ -63,13 +63,22 @@ void Worker::begin_anew(const FrameOrder& order, bool keeps_samples, bool eye_re
   if (!order.owners.empty()) ownership_.repartition(order, false);
   if (seeks_anchors) anchors_.allow(sampler_.in_region());
   begin_picture(order.index, keeps_samples);
-  sampler_.trace_seeds();
-  if (!keeps_samples) {
-    // Nothing tells how many samples there will be but the time that the first ones took.
-    if (const auto growth = clock_->expected_growth(0, sampler_.sampler().size()))
-      sampler_.expect_growth(*growth);
-  }
+  trace_seeds(keeps_samples);
   distribute(order, cast);
+}
+
+// How many samples there will be is told by the last picture. Without one it is told by the time that the
+// first ones take.
+void Worker::trace_seeds(bool has_last_picture) {
+  const std::int64_t began_ns = clock_->used_ns();
+  sampler_.trace_seeds();
+  const std::size_t seeds = sampler_.sampler().size();
+  const double each_s = 1e-9 * static_cast<double>(clock_->used_ns() - began_ns) /
+                        static_cast<double>(std::max<std::size_t>(seeds, 1));
+  const std::optional<TimeForecast> forecast = clock_->forecast(seeds, each_s);
+  if (!forecast) return;
+  if (!has_last_picture) sampler_.expect_growth(forecast->samples / static_cast<double>(seeds));
+  sampler_.sampler().expect_time(*forecast);
 }
 
 void Worker::begin_picture(int begun_in, bool keep_learned) {

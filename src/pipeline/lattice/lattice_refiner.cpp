@@ -9,11 +9,12 @@
 namespace pprt {
 namespace {
 
-// In the time of a ray: what a sample takes beside its rays, and a quadric or facet before one was seen.
-constexpr double kRaysOfASample = 5, kFirstPrice = 5;
-constexpr double kSurfacesOfASample = 2;  // what surfaces that are seen add to a sample, in rays
-constexpr double kGridShare = 0.35;       // of all samples that the grid may take
-constexpr float kGreatestFall = 3;        // of the threshold, from pass to pass
+// In the time of a ray: what a sample takes beside its rays, one of the coarsest, what surfaces that are seen
+// add to it, painting a pixel that shows several surfaces, and a quadric or facet before one was seen.
+constexpr double kRaysOfASample = 5, kRaysOfASeed = 0.7, kSurfacesOfASample = 2;
+constexpr double kRaysOfAMixedPixel = 5, kFirstPrice = 5;
+constexpr double kGridShare = 0.35;   // of all samples that the grid may take
+constexpr float kGreatestFall = 3;    // of the threshold, from pass to pass
 constexpr float kShareOfLast = 0.2F;  // that light on textures in the last picture counts as, of this one's
 
 // Returns the tiles in bands of two rows. Bands follow each other by steps of the golden section, which fall
@@ -54,9 +55,9 @@ LatticeRefiner::LatticeRefiner(const Region& region, PrimitiveShapes shapes, Lat
 }
 
 void LatticeRefiner::clear() {
-  time_ = 0, has_seen_ = false;
+  was_seen_ = has_seen_ = false;
   price_ = {.each = kFirstPrice};
-  visibility_.limit(VisibilityBuffer::kNoLimit);
+  mixed_ = {};
   forget_visibility(VisibilityBuffer::kFine);
   estimates_.clear();
   share_.clear();
@@ -66,16 +67,26 @@ void LatticeRefiner::clear() {
   forget_samples();
 }
 
+// The region changes before restart(), and then nothing is to be seen of it.
+void LatticeRefiner::camera_changed() {
+  note_seeing();
+  forget_visibility(visibility_.fineness());
+  visibility_.limit(0);
+}
+
+// Learns what it took to see the picture.
+void LatticeRefiner::note_seeing() {
+  if (!visibility_.has_seen()) return;
+  const std::size_t items = std::max<std::size_t>(visibility_.items_within(), 1);
+  price_ = {.each = visibility_.work() / static_cast<double>(items), .seen = items, .further = kFirstPrice};
+  mixed_.learn(visibility_.mixed_share());
+  was_seen_ = true;
+}
+
 void LatticeRefiner::restart() {
+  note_seeing();
+  has_seen_ = std::exchange(was_seen_, false);
   const auto as_many = static_cast<double>(samples_);
-  has_seen_ = visibility_.has_seen();
-  const double seeing = has_seen_ ? visibility_.work() : 0;
-  const double time = static_cast<double>(rays_) + kRaysOfASample * as_many + seeing;
-  time_ = time_ > 0 ? 0.5 * (time_ + time) : time;
-  if (seeing > 0) {
-    const std::size_t items = std::max<std::size_t>(visibility_.items_within(), 1);
-    price_ = {.each = seeing / static_cast<double>(items), .seen = items, .further = kFirstPrice};
-  }
   errors_.clear();
   textures_.fade(kShareOfLast);
   forget_samples();
@@ -89,11 +100,13 @@ void LatticeRefiner::forget_visibility(const VisibilityBuffer::Fineness& finenes
 }
 
 void LatticeRefiner::forget_samples() {
+  visibility_.limit(0);  // until it is settled what it is worth
   store_.clear();
   surfaces_.clear();
   unsampled_surfaces_.clear();
   has_looked_ = has_fineness_ = false;
   surfaces_wanted_.clear();
+  forecast_.reset();
   samples_ = rays_ = learned_from_ = 0;
   expected_ = 0;
   has_base_ = has_grid_ = is_region_new_ = false;
@@ -290,7 +303,16 @@ bool LatticeRefiner::start_pass() {
   textures_.update();
   errors_.start_round();
   store_.forget_predictions();
+  ask_again();
   return start_grid_pass() || (order_ == LatticeOrder::kAdaptive && start_refinement_pass());
+}
+
+// While a camera rests a picture gets many times the samples that it was begun for.
+void LatticeRefiner::ask_again() {
+  constexpr double kMany = 2;
+  if (!has_fineness_ || visibility_.has_seen() || static_cast<double>(samples_) < kMany * asked_for_) return;
+  has_fineness_ = has_looked_ = false;
+  forecast_.reset();
 }
 
 void LatticeRefiner::start(const Pass& pass) {
@@ -306,8 +328,6 @@ void LatticeRefiner::start(const Pass& pass) {
 // clock a first frame.
 void LatticeRefiner::choose_fineness() {
   constexpr double kFew = 0.1, kEnough = 0.4;  // samples a pixel
-  // Shares of the time, and their factor where the picture before was seen, too: a change flickers.
-  constexpr double kMostShare = 0.9, kSeenAgain = 1.1;
   learn_from_base();
   has_fineness_ = true;
   if (expected_ == 0) {
@@ -315,16 +335,32 @@ void LatticeRefiner::choose_fineness() {
     return;
   }
   const double samples = static_cast<double>(samples_) + samples_left();
+  asked_for_ = samples;
   const double per_pixel = samples / static_cast<double>(region().pixel_count());
   const VisibilityBuffer::Fineness fineness = per_pixel < kFew      ? VisibilityBuffer::kCoarse
                                               : per_pixel < kEnough ? VisibilityBuffer::kMiddle
                                                                     : VisibilityBuffer::kFine;
   if (fineness != visibility_.fineness()) forget_visibility(fineness);
-  const double a_sample =
-      static_cast<double>(rays_) / static_cast<double>(std::max<std::size_t>(samples_, 1));
-  const double time = time_ > 0 ? time_ : (a_sample + kRaysOfASample) * samples;
+  visibility_.limit(time_for_seeing(samples), price_, region().bounds());
+}
+
+// Returns how many rays seeing may take, if there will be so many samples. With a rate it must fit beside the
+// samples that there are, and takes others away. Without one it comes on top of them. Painting takes longer,
+// too, where surfaces meet.
+double LatticeRefiner::time_for_seeing(double samples) const {
+  // Shares of the time, and their factor where the picture before was seen, too: a change flickers.
+  constexpr double kMostShare = 0.9, kSeenAgain = 1.1;
   const double share = std::min(kMostShare, (has_seen_ ? kSeenAgain : 1) * gain_.worthwhile_share());
-  visibility_.limit(share * time - kSurfacesOfASample * samples, price_, region().bounds());
+  const auto now = static_cast<double>(samples_);
+  const double rays = static_cast<double>(rays_) / std::max(now, 1.0);
+  const double unseen = rays + kRaysOfASample, seen = unseen + kSurfacesOfASample;  // a sample
+  const double mixed_pixels = mixed_.expected(has_seen_) * static_cast<double>(region().pixel_count());
+  if (!forecast_) {
+    return samples * (share * seen - kSurfacesOfASample) / (1 - share) - kRaysOfAMixedPixel * mixed_pixels;
+  }
+  const double seed = rays + kRaysOfASeed, time = forecast_->samples * seed;
+  const double most = std::min(share * time, time - now * seed), surcharge = kSurfacesOfASample / seen;
+  return (most - surcharge * time) / (1 - surcharge) - forecast_->mixed_pixel * seed * mixed_pixels;
 }
 
 // With many samples a pixel the shares of what is seen in it must not err by more than its colours, nor must

@@ -29,6 +29,8 @@
 #include "pipeline/lattice/surface_samples.h"
 #include "pipeline/lattice/surface_textures.h"
 #include "pipeline/lattice/unsampled_surfaces.h"
+#include "pipeline/sampling/time_forecast.h"
+#include "pipeline/visibility/mixed_share.h"
 #include "pipeline/visibility/seeing_gain.h"
 #include "pipeline/visibility/visibility_buffer.h"
 
@@ -59,12 +61,15 @@ class LatticeRefiner {
   const Region& region() const { return own_.region(); }
 
   // Projected shapes are of another camera from now on.
-  void camera_changed() { forget_visibility(visibility_.fineness()); }
+  void camera_changed();
 
   // Tells how many samples more there will be, about. Thresholds are set by it: too few or too many make the
   // picture coarser in one part than in another. Repeat the call on the way. Where it is not repeated as many
   // samples again are expected as there are.
   void expect(double samples_left) { expected_ = static_cast<double>(samples_) + samples_left; }
+
+  // Tells what the time of a frame with a rate is good for. Comes after the base, before what follows.
+  void expect_time(const TimeForecast& forecast) { forecast_ = forecast; }
 
   // Returns the nodes at the corners of the region's base squares, some of which belong to other regions.
   std::vector<Vec2d> base_points() const;
@@ -136,6 +141,7 @@ class LatticeRefiner {
     return !store_.is_sampled(node) && (is_base ? own_.needs_base(node) : own_.owns(node));
   }
   void forget_samples();
+  void note_seeing();
   void forget_visibility(const VisibilityBuffer::Fineness& fineness);
   void begin_square(const LatticeNode& corner);
   void leave_square(const LatticeNode& corner);
@@ -147,7 +153,9 @@ class LatticeRefiner {
   void learn_within_pass();
   bool leave_pass();
   bool start_pass();
+  void ask_again();
   void choose_fineness();
+  double time_for_seeing(double samples) const;
   void choose_shares();
   bool start_grid_pass();
   bool start_refinement_pass();
@@ -183,6 +191,7 @@ class LatticeRefiner {
   ErrorEstimates estimates_;
   SurfaceShare share_;
   SeeingGain gain_;
+  MixedShare mixed_;
   SurfaceTextures textures_;
   SurfaceLights lights_;
   NodePredictor predictor_;
@@ -196,7 +205,9 @@ class LatticeRefiner {
   std::size_t grid_levels_ = 0;  // taken whole, the base not counted
   bool has_base_ = false, has_grid_ = false;
   bool has_fineness_ = false;
-  double time_ = 0;                                // that the picture before took, in rays; 0: there was none
+  std::optional<TimeForecast> forecast_;           // of the frame in which the picture begins
+  double asked_for_ = 0;                           // samples
+  bool was_seen_ = false;                          // this one, which is forgotten
   bool has_seen_ = false;                          // the picture before
   SeeingPrice price_;                              // by the last picture that was seen
   bool has_looked_ = false;                        // for unsampled surfaces

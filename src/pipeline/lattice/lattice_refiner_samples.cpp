@@ -105,6 +105,7 @@ void LatticeRefiner::learn_share(const Wanted& at, const float4& seen) {
 // beside them that lie on the same surface. Where a texture or all light is known, one sample tells all.
 void LatticeRefiner::learn_from_base() {
   gain_.fade();
+  mixed_.begin();
   for (const LatticeNode& node : own_.base_nodes()) {
     const NodeValue* seen = store_.sample_at(node);
     if (seen == nullptr) continue;
@@ -132,6 +133,7 @@ void LatticeRefiner::learn_from_base() {
       gain_.learn(sum_of_channels(differs * differs), sum_of_channels(differs * direction),
                   sum_of_channels(direction * direction));
     }
+    mixed_.note(count, count - on_it);
     if (on_it == count) continue;
     for (std::size_t i = 0; i < on_it; ++i) {
       const float4 direction = same[i] - mean;

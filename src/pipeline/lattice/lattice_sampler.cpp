@@ -137,7 +137,7 @@ std::size_t LatticeSampler::repaint(std::span<const std::int32_t> tiles, const s
                                     PixelBlock& pixels) {
   parts_.clear();
   for (const std::int32_t tile : tiles) parts_.push_back(region().grid().pixels(tile));
-  return paint_tiles(region().bounds(), is_over, pixels);
+  return paint_tiles(PixelRect(pixels.bounds), is_over, pixels);
 }
 
 std::size_t LatticeSampler::paint_tiles(const PixelRect& bounds, const std::function<bool()>& is_over,

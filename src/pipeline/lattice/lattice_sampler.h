@@ -41,6 +41,7 @@ class LatticeSampler final : public PointSampler {
   double footprint(const Vec2d& point) const override;
   bool insert(const Sample& sample) override;
   void expect_growth(double factor) override;
+  void expect_time(const TimeForecast& forecast) override { refiner_.expect_time(forecast); }
   void camera_changed() override { refiner_.camera_changed(); }
   const Region& region() const override { return refiner_.region(); }
   std::size_t size() const override { return refiner_.samples(); }

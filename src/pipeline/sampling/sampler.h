@@ -13,6 +13,7 @@
 #include "pipeline/core/pixel_block.h"
 #include "pipeline/core/region_quality.h"
 #include "pipeline/core/sample.h"
+#include "pipeline/sampling/time_forecast.h"
 
 namespace pprt {
 
@@ -78,6 +79,9 @@ class Sampler {
   // Hint: the frame will end with `factor` times the current samples.
   virtual void expect_growth(double factor) = 0;
 
+  // Hint: what the frame's time is good for. Comes after the seeds, before any other sample is wanted.
+  virtual void expect_time(const TimeForecast& /*forecast*/) {}
+
   // The probe looks from another camera.
   virtual void camera_changed() = 0;
 
@@ -103,8 +107,8 @@ class Sampler {
   // Replaces `pixels` by those of the region, and of further tiles that the samples cover.
   virtual void paint(std::span<const std::int32_t> further_tiles, PixelBlock& pixels) = 0;
 
-  // Brings tiles of the region up to date in what paint() has made of it. After each one it asks whether time
-  // is over, and returns how many there were. Without parts all are done at once.
+  // Brings tiles that the samples cover up to date in `pixels`, whose bounds hold them. After each one it
+  // asks whether time is over, and returns how many there were. Without parts all of the region is painted.
   virtual std::size_t repaint(std::span<const std::int32_t> tiles, const std::function<bool()>& is_over,
                               PixelBlock& pixels) = 0;
 

@@ -38,7 +38,6 @@ VisibilityBuffer::VisibilityBuffer(int right, int bottom, PrimitiveShapes shapes
 }
 
 void VisibilityBuffer::forget(const Fineness& fineness) {
-  was_known_ = has_seen();
   state_ = has_shapes() && most_rays_ > 0 ? State::kNotAsked : State::kUnknown;
   density_ = fineness.points_per_side, log2_density_ = std::countr_zero(static_cast<unsigned>(density_)),
   share_lines_ = fineness.share_lines, share_points_ = fineness.share_points;
@@ -52,7 +51,7 @@ void VisibilityBuffer::forget(const Fineness& fineness) {
 // seeing them would take too long.
 bool VisibilityBuffer::bound_all() {
   constexpr std::size_t kAtOnce = 1024;
-  constexpr double kRaysOfABound = 0.065;  // most are out of view, with others
+  constexpr double kRaysOfABound = 0.13;  // most are out of view, with others
   items_.clear(), quadrics_.clear(), facets_.clear();
   items_of_.assign(shapes_.count, {});
   bounds_.resize(shapes_.count);

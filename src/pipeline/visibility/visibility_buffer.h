@@ -139,11 +139,7 @@ class VisibilityBuffer {
   // and each quadric and facet that may be in a part of the picture has its price. 0 rays: nothing is even
   // bounded.
   void limit(double rays, const SeeingPrice& price, const PixelRect& within) {
-    if (rays <= 0) {
-      state_ = State::kUnknown;
-    } else if (most_rays_ <= 0 && has_shapes()) {
-      state_ = State::kNotAsked;
-    }
+    state_ = rays > 0 && has_shapes() ? State::kNotAsked : State::kUnknown;
     most_rays_ = rays, price_ = price, within_ = within;
   }
   void limit(double rays) { limit(rays, {}, {0, 0, right_, bottom_}); }
@@ -153,11 +149,12 @@ class VisibilityBuffer {
 
   // Returns what seeing took, in rays, without bounding. It is of what is known, or was until it was
   // forgotten. Counts are the same everywhere: of what was projected, tried in tiles, and rasterised in
-  // blocks of 8 x 8 points. With 2,000 instructions a ray they are .76 to 1.2 of those of the nine databases,
-  // where listing by block takes up to a fifth more.
+  // blocks of 8 x 8 points. With 1,000 instructions a ray they are .76 to 1.2 of those of the nine databases,
+  // where listing by block takes up to a fifth more. A sample of the tree has 10,000, with ten rays by
+  // LatticeRefiner's count.
   double work() const {
-    constexpr double kFacet = 1.25, kQuadric = 0.75, kTrial = 0.6, kTile = 7;
-    constexpr double kFacetBlock = 0.2, kQuadricBlock = 0.55;
+    constexpr double kFacet = 2.5, kQuadric = 1.5, kTrial = 1.2, kTile = 14;
+    constexpr double kFacetBlock = 0.4, kQuadricBlock = 1.1;
     const auto of = [](double price, std::size_t count) { return price * static_cast<double>(count); };
     return of(kFacet, facets_.size()) + of(kQuadric, quadrics_.size()) + of(kTrial, trials_) +
            of(kTile, tiles_seen_) + of(kFacetBlock, facet_blocks_) + of(kQuadricBlock, quadric_blocks_);
@@ -165,6 +162,14 @@ class VisibilityBuffer {
 
   // Returns how many pixels of the tiles seen so far show several surfaces.
   std::size_t mixed_pixels() const { return state_ == State::kKnown ? mixed_pixels_ : 0; }
+
+  // Returns their share of these tiles. It is of what is known, or was until it was forgotten.
+  double mixed_share() const {
+    const auto side = static_cast<std::size_t>(tile_pixels());
+    return tiles_seen_ > 0
+               ? static_cast<double>(mixed_pixels_) / static_cast<double>(tiles_seen_ * side * side)
+               : 0;
+  }
 
   Fineness fineness() const { return {density_, share_lines_, share_points_, has_thin_}; }
 
@@ -177,8 +182,8 @@ class VisibilityBuffer {
   // That one has no shape may show late: a primitive is projected when a tile that it may meet is asked for.
   bool is_known() { return state_ == State::kKnown || (state_ == State::kNotAsked && bound_all()); }
 
-  // Whether it is known, or was until it was forgotten and has not been asked for since.
-  bool has_seen() const { return state_ == State::kKnown || (state_ == State::kNotAsked && was_known_); }
+  // Whether it has been asked for and is known.
+  bool has_seen() const { return state_ == State::kKnown; }
 
   // Returns the tile that holds a pixel. Only if is_known().
   const VisibleTile& tile(int pixel_x, int pixel_y) {
@@ -298,7 +303,6 @@ class VisibilityBuffer {
   int columns_ = 0, rows_ = 0;               // of tiles
   PrimitiveShapes shapes_;
   State state_ = State::kNotAsked;
-  bool was_known_ = false;  // when it was forgotten
   double most_rays_ = kNoLimit;
   SeeingPrice price_;
   std::size_t items_within_ = 0;

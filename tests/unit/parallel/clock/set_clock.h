@@ -33,10 +33,11 @@ class SetClock final : public FrameClock {
   void end_sampling(double) override {}
   double pace() const override { return 1; }
   double sampling_share() const override { return packets_ < kPackets ? 0.25 : 1; }
-  std::optional<double> expected_growth(std::size_t begin, std::size_t now) const override {
-    asked_before_packets_ += begin == 0 && now > 0 && packets_ == 0;
+  std::optional<TimeForecast> forecast(std::size_t samples, double seconds_of_each) const override {
+    asked_before_packets_ += samples > 0 && seconds_of_each > 0 && packets_ == 0;
     return std::nullopt;
   }
+  std::optional<double> expected_growth(std::size_t, std::size_t) const override { return std::nullopt; }
 
   void spend(Work, std::uint64_t) override {}
   std::size_t affordable(Work, double) const override { return 100'000; }
@@ -49,7 +50,7 @@ class SetClock final : public FrameClock {
 
   int readings() const { return readings_; }
 
-  // How often it was asked before a frame's first packet how many samples there will be.
+  // How often it was asked before a frame's first packet what the time is good for.
   int asked_before_packets() const { return asked_before_packets_; }
 
   // From now on no time is left for the reconstruction of a resting picture.

@@ -224,8 +224,63 @@ TEST_CASE("set wall clock: a pixel of several surfaces counts as eight samples, 
   };
   const double each_s = 0.005 / 500;
   CHECK(left_with(50) == Approx(0.01 + 1.25 * each_s * 500));
-  CHECK(left_with(0) == Approx(0.01 + 1.25 * each_s * 100));
+  CHECK(left_with(1) == Approx(0.01 + 1.25 * each_s * 108));
   CHECK(left_with(100) == Approx(0.01 + 1.25 * each_s * 900));
+}
+
+TEST_CASE("set wall clock: what pictures take whose surfaces are seen tells nothing of others") {
+  Timed timed;
+  timed.begin(1, 0.01);
+  timed.reconstruct(100, 1);
+  timed.clock.mixed_pixels_found(50);
+  timed.reconstruct(100, 15);
+  const auto left_with = [&](std::size_t mixed_pixels) {
+    timed.clock.mixed_pixels_found(mixed_pixels);
+    timed.clock.begin_packet(100);
+    return 1 - timed.clock.sampling_end_seconds();
+  };
+  CHECK(left_with(0) == Approx(0.01 + 1.25 * 0.001));
+  CHECK(left_with(50) == Approx(0.01 + 1.25 * 0.015));
+}
+
+TEST_CASE("set wall clock: sampling has not ended earlier because surfaces were found to be seen") {
+  Timed timed;
+  timed.begin(1, 0.01);
+  timed.reconstruct(1000, 50);
+  timed.now = 0.93;
+  timed.clock.begin_packet(100);
+  REQUIRE(timed.clock.sampling_end_seconds() > 0.93);
+  timed.clock.mixed_pixels_found(1'000'000);
+  timed.clock.begin_packet(100);
+  CHECK(timed.clock.sampling_over());
+  CHECK(timed.clock.sampling_end_seconds() == 0.93);
+}
+
+TEST_CASE("set wall clock: a forecast tells how many samples fit, and how many a mixed pixel is worth") {
+  for (const double ranks_per_core : {1.0, 2.0}) {
+    Timed timed(ranks_per_core);
+    timed.begin(1, 0.01);
+    timed.now = 0.95;
+    timed.clock.region_changed(static_cast<std::size_t>(kPixelsPerSample * 400));
+    constexpr double kFirst = 1.3e-7, kEach = 1e-5;
+    const auto painting = [&](double each_s) { return 1.25 * each_s * ranks_per_core; };
+    const TimeForecast first = timed.clock.forecast(100, kEach).value();
+    CHECK(first.samples ==
+          Approx(100 + (0.04 - painting(kFirst) * 500) / (kEach * ranks_per_core + painting(kFirst))));
+    CHECK(first.mixed_pixel == Approx(8 * kFirst / kEach));
+    // As the quickest of the pictures that were seen.
+    timed.clock.mixed_pixels_found(100);
+    for (const double ms : {26.0, 13.0, 39.0}) timed.reconstruct(100, ms);
+    const TimeForecast seen = timed.clock.forecast(100, kEach).value();
+    CHECK(seen.samples == Approx(first.samples));
+    CHECK(seen.mixed_pixel == Approx(8 * 1e-5 / kEach));
+    timed.now = 2;
+    CHECK(timed.clock.forecast(100, kEach).value().samples == 100);
+    CHECK_FALSE(timed.clock.forecast(0, kEach));
+  }
+  Timed without_rate(1, false, 0);
+  without_rate.begin(0);
+  CHECK_FALSE(without_rate.clock.forecast(100, 1e-6));
 }
 
 TEST_CASE("set wall clock: before it is measured reconstruction is expected to take 130 ns for a sample") {

@@ -89,16 +89,16 @@ TEST_CASE("picture refresh: tiles are brought up to date in turn, the others sho
 
   int asked = 0;
   const auto after_two = [&] { return asked++ == 2; };
-  CHECK(picture.refresh(samples, after_two) == Approx(2.0 / kTiles));
+  CHECK(picture.refresh(samples, {}, true, after_two) == Approx(2.0 / kTiles));
   CHECK(tiles_that_differ(picture, after) == std::vector{2, 3, 4, 5});
   CHECK(tiles_that_differ(picture, before) == std::vector{0, 1});
 
   // New samples: whoever has waited longest is next, and those of the first turn come again.
   refine(made, 600);
   const PictureRefresh newest = whole_picture(samples);
-  CHECK(picture.refresh(samples, never) == 1);
+  CHECK(picture.refresh(samples, {}, true, never) == 1);
   CHECK(tiles_that_differ(picture, newest).empty());
-  CHECK(picture.refresh(samples, never) == 0);
+  CHECK(picture.refresh(samples, {}, true, never) == 0);
 }
 
 TEST_CASE("picture refresh: without new samples each tile has one turn") {
@@ -106,28 +106,53 @@ TEST_CASE("picture refresh: without new samples each tile has one turn") {
   Sampler& samples = *made.sampler;
   refine(made, 200);
   PictureRefresh picture = whole_picture(samples);
-  CHECK(picture.refresh(samples, never) == 0);
+  CHECK(picture.refresh(samples, {}, true, never) == 0);
   refine(made, 1200);
-  CHECK(picture.refresh(samples, [] { return true; }) == 0);
+  CHECK(picture.refresh(samples, {}, true, [] { return true; }) == 0);
   for (int turn = 0; turn < kTiles; ++turn) {
     int asked = 0;
-    CHECK(picture.refresh(samples, [&] { return asked++ == 1; }) == Approx(1.0 / kTiles));
+    CHECK(picture.refresh(samples, {}, true, [&] { return asked++ == 1; }) == Approx(1.0 / kTiles));
   }
-  CHECK(picture.refresh(samples, never) == 0);
+  CHECK(picture.refresh(samples, {}, true, never) == 0);
   CHECK(tiles_that_differ(picture, whole_picture(samples)).empty());
 }
 
-EACH_SAMPLER_TEST_CASE("picture refresh: a region that has changed is reconstructed as a whole") {
+EACH_SAMPLER_TEST_CASE("picture refresh: of a region that has changed new tiles are reconstructed at once") {
+  const bool in_parts = traits_of(sampler).refreshes_in_parts;
   const SamplerWithExchange made = rank_0(sampler, 2);
   Sampler& samples = *made.sampler;
   seed(made);
   refine(made, 200);
   PictureRefresh picture = whole_picture(samples);
+  const PictureRefresh before = picture;
+  refine(made, 1200);
   Partition other = partition_of(2);
   std::swap(other.owner[0], other.owner[1]);
   made.exchange->transfer(other);
-  CHECK(picture.refresh(samples, [] { return true; }) == 1);
-  CHECK(tile_of(picture, 1) == tile_of(whole_picture(samples), 1));
+  const PictureRefresh after = whole_picture(samples);
+  if (in_parts) REQUIRE(tile_of(before, 4) != tile_of(after, 4));
+  CHECK(picture.refresh(samples, {}, in_parts, [] { return true; }) == Approx(in_parts ? 1.0 / 3 : 1));
+  CHECK(tile_of(picture, 1) == tile_of(after, 1));
+  CHECK(tile_of(picture, 4) == tile_of(in_parts ? before : after, 4));
+  CHECK(picture.refresh(samples, {}, in_parts, never) == Approx(in_parts ? 2.0 / 3 : 0));
+  CHECK(tile_of(picture, 4) == tile_of(after, 4));
+}
+
+TEST_CASE("picture refresh: a tile that is given away shows what it showed") {
+  const SamplerWithExchange made = rank_0(SamplerChoice::kAuto, 2);
+  Sampler& samples = *made.sampler;
+  seed(made);
+  refine(made, 200);
+  PictureRefresh picture = whole_picture(samples);
+  const PictureRefresh before = picture;
+  refine(made, 200);
+  Partition other = partition_of(2);
+  other.owner[0] = 1;
+  made.exchange->transfer(other);
+  const std::vector<std::int32_t> given = {0};
+  CHECK(picture.refresh(samples, given, true, never) == 1);
+  CHECK(tile_of(picture, 0) == tile_of(before, 0));
+  CHECK(tile_of(picture, 2) != tile_of(before, 2));
 }
 
 TEST_CASE("picture refresh: a mesh is reconstructed as a whole or not at all") {
@@ -136,9 +161,9 @@ TEST_CASE("picture refresh: a mesh is reconstructed as a whole or not at all") {
   seed(made);
   PictureRefresh picture = whole_picture(samples);
   refine(made, 100);
-  CHECK(picture.refresh(samples, [] { return true; }) == 0);
+  CHECK(picture.refresh(samples, {}, false, [] { return true; }) == 0);
   int asked = 0;
-  CHECK(picture.refresh(samples, [&] { return asked++ > 0; }) == 1);
+  CHECK(picture.refresh(samples, {}, false, [&] { return asked++ > 0; }) == 1);
   CHECK(tiles_that_differ(picture, whole_picture(samples)).empty());
 }
 

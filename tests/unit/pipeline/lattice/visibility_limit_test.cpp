@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "base/hash.h"
 #include "pipeline/lattice/lattice_refiner.h"
@@ -105,10 +106,79 @@ TEST_CASE("visibility limit: it holds for a picture of the coarsest nodes alone,
     sampler.paint({0, 0, kSide, kSide}, pixels);
     return asked;
   };
-  constexpr std::uint32_t kFew = 5, kTooMany = 2000;
+  constexpr std::uint32_t kFew = 5, kTooMany = 5000;
   CHECK(asked_with(true, kFew) == kFew);
   CHECK(asked_with(false, kTooMany) == kTooMany);
   CHECK(asked_with(true, kTooMany) < kTooMany);
+}
+
+// What a picture of two walls in stripes asks for in a frame with a rate.
+std::uint32_t asked_with(const TimeForecast& forecast) {
+  std::uint32_t asked = 0;
+  LatticeRefiner sampler(Region::whole({kSide, kSide, 32}), walls(2, asked));
+  for (const Vec2d& point : sampler.base_points())
+    sampler.insert(point, striped(point, Stripes::kEachItsOwn));
+  sampler.expect(kSamples);
+  sampler.expect_time(forecast);
+  sampler.next_points(1);
+  return asked;
+}
+
+TEST_CASE("visibility limit: with a rate seeing must fit beside the samples that there are") {
+  const auto seeds = static_cast<double>(17 * 17);
+  CHECK(asked_with({.samples = kSamples, .mixed_pixel = 0}) > 0);
+  CHECK(asked_with({.samples = seeds, .mixed_pixel = 0}) == 0);
+  // A sixth of the pairs of samples side by side differ, so a twelfth of the pixels are expected to be mixed.
+  const double mixed_pixels = kSide * kSide / 12.0;
+  CHECK(asked_with({.samples = kSamples, .mixed_pixel = 0.2 * kSamples / mixed_pixels}) > 0);
+  CHECK(asked_with({.samples = kSamples, .mixed_pixel = 2 * kSamples / mixed_pixels}) == 0);
+}
+
+TEST_CASE("visibility limit: samples that come from the last picture do not decide it, nor does a region") {
+  std::uint32_t asked = 0;
+  const TileGrid grid{kSide, kSide, 32};
+  LatticeRefiner sampler(Region::whole(grid), walls(2, asked));
+  sample(sampler, Stripes::kEachItsOwn);
+  REQUIRE(asked == 2);
+  asked = 0;
+  sampler.camera_changed();
+  std::vector<std::uint8_t> owned(16, 1);
+  owned[0] = 0;
+  sampler.set_region(Region(grid, owned));
+  owned[0] = 1, owned[1] = 0;
+  sampler.set_region(Region(grid, owned));
+  CHECK(asked == 0);
+  sampler.restart();
+  for (const Vec2d& point : sampler.base_points())
+    sampler.insert(point, striped(point, Stripes::kEachItsOwn));
+  for (double x = 4; x < kSide; x += 8) sampler.insert({x, 4}, striped({x, 4}, Stripes::kEachItsOwn));
+  CHECK(asked == 0);
+  sample(sampler, Stripes::kEachItsOwn);
+  CHECK(asked == 2);
+}
+
+TEST_CASE("visibility limit: a resting picture is asked again when there are many more samples") {
+  std::uint32_t asked = 0;
+  constexpr std::uint32_t kCount = 2;
+  constexpr int kExpected = 400;
+  LatticeRefiner sampler(Region::whole({kSide, kSide, 32}), walls(kCount, asked));
+  for (const Vec2d& point : sampler.base_points())
+    sampler.insert(point, striped(point, Stripes::kEachItsOwn));
+  sampler.expect(kExpected - static_cast<double>(sampler.samples()));
+  sampler.expect_time({.samples = static_cast<double>(sampler.samples()), .mixed_pixel = 0});
+  while (sampler.samples() < 2 * kExpected) {
+    const Vec2d point = sampler.next_point().value();
+    sampler.insert(point, striped(point, Stripes::kEachItsOwn));
+    sampler.expect(1);
+  }
+  CHECK(asked == 0);
+  while (sampler.samples() < 8 * kExpected && asked == 0) {
+    const auto point = sampler.next_point();
+    if (!point) break;
+    sampler.insert(*point, striped(*point, Stripes::kEachItsOwn));
+    sampler.expect(1);
+  }
+  CHECK(asked == kCount);
 }
 
 TEST_CASE("visibility limit: shapes that were too many to be seen took no time") {
@@ -129,7 +199,7 @@ TEST_CASE("visibility limit: shapes that were too many to be seen took no time")
 
 TEST_CASE("visibility limit: what was not seen is not cheap for that") {
   std::uint32_t asked = 0;
-  LatticeRefiner sampler(Region::whole({kSide, kSide, 32}), walls(11000, asked));
+  LatticeRefiner sampler(Region::whole({kSide, kSide, 32}), walls(100000, asked));
   for (int picture = 0; picture < 3; ++picture) {
     sampler.expect(kSamples);
     sample(sampler, Stripes::kEachItsOwn);

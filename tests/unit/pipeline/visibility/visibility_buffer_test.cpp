@@ -324,18 +324,18 @@ TEST_CASE("visibility buffer: its work is of what it projects, tries in tiles an
   ImageShape triangles;
   triangles.kind = ImageShape::Kind::kFacets;
   triangles.facets = {triangle({{{1, 1}, {3.5, 1}, {1, 3.5}}}, 1)};  // in the first block
-  CHECK(work_of(one(triangles)) == Approx(1.25 + 0.6 + 7 + 0.2));
+  CHECK(work_of(one(triangles)) == Approx(2.5 + 1.2 + 14 + 0.4));
   triangles.facets.push_back(triangle({{{5, 1}, {7.5, 1}, {5, 3.5}}}, 1));  // in the second
-  CHECK(work_of(one(triangles)) == Approx(2 * (1.25 + 0.6 + 0.2) + 7));
+  CHECK(work_of(one(triangles)) == Approx(2 * (2.5 + 1.2 + 0.4) + 14));
   triangles.facets = {
       triangle({{{40, 1}, {43, 1}, {40, 4}}}, 1)};  // in the next tile, projected to be bounded
-  CHECK(work_of(one(triangles)) == Approx(1.25 + 7));
+  CHECK(work_of(one(triangles)) == Approx(2.5 + 14));
   ImageShape disc;  // in the first block
   disc.kind = ImageShape::Kind::kQuadric;
   disc.quadric.discriminant = {1.5 - 2 * 2.25 * 2.25, 2 * 2.25, 2 * 2.25, -1, 0, -1};
   disc.quadric.middle = {-2, 0, 0};
   disc.quadric.bounds = {1, 1, 3.5F, 3.5F};
-  CHECK(work_of(one(disc)) == Approx(0.75 + 0.6 + 7 + 0.55));
+  CHECK(work_of(one(disc)) == Approx(1.5 + 1.2 + 14 + 1.1));
 }
 
 TEST_CASE("visibility buffer: what is bounded is projected when a tile that it may meet is seen first") {
