@@ -64,11 +64,13 @@ void WallClock::region_changed(std::size_t pixels) {
 
 void WallClock::mixed_pixels_found(std::size_t pixels) {
   mixed_size_ = kSamplesPerMixedPixel * static_cast<double>(pixels);
+  size_ = samples_size_ + region_size_ + mixed_size_;
 }
 
 void WallClock::begin_packet(std::uint64_t samples) {
   left_in_packet_ = ranks_per_core_ > 1 ? kSamplesOfAShortTurn : kSamplesPerPacket;
-  size_ = static_cast<double>(samples) + region_size_ + mixed_size_;
+  samples_size_ = static_cast<double>(samples);
+  size_ = samples_size_ + region_size_ + mixed_size_;
   set_stop();
   if (is_at_rest_ && sampling_over()) left_in_packet_ = 0;
   packet_began_s_ = sequence_.now_s();

@@ -96,7 +96,8 @@ class WallClock final : public FrameClock {
   double rested_before_sampling_s_ = 0;
   double pace_ = 1;
   bool knows_pace_ = false;
-  double size_ = 1;         // of what is to be reconstructed, in samples
+  double size_ = 1;  // of what is to be reconstructed, in samples
+  double samples_size_ = 1;
   double region_size_ = 0;  // what the region's pixels add to it
   double mixed_size_ = 0;   // what those of several surfaces add
   // Of pictures whose surfaces are seen, and of others.

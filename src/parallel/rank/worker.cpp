@@ -211,6 +211,7 @@ void Worker::reconstruct(bool rests) {
   } else {
     picture_.reconstruct(sampler_.sampler(), ownership_.given());
   }
+  clock_->mixed_pixels_found(sampler_.sampler().mixed_pixels());
   clock_->spend(Work::kPixel, sampler_.region().pixel_count());
   timer_.end_stage(&StageTimes::reconstruction);
 }

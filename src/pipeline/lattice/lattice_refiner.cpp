@@ -335,7 +335,7 @@ void LatticeRefiner::choose_fineness() {
     return;
   }
   const double samples = static_cast<double>(samples_) + samples_left();
-  asked_for_ = samples;
+  asked_for_ = forecast_ ? std::max(samples, forecast_->samples) : samples;
   const double per_pixel = samples / static_cast<double>(region().pixel_count());
   const VisibilityBuffer::Fineness fineness = per_pixel < kFew      ? VisibilityBuffer::kCoarse
                                               : per_pixel < kEnough ? VisibilityBuffer::kMiddle

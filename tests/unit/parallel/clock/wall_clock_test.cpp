@@ -243,6 +243,16 @@ TEST_CASE("set wall clock: what pictures take whose surfaces are seen tells noth
   CHECK(left_with(50) == Approx(0.01 + 1.25 * 0.015));
 }
 
+TEST_CASE("set wall clock: what is found to be seen while it is reconstructed counts in what that took") {
+  Timed timed;
+  timed.begin(1, 0.01);
+  timed.clock.begin_packet(100);
+  timed.clock.mixed_pixels_found(50);
+  timed.clock.end_frame(5, 1);
+  timed.clock.begin_packet(100);
+  CHECK(1 - timed.clock.sampling_end_seconds() == Approx(0.01 + 1.25 * 0.005));
+}
+
 TEST_CASE("set wall clock: sampling has not ended earlier because surfaces were found to be seen") {
   Timed timed;
   timed.begin(1, 0.01);
