@@ -354,13 +354,16 @@ double LatticeRefiner::time_for_seeing(double samples) const {
   const auto now = static_cast<double>(samples_);
   const double rays = static_cast<double>(rays_) / std::max(now, 1.0);
   const double unseen = rays + kRaysOfASample, seen = unseen + kSurfacesOfASample;  // a sample
-  const double mixed_pixels = mixed_.expected(has_seen_) * static_cast<double>(region().pixel_count());
+  const double painting =
+      kRaysOfAMixedPixel * mixed_.expected(has_seen_) * static_cast<double>(region().pixel_count());
   if (!forecast_) {
-    return samples * (share * seen - kSurfacesOfASample) / (1 - share) - kRaysOfAMixedPixel * mixed_pixels;
+    return samples * (share * seen - kSurfacesOfASample) / (1 - share) - painting;
   }
   const double seed = rays + kRaysOfASeed, time = forecast_->samples * seed;
   const double most = std::min(share * time, time - now * seed), surcharge = kSurfacesOfASample / seen;
-  return (most - surcharge * time) / (1 - surcharge) - forecast_->mixed_pixel * seed * mixed_pixels;
+  // Samples' rays are not as dear in every scene: what painting takes tells of seeing, too.
+  const double ray = forecast_->mixed_pixel * seed / kRaysOfAMixedPixel;
+  return (most - surcharge * time) / (1 - surcharge) / ray - painting;
 }
 
 // With many samples a pixel the shares of what is seen in it must not err by more than its colours, nor must
