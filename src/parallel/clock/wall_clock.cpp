@@ -120,11 +120,14 @@ std::optional<double> WallClock::expected_growth(std::size_t begin, std::size_t 
   return 1 + (1 - static_cast<double>(begin) / static_cast<double>(now)) * (1 - share) / share;
 }
 
-// Before anything is seen a pixel of several surfaces takes no longer than others.
+// Before anything is seen a pixel of several surfaces takes no longer than others. The reserve is for the
+// worst of the last frames; of a usual one half of it is left.
 std::optional<TimeForecast> WallClock::forecast(std::size_t samples, double seconds_of_each) const {
   if (deadline_s_ == 0 || samples == 0 || seconds_of_each <= 0) return std::nullopt;
   const double now = static_cast<double>(samples);
-  const double left_s = latest_s(now + region_size_, false) - sequence_.now_s();
+  constexpr double kUsualOfReserve = 0.5;
+  const double stop_s = latest_s(now + region_size_, false) + (1 - kUsualOfReserve) * reserve_s_;
+  const double left_s = stop_s - sequence_.now_s();
   const double each_s = seconds_of_each * ranks_per_core_;
   const double seen_s = seen_s_per_size_.least();
   return TimeForecast{now + std::max(left_s, 0.0) / (each_s + reconstruction_s(1, false)),
