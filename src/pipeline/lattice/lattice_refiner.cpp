@@ -55,7 +55,7 @@ LatticeRefiner::LatticeRefiner(const Region& region, PrimitiveShapes shapes, Lat
 }
 
 void LatticeRefiner::clear() {
-  was_seen_ = has_seen_ = false;
+  was_seen_ = has_last_ = has_seen_ = false;
   price_ = {.each = kFirstPrice};
   mixed_ = {};
   forget_visibility(VisibilityBuffer::kFine);
@@ -85,7 +85,7 @@ void LatticeRefiner::note_seeing() {
 
 void LatticeRefiner::restart() {
   note_seeing();
-  has_seen_ = std::exchange(was_seen_, false);
+  has_last_ = true, has_seen_ = std::exchange(was_seen_, false);
   const auto as_many = static_cast<double>(samples_);
   errors_.clear();
   textures_.fade(kShareOfLast);
@@ -350,7 +350,9 @@ void LatticeRefiner::choose_fineness() {
 double LatticeRefiner::time_for_seeing(double samples) const {
   // Shares of the time, and their factor where the picture before was seen, too: a change flickers.
   constexpr double kMostShare = 0.9, kSeenAgain = 1.1;
-  const double share = std::min(kMostShare, (has_seen_ ? kSeenAgain : 1) * gain_.worthwhile_share());
+  constexpr double kRoot = 2, kRootOfFew = 2.8;  // by which the RMSE falls: frames have few samples
+  const double gain = gain_.worthwhile_share(forecast_ || has_last_ ? kRootOfFew : kRoot);
+  const double share = std::min(kMostShare, (has_seen_ ? kSeenAgain : 1) * gain);
   const auto now = static_cast<double>(samples_);
   const double rays = static_cast<double>(rays_) / std::max(now, 1.0);
   const double unseen = rays + kRaysOfASample, seen = unseen + kSurfacesOfASample;  // a sample

@@ -208,7 +208,8 @@ class LatticeRefiner {
   std::optional<TimeForecast> forecast_;           // of the frame in which the picture begins
   double asked_for_ = 0;                           // samples
   bool was_seen_ = false;                          // this one, which is forgotten
-  bool has_seen_ = false;                          // the picture before
+  bool has_last_ = false;                          // a picture came before
+  bool has_seen_ = false;                          // that picture
   SeeingPrice price_;                              // by the last picture that was seen
   bool has_looked_ = false;                        // for unsampled surfaces
   std::vector<UnsampledSurface> surfaces_wanted_;  // of the tile, in this pass

@@ -35,12 +35,11 @@ class SeeingGain {
   }
 
   // Returns the share of a picture's time that it is worth to know what is visible. With as many samples less
-  // the RMSE is the same: it falls about as their root. A little is left even where predictions are
-  // perfect: they are not where surfaces meet within a pixel.
-  double worthwhile_share() const {
+  // the RMSE is the same: it falls as a root of the time, `root` being its degree. A little is left even
+  // where predictions are perfect: they are not where surfaces meet within a pixel.
+  double worthwhile_share(double root) const {
     constexpr double kLeastLeft = 0.2;
-    const double left = kLeastLeft + (1 - kLeastLeft) * error_left();
-    return 1 - left * left;
+    return 1 - std::pow(kLeastLeft + (1 - kLeastLeft) * error_left(), root);
   }
 
  private:

@@ -138,14 +138,15 @@ TEST_CASE("seeing gain: what fades counts half") {
 }
 
 TEST_CASE("seeing gain: the more error it takes away, the more time it is worth") {
-  const auto worth = [](double explained) {
+  const auto worth = [](double explained, double root = 2) {
     SeeingGain gain;
     for (int i = 0; i < 1000; ++i) gain.learn(1, std::sqrt(explained), 1);
-    return gain.worthwhile_share();
+    return gain.worthwhile_share(root);
   };
   CHECK(worth(0) == Approx(0).margin(0.001));
   CHECK(worth(1) > 0.9);  // almost all: the rest is the least that samples need
   CHECK(worth(0.75) == Approx(1 - 0.6 * 0.6).margin(0.001));
+  CHECK(worth(0.75, 3) == Approx(1 - 0.6 * 0.6 * 0.6).margin(0.001));
 }
 
 TEST_CASE("pass growth: it is what passes made of what they promised, by halves, within bounds") {
