@@ -331,6 +331,7 @@ void LatticeRefiner::choose_fineness() {
   learn_from_base();
   has_fineness_ = true;
   if (expected_ == 0) {
+    asked_for_ = VisibilityBuffer::kNoLimit;
     visibility_.limit(VisibilityBuffer::kNoLimit, price_, region().bounds());
     return;
   }

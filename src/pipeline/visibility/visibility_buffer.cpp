@@ -54,6 +54,7 @@ bool VisibilityBuffer::bound_all() {
   constexpr double kRaysOfABound = 0.13;  // most are out of view, with others
   items_.clear(), quadrics_.clear(), facets_.clear();
   items_of_.assign(shapes_.count, {});
+  std::fill(is_seen_.begin(), is_seen_.end(), std::uint8_t{0});  // tiles list items
   bounds_.resize(shapes_.count);
   state_ = State::kKnown;
   std::size_t& items = items_within_;

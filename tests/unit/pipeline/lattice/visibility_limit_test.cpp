@@ -328,6 +328,27 @@ TEST_CASE(
   CHECK(asked == kSome);
 }
 
+TEST_CASE("visibility limit: what has no shape is not known for being asked again") {
+  std::uint32_t asked = 0;
+  PrimitiveShapes shapes = walls(2, asked);
+  shapes.project = [&asked](std::uint32_t, ImageShape& shape) {
+    ++asked;
+    shape.kind = ImageShape::Kind::kUnknown;
+  };
+  VisibilityBuffer visibility(kSide, kSide, shapes);
+  for (int time = 0; time < 2; ++time) {
+    visibility.limit(1000);
+    REQUIRE(visibility.is_known());  // nothing has been projected yet
+    visibility.tile(0, 0);
+    CHECK_FALSE(visibility.is_known());
+  }
+  // With as many samples as may come it is asked once.
+  asked = 0;
+  LatticeRefiner sampler(Region::whole({kSide, kSide, 32}), shapes);
+  sample(sampler, Stripes::kEachItsOwn);
+  CHECK(asked == 2);
+}
+
 TEST_CASE("visibility limit: what was not to be seen in one picture may be seen in the next") {
   std::uint32_t asked = 0;
   VisibilityBuffer visibility(kSide, kSide, walls(2, asked));
