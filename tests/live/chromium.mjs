@@ -74,7 +74,7 @@ export class Chromium {
 
   async close() {
     const gone = new Promise((resolve) => this.child.on("exit", resolve));
-    await this.call("Browser.close").catch(() => {});
+    this.call("Browser.close").catch(() => {});  // it may go without an answer
     await Promise.race([gone, sleep(5000).then(() => this.child.kill("SIGKILL"))]);
     rmSync(this.home, {recursive: true, force: true, maxRetries: 10, retryDelay: 100});
   }
