@@ -98,10 +98,10 @@ class WallClock final : public FrameClock {
   bool knows_pace_ = false;
   double size_ = 1;  // of what is to be reconstructed, in samples
   double samples_size_ = 1;
-  double region_size_ = 0;  // what the region's pixels add to it
-  double mixed_size_ = 0;   // what those of several surfaces add
-  // Of pictures whose surfaces are seen, and of others.
-  RecentValues seen_s_per_size_, unseen_s_per_size_;
+  double region_size_ = 0;          // what the region's pixels add to it
+  double mixed_size_ = 0;           // what those of several surfaces add
+  RecentValues seen_s_per_size_;    // what pictures took to reconstruct whose surfaces are seen
+  RecentValues unseen_s_per_size_;  // what others took
   int left_in_packet_ = 0;
 };
 

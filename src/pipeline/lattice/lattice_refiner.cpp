@@ -9,12 +9,13 @@
 namespace pprt {
 namespace {
 
-// In the time of a ray: what a sample takes beside its rays, one of the coarsest, what surfaces that are seen
-// add to it, painting a pixel that shows several surfaces, and a quadric or facet before one was seen.
-constexpr double kRaysOfASample = 5, kRaysOfASeed = 0.7, kSurfacesOfASample = 2;
-constexpr double kRaysOfAMixedPixel = 5, kFirstPrice = 5;
-constexpr double kGridShare = 0.35;   // of all samples that the grid may take
-constexpr float kGreatestFall = 3;    // of the threshold, from pass to pass
+// Times, in rays. What a sample takes beside its rays, and one of the coarsest:
+constexpr double kRaysOfASample = 5, kRaysOfASeed = 0.7;
+constexpr double kSurfacesOfASample = 2;  // what surfaces that are seen add to a sample
+constexpr double kRaysOfAMixedPixel = 5;  // painting a pixel that shows several surfaces
+constexpr double kFirstPrice = 5;         // a quadric or facet, before one was seen
+constexpr double kGridShare = 0.35;       // of all samples that the grid may take
+constexpr float kGreatestFall = 3;        // of the threshold, from pass to pass
 constexpr float kShareOfLast = 0.2F;  // that light on textures in the last picture counts as, of this one's
 
 // Returns the tiles in bands of two rows. Bands follow each other by steps of the golden section, which fall

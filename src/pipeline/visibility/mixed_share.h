@@ -6,8 +6,8 @@
 
 namespace pprt {
 
-// Of samples side by side some lie on different surfaces. The more these are, the more pixels are crossed by
-// edges. How many more depends on the scene and is learned from pictures in which all was seen.
+// Counts pairs of samples side by side that lie on different surfaces. The more they are, the more pixels are
+// crossed by edges. How many more depends on the scene and is learned from pictures in which all was seen.
 class MixedShare {
  public:
   // A picture begins: samples are noted anew.
