@@ -32,6 +32,14 @@ struct Timed {
     clock.end_frame(ms, share);
   }
 
+  // Returns what a packet of 100 samples leaves before a deadline at 1 s, with so many pixels of several
+  // surfaces.
+  double left_with_mixed(std::size_t pixels) {
+    clock.mixed_pixels_found(pixels);
+    clock.begin_packet(100);
+    return 1 - clock.sampling_end_seconds();
+  }
+
   double now = 0;
   SequenceClock sequence{[this] { return now; }};
   WallClock clock;
@@ -217,15 +225,10 @@ TEST_CASE("set wall clock: a pixel of several surfaces counts as eight samples, 
   timed.begin(1, 0.01);
   timed.clock.mixed_pixels_found(50);
   timed.reconstruct(100, 5);
-  const auto left_with = [&](std::size_t mixed_pixels) {
-    timed.clock.mixed_pixels_found(mixed_pixels);
-    timed.clock.begin_packet(100);
-    return 1 - timed.clock.sampling_end_seconds();
-  };
   const double each_s = 0.005 / 500;
-  CHECK(left_with(50) == Approx(0.01 + 1.25 * each_s * 500));
-  CHECK(left_with(1) == Approx(0.01 + 1.25 * each_s * 108));
-  CHECK(left_with(100) == Approx(0.01 + 1.25 * each_s * 900));
+  CHECK(timed.left_with_mixed(50) == Approx(0.01 + 1.25 * each_s * 500));
+  CHECK(timed.left_with_mixed(1) == Approx(0.01 + 1.25 * each_s * 108));
+  CHECK(timed.left_with_mixed(100) == Approx(0.01 + 1.25 * each_s * 900));
 }
 
 TEST_CASE("set wall clock: what pictures take whose surfaces are seen tells nothing of others") {
@@ -234,13 +237,8 @@ TEST_CASE("set wall clock: what pictures take whose surfaces are seen tells noth
   timed.reconstruct(100, 1);
   timed.clock.mixed_pixels_found(50);
   timed.reconstruct(100, 15);
-  const auto left_with = [&](std::size_t mixed_pixels) {
-    timed.clock.mixed_pixels_found(mixed_pixels);
-    timed.clock.begin_packet(100);
-    return 1 - timed.clock.sampling_end_seconds();
-  };
-  CHECK(left_with(0) == Approx(0.01 + 1.25 * 0.001));
-  CHECK(left_with(50) == Approx(0.01 + 1.25 * 0.015));
+  CHECK(timed.left_with_mixed(0) == Approx(0.01 + 1.25 * 0.001));
+  CHECK(timed.left_with_mixed(50) == Approx(0.01 + 1.25 * 0.015));
 }
 
 TEST_CASE("set wall clock: what is found to be seen while it is reconstructed counts in what that took") {

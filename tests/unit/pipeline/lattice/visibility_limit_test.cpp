@@ -30,6 +30,18 @@ PrimitiveShapes walls(std::uint32_t count, std::uint32_t& asked) {
   return {project, count, {}, bound};
 }
 
+// The same, of which the first `in_view` lie in the picture.
+PrimitiveShapes walls_in_view(std::uint32_t count, const std::uint32_t& in_view, std::uint32_t& asked) {
+  PrimitiveShapes shapes = walls(count, asked);
+  shapes.bound = [&in_view](std::uint32_t first, std::span<ShapeBounds> bounds) {
+    constexpr float kOut = 2 * kSide;
+    for (std::size_t i = 0; i < bounds.size(); ++i)
+      bounds[i] = first + i < in_view ? ShapeBounds{{0, 0, kSide, kSide}, 1}
+                                      : ShapeBounds{{kOut, kOut, kOut, kOut}, 1};
+  };
+  return shapes;
+}
+
 enum class Stripes : std::uint8_t { kAlike, kEachItsOwn, kNoise, kNoisy };
 
 // Two surfaces in stripes. In mirrors each sample finds another colour, in noisy ones partly.
@@ -79,14 +91,7 @@ TEST_CASE("visibility limit: what was seen counts as time that samples could hav
 TEST_CASE("visibility limit: what a few large shapes took is not the price of many that come into view") {
   constexpr std::uint32_t kFew = 5, kMany = 400;
   std::uint32_t asked = 0, in_view = kFew;
-  PrimitiveShapes shapes = walls(kMany, asked);
-  shapes.bound = [&in_view](std::uint32_t first, std::span<ShapeBounds> bounds) {
-    constexpr float kOut = 2 * kSide;
-    for (std::size_t i = 0; i < bounds.size(); ++i)
-      bounds[i] = first + i < in_view ? ShapeBounds{{0, 0, kSide, kSide}, 1}
-                                      : ShapeBounds{{kOut, kOut, kOut, kOut}, 1};
-  };
-  LatticeRefiner sampler(Region::whole({kSide, kSide, 32}), shapes);
+  LatticeRefiner sampler(Region::whole({kSide, kSide, 32}), walls_in_view(kMany, in_view, asked));
   sample(sampler, Stripes::kEachItsOwn);
   sampler.camera_changed();
   sampler.restart();
@@ -129,14 +134,7 @@ std::uint32_t asked_with(const TimeForecast& forecast) {
 TEST_CASE("visibility limit: in a sequence seeing may take more of the time than in a still") {
   const auto asks = [](std::uint32_t count, bool is_second) {
     std::uint32_t asked = 0, in_view = 1;
-    PrimitiveShapes shapes = walls(count, asked);
-    shapes.bound = [&in_view](std::uint32_t first, std::span<ShapeBounds> bounds) {
-      constexpr float kOut = 2 * kSide;
-      for (std::size_t i = 0; i < bounds.size(); ++i)
-        bounds[i] = first + i < in_view ? ShapeBounds{{0, 0, kSide, kSide}, 1}
-                                        : ShapeBounds{{kOut, kOut, kOut, kOut}, 1};
-    };
-    LatticeRefiner sampler(Region::whole({kSide, kSide, 32}), shapes);
+    LatticeRefiner sampler(Region::whole({kSide, kSide, 32}), walls_in_view(count, in_view, asked));
     if (is_second) {
       sample(sampler, Stripes::kNoisy);
       sampler.camera_changed();
