@@ -52,6 +52,8 @@ for signal in INT TERM; do
     rm -rf out_frames
     pprt-render ball.anim -np 2 --clock work --budget 1000000 -o "$PWD/out_frames/%05d.png" >out 2>err &
     pid=$! command="a run on 2 ranks that was sent SIG$signal after $delay s"
+    # A shell that traps its end hears signals for its child, and may lose them, until that has become the program.
+    while [[ /proc/$pid/exe -ef /proc/$$/exe ]]; do :; done
     sleep $delay
     kill "-$signal" "$pid"
     for ((i = 0; i < 200 && $(ps -o stat= -p "$pid" | grep -c '^[^Z]') > 0; ++i)); do sleep 0.1; done
