@@ -40,6 +40,7 @@ bool WallClock::is_past(const FrameOrder& order) const {
 }
 
 void WallClock::begin_frame(const FrameOrder& order) {
+  crowding_.begin_frame(run_times_());
   frame_began_s_ = sequence_.now_s();
   sampling_began_s_ = packet_began_s_ = frame_began_s_;
   is_sampling_ = false;
@@ -128,10 +129,11 @@ std::optional<TimeForecast> WallClock::forecast(std::size_t samples, double seco
   constexpr double kUsualOfReserve = 0.5;
   const double stop_s = latest_s(now + region_size_, false) + (1 - kUsualOfReserve) * reserve_s_;
   const double left_s = stop_s - sequence_.now_s();
-  const double each_s = seconds_of_each * ranks_per_core_;
+  const double each_s = seconds_of_each * seconds_of_cpu_second();
   const double seen_s = seen_s_per_size_.least();
   return TimeForecast{now + std::max(left_s, 0.0) / (each_s + reconstruction_s(1, false)),
-                      kSamplesPerMixedPixel * (seen_s > 0 ? seen_s : kFirstSecondsPerSize) / seconds_of_each};
+                      kSamplesPerMixedPixel * (seen_s > 0 ? seen_s : kFirstSecondsPerSize) / seconds_of_each,
+                      seconds_of_each, [this] { return 1e-9 * static_cast<double>(used_ns()); }};
 }
 
 std::size_t WallClock::affordable(Work work, double share) const {
@@ -183,6 +185,11 @@ double WallClock::latest_s(double size, bool is_seen) const {
 double WallClock::reconstruction_s(double size, bool is_seen) const {
   const double slowest = (is_seen ? seen_s_per_size_ : unseen_s_per_size_).greatest();
   return 1.25 * (slowest > 0 ? slowest : kFirstSecondsPerSize) * size * ranks_per_core_;
+}
+
+// Ranks that share a core rest by turns, and those that rest crowd nobody.
+double WallClock::seconds_of_cpu_second() const {
+  return std::max(ranks_per_core_, crowding_.factor());
 }
 
 }  // namespace pprt

@@ -5,8 +5,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <utility>
 
+#include "parallel/clock/crowding.h"
 #include "parallel/clock/frame_clock.h"
 #include "parallel/clock/host_time.h"
 #include "parallel/clock/sequence_clock.h"
@@ -32,9 +35,12 @@ class WallClock final : public FrameClock {
  public:
   // `sequence` must outlive it. `period_s`: seconds from frame to frame, 0 without a rate. `ranks_per_core`:
   // number of ranks that share one of this host's cores, at least 1. `refreshes_in_parts`: a resting picture
-  // can be reconstructed in parts. Otherwise the frames in which it is take turns with others.
-  WallClock(const SequenceClock& sequence, double period_s, double ranks_per_core, bool refreshes_in_parts)
+  // can be reconstructed in parts. Otherwise the frames in which it is take turns with others. `run_times`
+  // tells those of the thread that works.
+  WallClock(const SequenceClock& sequence, double period_s, double ranks_per_core, bool refreshes_in_parts,
+            std::function<RunTimes()> run_times = thread_run_times)
       : sequence_(sequence),
+        run_times_(std::move(run_times)),
         usual_period_s_(period_s),
         period_s_(period_s),
         ranks_per_core_(ranks_per_core),
@@ -73,9 +79,12 @@ class WallClock final : public FrameClock {
   double latest_s(double size, bool is_seen) const;
   double left_for_the_rest(double size, bool is_seen) const;
   double reconstruction_s(double size, bool is_seen) const;
+  double seconds_of_cpu_second() const;
 
   // All times are seconds since the sequence began.
   const SequenceClock& sequence_;
+  std::function<RunTimes()> run_times_;
+  Crowding crowding_;
   double usual_period_s_;
   double period_s_;  // of this frame
   double ranks_per_core_;

@@ -67,9 +67,21 @@ void LatticePainter::paint_square(const LatticeNode& corner, int side, const Squ
                    pixel(x, y));
     return;
   }
+  const auto paint_quarters = [&] {
+    const int half = side / 2;
+    const std::array<SquareCorners, 4> parts = quarters(corner, side, corners);
+    paint_square(corner, half, parts[0]);
+    paint_square({corner.x + half, corner.y}, half, parts[1]);
+    paint_square({corner.x, corner.y + half}, half, parts[2]);
+    paint_square({corner.x + half, corner.y + half}, half, parts[3]);
+  };
   if (!is_refined(corner, side)) {
-    if (!sees_) {
+    if (!sees_ && !shows_edges(corners)) {
       fill(corner, side, corners);
+    } else if (!sees_ && size > 2) {
+      paint_quarters();
+    } else if (!sees_) {
+      paint_edges({corner, side, corners});
     } else if (!is_uniform(corner, size)) {
       paint_mixed(corner, side, corners);
     } else {
@@ -77,12 +89,7 @@ void LatticePainter::paint_square(const LatticeNode& corner, int side, const Squ
     }
     return;
   }
-  const int half = side / 2;
-  const std::array<SquareCorners, 4> parts = quarters(corner, side, corners);
-  paint_square(corner, half, parts[0]);
-  paint_square({corner.x + half, corner.y}, half, parts[1]);
-  paint_square({corner.x, corner.y + half}, half, parts[2]);
-  paint_square({corner.x + half, corner.y + half}, half, parts[3]);
+  paint_quarters();
 }
 
 // Whether a sample lies at the centre of a square or in the middle of one of its sides. Without one there is
@@ -211,8 +218,13 @@ void LatticePainter::fill(const LatticeNode& corner, int side, const SquareCorne
 
 // Returns the mean over a pixel or a square of it.
 float4 LatticePainter::mean_of_refined(const LatticeNode& corner, int side, const SquareCorners& corners) {
-  if (side <= finest_side_ || !is_refined(corner, side))
-    return sees_ ? surfaces_.mean_over({corner, side, corners}) : mean_of(corners);
+  if (side <= finest_side_ || !is_refined(corner, side)) {
+    const Square square{corner, side, corners};
+    if (sees_) return surfaces_.mean_over(square);
+    if (!shows_edges(corners)) return mean_of(corners);
+    constexpr std::array<float, 4> kEqual = {0.25F, 0.25F, 0.25F, 0.25F};
+    return mean_by_silhouettes(point_of(corner), static_cast<float>(side) / kPixelSide, square, kEqual);
+  }
   const int half = side / 2;
   const std::array<SquareCorners, 4> parts = quarters_within_pixel(corner, side, corners);
   return (mean_of_refined(corner, half, parts[0]) +
@@ -291,6 +303,53 @@ float4 LatticePainter::mixed_mean(const LatticeNode& corner, const Square& squar
     sum += surfaces_.in_pixel(square, seen, middle_point(corner), weights) * seen.share;
   });
   return sum;
+}
+
+// Whether silhouettes are to be looked for between corners.
+bool LatticePainter::shows_edges(const SquareCorners& corners) const {
+  if (!silhouettes_.are_shown()) return false;
+  const std::uint32_t first = corners[0].surface();
+  if (corners[1].surface() == first && corners[2].surface() == first && corners[3].surface() == first)
+    return false;
+  ColorSums colors;
+  for (const NodeValue& corner : corners) colors.add(corner.channels());
+  return colors.variance() >= kLeastEdgeVariance;
+}
+
+// The pixels of a square with samples at its corners only, which lie on several surfaces.
+void LatticePainter::paint_edges(const Square& square) {
+  for_each_pixel(square, [&](int x, int y) {
+    store_channels(mean_by_silhouettes(Vec2d(x, y), 1, square,
+                                       weights_in(square.corner, square.side, middle_of_pixel(x, y))),
+                   pixel(x, y));
+  });
+}
+
+// Returns the mean over a part of a square, of at most a pixel: each surface by its share of the part, and
+// mostly in the colour of the corners on it. `weights`: those of the corners there.
+float4 LatticePainter::mean_by_silhouettes(const Vec2d& corner, float side, const Square& square,
+                                           const std::array<float, 4>& weights) {
+  const SquareCorners& corners = square.corners;
+  float4 mean{};
+  for (std::size_t i = 0; i < 4; ++i) mean += corners[i].channels() * weights[i];
+  const std::array<std::uint32_t, 4> surfaces = {corners[0].surface(), corners[1].surface(),
+                                                 corners[2].surface(), corners[3].surface()};
+  const std::optional<std::array<float, 4>> shares = silhouettes_.shares(corner, side, surfaces);
+  if (!shares) return mean;
+  const int level = errors_.near(square.corner).level;
+  float4 difference{};  // from the mean
+  for (std::size_t i = 0; i < 4; ++i) {
+    if ((*shares)[i] <= 0) continue;
+    float4 sum{};
+    float weight = 0;
+    std::size_t count = 0;
+    for (std::size_t k = i; k < 4; ++k) {
+      if (surfaces[k] != surfaces[i]) continue;
+      sum += corners[k].channels() * weights[k], weight += weights[k], ++count;
+    }
+    difference += (sum * (1 / weight) - mean) * ((*shares)[i] * share_.of(basis_of(count, 4), level));
+  }
+  return mean + difference;
 }
 
 }  // namespace pprt

@@ -15,8 +15,15 @@ namespace pprt {
 class LatticePainter {
  public:
   LatticePainter(const LatticeStore& store, NodePredictor& predictor, VisibilityBuffer& visibility,
-                 const SurfaceColors& surfaces)
-      : store_(store), predictor_(predictor), visibility_(visibility), surfaces_(surfaces) {}
+                 const SurfaceColors& surfaces, SampledSilhouettes& silhouettes, LocalErrors& errors,
+                 const SurfaceShare& share)
+      : store_(store),
+        predictor_(predictor),
+        visibility_(visibility),
+        surfaces_(surfaces),
+        silhouettes_(silhouettes),
+        errors_(errors),
+        share_(share) {}
 
   // Replaces the pixels of a part of `pixels`, a rectangle of the image within their bounds.
   void paint(const PixelRect& part, PixelBlock& pixels);
@@ -29,6 +36,10 @@ class LatticePainter {
                                                      const SquareCorners& corners);
   bool is_refined(const LatticeNode& corner, int side) const;
   int finest_side(const LatticeNode& pixel) const;
+  bool shows_edges(const SquareCorners& corners) const;
+  void paint_edges(const Square& square);
+  float4 mean_by_silhouettes(const Vec2d& corner, float side, const Square& square,
+                             const std::array<float, 4>& weights);
   float4 mean_of_refined(const LatticeNode& corner, int side, const SquareCorners& corners);
 
   // Calls visit(x, y) for the pixels of a square that are painted.
@@ -70,6 +81,9 @@ class LatticePainter {
   NodePredictor& predictor_;
   VisibilityBuffer& visibility_;
   SurfaceColors surfaces_;
+  SampledSilhouettes& silhouettes_;
+  LocalErrors& errors_;
+  const SurfaceShare& share_;
   bool sees_ = false;  // whether the visibility is known
   struct SurfaceSum {
     std::uint32_t surface = 0;

@@ -13,9 +13,11 @@ namespace {
 constexpr double kRaysOfASample = 5, kRaysOfASeed = 0.7;
 constexpr double kSurfacesOfASample = 2;  // what surfaces that are seen add to a sample
 constexpr double kRaysOfAMixedPixel = 5;  // painting a pixel that shows several surfaces
-constexpr double kFirstPrice = 5;         // a quadric or facet, before one was seen
-constexpr double kGridShare = 0.35;       // of all samples that the grid may take
-constexpr float kGreatestFall = 3;        // of the threshold, from pass to pass
+constexpr double kFirstRay_s = 1.2e-7;    // CPU time of each of them, when seeing. AMD EPYC: .7e-7 to 1.5e-7
+constexpr double kRoot = 2, kRootOfFew = 2.8;  // by which the RMSE falls: frames have few samples
+constexpr double kFirstPrice = 5;              // a quadric or facet, before one was seen
+constexpr double kGridShare = 0.35;            // of all samples that the grid may take
+constexpr float kGreatestFall = 3;             // of the threshold, from pass to pass
 constexpr float kShareOfLast = 0.2F;  // that light on textures in the last picture counts as, of this one's
 
 // Returns the tiles in bands of two rows. Bands follow each other by steps of the golden section, which fall
@@ -43,14 +45,17 @@ LatticeRefiner::LatticeRefiner(const Region& region, PrimitiveShapes shapes, Lat
       store_(region.grid().width, region.grid().height),
       own_(store_, region),
       tiles_(in_scattered_bands(store_.tile_columns(), store_.tile_rows())),
-      visibility_(store_.right() / kPixelSide, store_.bottom() / kPixelSide, std::move(shapes)),
+      visibility_(store_.right() / kPixelSide, store_.bottom() / kPixelSide, shapes),
       surfaces_(store_.right(), store_.bottom()),
       unsampled_surfaces_(store_.tile_count()),
       errors_(store_.right(), store_.bottom()),
       textures_(std::move(textures), visibility_),
       lights_(std::move(lights), visibility_),
-      predictor_(store_, visibility_, surfaces_, errors_, share_, textures_, lights_),
-      painter_(store_, predictor_, visibility_, {surfaces_, errors_, share_, textures_, lights_}),
+      silhouettes_(std::move(shapes.project), shapes.surfaces),
+      predictor_(store_, visibility_, surfaces_, errors_, share_, textures_, lights_, silhouettes_),
+      painter_(store_, predictor_, visibility_, {surfaces_, errors_, share_, textures_, lights_},
+               silhouettes_, errors_, share_),
+      ray_s_(kFirstRay_s),
       greatest_(static_cast<std::size_t>(store_.tile_count()) * kLatticeLevels.size()) {
   clear();
 }
@@ -72,6 +77,7 @@ void LatticeRefiner::clear() {
 void LatticeRefiner::camera_changed() {
   note_seeing();
   forget_visibility(visibility_.fineness());
+  silhouettes_.forget();
   visibility_.limit(0);
 }
 
@@ -79,7 +85,10 @@ void LatticeRefiner::camera_changed() {
 void LatticeRefiner::note_seeing() {
   if (!visibility_.has_seen()) return;
   const std::size_t items = std::max<std::size_t>(visibility_.items_within(), 1);
-  price_ = {.each = visibility_.work() / static_cast<double>(items), .seen = items, .further = kFirstPrice};
+  // Of very few, most of the work is not theirs.
+  constexpr double kMostForEach = 4 * kFirstPrice;
+  const double each = std::min(visibility_.work() / static_cast<double>(items), kMostForEach);
+  price_ = {.each = each, .seen = items, .further = kFirstPrice};
   mixed_.learn(visibility_.mixed_share());
   was_seen_ = true;
 }
@@ -102,6 +111,7 @@ void LatticeRefiner::forget_visibility(const VisibilityBuffer::Fineness& finenes
 
 void LatticeRefiner::forget_samples() {
   visibility_.limit(0);  // until it is settled what it is worth
+  silhouettes_.show(false);
   store_.clear();
   surfaces_.clear();
   unsampled_surfaces_.clear();
@@ -344,6 +354,21 @@ void LatticeRefiner::choose_fineness() {
                                                                     : VisibilityBuffer::kFine;
   if (fineness != visibility_.fineness()) forget_visibility(fineness);
   visibility_.limit(time_for_seeing(samples), price_, region().bounds());
+  if (!forecast_) return;
+  see_in_time();
+  // Where there is no time for what would be worth much, silhouettes of what samples have found bring a part.
+  constexpr double kWorthMuch = 0.5;
+  silhouettes_.show(gain_.worthwhile_share(kRootOfFew) > kWorthMuch && !visibility_.is_known());
+}
+
+// Sees all at once, so that neither samples nor painting take longer for it, and learns what it takes.
+void LatticeRefiner::see_in_time() {
+  if (!visibility_.is_known()) return;
+  const double began_s = forecast_->used_s ? forecast_->used_s() : 0;
+  visibility_.see_within(region().bounds());
+  constexpr double kEnough = 1000;  // rays; fewer say nothing
+  if (forecast_->used_s && visibility_.work() > kEnough)
+    ray_s_ = (forecast_->used_s() - began_s) / visibility_.work();
 }
 
 // Returns how many rays seeing may take, if there will be so many samples. With a rate it must fit beside the
@@ -352,22 +377,19 @@ void LatticeRefiner::choose_fineness() {
 double LatticeRefiner::time_for_seeing(double samples) const {
   // Shares of the time, and their factor where the picture before was seen, too: a change flickers.
   constexpr double kMostShare = 0.9, kSeenAgain = 1.1;
-  constexpr double kRoot = 2, kRootOfFew = 2.8;  // by which the RMSE falls: frames have few samples
   const double gain = gain_.worthwhile_share(forecast_ || has_last_ ? kRootOfFew : kRoot);
   const double share = std::min(kMostShare, (has_seen_ ? kSeenAgain : 1) * gain);
   const auto now = static_cast<double>(samples_);
   const double rays = static_cast<double>(rays_) / std::max(now, 1.0);
   const double unseen = rays + kRaysOfASample, seen = unseen + kSurfacesOfASample;  // a sample
-  const double painting =
-      kRaysOfAMixedPixel * mixed_.expected(has_seen_) * static_cast<double>(region().pixel_count());
+  const double mixed = mixed_.expected(has_seen_) * static_cast<double>(region().pixel_count());
   if (!forecast_) {
-    return samples * (share * seen - kSurfacesOfASample) / (1 - share) - painting;
+    return samples * (share * seen - kSurfacesOfASample) / (1 - share) - kRaysOfAMixedPixel * mixed;
   }
-  const double seed = rays + kRaysOfASeed, time = forecast_->samples * seed;
-  const double most = std::min(share * time, time - now * seed), surcharge = kSurfacesOfASample / seen;
-  // Samples' rays are not as dear in every scene: what painting takes tells of seeing, too.
-  const double ray = forecast_->mixed_pixel * seed / kRaysOfAMixedPixel;
-  return (most - surcharge * time) / (1 - surcharge) / ray - painting;
+  const double time = forecast_->samples;  // in samples
+  const double most = std::min(share * time, time - now), surcharge = kSurfacesOfASample / seen;
+  const double seeing = (most - surcharge * time) / (1 - surcharge) - mixed * forecast_->mixed_pixel;
+  return seeing * forecast_->sample_s / ray_s_;
 }
 
 // With many samples a pixel the shares of what is seen in it must not err by more than its colours, nor must

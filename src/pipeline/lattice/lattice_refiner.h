@@ -155,6 +155,7 @@ class LatticeRefiner {
   bool start_pass();
   void ask_again();
   void choose_fineness();
+  void see_in_time();
   double time_for_seeing(double samples) const;
   void choose_shares();
   bool start_grid_pass();
@@ -194,6 +195,7 @@ class LatticeRefiner {
   MixedShare mixed_;
   SurfaceTextures textures_;
   SurfaceLights lights_;
+  SampledSilhouettes silhouettes_;
   NodePredictor predictor_;
   LatticePainter painter_;
 
@@ -211,6 +213,7 @@ class LatticeRefiner {
   bool has_last_ = false;                          // a picture came before
   bool has_seen_ = false;                          // that picture
   SeeingPrice price_;                              // by the last picture that was seen
+  double ray_s_;                                   // CPU time of one of its rays, by the last that was timed
   bool has_looked_ = false;                        // for unsampled surfaces
   std::vector<UnsampledSurface> surfaces_wanted_;  // of the tile, in this pass
   bool is_region_new_ = false;                     // its base may be missing

@@ -100,10 +100,35 @@ Prediction NodePredictor::predict_plain(std::uint32_t seen, const LatticeNode& n
                     [](const SurfaceSamples::Known& near) { return near.value.channels(); });
 }
 
-// Without visibility all around are taken for one surface. Where more is seen of a surface than lights bring,
-// as in mirrors, to know that part is not worth its time here.
+// Without visibility all around are taken for one surface, unless their silhouettes tell which is nearest.
+Prediction NodePredictor::predict_unseen(const LatticeNode& node, const Surroundings& around) {
+  if (!silhouettes_.are_shown() || !around.show_edges())
+    return predict_plain(around[0].surface(), node, around);
+  std::array<std::uint32_t, 8> surfaces{};
+  for (std::size_t i = 0; i < around.count(); ++i) surfaces[i] = around[i].surface();
+  const std::optional<std::uint32_t> nearest =
+      silhouettes_.nearest(point_of(node), {surfaces.data(), around.count()});
+  if (!nearest) return predict_plain(around[0].surface(), node, around);
+  ColorSums same;
+  std::uint8_t lights = 0;
+  for (std::size_t i = 0; i < around.count(); ++i) {
+    if (surfaces[i] != *nearest) continue;
+    same.add(around[i].channels());
+    lights = around[i].lights();
+  }
+  Prediction found;
+  found.around = around.mean(), found.on_surface = same.mean();
+  found.variance = around.variance();
+  found.basis = basis_of(static_cast<std::size_t>(same.count), around.count());
+  const float share = share_.of(found.basis, errors_.near(node).level);
+  found.value = NodeValue(found.around + (found.on_surface - found.around) * share, *nearest, lights);
+  return found;
+}
+
+// Where more is seen of a surface than lights bring, as in mirrors, to know that part is not worth its time
+// here.
 Prediction NodePredictor::predict(const LatticeNode& node, const Surroundings& around) {
-  if (!visibility_.is_known()) return predict_plain(around[0].surface(), node, around);
+  if (!visibility_.is_known()) return predict_unseen(node, around);
   const std::uint32_t seen = seen_at(visibility_, node);
   if (textures_.has(seen)) return predict_on_texture(seen, node, around);
   if (lights_.is_curved(seen) && lights_.of(seen).is_all) return predict_in_light(seen, node, around);

@@ -17,6 +17,7 @@
 #include "pipeline/lattice/surface_samples.h"
 #include "pipeline/lattice/surface_share.h"
 #include "pipeline/lattice/surface_textures.h"
+#include "pipeline/silhouettes/sampled_silhouettes.h"
 #include "pipeline/visibility/visibility_buffer.h"
 
 namespace pprt {
@@ -39,6 +40,9 @@ struct ColorSums {
     return std::max((variances[0] + variances[1] + variances[2]) * (1.0F / 3), 0.0F);
   }
 };
+
+// Least variance of colours on the display scale at which edges show.
+inline constexpr float kLeastEdgeVariance = 3e-4F;
 
 // Some nodes around a point, at most eight, and what they have in common.
 class Surroundings {
@@ -80,6 +84,9 @@ class Surroundings {
   std::size_t count() const { return count_; }
   const NodeValue& operator[](std::size_t i) const { return values_[i]; }
   const LatticeNode& node(std::size_t i) const { return nodes_[i]; }
+
+  // Whether edges may lie between the nodes, and would be seen.
+  bool show_edges() const { return differ_ != 0 && variance() >= kLeastEdgeVariance; }
 
   // Whether all nodes, one at least, lie on this surface.
   bool are_on(std::uint32_t surface) const { return differ_ == 0 && values_[0].surface() == surface; }
@@ -123,9 +130,10 @@ class NodePredictor {
  public:
   NodePredictor(LatticeStore& store, VisibilityBuffer& visibility, const SurfaceSamples& surfaces,
                 LocalErrors& errors, const SurfaceShare& share, SurfaceTextures& textures,
-                SurfaceLights& lights)
+                SurfaceLights& lights, SampledSilhouettes& silhouettes)
       : store_(store),
         visibility_(visibility),
+        silhouettes_(silhouettes),
         surfaces_(surfaces),
         errors_(errors),
         share_(share),
@@ -151,6 +159,7 @@ class NodePredictor {
   Prediction predict_on(std::uint32_t seen, const LatticeNode& node, const Surroundings& around,
                         const ColorOfNear& color_of);
   float4 shaded(std::uint32_t surface, const LatticeNode& node, const Surroundings& around);
+  Prediction predict_unseen(const LatticeNode& node, const Surroundings& around);
   Prediction predict_plain(std::uint32_t seen, const LatticeNode& node, const Surroundings& around);
   Prediction predict_on_texture(std::uint32_t seen, const LatticeNode& node, const Surroundings& around);
   Prediction predict_in_light(std::uint32_t seen, const LatticeNode& node, const Surroundings& around);
@@ -160,6 +169,7 @@ class NodePredictor {
 
   LatticeStore& store_;
   VisibilityBuffer& visibility_;
+  SampledSilhouettes& silhouettes_;
   const SurfaceSamples& surfaces_;
   LocalErrors& errors_;
   const SurfaceShare& share_;

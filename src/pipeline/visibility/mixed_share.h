@@ -19,7 +19,7 @@ class MixedShare {
   // The picture with these samples was seen: a share of its pixels shows several surfaces.
   void learn(double share) {
     constexpr double kShareOfNew = 0.5;
-    if (differing_ > 0) per_differing_ += kShareOfNew * (share / differing() - per_differing_);
+    if (differing_ > 0) per_differing_ += kShareOfNew * (std::min(share / differing(), 1.0) - per_differing_);
     last_ = share;
   }
 

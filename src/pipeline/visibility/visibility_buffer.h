@@ -193,6 +193,9 @@ class VisibilityBuffer {
     return *tiles_[number];
   }
 
+  // Sees all of a part of the picture now. Only if is_known().
+  void see_within(const PixelRect& part);
+
   // Returns the surface at an image point, pixels: of the primitives at the points around it the nearest
   // there. Only if is_known().
   std::uint32_t at(const Vec2d& point);

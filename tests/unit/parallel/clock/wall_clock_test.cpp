@@ -13,7 +13,7 @@ constexpr double kPixelsPerSample = 8;  // that take as long to reconstruct
 // A rank's clock and the time that it tells.
 struct Timed {
   explicit Timed(double ranks_per_core = 1, bool refreshes_in_parts = false, double period_s = kPeriod)
-      : clock(sequence, period_s, ranks_per_core, refreshes_in_parts) {
+      : clock(sequence, period_s, ranks_per_core, refreshes_in_parts, [this] { return run; }) {
     sequence.begin(0);
   }
 
@@ -41,6 +41,7 @@ struct Timed {
   }
 
   double now = 0;
+  RunTimes run;
   SequenceClock sequence{[this] { return now; }};
   WallClock clock;
 };
@@ -289,6 +290,21 @@ TEST_CASE("set wall clock: a forecast tells how many samples fit, and how many a
   Timed without_rate(1, false, 0);
   without_rate.begin(0);
   CHECK_FALSE(without_rate.clock.forecast(100, 1e-6));
+}
+
+TEST_CASE("set wall clock: beside others that want its core a rank's samples take longer") {
+  const auto samples_at = [](double ranks_per_core, std::int64_t waited_ns) {
+    Timed timed(ranks_per_core);
+    timed.run = {.ran_ns = 50, .waited_ns = 1000};  // before the first frame
+    timed.begin(1);
+    timed.run.ran_ns += 100, timed.run.waited_ns += waited_ns;
+    timed.now = 0.9;
+    timed.begin(1);
+    return timed.clock.forecast(100, 1e-4).value().samples - 100;
+  };
+  CHECK(samples_at(1, 100) == Approx(samples_at(2, 0)).epsilon(0.01));
+  CHECK(samples_at(1, 0) == Approx(2 * samples_at(1, 100)).epsilon(0.01));
+  CHECK(samples_at(2, 100) == Approx(samples_at(2, 0)));  // they may be the ranks that share it
 }
 
 TEST_CASE("set wall clock: before it is measured reconstruction is expected to take 130 ns for a sample") {

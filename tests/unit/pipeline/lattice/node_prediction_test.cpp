@@ -36,7 +36,8 @@ class Lattice {
   SurfaceShare share_;
   SurfaceTextures textures_{{}, visibility_};
   SurfaceLights lights_{{}, visibility_};
-  NodePredictor predictor_{store_, visibility_, surfaces_, errors_, share_, textures_, lights_};
+  SampledSilhouettes silhouettes_{{}, {}};
+  NodePredictor predictor_{store_, visibility_, surfaces_, errors_, share_, textures_, lights_, silhouettes_};
 };
 
 // One of the eight ways to turn and mirror the image.
@@ -209,7 +210,8 @@ TEST_CASE(
     SurfaceShare share;
     SurfaceTextures textures({}, visibility);
     SurfaceLights lights({}, visibility);
-    NodePredictor predictor(store, visibility, surfaces, errors, share, textures, lights);
+    SampledSilhouettes silhouettes({}, {});
+    NodePredictor predictor(store, visibility, surfaces, errors, share, textures, lights, silhouettes);
     const std::array<float, 4> colors = {0.25F, 0.5F, 0.625F, 1};
     const std::array<LatticeNode, 4> corners = {{{kMiddle, kMiddle},
                                                  {kMiddle + kBaseSide, kMiddle},

@@ -125,7 +125,8 @@ struct Around {
   SurfaceShare share;
   SurfaceTextures textures{{}, visibility};
   SurfaceLights known;
-  NodePredictor predictor{store, visibility, surfaces, errors, share, textures, known};
+  SampledSilhouettes silhouettes{{}, {}};
+  NodePredictor predictor{store, visibility, surfaces, errors, share, textures, known, silhouettes};
 
   explicit Around(const PrimitiveLights& lights) : known(lights, visibility) {
     REQUIRE(visibility.is_known());
