@@ -187,7 +187,8 @@ double WallClock::reconstruction_s(double size, bool is_seen) const {
   return 1.25 * (slowest > 0 ? slowest : kFirstSecondsPerSize) * size * ranks_per_core_;
 }
 
-// Ranks that share a core rest by turns, and those that rest crowd nobody.
+// The ranks that share a core are among those that crowd it. But they rest by turns, and who rests crowds
+// nobody. Reconstruction is not stretched by it: the master's reserve grows where that takes longer.
 double WallClock::seconds_of_cpu_second() const {
   return std::max(ranks_per_core_, crowding_.factor());
 }

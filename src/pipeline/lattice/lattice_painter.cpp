@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <optional>
 
 namespace pprt {
 namespace {
@@ -76,12 +77,13 @@ void LatticePainter::paint_square(const LatticeNode& corner, int side, const Squ
     paint_square({corner.x + half, corner.y + half}, half, parts[3]);
   };
   if (!is_refined(corner, side)) {
-    if (!sees_ && !shows_edges(corners)) {
+    const Square square{corner, side, corners};
+    if (!sees_ && !shows_silhouettes(square)) {
       fill(corner, side, corners);
     } else if (!sees_ && size > 2) {
       paint_quarters();
     } else if (!sees_) {
-      paint_edges({corner, side, corners});
+      paint_silhouettes(square);
     } else if (!is_uniform(corner, size)) {
       paint_mixed(corner, side, corners);
     } else {
@@ -137,8 +139,7 @@ std::array<SquareCorners, 4> LatticePainter::quarters_within_pixel(const Lattice
   constexpr std::array<std::array<std::size_t, 2>, 4> kEnds = {{{0, 1}, {0, 2}, {1, 3}, {2, 3}}};
   const NodeValue* seen = store_.sample_at(center);
   const std::array<LatticeNode, 4> nodes = nodes_of(corner, side);
-  Surroundings around;
-  for (std::size_t i = 0; i < 4; ++i) around.add(corners[i], nodes[i]);
+  Surroundings around({corner, side, corners});
   std::array<NodeValue, 4> shown;
   for (std::size_t i = 0; i < middles.size(); ++i) {
     if (const NodeValue* sample = store_.sample_at(middles[i])) {
@@ -221,7 +222,7 @@ float4 LatticePainter::mean_of_refined(const LatticeNode& corner, int side, cons
   if (side <= finest_side_ || !is_refined(corner, side)) {
     const Square square{corner, side, corners};
     if (sees_) return surfaces_.mean_over(square);
-    if (!shows_edges(corners)) return mean_of(corners);
+    if (!shows_silhouettes(square)) return mean_of(corners);
     constexpr std::array<float, 4> kEqual = {0.25F, 0.25F, 0.25F, 0.25F};
     return mean_by_silhouettes(point_of(corner), static_cast<float>(side) / kPixelSide, square, kEqual);
   }
@@ -305,19 +306,12 @@ float4 LatticePainter::mixed_mean(const LatticeNode& corner, const Square& squar
   return sum;
 }
 
-// Whether silhouettes are to be looked for between corners.
-bool LatticePainter::shows_edges(const SquareCorners& corners) const {
-  if (!silhouettes_.are_shown()) return false;
-  const std::uint32_t first = corners[0].surface();
-  if (corners[1].surface() == first && corners[2].surface() == first && corners[3].surface() == first)
-    return false;
-  ColorSums colors;
-  for (const NodeValue& corner : corners) colors.add(corner.channels());
-  return colors.variance() >= kLeastEdgeVariance;
+bool LatticePainter::shows_silhouettes(const Square& square) const {
+  return silhouettes_.are_shown() && Surroundings(square).show_edges();
 }
 
 // The pixels of a square with samples at its corners only, which lie on several surfaces.
-void LatticePainter::paint_edges(const Square& square) {
+void LatticePainter::paint_silhouettes(const Square& square) {
   for_each_pixel(square, [&](int x, int y) {
     store_channels(mean_by_silhouettes(Vec2d(x, y), 1, square,
                                        weights_in(square.corner, square.side, middle_of_pixel(x, y))),

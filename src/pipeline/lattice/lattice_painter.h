@@ -36,8 +36,8 @@ class LatticePainter {
                                                      const SquareCorners& corners);
   bool is_refined(const LatticeNode& corner, int side) const;
   int finest_side(const LatticeNode& pixel) const;
-  bool shows_edges(const SquareCorners& corners) const;
-  void paint_edges(const Square& square);
+  bool shows_silhouettes(const Square& square) const;
+  void paint_silhouettes(const Square& square);
   float4 mean_by_silhouettes(const Vec2d& corner, float side, const Square& square,
                              const std::array<float, 4>& weights);
   float4 mean_of_refined(const LatticeNode& corner, int side, const SquareCorners& corners);

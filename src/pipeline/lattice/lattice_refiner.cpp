@@ -9,8 +9,8 @@
 namespace pprt {
 namespace {
 
-// Times, in rays. What a sample takes beside its rays, and one of the coarsest:
-constexpr double kRaysOfASample = 5, kRaysOfASeed = 0.7;
+// Times, in rays.
+constexpr double kRaysOfASample = 5;      // beside its own
 constexpr double kSurfacesOfASample = 2;  // what surfaces that are seen add to a sample
 constexpr double kRaysOfAMixedPixel = 5;  // painting a pixel that shows several surfaces
 constexpr double kFirstRay_s = 1.2e-7;    // CPU time of each of them, when seeing. AMD EPYC: .7e-7 to 1.5e-7
@@ -51,7 +51,7 @@ LatticeRefiner::LatticeRefiner(const Region& region, PrimitiveShapes shapes, Lat
       errors_(store_.right(), store_.bottom()),
       textures_(std::move(textures), visibility_),
       lights_(std::move(lights), visibility_),
-      silhouettes_(std::move(shapes.project), shapes.surfaces),
+      silhouettes_(std::move(shapes.project), shapes.count, shapes.surfaces),
       predictor_(store_, visibility_, surfaces_, errors_, share_, textures_, lights_, silhouettes_),
       painter_(store_, predictor_, visibility_, {surfaces_, errors_, share_, textures_, lights_},
                silhouettes_, errors_, share_),
@@ -354,21 +354,30 @@ void LatticeRefiner::choose_fineness() {
                                                                     : VisibilityBuffer::kFine;
   if (fineness != visibility_.fineness()) forget_visibility(fineness);
   visibility_.limit(time_for_seeing(samples), price_, region().bounds());
+  // A picture that is asked again keeps its silhouettes.
   if (!forecast_) return;
-  see_in_time();
+  if (visibility_.is_known()) {
+    see_in_time();
+  } else {
+    constexpr double kForgotten = 0.1;
+    ray_s_ += kForgotten * (kFirstRay_s - ray_s_);
+  }
   // Where there is no time for what would be worth much, silhouettes of what samples have found bring a part.
   constexpr double kWorthMuch = 0.5;
   silhouettes_.show(gain_.worthwhile_share(kRootOfFew) > kWorthMuch && !visibility_.is_known());
 }
 
-// Sees all at once, so that neither samples nor painting take longer for it, and learns what it takes.
+// Sees the region at once, so that neither samples nor painting take longer for it, and learns what it takes.
 void LatticeRefiner::see_in_time() {
-  if (!visibility_.is_known()) return;
-  const double began_s = forecast_->used_s ? forecast_->used_s() : 0;
-  visibility_.see_within(region().bounds());
+  const double before = visibility_.work(), began_s = forecast_->used_s ? forecast_->used_s() : 0;
+  for (const int tile : region().tiles()) visibility_.see_within(region().grid().pixels(tile));
   constexpr double kEnough = 1000;  // rays; fewer say nothing
-  if (forecast_->used_s && visibility_.work() > kEnough)
-    ray_s_ = (forecast_->used_s() - began_s) / visibility_.work();
+  const double rays = visibility_.work() - before;
+  if (!forecast_->used_s || rays < kEnough) return;
+  constexpr double kShareOfNew = 0.5, kLeast = 0.2, kMost = 10;
+  const double found_s =
+      std::clamp((forecast_->used_s() - began_s) / rays, kLeast * kFirstRay_s, kMost * kFirstRay_s);
+  ray_s_ += kShareOfNew * (found_s - ray_s_);
 }
 
 // Returns how many rays seeing may take, if there will be so many samples. With a rate it must fit beside the

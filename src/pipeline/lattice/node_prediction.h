@@ -13,6 +13,7 @@
 #include "pipeline/core/display_values.h"
 #include "pipeline/lattice/lattice_store.h"
 #include "pipeline/lattice/local_errors.h"
+#include "pipeline/lattice/surface_colors.h"
 #include "pipeline/lattice/surface_lights.h"
 #include "pipeline/lattice/surface_samples.h"
 #include "pipeline/lattice/surface_share.h"
@@ -47,6 +48,14 @@ inline constexpr float kLeastEdgeVariance = 3e-4F;
 // Some nodes around a point, at most eight, and what they have in common.
 class Surroundings {
  public:
+  Surroundings() = default;
+
+  // The corners of a square.
+  explicit Surroundings(const Square& square) {
+    const std::array<LatticeNode, 4> nodes = nodes_of(square.corner, square.side);
+    for (std::size_t i = 0; i < nodes.size(); ++i) add(square.corners[i], nodes[i]);
+  }
+
   void add(const NodeValue& value, const LatticeNode& node) {
     nodes_[count_] = node;
     values_[count_++] = value;
@@ -105,7 +114,9 @@ class Surroundings {
 
 struct Prediction {
   NodeValue value;
-  float variance = 0;  // mean over the channels of that of the colours on the surface, on the display scale
+  // Mean over the channels of that of the colours on the surface, on the display scale. At a silhouette: of
+  // all around, for something else may lie between.
+  float variance = 0;
   Basis basis = Basis::kNothing;
   bool is_all = false;            // the whole colour is known but for which lights are seen
   float4 around{}, on_surface{};  // the mean of all around, and the colour that those on the surface make

@@ -17,11 +17,12 @@ namespace pprt {
 
 class SampledSilhouettes {
  public:
-  // `view` projects primitives; without one there are no silhouettes. `surfaces`: of each primitive the
-  // number of its surface, which is that of a first one; those beyond are surfaces of their own. 0 is the
-  // background.
-  SampledSilhouettes(ProjectedShapeCache::View view, std::span<const std::uint32_t> surfaces)
-      : surfaces_(surfaces), has_shapes_(view != nullptr), shapes_(std::move(view)) {}
+  // `view` projects primitives 1 to `count`. Without one, or beyond the 24 bits that the lattice keeps of a
+  // number, there are no silhouettes. `surfaces`: of each primitive the number of its surface, which is that
+  // of a first one; those beyond are surfaces of their own. 0 is the background.
+  SampledSilhouettes(ProjectedShapeCache::View view, std::uint32_t count,
+                     std::span<const std::uint32_t> surfaces)
+      : surfaces_(surfaces), has_shapes_(view != nullptr && count < 1U << 24), shapes_(std::move(view)) {}
 
   // Removes all shapes, because the eye has moved.
   void forget() { shapes_.forget(); }
@@ -38,8 +39,8 @@ class SampledSilhouettes {
   std::optional<std::uint32_t> nearest(const Vec2d& point, std::span<const std::uint32_t> surfaces);
 
   // Returns the shares of four surfaces in a square of the picture, counted at eight points. `corner`: image
-  // point above and to the left; `side`: pixels. Repeated numbers have no share, and what no shape covers is
-  // the background's. Empty if one has no shape. Only if they are shown.
+  // point above and to the left; `side`: pixels. Of equal numbers the first has the share. What no shape
+  // covers is the background's, if it is among them. Empty if one has no shape. Only if they are shown.
   std::optional<std::array<float, 4>> shares(const Vec2d& corner, float side,
                                              std::span<const std::uint32_t, 4> surfaces);
 

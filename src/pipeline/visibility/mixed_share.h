@@ -24,9 +24,7 @@ class MixedShare {
   }
 
   // Returns the share of the pixels that will show several surfaces: as in the last picture, if it was seen.
-  double expected(bool was_seen) const {
-    return was_seen ? last_ : std::min(per_differing_ * differing(), 1.0);
-  }
+  double expected(bool was_seen) const { return was_seen ? last_ : per_differing_ * differing(); }
 
  private:
   double differing() const {

@@ -183,7 +183,7 @@ void VisibilityBuffer::list_items(std::size_t number, VisibleTile& tile) {
 
 void VisibilityBuffer::see_within(const PixelRect& part) {
   for (int y = part.y0; y < part.y1; y += tile_pixels() - in_tile(y))
-    for (int x = part.x0; x < part.x1; x += tile_pixels() - in_tile(x)) tile(x, y);
+    for (int x = part.x0; x < part.x1 && has_seen(); x += tile_pixels() - in_tile(x)) tile(x, y);
 }
 
 void VisibilityBuffer::see(std::size_t number) {

@@ -193,7 +193,8 @@ class VisibilityBuffer {
     return *tiles_[number];
   }
 
-  // Sees all of a part of the picture now. Only if is_known().
+  // Sees all tiles that meet a part of the picture, as tile() does, until it shows that one has no shape.
+  // Only if is_known().
   void see_within(const PixelRect& part);
 
   // Returns the surface at an image point, pixels: of the primitives at the points around it the nearest

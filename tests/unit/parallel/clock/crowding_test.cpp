@@ -20,6 +20,13 @@ TEST_CASE("crowding: a thread that waits as long as it runs takes twice its CPU 
   CHECK(crowding.factor() == Approx(4).epsilon(0.01));
 }
 
+TEST_CASE("crowding: a long stall counts as seven times what ran") {
+  Crowding crowding;
+  crowding.begin_frame({});
+  crowding.begin_frame({.ran_ns = 10, .waited_ns = 1'000'000});
+  CHECK(crowding.factor() == Approx(8));
+}
+
 TEST_CASE("crowding: without the kernel's word there is none") {
   Crowding crowding;
   for (int frame = 0; frame < 3; ++frame) crowding.begin_frame({});

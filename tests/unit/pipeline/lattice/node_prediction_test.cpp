@@ -36,7 +36,7 @@ class Lattice {
   SurfaceShare share_;
   SurfaceTextures textures_{{}, visibility_};
   SurfaceLights lights_{{}, visibility_};
-  SampledSilhouettes silhouettes_{{}, {}};
+  SampledSilhouettes silhouettes_{{}, 0, {}};
   NodePredictor predictor_{store_, visibility_, surfaces_, errors_, share_, textures_, lights_, silhouettes_};
 };
 
@@ -210,7 +210,7 @@ TEST_CASE(
     SurfaceShare share;
     SurfaceTextures textures({}, visibility);
     SurfaceLights lights({}, visibility);
-    SampledSilhouettes silhouettes({}, {});
+    SampledSilhouettes silhouettes({}, 0, {});
     NodePredictor predictor(store, visibility, surfaces, errors, share, textures, lights, silhouettes);
     const std::array<float, 4> colors = {0.25F, 0.5F, 0.625F, 1};
     const std::array<LatticeNode, 4> corners = {{{kMiddle, kMiddle},

@@ -125,7 +125,7 @@ struct Around {
   SurfaceShare share;
   SurfaceTextures textures{{}, visibility};
   SurfaceLights known;
-  SampledSilhouettes silhouettes{{}, {}};
+  SampledSilhouettes silhouettes{{}, 0, {}};
   NodePredictor predictor{store, visibility, surfaces, errors, share, textures, known, silhouettes};
 
   explicit Around(const PrimitiveLights& lights) : known(lights, visibility) {

@@ -175,7 +175,7 @@ TEST_CASE("visibility limit: with a rate seeing must fit beside the samples that
 // What a ray of the price takes by the clock is another thing on another machine.
 TEST_CASE("visibility limit: with a rate what seeing took in the last picture tells whether there is time") {
   static constexpr std::uint32_t kMany = 400;  // a few would say little
-  constexpr double kSample_s = 5e-6;
+  constexpr double kSample_s = 2.4e-7;
   const auto is_second_seen = [](double seeing_s) {
     std::uint32_t asked = 0;
     LatticeRefiner sampler(Region::whole({kSide, kSide, 32}), walls(kMany, asked));

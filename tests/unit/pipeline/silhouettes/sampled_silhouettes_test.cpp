@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "pipeline/lattice/lattice_refiner.h"
@@ -23,7 +24,7 @@ bool is_on_disc(double x, double y) {
 }
 
 SampledSilhouettes silhouettes_of(std::span<const std::uint32_t> surfaces = {}) {
-  SampledSilhouettes silhouettes(test::disc_before_wall(kX, kY, kRadius).project, surfaces);
+  SampledSilhouettes silhouettes(test::disc_before_wall(kX, kY, kRadius).project, 2, surfaces);
   silhouettes.show(true);
   return silhouettes;
 }
@@ -79,18 +80,22 @@ TEST_CASE(
   CHECK(silhouettes.nearest({kX, kY}, std::array{kWall}) == kWall);
 
   SampledSilhouettes without(
-      [](std::uint32_t, ImageShape& shape) { shape.kind = ImageShape::Kind::kUnknown; }, {});
+      [](std::uint32_t, ImageShape& shape) { shape.kind = ImageShape::Kind::kUnknown; }, 2, {});
   without.show(true);
   CHECK_FALSE(without.nearest({kX, kY}, std::array{kWall, kDisc}));
-  SampledSilhouettes of_nothing({}, {});
-  of_nothing.show(true);
-  CHECK_FALSE(of_nothing.are_shown());
+  SampledSilhouettes of_nothing({}, 0, {}),
+      of_too_many(test::disc_before_wall(0, 0, 1).project, 1U << 24, {});
+  for (SampledSilhouettes* hidden : {&of_nothing, &of_too_many}) {
+    hidden->show(true);
+    CHECK_FALSE(hidden->are_shown());
+  }
 }
 
 TEST_CASE("sampled silhouettes: shapes are projected anew when the eye has moved") {
   double x = kX;
   SampledSilhouettes silhouettes(
-      [&x](std::uint32_t p, ImageShape& to) { test::disc_before_wall(x, kY, kRadius).project(p, to); }, {});
+      [&x](std::uint32_t p, ImageShape& to) { test::disc_before_wall(x, kY, kRadius).project(p, to); }, 2,
+      {});
   silhouettes.show(true);
   const std::array around = {kWall, kDisc};
   REQUIRE(silhouettes.nearest({kX, kY}, around) == kDisc);
@@ -106,55 +111,86 @@ namespace {
 // Colours of each surface, or such of which a sample says nothing about the next.
 enum class Colors : std::uint8_t { kEven, kNoise };
 
-struct Shown {
-  double error = 0;
-  std::uint32_t projected = 0;  // how often a primitive was
-};
-
-// A picture of a bright disc before a dark wall, 64 x 64, by 81 + 60 samples, in a frame in which painting a
+// A picture of a bright disc before a dark wall, 64 x 64, by 81 + 60 samples, in frames in which painting a
 // pixel of both takes as long as so many samples.
-Shown shown_in(double mixed_pixel, Colors colors, bool has_shapes = true) {
-  constexpr int kSize = 64, kSamples = 60;
-  const auto color_at = [&](double x, double y) {
+class Picture {
+ public:
+  explicit Picture(Colors colors, bool has_shapes = true)
+      : colors_(colors),
+        refiner_(Region::whole({kSize, kSize, 32}), has_shapes ? shapes() : PrimitiveShapes{}) {}
+
+  double error_with(double mixed_pixel) {
+    const auto sample_at = [&](double x, double y) {
+      RaySample seen;
+      seen.primitive = is_in(x, y) ? kDisc : kWall;
+      seen.color = color_at(x, y);
+      return seen;
+    };
+    for (const Vec2d& point : refiner_.base_points()) refiner_.insert(point, sample_at(point.x, point.y));
+    refiner_.expect(kSamples);
+    refiner_.expect_time({.samples = 1000, .mixed_pixel = mixed_pixel, .sample_s = 1e-5});
+    const PixelBlock picture = test::picture_of(refiner_, kSize, kSamples, sample_at);
+    return test::error_of(picture, 0, kSize, [&](double x, double y) { return color_at(x, y); });
+  }
+
+  void move_eye(double by) {
+    moved_ += by;
+    refiner_.camera_changed();
+    refiner_.restart();
+  }
+
+  std::uint32_t projected() const { return projected_; }  // how often a primitive was
+
+ private:
+  static constexpr int kSize = 64, kSamples = 60;
+
+  bool is_in(double x, double y) const { return is_on_disc(x - moved_, y); }
+  Color color_at(double x, double y) const {
     const double wave = 0.5 + 0.5 * std::sin(1e3 * x + 1.7e3 * y);
-    const auto value = static_cast<float>(colors == Colors::kNoise ? wave : is_on_disc(x, y) ? 0.9 : 0.1);
+    const auto value = static_cast<float>(colors_ == Colors::kNoise ? wave : is_in(x, y) ? 0.9 : 0.1);
     return Color(value, value, value);
-  };
-  const auto sample_at = [&](double x, double y) {
-    RaySample seen;
-    seen.primitive = is_on_disc(x, y) ? kDisc : kWall;
-    seen.color = color_at(x, y);
-    return seen;
-  };
-  Shown shown;
-  PrimitiveShapes shapes = test::disc_before_wall(kX, kY, kRadius);
-  shapes.project = [project = shapes.project, &shown](std::uint32_t p, ImageShape& to) {
-    ++shown.projected, project(p, to);
-  };
-  shapes.bound = [](std::uint32_t, std::span<ShapeBounds> bounds) {
-    for (ShapeBounds& bounded : bounds) bounded = {{0, 0, kSize, kSize}, 1};
-  };
-  if (!has_shapes) shapes = {};
-  LatticeRefiner refiner(Region::whole({kSize, kSize, 32}), shapes);
-  for (const Vec2d& point : refiner.base_points()) refiner.insert(point, sample_at(point.x, point.y));
-  refiner.expect(kSamples);
-  refiner.expect_time({.samples = 1000, .mixed_pixel = mixed_pixel, .sample_s = 1e-5});
-  const PixelBlock picture = test::picture_of(refiner, kSize, kSamples, sample_at);
-  shown.error = test::error_of(picture, 0, kSize, color_at);
-  return shown;
-}
+  }
+  PrimitiveShapes shapes() {
+    PrimitiveShapes found;
+    found.count = 2;
+    found.project = [this](std::uint32_t p, ImageShape& to) {
+      ++projected_;
+      test::disc_before_wall(kX + moved_, kY, kRadius).project(p, to);
+    };
+    found.bound = [](std::uint32_t, std::span<ShapeBounds> bounds) {
+      for (ShapeBounds& bounded : bounds) bounded = {{0, 0, kSize, kSize}, 1};
+    };
+    return found;
+  }
+
+  Colors colors_;
+  double moved_ = 0;  // pixels to the right
+  std::uint32_t projected_ = 0;
+  LatticeRefiner refiner_;
+};
 
 }  // namespace
 
+constexpr double kTooDear = 1e6;
+
 TEST_CASE("sampled silhouettes: a frame that cannot be seen in time shows them where seeing would pay") {
-  constexpr double kTooDear = 1e6;
-  const double blind = shown_in(kTooDear, Colors::kEven, false).error;
-  const Shown seen = shown_in(0, Colors::kEven), unseen = shown_in(kTooDear, Colors::kEven);
-  CAPTURE(blind, seen.error, unseen.error);
-  CHECK(unseen.projected > 0);
-  CHECK(unseen.error < 0.3 * blind);
-  CHECK(seen.error < unseen.error);
-  CHECK(shown_in(kTooDear, Colors::kNoise).projected == 0);
+  Picture all_known(Colors::kEven), known(Colors::kEven), blind(Colors::kEven, false);
+  const double seen = all_known.error_with(0), unseen = known.error_with(kTooDear);
+  CHECK(known.projected() > 0);
+  CHECK(unseen < 0.3 * blind.error_with(kTooDear));
+  CHECK(seen < unseen);
+  Picture mirrored(Colors::kNoise);
+  mirrored.error_with(kTooDear);
+  CHECK(mirrored.projected() == 0);
+}
+
+TEST_CASE("sampled silhouettes: the next frame shows them where they are then") {
+  Picture known(Colors::kEven), blind(Colors::kEven, false);
+  for (Picture* picture : {&known, &blind}) {
+    picture->error_with(kTooDear);
+    picture->move_eye(3);
+  }
+  CHECK(known.error_with(kTooDear) < 0.5 * blind.error_with(kTooDear));
 }
 
 }  // namespace pprt::sampled_silhouettes_test

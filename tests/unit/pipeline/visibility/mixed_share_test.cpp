@@ -5,7 +5,7 @@
 
 namespace pprt::mixed_share_test {
 
-TEST_CASE("mixed share: first it is half of the pairs that differ, at most all pixels") {
+TEST_CASE("mixed share: first it is half of the pairs that differ, at most all of them") {
   MixedShare mixed;
   CHECK(mixed.expected(false) == 0);
   mixed.note(30, 3);
