@@ -359,11 +359,11 @@ void LatticeRefiner::choose_fineness() {
   if (visibility_.is_known()) {
     see_in_time();
   } else {
-    constexpr double kForgotten = 0.1;
+    constexpr double kForgotten = 0.02;
     ray_s_ += kForgotten * (kFirstRay_s - ray_s_);
   }
   // Where there is no time for what would be worth much, silhouettes of what samples have found bring a part.
-  constexpr double kWorthMuch = 0.5;
+  constexpr double kWorthMuch = 0.8;
   silhouettes_.show(gain_.worthwhile_share(kRootOfFew) > kWorthMuch && !visibility_.is_known());
 }
 
@@ -374,10 +374,8 @@ void LatticeRefiner::see_in_time() {
   constexpr double kEnough = 1000;  // rays; fewer say nothing
   const double rays = visibility_.work() - before;
   if (!forecast_->used_s || rays < kEnough) return;
-  constexpr double kShareOfNew = 0.5, kLeast = 0.2, kMost = 10;
-  const double found_s =
-      std::clamp((forecast_->used_s() - began_s) / rays, kLeast * kFirstRay_s, kMost * kFirstRay_s);
-  ray_s_ += kShareOfNew * (found_s - ray_s_);
+  constexpr double kLeast = 0.2, kMost = 10;  // of the first: what is beyond was disturbed
+  ray_s_ = std::clamp((forecast_->used_s() - began_s) / rays, kLeast * kFirstRay_s, kMost * kFirstRay_s);
 }
 
 // Returns how many rays seeing may take, if there will be so many samples. With a rate it must fit beside the
