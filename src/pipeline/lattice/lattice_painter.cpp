@@ -68,30 +68,19 @@ void LatticePainter::paint_square(const LatticeNode& corner, int side, const Squ
                    pixel(x, y));
     return;
   }
-  const auto paint_quarters = [&] {
-    const int half = side / 2;
-    const std::array<SquareCorners, 4> parts = quarters(corner, side, corners);
-    paint_square(corner, half, parts[0]);
-    paint_square({corner.x + half, corner.y}, half, parts[1]);
-    paint_square({corner.x, corner.y + half}, half, parts[2]);
-    paint_square({corner.x + half, corner.y + half}, half, parts[3]);
-  };
   if (!is_refined(corner, side)) {
     const Square square{corner, side, corners};
-    if (!sees_ && !shows_silhouettes(square)) {
-      fill(corner, side, corners);
-    } else if (!sees_ && size > 2) {
-      paint_quarters();
-    } else if (!sees_) {
-      paint_silhouettes(square);
-    } else if (!is_uniform(corner, size)) {
-      paint_mixed(corner, side, corners);
-    } else {
-      paint_uniform({corner, side, corners});
-    }
-    return;
+    if (sees_ && is_uniform(corner, size)) return paint_uniform(square);
+    if (sees_) return paint_mixed(square);
+    if (!shows_silhouettes(square)) return fill(corner, side, corners);
+    if (size == 2) return paint_silhouettes(square);
   }
-  paint_quarters();
+  const int half = side / 2;
+  const std::array<SquareCorners, 4> parts = quarters(corner, side, corners);
+  paint_square(corner, half, parts[0]);
+  paint_square({corner.x + half, corner.y}, half, parts[1]);
+  paint_square({corner.x, corner.y + half}, half, parts[2]);
+  paint_square({corner.x + half, corner.y + half}, half, parts[3]);
 }
 
 // Whether a sample lies at the centre of a square or in the middle of one of its sides. Without one there is
@@ -286,9 +275,8 @@ bool LatticePainter::is_uniform(const LatticeNode& corner, int pixels) const {
 }
 
 // The pixels of a square with samples at its corners only, in which several surfaces are seen.
-void LatticePainter::paint_mixed(const LatticeNode& corner, int side, const SquareCorners& corners) {
+void LatticePainter::paint_mixed(const Square& square) {
   surfaces_.begin();
-  const Square square{corner, side, corners};
   for_each_pixel(square, [&](int x, int y) {
     store_channels(mixed_mean({kPixelSide * x, kPixelSide * y}, square), pixel(x, y));
   });

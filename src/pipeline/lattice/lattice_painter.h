@@ -68,7 +68,7 @@ class LatticePainter {
   }
   float4 mean_of_mixed(const LatticeNode& pixel, const SquareCorners& corners);
   void gather(const LatticeNode& corner, int side, const SquareCorners& corners);
-  void paint_mixed(const LatticeNode& corner, int side, const SquareCorners& corners);
+  void paint_mixed(const Square& square);
   bool is_uniform(const LatticeNode& corner, int pixels) const;
   Color& pixel(int x, int y) {
     const PixelRect& bounds = pixels_->bounds;

@@ -85,7 +85,7 @@ void LatticeRefiner::camera_changed() {
 void LatticeRefiner::note_seeing() {
   if (!visibility_.has_seen()) return;
   const std::size_t items = std::max<std::size_t>(visibility_.items_within(), 1);
-  // Of very few, most of the work is not theirs.
+  // Tiles take work, too. Where they hold few shapes, it is most of all.
   constexpr double kMostForEach = 4 * kFirstPrice;
   const double each = std::min(visibility_.work() / static_cast<double>(items), kMostForEach);
   price_ = {.each = each, .seen = items, .further = kFirstPrice};

@@ -39,8 +39,9 @@ class SampledSilhouettes {
   std::optional<std::uint32_t> nearest(const Vec2d& point, std::span<const std::uint32_t> surfaces);
 
   // Returns the shares of four surfaces in a square of the picture, counted at eight points. `corner`: image
-  // point above and to the left; `side`: pixels. Of equal numbers the first has the share. What no shape
-  // covers is the background's, if it is among them. Empty if one has no shape. Only if they are shown.
+  // point above and to the left; `side`: pixels. Where a number repeats, its first place has the share. What
+  // no shape covers is the background's, if it is among them. Empty if one has no shape. Only if they are
+  // shown.
   std::optional<std::array<float, 4>> shares(const Vec2d& corner, float side,
                                              std::span<const std::uint32_t, 4> surfaces);
 

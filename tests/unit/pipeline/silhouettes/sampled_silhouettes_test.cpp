@@ -111,8 +111,8 @@ namespace {
 // Colours of each surface, or such of which a sample says nothing about the next.
 enum class Colors : std::uint8_t { kEven, kNoise };
 
-// A picture of a bright disc before a dark wall, 64 x 64, by 81 + 60 samples, in frames in which painting a
-// pixel of both takes as long as so many samples.
+// Shows a bright disc before a dark wall, 64 x 64 pixels, by 81 + 60 samples a frame. A frame is told how
+// many samples take as long as to paint a pixel of both.
 class Picture {
  public:
   explicit Picture(Colors colors, bool has_shapes = true)
