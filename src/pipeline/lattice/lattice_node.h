@@ -87,6 +87,9 @@ inline double footprint_of(const LatticeNode& node) {
   return is_base(node) ? double{kBaseSide} / kPixelSide : double{std::sqrt(level_of(node).area())};
 }
 
+// The number of no surface. There is no visibility with as many.
+inline constexpr std::uint32_t kNoSurface = 0xFFFFFF;
+
 // What is seen at a node: colour, linear, and the surface's number (Probe::surfaces).
 class NodeValue {
  public:

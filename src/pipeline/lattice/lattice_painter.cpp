@@ -41,6 +41,16 @@ LatticeNode middle_of_pixel(int x, int y) {
   return {kPixelSide * x + kPixelSide / 2, kPixelSide * y + kPixelSide / 2};
 }
 
+NodeValue value_of(const Prediction& predicted) {
+  return predicted.value;
+}
+
+// A colour that other surfaces have a share in tells nothing of its own: it counts for none.
+NodeValue value_of_surface(const Prediction& predicted) {
+  if (is_of_surface_alone(predicted)) return predicted.value;
+  return {predicted.value.channels(), kNoSurface, predicted.value.lights()};
+}
+
 }  // namespace
 
 void LatticePainter::paint(const PixelRect& part, PixelBlock& pixels) {
@@ -118,9 +128,11 @@ std::array<SquareCorners, 4> LatticePainter::quarters(const LatticeNode& corner,
 }
 
 // The same for a square of at most a pixel. What is not sampled is predicted from this square alone: that is
-// quicker, and differences between neighbours do not show.
+// quicker, and differences between neighbours do not show. shown_by(Prediction) returns what is taken of it.
+template <class ShownBy>
 std::array<SquareCorners, 4> LatticePainter::quarters_within_pixel(const LatticeNode& corner, int side,
-                                                                   const SquareCorners& corners) {
+                                                                   const SquareCorners& corners,
+                                                                   const ShownBy& shown_by) {
   const int half = side / 2;
   const LatticeNode center{corner.x + half, corner.y + half};
   const std::array<LatticeNode, 4> middles = {
@@ -139,9 +151,9 @@ std::array<SquareCorners, 4> LatticePainter::quarters_within_pixel(const Lattice
     Surroundings ends;
     for (const std::size_t end : kEnds[i]) ends.add(corners[end], nodes[end]);
     if (seen != nullptr) ends.add(*seen, center);
-    shown[i] = predictor_.predict(middles[i], ends).value;
+    shown[i] = shown_by(predictor_.predict(middles[i], ends));
   }
-  const NodeValue inner = seen != nullptr ? *seen : predictor_.predict(center, around).value;
+  const NodeValue inner = seen != nullptr ? *seen : shown_by(predictor_.predict(center, around));
   return {{{corners[0], shown[0], shown[1], inner},
            {shown[0], corners[1], inner, shown[2]},
            {shown[1], inner, corners[2], shown[3]},
@@ -216,7 +228,7 @@ float4 LatticePainter::mean_of_refined(const LatticeNode& corner, int side, cons
     return mean_by_silhouettes(point_of(corner), static_cast<float>(side) / kPixelSide, square, kEqual);
   }
   const int half = side / 2;
-  const std::array<SquareCorners, 4> parts = quarters_within_pixel(corner, side, corners);
+  const std::array<SquareCorners, 4> parts = quarters_within_pixel(corner, side, corners, value_of);
   return (mean_of_refined(corner, half, parts[0]) +
           mean_of_refined({corner.x + half, corner.y}, half, parts[1]) +
           mean_of_refined({corner.x, corner.y + half}, half, parts[2]) +
@@ -249,7 +261,7 @@ float4 LatticePainter::mean_of_mixed(const LatticeNode& corner, const SquareCorn
 void LatticePainter::gather(const LatticeNode& corner, int side, const SquareCorners& corners) {
   if (side > finest_side_ && is_refined(corner, side)) {
     const int half = side / 2;
-    const std::array<SquareCorners, 4> parts = quarters_within_pixel(corner, side, corners);
+    const std::array<SquareCorners, 4> parts = quarters_within_pixel(corner, side, corners, value_of_surface);
     gather(corner, half, parts[0]);
     gather({corner.x + half, corner.y}, half, parts[1]);
     gather({corner.x, corner.y + half}, half, parts[2]);
@@ -258,6 +270,7 @@ void LatticePainter::gather(const LatticeNode& corner, int side, const SquareCor
   }
   const auto area = static_cast<float>(side * side);
   for (const NodeValue& value : corners) {
+    if (value.surface() == kNoSurface) continue;
     std::size_t i = 0;
     while (i < summed_ && sums_[i].surface != value.surface()) ++i;
     if (i == summed_) {

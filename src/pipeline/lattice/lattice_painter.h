@@ -32,8 +32,9 @@ class LatticePainter {
   void paint_square(const LatticeNode& corner, int side, const SquareCorners& corners);
   void fill(const LatticeNode& corner, int side, const SquareCorners& corners);
   std::array<SquareCorners, 4> quarters(const LatticeNode& corner, int side, const SquareCorners& corners);
+  template <class ShownBy>
   std::array<SquareCorners, 4> quarters_within_pixel(const LatticeNode& corner, int side,
-                                                     const SquareCorners& corners);
+                                                     const SquareCorners& corners, const ShownBy& shown_by);
   bool is_refined(const LatticeNode& corner, int side) const;
   int finest_side(const LatticeNode& pixel) const;
   bool shows_silhouettes(const Square& square) const;
@@ -90,7 +91,7 @@ class LatticePainter {
     float4 sum{};
     float weight = 0;
   };
-  std::array<SurfaceSum, 32> sums_;  // of what the samples in a pixel show
+  std::array<SurfaceSum, SeenInPixel::kMost> sums_;  // of what the samples in a pixel show
   std::size_t summed_ = 0;
   PixelRect part_;
   PixelBlock* pixels_ = nullptr;

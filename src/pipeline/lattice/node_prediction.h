@@ -127,6 +127,11 @@ inline bool is_share_used(const Prediction& predicted) {
   return !predicted.is_all && predicted.basis != Basis::kAllAround && predicted.basis != Basis::kNothing;
 }
 
+// Whether no other surface has a share in the colour.
+inline bool is_of_surface_alone(const Prediction& predicted) {
+  return !is_share_used(predicted) && predicted.basis != Basis::kNothing;
+}
+
 // Returns the surface seen at a node. Only if the visibility is known.
 inline std::uint32_t seen_at(VisibilityBuffer& visibility, const LatticeNode& node) {
   constexpr int kLog2Side = 4;

@@ -53,10 +53,7 @@ void find_at_points(const std::uint16_t* row, SeenInPixel& found) {
       if (count == 0 || found.numbers[last] != row[x]) {
         last = 0;
         while (last < count && found.numbers[last] != row[x]) ++last;
-        if (last == SeenInPixel::kMost) {
-          last = 0;
-          continue;
-        }
+        static_assert((kDensity + 1) * (kDensity + 1) < SeenInPixel::kMost);
         if (last == count) found.numbers[count] = row[x], sums[count++] = 0;
       }
       sums[last] += weights[x];
@@ -102,7 +99,8 @@ void VisibilityBuffer::find_shapes(int pixel_x, int pixel_y, const SeenInPixel& 
   }
 }
 
-// Adds what is thin and passes between the points of a pixel: that before all they see, or the rest.
+// Adds what is thin and passes between the points of a pixel: that before all they see, or the rest. Where it
+// is more than can be listed, the last of the list stands for all that follow. The background keeps a place.
 void VisibilityBuffer::find_thin_shapes(int pixel_x, int pixel_y, const SeenAtPoints& at_points,
                                         bool is_before, SeenInPixel& seen) {
   const VisibleTile& tile = this->tile(pixel_x, pixel_y);
@@ -121,7 +119,8 @@ void VisibilityBuffer::find_thin_shapes(int pixel_x, int pixel_y, const SeenAtPo
     if (!item.is_quadric && misses_pixel(facets_[item.shape], from)) continue;
     std::size_t owner = 0;
     while (owner < seen.count && seen.numbers[owner] != number) ++owner;
-    if (owner < at_points.count || owner == SeenInPixel::kMost) continue;
+    if (owner < at_points.count) continue;
+    owner = std::min(owner, SeenInPixel::kMost - 2);
     const ShapeInPixel shape = item.is_quadric ? shape_in_pixel(quadrics_[item.shape], from, owner)
                                                : shape_in_pixel(facets_[item.shape], from, owner);
     const float nearness = item.is_quadric ? item.nearest : depths_of(shape).least;
@@ -167,7 +166,7 @@ void VisibilityBuffer::find_shares(int pixel_x, int pixel_y, SeenInPixel& seen) 
     seen.shares[static_cast<std::size_t>(background - seen.numbers.begin())] += 1 - all;
     return;
   }
-  if (has_thin_ && all < 1 - kLeft && seen.count < SeenInPixel::kMost) {
+  if (has_thin_ && all < 1 - kLeft) {
     seen.numbers[seen.count] = 0, seen.places[seen.count] = Vec2f(0.5F, 0.5F);
     seen.shares[seen.count++] = 1 - all;
     return;

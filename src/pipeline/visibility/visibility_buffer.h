@@ -27,7 +27,7 @@ namespace pprt {
 
 // What is seen in a pixel: primitives by their tile's own numbers, the share of each, and where it is.
 struct SeenInPixel {
-  static constexpr std::size_t kMost = 12;
+  static constexpr std::size_t kMost = 64;
 
   std::array<std::uint16_t, kMost> numbers;
   std::array<float, kMost> shares;  // of the area

@@ -6,40 +6,14 @@
 #include <numeric>
 #include <vector>
 
+#include "unit/pipeline/rectangles.h"
+
 namespace pprt::visibility_buffer_test {
 namespace {
 
 constexpr int kSize = 64;
 
-// A triangle parallel to the image at some nearness.
-ImageFacet triangle(const std::array<Vec2d, 3>& corners, double nearness) {
-  ImageFacet facet;
-  facet.bounds = {1e9F, 1e9F, -1e9F, -1e9F};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec2d &a = corners[i], &b = corners[(i + 1) % 3];
-    facet.edges[i] = {a.x * b.y - a.y * b.x, a.y - b.y, b.x - a.x};
-    const auto x = static_cast<float>(a.x), y = static_cast<float>(a.y);
-    ImageBounds& box = facet.bounds;
-    box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x), std::max(box.y1, y)};
-  }
-  facet.nearness = {nearness, 0, 0};
-  return facet;
-}
-
-// Rectangles, each a primitive of two triangles.
-struct Rectangle {
-  double x0, y0, x1, y1, nearness;
-};
-
-PrimitiveShapes shapes_of(const std::vector<Rectangle>& rectangles) {
-  return {[rectangles](std::uint32_t primitive, ImageShape& shape) {
-            const Rectangle& r = rectangles.at(primitive - 1);
-            shape.kind = ImageShape::Kind::kFacets;
-            shape.facets = {triangle({{{r.x0, r.y0}, {r.x1, r.y0}, {r.x0, r.y1}}}, r.nearness),
-                            triangle({{{r.x1, r.y0}, {r.x1, r.y1}, {r.x0, r.y1}}}, r.nearness)};
-          },
-          static_cast<std::uint32_t>(rectangles.size())};
-}
+using test::shapes_of, test::triangle, test::Rectangle;
 
 }  // namespace
 
@@ -210,6 +184,24 @@ TEST_CASE("visibility buffer: the background has a share where it shows between 
   CHECK(share_of(buffer, 1) == Approx(0.55).margin(0.03));
   CHECK(share_of(buffer, 2) == Approx(0.3).margin(0.03));
   CHECK(share_of(buffer, 0) == Approx(0.15).margin(0.03));
+}
+
+TEST_CASE("visibility buffer: of many thin things in a pixel each has its share") {
+  const auto fineness = GENERATE(VisibilityBuffer::kMiddle, VisibilityBuffer::kFine);
+  const bool lie_down = GENERATE(false, true);
+  constexpr int kStrips = 40;
+  std::vector<Rectangle> strips;
+  for (int i = 0; i < kStrips; ++i) {
+    const double at = 10 + (i - 0.25) / kStrips, to = at + 0.5 / kStrips;  // the points meet five
+    strips.push_back(lie_down ? Rectangle{0, at, 64, to, 1} : Rectangle{at, 0, to, 64, 1});
+  }
+  VisibilityBuffer buffer(kSize, kSize, shapes_of(strips));
+  buffer.forget(fineness);
+  REQUIRE(buffer.is_known());
+  CHECK(share_of(buffer, 0) == Approx(0.5).margin(0.06));
+  double worst = 0;
+  for (int i = 1; i <= kStrips; ++i) worst = std::max(worst, share_of(buffer, static_cast<std::uint32_t>(i)));
+  CHECK(worst < 0.05);
 }
 
 TEST_CASE("visibility buffer: of two that are equally near the first is seen") {
