@@ -55,7 +55,9 @@ void WallClock::begin_frame(const FrameOrder& order) {
 
 void WallClock::end_frame(double reconstruction_ms, double share) {
   if (size_ <= 0 || share <= 0) return;
-  RecentValues& per_size = mixed_size_ > 0 ? seen_s_per_size_ : unseen_s_per_size_;
+  RecentValues& per_size = is_at_rest_       ? resting_s_per_size_
+                           : mixed_size_ > 0 ? seen_s_per_size_
+                                             : unseen_s_per_size_;
   per_size.add(1e-3 * reconstruction_ms / (share * size_));
 }
 
@@ -181,9 +183,13 @@ double WallClock::latest_s(double size, bool is_seen) const {
   return effort_ < 1 ? frame_began_s_ + effort_ * std::max(0.0, latest_s - frame_began_s_) : latest_s;
 }
 
-// Predicted seconds: as in the slowest of the last frames, and a quarter more.
+// Predicted seconds: as in the slowest of the last frames of its kind, and a quarter more. A resting picture
+// of many samples takes less for each of them, which says little of the first after it.
 double WallClock::reconstruction_s(double size, bool is_seen) const {
-  const double slowest = (is_seen ? seen_s_per_size_ : unseen_s_per_size_).greatest();
+  const double of_new = (is_seen ? seen_s_per_size_ : unseen_s_per_size_).greatest();
+  const double of_resting = resting_s_per_size_.greatest();
+  const bool is_as_resting = of_resting > 0 && (is_at_rest_ || of_new <= 0);
+  const double slowest = is_as_resting ? of_resting : of_new;
   return 1.25 * (slowest > 0 ? slowest : kFirstSecondsPerSize) * size * ranks_per_core_;
 }
 

@@ -107,10 +107,11 @@ class WallClock final : public FrameClock {
   bool knows_pace_ = false;
   double size_ = 1;  // of what is to be reconstructed, in samples
   double samples_size_ = 1;
-  double region_size_ = 0;          // what the region's pixels add to it
-  double mixed_size_ = 0;           // what those of several surfaces add
-  RecentValues seen_s_per_size_;    // what pictures took to reconstruct whose surfaces are seen
-  RecentValues unseen_s_per_size_;  // what others took
+  double region_size_ = 0;           // what the region's pixels add to it
+  double mixed_size_ = 0;            // what those of several surfaces add
+  RecentValues seen_s_per_size_;     // what new pictures took to reconstruct whose surfaces are seen
+  RecentValues unseen_s_per_size_;   // what others took
+  RecentValues resting_s_per_size_;  // what either took under rest
   int left_in_packet_ = 0;
 };
 

@@ -156,6 +156,27 @@ TEST_CASE("wall clock: a resting picture without parts is reconstructed in every
   CHECK(left_with(*clock, 9000) == Approx(0.7 * kPeriod));
 }
 
+TEST_CASE("wall clock: how little a resting picture takes for each sample says nothing of the next new one",
+          "[realtime]") {
+  const auto clock = clock_in_a_frame(0.01);
+  left_with(*clock, 1000);
+  clock->end_frame(8, 1);  // 2000 samples with the region's pixels: 4 us for each
+  FrameOrder order;
+  order.deadline_s = 1, order.reserve_s = 0.01;
+  order.carry = Carry::kAccumulate;
+  for (int frame = 0; frame < 10; ++frame) {
+    clock->begin_frame(order);
+    left_with(*clock, 9000);
+    clock->end_frame(10, 1);  // 1 us for each
+  }
+  clock->begin_frame(order);
+  const double resting = left_with(*clock, 1000);
+  CHECK((resting == Approx(0.01 + 1.25 * 0.002) || resting == Approx(0.01)));  // by turns
+  order.carry = Carry::kNothing;
+  clock->begin_frame(order);
+  CHECK(left_with(*clock, 1000) == Approx(0.01 + 1.25 * 0.008));
+}
+
 TEST_CASE("wall clock: a resting frame whose time is over already traces nothing", "[realtime]") {
   for (const bool rests : {true, false}) {
     const auto clock = clock_in_a_frame(1.5, rests ? Carry::kAccumulate : Carry::kNothing);
