@@ -87,31 +87,19 @@ RegionQuality LatticeSampler::quality() {
   return {region(), weights_, mean_weight_};
 }
 
+// It is weighed anew where it is expected to suffice: what a sample is worth falls as about the fourth power
+// of their number. A forecast errs, and each round is too often.
 bool LatticeSampler::is_refined_to(double weight) {
-  weigh_after(growth_until(weight));
+  constexpr double kFall = 4, kLeastGrowth = 1.02, kGreatestGrowth = 1.25;
+  const double growth = weight > 0 ? std::pow(mean_worth_ / weight, 1 / kFall) : kGreatestGrowth;
+  weigh_after(std::clamp(growth, kLeastGrowth, kGreatestGrowth));
   return mean_worth_ <= weight;
-}
-
-// Returns how many times the samples of the last weighing are expected to suffice. What a sample is worth
-// falls as a power of their number: as it did between the last two weighings.
-double LatticeSampler::growth_until(double weight) const {
-  constexpr double kLeastGrowth = 1.02, kGreatestGrowth = 1.25;  // fewer weighings; a forecast errs
-  constexpr double kExpectedFall = 2, kLeastFall = 1, kGreatestFall = 8;
-  if (weighed_ == 0 || mean_worth_ <= weight) return kGreatestGrowth;
-  double fall = kExpectedFall;
-  if (before_.samples > 0 &&
-      static_cast<double>(weighed_) > kLeastGrowth * static_cast<double>(before_.samples))
-    fall = std::log(before_.mean_worth / mean_worth_) /
-           std::log(static_cast<double>(weighed_) / static_cast<double>(before_.samples));
-  const double growth = std::pow(mean_worth_ / weight, 1 / std::clamp(fall, kLeastFall, kGreatestFall));
-  return std::clamp(growth, kLeastGrowth, kGreatestGrowth);
 }
 
 // Weighs anew when there are so many times the samples of the last time.
 void LatticeSampler::weigh_after(double growth) {
   const auto samples = static_cast<double>(refiner_.samples());
   if (weighed_ > 0 && samples <= growth * static_cast<double>(weighed_)) return;
-  before_ = {weighed_, mean_worth_};
   weighed_ = std::max<std::size_t>(refiner_.samples(), 1);
   mean_worth_ = refiner_.weigh(weights_);
   average_weights(region());

@@ -59,7 +59,6 @@ class LatticeSampler final : public PointSampler {
   void reserve_samples();
   void expect_goal();
   void weigh_after(double growth);
-  double growth_until(double weight) const;
   void forget_weights(const Region& next);
   void average_weights(const Region& region);
   std::size_t paint_tiles(const PixelRect& bounds, const std::function<bool()>& is_over, PixelBlock& pixels);
@@ -73,11 +72,6 @@ class LatticeSampler final : public PointSampler {
   double mean_worth_ = 0;             // what a sample is expected to bring: what the stop rule goes by
   std::size_t weighed_ = 0;           // samples when the weights were computed; 0: they are not
   std::vector<PixelRect> parts_;      // to paint
-
-  struct {
-    std::size_t samples = 0;
-    double mean_worth = 0;
-  } before_;  // at the weighing before; 0 samples: there was none
 };
 
 constexpr SamplerTraits LatticeSampler::traits(LatticeOrder order) {

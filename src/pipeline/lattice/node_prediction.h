@@ -122,14 +122,14 @@ struct Prediction {
   float4 around{}, on_surface{};  // the mean of all around, and the colour that those on the surface make
 };
 
-// Whether the colour is made of others' by the SurfaceShare.
-inline bool is_share_used(const Prediction& predicted) {
-  return !predicted.is_all && predicted.basis != Basis::kAllAround && predicted.basis != Basis::kNothing;
-}
-
 // Whether no other surface has a share in the colour.
 inline bool is_of_surface_alone(const Prediction& predicted) {
-  return !is_share_used(predicted) && predicted.basis != Basis::kNothing;
+  return predicted.is_all || predicted.basis == Basis::kAllAround;
+}
+
+// Whether the colour is made of others' by the SurfaceShare.
+inline bool is_share_used(const Prediction& predicted) {
+  return !is_of_surface_alone(predicted) && predicted.basis != Basis::kNothing;
 }
 
 // Returns the surface seen at a node. Only if the visibility is known.

@@ -114,60 +114,28 @@ TEST_CASE("lattice sampler: it is refined to what a sample is worth") {
   REQUIRE(worth > 0);
   CHECK(sampler.is_refined_to(worth * 1.0001));
   CHECK_FALSE(sampler.is_refined_to(worth * 0.9999));
-  refine(sampler, 101), refine(refiner, 101);
-  const double later = refiner.weigh(weights);
-  REQUIRE(later < worth);
-  CHECK(sampler.is_refined_to(0.5 * (later + worth)));
-}
-
-TEST_CASE("lattice sampler: it weighs when it is expected to be refined, and a quarter later at the latest") {
-  LatticeSampler sampler = whole();
-  LatticeRefiner refiner(Region::whole(kGrid), {});
-  std::vector<TileWeights> weights;
-  refine(sampler, 400), refine(refiner, 400);
-  const double worth = refiner.weigh(weights);
-  CHECK_FALSE(sampler.is_refined_to(0.9 * worth));
+  // It weighs when it is expected to be refined, and a quarter later at the latest.
   const std::vector<std::int64_t> at_400 = counts_of(sampler.quality());
   const auto weighs_by = [&](std::size_t samples, double weight) {
-    refine(sampler, samples);
-    (void)sampler.is_refined_to(weight);
-    return counts_of(sampler.quality()) != at_400;
+    refine(sampler, samples), refine(refiner, samples);
+    const bool is_refined = sampler.is_refined_to(weight);
+    const bool is_weighed = counts_of(sampler.quality()) != at_400;
+    CHECK(is_refined == (is_weighed && refiner.weigh(weights) <= weight));
+    return is_weighed;
   };
   SECTION("what is far away") {
-    CHECK_FALSE(weighs_by(100, 0.01 * worth));
-    CHECK(weighs_by(1, 0.01 * worth));
+    CHECK_FALSE(weighs_by(100, 0.1 * worth));
+    CHECK(weighs_by(1, 0.1 * worth));
   }
-  SECTION("what is near: as the samples' square root, where nothing else is known") {
-    CHECK_FALSE(weighs_by(20, worth / (1.06 * 1.06)));
-    CHECK(weighs_by(5, worth / (1.06 * 1.06)));
+  SECTION("what is near: a sample's worth falls as the fourth power of their number") {
+    const double near = worth / std::pow(1.06, 4);
+    CHECK_FALSE(weighs_by(20, near));
+    CHECK(weighs_by(5, near));
   }
   SECTION("what is nearer still is no reason to weigh after each round") {
     CHECK_FALSE(weighs_by(7, 0.9999 * worth));
     CHECK(weighs_by(2, 0.9999 * worth));
   }
-}
-
-TEST_CASE("lattice sampler: it expects a sample's worth to fall as it fell before") {
-  LatticeSampler sampler = whole();
-  LatticeRefiner refiner(Region::whole(kGrid), {});
-  std::vector<TileWeights> weights;
-  refine(sampler, 400), refine(refiner, 400);
-  const double first = refiner.weigh(weights);
-  CHECK_FALSE(sampler.is_refined_to(0.01 * first));
-  refine(sampler, 200), refine(refiner, 200);
-  const double second = refiner.weigh(weights);
-  CHECK_FALSE(sampler.is_refined_to(0.01 * first));
-  const double fall = std::log(first / second) / std::log(1.5);
-  REQUIRE(fall > 1);
-  REQUIRE(fall < 1.5);  // without the weighing before: 2
-  const std::vector<std::int64_t> at_600 = counts_of(sampler.quality());
-  const double enough = second / std::pow(1.1, fall);  // at 660 samples
-  refine(sampler, 59);
-  (void)sampler.is_refined_to(enough);
-  CHECK(counts_of(sampler.quality()) == at_600);
-  refine(sampler, 2);
-  (void)sampler.is_refined_to(enough);
-  CHECK(counts_of(sampler.quality()) != at_600);
 }
 
 TEST_CASE(
