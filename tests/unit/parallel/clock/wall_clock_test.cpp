@@ -307,6 +307,29 @@ TEST_CASE("set wall clock: beside others that want its core a rank's samples tak
   CHECK(samples_at(2, 100) == Approx(samples_at(2, 0)));  // they may be the ranks that share it
 }
 
+TEST_CASE("set wall clock: beside others that want its core frames are expected to be as bad as the worst") {
+  const auto forecast_at = [](std::int64_t waited_ns, double reserve_s) {
+    Timed timed;
+    timed.begin(1);
+    timed.clock.mixed_pixels_found(100);
+    for (const double ms : {26.0, 13.0, 39.0}) timed.reconstruct(100, ms);
+    timed.run.ran_ns += 100, timed.run.waited_ns += waited_ns;
+    timed.now = 0.9;
+    timed.begin(1, reserve_s);
+    return timed.clock.forecast(100, 1e-4).value();
+  };
+  const auto lost_to_reserve = [&](std::int64_t waited_ns) {
+    const double samples = forecast_at(waited_ns, 0.02).samples - forecast_at(waited_ns, 0.04).samples;
+    return samples * (1 + 0.01 * static_cast<double>(waited_ns));  // in time
+  };
+  CHECK(lost_to_reserve(50) == Approx(2 * lost_to_reserve(0)).epsilon(0.01));
+  CHECK(lost_to_reserve(100) == Approx(2 * lost_to_reserve(0)).epsilon(0.01));
+  CHECK(lost_to_reserve(25) == Approx(1.5 * lost_to_reserve(0)).epsilon(0.01));
+  const double quickest = forecast_at(0, 0).mixed_pixel;
+  CHECK(forecast_at(25, 0).mixed_pixel == Approx(2 * quickest));
+  CHECK(forecast_at(50, 0).mixed_pixel == Approx(3 * quickest));
+}
+
 TEST_CASE("set wall clock: before it is measured reconstruction is expected to take 130 ns for a sample") {
   Timed timed;
   timed.begin(1, 0.01);
