@@ -42,6 +42,25 @@ double start_together(Communicator& network, Inbox& inbox, RankClocks& clocks) {
   return start_s;
 }
 
+// Empty: there is no frame. Takes one message at a time: what follows the order may be of the start.
+std::optional<FrameOrder> await_first_order(Communicator& network, Inbox& inbox) {
+  while (true) {
+    if (std::optional<FrameOrder> order = inbox.take_order(0))
+      return order->end ? std::nullopt : std::move(order);
+    if (const std::optional<Message> message = network.receive()) {
+      inbox.accept(*message);
+    } else {
+      network.rest(kLongestRest, 1);
+    }
+  }
+}
+
+// Each rank for itself, as if the sequence began now.
+void rehearse(const std::optional<FrameOrder>& first, Worker& worker, SequenceClock& clock) {
+  clock.begin(clock.own_s());
+  if (first) worker.rehearse(*first);
+}
+
 // Ranks that started earlier may already be sending what belongs to the first frame.
 void await_start(Communicator& network, Inbox& inbox, SequenceClock& clock) {
   while (true) {
@@ -150,12 +169,15 @@ void run_as_master(Communicator& network, const SessionSettings& settings, const
   };
   Inbox inbox(network, longest_rest_s(settings), take_in, after_look);
   SequenceClock clock;
-  clock.begin(start_together(network, inbox, clocks));
   Worker worker = make_worker(network, inbox, settings, partition, probe, clock);
   worker.tell_progress(events.sampled);
+  master.order_first();
+  std::optional<FrameOrder> order = await_first_order(network, inbox);
+  rehearse(order, worker, clock);
+  clock.begin(start_together(network, inbox, clocks));
   if (watches) clocks.watch();
   master.begin_sequence(clock.start_s());
-  for (int index = 0; const std::optional<FrameOrder> order = await_order(inbox, index); ++index) {
+  for (int index = 0; order; order = await_order(inbox, ++index)) {
     while (!master.may_begin(index)) {
       inbox.pump_or_rest();
     }
@@ -177,11 +199,11 @@ void run_as_worker(Communicator& network, const SessionSettings& settings, const
     if (message.tag != Tag::kClockPing) throw ProtocolError("a message came that is for rank 0");
     answer(network, clock, message);
   });
-  await_start(network, inbox, clock);
   Worker worker = make_worker(network, inbox, settings, partition, probe, clock);
-  for (int index = 0; const std::optional<FrameOrder> order = await_order(inbox, index); ++index) {
-    worker.render(*order);
-  }
+  std::optional<FrameOrder> order = await_first_order(network, inbox);
+  rehearse(order, worker, clock);
+  await_start(network, inbox, clock);
+  for (int index = 0; order; order = await_order(inbox, ++index)) worker.render(*order);
   network.finish();
 }
 

@@ -18,6 +18,9 @@ class FrameClock {
 
   // --- Frames
 
+  // Whether it learns from a rehearsal what work takes: there are deadlines in real time.
+  virtual bool learns_from_rehearsal() const = 0;
+
   // Whether a frame may begin. Some orders say when. Where ranks share cores it may not before the deadline
   // of the frame before: a rank that is ready would take the time of those that still reconstruct.
   virtual bool may_begin(const FrameOrder& order) const = 0;
@@ -38,6 +41,9 @@ class FrameClock {
 
   // Number of them that show several surfaces, as far as is known in this frame.
   virtual void mixed_pixels_found(std::size_t pixels) = 0;
+
+  // Share of these pixels that nothing is shown of yet: those of new tiles, where a picture rests.
+  virtual void unshown_found(double share) = 0;
 
   // --- Packets of samples
 

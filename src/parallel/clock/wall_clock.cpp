@@ -20,8 +20,10 @@ constexpr double kSamplesPerMixedPixel = 8;
 // it is 80 to 170 ns.
 constexpr double kFirstSecondsPerSize = 1.3e-7;
 
-// Shares of the period that are left for all that follows sampling.
+// Shares of the period, and of a new picture's time, that are left for all that follows sampling.
 constexpr double kLeastLeft = 0.04, kMostLeftOfANewPicture = 0.7;
+
+constexpr double kMostForOthers = 0.4;
 
 // Share of the time that goes into the reconstruction of a resting picture.
 constexpr double kMostForRefreshing = 0.35;
@@ -47,7 +49,9 @@ void WallClock::begin_frame(const FrameOrder& order) {
   deadline_s_ = order.deadline_s;
   period_s_ = order.periods * usual_period_s_;
   effort_ = order.effort;
-  reserve_s_ = order.reserve_s;
+  is_first_ = order.index == 0;
+  // The last frames may not have met those that want the core.
+  reserve_s_ = std::max(order.reserve_s, kMostForOthers * period_s_ * std::min(crowding_.factor() - 1, 1.0));
   is_at_rest_ = order.carry == Carry::kAccumulate;
   take_turns();
   set_stop();
@@ -96,14 +100,18 @@ bool WallClock::sampling_over() {
 bool WallClock::reconstruction_over() {
   if (!is_at_rest_ || deadline_s_ == 0) return false;
   if (!refreshes_in_parts_) return !is_turn_;
+  // Tiles take different times. What comes before the first of them is another matter.
+  constexpr double kShareKept = 0.9;
   const double now = sequence_.now_s(), part_s = now - std::exchange(part_began_s_, now);
-  return now + part_s >= deadline_s_ - std::max(reserve_s_, kLeastLeft * period_s_);
+  if (!std::exchange(is_first_part_, false)) longest_part_s_ = std::max(part_s, kShareKept * longest_part_s_);
+  return now + longest_part_s_ >= deadline_s_ - std::max(reserve_s_, kLeastLeft * period_s_);
 }
 
 void WallClock::end_sampling(double units) {
   // About 150 samples: fewer say nothing.
   constexpr double kLeastUnits = 2e5, kShareOfNew = 0.25;
   part_began_s_ = sequence_.now_s();
+  is_first_part_ = true;
   if (units < kLeastUnits) return;
   const double took_s = part_began_s_ - sampling_began_s_ - (rested_s_ - rested_before_sampling_s_);
   const double pace = 1e9 * took_s / units;
@@ -131,7 +139,7 @@ std::optional<TimeForecast> WallClock::forecast(std::size_t samples, double seco
   if (deadline_s_ == 0 || samples == 0 || seconds_of_each <= 0) return std::nullopt;
   constexpr double kUsualOfReserve = 0.5, kAlwaysBad = 0.5;
   const double now = static_cast<double>(samples);
-  const double bad = std::min((crowding_.factor() - 1) / kAlwaysBad, 1.0);
+  const double bad = is_first_ ? 1 : std::min((crowding_.factor() - 1) / kAlwaysBad, 1.0);
   const double usual_s = (1 - bad) * (1 - kUsualOfReserve) * reserve_s_;
   const double left_s = latest_s(now + region_size_, false) + usual_s - sequence_.now_s();
   const double each_s = seconds_of_each * seconds_of_cpu_second();
@@ -163,9 +171,12 @@ bool WallClock::is_fine_enough() const {
 double WallClock::left_for_the_rest(double size, bool is_seen) const {
   double reconstruction_s = is_turn_ ? this->reconstruction_s(size, is_seen) : 0;
   if (is_at_rest_ && refreshes_in_parts_)
-    reconstruction_s = std::min(reconstruction_s, kMostForRefreshing * period_s_);
-  const double most = is_at_rest_ ? 1 : kMostLeftOfANewPicture;
-  return std::clamp(reserve_s_ + reconstruction_s, kLeastLeft * period_s_, most * period_s_);
+    reconstruction_s =
+        std::max(unshown_ * reconstruction_s, std::min(reconstruction_s, kMostForRefreshing * period_s_));
+  // A rank that was done early with the frame before has more than the period.
+  const double span_s = std::clamp(deadline_s_ - frame_began_s_, period_s_, 2 * period_s_);
+  const double most_s = is_at_rest_ ? period_s_ : kMostLeftOfANewPicture * span_s;
+  return std::clamp(reserve_s_ + reconstruction_s, kLeastLeft * period_s_, most_s);
 }
 
 // A resting picture without parts is reconstructed when the frames since have saved the time for it.

@@ -46,12 +46,14 @@ class WallClock final : public FrameClock {
         ranks_per_core_(ranks_per_core),
         refreshes_in_parts_(refreshes_in_parts) {}
 
+  bool learns_from_rehearsal() const override { return usual_period_s_ > 0; }
   bool may_begin(const FrameOrder& order) const override;
   bool is_past(const FrameOrder& order) const override;
   void begin_frame(const FrameOrder& order) override;
   void end_frame(double reconstruction_ms, double share) override;
   void region_changed(std::size_t pixels) override;
   void mixed_pixels_found(std::size_t pixels) override;
+  void unshown_found(double share) override { unshown_ = share; }
 
   void begin_packet(std::uint64_t samples) override;
   bool packet_over() override;
@@ -93,11 +95,14 @@ class WallClock final : public FrameClock {
   double deadline_s_ = 0;  // 0: no rate
   double effort_ = 1;      // share of the sampling time that the frame takes
   double reserve_s_ = 0;   // for what follows reconstruction
+  bool is_first_ = true;   // frame, whose reserve is a guess
   bool is_at_rest_ = false;
   double stop_s_ = 0;  // when sampling must stop; 0: no rate
   double sampling_began_s_ = 0;
   double packet_began_s_ = 0;  // the last one; until there is one, the frame
   double part_began_s_ = 0;    // of reconstruction
+  bool is_first_part_ = true;
+  double longest_part_s_ = 0;  // the latest ones count most
   double saved_s_ = 0;         // for the next reconstruction as a whole, while the picture rests
   bool is_turn_ = true;        // of reconstruction as a whole
   bool is_sampling_ = false;   // this frame has begun to
@@ -108,6 +113,7 @@ class WallClock final : public FrameClock {
   double size_ = 1;  // of what is to be reconstructed, in samples
   double samples_size_ = 1;
   double region_size_ = 0;           // what the region's pixels add to it
+  double unshown_ = 1;               // share of the region
   double mixed_size_ = 0;            // what those of several surfaces add
   RecentValues seen_s_per_size_;     // what new pictures took to reconstruct whose surfaces are seen
   RecentValues unseen_s_per_size_;   // what others took

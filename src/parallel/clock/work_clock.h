@@ -21,6 +21,7 @@ class WorkClock final : public FrameClock {
         slowness_(slowness),
         reconstruction_(cost(Work::kPixel, region_pixels)) {}
 
+  bool learns_from_rehearsal() const override { return false; }
   bool may_begin(const FrameOrder&) const override { return true; }
   bool is_past(const FrameOrder&) const override { return false; }
   void begin_frame(const FrameOrder& order) override;
@@ -28,6 +29,7 @@ class WorkClock final : public FrameClock {
   void region_changed(std::size_t pixels) override { reconstruction_ = cost(Work::kPixel, pixels); }
 
   void mixed_pixels_found(std::size_t) override {}
+  void unshown_found(double) override {}
 
   void begin_packet(std::uint64_t samples) override;
   bool packet_over() override { return frame_units_ >= round_end_; }

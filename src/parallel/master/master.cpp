@@ -34,11 +34,6 @@ Master::Master(Communicator& network, const SessionSettings& settings, const Par
       source_(std::move(source)),
       sink_(std::move(sink)) {}
 
-void Master::begin_sequence(double start_s) {
-  clock_->begin_sequence(start_s);
-  order_next();
-}
-
 // --- Orders
 
 void Master::frame_begun() {
@@ -84,7 +79,7 @@ void Master::order_next() {
   FrameOrder order = make_order(*request);
   PendingFrame frame{.assembly = FrameAssembly(order, grid_, network_.size())};
   // Rank 0 was away for so long that nobody can carry this order out in time.
-  if (clock_->keeps_deadlines() && clock_->now_s() >= order.deadline_s + kGraceSeconds)
+  if (order.index > 0 && clock_->keeps_deadlines() && clock_->now_s() >= order.deadline_s + kGraceSeconds)
     frame.overdue_since_s = order.deadline_s;
   frames_.emplace(order.index, std::move(frame));
   if (request->cut) last_cut_ = order.index;

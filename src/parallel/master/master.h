@@ -77,8 +77,11 @@ class Master {
          double ranks_per_core, CameraSource source, FrameSink sink,
          std::function<double()> now = monotonic_seconds);
 
-  // Sends every rank the order for the first frame; `start_s` is the sequence's start by monotonic_seconds().
-  void begin_sequence(double start_s);
+  // Sends every rank the order for the first frame.
+  void order_first() { order_next(); }
+
+  // The sequence begins at `start_s`, by monotonic_seconds().
+  void begin_sequence(double start_s) { clock_->begin_sequence(start_s); }
 
   // Rank 0 has begun a frame, or done its own part of it. Either is the time for the order of the one after.
   void frame_begun();

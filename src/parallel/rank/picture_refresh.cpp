@@ -14,6 +14,13 @@ void PictureRefresh::reconstruct(Sampler& sampler, std::span<const std::int32_t>
   shows_.assign(static_cast<std::size_t>(region.grid().tile_count()), sampler.size());
 }
 
+double PictureRefresh::unshown(const Region& region) const {
+  const auto shown =
+      std::count_if(tiles_.begin(), tiles_.end(), [&](std::int32_t tile) { return region.owns_tile(tile); });
+  const double all = static_cast<double>(std::max<std::size_t>(region.tiles().size(), 1));
+  return 1 - static_cast<double>(shown) / all;
+}
+
 // Keeps what is shown of tiles while the region becomes another one. Returns the tiles that nothing is shown
 // of yet.
 std::vector<std::int32_t> PictureRefresh::keep_shown(const Region& region,

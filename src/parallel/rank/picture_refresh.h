@@ -19,6 +19,9 @@ class PictureRefresh {
   // The next picture shows something else: it is reconstructed as a whole.
   void forget() { tiles_.clear(); }
 
+  // Returns the share of a region's tiles that the picture does not show.
+  double unshown(const Region& region) const;
+
   // Brings a picture up to date that shows the same as before, with more samples. Tiles that it does not show
   // yet come first, then those that have waited longest. Before each of these it asks whether time is over.
   // Further tiles of which it shows something stay as they are. Returns the share of the tiles that were

@@ -26,6 +26,14 @@ void SampleTracer::begin_frame(const FrameOrder& order) {
 }
 
 Sample SampleTracer::trace(double x, double y, std::span<const KnownLights> known, double footprint) {
+  const Sample sample = sample_at(x, y, known, footprint);
+  clock_.spend(Work::kRay, sample.ray.rays);
+  costs_.add_own(sample);
+  poll_(sample.ray.rays);
+  return sample;
+}
+
+Sample SampleTracer::sample_at(double x, double y, std::span<const KnownLights> known, double footprint) {
   Sample sample;
   sample.x = x;
   sample.y = y;
@@ -38,9 +46,6 @@ Sample SampleTracer::trace(double x, double y, std::span<const KnownLights> know
   }
   for (int i = 0; i < 3; ++i)
     sample.ray.color[i] = std::clamp(sample.ray.color[i], -kLargestChannel, kLargestChannel);
-  clock_.spend(Work::kRay, sample.ray.rays);
-  costs_.add_own(sample);
-  poll_(sample.ray.rays);
   return sample;
 }
 

@@ -36,6 +36,9 @@ class SampleTracer {
   // the square that textures are filtered over, pixels.
   Sample trace(double x, double y, std::span<const KnownLights> known = {}, double footprint = 1);
 
+  // The same, but nothing is charged, and messages wait.
+  Sample rehearse(double x, double y, double footprint) { return sample_at(x, y, {}, footprint); }
+
   // Returns the colour at an image point, for a measurement: no sample is made, nothing is charged, and its
   // rays are not among rays().
   Color look(double x, double y, double footprint = 1);
@@ -53,6 +56,7 @@ class SampleTracer {
   int frame_number() const { return frame_number_; }
 
  private:
+  Sample sample_at(double x, double y, std::span<const KnownLights> known, double footprint);
   RaySample ray_through(double x, double y, std::span<const KnownLights> known, double footprint);
 
   Probe probe_;

@@ -97,6 +97,7 @@ void Worker::sample(const FrameOrder& order) {
 void Worker::begin_packet(const FrameOrder& order, int round) {
   bundles_.begin_round(round);
   clock_->mixed_pixels_found(sampler_.sampler().mixed_pixels());
+  clock_->unshown_found(picture_.unshown(sampler_.region()));
   clock_->begin_packet(sampler_.in_region());
   anchors_.plan(order, sampler_, samples_new(), clock_->sampling_share());
   // Evidence is taken from the last part of the sampling time, of what refinement itself wants then.

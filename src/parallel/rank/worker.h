@@ -59,6 +59,11 @@ class Worker {
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
+  // Before the sequence, for itself alone: makes a first picture of the first order, sends nothing, and
+  // forgets it. Its memory is there then, and the clock knows what seeing and painting take. Only where
+  // there are deadlines.
+  void rehearse(const FrameOrder& first);
+
   // Carries out one order and sends its pixels to the master. An order whose deadline has passed is only
   // noted: the rank joins the others at the first frame whose deadline is still to come. Throws ProtocolError
   // for messages that make no sense.
@@ -74,6 +79,7 @@ class Worker {
   void rejoin(const FrameOrder& order, const MissedFrames& missed);
   void begin_anew(const FrameOrder& order, bool keeps_samples, bool eye_rests);
   void trace_seeds(bool has_last_picture);
+  void foretell(std::int64_t began_ns, bool has_last_picture);
   void begin_picture(int begun_in, bool keep_learned);
   void distribute(const FrameOrder& order, const std::vector<Sample>& cast);
   std::vector<Sample> receive_seeds();
@@ -119,6 +125,7 @@ class Worker {
   FrameGoal goal_;
   std::function<void(const SamplingProgress&)> told_;  // of the progress; empty: nobody
   PictureRefresh picture_;
+  bool is_rehearsed_ = false;    // and no frame has begun
   bool takes_evidence_ = false;  // samples tell how far the picture was from them
   double reconstructed_ = 1;     // share of the region in this frame
   ErrorSums error_;              // of the pixels

@@ -6,6 +6,30 @@
 
 namespace pprt {
 
+void Worker::rehearse(const FrameOrder& first) {
+  if (!clock_->learns_from_rehearsal()) return;
+  constexpr std::size_t kManyAsSeeds = 2;
+  Sampler& sampler = sampler_.sampler();
+  clock_->begin_frame(first);
+  tracer_.begin_frame(first);
+  sampler.camera_changed();
+  const auto insert = [&](const Vec2d& at) {
+    return sampler.insert(tracer_.rehearse(at.x, at.y, std::min(1.0, sampler.footprint(at))));
+  };
+  const std::int64_t began_ns = clock_->used_ns();
+  for (const SeedPoint& seed : sampler.seeds()) insert(seed.at);
+  foretell(began_ns, false);
+  const std::size_t enough = kManyAsSeeds * sampler.size();
+  for (std::optional<Vec2d> at; sampler.size() < enough && (at = sampler.next_point());)
+    if (!insert(*at)) break;
+  clock_->begin_packet(sampler.size());
+  const std::int64_t painting_began_ns = clock_->used_ns();
+  picture_.reconstruct(sampler, {});
+  clock_->mixed_pixels_found(sampler.mixed_pixels());
+  clock_->end_frame(1e-6 * static_cast<double>(clock_->used_ns() - painting_began_ns), 1);
+  is_rehearsed_ = true;
+}
+
 void Worker::prepare(const FrameOrder& order) {
   // How far an eye at rest may move, in a scene of size 1: what interpolating equal positions leaves.
   constexpr double kAtRest = 1e-9;
@@ -62,16 +86,20 @@ void Worker::begin_anew(const FrameOrder& order, bool keeps_samples, bool eye_re
   timer_.end_stage(&StageTimes::casting);
   if (!order.owners.empty()) ownership_.repartition(order, false);
   if (seeks_anchors) anchors_.allow(sampler_.in_region());
-  begin_picture(order.index, keeps_samples);
+  begin_picture(order.index, keeps_samples || std::exchange(is_rehearsed_, false));
   trace_seeds(keeps_samples);
   distribute(order, cast);
 }
 
-// How many samples there will be is told by the last picture. Without one it is told by the time that the
-// first ones take.
 void Worker::trace_seeds(bool has_last_picture) {
   const std::int64_t began_ns = clock_->used_ns();
   sampler_.trace_seeds();
+  foretell(began_ns, has_last_picture);
+}
+
+// How many samples there will be is told by the last picture. Without one it is told by the time that the
+// first ones take.
+void Worker::foretell(std::int64_t began_ns, bool has_last_picture) {
   const std::size_t seeds = sampler_.sampler().size();
   const double each_s = 1e-9 * static_cast<double>(clock_->used_ns() - began_ns) /
                         static_cast<double>(std::max<std::size_t>(seeds, 1));

@@ -320,8 +320,7 @@ bool LatticeRefiner::start_pass() {
 
 // While a camera rests a picture gets many times the samples that it was begun for.
 void LatticeRefiner::ask_again() {
-  constexpr double kMany = 2;
-  if (!has_fineness_ || visibility_.has_seen() || static_cast<double>(samples_) < kMany * asked_for_) return;
+  if (!has_fineness_ || visibility_.has_seen() || static_cast<double>(samples_) < ask_again_at_) return;
   has_fineness_ = has_looked_ = false;
   forecast_.reset();
 }
@@ -342,12 +341,13 @@ void LatticeRefiner::choose_fineness() {
   learn_from_base();
   has_fineness_ = true;
   if (expected_ == 0) {
-    asked_for_ = VisibilityBuffer::kNoLimit;
+    ask_again_at_ = VisibilityBuffer::kNoLimit;
     visibility_.limit(VisibilityBuffer::kNoLimit, price_, region().bounds());
     return;
   }
   const double samples = static_cast<double>(samples_) + samples_left();
-  asked_for_ = forecast_ ? std::max(samples, forecast_->samples) : samples;
+  constexpr double kMany = 2, kNextFrame = 1.1;
+  ask_again_at_ = forecast_ ? kNextFrame * std::max(samples, forecast_->samples) : kMany * samples;
   const double per_pixel = samples / static_cast<double>(region().pixel_count());
   const VisibilityBuffer::Fineness fineness = per_pixel < kFew      ? VisibilityBuffer::kCoarse
                                               : per_pixel < kEnough ? VisibilityBuffer::kMiddle
@@ -368,14 +368,21 @@ void LatticeRefiner::choose_fineness() {
 }
 
 // Sees the region at once, so that neither samples nor painting take longer for it, and learns what it takes.
+// Only then it is known how many pixels show several surfaces. If there is no time to paint so many, the
+// picture counts as unseen.
 void LatticeRefiner::see_in_time() {
   const double before = visibility_.work(), began_s = forecast_->used_s ? forecast_->used_s() : 0;
   for (const int tile : region().tiles()) visibility_.see_within(region().grid().pixels(tile));
-  constexpr double kEnough = 1000;  // rays; fewer say nothing
-  const double rays = visibility_.work() - before;
-  if (!forecast_->used_s || rays < kEnough) return;
+  if (!forecast_->used_s) return;
+  const double rays = visibility_.work() - before, took_s = forecast_->used_s() - began_s;
+  constexpr double kEnough = 1000;            // rays; fewer say nothing
   constexpr double kLeast = 0.2, kMost = 10;  // of the first: what is beyond was disturbed
-  ray_s_ = std::clamp((forecast_->used_s() - began_s) / rays, kLeast * kFirstRay_s, kMost * kFirstRay_s);
+  if (rays >= kEnough) ray_s_ = std::clamp(took_s / rays, kLeast * kFirstRay_s, kMost * kFirstRay_s);
+  const double seeing = took_s / forecast_->sample_s;
+  const double painting = forecast_->mixed_pixel * static_cast<double>(visibility_.mixed_pixels());
+  if (static_cast<double>(samples_) + seeing + painting <= forecast_->samples) return;
+  note_seeing();
+  visibility_.limit(0);
 }
 
 // Returns how many rays seeing may take, if there will be so many samples. With a rate it must fit beside the

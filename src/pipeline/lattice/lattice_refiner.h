@@ -208,7 +208,7 @@ class LatticeRefiner {
   bool has_base_ = false, has_grid_ = false;
   bool has_fineness_ = false;
   std::optional<TimeForecast> forecast_;           // of the frame in which the picture begins
-  double asked_for_ = 0;                           // samples, when it was settled what is seen
+  double ask_again_at_ = 0;                        // samples, if nothing is seen
   bool was_seen_ = false;                          // this one, which is forgotten
   bool has_last_ = false;                          // a picture came before
   bool has_seen_ = false;                          // that picture

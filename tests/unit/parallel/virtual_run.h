@@ -27,7 +27,7 @@ struct Conditions {
   bool drop_samples = false;      // bundles arrive empty
   bool arrive_at_random = false;  // what has arrived is not seen at every look
   double bundle_delay_s = 0;      // bundles are seen so long after they have been sent
-  int sleeper = -1;               // a rank that stands still before the first ray of its third frame
+  int sleeper = -1;               // a rank that stands still before the first ray from its third camera
   double sleeps_s = 0;            // so long
   bool clocks_differ = false;     // rank k's is 100,000 k seconds ahead, and faster by 200 k millionths
   std::set<int> unplugged = {};   // ranks that are cut off from the others

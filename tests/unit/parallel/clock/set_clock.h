@@ -1,6 +1,8 @@
 // A clock that shows what the test sets, for one rank in its own thread.
 #pragma once
 
+#include <vector>
+
 #include "parallel/clock/frame_clock.h"
 
 namespace pprt {
@@ -12,14 +14,16 @@ class SetClock final : public FrameClock {
   SetClock(int samples_per_packet, double period_s, const double& now_s)
       : samples_per_packet_(samples_per_packet), period_s_(period_s), now_s_(now_s) {}
 
+  bool learns_from_rehearsal() const override { return true; }
   bool may_begin(const FrameOrder&) const override { return true; }
   bool is_past(const FrameOrder& order) const override {
     return order.index > 0 && now_s_ >= order.deadline_s;
   }
   void begin_frame(const FrameOrder&) override { packets_ = 0; }
-  void end_frame(double, double) override {}
+  void end_frame(double reconstruction_ms, double) override { learned_ms_.push_back(reconstruction_ms); }
   void region_changed(std::size_t) override {}
   void mixed_pixels_found(std::size_t) override {}
+  void unshown_found(double) override {}
 
   void begin_packet(std::uint64_t) override { left_ = samples_per_packet_, ++packets_; }
   bool packet_over() override {
@@ -53,6 +57,9 @@ class SetClock final : public FrameClock {
   // How often it was asked before a frame's first packet what the time is good for.
   int asked_before_packets() const { return asked_before_packets_; }
 
+  // What the reconstruction of each frame took, as it was told.
+  const std::vector<double>& learned_ms() const { return learned_ms_; }
+
   // From now on no time is left for the reconstruction of a resting picture.
   void forbid_refresh() { may_refresh_ = false; }
 
@@ -63,6 +70,7 @@ class SetClock final : public FrameClock {
   double period_s_;
   const double& now_s_;
   mutable int readings_ = 0, asked_before_packets_ = 0;
+  std::vector<double> learned_ms_;
   int packets_ = 0;
   int left_ = 0;
   bool may_refresh_ = true;

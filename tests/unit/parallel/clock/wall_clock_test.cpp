@@ -21,9 +21,11 @@ struct Timed {
   void begin(double deadline_s, double reserve_s = 0, Carry carry = Carry::kNothing, double periods = 1,
              double effort = 1) {
     FrameOrder order;
+    order.index = 1;
     order.deadline_s = deadline_s, order.reserve_s = reserve_s, order.carry = carry;
     order.periods = periods, order.effort = effort;
     clock.begin_frame(order);
+    clock.unshown_found(0);
   }
 
   // A frame of this many samples whose reconstruction has taken so many milliseconds.
@@ -95,9 +97,10 @@ TEST_CASE(
 
 TEST_CASE("set wall clock: sampling ends by the reserve before the deadline, within bounds") {
   Timed timed;
-  const auto end_with = [&](double reserve_s, Carry carry, double periods) {
+  const auto end_with = [&](double reserve_s, Carry carry, double periods, double of_periods = 1) {
+    timed.now = 1 - of_periods * periods * kPeriod;
     timed.begin(1, reserve_s, carry, periods);
-    return timed.clock.sampling_end_seconds();
+    return std::max(timed.clock.sampling_end_seconds(), timed.now);
   };
   CHECK(end_with(0.02, Carry::kNothing, 1) == Approx(0.98));
   CHECK(end_with(0, Carry::kNothing, 1) == Approx(1 - 0.04 * kPeriod));
@@ -105,6 +108,11 @@ TEST_CASE("set wall clock: sampling ends by the reserve before the deadline, wit
   CHECK(end_with(0.5, Carry::kAccumulate, 1) == Approx(1 - kPeriod));
   CHECK(end_with(0, Carry::kNothing, 2) == Approx(1 - 0.08 * kPeriod));
   CHECK(end_with(0.5, Carry::kNothing, 2) == Approx(1 - 1.4 * kPeriod));
+  // A frame may begin when the one before is done, or later than it should.
+  CHECK(end_with(0.5, Carry::kNothing, 1, 1.5) == Approx(1 - 0.7 * 1.5 * kPeriod));
+  CHECK(end_with(0.5, Carry::kNothing, 1, 3) == Approx(1 - 0.7 * 2 * kPeriod));
+  CHECK(end_with(0.5, Carry::kNothing, 1, 0.9) == Approx(1 - 0.7 * kPeriod));
+  CHECK(end_with(0.5, Carry::kAccumulate, 1, 1.5) == Approx(1 - kPeriod));
 }
 
 TEST_CASE("set wall clock: with less effort sampling takes that share of its time") {
@@ -293,18 +301,48 @@ TEST_CASE("set wall clock: a forecast tells how many samples fit, and how many a
 }
 
 TEST_CASE("set wall clock: beside others that want its core a rank's samples take longer") {
-  const auto samples_at = [](double ranks_per_core, std::int64_t waited_ns) {
+  const auto samples_at = [](double ranks_per_core, std::int64_t waited_ns, double reserve_s) {
     Timed timed(ranks_per_core);
     timed.run = {.ran_ns = 50, .waited_ns = 1000};  // before the first frame
     timed.begin(1);
     timed.run.ran_ns += 100, timed.run.waited_ns += waited_ns;
     timed.now = 0.9;
-    timed.begin(1);
+    timed.begin(1, reserve_s);
     return timed.clock.forecast(100, 1e-4).value().samples - 100;
   };
-  CHECK(samples_at(1, 100) == Approx(samples_at(2, 0)).epsilon(0.01));
-  CHECK(samples_at(1, 0) == Approx(2 * samples_at(1, 100)).epsilon(0.01));
-  CHECK(samples_at(2, 100) == Approx(samples_at(2, 0)));  // they may be the ranks that share it
+  constexpr double kReserve = 0.03, kTwice = 2 * kReserve;  // of an undisturbed frame half is left
+  const double beside = samples_at(1, 50, kReserve);
+  CHECK(beside == Approx(samples_at(1.5, 0, kTwice)).epsilon(0.01));
+  CHECK(samples_at(1, 0, kTwice) == Approx(1.5 * beside).epsilon(0.01));
+  CHECK(samples_at(1.5, 50, kReserve) == Approx(beside).epsilon(0.01));  // the ranks that share it, maybe
+}
+
+TEST_CASE("set wall clock: beside others up to two fifths of the period are reserved, whatever frames took") {
+  const auto left_at = [](std::int64_t waited_ns, double reserve_s) {
+    Timed timed;
+    timed.begin(1);
+    timed.run.ran_ns += 100, timed.run.waited_ns += waited_ns;
+    timed.begin(1, reserve_s);
+    return 1 - timed.clock.sampling_end_seconds();
+  };
+  CHECK(left_at(0, 0.01) == Approx(0.01).epsilon(0.01));
+  CHECK(left_at(50, 0.01) == Approx(0.2 * kPeriod));
+  CHECK(left_at(100, 0.01) == Approx(0.4 * kPeriod));
+  CHECK(left_at(300, 0.01) == Approx(0.4 * kPeriod));
+  CHECK(left_at(100, 0.06) == Approx(0.06));
+}
+
+TEST_CASE("set wall clock: a frame of which no one has come back is forecast by its whole reserve") {
+  const auto samples_of = [](int index, double reserve_s) {
+    Timed timed;
+    FrameOrder order;
+    order.index = index, order.deadline_s = 1, order.reserve_s = reserve_s;
+    timed.now = 0.9;
+    timed.clock.begin_frame(order);
+    return timed.clock.forecast(100, 1e-4).value().samples;
+  };
+  CHECK(samples_of(0, 0.03) == Approx(samples_of(1, 0.06)));
+  CHECK(samples_of(0, 0.03) < 0.9 * samples_of(1, 0.03));
 }
 
 TEST_CASE("set wall clock: beside others that want its core frames are expected to be as bad as the worst") {
@@ -319,7 +357,7 @@ TEST_CASE("set wall clock: beside others that want its core frames are expected 
     return timed.clock.forecast(100, 1e-4).value();
   };
   const auto lost_to_reserve = [&](std::int64_t waited_ns) {
-    const double samples = forecast_at(waited_ns, 0.02).samples - forecast_at(waited_ns, 0.04).samples;
+    const double samples = forecast_at(waited_ns, 0.04).samples - forecast_at(waited_ns, 0.06).samples;
     return samples * (1 + 0.01 * static_cast<double>(waited_ns));  // in time
   };
   CHECK(lost_to_reserve(50) == Approx(2 * lost_to_reserve(0)).epsilon(0.01));
@@ -349,7 +387,22 @@ TEST_CASE("set wall clock: a resting picture in parts leaves at most 35 % of the
   }
 }
 
-TEST_CASE("set wall clock: a part is begun if it would be over in time, were it as long as the one before") {
+TEST_CASE("set wall clock: tiles of which a resting picture shows nothing yet are left their time") {
+  Timed timed(1, true);
+  timed.begin(1, 0.01, Carry::kAccumulate);
+  timed.reconstruct(1000, 48);
+  const auto left_with = [&](double unshown) {
+    timed.clock.unshown_found(unshown);
+    timed.clock.begin_packet(1000);
+    return 1 - timed.clock.sampling_end_seconds();
+  };
+  CHECK(left_with(0.5) == Approx(0.01 + 0.35 * kPeriod));
+  CHECK(left_with(0.75) == Approx(0.01 + 0.75 * 0.06));
+  CHECK(left_with(1) == Approx(0.01 + 0.06));
+}
+
+TEST_CASE(
+    "set wall clock: a part is begun if it would be over in time, were it as long as the longest of late") {
   for (const double reserve_s : {0.0, 0.02}) {
     Timed timed(1, true);
     timed.begin(1, reserve_s, Carry::kAccumulate);
@@ -363,6 +416,19 @@ TEST_CASE("set wall clock: a part is begun if it would be over in time, were it 
     CHECK(timed.clock.reconstruction_over() ==
           (reserve_s > 0));  // at .994: .996 is the end without a reserve
   }
+  Timed unlike(1, true);
+  unlike.begin(1, 0, Carry::kAccumulate);
+  const auto is_over_after = [&](double part_s) {
+    unlike.now += part_s;
+    return unlike.clock.reconstruction_over();
+  };
+  unlike.now = 0.8;
+  unlike.clock.end_sampling(0);
+  CHECK_FALSE(is_over_after(0.1));   // what came first, new tiles perhaps, was none of them
+  CHECK_FALSE(is_over_after(0.04));  // another would end at .98
+  CHECK_FALSE(is_over_after(0.01));  // one like the longest at .986
+  CHECK_FALSE(is_over_after(0.01));  // at .9924
+  CHECK(is_over_after(0.01));        // at .9992
   Timed moving(1, true);
   moving.begin(1, 0.02);
   moving.now = 5;

@@ -28,6 +28,7 @@ class Stage {
             communicator_, settings_, partition_, ranks_per_core, pan_with_cut(settings_, cut),
             [this](FinishedFrame&& frame) { delivered.push_back(std::move(frame)); },
             [this] { return now_; }) {
+    master_.order_first();
     master_.begin_sequence(0);
   }
 

@@ -34,12 +34,13 @@ class Scene {
                                        std::move(clock));
   }
 
+  void rehearse() { worker_->rehearse(first_order()); }
+
   void render(Carry carry, const std::vector<std::int32_t>& owners = {}) {
-    FrameOrder order;
+    FrameOrder order = first_order();
     order.index = ++index_;
     order.number = index_ + 1;
     order.carry = carry;
-    order.camera = camera_before_disc(settings_.width, settings_.height);
     order.deadline_s = (index_ + 1) * kPeriod;
     order.owners = owners;
     if (!owners.empty()) order.columns = partition().grid.columns();
@@ -79,6 +80,8 @@ class Scene {
 
   void set_rays(std::uint32_t of_a_sample) { rays_ = of_a_sample; }
 
+  int traced() const { return traced_; }  // eye rays
+
   // How often rank 1 has looked for messages since the last call.
   int looks() { return std::exchange(looks_, 0); }
 
@@ -95,9 +98,16 @@ class Scene {
   }
 
  private:
+  FrameOrder first_order() const {
+    FrameOrder order;
+    order.camera = camera_before_disc(settings_.width, settings_.height);
+    order.deadline_s = kPeriod;
+    return order;
+  }
   Probe probe() {
     return {[](const Camera&) {},
             [this](double x, double y) {
+              ++traced_;
               for (const auto& [from, bundle] : std::exchange(pending_, {})) send(from, bundle);
               RaySample sample;
               const bool inside = std::hypot(x - 48, y - 32) < 20;
@@ -133,6 +143,7 @@ class Scene {
   const SetClock* clock_ = nullptr;  // the worker's
   std::vector<std::pair<int, Bundle>> pending_;
   int index_ = -1;
+  int traced_ = 0;
   std::uint32_t rays_ = 1;  // of a sample
   int looks_ = 0;
 };
@@ -223,6 +234,32 @@ EACH_SAMPLER_TEST_CASE("worker: what a new picture's time is good for is asked w
   CHECK(scene.clock().asked_before_packets() == 2);
   scene.render(Carry::kAccumulate);
   CHECK(scene.clock().asked_before_packets() == 2);
+}
+
+EACH_SAMPLER_TEST_CASE(
+    "worker: a rehearsal teaches the clock what a picture takes, and tells nobody, nor counts in the first "
+    "one") {
+  const auto reports = [&](bool rehearses) {
+    Scene scene(sampler);
+    if (rehearses) {
+      scene.rehearse();
+      CHECK(scene.traced() > 20);
+      CHECK(scene.clock().learned_ms() == std::vector{1.0});  // by its readings
+      CHECK(scene.clock().asked_before_packets() == 1);
+      CHECK(scene.looks() == 0);
+      for (const int rank : {0, 2}) CHECK(scene.sent_to(rank).empty());
+    }
+    const int before = scene.traced();
+    scene.render(Carry::kNothing);
+    const RankReport report = scene.report();
+    CHECK(report.samples_new <= static_cast<std::uint64_t>(scene.traced() - before));
+    CHECK(scene.clock().learned_ms().size() == (rehearses ? 2 : 1));
+    return report;
+  };
+  const RankReport rehearsed = reports(true), alone = reports(false);
+  CHECK(rehearsed.samples_new == alone.samples_new);
+  CHECK(rehearsed.samples_in_region == alone.samples_in_region);
+  CHECK(rehearsed.pace == alone.pace);
 }
 
 // Where a rank is late, those of the tile are of a picture that it has not begun.
