@@ -57,8 +57,10 @@ std::optional<FrameOrder> await_first_order(Communicator& network, Inbox& inbox)
 
 // Each rank for itself, as if the sequence began now.
 void rehearse(const std::optional<FrameOrder>& first, Worker& worker, SequenceClock& clock) {
-  clock.begin(clock.own_s());
-  if (first) worker.rehearse(*first);
+  for (const bool is_last : {false, true}) {
+    clock.begin(clock.own_s());
+    if (first) worker.rehearse(*first, is_last);
+  }
 }
 
 // Ranks that started earlier may already be sending what belongs to the first frame.

@@ -24,8 +24,9 @@ CostEstimator::CostEstimator(const TileGrid& grid, const SampleWork& work)
       now_(static_cast<std::size_t>(grid.tile_count())),
       last_(static_cast<std::size_t>(grid.tile_count())) {}
 
-void CostEstimator::begin_frame(bool fresh_picture, FrameLikeness likeness) {
+void CostEstimator::begin_frame(bool fresh_picture, FrameLikeness likeness, double mixed_pixel) {
   likeness_ = likeness;
+  mixed_pixel_ = mixed_pixel;
   share_of_now_ = likeness == FrameLikeness::kUnknown ? 1 : 0;
   received_last_ = std::exchange(received_now_, 0);
   if (!fresh_picture) return;
@@ -87,7 +88,7 @@ double CostEstimator::future_cost(const RegionQuality& refined, int tile, double
   const double paid = now(tile).cost;
   const double cost_at_1 = (1 - share_of_now_) * last(tile).cost * last(tile).average_weight +
                            share_of_now_ * cost_of(refined, tile) * weight;
-  return cost_at_1 / target - paid + reconstruction_cost(grid_, tile);
+  return cost_at_1 / target - paid + reconstruction_cost(grid_, tile) + mixed_cost(refined, tile);
 }
 
 double CostEstimator::future_cost_of_region(const RegionQuality& refined, double target) const {
@@ -110,7 +111,7 @@ std::vector<TileReport> CostEstimator::report(const RegionQuality& refined) {
                        .triangles = static_cast<std::int32_t>(weights.count),
                        .total_weight = weights.total_weight,
                        .cost = estimate.cost,
-                       .preparation = received});
+                       .preparation = received + mixed_cost(refined, tile)});
   }
   return reports;
 }

@@ -28,7 +28,8 @@ class CostEstimator {
   CostEstimator(const TileGrid& grid, const SampleWork& work);
 
   // Begins a frame. With a fresh triangulation what tiles have cost becomes what they cost last.
-  void begin_frame(bool fresh_picture, FrameLikeness likeness);
+  // `mixed_pixel`: work units that a pixel of several surfaces takes beside its samples.
+  void begin_frame(bool fresh_picture, FrameLikeness likeness, double mixed_pixel = 0);
   FrameLikeness likeness() const { return likeness_; }
 
   // Counts a sample that was traced or reinserted here: its rays and its insertion, for its tile.
@@ -68,10 +69,14 @@ class CostEstimator {
  private:
   void learn_cost_per_triangle(const RegionQuality& refined);
   double cost_of(const RegionQuality& refined, int tile) const;
+  double mixed_cost(const RegionQuality& refined, int tile) const {
+    return mixed_pixel_ * static_cast<double>(refined.tile(tile).mixed_pixels);
+  }
 
   TileGrid grid_;
   double own_sample_, received_sample_;   // work units, without rays
   std::vector<TileEstimate> now_, last_;  // per tile
+  double mixed_pixel_ = 0;                // work units in this frame
   double cost_per_candidate_ = 0;         // of this region in this frame, mean
   double counted_ = 0;
   double received_now_ = 0;   // work units spent on other ranks' samples

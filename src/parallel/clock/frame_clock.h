@@ -42,6 +42,10 @@ class FrameClock {
   // Number of them that show several surfaces, as far as is known in this frame.
   virtual void mixed_pixels_found(std::size_t pixels) = 0;
 
+  // Work units that one of these takes beside its samples, seeing included. 0 where it is not known, and on
+  // the work clock, where it costs nothing.
+  virtual double mixed_pixel_units() const = 0;
+
   // Share of these pixels that nothing is shown of yet: those of new tiles, where a picture rests.
   virtual void unshown_found(double share) = 0;
 

@@ -74,6 +74,12 @@ void WallClock::mixed_pixels_found(std::size_t pixels) {
   size_ = samples_size_ + region_size_ + mixed_size_;
 }
 
+// Seeing takes about as long as painting.
+double WallClock::mixed_pixel_units() const {
+  constexpr double kWithSeeing = 2;
+  return kWithSeeing * kSamplesPerMixedPixel * 1e9 * seen_s_per_size_.least() / pace_;
+}
+
 void WallClock::begin_packet(std::uint64_t samples) {
   left_in_packet_ = ranks_per_core_ > 1 ? kSamplesOfAShortTurn : kSamplesPerPacket;
   samples_size_ = static_cast<double>(samples);

@@ -53,6 +53,7 @@ class WallClock final : public FrameClock {
   void end_frame(double reconstruction_ms, double share) override;
   void region_changed(std::size_t pixels) override;
   void mixed_pixels_found(std::size_t pixels) override;
+  double mixed_pixel_units() const override;
   void unshown_found(double share) override { unshown_ = share; }
 
   void begin_packet(std::uint64_t samples) override;

@@ -29,6 +29,7 @@ class WorkClock final : public FrameClock {
   void region_changed(std::size_t pixels) override { reconstruction_ = cost(Work::kPixel, pixels); }
 
   void mixed_pixels_found(std::size_t) override {}
+  double mixed_pixel_units() const override { return 0; }
   void unshown_found(double) override {}
 
   void begin_packet(std::uint64_t samples) override;

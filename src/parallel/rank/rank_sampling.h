@@ -41,7 +41,7 @@ class RankSampling {
   void begin_picture(bool keep_learned);
 
   // Keeps the picture of the frame before: all samples in the region count as cast.
-  void carry_on() { counts_.cast = in_region_; }
+  void carry_on() { counts_.cast = in_region_, sampler_->carry_on(); }
 
   // --- Sampling
 

@@ -60,9 +60,9 @@ class Worker {
   Worker& operator=(const Worker&) = delete;
 
   // Before the sequence, for itself alone: makes a first picture of the first order, sends nothing, and
-  // forgets it. Its memory is there then, and the clock knows what seeing and painting take. Only where
-  // there are deadlines.
-  void rehearse(const FrameOrder& first);
+  // forgets it. Its memory is there then, and the clock knows what seeing and painting take: by the last time
+  // of several. Only where there are deadlines.
+  void rehearse(const FrameOrder& first, bool is_last);
 
   // Carries out one order and sends its pixels to the master. An order whose deadline has passed is only
   // noted: the rank joins the others at the first frame whose deadline is still to come. Throws ProtocolError
@@ -79,7 +79,7 @@ class Worker {
   void rejoin(const FrameOrder& order, const MissedFrames& missed);
   void begin_anew(const FrameOrder& order, bool keeps_samples, bool eye_rests);
   void trace_seeds(bool has_last_picture);
-  void foretell(std::int64_t began_ns, bool has_last_picture);
+  void foretell(std::int64_t began_ns, bool has_last_picture, double periods, std::function<void()> pause);
   void begin_picture(int begun_in, bool keep_learned);
   void distribute(const FrameOrder& order, const std::vector<Sample>& cast);
   std::vector<Sample> receive_seeds();

@@ -6,19 +6,22 @@
 
 namespace pprt {
 
-void Worker::rehearse(const FrameOrder& first) {
+void Worker::rehearse(const FrameOrder& first, bool is_last) {
   if (!clock_->learns_from_rehearsal()) return;
-  constexpr std::size_t kManyAsSeeds = 2;
+  // With more time than a frame has: it is to be known what seeing and painting take that do not fit yet.
+  constexpr double kMoreTime = 4;
+  constexpr std::size_t kManyAsSeeds = 4;
   Sampler& sampler = sampler_.sampler();
   clock_->begin_frame(first);
   tracer_.begin_frame(first);
   sampler.camera_changed();
+  sampler.clear(true);
   const auto insert = [&](const Vec2d& at) {
     return sampler.insert(tracer_.rehearse(at.x, at.y, std::min(1.0, sampler.footprint(at))));
   };
   const std::int64_t began_ns = clock_->used_ns();
   for (const SeedPoint& seed : sampler.seeds()) insert(seed.at);
-  foretell(began_ns, false);
+  foretell(began_ns, false, kMoreTime, {});
   const std::size_t enough = kManyAsSeeds * sampler.size();
   for (std::optional<Vec2d> at; sampler.size() < enough && (at = sampler.next_point());)
     if (!insert(*at)) break;
@@ -26,7 +29,8 @@ void Worker::rehearse(const FrameOrder& first) {
   const std::int64_t painting_began_ns = clock_->used_ns();
   picture_.reconstruct(sampler, {});
   clock_->mixed_pixels_found(sampler.mixed_pixels());
-  clock_->end_frame(1e-6 * static_cast<double>(clock_->used_ns() - painting_began_ns), 1);
+  // The first time memory is cold.
+  if (is_last) clock_->end_frame(1e-6 * static_cast<double>(clock_->used_ns() - painting_began_ns), 1);
   is_rehearsed_ = true;
 }
 
@@ -37,13 +41,15 @@ void Worker::prepare(const FrameOrder& order) {
   if (tracer_.moves()) timer_.end_stage(&StageTimes::moving);
   const MissedFrames missed = ownership_.take_missed();
   const Carry carry = ownership_.carry_into(order);
-  costs_.begin_frame(carry != Carry::kAccumulate || missed.picture, likeness_to_last(order, missed));
+  const bool rests = carry == Carry::kAccumulate;  // then it is painted in turns
+  costs_.begin_frame(!rests || missed.picture, likeness_to_last(order, missed),
+                     rests ? 0 : clock_->mixed_pixel_units());
   const bool eye_rests =
       last_camera_ && !tracer_.moves() && (order.camera.eye - last_camera_->eye).length() <= kAtRest;
   if (last_camera_ != order.camera || tracer_.moves()) sampler_.sampler().camera_changed();
   last_camera_ = order.camera;
 
-  if (carry != Carry::kAccumulate) {
+  if (!rests) {
     begin_anew(order, carry != Carry::kNothing && !missed.cut, eye_rests);
   } else if (missed.picture) {
     rejoin(order, missed);
@@ -94,18 +100,21 @@ void Worker::begin_anew(const FrameOrder& order, bool keeps_samples, bool eye_re
 void Worker::trace_seeds(bool has_last_picture) {
   const std::int64_t began_ns = clock_->used_ns();
   sampler_.trace_seeds();
-  foretell(began_ns, has_last_picture);
+  foretell(began_ns, has_last_picture, 1, [this] { bundles_.look(); });
 }
 
 // How many samples there will be is told by the last picture. Without one it is told by the time that the
 // first ones take.
-void Worker::foretell(std::int64_t began_ns, bool has_last_picture) {
+void Worker::foretell(std::int64_t began_ns, bool has_last_picture, double periods,
+                      std::function<void()> pause) {
   const std::size_t seeds = sampler_.sampler().size();
   const double each_s = 1e-9 * static_cast<double>(clock_->used_ns() - began_ns) /
                         static_cast<double>(std::max<std::size_t>(seeds, 1));
-  const std::optional<TimeForecast> forecast = clock_->forecast(seeds, each_s);
+  std::optional<TimeForecast> forecast = clock_->forecast(seeds, each_s);
   if (!forecast) return;
   if (!has_last_picture) sampler_.expect_growth(forecast->samples / static_cast<double>(seeds));
+  forecast->samples *= periods;
+  forecast->pause = std::move(pause);
   sampler_.sampler().expect_time(*forecast);
 }
 

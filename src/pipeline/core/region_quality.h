@@ -13,6 +13,7 @@ namespace pprt {
 struct TileWeights {
   double total_weight = 0;
   std::int64_t count = 0;
+  std::int64_t mixed_pixels = 0;  // that show several surfaces, as far as that is known
 };
 
 struct RegionQuality {

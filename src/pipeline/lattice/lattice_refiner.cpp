@@ -61,6 +61,7 @@ LatticeRefiner::LatticeRefiner(const Region& region, PrimitiveShapes shapes, Lat
 }
 
 void LatticeRefiner::clear() {
+  mixed_of_tile_.assign(static_cast<std::size_t>(region().grid().tile_count()), kUnknown);
   was_seen_ = has_last_ = has_seen_ = false;
   price_ = {.each = kFirstPrice};
   mixed_ = {};
@@ -318,11 +319,11 @@ bool LatticeRefiner::start_pass() {
   return start_grid_pass() || (order_ == LatticeOrder::kAdaptive && start_refinement_pass());
 }
 
-// While a camera rests a picture gets many times the samples that it was begun for.
+// While a camera rests a picture gets many times the samples that it was begun for. The frame in which it
+// begins has its forecast.
 void LatticeRefiner::ask_again() {
-  if (!has_fineness_ || visibility_.has_seen() || static_cast<double>(samples_) < ask_again_at_) return;
-  has_fineness_ = has_looked_ = false;
-  forecast_.reset();
+  if (!has_fineness_ || forecast_ || visibility_.has_seen()) return;
+  if (static_cast<double>(samples_) >= ask_again_at_) has_fineness_ = has_looked_ = false;
 }
 
 void LatticeRefiner::start(const Pass& pass) {
@@ -346,9 +347,9 @@ void LatticeRefiner::choose_fineness() {
     return;
   }
   const double samples = static_cast<double>(samples_) + samples_left();
-  constexpr double kMany = 2, kNextFrame = 1.1;
-  ask_again_at_ = forecast_ ? kNextFrame * std::max(samples, forecast_->samples) : kMany * samples;
-  const double per_pixel = samples / static_cast<double>(region().pixel_count());
+  constexpr double kMany = 2;
+  ask_again_at_ = forecast_ ? 0 : kMany * samples;
+  const double per_pixel = samples_if_seen(samples) / static_cast<double>(region().pixel_count());
   const VisibilityBuffer::Fineness fineness = per_pixel < kFew      ? VisibilityBuffer::kCoarse
                                               : per_pixel < kEnough ? VisibilityBuffer::kMiddle
                                                                     : VisibilityBuffer::kFine;
@@ -356,8 +357,9 @@ void LatticeRefiner::choose_fineness() {
   visibility_.limit(time_for_seeing(samples), price_, region().bounds());
   // A picture that is asked again keeps its silhouettes.
   if (!forecast_) return;
+  const double began_s = forecast_->used_s ? forecast_->used_s() : 0;
   if (visibility_.is_known()) {
-    see_in_time();
+    see_in_time(began_s);
   } else {
     constexpr double kForgotten = 0.02;
     ray_s_ += kForgotten * (kFirstRay_s - ray_s_);
@@ -369,12 +371,18 @@ void LatticeRefiner::choose_fineness() {
 
 // Sees the region at once, so that neither samples nor painting take longer for it, and learns what it takes.
 // Only then it is known how many pixels show several surfaces. If there is no time to paint so many, the
-// picture counts as unseen.
-void LatticeRefiner::see_in_time() {
-  const double before = visibility_.work(), began_s = forecast_->used_s ? forecast_->used_s() : 0;
-  for (const int tile : region().tiles()) visibility_.see_within(region().grid().pixels(tile));
+// picture counts as unseen. `began_s`: when bounding began.
+void LatticeRefiner::see_in_time(double began_s) {
+  for (const int tile : region().tiles()) {
+    const PixelRect pixels = region().grid().pixels(tile);
+    visibility_.see_within(pixels);
+    if (!visibility_.is_known()) return;  // one has turned out to have no shape
+    mixed_of_tile_[static_cast<std::size_t>(tile)] =
+        static_cast<std::int64_t>(visibility_.mixed_within(pixels));
+    if (forecast_->pause) forecast_->pause();
+  }
   if (!forecast_->used_s) return;
-  const double rays = visibility_.work() - before, took_s = forecast_->used_s() - began_s;
+  const double rays = visibility_.bounding() + visibility_.work(), took_s = forecast_->used_s() - began_s;
   constexpr double kEnough = 1000;            // rays; fewer say nothing
   constexpr double kLeast = 0.2, kMost = 10;  // of the first: what is beyond was disturbed
   if (rays >= kEnough) ray_s_ = std::clamp(took_s / rays, kLeast * kFirstRay_s, kMost * kFirstRay_s);
@@ -383,6 +391,13 @@ void LatticeRefiner::see_in_time() {
   if (static_cast<double>(samples_) + seeing + painting <= forecast_->samples) return;
   note_seeing();
   visibility_.limit(0);
+}
+
+// Returns how many there will be if what is visible is seen. Seeing takes about as long as painting.
+double LatticeRefiner::samples_if_seen(double samples) const {
+  if (!forecast_ || has_seen_) return samples;
+  const double mixed = mixed_.expected(false) * static_cast<double>(region().pixel_count());
+  return std::max(samples - 2 * mixed * forecast_->mixed_pixel, static_cast<double>(samples_));
 }
 
 // Returns how many rays seeing may take, if there will be so many samples. With a rate it must fit beside the

@@ -71,6 +71,9 @@ class LatticeRefiner {
   // Tells what the time of a frame with a rate is good for. Comes after the base, before what follows.
   void expect_time(const TimeForecast& forecast) { forecast_ = forecast; }
 
+  // Another frame adds to the picture.
+  void carry_on() { forecast_.reset(); }
+
   // Returns the nodes at the corners of the region's base squares, some of which belong to other regions.
   std::vector<Vec2d> base_points() const;
 
@@ -101,7 +104,7 @@ class LatticeRefiner {
   // Returns what a sample is worth at the candidates, their mean; 0 without any. Replaces `weights` by the
   // sums over the candidates of each tile: the square roots of their worth, whose mean falls as the
   // reciprocal of the samples. A sample's error and its area both halve with the area of a node, so its worth
-  // is a quarter.
+  // is a quarter. Pixels of several surfaces are those of the last picture that was seen.
   double weigh(std::vector<TileWeights>& weights) const;
 
   // Replaces the pixels of parts of the image, within `bounds`. Each pixel is the mean over its area. Parts
@@ -114,6 +117,8 @@ class LatticeRefiner {
   }
 
  private:
+  static constexpr std::int64_t kUnknown = -1;
+
   // Squared error that a sample without a prediction counts as.
   static constexpr float kUnpredicted = 1.0F / 32;
 
@@ -155,7 +160,9 @@ class LatticeRefiner {
   bool start_pass();
   void ask_again();
   void choose_fineness();
-  void see_in_time();
+  void add_mixed_pixels(std::vector<TileWeights>& weights) const;
+  void see_in_time(double began_s);
+  double samples_if_seen(double samples) const;
   double time_for_seeing(double samples) const;
   void choose_shares();
   bool start_grid_pass();
@@ -208,11 +215,12 @@ class LatticeRefiner {
   bool has_base_ = false, has_grid_ = false;
   bool has_fineness_ = false;
   std::optional<TimeForecast> forecast_;           // of the frame in which the picture begins
-  double ask_again_at_ = 0;                        // samples, if nothing is seen
+  double ask_again_at_ = 0;                        // samples, if nothing is seen by then
   bool was_seen_ = false;                          // this one, which is forgotten
   bool has_last_ = false;                          // a picture came before
   bool has_seen_ = false;                          // that picture
   SeeingPrice price_;                              // by the last picture that was seen
+  std::vector<std::int64_t> mixed_of_tile_;        // pixels of several surfaces, when it was seen last
   double ray_s_;                                   // CPU time of one of its rays, by the last that was timed
   bool has_looked_ = false;                        // for unsampled surfaces
   std::vector<UnsampledSurface> surfaces_wanted_;  // of the tile, in this pass

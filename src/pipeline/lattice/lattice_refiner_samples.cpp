@@ -310,6 +310,22 @@ void LatticeRefiner::make_candidate(const LatticeNode& node, const LatticeLevel&
   greatest = std::max(greatest, priority);
 }
 
+// Of tiles that have come from another region since, as many as of others.
+void LatticeRefiner::add_mixed_pixels(std::vector<TileWeights>& weights) const {
+  double mixed = 0, pixels = 0;
+  for (const int tile : region().tiles()) {
+    const std::int64_t here = mixed_of_tile_[static_cast<std::size_t>(tile)];
+    if (here == kUnknown) continue;
+    mixed += static_cast<double>(here), pixels += region().grid().pixels(tile).area();
+  }
+  const double share = pixels > 0 ? mixed / pixels : 0;
+  for (const int tile : region().tiles()) {
+    const std::int64_t here = mixed_of_tile_[static_cast<std::size_t>(tile)];
+    const double as_others = share * region().grid().pixels(tile).area();
+    weights[static_cast<std::size_t>(tile)].mixed_pixels = here != kUnknown ? here : std::llround(as_others);
+  }
+}
+
 double LatticeRefiner::weigh(std::vector<TileWeights>& weights) const {
   const TileGrid& grid = region().grid();
   weights.assign(static_cast<std::size_t>(grid.tile_count()), {});
@@ -324,6 +340,7 @@ double LatticeRefiner::weigh(std::vector<TileWeights>& weights) const {
     ++here.count, ++of[surface.priority];
     here.total_weight += std::sqrt(static_cast<double>(least_worth(surface.priority)));
   });
+  add_mixed_pixels(weights);
   double worth = 0;
   for (std::size_t i = kLeastCandidate + 1; i <= kGreatestCandidate; ++i)
     worth += static_cast<double>(of[i]) * static_cast<double>(least_worth(static_cast<NodeState>(i)));

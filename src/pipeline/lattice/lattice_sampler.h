@@ -42,6 +42,7 @@ class LatticeSampler final : public PointSampler {
   bool insert(const Sample& sample) override;
   void expect_growth(double factor) override;
   void expect_time(const TimeForecast& forecast) override { refiner_.expect_time(forecast); }
+  void carry_on() override { refiner_.carry_on(); }
   void camera_changed() override { refiner_.camera_changed(); }
   const Region& region() const override { return refiner_.region(); }
   std::size_t size() const override { return refiner_.samples(); }

@@ -82,6 +82,9 @@ class Sampler {
   // Hint: what the frame's time is good for. Comes after the seeds, before any other sample is wanted.
   virtual void expect_time(const TimeForecast& /*forecast*/) {}
 
+  // Another frame adds to the picture.
+  virtual void carry_on() {}
+
   // The probe looks from another camera.
   virtual void camera_changed() = 0;
 

@@ -11,6 +11,7 @@ struct TimeForecast {
   double mixed_pixel = 0;  // of a pixel that shows several surfaces: samples that take as long as painting it
   double sample_s = 0;     // CPU time of a sample
   std::function<double()> used_s = {};  // tells the CPU time so far; empty: unknown
+  std::function<void()> pause = {};     // to be called now and then during long work: messages wait
 };
 
 }  // namespace pprt

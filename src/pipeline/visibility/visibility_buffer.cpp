@@ -51,7 +51,6 @@ void VisibilityBuffer::forget(const Fineness& fineness) {
 // seeing them would take too long.
 bool VisibilityBuffer::bound_all() {
   constexpr std::size_t kAtOnce = 1024;
-  constexpr double kRaysOfABound = 0.13;  // most are out of view, with others
   items_.clear(), quadrics_.clear(), facets_.clear();
   items_of_.assign(shapes_.count, {});
   std::fill(is_seen_.begin(), is_seen_.end(), std::uint8_t{0});  // tiles list items
@@ -67,8 +66,8 @@ bool VisibilityBuffer::bound_all() {
         bound_by_projection(static_cast<std::uint32_t>(first + i + 1), now[i]);
       if (meets(now[i].box, within_)) items += now[i].parts;
     }
-    const double bounding = shapes_.bound ? kRaysOfABound * static_cast<double>(first) : 0;
-    if (bounding + price_.of(items) > most_rays_) state_ = State::kUnknown;
+    const double so_far = static_cast<double>(first) / static_cast<double>(bounds_.size());
+    if (so_far * bounding() + price_.of(items) > most_rays_) state_ = State::kUnknown;
     if (state_ == State::kUnknown) {
       items_.clear(), quadrics_.clear(), facets_.clear();
       return false;
@@ -242,6 +241,25 @@ void VisibilityBuffer::count_mixed(const VisibleTile& tile) {
   const std::uint32_t all = side < 32 ? (1U << side) - 1 : ~0U;
   for (std::size_t y = 0; y < side; ++y)
     mixed_pixels_ += static_cast<std::size_t>(std::popcount(~tile.uniform_[y] & all));
+}
+
+std::size_t VisibilityBuffer::mixed_within(const PixelRect& part) const {
+  const int side = tile_pixels();
+  std::size_t mixed = 0;
+  for (int row = part.y0 / side; row < rows_ && row * side < part.y1; ++row) {
+    for (int column = part.x0 / side; column < columns_ && column * side < part.x1; ++column) {
+      const auto number = static_cast<std::size_t>(row * columns_ + column);
+      if (is_seen_[number] == 0) continue;
+      const int x0 = std::max(part.x0 - column * side, 0), x1 = std::min(part.x1 - column * side, side);
+      const auto before = [](int x) { return x < 32 ? (1U << x) - 1 : ~0U; };
+      const std::uint32_t inside = before(x1) & ~before(x0);
+      const int y1 = std::min(part.y1 - row * side, side);
+      for (int y = std::max(part.y0 - row * side, 0); y < y1; ++y)
+        mixed += static_cast<std::size_t>(
+            std::popcount(~tiles_[number]->uniform_[static_cast<std::size_t>(y)] & inside));
+    }
+  }
+  return mixed;
 }
 
 // Counts the points that each primitive is seen at.

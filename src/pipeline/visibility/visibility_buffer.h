@@ -160,8 +160,17 @@ class VisibilityBuffer {
            of(kTile, tiles_seen_) + of(kFacetBlock, facet_blocks_) + of(kQuadricBlock, quadric_blocks_);
   }
 
+  // Returns what it takes to bound all primitives, in rays. Most are out of view, with others.
+  double bounding() const {
+    constexpr double kRaysOfABound = 0.13;
+    return shapes_.bound ? kRaysOfABound * static_cast<double>(shapes_.count) : 0;
+  }
+
   // Returns how many pixels of the tiles seen so far show several surfaces.
   std::size_t mixed_pixels() const { return state_ == State::kKnown ? mixed_pixels_ : 0; }
+
+  // Returns how many of them lie in a part of the picture. Only if has_seen().
+  std::size_t mixed_within(const PixelRect& part) const;
 
   // Returns their share of these tiles. It is of what is known, or was until it was forgotten.
   double mixed_share() const {

@@ -24,8 +24,8 @@ constexpr double kDiscRadius = 3;
 // The probe of one rank.
 class DiscTracer {
  public:
-  DiscTracer(const Conditions& conditions, int rank)
-      : conditions_(conditions), rank_(rank), random_(static_cast<unsigned>(rank)) {}
+  DiscTracer(const Conditions& conditions, int rank, int rehearsals)
+      : conditions_(conditions), rank_(rank), random_(static_cast<unsigned>(rank)), frame_(-rehearsals) {}
 
   Probe probe() {
     Probe probe = {[this](const Camera& camera) {
@@ -109,7 +109,7 @@ class DiscTracer {
   std::mt19937 random_;
   Camera camera_;
   RayCounts counts_;
-  int frame_ = 0;
+  int frame_;
   std::vector<Traced> traced_;
 };
 
@@ -244,7 +244,8 @@ VirtualRun run_session(int ranks, const SessionSettings& settings, const CameraS
   LocalNetwork network(ranks);
   const auto rank_body = [&](int rank) {
     WatchedCommunicator communicator(network, rank, conditions, log);
-    DiscTracer tracer(conditions, rank);
+    const bool rehearses = settings.clock == ClockKind::kWall && settings.frames_per_second > 0;
+    DiscTracer tracer(conditions, rank, rehearses ? kRehearsals : 0);
     const double apart = conditions.clocks_differ ? 1 : 0;
     try {
       if (rank == 0) {

@@ -27,7 +27,7 @@ struct Conditions {
   bool drop_samples = false;      // bundles arrive empty
   bool arrive_at_random = false;  // what has arrived is not seen at every look
   double bundle_delay_s = 0;      // bundles are seen so long after they have been sent
-  int sleeper = -1;               // a rank that stands still before the first ray from its third camera
+  int sleeper = -1;               // a rank that stands still before the first ray of its third frame
   double sleeps_s = 0;            // so long
   bool clocks_differ = false;     // rank k's is 100,000 k seconds ahead, and faster by 200 k millionths
   std::set<int> unplugged = {};   // ranks that are cut off from the others
@@ -53,11 +53,14 @@ struct SentPixels {
 };
 
 struct Traced {
-  int frame = 0;  // the how many-th camera
+  int frame = 0;  // the how many-th camera, rehearsals not counted: theirs are 0 and less
   double x = 0;
   double y = 0;
   double footprint = 1;
 };
+
+// How often each rank rehearses the first frame of a sequence in real time.
+inline constexpr int kRehearsals = 2;
 
 struct VirtualRun {
   std::vector<FinishedFrame> frames;

@@ -75,6 +75,24 @@ TEST_CASE("cost estimator: a tile still costs what its target takes, less what h
   CHECK(costs.future_cost_of_region(refined, 8) == Approx(2 * (-0.5 * paid + pixels)));  // no bound at 0
 }
 
+TEST_CASE("cost estimator: pixels of several surfaces cost what they take in this frame") {
+  const TileGrid grid(20, 10, 10);
+  const Region region = Region::whole(grid);
+  std::array<TileWeights, 2> weights{
+      {{.total_weight = 4, .count = 1, .mixed_pixels = 7}, {.total_weight = 4, .count = 1}}};
+  const RegionQuality refined{region, weights, 4};
+  CostEstimator costs(grid, work_of(traits_of(SamplerChoice::kAuto)));
+  costs.begin_frame(true, FrameLikeness::kUnknown, 1000);
+  const double pixels = reconstruction_cost(grid, 0);
+  CHECK(costs.future_cost(refined, 0, 1) == Approx(7000 + pixels));
+  CHECK(costs.future_cost(refined, 1, 1) == Approx(pixels));
+  CHECK(costs.future_cost_of_region(refined, 1) == Approx(7000 + 2 * pixels));
+  const std::vector<TileReport> report = costs.report(refined);
+  CHECK((report[0].preparation == 7000 && report[1].preparation == 0));
+  costs.begin_frame(true, FrameLikeness::kUnknown);
+  CHECK(costs.future_cost(refined, 0, 1) == Approx(pixels));
+}
+
 TEST_CASE("cost estimator: the frame before counts by its likeness, and gives way with the time") {
   const TileGrid grid(20, 10, 10);
   const Region region = Region::whole(grid);

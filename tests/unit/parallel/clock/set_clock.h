@@ -23,6 +23,7 @@ class SetClock final : public FrameClock {
   void end_frame(double reconstruction_ms, double) override { learned_ms_.push_back(reconstruction_ms); }
   void region_changed(std::size_t) override {}
   void mixed_pixels_found(std::size_t) override {}
+  double mixed_pixel_units() const override { return 0; }
   void unshown_found(double) override {}
 
   void begin_packet(std::uint64_t) override { left_ = samples_per_packet_, ++packets_; }

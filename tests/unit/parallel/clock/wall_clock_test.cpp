@@ -250,6 +250,23 @@ TEST_CASE("set wall clock: what pictures take whose surfaces are seen tells noth
   CHECK(timed.left_with_mixed(50) == Approx(0.01 + 1.25 * 0.015));
 }
 
+TEST_CASE(
+    "set wall clock: seeing and painting a pixel of several surfaces take twice the quickest painting") {
+  Timed timed;
+  CHECK(timed.clock.mixed_pixel_units() == 0);
+  timed.begin(1, 0.01);
+  timed.clock.mixed_pixels_found(50);
+  timed.reconstruct(100, 5);
+  timed.reconstruct(100, 10);
+  CHECK(timed.clock.mixed_pixel_units() == Approx(2 * 8 * 1e4));
+  timed.begin(timed.now + 1);
+  timed.clock.begin_packet(0);
+  timed.now += 0.002;
+  timed.clock.end_sampling(1e6);
+  REQUIRE(timed.clock.pace() == Approx(2));
+  CHECK(timed.clock.mixed_pixel_units() == Approx(8 * 1e4));
+}
+
 TEST_CASE("set wall clock: what is found to be seen while it is reconstructed counts in what that took") {
   Timed timed;
   timed.begin(1, 0.01);

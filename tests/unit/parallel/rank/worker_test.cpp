@@ -34,7 +34,9 @@ class Scene {
                                        std::move(clock));
   }
 
-  void rehearse() { worker_->rehearse(first_order()); }
+  void rehearse() {
+    for (const bool is_last : {false, true}) worker_->rehearse(first_order(), is_last);
+  }
 
   void render(Carry carry, const std::vector<std::int32_t>& owners = {}) {
     FrameOrder order = first_order();
@@ -245,7 +247,7 @@ EACH_SAMPLER_TEST_CASE(
       scene.rehearse();
       CHECK(scene.traced() > 20);
       CHECK(scene.clock().learned_ms() == std::vector{1.0});  // by its readings
-      CHECK(scene.clock().asked_before_packets() == 1);
+      CHECK(scene.clock().asked_before_packets() == 2);
       CHECK(scene.looks() == 0);
       for (const int rank : {0, 2}) CHECK(scene.sent_to(rank).empty());
     }
