@@ -377,8 +377,7 @@ void LatticeRefiner::see_in_time(double began_s) {
     const PixelRect pixels = region().grid().pixels(tile);
     visibility_.see_within(pixels);
     if (!visibility_.is_known()) return;  // one has turned out to have no shape
-    mixed_of_tile_[static_cast<std::size_t>(tile)] =
-        static_cast<std::int64_t>(visibility_.mixed_within(pixels));
+    mixed_of_tile_[static_cast<std::size_t>(tile)] = visibility_.mixed_within(pixels);
     if (forecast_->pause) forecast_->pause();
   }
   if (!forecast_->used_s) return;

@@ -243,9 +243,9 @@ void VisibilityBuffer::count_mixed(const VisibleTile& tile) {
     mixed_pixels_ += static_cast<std::size_t>(std::popcount(~tile.uniform_[y] & all));
 }
 
-std::size_t VisibilityBuffer::mixed_within(const PixelRect& part) const {
+std::int64_t VisibilityBuffer::mixed_within(const PixelRect& part) const {
   const int side = tile_pixels();
-  std::size_t mixed = 0;
+  std::int64_t mixed = 0;
   for (int row = part.y0 / side; row < rows_ && row * side < part.y1; ++row) {
     for (int column = part.x0 / side; column < columns_ && column * side < part.x1; ++column) {
       const auto number = static_cast<std::size_t>(row * columns_ + column);
@@ -255,8 +255,7 @@ std::size_t VisibilityBuffer::mixed_within(const PixelRect& part) const {
       const std::uint32_t inside = before(x1) & ~before(x0);
       const int y1 = std::min(part.y1 - row * side, side);
       for (int y = std::max(part.y0 - row * side, 0); y < y1; ++y)
-        mixed += static_cast<std::size_t>(
-            std::popcount(~tiles_[number]->uniform_[static_cast<std::size_t>(y)] & inside));
+        mixed += std::popcount(~tiles_[number]->uniform_[static_cast<std::size_t>(y)] & inside);
     }
   }
   return mixed;

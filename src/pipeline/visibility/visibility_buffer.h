@@ -170,7 +170,7 @@ class VisibilityBuffer {
   std::size_t mixed_pixels() const { return state_ == State::kKnown ? mixed_pixels_ : 0; }
 
   // Returns how many of them lie in a part of the picture. Only if has_seen().
-  std::size_t mixed_within(const PixelRect& part) const;
+  std::int64_t mixed_within(const PixelRect& part) const;
 
   // Returns their share of these tiles. It is of what is known, or was until it was forgotten.
   double mixed_share() const {

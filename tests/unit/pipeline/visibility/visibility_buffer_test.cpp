@@ -30,10 +30,10 @@ TEST_CASE("visibility buffer: pixels of several surfaces are counted in the tile
     }
     CHECK(mixed > 150);
     CHECK(buffer.mixed_pixels() == mixed);
-    CHECK(buffer.mixed_within({0, 0, kSize, kSize}) == mixed);
+    CHECK(buffer.mixed_within({0, 0, kSize, kSize}) == static_cast<std::int64_t>(mixed));
     for (const PixelRect& part :
          {PixelRect{3, 2, 45, 51}, PixelRect{32, 16, 48, 64}, PixelRect{11, 9, 12, 13}}) {
-      std::size_t within = 0;
+      std::int64_t within = 0;
       for (int y = part.y0; y < part.y1; ++y) {
         for (int x = part.x0; x < part.x1; ++x)
           within += !buffer.tile(x, y).is_uniform(buffer.in_tile(x), buffer.in_tile(y), 1);
