@@ -23,6 +23,7 @@ constexpr double kFirstSecondsPerSize = 1.3e-7;
 // Shares of the period, and of a new picture's time, that are left for all that follows sampling.
 constexpr double kLeastLeft = 0.04, kMostLeftOfANewPicture = 0.7;
 
+// Share of it that is reserved, at most, where others want the core.
 constexpr double kMostForOthers = 0.4;
 
 // Share of the time that goes into the reconstruction of a resting picture.

@@ -395,8 +395,7 @@ void LatticeRefiner::see_in_time(double began_s) {
 // Returns how many there will be if what is visible is seen. Seeing takes about as long as painting.
 double LatticeRefiner::samples_if_seen(double samples) const {
   if (!forecast_ || has_seen_) return samples;
-  const double mixed = mixed_.expected(false) * static_cast<double>(region().pixel_count());
-  return std::max(samples - 2 * mixed * forecast_->mixed_pixel, static_cast<double>(samples_));
+  return std::max(samples - 2 * expected_mixed() * forecast_->mixed_pixel, static_cast<double>(samples_));
 }
 
 // Returns how many rays seeing may take, if there will be so many samples. With a rate it must fit beside the
@@ -410,7 +409,7 @@ double LatticeRefiner::time_for_seeing(double samples) const {
   const auto now = static_cast<double>(samples_);
   const double rays = static_cast<double>(rays_) / std::max(now, 1.0);
   const double unseen = rays + kRaysOfASample, seen = unseen + kSurfacesOfASample;  // a sample
-  const double mixed = mixed_.expected(has_seen_) * static_cast<double>(region().pixel_count());
+  const double mixed = expected_mixed();
   if (!forecast_) {
     return samples * (share * seen - kSurfacesOfASample) / (1 - share) - kRaysOfAMixedPixel * mixed;
   }

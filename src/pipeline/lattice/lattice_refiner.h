@@ -117,7 +117,7 @@ class LatticeRefiner {
   }
 
  private:
-  static constexpr std::int64_t kUnknown = -1;
+  static constexpr std::int64_t kUnknown = -1;  // pixels of several surfaces in a tile that was never seen
 
   // Squared error that a sample without a prediction counts as.
   static constexpr float kUnpredicted = 1.0F / 32;
@@ -162,6 +162,9 @@ class LatticeRefiner {
   void choose_fineness();
   void add_mixed_pixels(std::vector<TileWeights>& weights) const;
   void see_in_time(double began_s);
+  double expected_mixed() const {  // pixels of several surfaces
+    return mixed_.expected(has_seen_) * static_cast<double>(region().pixel_count());
+  }
   double samples_if_seen(double samples) const;
   double time_for_seeing(double samples) const;
   void choose_shares();

@@ -310,7 +310,7 @@ void LatticeRefiner::make_candidate(const LatticeNode& node, const LatticeLevel&
   greatest = std::max(greatest, priority);
 }
 
-// Of tiles that have come from another region since, as many as of others.
+// Tells how many pixels of each tile show several surfaces. A tile that was not seen here counts as the rest.
 void LatticeRefiner::add_mixed_pixels(std::vector<TileWeights>& weights) const {
   double mixed = 0, pixels = 0;
   for (const int tile : region().tiles()) {
