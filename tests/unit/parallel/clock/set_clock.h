@@ -40,7 +40,7 @@ class SetClock final : public FrameClock {
   double sampling_share() const override { return packets_ < kPackets ? 0.25 : 1; }
   std::optional<TimeForecast> forecast(std::size_t samples, double seconds_of_each) const override {
     asked_before_packets_ += samples > 0 && seconds_of_each > 0 && packets_ == 0;
-    return std::nullopt;
+    return forecast_;
   }
   std::optional<double> expected_growth(std::size_t, std::size_t) const override { return std::nullopt; }
 
@@ -58,6 +58,9 @@ class SetClock final : public FrameClock {
   // How often it was asked before a frame's first packet what the time is good for.
   int asked_before_packets() const { return asked_before_packets_; }
 
+  // What the time of each frame is good for, from now on.
+  void set_forecast(const TimeForecast& forecast) { forecast_ = forecast; }
+
   // What the reconstruction of each frame took, as it was told.
   const std::vector<double>& learned_ms() const { return learned_ms_; }
 
@@ -72,6 +75,7 @@ class SetClock final : public FrameClock {
   const double& now_s_;
   mutable int readings_ = 0, asked_before_packets_ = 0;
   std::vector<double> learned_ms_;
+  std::optional<TimeForecast> forecast_;
   int packets_ = 0;
   int left_ = 0;
   bool may_refresh_ = true;

@@ -87,7 +87,7 @@ class Scene {
   // How often rank 1 has looked for messages since the last call.
   int looks() { return std::exchange(looks_, 0); }
 
-  const SetClock& clock() const { return *clock_; }
+  SetClock& clock() { return *clock_; }
   const Partition& partition() const { return partition_; }
 
   // A sample in the middle of a tile.
@@ -107,17 +107,25 @@ class Scene {
     return order;
   }
   Probe probe() {
-    return {[](const Camera&) {},
-            [this](double x, double y) {
-              ++traced_;
-              for (const auto& [from, bundle] : std::exchange(pending_, {})) send(from, bundle);
-              RaySample sample;
-              const bool inside = std::hypot(x - 48, y - 32) < 20;
-              sample.color = inside ? Color(0.9f, 0.7f, 0.2f) : Color(0.1f, 0.1f, 0.3f);
-              sample.rays = rays_;
-              return sample;
-            },
-            [](const Vec3f&, bool) { return true; }, [] { return RayCounts(); }};
+    Probe probe{[](const Camera&) {},
+                [this](double x, double y) {
+                  ++traced_;
+                  for (const auto& [from, bundle] : std::exchange(pending_, {})) send(from, bundle);
+                  RaySample sample;
+                  const bool inside = std::hypot(x - 48, y - 32) < 20;
+                  sample.color = inside ? Color(0.9f, 0.7f, 0.2f) : Color(0.1f, 0.1f, 0.3f);
+                  sample.rays = rays_;
+                  sample.primitive = inside ? 2 : 1;
+                  return sample;
+                },
+                [](const Vec3f&, bool) { return true; }, [] { return RayCounts(); }};
+    probe.primitives = 2;
+    probe.project = [](std::uint32_t, ImageShape& shape) {
+      constexpr float kFar = 1e9F;
+      shape.kind = ImageShape::Kind::kFacets;
+      shape.facets = {{{{{1, 0, 0}, {1, 0, 0}, {1, 0, 0}}}, {1, 0, 0}, {-kFar, -kFar, kFar, kFar}}};
+    };
+    return probe;
   }
   static SessionSettings make_settings(SamplerChoice sampler, BalanceMode balance) {
     SessionSettings settings{.sampler = sampler};
@@ -142,7 +150,7 @@ class Scene {
   std::vector<std::unique_ptr<LocalCommunicator>> communicators_;
   std::unique_ptr<Inbox> inbox_;
   std::unique_ptr<Worker> worker_;
-  const SetClock* clock_ = nullptr;  // the worker's
+  SetClock* clock_ = nullptr;  // the worker's
   std::vector<std::pair<int, Bundle>> pending_;
   int index_ = -1;
   int traced_ = 0;
@@ -372,6 +380,17 @@ EACH_SAMPLER_TEST_CASE("worker: messages do not wait for long while samples take
   const auto samples = static_cast<int>(scene.report().samples_new);
   REQUIRE(samples > 100);
   CHECK(scene.looks() >= usual + samples);
+}
+
+TEST_CASE("worker: messages are looked for after each tile that is seen") {
+  const auto looks = [](bool has_time) {
+    Scene scene(SamplerChoice::kAuto);
+    if (has_time) scene.clock().set_forecast({.samples = 1e6, .mixed_pixel = 0, .sample_s = 1});
+    scene.render(Carry::kNothing);
+    return scene.looks();
+  };
+  constexpr int kTiles = 4 * 8;  // of rank 1
+  CHECK(looks(true) == looks(false) + kTiles);
 }
 
 EACH_SAMPLER_TEST_CASE("worker: a new partition is charged to balancing") {
